@@ -1,4 +1,5 @@
-//! Arguments in messages: cut where they are long, as a link to a run is.
+//! Arguments of the command line: those that are numbers, and how any stands in a message: cut where it is long, as a link
+//! to a run is.
 
 use std::path::Path;
 
@@ -34,4 +35,30 @@ pub(super) fn with_brief_arguments(mut error: clap::Error) -> clap::Error {
         error.insert(kind, shown);
     }
     error
+}
+
+/// A finite number on the command line that fits, or else what is wanted.
+pub(super) fn number_that(
+    written: &str,
+    fits: fn(f64) -> bool,
+    wanted: &str,
+) -> Result<f64, String> {
+    let number = written.parse::<f64>().ok().filter(|number| number.is_finite() && fits(*number));
+    number.ok_or_else(|| format!("give {wanted}"))
+}
+
+/// A number of the command line that is not negative.
+pub(super) fn number(written: &str) -> Result<f64, String> {
+    number_that(written, |x| x >= 0.0, "a number from 0 up")
+}
+
+/// A frequency of the command line in Hz, which may have its unit behind it.
+pub(super) fn frequency(written: &str) -> Result<f64, String> {
+    let number = written.strip_suffix("Hz").unwrap_or(written).trim_end();
+    number_that(number, |hz| hz > 0.0, "a frequency above 0 in Hz, such as 2.5Hz")
+}
+
+/// A number of the command line above 0.
+pub(super) fn positive(written: &str) -> Result<f64, String> {
+    number_that(written, |x| x > 0.0, "a number above 0")
 }

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::capture_settings::CaptureSettings;
 use super::error::{Error, PlaceOf};
 use super::experiment::{self, Experiment, ExperimentArgs, ThemeName, known_trace};
 use super::frame_folder::{FolderPolicy, FrameFolder};
@@ -15,6 +14,7 @@ use super::id::{INSTRUMENT, SHAPE};
 use super::output::{Destination, Output};
 use super::picture_format::{self, PictureFormat, Writing};
 use super::schedule::{FPS, MAX_FPS, Schedule, frames_in};
+use super::settings::CaptureSettings;
 use super::{clip, movie, sheet, state_log};
 use crate::atomic_file::IfExists;
 use crate::look::palette::Theme;

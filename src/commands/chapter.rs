@@ -3,6 +3,7 @@
 //!
 //! Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
@@ -15,13 +16,15 @@ use super::help::flowing;
 use super::interrupt::watch_for_interrupt;
 use super::output::print;
 use super::terminal::{print_status, report_left_alone};
+use crate::run::{Follow, Lane};
+use crate::scene::Scene;
+use crate::sim::Solver;
+use crate::sim::integrators::{Method, method};
 use crate::view::{OffscreenRenderer, png};
 
 mod adaptive;
 mod figures;
 mod folder;
-mod printed;
-mod run;
 mod speeds;
 
 use figures::Diagram;
@@ -91,4 +94,46 @@ fn draw(mut folder: FigureFolder) -> Result<(), Error> {
     ));
     report_left_alone(folder.path(), folder.others());
     Ok(())
+}
+
+/// The state of the body of a built-in scene at a time, from which the numbers and figures are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Moment {
+    t: f64,
+    q: f64,
+    v: f64,
+}
+
+/// The built-in scene of this name.
+fn scene(name: &str) -> Scene {
+    Scene::built_in(name).expect("the chapter's scenes are built in")
+}
+
+/// The method with this id.
+fn method_of(id: &str) -> &'static Method {
+    method(id).expect("the chapter's methods are in the table")
+}
+
+/// The scene's first body at every tick up to `seconds`, the start included, at the scene's tick rate.
+fn by_method(scene: &Scene, id: &str, seconds: f64) -> Vec<Moment> {
+    moments(scene, Solver::Method(method_of(id)), seconds, f64::from(scene.tick_hz))
+}
+
+/// The exact motion of the scene's first body, with `per_second` states per second.
+fn exactly(scene: &Scene, seconds: f64, per_second: f64) -> Vec<Moment> {
+    moments(scene, Solver::Truth, seconds, per_second)
+}
+
+fn moments(scene: &Scene, solver: Solver, seconds: f64, hz: f64) -> Vec<Moment> {
+    let at = |lane: &Lane, tick: u64| {
+        let stepper = &lane.bodies()[0].stepper;
+        Moment { t: tick as f64 / hz, q: stepper.q()[0], v: stepper.v()[0] }
+    };
+    let mut follow = Follow::new(Lane::new(scene, solver, 1), hz);
+    let mut moments = vec![at(&follow.body, 0)];
+    follow.run((seconds * hz).round() as u64, |lane, tick| {
+        moments.push(at(lane, tick));
+        ControlFlow::Continue(())
+    });
+    moments
 }

@@ -1,16 +1,15 @@
 //! Draws a run into a folder of numbered pictures, and writes a manifest beside them.
 
-use super::capture_settings::CaptureSettings;
 use super::drawing::{adapter, closing_line, interrupted_after};
 use super::error::Error;
 use super::experiment::Experiment;
-use super::fingerprint::fingerprint;
 use super::frame_folder::FrameFolder;
 use super::frame_names::frame_name;
 use super::interrupt::watch_for_interrupt;
-use super::manifest::{FrameEntry, Manifest, SCHEMA};
+use super::manifest::{FrameEntry, Manifest, SCHEMA, fingerprint};
 use super::pipeline::{DrawnFrame, Pipeline};
 use super::settings;
+use super::settings::CaptureSettings;
 use super::state_log::{self, StateLog};
 use super::terminal::{print_status, report_left_alone};
 use crate::studio::Studio;

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use serde_json::json;
 
-use super::argument::brief;
+use super::argument::{brief, number_that};
 use super::error::Error;
 use super::experiment::{ExperimentArgs, some_seconds};
 use super::file_names::{ending, row_format};
@@ -16,7 +16,6 @@ use super::help::flowing;
 use super::id::SHAPE;
 use super::interrupt::watch_for_interrupt;
 use super::jobs;
-use super::numbers::number_that;
 use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, STDOUT};
 use super::terminal::print_status;

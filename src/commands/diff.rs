@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::{Value, json};
 
+use super::argument::number_that;
 use super::error::Error;
 use super::help::flowing;
-use super::numbers::number_that;
 use super::output::table::TableFormat;
 use super::scene_file::shown;
 use super::visible::visible_in_a_line;

@@ -6,17 +6,17 @@ use std::sync::atomic::Ordering;
 use clap::Args;
 use serde_json::{Value, json};
 
+use super::argument::number_that;
+#[cfg(feature = "view")]
+use super::drawing::Plot;
 use super::error::Error;
 use super::experiment::{PathOrName, range_of, scene_names, some_seconds, trace_names};
 use super::file_names::{check_picture_name, row_format};
 use super::help::flowing;
 use super::id::{METHOD, POLICY};
 use super::interrupt::watch_for_interrupt;
-use super::numbers::number_that;
 use super::output::table::{RowFormat, RowWriter};
 use super::output::{Destination, Input, Output, STDOUT, same_file_path};
-#[cfg(feature = "view")]
-use super::plot::Plot;
 use super::scene_file;
 use super::trace_source::traces;
 use crate::atomic_file::IfExists;

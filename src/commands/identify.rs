@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::argument::brief;
+use super::argument::{brief, number, number_that, positive};
 use super::error::Error;
 use super::help::flowing;
-use super::numbers::{number, number_that, positive};
 use super::output::table::TableFormat;
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 use crate::tools::identify::{ColumnNames, Log, LogError, LogSetting, LoggedBody, identify};

@@ -30,14 +30,11 @@
 //! A lane's `hash` is [`Race::lane_hashes`](crate::run::Race::lane_hashes). The other hashes are XXH3's
 //! 64 bits ([`fingerprint`]). All are hexadecimal. There is no seed, because nothing in a run is random.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value};
+use xxhash_rust::xxh3::xxh3_64;
 
 use crate::run::diff::is_same_number;
-
-pub use super::fingerprint::fingerprint;
-
-mod any_number;
 
 /// The number of the description above. A manifest of another one cannot be judged.
 pub const SCHEMA: u32 = 1;
@@ -176,9 +173,9 @@ pub struct Mark {
 #[expect(missing_docs, reason = "the module describes every field")]
 pub struct LaneMark {
     pub hash: String,
-    #[serde(with = "any_number")]
+    #[serde(serialize_with = "write_rows", deserialize_with = "read_rows")]
     pub q: Vec<Vec<f64>>,
-    #[serde(with = "any_number")]
+    #[serde(serialize_with = "write_rows", deserialize_with = "read_rows")]
     pub v: Vec<Vec<f64>>,
 }
 
@@ -230,5 +227,76 @@ fn lay_out(value: &Value, depth: usize, text: &mut String) {
             text.push_str(&format!("\n{}]", &indent[2..]));
         }
         value => text.push_str(&value.to_string()),
+    }
+}
+
+/// A hash of a text or of pixels, to be written down and compared later, by other programs too: XXH3 of `bytes`, 64 bits
+/// with the seed 0, as 16 hexadecimal digits.
+pub fn fingerprint(bytes: &[u8]) -> String {
+    format!("{:016x}", xxh3_64(bytes))
+}
+
+/// A number in JSON, which cannot write infinity and NaN as numbers.
+#[derive(Deserialize, Serialize)]
+#[serde(untagged)]
+enum AnyNumber {
+    Number(f64),
+    Word(String),
+}
+
+fn write_rows<S: Serializer>(rows: &[Vec<f64>], to: S) -> Result<S::Ok, S::Error> {
+    let value = |&number: &f64| {
+        if number.is_finite() {
+            AnyNumber::Number(number)
+        } else {
+            AnyNumber::Word(number.to_string())
+        }
+    };
+    to.collect_seq(rows.iter().map(|row| row.iter().map(value).collect::<Vec<_>>()))
+}
+
+fn read_rows<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Vec<f64>>, D::Error> {
+    let number = |value| match value {
+        AnyNumber::Number(number) => Ok(number),
+        AnyNumber::Word(word) => match &*word {
+            "inf" => Ok(f64::INFINITY),
+            "-inf" => Ok(f64::NEG_INFINITY),
+            "NaN" => Ok(f64::NAN),
+            _ => Err(serde::de::Error::custom(format!("{word:?} is no number"))),
+        },
+    };
+    let rows = Vec::<Vec<AnyNumber>>::deserialize(from)?;
+    rows.into_iter().map(|row| row.into_iter().map(number).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_fingerprint_is_that_of_other_programs() {
+        // From the reference implementation's own test vectors.
+        assert_eq!(fingerprint(b""), "2d06800538d394c2");
+    }
+
+    #[test]
+    fn every_value_is_read_back_as_it_was_written() {
+        let q = [0.1, -0.0, f64::MAX, 5e-324, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+        let mark = LaneMark { hash: "0".into(), q: vec![q.to_vec(), vec![]], v: vec![] };
+        let text = serde_json::to_string(&mark).unwrap();
+        assert!(text.contains(r#"5e-324,"inf","-inf","NaN"]"#), "{text}");
+        let read: LaneMark = serde_json::from_str(&text).unwrap();
+        assert!(read.is_same(&mark));
+        assert_eq!(serde_json::to_string(&read).unwrap(), text);
+        let mut other = mark.clone();
+        other.q[0][6] = 1.0;
+        assert!(!other.is_same(&mark));
+    }
+
+    #[test]
+    fn what_is_no_number_is_refused_with_its_word() {
+        let text = r#"{"hash":"0","q":[["many"]],"v":[]}"#;
+        let error = serde_json::from_str::<LaneMark>(text).unwrap_err().to_string();
+        assert!(error.contains(r#""many" is no number"#), "{error}");
     }
 }

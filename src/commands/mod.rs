@@ -51,12 +51,10 @@ mod trace_source;
 #[cfg(feature = "window")]
 mod unfinished;
 
-mod capture_settings;
 #[cfg(feature = "view")]
 mod clip;
 #[cfg(feature = "view")]
 mod drawing;
-mod fingerprint;
 #[cfg(feature = "view")]
 mod frame_folder;
 mod frame_names;
@@ -80,10 +78,7 @@ mod error;
 mod file_names;
 mod interrupt;
 mod jobs;
-mod numbers;
 mod output;
-#[cfg(feature = "view")]
-mod plot;
 mod terminal;
 mod visible;
 

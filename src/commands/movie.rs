@@ -5,13 +5,13 @@ use std::io::Write;
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, ImageError, RgbaImage};
 
-use super::capture_settings::CaptureSettings;
 use super::drawing::{closing_line, interrupted_after};
 use super::error::Error;
 use super::interrupt::watch_for_interrupt;
 use super::output::Output;
 use super::pipeline::{DrawnFrame, Pipeline};
 use super::schedule::Schedule;
+use super::settings::CaptureSettings;
 use super::state_log::StateLog;
 use super::terminal::print_status;
 use crate::studio::Studio;

@@ -7,7 +7,6 @@ use std::sync::Arc;
 use annotate_snippets::Renderer;
 use clap::Args;
 
-use super::capture_settings::CaptureSettings;
 use super::error::Error;
 use super::experiment::{self, Experiment, ExperimentArgs, ThemeName, known_trace};
 use super::frame_folder::FrameFolder;
@@ -15,6 +14,7 @@ use super::help::flowing;
 use super::interrupt::tell_of_interrupt;
 use super::output::{Destination, Output};
 use super::schedule::{FPS, Schedule, frames_in};
+use super::settings::CaptureSettings;
 use super::terminal::print_status;
 use super::unfinished::{self, UnfinishedRecording};
 use super::{clip, preferences, scene_file, state_log};

@@ -3,12 +3,11 @@
 use clap::builder::RangedU64ValueParser;
 use clap::{ArgGroup, Args};
 
-use super::argument::brief;
+use super::argument::{brief, frequency, number, positive};
 use super::error::Error;
 use super::help::flowing;
 use super::id::Id;
 use super::identify::{LogArgs, rate};
-use super::numbers::{frequency, number, positive};
 use super::output::table::TableFormat;
 use crate::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{METHODS, Method};

@@ -2,13 +2,13 @@
 
 use std::io::Write;
 
-use super::capture_settings::CaptureSettings;
 use super::drawing::{check_pixels, interrupted_after};
 use super::error::Error;
 use super::experiment::Experiment;
 use super::interrupt::watch_for_interrupt;
 use super::output::Output;
 use super::pipeline::complete_analysis;
+use super::settings::CaptureSettings;
 use super::terminal::{print_status, progress};
 use crate::measure::cloud::CloudWorker;
 use crate::run::race::Mode;

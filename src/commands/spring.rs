@@ -2,8 +2,8 @@
 
 use clap::Args;
 
+use super::argument::{frequency, number, positive};
 use super::error::Error;
-use super::numbers::{frequency, number, positive};
 use crate::scene::Scene;
 use crate::studio::MySpring;
 

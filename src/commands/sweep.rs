@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::json;
 
+#[cfg(feature = "view")]
+use super::drawing::Plot;
 use super::error::Error;
 use super::experiment::{PathOrName, range_of, scene_names, some_seconds};
 use super::file_names::{check_picture_name, row_format};
@@ -13,8 +15,6 @@ use super::id::METHOD;
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, STDOUT};
-#[cfg(feature = "view")]
-use super::plot::Plot;
 use super::scene_file;
 use super::spring::SpringArgs;
 use crate::atomic_file::IfExists;

@@ -4,17 +4,20 @@
 //! physics has not.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
-use super::argument::brief;
+use super::argument::{brief, number_that};
 use super::error::Error;
 use super::experiment::Experiment;
 use super::frame_names::is_of_a_capture;
 use super::help::flowing;
 use super::manifest::Manifest;
-use super::numbers::number_that;
 use super::output::same_file_path;
+use super::settings::CaptureSettings;
+use super::state_log::StateLog;
+use crate::studio::Studio;
 
 mod clip;
 mod physics;
@@ -22,7 +25,6 @@ mod physics;
 mod pixels;
 pub(super) mod recording;
 mod report;
-mod rerun;
 
 use report::{ReportFile, ReportFormat};
 
@@ -155,4 +157,40 @@ fn report_files(args: &VerifyArgs) -> Result<Vec<ReportFile>, Error> {
 
 fn percent(written: &str) -> Result<f64, String> {
     number_that(written, |it| (0.0..=100.0).contains(&it), "a percentage from 0 to 100")
+}
+
+/// The run of a capture by its manifest, to be repeated.
+struct Rerun {
+    manifest: Manifest,
+    capture: CaptureSettings,
+    experiment: Experiment,
+}
+
+/// The frames of a repeated run.
+struct Frames {
+    /// Whether they have to be the same to the byte.
+    are_exact: bool,
+    /// How each differs from its file, if it does.
+    differences: Vec<Option<String>>,
+}
+
+impl Rerun {
+    /// The studio at the start of the run, and the log of its states.
+    fn begin(&self) -> (Studio, StateLog) {
+        let studio = self.capture.dress(self.experiment.studio());
+        let state_log = StateLog::new(self.capture.mark_every, studio.race());
+        (studio, state_log)
+    }
+
+    /// The studio at the end of the run and its log, where nothing is drawn; `None` after an interrupt.
+    fn run(&self, interrupted: &AtomicBool) -> Option<(Studio, StateLog)> {
+        let (mut studio, mut state_log) = self.begin();
+        for frame in 0..self.manifest.frames.len() as u32 {
+            if interrupted.load(Ordering::Relaxed) {
+                return None;
+            }
+            self.capture.schedule.advance(&mut studio, frame, &mut state_log);
+        }
+        Some((studio, state_log))
+    }
 }

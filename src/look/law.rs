@@ -1,20 +1,20 @@
 //! A law, drawn as its scene says: beads on rails or in a plane, heights, a carriage, a follower, or discs in places of
 //! its own.
 
+use glam::DVec2;
+
 use super::beads::Beads;
-use super::{BodyPicture, typed};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull, typed};
 use crate::run::race::LaneBody;
 use crate::sim::State;
 use crate::sim::bodies::Law;
 use crate::sim::law::Layout;
 
 use carriage::Carriage;
-use follower::Follower;
 use places::Places;
 use vertical::Vertical;
 
 mod carriage;
-mod follower;
 mod places;
 mod vertical;
 
@@ -50,4 +50,52 @@ fn reach(ranges: &[(f64, f64)]) -> [f64; 2] {
 fn lift(state: &mut State<Vec<f64>>, coordinate: usize, height: f64, velocity: f64) {
     state.q[coordinate] = height;
     state.v[coordinate] = velocity;
+}
+
+/// The radii of a follower and of what it follows, in parts of the farthest that they go.
+const BODY: f64 = 0.08;
+const TARGET: f64 = 0.05;
+
+/// The body on a chart recorder's paper, with a line to what it follows if that is a coordinate too.
+struct Follower {
+    ranges: Vec<(f64, f64)>,
+}
+
+impl Follower {
+    fn farthest(&self) -> f64 {
+        let [low, high] = reach(&self.ranges);
+        high.max(-low)
+    }
+
+    /// The coordinates that are drawn: the follower, and what it follows.
+    fn places<'q>(&self, q: &'q [f64]) -> &'q [f64] {
+        &q[..self.ranges.len().min(2)]
+    }
+}
+
+impl BodyPicture for Follower {
+    fn draw(&self, q: &[f64], outline: &mut Outline) {
+        let farthest = self.farthest();
+        let at = |x: f64| DVec2::new(x, 0.0);
+        if let [own, target] = *self.places(q) {
+            outline.marks.push(Mark::Rod { from: at(own), to: at(target) });
+            outline.marks.push(Mark::Disc { centre: at(target), radius: TARGET * farthest });
+        }
+        outline.marks.push(Mark::Disc { centre: outline.at, radius: BODY * farthest });
+    }
+
+    fn framing(&self) -> Framing {
+        Framing::Recorder { half_width_m: 1.25 * self.farthest() }
+    }
+
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        let radii = [BODY, TARGET].map(|part| part * self.farthest());
+        let places = self.places(q).iter().zip(radii);
+        places.map(|(&x, radius)| Handle { at: DVec2::new(x, 0.0), radius }).collect()
+    }
+
+    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
+        state.q[pull.handle] = pull.to.x;
+        state.v[pull.handle] = pull.velocity.x;
+    }
 }

@@ -14,12 +14,10 @@ use crate::scene::{MAX_TICK_HZ, Scene};
 use crate::sim::Solver;
 use crate::sim::integrators::Method;
 
-mod frame_metrics;
 mod lane;
 mod running;
 
-pub use frame_metrics::{FRAME_METRICS, FrameMetric};
-pub use lane::{LoopFrame, LoopLane, LoopState};
+pub use lane::{FRAME_METRICS, FrameMetric, LoopFrame, LoopLane, LoopState};
 pub use running::{FoundLoop, LoopRequest, LoopWorker};
 
 /// The traces that come first, with the policies on the stage: noise that makes raw ticks flip between none and two, under

@@ -1,14 +1,12 @@
 //! A scene in a game loop over the frames of a trace.
 
-use super::frame::Frame;
 use super::metrics::{FrameRecord, PacingMeter, PacingReport};
 use super::paced_lane::PacedLane;
 use super::pacer::Pacer;
 use super::policy::{PolicyCard, Steps};
-use super::scripted_truth::{Furthest, ScriptedTruth};
+use super::scripted_truth::{Furthest, ScriptedTruth, TimedScript};
 use super::time_base::TimeBase;
-use super::timed_script::TimedScript;
-use super::trace::{FrameTrace, Frames};
+use super::trace::{Frame, FrameTrace, Frames};
 use crate::run::race::{Lane, LaneBody};
 use crate::scene::{LaneSpec, Scene};
 

@@ -1,8 +1,8 @@
 //! What a viewer of the display sees of a loop, in numbers.
 
-use super::frame::Frame;
 use super::pacer::Pacer;
 use super::policy::Steps;
+use super::trace::Frame;
 use crate::run::Unit;
 
 /// By how much a frame may miss a double step and count as one: the nanoseconds of a trace are rounded.

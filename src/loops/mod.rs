@@ -6,7 +6,6 @@
 //! viewer of the display sees of it. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
 
 mod advice;
-mod frame;
 pub mod loop_lab;
 mod loop_run;
 mod metrics;
@@ -17,14 +16,12 @@ mod policies;
 mod policy;
 mod scripted_truth;
 mod time_base;
-mod timed_script;
 mod trace;
 pub mod trace_file;
 mod verdict;
 
 pub use crate::sim::{Accumulator, Due, MAX_FRAME_MS};
 pub use advice::{AdvisedLoop, MeasuredLoops, NoLoop, USUAL_LATENCY_MS};
-pub use frame::Frame;
 pub use loop_run::{LoopRun, MIN_RUN_S};
 pub use metrics::{FrameRecord, PACING_METRICS, PacingMetric, PacingReport};
 pub use paced_lane::PacedLane;
@@ -33,5 +30,5 @@ pub use patterns::{TRACES, TraceCard, steady_trace, trace_card};
 pub use policies::{POLICIES, policy};
 pub use policy::{Policy, PolicyCard, Snippet, Steps};
 pub use time_base::{RefreshRate, TimeBase};
-pub use trace::{FrameTrace, Frames};
+pub use trace::{Frame, FrameTrace, Frames};
 pub use verdict::LoopVerdict;

@@ -1,21 +1,10 @@
-//! The table of built-in traces.
+//! The table of built-in traces, and the patterns of their frames.
 
 use super::time_base::RefreshRate;
-use super::trace::FrameTrace;
-use edge::Edge;
-use heartbeat::Heartbeat;
-use jitter::Jitter;
-use long_frame::LongFrame;
-use spiral::Spiral;
-use steady::Steady;
+use super::trace::{Frame, FrameTrace, Pattern};
 
-mod edge;
-mod heartbeat;
-mod jitter;
-mod long_frame;
-mod noise;
-mod spiral;
-mod steady;
+#[cfg(test)]
+mod tests;
 
 /// A built-in trace.
 #[derive(Debug)]
@@ -115,140 +104,269 @@ pub fn steady_trace(refresh: RefreshRate) -> FrameTrace {
     FrameTrace::of_pattern(format!("steady-{hz}"), refresh, Steady::new(refresh))
 }
 
-#[cfg(test)]
-mod tests {
-    use std::collections::BTreeSet;
+/// An even display, and a game that is ready for every refresh: every frame begins and is displayed at one.
+#[derive(Clone, Copy)]
+struct Steady {
+    refresh: RefreshRate,
+    next: u64,
+}
 
-    use super::*;
-    use crate::loops::frame::Frame;
+impl Steady {
+    /// The pattern at its first refresh.
+    fn new(refresh: RefreshRate) -> Self {
+        Self { refresh, next: 0 }
+    }
+}
 
-    const HZ_60: RefreshRate = RefreshRate::new(60, 1);
-    const REFRESH_NS: i64 = 16_666_667;
-
-    fn first(id: &str, refresh: RefreshRate, count: usize, steps: u32) -> Vec<Frame> {
-        let trace = trace_card(id).expect("in the table").trace(refresh);
-        let mut frames = trace.frames();
-        (0..count).map(|_| frames.next(steps).expect("without end")).collect()
+impl Pattern for Steady {
+    fn next(&mut self, _steps: u32) -> Frame {
+        let at = self.refresh.refresh_ns(self.next);
+        self.next += 1;
+        Frame { began_ns: at, displayed_ns: Some(at) }
     }
 
-    fn durations(frames: &[Frame]) -> Vec<i64> {
-        frames.windows(2).map(|pair| pair[1].began_ns - pair[0].began_ns).collect()
+    fn boxed_clone(&self) -> Box<dyn Pattern> {
+        Box::new(*self)
+    }
+}
+
+/// The seed of the noise of [`Edge`]: one whose noise is near 0 in the mean, so that it adds no latency.
+const EDGE_SEED: u64 = 4;
+
+/// The most by which a frame begins early or late: what a sleeping thread is woken off by. Below half the shortest refresh,
+/// 1 ms, so that each frame begins after the one before.
+const EDGE_NS: i64 = 499_999;
+
+/// Frames that begin at the edge of a tick, a little before or after it.
+///
+/// Frame n begins at refresh n plus noise, the first without; it is displayed at refresh n, by design also where that is
+/// before it began, so that the mean latency is that of the loop alone.
+#[derive(Clone, Copy)]
+struct Edge {
+    refresh: RefreshRate,
+    next: u64,
+    noise: Noise,
+}
+
+impl Edge {
+    /// The pattern at its first refresh.
+    fn new(refresh: RefreshRate) -> Self {
+        Self { refresh, next: 0, noise: Noise::new(EDGE_SEED) }
+    }
+}
+
+impl Pattern for Edge {
+    fn next(&mut self, _steps: u32) -> Frame {
+        let at = self.refresh.refresh_ns(self.next);
+        let off = if self.next == 0 { 0 } else { self.noise.up_to(2 * EDGE_NS) - EDGE_NS };
+        self.next += 1;
+        Frame { began_ns: at + off, displayed_ns: Some(at) }
     }
 
-    /// The frames' numbers with their durations, of those that do not last a refresh of 60 Hz.
-    fn odd_durations(frames: &[Frame]) -> Vec<(usize, i64)> {
-        let long = durations(frames).into_iter().enumerate();
-        long.filter(|&(_, ns)| (ns - REFRESH_NS).abs() > 1).collect()
+    fn boxed_clone(&self) -> Box<dyn Pattern> {
+        Box::new(*self)
+    }
+}
+
+/// Frames of one refresh each, and now and then a long one.
+///
+/// After every so many frames of one refresh each, one of several: its picture is displayed at the last of them, and the next
+/// frame begins after it. So the display sees the long time one frame before the game does.
+#[derive(Clone, Copy)]
+struct LongFrame {
+    refresh: RefreshRate,
+    /// The frames before a long one.
+    short: u64,
+    /// The refreshes of a long one, at least 1.
+    long: u64,
+    /// The refresh at which the next frame begins.
+    at: u64,
+    /// The frames since the last long one.
+    since: u64,
+}
+
+impl LongFrame {
+    /// A frame of `long` refreshes after every `short` frames of one.
+    fn new(refresh: RefreshRate, short: u64, long: u64) -> Self {
+        Self { refresh, short, long, at: 0, since: 0 }
     }
 
-    #[test]
-    fn ids_are_unique_and_fit_to_be_typed() {
-        let ids: BTreeSet<&str> = TRACES.iter().map(|card| card.id).collect();
-        assert_eq!(ids.len(), TRACES.len());
-        for id in ids {
-            let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "-.".contains(c);
-            assert!(id.chars().all(fits), "{id}");
+    /// A frame of `long_ns` after every `short_ns`, both to the next whole refresh.
+    fn lasting(refresh: RefreshRate, short_ns: i64, long_ns: i64) -> Self {
+        let refreshes = |ns| (1..).find(|&n| refresh.refresh_ns(n) >= ns).expect("no end");
+        Self::new(refresh, refreshes(short_ns), refreshes(long_ns))
+    }
+}
+
+impl Pattern for LongFrame {
+    fn next(&mut self, _steps: u32) -> Frame {
+        let lasts = if self.since == self.short { self.long } else { 1 };
+        self.since = if self.since == self.short { 0 } else { self.since + 1 };
+        let began = self.at;
+        self.at += lasts;
+        Frame {
+            began_ns: self.refresh.refresh_ns(began),
+            displayed_ns: Some(self.refresh.refresh_ns(began + lasts - 1)),
         }
     }
 
-    #[test]
-    fn every_trace_begins_at_the_start_and_goes_on_at_every_rate() {
-        for card in TRACES {
-            for rate in [RefreshRate::new(1, 1), HZ_60, RefreshRate::new(1000, 1)] {
-                for steps in [0, 1, 40] {
-                    let frames = first(card.id, rate, 2000, steps);
-                    assert_eq!(frames[0].began_ns, 0, "{}", card.id);
-                    assert!(frames.windows(2).all(|pair| pair[0].began_ns < pair[1].began_ns));
-                    let shown: Vec<_> = frames.iter().filter_map(|f| f.displayed_ns).collect();
-                    assert!(shown.is_sorted_by(|a, b| a < b), "{} at {rate} Hz", card.id);
-                    assert_eq!(frames, first(card.id, rate, 2000, steps), "{}", card.id);
-                }
-            }
+    fn boxed_clone(&self) -> Box<dyn Pattern> {
+        Box::new(*self)
+    }
+}
+
+/// A game whose clock is read unevenly, while its pictures are displayed evenly.
+///
+/// Every second frame begins a quarter of a refresh late, so that frames last 5/4 and 3/4 of a refresh by turns. Frame n is
+/// displayed at refresh n, by design also where that is before it began: as with the steady traces, the latency is that
+/// of the loop alone.
+#[derive(Clone, Copy)]
+struct Heartbeat {
+    refresh: RefreshRate,
+    next: u64,
+}
+
+impl Heartbeat {
+    /// The pattern at its first refresh.
+    fn new(refresh: RefreshRate) -> Self {
+        Self { refresh, next: 0 }
+    }
+}
+
+impl Pattern for Heartbeat {
+    fn next(&mut self, _steps: u32) -> Frame {
+        let at = self.refresh.refresh_ns(self.next);
+        let late = if self.next.is_multiple_of(2) { 0 } else { self.refresh.refresh_ns(1) / 4 };
+        self.next += 1;
+        Frame { began_ns: at + late, displayed_ns: Some(at) }
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Pattern> {
+        Box::new(*self)
+    }
+}
+
+/// What a step costs: 5/4 of a tick at 60 Hz.
+const STEP_NS: i64 = 20_800_000;
+
+/// Steps that cost more time than they simulate: the spiral of death.
+///
+/// A frame lasts a refresh, or as long as its steps take if that is longer. It is displayed when it begins, since what it
+/// will cost is not known then.
+#[derive(Clone, Copy)]
+struct Spiral {
+    refresh: RefreshRate,
+    /// When the last frame that took too long ended.
+    since_ns: i64,
+    /// The refreshes since then.
+    refreshes: u64,
+    begun: bool,
+}
+
+impl Spiral {
+    /// The pattern at its first frame.
+    fn new(refresh: RefreshRate) -> Self {
+        Self { refresh, since_ns: 0, refreshes: 0, begun: false }
+    }
+
+    fn now_ns(&self) -> i64 {
+        self.since_ns + self.refresh.refresh_ns(self.refreshes)
+    }
+}
+
+impl Pattern for Spiral {
+    fn next(&mut self, steps: u32) -> Frame {
+        let cost = STEP_NS * i64::from(steps);
+        if self.begun && cost > self.refresh.refresh_ns(1) {
+            (self.since_ns, self.refreshes) = (self.now_ns() + cost, 0);
+        } else if self.begun {
+            self.refreshes += 1;
         }
+        self.begun = true;
+        let now = self.now_ns();
+        Frame { began_ns: now, displayed_ns: Some(now) }
     }
 
-    #[test]
-    fn only_edge_and_heartbeat_display_a_frame_before_it_began() {
-        for card in TRACES {
-            let frames = first(card.id, HZ_60, 2000, 1);
-            let early = frames.iter().any(|f| f.displayed_ns.is_some_and(|at| at < f.began_ns));
-            assert_eq!(early, ["edge", "heartbeat"].contains(&card.id), "{}", card.id);
+    fn boxed_clone(&self) -> Box<dyn Pattern> {
+        Box::new(*self)
+    }
+}
+
+/// The seed of the noise of [`Jitter`].
+const JITTER_SEED: u64 = 9;
+
+/// One frame in so many, by chance, is slow.
+const SLOW_IN: i64 = 64;
+
+/// A game whose frames take now more time, now less, and wait for the display in a queue.
+///
+/// Frames take 0.5 to 1.1 refreshes, and a slow one up to 2 more. A picture is displayed at the first refresh when it is
+/// ready and none before it waits; the game runs ahead by one waiting picture, so that in good times the latency is two
+/// refreshes.
+#[derive(Clone, Copy)]
+struct Jitter {
+    refresh: RefreshRate,
+    began_ns: i64,
+    /// The refresh at which the last picture was displayed.
+    shown: u64,
+    noise: Noise,
+}
+
+impl Jitter {
+    /// The pattern at its first frame.
+    fn new(refresh: RefreshRate) -> Self {
+        Self { refresh, began_ns: 0, shown: 0, noise: Noise::new(JITTER_SEED) }
+    }
+
+    fn work_ns(&mut self) -> i64 {
+        let period = self.refresh.refresh_ns(1);
+        let part = 3 * period / 10;
+        let usual = period / 2 + self.noise.up_to(part) + self.noise.up_to(part);
+        let slow = self.noise.up_to(SLOW_IN - 1) == 0;
+        usual + if slow { self.noise.up_to(2 * period) } else { 0 }
+    }
+}
+
+impl Pattern for Jitter {
+    fn next(&mut self, _steps: u32) -> Frame {
+        let began_ns = self.began_ns;
+        let ready = began_ns + self.work_ns();
+        let before = self.shown;
+        self.shown += 1;
+        while self.refresh.refresh_ns(self.shown) < ready {
+            self.shown += 1;
         }
+        // The place in the queue is free again when the picture before this one goes up.
+        self.began_ns = ready.max(self.refresh.refresh_ns(before));
+        Frame { began_ns, displayed_ns: Some(self.refresh.refresh_ns(self.shown)) }
     }
 
-    #[test]
-    fn cards_name_the_seeds() {
-        for (id, seed) in [("edge", edge::SEED), ("jitter", jitter::SEED)] {
-            assert!(trace_card(id).unwrap().about.contains(&format!("seed {seed})")), "{id}");
-        }
+    fn boxed_clone(&self) -> Box<dyn Pattern> {
+        Box::new(*self)
+    }
+}
+
+/// A generator of whole numbers, the same on every platform: Sebastiano Vigna's SplitMix64.
+#[derive(Clone, Copy)]
+struct Noise(u64);
+
+impl Noise {
+    /// The generator at its start for a seed.
+    const fn new(seed: u64) -> Self {
+        Self(seed)
     }
 
-    #[test]
-    fn the_edge_is_half_a_millisecond_wide_on_both_sides() {
-        let frames = first("edge", HZ_60, 10_000, 0);
-        let off: Vec<i64> = frames.iter().map(|f| f.began_ns - f.displayed_ns.unwrap()).collect();
-        assert_eq!(off[0], 0);
-        let (least, most) = (*off.iter().min().unwrap(), *off.iter().max().unwrap());
-        assert!((-499_999..-499_000).contains(&least), "{least}");
-        assert!((499_001..=499_999).contains(&most), "{most}");
-        let mean = off.iter().sum::<i64>() / 10_000;
-        assert!(mean.abs() < 10_000, "{mean}");
+    /// A number from 0 to `most`, which is not negative, all equally likely.
+    fn up_to(&mut self, most: i64) -> i64 {
+        let many = u128::from(most.unsigned_abs()) + 1;
+        // The high half of the product lies in 0..many: no division, and a bias below 2⁻⁶⁴ · many.
+        ((u128::from(self.bits()) * many) >> 64) as i64
     }
 
-    #[test]
-    fn a_missed_refresh_shows_the_picture_late_and_then_begins_late() {
-        let frames = first("missed-vsync", HZ_60, 100, 0);
-        let late: Vec<usize> =
-            (0..100).filter(|&n| frames[n].displayed_ns != Some(frames[n].began_ns)).collect();
-        assert_eq!(late, [29, 59, 89]);
-        let odd = odd_durations(&frames);
-        assert_eq!(odd.iter().map(|(n, _)| *n).collect::<Vec<_>>(), late);
-        for (n, ns) in odd {
-            assert!((ns - 2 * REFRESH_NS).abs() <= 1);
-            assert!((frames[n].displayed_ns.unwrap() - frames[n].began_ns - REFRESH_NS).abs() <= 1);
-        }
-    }
-
-    #[test]
-    fn long_frames_last_as_their_names_say() {
-        assert_eq!(
-            odd_durations(&first("hitch-100ms", HZ_60, 300, 0)),
-            [(120, 100_000_000), (241, 100_000_000)]
-        );
-        assert_eq!(
-            odd_durations(&first("alt-tab-5s", HZ_60, 700, 0)),
-            [(300, 5_000_000_000), (601, 5_000_000_000)]
-        );
-    }
-
-    #[test]
-    fn a_heartbeat_is_long_and_short_by_turns_and_displayed_evenly() {
-        let frames = first("heartbeat", HZ_60, 100, 0);
-        for (n, ns) in durations(&frames).into_iter().enumerate() {
-            let quarters = if n % 2 == 0 { 5 } else { 3 };
-            assert!((ns - quarters * REFRESH_NS / 4).abs() <= 2, "frame {n}: {ns}");
-            assert_eq!(frames[n].displayed_ns, Some(HZ_60.refresh_ns(n as u64)));
-        }
-    }
-
-    #[test]
-    fn a_spiral_frame_lasts_as_long_as_the_steps_before_it() {
-        assert!(odd_durations(&first("spiral", HZ_60, 100, 0)).is_empty());
-        for steps in [1, 15] {
-            let expected = 20_800_000 * i64::from(steps);
-            assert!(
-                durations(&first("spiral", HZ_60, 100, steps)).iter().all(|&ns| ns == expected)
-            );
-        }
-    }
-
-    #[test]
-    fn jitter_misses_some_refreshes_and_never_runs_ahead_by_more_than_one_picture() {
-        let frames = first("jitter", HZ_60, 10_000, 0);
-        let waits = frames.iter().map(|f| f.displayed_ns.unwrap() - f.began_ns);
-        assert!(waits.clone().all(|ns| ns > REFRESH_NS / 2 && ns < 4 * REFRESH_NS + 2));
-        let shown: Vec<i64> = frames.iter().map(|f| f.displayed_ns.unwrap()).collect();
-        let missed = shown.windows(2).filter(|pair| pair[1] - pair[0] > REFRESH_NS + 1).count();
-        assert!((30..80).contains(&missed), "{missed}");
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
     }
 }

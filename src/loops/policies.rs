@@ -1,25 +1,17 @@
-//! The table of rules.
+//! The table of rules, and the rules without a memory.
 
-use super::policy::{PolicyCard, Snippet};
+use super::policy::{Policy, PolicyCard, Snippet, Steps};
 use crate::run::race::Interpolation;
-use fixed::Fixed;
+use fixed::{Fixed, SlowDown};
 use hysteresis::Hysteresis;
-use lockstep::Lockstep;
 use median::Median;
-use semi_fixed::SemiFixed;
-use slow_down::SlowDown;
 use snapped::Snapped;
-use variable::Variable;
 use whole_refresh::WholeRefresh;
 
 mod fixed;
 mod hysteresis;
-mod lockstep;
 mod median;
-mod semi_fixed;
-mod slow_down;
 mod snapped;
-mod variable;
 mod whole_refresh;
 
 /// The loop with this id in each of these languages.
@@ -224,4 +216,58 @@ pub static POLICIES: &[PolicyCard] = &[
 /// The rule with this id.
 pub fn policy(id: &str) -> Option<&'static PolicyCard> {
     POLICIES.iter().find(|card| card.id == id)
+}
+
+/// One step of the frame's duration.
+#[derive(Clone, Copy)]
+struct Variable {
+    /// The longest step; the rest of a longer frame is dropped.
+    longest: Option<i128>,
+}
+
+impl Policy for Variable {
+    fn frame(&mut self, duration: i128) -> Steps {
+        let step = self.longest.map_or(duration, |longest| duration.min(longest));
+        Steps { dropped: duration - step, ..Steps::one(step) }
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Policy> {
+        Box::new(*self)
+    }
+}
+
+/// One tick a frame: the game is as fast as the display.
+#[derive(Clone, Copy)]
+struct Lockstep {
+    tick: i128,
+}
+
+impl Policy for Lockstep {
+    fn frame(&mut self, _duration: i128) -> Steps {
+        Steps::one(self.tick)
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Policy> {
+        Box::new(*self)
+    }
+}
+
+/// The most steps in a frame; those of a longer one are longer than a tick.
+const MAX_STEPS: i128 = 6;
+
+/// The fewest equal steps of at most a tick.
+#[derive(Clone, Copy)]
+struct SemiFixed {
+    tick: i128,
+}
+
+impl Policy for SemiFixed {
+    fn frame(&mut self, duration: i128) -> Steps {
+        let fewest = -(-duration).div_euclid(self.tick);
+        Steps { count: fewest.min(MAX_STEPS) as u32, span: duration, dropped: 0 }
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Policy> {
+        Box::new(*self)
+    }
 }

@@ -1,9 +1,10 @@
-//! The exact solution at the moments of display, and how far the pictures are from it.
+//! The exact solution at the moments of display, how far the pictures are from it, and the script that drives both.
+
+use std::sync::Arc;
 
 use super::paced_lane::PacedLane;
-use super::timed_script::TimedScript;
 use crate::run::race::{Lane, LaneBody};
-use crate::scene::Scene;
+use crate::scene::{Action, Scene};
 use crate::sim::Solver;
 
 /// The exact solution of a scene, gone through from moment to moment.
@@ -106,4 +107,27 @@ impl ScriptedTruth {
 fn distance(body: &LaneBody, one: &[f64], other: &[f64]) -> f64 {
     let pairs = body.like_first(one).zip(body.like_first(other));
     pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+}
+
+/// The actions of a script that are still to be done.
+#[derive(Clone)]
+pub(super) struct TimedScript {
+    /// By time in seconds.
+    rows: Arc<[(f64, Action)]>,
+    done: usize,
+}
+
+impl TimedScript {
+    /// All of a scene's script.
+    pub(super) fn new(scene: &Scene) -> Self {
+        let rows = scene.timed_script().map(|(t, action)| (t, action.clone()));
+        Self { rows: rows.collect(), done: 0 }
+    }
+
+    /// The next action that is due by `t` (s), with its time.
+    pub(super) fn next_due(&mut self, t: f64) -> Option<(f64, Action)> {
+        let due = self.rows.get(self.done).filter(|(at, _)| *at <= t).cloned();
+        self.done += usize::from(due.is_some());
+        due
+    }
 }

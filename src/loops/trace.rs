@@ -2,8 +2,16 @@
 
 use std::sync::Arc;
 
-use super::frame::Frame;
 use super::time_base::RefreshRate;
+
+/// A frame of a game on a display: when it began and when its picture was displayed, in nanoseconds from the start of its trace.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// When the game began it, which is when it reads the time.
+    pub began_ns: i64,
+    /// When its picture appeared on the display; `None` if another replaced it before.
+    pub displayed_ns: Option<i64>,
+}
 
 /// The frames of a game on a display, by name.
 #[derive(Clone)]

@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
+pub use super::criterion::CriterionMet;
 use super::criterion::{CRITERIA, Criterion};
-pub use super::criterion_met::CriterionMet;
 use super::judge::{CriterionFinding, FULL_THROTTLE, Judge, horizon_s};
 use super::outcome::Outcome;
 use super::rank::Ranking;

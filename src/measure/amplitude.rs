@@ -1,6 +1,6 @@
 //! The change of an amplitude within the horizon, and the quantity of which it is one.
 
-use super::limits::VISIBLE;
+use super::criterion::VISIBLE;
 
 /// A change of the amplitude by this factor counts even if it happens at once and then stops.
 const LEAP: f64 = 1.5;

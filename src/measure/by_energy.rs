@@ -4,9 +4,9 @@
 use std::ops::ControlFlow;
 
 use super::amplitude::{Trend, amplitude};
+use super::criterion::VISIBLE;
 use super::energy::Means;
 use super::energy_finding::EnergyFinding;
-use super::limits::VISIBLE;
 use super::truth::{BodyTruth, FollowedBody, ticks};
 use super::verdict::RunFailure;
 use crate::run::race::StopReason;

@@ -6,8 +6,8 @@ use super::truth::BodyTruth;
 use crate::run::race::Chase;
 use crate::scene::LaneSpec;
 use crate::sim::Solver;
-use crate::sim::bisection::bisect;
 use crate::sim::number::{round, significant};
+use crate::sim::numerics::bisect;
 
 /// How a body closes on a target that stays, under a method and in truth.
 #[derive(Clone, Copy, Debug, PartialEq)]

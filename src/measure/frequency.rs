@@ -2,7 +2,7 @@
 
 use super::run::Run;
 use super::truth::{BodyTruth, Swing};
-use crate::sim::bisection::bisect;
+use crate::sim::numerics::bisect;
 
 /// The fewest crossings by which a frequency is measured: those of two whole turns.
 const FEWEST_CROSSINGS: usize = 3;

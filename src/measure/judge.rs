@@ -11,7 +11,7 @@ use super::amplitude::Trend;
 use super::by_energy::{EnergyRun, follow_energy};
 use super::change::MotionChange;
 use super::chase_finding::ChaseFinding;
-use super::limits::TOLERANCE;
+use super::criterion::TOLERANCE;
 use super::modes::Modes;
 use super::run::{MAX_WORK, Run, Until, follow};
 use super::slices::{Meter, Once, at_once};

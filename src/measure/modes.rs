@@ -2,15 +2,15 @@
 
 use super::amplitude::{Measure, Trend};
 use super::change::MotionChange;
-use super::limits::VISIBLE;
+use super::criterion::VISIBLE;
 use super::run::MAX_WORK;
 use super::swing_curve::SwingCurve;
 use super::truth::{BodyTruth, MovedMode, work_of};
 use super::verdict::LongTerm;
 use crate::scene::LaneSpec;
 use crate::sim::Stepper;
-use crate::sim::bisection::bisect;
 use crate::sim::integrators::{Family, StepFailure};
+use crate::sim::numerics::bisect;
 use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, unforced};
 
 /// Finding the modes would take more work than a run may.

@@ -4,7 +4,7 @@
 use crate::run::race::LaneBody;
 use crate::scene::LaneSpec;
 use crate::sim::Solver;
-use crate::sim::bisection::bisect;
+use crate::sim::numerics::bisect;
 use crate::sim::stability::Tick;
 
 /// Points on the true motion over the tick: enough for it to look smooth if it makes less than a turn.

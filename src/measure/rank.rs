@@ -4,7 +4,7 @@
 //! equal reserves the fewest substeps; then the place in the table of methods. A method whose reserve is below
 //! [`LITTLE_RESERVE`] is passed over where another of up to [`TIMES_ITS_COST`] its cost has a larger one.
 
-use super::criterion_met::{CriterionMet, MAX_STIFFER};
+use super::criterion::{CriterionMet, MAX_STIFFER};
 use crate::sim::integrators::{METHODS, Method};
 
 /// A reserve below this is little: a body half as stiff again is as much as a designer changes in an afternoon.

@@ -1,6 +1,6 @@
 //! Searches for the limit of a property.
 
-use super::criterion_met::MAX_STIFFER;
+use super::criterion::MAX_STIFFER;
 
 /// The number of substeps with this index in the sequence 1, 2, 3, 4, 6, 8, 12 … 64.
 pub(super) fn tried_substeps(index: u32) -> u32 {

@@ -3,7 +3,7 @@
 
 use crate::run::race::hermite;
 use crate::sim::Stepper;
-use crate::sim::bisection::bisect;
+use crate::sim::numerics::bisect;
 
 /// The parts of a step at which its curve is evaluated for a peak. They miss 0.2 % of a peak in a step of a third of a turn.
 const PARTS: u32 = 16;

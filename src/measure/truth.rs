@@ -11,17 +11,15 @@ use crate::sim::integrators::{GENERAL_METHODS, Override, StepFailure};
 use crate::sim::stability::{NormalMode, normal_modes};
 use crate::sim::{Solver, Stepper};
 
-mod amplitudes;
 mod followed_body;
 mod reach;
 mod series;
 mod swing;
 mod walk;
 
-use amplitudes::{amplitudes, largest_alike};
 pub(super) use followed_body::{FollowedBody, ticks, work_of};
 pub(super) use reach::Reach;
-use reach::ReachSoFar;
+use reach::{ReachSoFar, amplitudes};
 pub(super) use series::TruthSeries;
 use series::TruthSeriesByRate;
 pub(super) use swing::Swing;

@@ -2,8 +2,8 @@
 
 use super::amplitude::{Measure, Trend};
 use super::chase_finding::ChaseFinding;
+use super::criterion::TOLERANCE;
 use super::energy_finding::EnergyFinding;
-use super::limits::TOLERANCE;
 use super::outcome::Outcome;
 use crate::run::race::StopReason;
 use crate::sim::bodies::Truth;

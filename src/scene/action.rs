@@ -1,7 +1,6 @@
 //! The actions on a run, which a person, a script, a recording and a test have in common.
 
-use super::lane_id::LaneId;
-use super::lane_spec::LaneSpec;
+use super::lane_spec::{LaneId, LaneSpec};
 use crate::sim::Stepper;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::Method;

@@ -1,4 +1,4 @@
-//! Reads the bodies of a scene file.
+//! Reads the bodies of a scene file, and holds the methods that it names against them.
 
 use std::ops::Range as Span;
 use std::sync::Arc;
@@ -6,10 +6,14 @@ use std::sync::Arc;
 use super::errors::position;
 use super::law::{LAW, read_law};
 use super::net::{NET, read_net};
+use super::refusal::Refusal;
 use super::table::Table;
 use super::wanted::{Field, Wanted};
-use super::{MAX_BODIES, MAX_NAME_CHARS, SceneBody};
-use crate::sim::bodies::{BODIES, ClaimHorizon, Kind, Net, Parameter, Range, kind};
+use super::{LaneSpec, MAX_BODIES, MAX_NAME_CHARS, SceneBody};
+use crate::sim::bodies::{
+    BODIES, ClaimHorizon, Kind, Net, Parameter, Range, incompatibility, kind,
+};
+use crate::sim::integrators::{METHODS, Method};
 
 pub(super) const NAME: Field = Field::optional(
     "name",
@@ -119,4 +123,36 @@ pub(super) fn finish_bodies(bodies: Vec<BodyDraft>) -> Vec<SceneBody> {
         Some(SceneBody::new(name.expect("each has one by now"), kind?, values?))
     };
     bodies.into_iter().filter_map(finish).collect()
+}
+
+/// Reports the method of `key` at `span` if it refuses a body.
+pub(super) fn check_method(
+    key: &'static str,
+    method: &'static Method,
+    span: Span<usize>,
+    bodies: &[BodyDraft],
+    table: &mut Table<'_>,
+) {
+    let refused = bodies.iter().find_map(|BodyDraft { kind, name, values, .. }| {
+        let kind = kind.as_ref()?;
+        let reason = incompatibility(method, kind, values.as_ref()?)?;
+        let body = name.clone().unwrap_or_else(|| kind.id.into());
+        Some(Refusal { method: method.id, body, reason })
+    });
+    if let Some(refusal) = refused {
+        let remedy =
+            "name another method, or change the body; `regatta list methods` has what each is for";
+        table.complain(span, format!("`{key}`: {refusal}"), remedy);
+    }
+}
+
+/// A plain lane for each [method for games](Method::is_for_games) that steps all of these bodies.
+pub(super) fn every_lane(bodies: &[BodyDraft]) -> Vec<LaneSpec> {
+    let steps = |method: &Method, body: &BodyDraft| {
+        let known = body.kind.as_ref().zip(body.values.as_ref());
+        known.is_none_or(|(kind, values)| incompatibility(method, kind, values).is_none())
+    };
+    let own = METHODS.iter().filter(|method| method.is_for_games());
+    let fitting = own.filter(|method| bodies.iter().all(|body| steps(method, body)));
+    fitting.map(LaneSpec::plain).collect()
 }

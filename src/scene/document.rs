@@ -4,19 +4,20 @@ use std::ops::Range as Span;
 
 use toml::de::DeTable;
 
-use super::described::{BodyDraft, check_names, finish_bodies, name_the_nameless, read_bodies};
+use super::described::{
+    BodyDraft, check_method, check_names, every_lane, finish_bodies, name_the_nameless, read_bodies,
+};
 use super::errors::{SceneError, position};
 use super::fault::{FaultKind, SceneFault};
-use super::fitting::{check_method, every_lane};
 use super::keys::{Key, METHOD, keep, list, number, quoted, read_lane_spec};
 use super::nearest::{listed, nearest, offer};
 use super::script::{self, SceneContext};
 use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{
-    MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon, syntax,
+    CloudKind, LaneSpec, MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Scene, USUAL_SECONDS,
+    claim_horizon, syntax,
 };
-use crate::scene::{CloudKind, LaneSpec};
 use crate::sim::bodies::{BODIES, Range};
 use crate::sim::integrators::Method;
 

@@ -3,10 +3,9 @@
 use std::ops::Range as Span;
 
 use super::clip::clip;
-use super::described::BodyDraft;
+use super::described::{BodyDraft, check_method};
 use super::errors::SceneError;
 use super::fault::{FaultKind, SceneFault};
-use super::fitting::check_method;
 use super::keys::{
     JOINT_HZ, Key, METHOD, SPEC, SUBSTEPS, TOLERANCE, adaptive_methods, keep, number, numbers,
     quoted, read_lane_spec, read_tolerance,
@@ -15,10 +14,10 @@ use super::nearest::{listed, nearest, offer};
 use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{
-    Check, LAST_TICK, MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, MAX_TICK_HZ, Scene, Scripted,
+    Action, Check, LAST_TICK, LaneId, LaneSpec, MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS,
+    MAX_TICK_HZ, Scene, Scripted,
 };
 use crate::scene::edit::edited_values;
-use crate::scene::{Action, LaneId, LaneSpec};
 use crate::sim::bodies::{Acts, BODIES, MAX_VALUE, Parameter, Range};
 use crate::sim::integrators::Method;
 

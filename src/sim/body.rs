@@ -1,9 +1,8 @@
-//! The trait that every body implements, and the inputs a body can get.
+//! The trait that every body implements, the inputs a body can get, and the smooth pieces of its force law.
 
 use glam::DVec2;
 
 use super::parameter::{self, ParameterOf};
-use super::piece::{Distances, NO_BOUNDARIES, Piece};
 use super::state::Vector;
 use super::system::{BodyClass, StateOf, System};
 
@@ -189,3 +188,27 @@ pub enum Input {
     /// Adds an impulse: this multiple of the body's own kick.
     Kick(f64),
 }
+
+/// The most switches of a body.
+pub const MAX_SWITCHES: usize = 32;
+
+/// A smooth piece of a force law, named by the mode of each switch: a part of the law that has a corner
+/// or a jump. A body without switches has one piece.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// The modes, in the order of the switches; 0 beyond the last.
+    pub modes: [i64; MAX_SWITCHES],
+}
+
+impl Piece {
+    /// The piece with every switch in mode 0.
+    pub const FIRST: Self = Self { modes: [0; MAX_SWITCHES] };
+}
+
+/// Signed distances from a state to the boundaries of a piece: for each switch, to that with the mode
+/// below and to that with the mode above. A distance is negative if the state is beyond that boundary by
+/// more than rounding; it is infinite where there is no boundary.
+pub type Distances = [[f64; 2]; MAX_SWITCHES];
+
+/// No boundary anywhere.
+pub const NO_BOUNDARIES: Distances = [[f64::INFINITY; 2]; MAX_SWITCHES];

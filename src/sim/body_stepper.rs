@@ -15,9 +15,8 @@ use super::integrators::{
 };
 use super::propagator::{AnyMethod, MethodPropagator, Propagator};
 use super::reference::{Reference, is_beyond_reference};
-use super::solver::Solver;
 use super::state::{State, Vector, bytes_with_vectors};
-use super::stepper::{Change, PlacedBody, RecordedTick, Stepper};
+use super::stepper::{Change, PlacedBody, RecordedTick, Solver, Stepper};
 use super::system::{
     BodyClass, Counted, Coupling, EngineSettings, Logged, Pursuit, StateOf, System,
 };

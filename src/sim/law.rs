@@ -6,21 +6,21 @@
 //! `x*x` and `x^3` those of `x*x*x`, and `x^-2` those of `1/(x*x)`; any other exponent is `libm::pow`'s. The parser
 //! calls itself for brackets, signs and functions, at most [`MAX_DEPTH`] within each other.
 
-use crate::sim::piece::Distances;
+use super::body::Distances;
 
 use compile::{Compiled, Compiler, check_names};
+use fault::{ExpressionFault, quoted};
 use form::{is_angle, is_linear};
 use jet::Jet;
+use op::Op;
 use tape::Tape;
 
 mod compile;
-mod diagnosis;
 mod expression;
 mod fault;
 mod form;
 mod function;
 mod jet;
-mod lanes;
 mod op;
 mod registers;
 mod switch;
@@ -30,7 +30,7 @@ mod token;
 
 pub use expression::{MAX_BYTES, MAX_DEPTH};
 pub use fault::{LawFault, Part, Remedy};
-pub(in crate::sim) use lanes::LawLanes;
+pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText, Layout};
@@ -296,5 +296,34 @@ impl Equations {
             tape.outputs.first().map(|&slot| slots[slot as usize][1])
         };
         Some([rate(true)?, rate(false)?])
+    }
+}
+
+impl Equations {
+    /// The fault of the first operation that makes an acceleration infinite or undefined in the last
+    /// evaluation; `None` if all accelerations are finite.
+    pub(in crate::sim) fn not_finite(&self, registers: &Registers) -> Option<LawFault> {
+        let value = |slot: u16| registers.motion[slot as usize];
+        let mut slot = *self.motion.outputs.iter().find(|&&slot| !value(slot).is_finite())?;
+        loop {
+            let (op, operands, ..) = self.motion.operations().find(|(_, _, to, _)| *to == slot)?;
+            // Of a choice, the branch that was not taken does not matter.
+            let taken =
+                |n: &usize| op != Op::If || *n == if value(operands[0]) == 1.0 { 1 } else { 2 };
+            let mut rows = (0..operands.len()).filter(taken).map(|n| operands[n]);
+            if let Some(operand) = rows.find(|&operand| !value(operand).is_finite())
+                && self.motion.origin(operand).is_some()
+            {
+                slot = operand;
+                continue;
+            }
+            let origin = self.motion.origin(slot)?;
+            let divides = op == Op::Divide && value(operands[1]) == 0.0;
+            let what = if divides { "divides by zero" } else { "is not finite" };
+            let written = quoted(&self.part(origin.part)[origin.span.clone()]);
+            let remedy = "give another start or other constants, or guard it with `if` or `max`";
+            let what = format!("`{written}` {what} at the start");
+            return Some(ExpressionFault::new(origin.span.clone(), what, remedy).of(origin.part));
+        }
     }
 }

@@ -9,6 +9,8 @@
 //!
 //! Of a body of many coordinates the spectral radius alone is found, about its present state, by power iteration.
 
+use super::integrators::Method;
+
 mod comparison;
 mod deviation;
 mod modes;
@@ -16,12 +18,31 @@ mod power;
 mod search;
 mod small_motion;
 mod spectrum;
-mod tick;
-mod trend;
 
 pub use comparison::{FOREVER_S, Stability};
 pub use modes::{NormalMode, unforced};
 pub use power::PowerIteration;
 pub use search::{RATES_HZ, RateSearch};
 pub use small_motion::{CoupledMotion, NoSmallMotion, SmallMotion, normal_modes};
-pub use tick::Tick;
+
+/// One tick of a lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tick {
+    /// Its start, in seconds.
+    pub t: f64,
+    /// Its length, in seconds.
+    pub h: f64,
+    /// Equal steps in it.
+    pub substeps: u32,
+}
+
+impl Tick {
+    /// The step that a method repeats in this tick, as a tick of its own, and how often: an engine's substeps share one
+    /// force, so that its whole tick is one step.
+    pub fn repeated(self, method: Option<&Method>) -> (Tick, u32) {
+        if method.is_some_and(Method::is_engine) {
+            return (self, 1);
+        }
+        (Tick { h: self.h / f64::from(self.substeps), substeps: 1, ..self }, self.substeps)
+    }
+}

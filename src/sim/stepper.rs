@@ -1,4 +1,4 @@
-//! An object-safe stepper: a body, its solver and its state behind one dynamic call per tick.
+//! An object-safe stepper: a body, what advances it and its state behind one dynamic call per tick.
 
 use std::any::Any;
 use std::ops::Deref;
@@ -6,10 +6,31 @@ use std::ops::Deref;
 use glam::DVec2;
 
 use super::body::{Body, Input};
-use super::integrators::{Method, StepFailure, Stepped};
-use super::solver::Solver;
+use super::integrators::{Method, Override, StepFailure, Stepped};
 use super::state::Vector;
 use super::system::{Coupling, EngineSettings, Evaluation, Pursuit, StateOf};
+
+/// What a body is advanced by: a method, or the truth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Solver {
+    /// A method from the table.
+    Method(&'static Method),
+    /// A method from the table, with its card's tolerance or the body's joint replaced. A method without a tolerance,
+    /// and an engine on a body without a joint, ignore it.
+    With(&'static Method, Override),
+    /// The exact flow from the last jump; for a body without a closed form, a reference solution.
+    Truth,
+}
+
+impl Solver {
+    /// The method, unless this is the truth.
+    pub fn method(self) -> Option<&'static Method> {
+        match self {
+            Solver::Method(method) | Solver::With(method, _) => Some(method),
+            Solver::Truth => None,
+        }
+    }
+}
 
 /// A tick that was taken on a copy of a body.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,28 +3,23 @@
 //! Every method with steps of one length is run under 1 to 16 substeps, from a start that is fitted to the log by least
 //! squares. The residual decides: a method is named if its residual is at noise level and no other's is.
 
-use crate::sim::integrators::{METHODS, Method};
+use crate::sim::integrators::{METHODS, Method, method};
 
 mod candidates;
 mod decision;
 mod effective;
 mod fit;
 mod logged;
-mod logged_body;
 mod motion;
-mod nearest;
-mod search;
 
+use candidates::candidates;
 pub use candidates::{Candidate, SpringAs};
-use decision::{Decision, decide};
+use decision::{Decision, NO_FIT, decide, rounding};
 pub use effective::Effective;
 pub(crate) use effective::SLOW;
-use fit::Fit;
-pub use logged::{ColumnNames, Log, LogError, LogRow, LogSetting};
-pub use logged_body::LoggedBody;
+use fit::{Fit, fit};
+pub use logged::{ColumnNames, Log, LogError, LogRow, LogSetting, LoggedBody};
 pub(crate) use motion::run;
-use nearest::nearest;
-use search::search;
 
 /// A candidate, and how far the log is from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,4 +134,62 @@ fn recommended(
     found.sort_by_key(|(method, _)| method.evaluations.unwrap_or(u32::MAX));
     found.truncate(MAX_RECOMMENDED);
     found
+}
+
+/// The first part of a log, to which every candidate is fitted, in ticks.
+const HEAD_TICKS: u64 = 60;
+/// A candidate whose sum of squares exceeds the nearest's by this factor does not explain a log.
+const APART: f64 = 4.0;
+
+/// The candidates that may explain `log`, and the nearest that does not, each fitted.
+///
+/// The residual on the head of a log is a lower bound for that on the whole log. So candidates are taken in that order,
+/// until the bound of the next is too large.
+fn search(log: &Log, body: &LoggedBody, tick_hz: f64) -> Vec<(Candidate, Fit)> {
+    let head = if body.spring.is_some() { log.head(HEAD_TICKS) } else { log.clone() };
+    let is_whole = head.rows().len() == log.rows().len();
+    let fit_to = |log: &Log, candidate| fit(log, body, candidate, tick_hz);
+    let mut queue: Vec<(Candidate, Fit)> = candidates(body)
+        .into_iter()
+        .filter_map(|candidate| Some((candidate, fit_to(&head, candidate)?)))
+        .collect();
+    queue.sort_by(|(_, a), (_, b)| a.squares().total_cmp(&b.squares()));
+    let (mut fits, mut squares): (Vec<(Candidate, Fit)>, Vec<f64>) = (Vec::new(), Vec::new());
+    for (candidate, of_head) in queue {
+        if of_head.squares() > enough(&squares, log) {
+            break;
+        }
+        let fit = if is_whole { Some(of_head) } else { fit_to(log, candidate) };
+        let Some(fit) = fit else { continue };
+        squares.push(fit.squares());
+        fits.push((candidate, fit));
+    }
+    fits
+}
+
+/// The sum of squares beyond which nothing is worth a fit.
+fn enough(squares: &[f64], log: &Log) -> f64 {
+    let numbers = log.numbers() as f64;
+    let nearest = squares.iter().copied().fold(f64::INFINITY, f64::min);
+    let rounding = rounding((nearest / numbers).sqrt(), log.is_double());
+    let near = APART * (nearest + numbers * rounding * rounding);
+    let farther = squares.iter().copied().filter(|squares| *squares > near);
+    near.max(farther.fold(f64::INFINITY, f64::min))
+}
+
+/// The id of a method that is exact on springs with drag.
+const EXACT: &str = "exponential-rosenbrock-euler";
+
+/// The motion of the equation that comes nearest to a log; `None` if none comes near.
+fn nearest(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Effective> {
+    let seen = Effective::of_log(log, body, 1.0 / tick_hz)?;
+    let mut free = body.clone();
+    match seen.spring() {
+        Some(_) => free.spring = None,
+        None => free.drag = seen.decay,
+    }
+    let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringAs::Acceleration };
+    let fit = fit(log, &free, exact, tick_hz)?;
+    let is_near = fit.residual() <= NO_FIT;
+    is_near.then(|| Effective::exact(&fit.body))?
 }

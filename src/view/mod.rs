@@ -16,8 +16,6 @@ mod legibility;
 mod lines;
 mod mesh_buffer;
 mod meshes;
-mod missing_glyph;
-mod offscreen;
 mod offscreen_renderer;
 mod panels;
 pub mod png;
@@ -33,7 +31,6 @@ mod testing;
 mod textures;
 mod theme;
 mod touch;
-mod wheel;
 
 /// The crates of this module's signatures, in their versions.
 pub use {egui, wgpu};
@@ -44,8 +41,7 @@ pub use copying::{Copied, copied};
 pub use frame::{FrameOutput, FrameRenderer, Layout};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
 pub use keyboard::{Meaning, Modifiers, bound_key, command_of};
-pub use offscreen::Offscreen;
-pub use offscreen_renderer::OffscreenRenderer;
+pub use offscreen_renderer::{Offscreen, OffscreenRenderer};
 pub use panels::Panels;
 pub use readback::{Readback, ReadbackError};
 pub use screen::Screen;

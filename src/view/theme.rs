@@ -1,12 +1,12 @@
-//! What panels are painted with: the colours of the theme, the fonts, the size of type.
+//! What panels are painted with: the colours of the theme, the fonts and the box for a sign that none has, the size of type.
 
 use std::sync::LazyLock;
 
 use egui::{
-    Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, FontTweak, Stroke, Ui,
+    Color32, ColorImage, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, FontTweak,
+    GlyphBitmap, GlyphRasterizer, GlyphRasterizerRequest, RasterizedGlyph, Stroke, Ui, Vec2, vec2,
 };
 
-use super::missing_glyph;
 use crate::look::palette::{Palette, Rgba, Theme};
 use crate::scene::LaneSpec;
 use crate::studio::Display;
@@ -129,7 +129,7 @@ pub(super) fn quantity_font(size: f32) -> FontId {
 /// The look of every widget. Set once for each context.
 pub(super) fn apply_style(context: &egui::Context) {
     context.set_fonts(fonts());
-    context.add_glyph_rasterizer(missing_glyph::rasterizer());
+    context.add_glyph_rasterizer(missing_glyph());
     // The keys for the size of type are ours.
     context.options_mut(|options| options.zoom_with_keyboard = false);
     for theme in [Theme::Dark, Theme::Light] {
@@ -199,8 +199,8 @@ fn dress_style(style: &mut egui::Style, palette: &PanelPalette) {
     // The same input makes the same frame, whenever it is drawn.
     style.animation_time = 0.0;
     style.visuals.text_cursor.blink = false;
-    style.spacing.item_spacing = egui::vec2(6.0, 3.0);
-    style.spacing.button_padding = egui::vec2(8.0, 4.0);
+    style.spacing.item_spacing = vec2(6.0, 3.0);
+    style.spacing.button_padding = vec2(8.0, 4.0);
     style.spacing.interact_size.y = 24.0;
     for (text_style, size) in [
         (egui::TextStyle::Body, TYPE),
@@ -239,10 +239,48 @@ fn dress_style(style: &mut egui::Style, palette: &PanelPalette) {
     }
 }
 
+/// Width and height of the box for a sign that no font has, the width of its line, and the room on each side, in units of
+/// the size of type.
+const BOX_WIDTH: f32 = 0.5;
+const BOX_HEIGHT: f32 = 0.7;
+const BOX_LINE: f32 = 1.0 / 14.0;
+const BOX_MARGIN: f32 = 0.1;
+
+/// Draws a box for every sign that no font has, such as a Chinese character in a body's name. The fonts are cut down, and
+/// their own box is empty.
+fn missing_glyph() -> GlyphRasterizer {
+    GlyphRasterizer::new("regatta::missing_glyph", missing_glyph_box)
+}
+
+fn missing_glyph_box(request: &GlyphRasterizerRequest<'_>) -> Option<RasterizedGlyph> {
+    if request.cluster.chars().all(|sign| sign.is_whitespace() || sign.is_control()) {
+        return None;
+    }
+    let pixels = |part: f32, least: f32| (part * request.font_size_px).round().max(least) as usize;
+    let ([width, height], line) =
+        ([BOX_WIDTH, BOX_HEIGHT].map(|side| pixels(side, 3.0)), pixels(BOX_LINE, 1.0));
+    let mut image = ColorImage::filled([width, height], Color32::TRANSPARENT);
+    for y in 0..height {
+        for x in 0..width {
+            let is_inside = (line..width - line).contains(&x) && (line..height - line).contains(&y);
+            if !is_inside {
+                image[(x, y)] = Color32::WHITE;
+            }
+        }
+    }
+    let margin = pixels(BOX_MARGIN, 0.0) as f32;
+    // It stands on the baseline.
+    let offset_px: Vec2 = vec2(margin, -(height as f32));
+    let bitmap = GlyphBitmap { image, offset_px, is_color: false };
+    Some(RasterizedGlyph { bitmap, advance_px: width as f32 + 2.0 * margin })
+}
+
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
     use std::path::{Path, PathBuf};
+
+    use egui::{Context, RawInput};
 
     use super::*;
 
@@ -288,9 +326,9 @@ mod tests {
 
     #[test]
     fn every_sign_of_the_project_and_of_european_names_is_in_a_font() {
-        let context = egui::Context::default();
+        let context = Context::default();
         apply_style(&context);
-        context.run_ui(egui::RawInput::default(), |_| {}).textures_delta.clear();
+        context.run_ui(RawInput::default(), |_| {}).textures_delta.clear();
         let mut signs = BTreeSet::new();
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         for folder in ["src", "assets"] {
@@ -307,5 +345,25 @@ mod tests {
                 assert_eq!(lacking, "", "{font:?}; add them to assets/fonts/subset.py");
             }
         });
+    }
+
+    #[test]
+    fn a_sign_that_no_font_has_is_drawn_as_a_box_and_a_blank_as_nothing() {
+        let context = Context::default();
+        apply_style(&context);
+        context.run_ui(RawInput::default(), |_| {}).textures_delta.clear();
+        let inked = |words: &str, font: FontId| {
+            let layout = |fonts: &mut egui::epaint::text::FontsView<'_>| {
+                fonts.layout_no_wrap(words.into(), font, Color32::WHITE)
+            };
+            context.fonts_mut(layout).mesh_bounds
+        };
+        for font in [FontId::proportional(13.0), strong_font(13.0)] {
+            for words in ["船", "ロープ", "🦭"] {
+                let bounds = inked(words, font.clone());
+                assert!(bounds.width() > 5.0 && bounds.height() > 8.0, "{words}: {bounds:?}");
+            }
+            assert!(!inked("\u{3000}", font).is_positive());
+        }
     }
 }

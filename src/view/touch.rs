@@ -6,7 +6,6 @@ use std::collections::VecDeque;
 use egui::{Align2, CursorIcon, Event, FontId, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
 use super::theme::{TYPE, palette};
-use super::wheel;
 use crate::run::race::Mode;
 use crate::scene::Action;
 use crate::stage::{Cell, Grasp, Picture, Whose};
@@ -258,7 +257,7 @@ impl Touch {
 /// Zooms about the pointer by the wheel, or a pinch, and fits after a double click.
 fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
     let Some(cell) = stage.cell(at) else { return };
-    let (times, _) = wheel::turned(ui);
+    let (times, _) = wheel_or_pinch(ui);
     let body = cell.zoomed_as;
     if ui.input(|input| input.pointer.button_double_clicked(PointerButton::Primary)) {
         commands.push(Command::View(ViewCommand::ZoomPan { body, zoom_pan: ZoomPan::default() }));
@@ -293,3 +292,13 @@ impl Track {
 
 #[cfg(test)]
 mod tests;
+
+/// How far a wheel turns to enlarge by the factor e, in points; a notch is some 40.
+const WHEEL: f64 = 200.0;
+
+/// What the wheel and a pinch ask of what is under the pointer: how many times larger it is to be, and how far it is to
+/// move to the right, in points.
+pub(super) fn wheel_or_pinch(ui: &Ui) -> (f64, f32) {
+    let (scrolled, pinched) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
+    (libm::exp(f64::from(scrolled.y) / WHEEL) * f64::from(pinched), scrolled.x)
+}

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::run::{exactly, scene};
+use super::{exactly, scene};
 use crate::sim::bodies::{Body, Ship};
 use crate::sim::integrators::{AdaptiveEuler, AdaptiveEulerAsPrinted, Integrator, Tolerance};
 use crate::sim::number::significant;

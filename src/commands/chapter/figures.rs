@@ -2,7 +2,7 @@
 
 use std::io;
 
-use super::run::{Moment, by_method, exactly, method_of, scene};
+use super::{Moment, by_method, exactly, method_of, scene};
 use crate::commands::output::table::{RowFormat, RowWriter};
 use crate::look::palette::Theme;
 use crate::scene::Scene;

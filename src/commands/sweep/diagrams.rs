@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::grid::{Row, Swept};
 use super::round_off::{ErrorCurve, Width};
-use crate::commands::plot::columns;
+use crate::commands::drawing::columns;
 use crate::look::palette::Theme;
 use crate::sim::integrators::Method;
 use crate::sim::number::round;

@@ -5,12 +5,11 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::VerifyArgs;
 use super::physics::{PhysicsChange, first_change};
 #[cfg(feature = "view")]
 use super::pixels;
 use super::report::{DIRECTORY, Report, print_line};
-use super::rerun::{Frames, Rerun};
+use super::{Frames, Rerun, VerifyArgs};
 use crate::commands::argument::brief;
 #[cfg(feature = "view")]
 use crate::commands::clip::record;

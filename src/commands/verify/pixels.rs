@@ -2,16 +2,14 @@
 
 use std::fs;
 
-use super::VerifyArgs;
-use super::rerun::{Frames, Rerun};
+use super::{Frames, Rerun, VerifyArgs};
 use crate::atomic_file::IfExists;
 use crate::commands::argument::brief;
 use crate::commands::drawing::{adapter, interrupted_after};
 use crate::commands::error::{Error, PlaceOf};
-use crate::commands::fingerprint::fingerprint;
 use crate::commands::frame_names::{frames_claimed, is_marked, not_ours};
 use crate::commands::interrupt::watch_for_interrupt;
-use crate::commands::manifest::{Adapter, FILE_NAME, FrameEntry, Manifest};
+use crate::commands::manifest::{Adapter, FILE_NAME, FrameEntry, Manifest, fingerprint};
 use crate::commands::output::begin_file;
 use crate::commands::pipeline::{DrawnFrame, Pipeline};
 use crate::commands::schedule::Schedule;

@@ -1,8 +1,9 @@
-//! The body in one loop, frame by frame.
+//! The body in one loop, frame by frame, and what is measured of a frame.
 
 use crate::loops::{FrameTrace, LoopRun, MIN_RUN_S, PacingReport, PolicyCard};
 use crate::run::past::Energies;
 use crate::run::race::LaneBody;
+use crate::run::{Scale, Unit};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::Method;
 
@@ -118,3 +119,50 @@ impl LoopLane {
         self.frames.partition_point(|frame| frame.displayed_ns <= now_ns).checked_sub(1)
     }
 }
+
+/// A measure of a displayed frame.
+#[derive(Debug)]
+pub struct FrameMetric {
+    /// Its name in output, `snake_case`.
+    pub id: &'static str,
+    /// Its name for people.
+    pub name: &'static str,
+    /// Its unit.
+    pub unit: Unit,
+    /// How it is plotted.
+    pub scale: Scale,
+    /// Its value.
+    pub measure: fn(&LoopFrame) -> f64,
+}
+
+/// Every measure of a frame, in menu order.
+pub static FRAME_METRICS: &[FrameMetric] = &[
+    FrameMetric {
+        id: "position_error",
+        name: "position error",
+        unit: Unit::Coordinate,
+        scale: Scale::Log,
+        measure: |frame| (frame.q[0] - frame.exact[0]).abs(),
+    },
+    FrameMetric {
+        id: "animation_error",
+        name: "animation error",
+        unit: Unit::Milliseconds,
+        scale: Scale::Linear,
+        measure: |frame| frame.animation_error_ms,
+    },
+    FrameMetric {
+        id: "latency",
+        name: "latency",
+        unit: Unit::Milliseconds,
+        scale: Scale::Linear,
+        measure: LoopFrame::latency_ms,
+    },
+    FrameMetric {
+        id: "ticks",
+        name: "ticks per frame",
+        unit: Unit::One,
+        scale: Scale::Linear,
+        measure: |frame| f64::from(frame.ticks),
+    },
+];

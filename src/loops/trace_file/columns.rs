@@ -2,8 +2,7 @@
 
 use csv::StringRecord;
 
-use super::error::Fault;
-use super::milliseconds;
+use super::{Fault, milliseconds};
 use crate::scene::{clip, clip_list};
 
 /// Whether a row says how long it took until its frame, or from its frame on.

@@ -1,10 +1,9 @@
 //! The frames of one window, put together row by row.
 
+use super::Fault;
 use super::columns::{Cells, Span};
-use super::error::Fault;
-use crate::loops::frame::Frame;
 use crate::loops::time_base::RefreshRate;
-use crate::loops::trace::FrameTrace;
+use crate::loops::trace::{Frame, FrameTrace};
 
 const YEAR_NS: i64 = 365 * 86_400_000_000_000;
 

@@ -3,8 +3,7 @@
 use super::{Judge, without_truth};
 use crate::measure::by_energy::follow_energy;
 use crate::measure::change::bounded;
-use crate::measure::criterion::Criterion;
-use crate::measure::limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
+use crate::measure::criterion::{Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use crate::measure::modes::{Modes, TooMuch};
 use crate::measure::run::{Run, Until, follow};
 use crate::measure::truth::BodyTruth;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
 use super::{Coverage, Meter, Region};
-use crate::sim::bisection::bisect;
+use crate::sim::numerics::bisect;
 
 /// Halvings of the distance between two points of the grid: a boundary is found to a five-hundredth of it, which is
 /// less than a pixel of a map that fills a screen.

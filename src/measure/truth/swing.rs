@@ -2,9 +2,9 @@
 
 use super::{BodyTruth, TruthNode};
 use crate::measure::amplitude::Measure;
-use crate::measure::limits::{FREQUENCY_TOLERANCE, VISIBLE};
+use crate::measure::criterion::{FREQUENCY_TOLERANCE, VISIBLE};
 use crate::sim::Solver;
-use crate::sim::bisection::bisect;
+use crate::sim::numerics::bisect;
 
 /// The share of the energy from which on a mode is all of the motion.
 const ONE_MODE: f64 = 0.99;

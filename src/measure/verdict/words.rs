@@ -5,8 +5,8 @@ use std::fmt;
 use super::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
 use crate::measure::amplitude::Measure;
 use crate::measure::chase_finding::ChaseFinding;
+use crate::measure::criterion::{TOLERANCE, VISIBLE};
 use crate::measure::energy_finding::EnergyFinding;
-use crate::measure::limits::{TOLERANCE, VISIBLE};
 use crate::measure::outcome::Outcome;
 use crate::sim::number::{round, significant, superscript};
 

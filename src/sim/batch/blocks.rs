@@ -3,10 +3,8 @@
 use std::marker::PhantomData;
 use std::ops::Range;
 
-use super::chunks::Chunks;
-use super::copies::Copies;
 use super::instruction_set::{InstructionSet, Kernel, NARROW, WIDE};
-use super::{Advance, Ticks};
+use super::{Advance, Chunks, Copies, Ticks};
 use crate::sim::cores;
 use crate::sim::integrators::{Construct, Integrator, Method, MethodOf};
 use crate::sim::state::State;

@@ -6,27 +6,24 @@
 //! each copy has the state that the body has alone.
 
 mod blocks;
-mod chunks;
-mod copies;
 mod instruction_set;
 mod one_by_one;
 
 use std::collections::TryReserveError;
+use std::ops::Range;
+
+use rayon::prelude::*;
 
 use blocks::in_blocks;
-pub(in crate::sim) use copies::Copies;
-pub use copies::OneCoordinate;
-use copies::Uniform;
-#[cfg(feature = "lab")]
-pub(in crate::sim) use copies::UniformBlock;
 pub use instruction_set::InstructionSet;
 #[cfg(feature = "lab")]
 pub(in crate::sim) use instruction_set::Kernel;
 use one_by_one::one_by_one;
 
-use super::integrators::{Method, steps_in_blocks};
-use super::solver::Solver;
+use super::integrators::{Method, Problem, problem, steps_in_blocks};
 use super::state::State;
+use super::stepper::Solver;
+use super::system::System;
 
 /// Consecutive ticks of one rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -230,5 +227,87 @@ impl Batch {
     pub fn change(&mut self, mut change: impl FnMut(&mut f64, &mut f64)) {
         self.q.iter_mut().zip(&mut self.v).for_each(|(q, v)| change(q, v));
         self.advance.reset();
+    }
+}
+
+/// Copies of a body of one coordinate, as a batch steps them: in blocks, or each alone.
+pub(in crate::sim) trait Copies: Clone + Send + Sync + 'static {
+    /// Whether an evaluation is interpreted; wide blocks share the cost of each look-up.
+    const IS_INTERPRETED: bool = false;
+
+    /// `W` copies at once.
+    type Block<const W: usize>: System<Vector = [f64; W]>;
+
+    /// `W` copies, on an instruction set.
+    fn block<const W: usize>(&self, set: InstructionSet) -> Self::Block<W>;
+
+    /// One copy.
+    fn alone(&self) -> Problem<f64>;
+}
+
+/// A system that a batch can step: of one coordinate, and shared by threads.
+pub trait OneCoordinate: System<Vector = f64> + Clone + Send + Sync + 'static {}
+
+impl<S: System<Vector = f64> + Clone + Send + Sync + 'static> OneCoordinate for S {}
+
+/// Identical copies.
+#[derive(Clone)]
+struct Uniform<S>(S);
+
+/// A block of [`Uniform`].
+pub(in crate::sim) struct UniformBlock<S, const W: usize>(pub(in crate::sim) S);
+
+impl<S: OneCoordinate> Copies for Uniform<S> {
+    type Block<const W: usize> = UniformBlock<S, W>;
+
+    fn block<const W: usize>(&self, _set: InstructionSet) -> UniformBlock<S, W> {
+        UniformBlock(self.0.clone())
+    }
+
+    fn alone(&self) -> Problem<f64> {
+        problem(self.0.clone())
+    }
+}
+
+impl<S: System<Vector = f64>, const W: usize> System for UniformBlock<S, W> {
+    type Vector = [f64; W];
+
+    #[inline(always)]
+    fn acceleration(&self, t: f64, q: &[f64; W], v: &[f64; W], a: &mut [f64; W]) {
+        for i in 0..W {
+            self.0.acceleration(t, &q[i], &v[i], &mut a[i]);
+        }
+    }
+}
+
+/// Copies in parts, which the threads of rayon's pool share.
+///
+/// Each part of neighbouring copies has its own way to advance: for methods and bodies of every type the threads
+/// are shared by the same code.
+struct Chunks {
+    grain: usize,
+    parts: Vec<Box<dyn Advance>>,
+}
+
+impl Chunks {
+    /// `count` copies in parts of `grain` and a rest.
+    fn new(grain: usize, count: usize, part: impl FnMut(Range<usize>) -> Box<dyn Advance>) -> Self {
+        let firsts = (0..count).step_by(grain);
+        Self {
+            grain,
+            parts: firsts.map(|first| first..count.min(first + grain)).map(part).collect(),
+        }
+    }
+}
+
+impl Advance for Chunks {
+    fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]) {
+        let states = q.par_chunks_mut(self.grain).zip(v.par_chunks_mut(self.grain));
+        let parts = self.parts.par_iter_mut().zip(states);
+        parts.for_each(|(part, (q, v))| part.advance(ticks, q, v));
+    }
+
+    fn reset(&mut self) {
+        self.parts.iter_mut().for_each(|part| part.reset());
     }
 }

@@ -2,12 +2,10 @@
 
 use std::ops::Range;
 
-use super::chunks::Chunks;
-use super::copies::Copies;
-use super::{Advance, Ticks};
+use super::{Advance, Chunks, Copies, Ticks};
 use crate::sim::integrators::{Integrator, Problem, fresh};
-use crate::sim::solver::Solver;
 use crate::sim::state::State;
+use crate::sim::stepper::Solver;
 
 /// Neighbouring copies with an integrator each.
 struct OneByOne<C> {

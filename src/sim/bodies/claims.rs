@@ -8,9 +8,9 @@ use std::cell::OnceCell;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::sim::body::Body;
+use crate::sim::numerics::XorShift;
 use crate::sim::reference::Reference;
 use crate::sim::state::State;
-use crate::sim::xor_shift::XorShift;
 
 /// When claims are held against the equation, in seconds: at the start and on a wide range of scales after it.
 pub(super) const TIMES: [f64; 12] =

@@ -11,9 +11,8 @@ use crate::sim::law::{Equations, shown_unit};
 use crate::sim::net_plan::NetPlan;
 use crate::sim::parameter::{Fault, Parameter, ParameterOf, Text};
 use crate::sim::reference::REFERENCE_ACCURACY;
-use crate::sim::solver::Solver;
 use crate::sim::state::State;
-use crate::sim::stepper::Stepper;
+use crate::sim::stepper::{Solver, Stepper};
 use crate::sim::system::{BodyClass, EngineSettings};
 
 /// The kind of solution that methods are compared with.

@@ -1,4 +1,4 @@
-//! The bodies: one file each, one line each in the table below.
+//! The bodies: one file each, one line each in the table below; and which of them a method steps.
 //!
 //! A body is a closed system with natural coordinates, and with an exact flow if it has a closed form.
 //! Its [`Kind`] card says how a scene describes it; [`Look`](crate::look::Look) says how it is
@@ -6,12 +6,14 @@
 
 use std::sync::{Arc, LazyLock};
 
+use super::integrators::Method;
+use follow::LAW_ORDER;
+
 mod chain;
 mod claims;
 mod custom;
 mod follow;
 mod helm;
-mod incompatibility;
 mod kepler;
 mod kind;
 mod law;
@@ -28,7 +30,6 @@ pub use claims::{ClaimHorizon, FalseClaims};
 pub use custom::{Custom, CustomFault, Energy, Exact, Extras, custom_kind};
 pub use follow::Follow;
 pub use helm::Helm;
-pub use incompatibility::{incompatibility, stepped_kinds};
 pub use kind::{BatchFn, Build, Check, Coordinate, Coordinates, CustomInfo, Kind, Origin, Truth};
 pub use law::{Law, check_law, law_kind};
 pub use net::{Net, net_kind};
@@ -37,7 +38,7 @@ pub use pendulum::Pendulum;
 pub use ship::Ship;
 pub use spring::Spring;
 
-pub use super::body::{Body, Input};
+pub use super::body::{Body, Distances, Input, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 pub use super::curve::Curve;
 pub use super::net_plan::{
     Form, Grid, Lists, MAX_NODES, MAX_SPRINGS, NetFault, NetPart, NetPlan, Pin, PlannedSpring,
@@ -45,7 +46,6 @@ pub use super::net_plan::{
 pub use super::parameter::{
     Acts, Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, Text,
 };
-pub use super::piece::{Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 
 /// Every kind of body, in menu order.
 pub static BODIES: LazyLock<Vec<Arc<Kind>>> = LazyLock::new(|| {
@@ -65,4 +65,28 @@ pub static BODIES: LazyLock<Vec<Arc<Kind>>> = LazyLock::new(|| {
 /// which are not in the table.
 pub fn kind(id: &str) -> Option<&'static Arc<Kind>> {
     BODIES.iter().find(|kind| kind.id == id)
+}
+
+/// Why `method` does not step a body of `kind` with these parameter values, as its [card](crate::sim::integrators::Only)
+/// or the [class](Kind::class) of the body says; `None` if it does.
+pub fn incompatibility(method: &Method, kind: &Kind, values: &[f64]) -> Option<&'static str> {
+    let only = method.only?;
+    let is_of = |order: u32| {
+        let parameter = kind.parameter(LAW_ORDER);
+        parameter.is_some_and(|(index, _)| values.get(index) == Some(&f64::from(order)))
+    };
+    let other_law = method.law_order().is_some_and(|order| !is_of(order));
+    other_law.then_some(only.reason).or_else(|| only.incompatibility(kind.class))
+}
+
+/// The kinds of bodies that `method` steps, for people; `None` if it steps all.
+pub fn stepped_kinds(method: &Method) -> Option<String> {
+    let only = method.only?;
+    let others = [("law", Law::CLASS), ("custom", Custom::CLASS), ("net", Net::CLASS)];
+    let kinds = BODIES.iter().map(|kind| (kind.id, kind.class)).chain(others);
+    let stepped = kinds.filter(|(_, class)| only.incompatibility(*class).is_none());
+    let ids = stepped.map(|(id, _)| id).collect::<Vec<_>>().join(", ");
+    Some(
+        method.law_order().map_or(ids.clone(), |order| format!("{ids} with {LAW_ORDER} = {order}")),
+    )
 }

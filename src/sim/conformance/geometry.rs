@@ -2,8 +2,8 @@
 
 use super::problems::{Problem, UnitPendulum, fixed_step, problem, spring};
 use super::{Claim, Measured, yes_or_no};
-use crate::sim::difference::{OFFSETS, fourth_order};
 use crate::sim::integrators::{Method, StepFailure};
+use crate::sim::numerics::{OFFSETS, fourth_order};
 use crate::sim::state::State;
 
 /// Large enough that a violation is far above round-off.

@@ -1,7 +1,7 @@
 //! Adams-Bashforth 2: extrapolates the slopes here and one step ago to the middle of the step.
 
 use super::prelude::*;
-use super::shared::last_step::LastStep;
+use super::shared::LastStep;
 
 pub(super) const CARD: Method = Method {
     id: "adams-bashforth-2",

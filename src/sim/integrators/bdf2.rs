@@ -1,7 +1,7 @@
 //! BDF2: the slope at the end from a parabola through the last two states and the new one.
 
 use super::prelude::*;
-use super::shared::last_step::LastStep;
+use super::shared::LastStep;
 use super::shared::newton::Newton;
 
 pub(super) const CARD: Method = Method {

@@ -5,8 +5,8 @@
 
 use super::custom_method::AnyIntegrator;
 use super::free_spin::FreeSpin;
+use super::integrator::Tolerance;
 use super::joint_mode::JointMode;
-use super::tolerance::Tolerance;
 use crate::sim::system::{BodyClass, Coupling};
 
 /// The families of methods, for menus and tables.

@@ -3,9 +3,8 @@
 
 use std::cell::RefCell;
 
-use super::failure::Stepped;
+use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
-use super::unfit::Unfit;
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{StateOf, System};
 use crate::sim::vec_system::{Scratch, VecSystem};
@@ -120,5 +119,21 @@ impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
 
     fn lost_time(&self) -> f64 {
         self.integrator.lost_time()
+    }
+}
+
+/// What stands for a method on a system that it cannot step: it refuses every step.
+#[derive(Clone)]
+pub(super) struct Unfit {
+    pub(super) reason: &'static str,
+}
+
+impl<S: System> Integrator<S> for Unfit {
+    fn new(_like: &S::Vector) -> Self {
+        Self { reason: "it was built without its card" }
+    }
+
+    fn step(&mut self, _system: &S, _t: f64, _h: f64, _state: &mut StateOf<S>) -> Stepped {
+        Err(StepFailure::Refused { reason: self.reason })
     }
 }

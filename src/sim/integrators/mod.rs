@@ -5,12 +5,11 @@
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
 //! of each card, both ways. A [custom](Method::custom) method needs no place in the table. To add one, copy `midpoint.rs`, declare it, and name it in `methods!`.
 
-use custom_method::CustomMethod;
+use custom_method::{CustomMethod, Unfit};
 use reset_on_change::ResetOnChange;
-use unfit::Unfit;
 
 use super::state::Vector;
-use super::system::{BodyClass, Coupling, System};
+use super::system::{BodyClass, Counted, Coupling, System};
 
 mod adams_bashforth_2;
 mod adaptive_euler;
@@ -59,7 +58,6 @@ mod physx_tgs;
 mod physx_tgs_56;
 mod position_verlet;
 mod prelude;
-mod problem;
 mod pybullet;
 mod rapier;
 mod reset_on_change;
@@ -71,9 +69,7 @@ mod shared;
 mod smooth_damp;
 mod ssp_rk3;
 mod stormer_verlet;
-mod tolerance;
 mod tr_bdf2;
-mod unfit;
 mod velocity_verlet;
 mod verlet_exact_drag;
 mod yoshida4;
@@ -87,11 +83,18 @@ pub use engine::{EngineMethod, EngineRule, EngineTick};
 pub use failure::{StepFailure, Stepped};
 pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
-pub use integrator::{Integrator, Override};
+pub use integrator::{Integrator, Override, Tolerance};
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
-pub use problem::{Problem, fresh, problem};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
-pub use tolerance::Tolerance;
+
+/// A system whose type is forgotten, with coordinates of type `V`, so that the methods are compiled for all of them once. It
+/// counts evaluations.
+pub type Problem<V> = Counted<Box<dyn System<Vector = V>>>;
+
+/// This system as a problem, with nothing counted.
+pub fn problem<S: System<Vector: Vector> + 'static>(system: S) -> Problem<S::Vector> {
+    Counted::new(Box::new(system))
+}
 
 /// An integrator of systems of the type `S` that steps every other with its vector too, as all methods do.
 pub trait MethodOf<S: System>:
@@ -349,4 +352,10 @@ pub fn integrator_for<S: System<Vector: Vector> + 'static>(
         }
     }
     construct::<S, _>(method, coupling, Boxed(like))
+}
+
+/// A fresh [integrator](integrator()) for problems of one coordinate. What is generic is compiled again in each crate
+/// that uses it, and this is not.
+pub fn fresh(method: &Method) -> Box<dyn Integrator<Problem<f64>>> {
+    integrator(method, &0.0)
 }

@@ -1,7 +1,7 @@
 //! PEFRL, position-extended Forest-Ruth-like: one kick more than Yoshida 4, for a far smaller error.
 
 use super::prelude::*;
-use super::shared::composition::compose;
+use super::shared::compose;
 
 pub(super) const CARD: Method = Method {
     id: "pefrl",

@@ -1,7 +1,7 @@
 //! Störmer-Verlet: the next position from the last two and the force; the velocity is read off them.
 
 use super::prelude::*;
-use super::shared::last_step::LastStep;
+use super::shared::LastStep;
 
 pub(super) const CARD: Method = Method {
     id: "stormer-verlet",

@@ -1,7 +1,7 @@
 //! Velocity Verlet: half a kick, a drift, half a kick by the force at the end.
 
 use super::prelude::*;
-use super::shared::last_step::LastStep;
+use super::shared::LastStep;
 
 pub(super) const CARD: Method = Method {
     id: "velocity-verlet",

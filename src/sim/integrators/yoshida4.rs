@@ -2,7 +2,7 @@
 //! errors cancel.
 
 use super::prelude::*;
-use super::shared::composition::compose;
+use super::shared::compose;
 
 pub(super) const CARD: Method = Method {
     id: "yoshida4",

@@ -11,7 +11,6 @@ use super::token::{Token, tokens};
 use crate::sim::curve::Curve;
 
 mod call;
-mod nodes;
 
 /// The most bytes of an expression: several lines of a file.
 pub const MAX_BYTES: usize = 4096;
@@ -336,5 +335,49 @@ impl Parser<'_> {
         let noun = if is_call { "function" } else { "name" };
         let what = format!("unknown {noun} `{}`", quoted(&name));
         Err(ExpressionFault { span, what, remedy: Remedy::Name { written: name, known } })
+    }
+}
+
+impl Parser<'_> {
+    fn push(&mut self, op: Op, arguments: &[usize], span: Range<usize>) -> usize {
+        let mut operands = [0; 3];
+        operands[..arguments.len()].copy_from_slice(arguments);
+        self.node(Node { op, operands, count: arguments.len(), number: 0.0, index: 0 }, span)
+    }
+
+    fn node(&mut self, node: Node, span: Range<usize>) -> usize {
+        self.expression.nodes.push(node);
+        self.expression.spans.push(span);
+        self.expression.nodes.len() - 1
+    }
+
+    fn number(&mut self, number: f64, span: Range<usize>) -> usize {
+        self.node(Node { number, ..Node::leaf(Op::Number) }, span)
+    }
+
+    fn span_of(&self, node: usize) -> Range<usize> {
+        self.expression.spans[node].clone()
+    }
+
+    fn is_truth(&self, node: usize) -> bool {
+        self.expression.nodes[node].op.is_truth()
+    }
+
+    fn want_number(&self, node: usize) -> Parsed<usize> {
+        if !self.is_truth(node) {
+            return Ok(node);
+        }
+        let span = self.span_of(node);
+        let what = format!("`{}` is true or false, not a number", quoted(&self.text[span.clone()]));
+        fault(span, what, "write `if(condition, 1, 0)` for a number")
+    }
+
+    fn want_truth(&self, node: usize) -> Parsed<usize> {
+        if self.is_truth(node) {
+            return Ok(node);
+        }
+        let span = self.span_of(node);
+        let what = format!("`{}` is a number, not a condition", quoted(&self.text[span.clone()]));
+        fault(span, what, "compare it, such as `x > 0`")
     }
 }

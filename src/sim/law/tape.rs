@@ -18,7 +18,7 @@ use crate::sim::curve::Curve;
 pub const MAX_OPERATIONS: usize = 4096;
 
 /// The most switches of a tape, so that a [`Piece`](crate::sim::bodies::Piece) is small.
-pub(super) use crate::sim::piece::MAX_SWITCHES;
+pub(super) use crate::sim::body::MAX_SWITCHES;
 
 /// One operation: reads up to three slots and writes one.
 #[derive(Clone, Copy, Debug)]

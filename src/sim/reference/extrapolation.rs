@@ -3,8 +3,7 @@
 //! equations by extrapolation methods* (1966); Hairer, Nørsett & Wanner, *Solving Ordinary Differential
 //! Equations I*, II.9.
 
-use crate::sim::body::Body;
-use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
+use crate::sim::body::{Body, Distances, NO_BOUNDARIES, Piece};
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::System;
 

@@ -1,9 +1,8 @@
 //! A numerical solution in double-double precision, and its step size control.
 
 use super::extrapolation::Extrapolation;
-use crate::sim::body::Body;
+use crate::sim::body::{Body, Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 use crate::sim::double_double::{DoubleDouble, TWO_PI};
-use crate::sim::piece::{Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 use crate::sim::state::{State, Vector};
 
 /// A step accepted with at most this many columns was too short: the next is twice as long.

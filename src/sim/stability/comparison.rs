@@ -1,7 +1,7 @@
 //! What a method makes of a motion: the map of a step, its eigenvalues, and these compared with the true modes.
 
+use super::Tick;
 use super::spectrum::{Eigenvalue, eigenvalues, has_memory, linear_maps};
-use super::tick::Tick;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 

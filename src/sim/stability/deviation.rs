@@ -3,8 +3,8 @@
 use nalgebra::DMatrix;
 
 use crate::sim::bodies::{Custom, Extras};
-use crate::sim::difference::quotient;
 use crate::sim::integrators::Method;
+use crate::sim::numerics::quotient;
 use crate::sim::state::largest;
 use crate::sim::{Solver, State, Stepper, System, stepper};
 

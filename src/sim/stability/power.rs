@@ -1,12 +1,10 @@
 //! The spectral radius of the one-tick map of a body of many coordinates, by power iteration: without the
 //! map, from differences of the stepper itself.
 
-use super::deviation;
-use super::tick::Tick;
-use crate::sim::difference::quotient;
+use super::{Tick, deviation};
 use crate::sim::integrators::{Method, StepFailure};
+use crate::sim::numerics::{XorShift, quotient};
 use crate::sim::state::largest;
-use crate::sim::xor_shift::XorShift;
 use crate::sim::{Solver, Stepper};
 
 /// The most iterations: they tell the radius to a thousandth.

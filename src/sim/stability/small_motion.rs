@@ -5,11 +5,11 @@ use std::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::Tick;
 use super::comparison::{LinearMotion, Mode, Stability};
 use super::deviation::{self, acceleration_at, force_slopes};
 use super::modes::{NormalMode, modes_of, unforced};
 use super::spectrum::{self, Eigenvalue};
-use super::tick::Tick;
 use crate::sim::Stepper;
 use crate::sim::integrators::{Method, StepFailure};
 

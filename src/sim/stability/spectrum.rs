@@ -2,8 +2,8 @@
 
 use nalgebra::{ColPivQR, DMatrix, Schur};
 
+use super::Tick;
 use super::deviation::acceleration_at;
-use super::tick::Tick;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::logged_body::LoggedBody;
+use super::logged::LoggedBody;
 use crate::sim::integrators::{JointMode, METHODS, Method};
 
 /// How a method is told of a spring.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::Conclusion;
 use super::candidates::{Candidate, candidates};
 use super::fit::Fit;
-use super::logged_body::LoggedBody;
+use super::logged::LoggedBody;
 
 /// The least residual of rounding in a run, in units of the largest values: in double precision.
 const MIN_ROUNDING: f64 = 1e-9;

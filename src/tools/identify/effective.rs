@@ -1,8 +1,7 @@
 //! What a player sees: the frequency, the damping and the change of energy of a motion.
 
 use super::candidates::Candidate;
-use super::logged::Log;
-use super::logged_body::LoggedBody;
+use super::logged::{Log, LoggedBody};
 use super::motion::run;
 use crate::sim::least_squares;
 

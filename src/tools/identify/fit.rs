@@ -2,8 +2,7 @@
 
 use super::candidates::Candidate;
 use super::effective::Effective;
-use super::logged::Log;
-use super::logged_body::LoggedBody;
+use super::logged::{Log, LoggedBody};
 use super::motion::run;
 use crate::sim::least_squares;
 

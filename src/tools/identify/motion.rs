@@ -1,7 +1,7 @@
 //! The run of a log's body under a candidate.
 
 use super::candidates::{Candidate, SpringAs};
-use super::logged_body::LoggedBody;
+use super::logged::LoggedBody;
 use crate::sim::integrators::{fresh, problem};
 use crate::sim::{Query, State, System};
 

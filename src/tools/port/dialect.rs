@@ -9,10 +9,10 @@ use nalgebra::Matrix2;
 use super::follow::map_of_frame;
 use super::seen::{is_stable, map_of_step, seen};
 use super::{REACHED, Reach, Wish};
-use crate::sim::bisection::bisect;
 use crate::sim::bodies::Spring;
 use crate::sim::integrators::{in_code, method};
 use crate::sim::number::significant;
+use crate::sim::numerics::bisect;
 use crate::sim::{Body, State};
 use crate::tools::identify::Effective;
 

@@ -2,7 +2,7 @@
 
 use super::seen::NO_GROWTH;
 use super::{MAX_SUBSTEPS, Setup};
-use crate::sim::bisection::bisect;
+use crate::sim::numerics::bisect;
 use crate::tools::identify::Effective;
 
 /// The limits of a drive: of an engine's own, or of a force of user code that is held through some ticks.

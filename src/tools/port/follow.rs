@@ -3,11 +3,11 @@
 use nalgebra::{Matrix2, Vector2};
 
 use crate::sim::State;
-use crate::sim::bisection::bisect;
 use crate::sim::bodies::Follow;
 use crate::sim::integrators::{
     FollowerQuantity, FollowerSetting, METHODS, Method, fresh, in_code, problem,
 };
+use crate::sim::numerics::bisect;
 
 /// How fast a value approaches a target that rests.
 #[derive(Clone, Copy, Debug, PartialEq)]

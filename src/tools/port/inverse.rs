@@ -1,6 +1,6 @@
 //! The stiffness and damping under which a map shows a spring.
 
-use crate::sim::bisection::bisect;
+use crate::sim::numerics::bisect;
 use crate::tools::identify::Effective;
 
 /// What is seen of a joint, by its stiffness in 1/s² and damping in 1/s.

@@ -2,7 +2,7 @@
 
 use egui::{Color32, RichText, Ui};
 
-use super::formula;
+use super::parts::formula;
 use super::table::{Table, TableRow};
 use super::verdict::VerdictText;
 use crate::run::race::{LaneBody, Mode};
@@ -136,7 +136,7 @@ impl TableRow for Row<'_> {
             ui.label(format!("Also asked for as {}.", method.also.join(", ")));
         }
         for line in method.formula {
-            ui.label(formula::job(line, 16.0, palette(ui).text));
+            ui.label(formula(line, 16.0, palette(ui).text));
         }
         ui.label(format!("At {} Hz: {}.", self.studio.clock().tick_hz(), self.said().whole()));
         for detail in self.details() {

@@ -1,27 +1,27 @@
-//! The panels of the loop lab, and the instrument *Loop*: what each loop shows when, or what this window's own loop does.
+//! The panels of the loop lab, and the instrument *Loop*: what each loop shows when, or what this window's own loop does,
+//! as a picture and as text.
+
+use std::iter;
 
 use egui::{Color32, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::breakpoints;
 use crate::loops::loop_lab::{LoopLab, LoopLane};
+use crate::run::csv_row;
 use crate::studio::{Command, Studio};
 use crate::view::chart::Primitive;
 use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{PanelPalette, colour, palette, strong_font};
 
-mod columns;
 pub(super) mod controls;
 mod counts;
 mod errors;
-mod export;
 pub(super) mod hints;
 mod live;
 mod moments;
 mod row;
 pub(super) mod slider;
 pub(super) mod table;
-
-pub(super) use export::csv;
 
 /// What the charts of the loop lab show.
 const TITLE: &str = "Moment shown against moment of display";
@@ -134,4 +134,40 @@ fn legend_entries(loops: &LoopLab, lanes: &[ShownLane<'_>], palette: &PanelPalet
     let (name, colour, dash) = ("ideal".into(), palette.exact, [1.0, 0.0]);
     let ideal = Entry { name, colour, dash, is_front: false };
     lanes.iter().map(entry).chain([ideal]).collect()
+}
+
+/// All frames of the loops on the stage, or the last frames of the window's own loop, as comma-separated text.
+pub(super) fn csv(studio: &Studio) -> Vec<String> {
+    match studio.loop_lab() {
+        Some(loops) => of_lab(loops),
+        None => of_window(studio),
+    }
+}
+
+fn of_lab(loops: &LoopLab) -> Vec<String> {
+    let lanes = loops.on_stage().iter().map(|&index| &loops.lanes()[index]);
+    let frames = lanes.flat_map(|lane| {
+        lane.frames().iter().enumerate().map(move |(number, frame)| {
+            let displayed_ms = frame.displayed_ns as f64 / 1e6;
+            csv_row(&[
+                &lane.card().id,
+                &number,
+                &displayed_ms,
+                &frame.shown_ms,
+                &frame.ticks,
+                &frame.animation_error_ms,
+            ])
+        })
+    });
+    let head = "loop,frame,displayed_ms,shown_ms,ticks,animation_error_ms\n".to_owned();
+    iter::once(head).chain(frames).collect()
+}
+
+fn of_window(studio: &Studio) -> Vec<String> {
+    let frames = studio.viewer().live.frames().enumerate().map(|(number, frame)| {
+        let time_ms = frame.duration_ns as f64 / 1e6;
+        csv_row(&[&number, &time_ms, &frame.ticks, &frame.dropped, &frame.animation_error_ms])
+    });
+    let head = "frame,frame_time_ms,ticks,dropped,animation_error_ms\n".to_owned();
+    iter::once(head).chain(frames).collect()
 }

@@ -2,8 +2,9 @@
 
 use egui::{Align2, Button, ComboBox, FontId, Id, Rect, RichText, Sense, Ui, vec2};
 
-use super::dialog::{select, window};
 use super::inspector::NumberField;
+use super::parts::dialog;
+use super::text_field::select;
 use crate::studio::{Command, MySpring, StageCommand, Studio, ViewCommand};
 use crate::tools::port::{DIALECTS, Dialect, DialectPort, Key, Wish};
 use crate::tools::source_code::Language;
@@ -99,7 +100,7 @@ fn let_go(spring: MySpring) -> [Number; 3] {
 
 pub(super) fn show(ui: &Ui, studio: &Studio, over: Rect, commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
-    window(TITLE, over).show(ctx, |ui| {
+    dialog(TITLE, over).show(ctx, |ui| {
         ui.set_width(NAME + NUMBER + 8.0);
         ui.spacing_mut().item_spacing.y = 4.0;
         let (tick_hz, has_focus) = (studio.clock().tick_hz(), ui.memory(|m| m.focused().is_some()));

@@ -8,7 +8,8 @@ use egui::{
 };
 
 use super::annotations::{arrow, label};
-use super::{breakpoints, formula};
+use super::breakpoints;
+use super::parts::formula;
 use crate::measure::{OneStep, Slope};
 use crate::run::Unit;
 use crate::stage::Coordinate;
@@ -323,7 +324,7 @@ fn figures_and_gap(width: f32) -> (usize, f32) {
 fn rows_of_formula(ui: &Ui, step: &OneStep, width: f32) -> Option<Vec<Vec<&'static str>>> {
     let rows = beside(step.spec.method.formula, step.evaluations.len())?;
     let line_width = |line: &&str| {
-        let job = formula::job(line, BESIDE_NUMBERS, Color32::WHITE);
+        let job = formula(line, BESIDE_NUMBERS, Color32::WHITE);
         ui.painter().layout_job(job).size().x
     };
     let widest = rows.iter().flatten().map(line_width).fold(0.0, f32::max);
@@ -337,7 +338,7 @@ fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>
     ui.spacing_mut().item_spacing.y = 1.0;
     let (figures, gap) = figures_and_gap(ui.available_width());
     let line = |ui: &mut Ui, line: &str| {
-        let job = formula::job(line, BESIDE_NUMBERS, palette(ui).text);
+        let job = formula(line, BESIDE_NUMBERS, palette(ui).text);
         drop(ui.add(Label::new(job).extend()));
     };
     let rows = rows_of_formula(ui, step, ui.available_width());
@@ -345,7 +346,7 @@ fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>
         said.into_iter().for_each(|said| drop(ui.label(said)));
         if rows.is_none() {
             for text in step.spec.method.formula {
-                ui.label(formula::job(text, 16.0, palette(ui).text));
+                ui.label(formula(text, 16.0, palette(ui).text));
             }
         }
         let beside = |ui: &mut Ui, row: usize, otherwise: RichText| match &rows {

@@ -2,8 +2,8 @@
 
 use egui::{Id, Key, Label, Rect, RichText, ScrollArea, TextStyle, TextWrapMode, Ui};
 
-use super::dialog::{select, window};
-use super::text_field::text_field;
+use super::parts::dialog;
+use super::text_field::{select, text_field};
 use crate::run::link::MAX_LETTERS;
 use crate::scene::Mistake;
 use crate::studio::{Command, DriverRequest, Studio, ViewCommand};
@@ -26,7 +26,7 @@ pub(super) fn path(
         true => ("Compare the run with a recording", "path of a recording", "compares"),
         false => ("Open a scene or a frame log", "path of a scene or of a frame log", "opens"),
     };
-    window(title, over).show(ctx, |ui| {
+    dialog(title, over).show(ctx, |ui| {
         ui.set_min_width(width);
         let id = Id::unique("path of a scene file");
         let is_new = !ui.memory(|memory| memory.has_focus(id));
@@ -77,7 +77,7 @@ pub(super) fn mistakes(
     let ctx = ui.ctx();
     let room = over.size() - egui::vec2(40.0, 240.0);
     let title = format!("{file} cannot be opened");
-    window(&title, over).show(ctx, |ui| {
+    dialog(&title, over).show(ctx, |ui| {
         let font = TextStyle::Monospace.resolve(ui.style());
         let width = |text: &String| {
             let text = ui.painter().layout_no_wrap(text.clone(), font.clone(), palette(ui).dim);

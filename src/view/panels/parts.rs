@@ -1,12 +1,15 @@
-//! What several panels are made of: the frame of a panel, a line of words, and the colours of verdicts.
+//! What several panels are made of: the frame of a panel, the window of a dialog, a line of words or of a formula, and the
+//! colours of verdicts.
 
 use std::sync::Arc;
 
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Color32, FontId, Frame, Galley, Margin, TextFormat, Ui};
+use egui::{
+    Align2, Color32, FontId, Frame, Galley, Id, Margin, Order, Rect, TextFormat, Ui, Window,
+};
 
 use crate::measure::{Outcome, Severity};
-use crate::view::theme::{colour, palette};
+use crate::view::theme::{colour, formula_font, palette, quantity_font};
 
 /// The tag of a panel that is a picture of an instrument.
 pub(super) const PICTURE: &str = "picture of an instrument";
@@ -49,4 +52,59 @@ pub(super) fn tone(ui: &Ui, word: Outcome) -> Color32 {
 /// The colour of a severity.
 pub(super) fn severity_tone(ui: &Ui, severity: Severity) -> Color32 {
     colour(palette(ui).theme.palette().of_severity(severity))
+}
+
+/// A line of a formula in type of this size, as it is printed: quantities in a serif italic, figures and words upright.
+pub(super) fn formula(line: &str, size: f32, colour: Color32) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    let letters: Vec<char> = line.chars().collect();
+    for run in letters.chunk_by(|a, b| is_letter(*a) == is_letter(*b)) {
+        let is_quantity = run.len() == 1 && is_letter(run[0]);
+        let font_id = if is_quantity { quantity_font(size) } else { formula_font(size) };
+        let text: String = run.iter().collect();
+        job.append(&text, 0.0, TextFormat { font_id, color: colour, ..TextFormat::default() });
+    }
+    job
+}
+
+/// Whether it stands for a quantity where it stands alone; indices and the sign of a sum do not.
+fn is_letter(sign: char) -> bool {
+    sign.is_alphabetic() && !matches!(sign, 'ᵢ' | 'ⱼ' | 'Σ')
+}
+
+/// The window of a dialog over this part of the whole window.
+pub(super) fn dialog(title: &str, over: Rect) -> Window<'_> {
+    Window::new(title)
+        .id(Id::unique(title))
+        .order(Order::Foreground)
+        .collapsible(false)
+        .resizable(false)
+        .constrain_to(over)
+        .anchor(Align2::CENTER_TOP, [0.0, 80.0_f32.min(over.height() / 8.0)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prelude::METHODS;
+
+    fn quantities(line: &str) -> Vec<String> {
+        let job = formula(line, 13.0, Color32::WHITE);
+        assert_eq!(job.text, line);
+        let italic =
+            |section: &&egui::text::LayoutSection| section.format.font_id == quantity_font(13.0);
+        let text = |section: &egui::text::LayoutSection| {
+            let [start, end] = [section.byte_range.start, section.byte_range.end].map(usize::from);
+            job.text[start..end].to_owned()
+        };
+        job.sections.iter().filter(italic).map(text).collect()
+    }
+
+    #[test]
+    fn quantities_are_italic_and_words_and_figures_are_not() {
+        assert_eq!(quantities("y′ = y + ½h Σ aᵢⱼ kⱼ if small"), ["y", "y", "h", "a", "k"]);
+        for line in METHODS.iter().flat_map(|method| method.formula) {
+            assert!(quantities(line).iter().all(|text| text.chars().count() == 1), "{line}");
+        }
+    }
 }

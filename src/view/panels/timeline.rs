@@ -16,7 +16,7 @@ use crate::run::race::{Mode, TimeScale};
 use crate::studio::{Command, DriverRequest, RunCommand, StageCommand, Step, Studio, ViewCommand};
 use crate::view::chart::AxisScale;
 use crate::view::theme::{PanelPalette, palette};
-use crate::view::wheel;
+use crate::view::touch::wheel_or_pinch;
 
 mod marks;
 mod span;
@@ -207,7 +207,7 @@ fn viewed(ui: &Ui, studio: &Studio, times: &TimeScale, response: &Response, alon
         span = span.following(studio.race().t(), whole);
     }
     if let Some(pointer) = response.hover_pos() {
-        let (times, right) = wheel::turned(ui);
+        let (times, right) = wheel_or_pinch(ui);
         let min_s = MIN_TICKS / f64::from(studio.race().tick_hz());
         if times != 1.0 {
             span = span.zoomed(span.t(pointer.x, along), times, min_s, whole);

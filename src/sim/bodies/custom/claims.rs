@@ -3,10 +3,9 @@
 use super::Custom;
 use crate::sim::bodies::claims::{self, Checked, ClaimFault, ClaimHorizon, Claimant, TIMES};
 use crate::sim::body::Body;
-use crate::sim::difference::{OFFSETS, fourth_order};
+use crate::sim::numerics::{OFFSETS, XorShift, fourth_order};
 use crate::sim::state::State;
 use crate::sim::system::System;
-use crate::sim::xor_shift::XorShift;
 
 /// A claim about a custom body that does not hold. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,12 +1,17 @@
-//! The kind of a custom body.
+//! The kind of a custom body, and the batch of its copies.
 
-use std::sync::Arc;
+use std::any::Any;
+use std::sync::{Arc, Mutex, PoisonError};
 
+use super::motion::Motion;
 use super::{Custom, CustomFault, Extras, claims};
+use crate::sim::batch::{Batch, Copies, InstructionSet, NewBatch, UniformBlock};
 use crate::sim::bodies::claims::ClaimHorizon;
 use crate::sim::bodies::kind::{Coordinate, CustomInfo, Kind, Origin};
+use crate::sim::integrators::Problem;
 use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range, Text};
-use crate::sim::state::Vector;
+use crate::sim::state::{State, Vector};
+use crate::sim::stepper::Solver;
 use crate::sim::system::{StateOf, System};
 
 /// The key of the parameter of a body that is given none.
@@ -101,7 +106,7 @@ fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {
         parameters,
         leading,
         origin: Origin::Custom(info),
-        batch: super::copies::batch,
+        batch,
         ..Kind::checked(body, check)
     }
 }
@@ -180,4 +185,35 @@ fn check_keys(parameters: &[Parameter]) -> Result<(), CustomFault> {
         }
     }
     Ok(())
+}
+
+/// Copies of a custom body of one coordinate, which threads do not share: each has one of its own.
+#[derive(Clone)]
+struct CustomCopies(Arc<Mutex<Box<dyn Motion>>>);
+
+/// Copies of a body that is custom; `None` if its coordinates are not one `f64`.
+fn batch(
+    body: &dyn Any,
+    set: InstructionSet,
+    solver: Solver,
+    starts: Vec<State<f64>>,
+) -> Option<NewBatch> {
+    let Custom { motion, .. } = body.downcast_ref()?;
+    motion.alone()?;
+    let copies = CustomCopies(Arc::new(Mutex::new(motion.clone())));
+    Some(Batch::with(&copies, solver, starts.into_iter(), set))
+}
+
+impl Copies for CustomCopies {
+    const IS_INTERPRETED: bool = true;
+    type Block<const W: usize> = UniformBlock<Problem<f64>, W>;
+
+    fn block<const W: usize>(&self, _set: InstructionSet) -> UniformBlock<Problem<f64>, W> {
+        UniformBlock(self.alone())
+    }
+
+    fn alone(&self) -> Problem<f64> {
+        let motion = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        motion.alone().expect("it was of one coordinate")
+    }
 }

@@ -4,7 +4,7 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::fmt;
 
-use super::extras::{Energy, Exact, Extras};
+use super::{Energy, Exact, Extras};
 use crate::sim::integrators::{Problem, problem};
 use crate::sim::parameter::ParameterOf;
 use crate::sim::state::{Elementwise, State, Vector};

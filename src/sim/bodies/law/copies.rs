@@ -9,8 +9,8 @@ use super::{Law, known};
 use crate::sim::batch::{Batch, Copies, InstructionSet, Kernel, NewBatch};
 use crate::sim::integrators::{Problem, problem};
 use crate::sim::law::{Equations, LawLanes};
-use crate::sim::solver::Solver;
 use crate::sim::state::State;
+use crate::sim::stepper::Solver;
 use crate::sim::system::System;
 
 /// Copies of a law of one coordinate.

@@ -6,8 +6,8 @@ use super::Law;
 use super::claims::{check_start, first_key};
 use crate::sim::bodies::kind::{Coordinate, Kind, Origin};
 use crate::sim::body::Body;
-use crate::sim::difference::quotient;
 use crate::sim::law::{CoordinateText, Equations, LawFault, LawText};
+use crate::sim::numerics::quotient;
 use crate::sim::parameter::{Acts, Fault, Parameter, Range, Text};
 use crate::sim::system::System;
 

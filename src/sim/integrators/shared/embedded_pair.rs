@@ -5,8 +5,7 @@ use std::marker::PhantomData;
 
 use super::step_size::{StepSize, steady_factor};
 use crate::sim::integrators::failure::Stepped;
-use crate::sim::integrators::integrator::{Integrator, Override};
-use crate::sim::integrators::tolerance::Tolerance;
+use crate::sim::integrators::integrator::{Integrator, Override, Tolerance};
 use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::{StateOf, System};
 

@@ -223,7 +223,7 @@ impl StageLu {
 #[cfg(all(test, feature = "lab"))]
 mod tests {
     use super::{Lu, StageLu};
-    use crate::sim::xor_shift::XorShift;
+    use crate::sim::numerics::XorShift;
 
     #[test]
     fn a_matrix_that_needs_its_rows_swapped_is_solved() {

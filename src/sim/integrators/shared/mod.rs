@@ -1,10 +1,11 @@
-//! Building blocks shared by several methods.
+//! Building blocks shared by several methods: the two smallest here, the others in a file each.
 
-pub(super) mod composition;
+use crate::sim::state::{Elementwise, State};
+use crate::sim::system::{StateOf, System};
+
 pub(super) mod embedded_pair;
 pub(super) mod jacobian;
 mod krylov;
-pub(super) mod last_step;
 pub(super) mod linear_flow;
 pub(super) mod linearisation;
 mod lu;
@@ -12,3 +13,58 @@ pub(super) mod newton;
 mod slopes;
 pub(super) mod stages;
 pub(super) mod step_size;
+
+/// Composition of drifts and kicks, for symplectic methods of higher order.
+///
+/// For each `(c, d)` of `stages` a drift `q += c h v` and a kick `v += d h a`, then the `last` drift.
+///
+/// Time advances with the drifts, and a kick uses the current velocity: forces that depend on velocity
+/// reduce the order.
+#[inline(always)]
+pub(in crate::sim::integrators) fn compose<S: System>(
+    system: &S,
+    t: f64,
+    h: f64,
+    State { q, v }: &mut StateOf<S>,
+    a: &mut S::Vector,
+    stages: &[(f64, f64)],
+    last: f64,
+) {
+    let mut drifted = 0.0;
+    for (c, d) in stages {
+        q.add_scaled(c * h, v);
+        drifted += c;
+        system.acceleration(t + drifted * h, q, v, a);
+        v.add_scaled(d * h, a);
+    }
+    q.add_scaled(last * h, v);
+}
+
+/// The length of the last step of a method with memory, which is valid only for a next step of the same length.
+///
+/// A method compares step lengths by itself. A jump of the state or the forces is reported by
+/// [`Integrator::reset`](crate::sim::integrators::Integrator::reset), because detecting it would cost a
+/// copy of the state and a comparison per step.
+#[derive(Clone)]
+pub(in crate::sim::integrators) struct LastStep {
+    /// In seconds; NaN, which equals nothing, if there is no valid memory.
+    h: f64,
+}
+
+impl LastStep {
+    /// Before the first step and after a jump: no memory.
+    pub(in crate::sim::integrators) const NONE: Self = Self { h: f64::NAN };
+
+    /// Whether a step of `h` is as long as the last one. The last step is forgotten until the next
+    /// [ends](Self::end), so that a step that fails leaves no memory.
+    #[inline(always)]
+    pub(in crate::sim::integrators) fn is_continued_by(&mut self, h: f64) -> bool {
+        std::mem::replace(&mut self.h, f64::NAN) == h
+    }
+
+    /// Remembers that a step of `h` has ended.
+    #[inline(always)]
+    pub(in crate::sim::integrators) fn end(&mut self, h: f64) {
+        self.h = h;
+    }
+}

@@ -7,7 +7,7 @@
 //! corner of the force is seldom within its reach.
 
 use crate::sim::cores::assert_length;
-use crate::sim::difference::quotient;
+use crate::sim::numerics::quotient;
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Query, System};
 

@@ -5,9 +5,9 @@
 //! here propagate the better of their two solutions, so that the error per second is proportional to
 //! the tolerance, and a method of order p takes `tolerance^(-1/p)` substeps.
 
-use super::last_step::LastStep;
+use super::LastStep;
 use crate::sim::integrators::failure::StepFailure;
-use crate::sim::integrators::tolerance::Tolerance;
+use crate::sim::integrators::integrator::Tolerance;
 use crate::sim::state::{State, Vector};
 
 /// Aims below the tolerance, so that few attempts are rejected.

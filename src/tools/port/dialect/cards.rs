@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{Departure, Dialect, HALVINGS, Key, Steps, Switch, Values, left};
-use crate::sim::bisection::bisect;
+use crate::sim::numerics::bisect;
 use crate::tools::port::{REACHED, Wish};
 
 const fn key(name: &'static str, usual: f64) -> Key {

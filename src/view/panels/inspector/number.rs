@@ -5,8 +5,7 @@ use egui::class::HasClasses as _;
 use egui::emath::round_to_decimals;
 use egui::{DragValue, Id, Key, Modifiers, Response, RichText, Ui, Vec2, WidgetInfo};
 
-use crate::view::panels::dialog::select;
-use crate::view::panels::text_field::{MAX_NUMBER, text_field};
+use crate::view::panels::text_field::{MAX_NUMBER, select, text_field};
 use crate::view::theme::palette;
 
 /// What one point of a drag changes, as a part of the number.

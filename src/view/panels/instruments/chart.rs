@@ -12,7 +12,7 @@ use super::plot_set::PlotSet;
 use crate::studio::{Command, DriverRequest, RunCommand, StageCommand, Studio, ViewCommand};
 use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
 use crate::view::theme::{PanelPalette, palette, strong_font};
-use crate::view::wheel;
+use crate::view::touch::wheel_or_pinch;
 
 /// The least room for the numbers of an upright axis, in points.
 const LEFT: f32 = 40.0;
@@ -132,7 +132,7 @@ fn room_for_numbers(ui: &Ui, cells: &[Cell<'_>], views: &Views) -> f32 {
 }
 
 fn turn_wheel(ui: &Ui, views: &mut Views, cell: &Cell<'_>, at: Pos2) {
-    let (times, right) = wheel::turned(ui);
+    let (times, right) = wheel_or_pinch(ui);
     if times != 1.0 {
         views.zoom(cell, at, times);
     }

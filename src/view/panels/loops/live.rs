@@ -2,9 +2,9 @@
 
 use egui::{Color32, Label, Rect, RichText, Sense, Ui, Vec2, vec2};
 
-use super::columns::shown;
 use super::counts::{self, LEFT, Series};
 use super::errors::round_up;
+use super::table::shown;
 use crate::run::Unit;
 use crate::studio::{LiveFrame, Pace, Studio};
 use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};

@@ -3,12 +3,14 @@
 
 use egui::Ui;
 
-use super::columns;
 use super::row::Row;
+use crate::loops::PACING_METRICS;
 use crate::loops::loop_lab::LoopLab;
+use crate::run::Unit;
+use crate::stage::number::round;
 use crate::studio::Command;
 use crate::view::panels::lanes::{ROW, height_of};
-use crate::view::panels::table::Table;
+use crate::view::panels::table::{Column, SortKey, Table, TableRow, show_words};
 use crate::view::theme::TYPE;
 
 /// Rows in sight: the stage and the instrument need the room. The rest is scrolled to.
@@ -23,12 +25,118 @@ pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut
 }
 
 fn table(loops: &LoopLab) -> Table<Row<'_>> {
-    let (columns, min_rest) = (columns::of(loops), |_| columns::MIN_VERDICT);
+    let (columns, min_rest) = (columns(loops), |_| MIN_VERDICT);
     Table { id: "loops", columns, min_rest, row_height: ROW, head_type: TYPE }
 }
 
 fn groups(loops: &LoopLab) -> Vec<Vec<Row<'_>>> {
     loops.listed().into_iter().map(|index| vec![Row::of(loops, index)]).collect()
+}
+
+/// The least width of the verdict, in points.
+const MIN_VERDICT: f32 = 264.0;
+
+/// A column of numbers: name, width in points, priority, the id of the metric, and how a value is written.
+type MetricColumn = (&'static str, f32, u8, &'static str, fn(f64, Unit) -> String);
+
+const METRICS: [MetricColumn; 8] = [
+    ("repeated", 66.0, 2, "repeated_percent", shown),
+    ("double", 56.0, 4, "double_percent", shown),
+    ("error RMS", 76.0, 1, "animation_error_rms_ms", shown),
+    ("largest", 70.0, 5, "animation_error_max_ms", shown),
+    ("latency", 70.0, 3, "latency_mean_ms", latency),
+    ("dropped", 70.0, 7, "dropped_ms", shown),
+    ("position", 72.0, 8, "position_error_rms", shown),
+    ("at ½ rate", 72.0, 6, "state_difference", shown),
+];
+
+/// Every column, from left to right.
+fn columns<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
+    let index = |row: &Row<'a>| Some(row.index);
+    let key = Column::key("the key that selects this loop and brings it on the stage", index);
+    let on_stage = Column::shown(
+        "on the stage",
+        22.0,
+        "the loops on the stage; click an eye to bring one on or take it off",
+        |ui, row: &Row<'a>, rect, commands| row.eye(ui, rect, commands),
+        |row| SortKey::Number(if row.is_on_stage { 0.0 } else { 1.0 }),
+    );
+    let about = "the line of this loop in the plots and on the stage";
+    let line = Column::line(about, index, |row: &Row<'a>, palette| {
+        let (strong, dash) = row.style(palette);
+        (if row.is_on_stage { strong } else { strong.gamma_multiply(0.7) }, dash)
+    });
+    let name = Column::shown(
+        "Loop",
+        136.0,
+        "the rule of the loop, from the simplest on",
+        |ui, row: &Row<'a>, rect, _| {
+            show_words(ui, rect, row.lane.card().name, row.is_selected(), row.text(ui));
+        },
+        |row| SortKey::Number(row.index as f64),
+    );
+    let about = "what this loop does to motion at this tick rate on this display; sorted from best to worst";
+    let display = loops.traces()[loops.trace()].name();
+    let verdict = Column::shown(
+        "Verdict",
+        0.0,
+        about,
+        |ui, row: &Row<'a>, rect, _| row.verdict.show(ui, rect, row.text(ui)),
+        |row| row.verdict.rank.into(),
+    );
+    let head = format!("Verdict at {} Hz, trace {display}", loops.scene().tick_hz);
+    let marks = [key, on_stage.headed(""), line, name, verdict.headed(head)];
+    marks.into_iter().chain(METRICS.into_iter().filter_map(metric)).collect()
+}
+
+/// The column of a metric.
+fn metric<'a>((name, width, priority, id, shown): MetricColumn) -> Option<Column<Row<'a>>> {
+    let metric = PACING_METRICS.iter().find(|metric| metric.id == id)?;
+    let value = |row: &Row<'a>| row.lane.report().and_then(metric.measure);
+    let text = move |row: &Row<'a>| Some(shown(value(row)?, metric.unit));
+    let is_of_amplitude = metric.unit == Unit::Amplitudes;
+    let unit = if is_of_amplitude { ", in percent of the amplitude" } else { "" };
+    let about = format!("{}: {}{unit}", metric.name, metric.about);
+    let size = move |row: &Row<'a>| value(row).map(f64::abs);
+    Some(Column::number(name, (width, priority), &about, text, size))
+}
+
+/// From here on milliseconds are shown as seconds.
+const MANY_MS: f64 = 10_000.0;
+/// From here on a share of the amplitude is that of a motion that has blown up.
+const LOST_PERCENT: f64 = 1e5;
+/// A smaller mean latency is shown as 0: frames begin early and late by more than this.
+const MIN_LATENCY_MS: f64 = 0.1;
+/// A smaller value is shown as <0.001.
+const MIN_SHOWN: f64 = 1e-3;
+/// From here on three digits have no more than two decimals.
+const SMALL: f64 = 0.1;
+
+/// A mean latency in milliseconds as the table has it.
+fn latency(ms: f64, unit: Unit) -> String {
+    match ms {
+        ms if ms.abs() < MIN_LATENCY_MS => "0 ms".into(),
+        // It grows as long as the run goes on.
+        ahead if ahead < 0.0 => "ahead".into(),
+        behind => shown(behind, unit),
+    }
+}
+
+/// A value of a metric as the table has it.
+pub(super) fn shown(value: f64, unit: Unit) -> String {
+    let (value, unit) = match unit {
+        Unit::Amplitudes => (100.0 * value, Unit::Percent),
+        Unit::Milliseconds if value.abs() >= MANY_MS => (value / 1000.0, Unit::Seconds),
+        unit => (value, unit),
+    };
+    let number = match value.abs() {
+        lost if unit == Unit::Percent && lost >= LOST_PERCENT => return "lost".into(),
+        0.0 => "0".into(),
+        small if small < MIN_SHOWN => "<0.001".into(),
+        small if small < SMALL => round(libm::round(value * 1000.0) / 1000.0, 3),
+        _ => round(value, 3),
+    };
+    format!("{number} {unit}")
 }
 
 #[cfg(test)]
@@ -53,5 +161,23 @@ mod tests {
         assert!(best_first.is_sorted() && worst_first.iter().rev().is_sorted());
         assert_eq!(best_first.len(), loops.lanes().len());
         assert_ne!(ranks(None), best_first);
+    }
+
+    const MS: Unit = Unit::Milliseconds;
+
+    #[test]
+    fn every_number_is_a_metric_of_the_table() {
+        for column in METRICS {
+            assert!(metric(column).is_some_and(|made| made.about.len() > 20), "{}", column.0);
+        }
+    }
+
+    #[test]
+    fn values_have_three_digits_or_decimals_and_nothing_is_told_from_almost_nothing() {
+        let texts = [(8.2247, MS), (0.0, MS), (1e-7, MS), (0.1234, Unit::Amplitudes)];
+        let texts = texts.map(|(value, unit)| shown(value, unit));
+        assert_eq!(texts, ["8.22 ms", "0 ms", "<0.001 ms", "12.3 %"]);
+        let texts = [-290_000.0, -0.008_81, 3e-7, 0.3, 16.66, 14_000.0].map(|ms| latency(ms, MS));
+        assert_eq!(texts, ["ahead", "0 ms", "0 ms", "0.3 ms", "16.7 ms", "14 s"]);
     }
 }

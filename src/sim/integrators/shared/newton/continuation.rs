@@ -11,9 +11,9 @@
 //! it an implicit method halts within minutes.
 
 use super::Newton;
-use crate::sim::difference::quotient;
 use crate::sim::integrators::shared::krylov::dot;
 use crate::sim::integrators::shared::stages::{Stages, largest_of};
+use crate::sim::numerics::quotient;
 use crate::sim::state::Vector;
 use crate::sim::system::System;
 

@@ -1,0 +1,92 @@
+//! Numerical procedures that know neither bodies nor methods: difference quotients, bisection, least squares, and numbers
+//! that look random.
+
+#[cfg(feature = "lab")]
+use nalgebra::{DMatrix, DVector};
+
+/// A difference quotient, whose step the caller chooses and argues: overwrites the values `ahead` with their differences
+/// from those `behind`, per unit of the `distance` between the two.
+#[inline]
+pub(super) fn quotient(ahead: &mut [f64], behind: &[f64], distance: f64) {
+    for (ahead, behind) in ahead.iter_mut().zip(behind) {
+        *ahead = (*ahead - behind) / distance;
+    }
+}
+
+/// Where [`fourth_order`] takes values, in steps.
+#[cfg(feature = "lab")]
+pub(super) const OFFSETS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
+
+/// The derivative by a central difference of fourth order, from the values at [`OFFSETS`] of a step `h`.
+#[cfg(feature = "lab")]
+pub(super) fn fourth_order([far_behind, behind, ahead, far_ahead]: [f64; 4], h: f64) -> f64 {
+    (8.0 * (ahead - behind) - far_ahead + far_behind) / (12.0 * h)
+}
+
+/// Finds where a condition changes: halves the interval from `low`, which `is_low`, to `high`, which is not, `halvings`
+/// times. Returns the ends of what is left, in that order; `low` may be the greater.
+#[cfg(feature = "lab")]
+pub(crate) fn bisect(
+    [mut low, mut high]: [f64; 2],
+    halvings: u32,
+    mut is_low: impl FnMut(f64) -> bool,
+) -> [f64; 2] {
+    for _ in 0..halvings {
+        let middle = (low + high) / 2.0;
+        if is_low(middle) { low = middle } else { high = middle }
+    }
+    [low, high]
+}
+
+/// Linear least squares: the coefficients with which the sum of these columns comes nearest to `right`, in the mean of
+/// squares. Columns that depend on others get the smallest coefficients that do.
+///
+/// `None` if there are fewer rows than columns, or if a number is not finite.
+#[cfg(feature = "lab")]
+pub fn least_squares(columns: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
+    if right.len() < columns.len() {
+        return None;
+    }
+    let matrix = DMatrix::from_fn(right.len(), columns.len(), |row, column| columns[column][row]);
+    let numbers = || matrix.iter().chain(right);
+    if !numbers().all(|x| x.is_finite()) {
+        return None;
+    }
+    let found = matrix.clone().svd(true, true).solve(&DVector::from_column_slice(right), 1e-14);
+    let found = found.ok().filter(|found| found.iter().all(|x| x.is_finite()))?;
+    Some(found.iter().copied().collect())
+}
+
+/// Numbers that look random and are the same on every run, from a seed that is not 0: Marsaglia's xorshift with 13, 7 and 17.
+#[cfg(feature = "lab")]
+pub(super) struct XorShift(u64);
+
+#[cfg(feature = "lab")]
+impl XorShift {
+    /// The sequence of this seed.
+    pub(super) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// From -1 to below 1.
+    pub(super) fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+#[cfg(all(test, feature = "lab"))]
+mod tests {
+    use super::least_squares;
+
+    #[test]
+    fn a_line_is_found_among_points_and_numbers_that_are_none_are_refused() {
+        let columns = [vec![0.0, 1.0, 2.0, 3.0], vec![1.0; 4]];
+        let found = least_squares(&columns, &[1.0, 3.1, 4.9, 7.0]).unwrap();
+        assert!((found[0] - 1.98).abs() < 1e-12 && (found[1] - 1.03).abs() < 1e-12, "{found:?}");
+        assert_eq!(least_squares(&columns, &[1.0, f64::NAN, 0.0, 0.0]), None);
+        assert_eq!(least_squares(&[vec![1.0], vec![2.0]], &[1.0]), None);
+    }
+}
