@@ -13,36 +13,35 @@ use crate::run::race::Entrant;
 use crate::sim::number::{round, significant, superscript};
 use crate::studio::Motion;
 
+use Part::{Disc, Outline, Ring};
+
 /// Something that one knows the size of.
 struct Landmark {
     /// As it is called, and so many of them.
     names: [&'static str; 2],
     length_m: f64,
     length: &'static str,
-    /// Its silhouette, in lengths of the whole from its left end: across, and up from its middle. A part is an outline of
-    /// corners, which is seen whole from their mean, or a disc or a ring by its centre and radius.
-    shape: &'static str,
+    silhouette: &'static [Part],
+}
+
+/// A part of a silhouette, in lengths of the whole: across from its left end, and up from its middle.
+enum Part {
+    /// Centre and radius.
+    Disc([f32; 2], f32),
+    /// Centre and radius.
+    Ring([f32; 2], f32),
+    /// Corners, all of which are visible from their mean.
+    Outline(&'static [[f32; 2]]),
 }
 
 impl Landmark {
-    /// The parts of its silhouette: what each is, and its numbers.
-    fn parts(&self) -> impl Iterator<Item = (&'static str, Vec<f32>)> {
-        self.shape.split(';').map(|part| {
-            let (kind, numbers) = part.trim().split_once(' ').unwrap_or_default();
-            let numbers = numbers.split_whitespace().map(|number| number.parse());
-            (kind, numbers.collect::<Result<_, _>>().expect("the tests below read them all"))
-        })
-    }
-
     /// How far it reaches up and down from its middle, in its lengths.
     fn half_height(&self) -> f32 {
-        let highest = |(kind, numbers): (&str, Vec<f32>)| match (kind, &numbers[..]) {
-            ("disc" | "ring", [_, y, radius]) => y.abs() + radius,
-            (_, corners) => {
-                corners.iter().skip(1).step_by(2).fold(0.0, |most, y| y.abs().max(most))
-            }
+        let highest = |part: &Part| match part {
+            Disc([_, y], radius) | Ring([_, y], radius) => y.abs() + radius,
+            Outline(corners) => corners.iter().fold(0.0, |most, [_, y]| y.abs().max(most)),
         };
-        self.parts().map(highest).fold(0.0, f32::max)
+        self.silhouette.iter().map(highest).fold(0.0, f32::max)
     }
 }
 
@@ -50,75 +49,64 @@ const fn known(
     names: [&'static str; 2],
     length_m: f64,
     length: &'static str,
-    shape: &'static str,
+    silhouette: &'static [Part],
 ) -> Landmark {
-    Landmark { names, length_m, length, shape }
+    Landmark { names, length_m, length, silhouette }
 }
 
 /// From small to large. The tower's height is that since 2022, the ship is of the longest of their kind, the island's length
 /// is along its longest street; the Sun and the light year are the IAU's, the orbit is twice 30.07 au, the Galaxy 100 000
 /// light years and the observable universe 93 billion.
+#[rustfmt::skip]
 static LANDMARKS: [Landmark; 11] = [
-    known(
-        ["a person", "people"],
-        1.75,
-        "1.75 m",
-        "disc .07 0 .065; outline .15 .11 .3 .12 .55 .08 .55 -.08 .3 -.12 .15 -.11; \
-         outline .53 .09 1 .07 1 .015 .53 .005; outline .53 -.09 1 -.07 1 -.015 .53 -.005",
-    ),
-    known(
-        ["our ship", "of our ships"],
-        9.0,
-        "9 m",
-        "outline 0 .1 .1 .13 .6 .13 1 0 .6 -.13 .1 -.13 0 -.1",
-    ),
-    known(
-        ["the Eiffel Tower", "Eiffel Towers"],
-        330.0,
-        "330 m",
-        "outline 0 .004 .5 .035 .8 .075 .8 -.075 .5 -.035 0 -.004; \
-         outline .8 .075 1 .17 1 .11 .8 .03; outline .8 -.075 1 -.17 1 -.11 .8 -.03",
-    ),
-    known(
-        ["a container ship", "container ships"],
-        400.0,
-        "400 m",
-        "outline 0 .01 1 .025 .95 -.065 .03 -.065; outline .07 .01 .12 .01 .12 .12 .07 .12; \
-         outline .15 .01 .36 .01 .36 .06 .15 .06; outline .37 .01 .58 .01 .58 .075 .37 .075; \
-         outline .59 .015 .88 .015 .88 .06 .59 .06",
-    ),
-    known(
-        ["Manhattan", "Manhattans"],
-        21.6e3,
-        "21.6 km",
-        "outline 0 0 .05 .04 .3 .08 .55 .075 .75 .045 1 .015 1 -.015 .8 -.03 .6 -.065 .3 -.075 .06 -.05",
-    ),
-    known(["the Earth", "Earths"], 1.2742e7, "12 742 km", "disc .5 0 .5"),
-    known(["the Sun", "Suns"], 1.3914e9, "1.39 million km", "disc .5 0 .46; ring .5 0 .5"),
-    known(
-        ["Neptune's orbit", "orbits of Neptune"],
-        9e12,
-        "9 billion km",
-        "ring .5 0 .5; disc .5 0 .012",
-    ),
-    known(
-        ["a light year", "light years"],
-        9.4607e15,
-        "9.46·10¹⁵ m",
-        "outline 0 .006 .9 .006 .9 -.006 0 -.006; outline .9 .03 1 0 .9 -.03",
-    ),
-    known(
-        ["the Galaxy", "Galaxies"],
-        9.5e20,
-        "100 000 light years",
-        "outline 0 0 .25 .022 .5 .028 .75 .022 1 0 .75 -.022 .5 -.028 .25 -.022; disc .5 0 .065",
-    ),
-    known(
-        ["the observable universe", "observable universes"],
-        8.8e26,
-        "93 billion light years",
-        "ring .5 0 .5; ring .5 0 .33; ring .5 0 .16; disc .5 0 .01",
-    ),
+    known(["a person", "people"], 1.75, "1.75 m", &[
+        Disc([0.07, 0.0], 0.065),
+        Outline(&[[0.15, 0.11], [0.3, 0.12], [0.55, 0.08], [0.55, -0.08], [0.3, -0.12],
+            [0.15, -0.11]]),
+        Outline(&[[0.53, 0.09], [1.0, 0.07], [1.0, 0.015], [0.53, 0.005]]),
+        Outline(&[[0.53, -0.09], [1.0, -0.07], [1.0, -0.015], [0.53, -0.005]]),
+    ]),
+    known(["our ship", "of our ships"], 9.0, "9 m", &[
+        Outline(&[[0.0, 0.1], [0.1, 0.13], [0.6, 0.13], [1.0, 0.0], [0.6, -0.13], [0.1, -0.13],
+            [0.0, -0.1]]),
+    ]),
+    known(["the Eiffel Tower", "Eiffel Towers"], 330.0, "330 m", &[
+        Outline(&[[0.0, 0.004], [0.5, 0.035], [0.8, 0.075], [0.8, -0.075], [0.5, -0.035],
+            [0.0, -0.004]]),
+        Outline(&[[0.8, 0.075], [1.0, 0.17], [1.0, 0.11], [0.8, 0.03]]),
+        Outline(&[[0.8, -0.075], [1.0, -0.17], [1.0, -0.11], [0.8, -0.03]]),
+    ]),
+    known(["a container ship", "container ships"], 400.0, "400 m", &[
+        Outline(&[[0.0, 0.01], [1.0, 0.025], [0.95, -0.065], [0.03, -0.065]]),
+        Outline(&[[0.07, 0.01], [0.12, 0.01], [0.12, 0.12], [0.07, 0.12]]),
+        Outline(&[[0.15, 0.01], [0.36, 0.01], [0.36, 0.06], [0.15, 0.06]]),
+        Outline(&[[0.37, 0.01], [0.58, 0.01], [0.58, 0.075], [0.37, 0.075]]),
+        Outline(&[[0.59, 0.015], [0.88, 0.015], [0.88, 0.06], [0.59, 0.06]]),
+    ]),
+    known(["Manhattan", "Manhattans"], 21.6e3, "21.6 km", &[
+        Outline(&[[0.0, 0.0], [0.05, 0.04], [0.3, 0.08], [0.55, 0.075], [0.75, 0.045],
+            [1.0, 0.015], [1.0, -0.015], [0.8, -0.03], [0.6, -0.065], [0.3, -0.075], [0.06, -0.05]]),
+    ]),
+    known(["the Earth", "Earths"], 1.2742e7, "12 742 km", &[Disc([0.5, 0.0], 0.5)]),
+    known(["the Sun", "Suns"], 1.3914e9, "1.39 million km", &[
+        Disc([0.5, 0.0], 0.46), Ring([0.5, 0.0], 0.5),
+    ]),
+    known(["Neptune's orbit", "orbits of Neptune"], 9e12, "9 billion km", &[
+        Ring([0.5, 0.0], 0.5), Disc([0.5, 0.0], 0.012),
+    ]),
+    known(["a light year", "light years"], 9.4607e15, "9.46·10¹⁵ m", &[
+        Outline(&[[0.0, 0.006], [0.9, 0.006], [0.9, -0.006], [0.0, -0.006]]),
+        Outline(&[[0.9, 0.03], [1.0, 0.0], [0.9, -0.03]]),
+    ]),
+    known(["the Galaxy", "Galaxies"], 9.5e20, "100 000 light years", &[
+        Outline(&[[0.0, 0.0], [0.25, 0.022], [0.5, 0.028], [0.75, 0.022], [1.0, 0.0],
+            [0.75, -0.022], [0.5, -0.028], [0.25, -0.022]]),
+        Disc([0.5, 0.0], 0.065),
+    ]),
+    known(["the observable universe", "observable universes"], 8.8e26, "93 billion light years", &[
+        Ring([0.5, 0.0], 0.5), Ring([0.5, 0.0], 0.33), Ring([0.5, 0.0], 0.16),
+        Disc([0.5, 0.0], 0.01),
+    ]),
 ];
 
 /// From how many times its size on a stage says how far its body has got.
@@ -171,14 +159,14 @@ fn lay(
     let [y, below, _] = FEET.map(|foot| clip.max[1] - foot);
     let tone = faded(mixed(palette.chart, palette.sea[1], 0.25), 0.5 * strength);
     let pen = &mut picture.pen(clip);
-    for (kind, numbers) in landmark.parts() {
-        let places = numbers.chunks_exact(2).map(|at| [left + length * at[0], y - length * at[1]]);
-        let corners: Vec<_> = places.collect();
-        let radius = length * numbers.last().copied().unwrap_or_default();
-        match kind {
-            "disc" => pen.disc(corners[0], radius, tone),
-            "ring" => pen.ring(&circle(corners[0], radius, 96), 1.6, tone),
-            _ => pen.fill(&corners, tone),
+    let point = |[across, up]: &[f32; 2]| [left + length * across, y - length * up];
+    for part in landmark.silhouette {
+        match part {
+            Disc(centre, radius) => pen.disc(point(centre), length * radius, tone),
+            Ring(centre, radius) => {
+                pen.ring(&circle(point(centre), length * radius, 96), 1.6, tone);
+            }
+            Outline(corners) => pen.fill(&corners.iter().map(point).collect::<Vec<_>>(), tone),
         }
     }
     let colour = faded(palette.dim, strength);
@@ -310,18 +298,16 @@ mod tests {
     }
 
     #[test]
-    fn every_landmark_is_a_silhouette_and_they_stand_from_small_to_large() {
+    fn every_landmark_keeps_within_its_length_and_they_stand_from_small_to_large() {
         assert!(LANDMARKS.is_sorted_by_key(|landmark| landmark.length_m));
         for landmark in &LANDMARKS {
-            for (kind, numbers) in landmark.parts() {
-                let is_right = match kind {
-                    "disc" | "ring" => numbers.len() == 3,
-                    "outline" => numbers.len() >= 6 && numbers.len().is_multiple_of(2),
-                    _ => false,
-                };
-                let name = landmark.names[0];
-                assert!(is_right && numbers.iter().all(|x| x.abs() <= 1.0), "{name}: {numbers:?}");
-            }
+            let is_within = landmark.silhouette.iter().all(|part| match part {
+                Disc([x, _], radius) | Ring([x, _], radius) => {
+                    x - radius >= 0.0 && x + radius <= 1.0
+                }
+                Outline(at) => at.len() > 2 && at.iter().all(|[x, _]| (0.0..=1.0).contains(x)),
+            });
+            assert!(is_within && landmark.half_height() <= 0.5, "{}", landmark.names[0]);
         }
     }
 }
