@@ -2,8 +2,7 @@
 
 use glam::DVec2;
 
-use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
-use crate::sim::State;
+use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 
 /// The radius of a bead in halves of the picture's width, on a rail and in a plane.
 const BEAD: f64 = 0.055;
@@ -93,7 +92,7 @@ impl Beads<'_> {
     }
 }
 
-impl BodyPicture for Beads<'_> {
+impl Drawn for Beads<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         if let Some(plane) = self.plane {
             let [_, half] = self.plane_room(plane);
@@ -146,16 +145,16 @@ impl BodyPicture for Beads<'_> {
     }
 
     /// The other coordinates keep their places and their velocities.
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         match self.plane {
             Some([x, y]) => {
-                (state.q[x], state.q[y]) = (pull.to.x, pull.to.y);
-                (state.v[x], state.v[y]) = (pull.velocity.x, pull.velocity.y);
+                (q[x], q[y]) = (pull.to.x, pull.to.y);
+                (v[x], v[y]) = (pull.velocity.x, pull.velocity.y);
             }
             None => {
                 let rail = self.rails()[pull.handle];
-                state.q[pull.handle] = rail.coordinate(pull.to.x);
-                state.v[pull.handle] = pull.velocity.x / rail.scale;
+                q[pull.handle] = rail.coordinate(pull.to.x);
+                v[pull.handle] = pull.velocity.x / rail.scale;
             }
         }
     }

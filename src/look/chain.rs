@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
-use crate::sim::State;
 use crate::sim::bodies::Chain;
 
 /// The radius of each bead of a chain, in metres.
@@ -13,7 +12,7 @@ fn bead(chain: &Chain, beads: usize) -> f64 {
 }
 
 impl Drawn for Chain {
-    fn draw(&self, q: &Vec<f64>, outline: &mut Outline) {
+    fn draw(&self, q: &[f64], outline: &mut Outline) {
         let unit = self.amplitude();
         let half_wall = DVec2::Y * 0.5 * unit;
         let mut last = self.place_of(0, 0.0);
@@ -40,14 +39,14 @@ impl Drawn for Chain {
         }
     }
 
-    fn handles(&self, q: &Vec<f64>) -> Vec<Handle> {
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
         let radius = bead(self, q.len());
         (1..).zip(q).map(|(j, &x)| Handle { at: self.place_of(j, x), radius }).collect()
     }
 
     /// The other beads keep their places and their velocities.
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
-        state.q[pull.handle] = pull.to.y;
-        state.v[pull.handle] = pull.velocity.y;
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
+        q[pull.handle] = pull.to.y;
+        v[pull.handle] = pull.velocity.y;
     }
 }

@@ -1,9 +1,8 @@
 //! A custom body: as its author draws it, or beads on rails or in a plane.
 
 use super::beads::Beads;
-use super::{BodyPicture, Framing, Handle, Outline, Pull, typed};
+use super::{Drawn, Framing, Handle, Outline, Pull, typed};
 use crate::run::race::LaneBody;
-use crate::sim::State;
 use crate::sim::bodies::Custom;
 
 struct CustomPicture<'a> {
@@ -12,7 +11,7 @@ struct CustomPicture<'a> {
     beads: Beads<'a>,
 }
 
-pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
+pub(super) fn picture(body: &LaneBody) -> Box<dyn Drawn + '_> {
     let custom = typed::<Custom>(body.stepper.body());
     let info = custom.info();
     let coordinates = info.coordinates.iter().map(|of| [&*of.name, of.unit]).collect();
@@ -20,7 +19,7 @@ pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
     Box::new(CustomPicture { body, custom, beads })
 }
 
-impl BodyPicture for CustomPicture<'_> {
+impl Drawn for CustomPicture<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         match self.body.drawing() {
             Some(draw) => outline.marks.extend(draw(self.custom.system(), q)),
@@ -36,7 +35,7 @@ impl BodyPicture for CustomPicture<'_> {
         self.beads.handles(q)
     }
 
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
-        self.beads.pull(state, pull);
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
+        self.beads.pull(q, v, pull);
     }
 }

@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
-use crate::sim::State;
 use crate::sim::bodies::Follow;
 
 /// How far the camera and the target go to either side, in metres; of a camera that stays, 1.
@@ -19,7 +18,7 @@ const TARGET: f64 = 0.045;
 const HALF_POST: f64 = 0.16;
 
 impl Drawn for Follow {
-    fn draw(&self, _x: &f64, outline: &mut Outline) {
+    fn draw(&self, _q: &[f64], outline: &mut Outline) {
         let (reach, at) = (reach(self), DVec2::new(self.target(outline.t), 0.0));
         let half_post = DVec2::Y * HALF_POST * reach;
         outline.marks.push(Mark::Rod { from: outline.at, to: at });
@@ -32,16 +31,16 @@ impl Drawn for Follow {
         Framing::Recorder { half_width_m: 1.3 * reach(self) }
     }
 
-    fn handles(&self, x: &f64) -> Vec<Handle> {
-        vec![Handle { at: DVec2::new(*x, 0.0), radius: CAMERA * reach(self) }]
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        vec![Handle { at: DVec2::new(q[0], 0.0), radius: CAMERA * reach(self) }]
     }
 
     /// By the law of first order the velocity follows from the place.
-    fn pull(&self, state: &mut State<f64>, pull: Pull) {
-        state.v = match self.order {
-            1 => state.v - self.rate * (pull.to.x - state.q),
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
+        v[0] = match self.order {
+            1 => v[0] - self.rate * (pull.to.x - q[0]),
             _ => pull.velocity.x,
         };
-        state.q = pull.to.x;
+        q[0] = pull.to.x;
     }
 }

@@ -1,9 +1,8 @@
 //! A ship that is steered, from above.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
-use crate::sim::State;
 use crate::sim::bodies::Helm;
 
 /// What is shown across, in metres: a turning circle.
@@ -13,8 +12,8 @@ const WIDTH_M: f64 = 150.0;
 const LENGTH_M: f64 = 0.15 * WIDTH_M;
 
 impl Drawn for Helm {
-    fn draw(&self, q: &DVec3, outline: &mut Outline) {
-        let bow = DVec2::new(libm::cos(q.z), libm::sin(q.z));
+    fn draw(&self, q: &[f64], outline: &mut Outline) {
+        let bow = DVec2::new(libm::cos(q[2]), libm::sin(q[2]));
         outline.marks.push(Mark::Hull { bow, length: LENGTH_M });
     }
 
@@ -22,13 +21,13 @@ impl Drawn for Helm {
         Framing::Follow { width_m: WIDTH_M, height_m: 0.6 * WIDTH_M, wake_s: 10.0 }
     }
 
-    fn handles(&self, q: &DVec3) -> Vec<Handle> {
-        vec![Handle { at: q.truncate(), radius: LENGTH_M / 2.0 }]
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        vec![Handle { at: DVec2::from_slice(q), radius: LENGTH_M / 2.0 }]
     }
 
     /// The ship keeps its heading, and turns no more.
-    fn pull(&self, state: &mut State<DVec3>, pull: Pull) {
-        state.q = pull.to.extend(state.q.z);
-        state.v = pull.velocity.extend(0.0);
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
+        pull.to.write_to_slice(q);
+        pull.velocity.extend(0.0).write_to_slice(v);
     }
 }

@@ -4,9 +4,8 @@
 use glam::DVec2;
 
 use super::beads::Beads;
-use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull, typed};
+use super::{Drawn, Framing, Handle, Mark, Outline, Pull, typed};
 use crate::run::race::LaneBody;
-use crate::sim::State;
 use crate::sim::bodies::Law;
 use crate::sim::law::Layout;
 
@@ -18,7 +17,7 @@ mod carriage;
 mod places;
 mod vertical;
 
-pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
+pub(super) fn picture(body: &LaneBody) -> Box<dyn Drawn + '_> {
     let law = typed::<Law>(body.stepper.body());
     let (text, preview) = (law.equations().text(), body.preview());
     if law.equations().has_places() {
@@ -46,12 +45,6 @@ fn reach(ranges: &[(f64, f64)]) -> [f64; 2] {
     if low < high { [low, high] } else { [-1.0, 1.0] }
 }
 
-/// Brings the height of a coordinate to a hand.
-fn lift(state: &mut State<Vec<f64>>, coordinate: usize, height: f64, velocity: f64) {
-    state.q[coordinate] = height;
-    state.v[coordinate] = velocity;
-}
-
 /// The radii of a follower and of what it follows, in parts of the farthest that they go.
 const BODY: f64 = 0.08;
 const TARGET: f64 = 0.05;
@@ -73,7 +66,7 @@ impl Follower {
     }
 }
 
-impl BodyPicture for Follower {
+impl Drawn for Follower {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let farthest = self.farthest();
         let at = |x: f64| DVec2::new(x, 0.0);
@@ -94,8 +87,8 @@ impl BodyPicture for Follower {
         places.map(|(&x, radius)| Handle { at: DVec2::new(x, 0.0), radius }).collect()
     }
 
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
-        state.q[pull.handle] = pull.to.x;
-        state.v[pull.handle] = pull.velocity.x;
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
+        q[pull.handle] = pull.to.x;
+        v[pull.handle] = pull.velocity.x;
     }
 }

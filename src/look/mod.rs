@@ -7,10 +7,10 @@ use glam::DVec2;
 
 use crate::run::race::LaneBody;
 use crate::scene::{Mark, Outline};
+use crate::sim::Vector;
 use crate::sim::bodies::{
     Body, Chain, Custom, Follow, Helm, Kind, Law, Net, Orbit, Origin, Pendulum, Ship, Spring,
 };
-use crate::sim::{State, Vector};
 
 mod beads;
 mod chain;
@@ -80,75 +80,36 @@ pub struct Pull {
     pub velocity: DVec2,
 }
 
-/// How bodies of one type look.
-trait Drawn: Body {
-    /// Draws a body with these coordinates, in metres, x right and y up; [`Outline::at`] is where it is and
+/// How a body looks with its present parameters.
+trait Drawn {
+    /// Draws it at these coordinates, in metres, x right and y up; [`Outline::at`] is where it is and
     /// [`Outline::t`] when.
-    fn draw(&self, q: &Self::Vector, outline: &mut Outline);
+    fn draw(&self, q: &[f64], outline: &mut Outline);
 
     /// What part of its world the stage shows.
     fn framing(&self) -> Framing;
 
-    /// The closed course that a body in this state goes along, if it does.
-    fn course(&self, _state: &State<Self::Vector>) -> Vec<DVec2> {
-        Vec::new()
-    }
-
-    /// What a body does in truth from this state on, in a few words, if that is simple.
-    fn promise(&self, _state: &State<Self::Vector>) -> Option<String> {
-        None
-    }
-
-    /// Where a hand can take hold of a body with these coordinates.
-    fn handles(&self, q: &Self::Vector) -> Vec<Handle>;
-
-    /// Brings a handle as near to where it is pulled as the body lets it, moving as it is pulled as far as the body
-    /// lets it. What the handle does not move keeps its state.
-    fn pull(&self, state: &mut State<Self::Vector>, pull: Pull);
-}
-
-/// A picture of one body at any of its coordinates: as [`Drawn`], of coordinates of any number.
-trait BodyPicture {
-    fn draw(&self, q: &[f64], outline: &mut Outline);
-    fn framing(&self) -> Framing;
+    /// The closed course along which it goes from this state, if it does.
     fn course(&self, _q: &[f64], _v: &[f64]) -> Vec<DVec2> {
         Vec::new()
     }
+
+    /// What it does in truth from this state on, in a few words, if that is simple.
     fn promise(&self, _q: &[f64], _v: &[f64]) -> Option<String> {
         None
     }
-    fn handles(&self, q: &[f64]) -> Vec<Handle>;
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull);
+
+    /// Whether it is one body over a ground, on which it comes down again.
     fn has_ground(&self) -> bool {
         false
     }
-}
 
-/// The picture of a body whose type says it all.
-struct Plain<'a, B>(&'a B);
+    /// Where a hand can take hold of it at these coordinates.
+    fn handles(&self, q: &[f64]) -> Vec<Handle>;
 
-impl<B: Drawn> BodyPicture for Plain<'_, B> {
-    fn draw(&self, q: &[f64], outline: &mut Outline) {
-        self.0.draw(&vector(self.0, q), outline);
-    }
-    fn framing(&self) -> Framing {
-        self.0.framing()
-    }
-    fn course(&self, q: &[f64], v: &[f64]) -> Vec<DVec2> {
-        self.0.course(&State { q: vector(self.0, q), v: vector(self.0, v) })
-    }
-    fn promise(&self, q: &[f64], v: &[f64]) -> Option<String> {
-        self.0.promise(&State { q: vector(self.0, q), v: vector(self.0, v) })
-    }
-    fn handles(&self, q: &[f64]) -> Vec<Handle> {
-        self.0.handles(&vector(self.0, q))
-    }
-    fn pull(&self, State { q, v }: &mut State<Vec<f64>>, pull: Pull) {
-        let mut state = State { q: vector(self.0, q), v: vector(self.0, v) };
-        self.0.pull(&mut state, pull);
-        q.copy_from_slice(state.q.components());
-        v.copy_from_slice(state.v.components());
-    }
+    /// Brings a handle as near to where it is pulled as the body lets it, moving as it is pulled as far as the body
+    /// lets it. What the handle does not move keeps its state.
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull);
 }
 
 /// How bodies of one kind look.
@@ -156,7 +117,7 @@ struct LookCard {
     /// The kind's id.
     kind: &'static str,
     place: fn(&dyn Any, &[f64]) -> DVec2,
-    picture: for<'a> fn(&'a LaneBody) -> Box<dyn BodyPicture + 'a>,
+    picture: for<'a> fn(&'a LaneBody) -> Box<dyn Drawn + 'a>,
 }
 
 /// The look of every kind in the table, in the order of [`BODIES`](crate::sim::bodies::BODIES).
@@ -187,13 +148,13 @@ pub(crate) fn drawn_unit(kind: &Kind) -> &'static str {
 }
 
 impl LookCard {
-    const fn plain<B: Drawn>(kind: &'static str) -> Self {
-        Self::of::<B>(kind, |body| Box::new(Plain(typed::<B>(body.stepper.body()))))
+    const fn plain<B: Body + Drawn>(kind: &'static str) -> Self {
+        Self::of::<B>(kind, |body| Box::new(typed::<B>(body.stepper.body()).clone()))
     }
 
     const fn of<B: Body>(
         kind: &'static str,
-        picture: for<'a> fn(&'a LaneBody) -> Box<dyn BodyPicture + 'a>,
+        picture: for<'a> fn(&'a LaneBody) -> Box<dyn Drawn + 'a>,
     ) -> Self {
         let place = |body: &dyn Any, q: &[f64]| {
             let body = typed::<B>(body);
@@ -219,7 +180,7 @@ impl LookCard {
 pub struct Look<'a> {
     body: &'a LaneBody,
     card: &'static LookCard,
-    picture: Box<dyn BodyPicture + 'a>,
+    picture: Box<dyn Drawn + 'a>,
 }
 
 impl<'a> Look<'a> {
@@ -264,10 +225,7 @@ impl<'a> Look<'a> {
 
     /// Changes coordinates and velocities as a hand pulls the body.
     pub fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
-        let mut state = State { q: q.to_vec(), v: v.to_vec() };
-        self.picture.pull(&mut state, pull);
-        q.copy_from_slice(&state.q);
-        v.copy_from_slice(&state.v);
+        self.picture.pull(q, v, pull);
     }
 }
 

@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull, typed};
+use super::{Drawn, Framing, Handle, Mark, Outline, Pull, typed};
 use crate::run::race::LaneBody;
 use crate::scene::{Preview, Thread};
-use crate::sim::State;
 use crate::sim::bodies::Net;
 
 /// The most nodes with beads: of more, beads hide the threads.
@@ -32,11 +31,11 @@ struct NetPicture<'a> {
     preview: Arc<Preview>,
 }
 
-pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
+pub(super) fn picture(body: &LaneBody) -> Box<dyn Drawn + '_> {
     Box::new(NetPicture { net: typed(body.stepper.body()), preview: body.preview() })
 }
 
-impl BodyPicture for NetPicture<'_> {
+impl Drawn for NetPicture<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let Self { net, preview } = self;
         let [low, high] = preview.corners;
@@ -68,8 +67,8 @@ impl BodyPicture for NetPicture<'_> {
     }
 
     /// The other nodes keep their places and their velocities.
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
-        Net::nodes_mut(&mut state.q)[pull.handle] = pull.to.into();
-        Net::nodes_mut(&mut state.v)[pull.handle] = pull.velocity.into();
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
+        Net::nodes_mut(q)[pull.handle] = pull.to.into();
+        Net::nodes_mut(v)[pull.handle] = pull.velocity.into();
     }
 }

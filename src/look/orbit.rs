@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
-use crate::sim::State;
 use crate::sim::bodies::{Ellipse, Orbit};
 
 /// The radii of the satellite and of the planet, in units.
@@ -21,7 +20,7 @@ fn unit(orbit: &Orbit) -> f64 {
 }
 
 impl Drawn for Orbit {
-    fn draw(&self, _q: &DVec2, outline: &mut Outline) {
+    fn draw(&self, _q: &[f64], outline: &mut Outline) {
         let unit = unit(self);
         let (centre, at) = (DVec2::ZERO, outline.at);
         outline.marks.push(Mark::Planet { centre, radius: PLANET * unit });
@@ -42,13 +41,14 @@ impl Drawn for Orbit {
     }
 
     /// The ellipse through the state, by its polar equation about the focus.
-    fn course(&self, state: &State<DVec2>) -> Vec<DVec2> {
-        let now = Orbit { q0: state.q, v0: state.v, ..self.clone() };
+    fn course(&self, q: &[f64], v: &[f64]) -> Vec<DVec2> {
+        let [q, v] = [q, v].map(DVec2::from_slice);
+        let now = Orbit { q0: q, v0: v, ..self.clone() };
         if now.ellipse().is_none() {
             return Vec::new();
         }
-        let momentum = state.q.perp_dot(state.v);
-        let eccentricity = -state.v.perp() * momentum / self.mu - state.q.normalize_or_zero();
+        let momentum = q.perp_dot(v);
+        let eccentricity = -v.perp() * momentum / self.mu - q.normalize_or_zero();
         let parameter = momentum * momentum / self.mu;
         let corner = |i| {
             let angle = TAU * f64::from(i) / f64::from(CORNERS);
@@ -58,11 +58,12 @@ impl Drawn for Orbit {
         (0..=CORNERS).map(corner).collect()
     }
 
-    fn handles(&self, q: &DVec2) -> Vec<Handle> {
-        vec![Handle { at: *q, radius: SATELLITE * unit(self) }]
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        vec![Handle { at: DVec2::from_slice(q), radius: SATELLITE * unit(self) }]
     }
 
-    fn pull(&self, state: &mut State<DVec2>, pull: Pull) {
-        *state = State { q: pull.to, v: pull.velocity };
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
+        pull.to.write_to_slice(q);
+        pull.velocity.write_to_slice(v);
     }
 }

@@ -5,14 +5,13 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
-use crate::sim::State;
 use crate::sim::bodies::{Body, Pendulum};
 
 /// The radius of the bob, in lengths of the rod.
 const BOB: f64 = 0.12;
 
 impl Drawn for Pendulum {
-    fn draw(&self, _theta: &f64, outline: &mut Outline) {
+    fn draw(&self, _q: &[f64], outline: &mut Outline) {
         let (pivot, bob, unit) = (DVec2::ZERO, outline.at, self.length);
         outline.marks.push(Mark::Rod { from: pivot, to: bob });
         outline.marks.push(Mark::Anchor { centre: pivot, radius: 0.035 * unit });
@@ -24,17 +23,17 @@ impl Drawn for Pendulum {
         Framing::Fixed { centre_m: DVec2::ZERO, half_m, trail_s: 1.0 }
     }
 
-    fn handles(&self, theta: &f64) -> Vec<Handle> {
-        vec![Handle { at: self.place(theta), radius: BOB * self.length }]
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        vec![Handle { at: self.place(&q[0]), radius: BOB * self.length }]
     }
 
     /// To the nearest turn, so that a bob that is led round and round counts its turns.
-    fn pull(&self, state: &mut State<f64>, pull: Pull) {
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         if pull.to != DVec2::ZERO {
             let angle = libm::atan2(pull.to.x, -pull.to.y);
-            state.q = angle + TAU * libm::round((state.q - angle) / TAU);
+            q[0] = angle + TAU * libm::round((q[0] - angle) / TAU);
         }
-        let tangent = DVec2::new(libm::cos(state.q), libm::sin(state.q));
-        state.v = pull.velocity.dot(tangent) / self.length;
+        let tangent = DVec2::new(libm::cos(q[0]), libm::sin(q[0]));
+        v[0] = pull.velocity.dot(tangent) / self.length;
     }
 }

@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
-use crate::sim::State;
 use crate::sim::bodies::Spring;
 use crate::sim::number::round;
 
@@ -18,7 +17,7 @@ fn amplitude(spring: &Spring) -> f64 {
 const HALF_BLOCK: f64 = 0.16;
 
 impl Drawn for Spring {
-    fn draw(&self, _x: &f64, outline: &mut Outline) {
+    fn draw(&self, _q: &[f64], outline: &mut Outline) {
         outline.marks.push(Mark::Sprung);
     }
 
@@ -26,20 +25,20 @@ impl Drawn for Spring {
         Framing::Recorder { half_width_m: 2.0 * amplitude(self) }
     }
 
-    fn promise(&self, state: &State<f64>) -> Option<String> {
+    fn promise(&self, q: &[f64], v: &[f64]) -> Option<String> {
         if self.damping > 0.0 {
             return Some("should come to rest".into());
         }
-        let swing = libm::hypot(state.q, state.v / self.angular_frequency());
+        let swing = libm::hypot(q[0], v[0] / self.angular_frequency());
         Some(format!("should keep to ±{} m", round(swing, 3)))
     }
 
-    fn handles(&self, x: &f64) -> Vec<Handle> {
-        vec![Handle { at: DVec2::new(*x, 0.0), radius: HALF_BLOCK * amplitude(self) }]
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        vec![Handle { at: DVec2::new(q[0], 0.0), radius: HALF_BLOCK * amplitude(self) }]
     }
 
-    fn pull(&self, state: &mut State<f64>, pull: Pull) {
-        *state = State { q: pull.to.x, v: pull.velocity.x };
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
+        (q[0], v[0]) = (pull.to.x, pull.velocity.x);
     }
 }
 

@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
-use super::{lift, reach};
+use super::super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::reach;
+use crate::sim::System;
 use crate::sim::bodies::Law;
-use crate::sim::{State, System};
 
 /// The sizes of the parts, in units of the farthest that the carriage or the wheel goes from its rest: half the body,
 /// its height above the hub at rest, the radius of the wheel, and half the length of the road.
@@ -71,7 +71,7 @@ impl<'a> Carriage<'a> {
     }
 }
 
-impl BodyPicture for Carriage<'_> {
+impl Drawn for Carriage<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let unit = self.unit;
         let (body, hub) = (DVec2::new(0.0, q[0]), self.hub(q[1]));
@@ -102,9 +102,9 @@ impl BodyPicture for Carriage<'_> {
         vec![body, Handle { at: self.hub(q[1]), radius: WHEEL * self.unit }]
     }
 
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         let rest = if pull.handle == 0 { 0.0 } else { self.hub(0.0).y };
-        lift(state, pull.handle, pull.to.y - rest, pull.velocity.y);
+        (q[pull.handle], v[pull.handle]) = (pull.to.y - rest, pull.velocity.y);
     }
 }
 

@@ -2,8 +2,7 @@
 
 use glam::{DMat2, DVec2};
 
-use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
-use crate::sim::State;
+use super::super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Law;
 
 /// The radius of a disc, in parts of half the picture.
@@ -80,7 +79,7 @@ fn smallest_change(slopes: &[DVec2], by: DVec2) -> Vec<f64> {
     slopes.iter().map(|slope| slope.dot(weights)).collect()
 }
 
-impl BodyPicture for Places<'_> {
+impl Drawn for Places<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let radius = self.radius();
         let discs = self.law.places(q).into_iter().map(|centre| Mark::Disc { centre, radius });
@@ -97,21 +96,21 @@ impl BodyPicture for Places<'_> {
         self.law.places(q).into_iter().map(|at| Handle { at, radius }).collect()
     }
 
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         for _ in 0..ITERATIONS {
-            let off = pull.to - self.law.places(&state.q)[pull.handle];
+            let off = pull.to - self.law.places(q)[pull.handle];
             if !off.is_finite() {
                 return;
             }
-            let changes = smallest_change(&self.slopes(pull.handle, &state.q), off);
-            for (q, change) in state.q.iter_mut().zip(changes) {
+            let changes = smallest_change(&self.slopes(pull.handle, q), off);
+            for (q, change) in q.iter_mut().zip(changes) {
                 let most = MAX_CHANGE * q.abs().max(1.0);
                 *q += change.clamp(-most, most);
             }
         }
-        let slopes = self.slopes(pull.handle, &state.q);
+        let slopes = self.slopes(pull.handle, q);
         let velocities = smallest_change(&slopes, pull.velocity);
-        for ((v, velocity), slope) in state.v.iter_mut().zip(velocities).zip(&slopes) {
+        for ((v, velocity), slope) in v.iter_mut().zip(velocities).zip(&slopes) {
             if *slope != DVec2::ZERO {
                 *v = velocity;
             }

@@ -2,9 +2,8 @@
 
 use glam::DVec2;
 
-use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
-use super::{lift, reach};
-use crate::sim::State;
+use super::super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::reach;
 
 /// The radius of a body, the distance of two, and half the length of the line at 0, in parts of the heights' range.
 const BODY: f64 = 0.05;
@@ -29,7 +28,7 @@ impl Vertical {
     }
 }
 
-impl BodyPicture for Vertical {
+impl Drawn for Vertical {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let ([low, high], range) = (reach(&self.ranges), self.range());
         let last = self.at(self.ranges.len() - 1, 0.0);
@@ -68,7 +67,7 @@ impl BodyPicture for Vertical {
         self.ranges.len() == 1 && low + high >= 0.0
     }
 
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
-        lift(state, pull.handle, pull.to.y, pull.velocity.y);
+    fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
+        (q[pull.handle], v[pull.handle]) = (pull.to.y, pull.velocity.y);
     }
 }
