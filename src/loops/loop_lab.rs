@@ -326,11 +326,6 @@ impl LoopLab {
         self.ask();
     }
 
-    /// Adds a trace to choose from, if there is one.
-    pub(crate) fn offer(&mut self, trace: Option<FrameTrace>) {
-        self.traces.extend(trace);
-    }
-
     /// Adds traces, and chooses the first of them.
     pub fn add_traces(&mut self, traces: Vec<FrameTrace>) {
         let index = self.traces.len();

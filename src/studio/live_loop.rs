@@ -2,12 +2,8 @@
 
 use std::collections::VecDeque;
 
-use crate::loops::{Frame, FrameTrace, RefreshRate};
-
 /// The frames that are remembered: ten seconds at 60 Hz.
 const MAX_FRAMES: usize = 600;
-/// The fewest that make a trace.
-const MIN_FRAMES: usize = 60;
 
 /// A frame of the studio's own loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,25 +56,6 @@ impl LiveLoop {
     pub(super) fn jump(&mut self) {
         self.shown_s = None;
     }
-
-    /// The trace of these frames, displayed when they begin, if there are enough.
-    pub(super) fn trace(&self) -> Option<FrameTrace> {
-        let mut durations: Vec<i64> = self.frames.iter().map(|frame| frame.duration_ns).collect();
-        if durations.len() < MIN_FRAMES {
-            return None;
-        }
-        let starts = self.frames.iter().scan(0, |began_ns, frame| {
-            *began_ns += frame.duration_ns.max(0);
-            Some(*began_ns)
-        });
-        let first = self.frames[0].duration_ns.max(0);
-        let frames = starts.map(|began_ns| began_ns - first);
-        let frames = frames.map(|began_ns| Frame { began_ns, displayed_ns: Some(began_ns) });
-        let frames = frames.collect();
-        durations.sort_unstable();
-        let refresh = RefreshRate::of_period(durations[durations.len() / 2]);
-        Some(FrameTrace::recorded("live", refresh, frames))
-    }
 }
 
 #[cfg(test)]
@@ -106,15 +83,9 @@ mod tests {
     }
 
     #[test]
-    fn it_is_a_trace_once_a_second_was_measured_and_never_grows_beyond_ten() {
+    fn the_last_ten_seconds_are_kept() {
         let mut live = LiveLoop::default();
-        assert!(live.trace().is_none());
         (0..2 * MAX_FRAMES).for_each(|_| live.add(FRAME, 0.0, 1.0));
         assert_eq!(live.frames().len(), MAX_FRAMES);
-        let trace = live.trace().unwrap();
-        assert_eq!((trace.name(), trace.refresh().hz()), ("live", 100.0));
-        let mut frames = trace.frames();
-        let began = |frame: Option<Frame>| frame.unwrap().began_ns;
-        assert_eq!([began(frames.next(0)), began(frames.next(0))], [0, 10_000_000]);
     }
 }

@@ -43,7 +43,6 @@ impl Studio {
             return self.viewer.set_notice(refusal);
         }
         let mut loops = LoopLab::new(self.scene(), body, method);
-        loops.offer(self.viewer.live.trace());
         loops.run_goes_on = self.running;
         loops.play_opening();
         self.activity = Activity::Loops(loops.into());

@@ -60,10 +60,7 @@ fn short(name: &str) -> String {
 /// What happens in a trace.
 fn about_trace(trace: &FrameTrace) -> String {
     let built_in = TRACES.iter().find(|card| card.id == trace.name());
-    let about = match trace.name() {
-        "live" => "the last frames of this window",
-        _ => built_in.map_or("frames that were opened from a file", |card| card.about),
-    };
+    let about = built_in.map_or("frames that were opened from a file", |card| card.about);
     let missing = trace.missing_display();
     about.to_owned() + &missing.map_or(String::new(), |missing| format!("; {missing}"))
 }
@@ -131,8 +128,6 @@ mod tests {
     fn every_trace_says_what_happens_in_it() {
         let display = RefreshRate::new(60, 1);
         assert!(TRACES.iter().all(|card| about_trace(&card.trace(display)) == card.about));
-        let opened = |name: &str| about_trace(&FrameTrace::recorded(name, display, Vec::new()));
-        assert_ne!(opened("live"), opened("my-game"));
         let list = trace_file::read("times.txt", "16.7\n16.6\n").unwrap();
         assert!(about_trace(&list[0]).contains("taken as displayed when they begin"));
     }
