@@ -101,7 +101,7 @@ pub(super) struct CaptureArgs {
 
     /// The instrument [default: motion]
     ///
-    /// That among the panels, such as energy, phase-portrait or cloud.
+    /// That among the panels, such as energy, phase or cloud.
     #[arg(long, value_name = "NAME", value_parser = INSTRUMENT, conflicts_with = "loop_trace")]
     #[arg(hide_possible_values = true)]
     instrument: Option<Instrument>,

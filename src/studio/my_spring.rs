@@ -105,11 +105,14 @@ impl MySpring {
         ];
         let wrong = ranges.into_iter().find(|(_, value, from)| !(*from..=most).contains(value));
         if let Some((name, value, from)) = wrong {
-            let wanted = match () {
-                () if value > most => "at most 10¹²",
-                () if from > 0.0 => "positive",
-                () if from < 0.0 => "at least -10¹²",
-                () => "0 or more",
+            let wanted = if value > most {
+                "at most 10¹²"
+            } else if from > 0.0 {
+                "positive"
+            } else if from < 0.0 {
+                "at least -10¹²"
+            } else {
+                "0 or more"
             };
             return Err(format!("{name} would be {}; it must be {wanted}", round(value, 4)));
         }
@@ -176,7 +179,7 @@ impl MySpring {
             None => scene.lanes.insert(1, best),
         }
         scene.opening_method = Some(best.method);
-        scene.hint = Some(hint(best));
+        scene.hint = Some(hint(best, &scene.lanes));
         Scene::parse(&scene.name, &scene.to_toml())
     }
 
@@ -190,16 +193,11 @@ impl MySpring {
 }
 
 /// What to try under the method that is recommended.
-fn hint(best: LaneSpec) -> String {
-    let name = best.method.name;
-    match (best.method.id, best.substeps) {
-        ("explicit-euler", 1) => {
-            "Even Explicit Euler looks right here. Press `C` to race all methods.".into()
-        }
-        (_, 1) => format!("{name} looks right at little cost. Press `1` for Explicit Euler."),
-        (_, n) => {
-            format!("{name} ×{n} looks right at little cost. Press `1` for Explicit Euler.")
-        }
+fn hint(best: LaneSpec, lanes: &[LaneSpec]) -> String {
+    let (name, first) = (best.name_with_substeps(lanes), lanes[0].method.name);
+    match best == lanes[0] {
+        true => format!("Even {name} looks right here. Press `C` to race all methods."),
+        false => format!("{name} looks right at little cost. Press `1` for {first}."),
     }
 }
 
