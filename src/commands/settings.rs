@@ -39,9 +39,9 @@ impl CaptureSettings {
         studio.viewer_mut().preferences.display.motion =
             if self.motion { Motion::Recorded } else { Motion::Reduced };
         studio.viewer_mut().preferences.choose_theme(self.theme);
-        self.instrument
-            .into_iter()
-            .for_each(|it| studio.viewer_mut().preferences.display.instrument = it);
+        if let Some(instrument) = self.instrument {
+            studio.viewer_mut().preferences.display.instrument = instrument;
+        }
         if let Some(kind) = self.cloud {
             studio.apply(RunCommand::Cloud(CloudChoice { kind, ..studio.display().cloud }));
         }

@@ -92,7 +92,11 @@ impl Action {
                 stepper.set_parameter(t, *parameter, *value);
             }
             Action::Place { q, v, .. } => stepper.set(t, q, v),
-            other => other.input().into_iter().for_each(|input| _ = stepper.input(t, input)),
+            other => {
+                if let Some(input) = other.input() {
+                    stepper.input(t, input);
+                }
+            }
         }
     }
 

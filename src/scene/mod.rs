@@ -178,7 +178,9 @@ impl Scripted {
         let mut piece = Piece::first(tick_hz);
         let scripted = |(tick, action): (u64, Action)| {
             let at_s = piece.t(tick);
-            action.tick_hz().into_iter().for_each(|tick_hz| piece = piece.then(tick, tick_hz));
+            if let Some(tick_hz) = action.tick_hz() {
+                piece = piece.then(tick, tick_hz);
+            }
             Self { at_s, action }
         };
         rows.into_iter().map(scripted).collect()

@@ -114,7 +114,9 @@ fn with_known_rows(
 fn at_the_end(mut item: Item) -> Item {
     let rows = item.as_array_of_tables_mut().into_iter().flat_map(ArrayOfTables::iter_mut);
     rows.for_each(|row| row.set_position(Some(isize::MAX)));
-    item.as_table_mut().into_iter().for_each(|table| table.set_position(Some(isize::MAX)));
+    if let Some(table) = item.as_table_mut() {
+        table.set_position(Some(isize::MAX));
+    }
     item
 }
 

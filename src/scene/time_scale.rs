@@ -55,7 +55,9 @@ impl Piece {
         script.into_iter().map(move |(at_s, action)| {
             let tick = self.nearest_tick(at_s);
             let t = self.t(tick);
-            action.tick_hz().into_iter().for_each(|tick_hz| self = self.then(tick, tick_hz));
+            if let Some(tick_hz) = action.tick_hz() {
+                self = self.then(tick, tick_hz);
+            }
             (tick, t)
         })
     }

@@ -22,7 +22,9 @@ pub(crate) fn ask() {
     input.set_accept(".toml,.csv,.txt");
     let picked = input.clone();
     let picked = Closure::once_into_js(move || {
-        picked.files().and_then(|files| files.get(0)).into_iter().for_each(open);
+        if let Some(file) = picked.files().and_then(|files| files.get(0)) {
+            open(file);
+        }
     });
     input.set_onchange(Some(picked.unchecked_ref()));
     input.click();

@@ -65,7 +65,9 @@ pub(crate) fn listen() {
         on(&window, "drop", |_, event: DragEvent| {
             event.prevent_default();
             let dropped = event.data_transfer().and_then(|dropped| dropped.files());
-            dropped.and_then(|files| files.get(0)).into_iter().for_each(files::open);
+            if let Some(file) = dropped.and_then(|files| files.get(0)) {
+                files::open(file);
+            }
         });
         on(&window, "resize", |driver, _: Event| driver.request_frame());
         // Another run in the address of the same page.

@@ -28,8 +28,9 @@ impl App {
             let closes = key == Key::Escape;
             if closes {
                 self.frames.ask([Command::View(ViewCommand::CloseDialog)]);
-                let field = panels.memory(|memory| memory.focused());
-                field.into_iter().for_each(|id| panels.memory_mut(|m| m.surrender_focus(id)));
+                if let Some(field) = panels.memory(|memory| memory.focused()) {
+                    panels.memory_mut(|memory| memory.surrender_focus(field));
+                }
             }
             return closes;
         }

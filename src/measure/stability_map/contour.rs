@@ -135,11 +135,14 @@ fn chains(mut segments: Vec<[Side; 2]>) -> Vec<Vec<Side>> {
             let touches = |segment: &[Side; 2]| segment.contains(&front) || segment.contains(&back);
             let Some(index) = segments.iter().position(touches) else { break };
             let [a, b] = segments.swap_remove(index);
-            match () {
-                () if a == back => line.push_back(b),
-                () if b == back => line.push_back(a),
-                () if a == front => line.push_front(b),
-                () => line.push_front(a),
+            if a == back {
+                line.push_back(b);
+            } else if b == back {
+                line.push_back(a);
+            } else if a == front {
+                line.push_front(b);
+            } else {
+                line.push_front(a);
             }
         }
         lines.push(line.into());

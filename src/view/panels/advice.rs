@@ -122,10 +122,12 @@ fn answer(
             slot(ui, CRITERION, |ui| line(ui, name)).on_hover_text(criterion.about());
             let Some((advised, met)) = taken else {
                 let all_miss = advice.advised.iter().all(|row| row.met[i] == CriterionResult::No);
-                let none = match () {
-                    () if done < wanted => "none yet".to_owned(),
-                    () if all_miss => format!("none with up to {MAX_ADVISED_SUBSTEPS} substeps"),
-                    () => "unknown for those that might".into(),
+                let none = if done < wanted {
+                    "none yet".to_owned()
+                } else if all_miss {
+                    format!("none with up to {MAX_ADVISED_SUBSTEPS} substeps")
+                } else {
+                    "unknown for those that might".into()
                 };
                 line(ui, RichText::new(none).color(palette(ui).text));
                 return;

@@ -71,8 +71,9 @@ pub(super) fn show_alone(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Comman
     let room = ui.available_size() - vec2(10.0, 2.0);
     match studio.display().instrument {
         Instrument::Motion | Instrument::Error | Instrument::Energy | Instrument::Phase => {
-            let set = plot_set_of(studio, detail(ui, studio));
-            set.iter().for_each(|set| plots(ui, studio, set, commands));
+            if let Some(set) = plot_set_of(studio, detail(ui, studio)) {
+                plots(ui, studio, &set, commands);
+            }
         }
         Instrument::Cost => cost::show(ui, studio, room, commands),
         Instrument::StabilityMap => stability_map::show(ui, studio, room, commands),
@@ -124,12 +125,10 @@ fn tabs(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) 
         };
         groups.map(width).sum::<f32>() + 2.0 * BETWEEN_GROUPS <= room
     };
-    let (padding, is_whole) = match () {
-        () if fits(usual, true) => (usual, true),
-        () if fits(TIGHT, true) => (TIGHT, true),
-        () if fits(usual, false) => (usual, false),
-        () if fits(TIGHT, false) => (TIGHT, false),
-        () => return tabs_menu(ui, studio, indent, commands),
+    let ways = [(usual, true), (TIGHT, true), (usual, false), (TIGHT, false)];
+    let Some((padding, is_whole)) = ways.into_iter().find(|&(padding, whole)| fits(padding, whole))
+    else {
+        return tabs_menu(ui, studio, indent, commands);
     };
     ui.horizontal(|ui| {
         ui.add_space(indent);

@@ -343,7 +343,9 @@ fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>
     };
     let rows = rows_of_formula(ui, step, ui.available_width());
     ScrollArea::vertical().id_salt("one step").auto_shrink(false).show(ui, |ui| {
-        said.into_iter().for_each(|said| drop(ui.label(said)));
+        if let Some(said) = said {
+            ui.label(said);
+        }
         if rows.is_none() {
             for text in step.spec.method.formula {
                 ui.label(formula(text, 16.0, palette(ui).text));

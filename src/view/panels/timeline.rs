@@ -282,7 +282,9 @@ fn numbers(
 ) {
     let Span { from_s, to_s } = span;
     let mut marks = AxisScale::Linear.marks([from_s, to_s], along.span(), NUMBERS_APART);
-    marks.last_mut().into_iter().for_each(|(_, text)| text.push_str(" s"));
+    if let Some((_, text)) = marks.last_mut() {
+        text.push_str(" s");
+    }
     for (t, text) in marks {
         let x = span.x(t, along);
         let top = y + 0.5 * THICKNESS;

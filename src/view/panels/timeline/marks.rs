@@ -95,8 +95,9 @@ impl Context<'_> {
                     halted.push(lane);
                 }
                 let Some((lane, set)) = setting(event) else { continue };
-                let known = specs.iter_mut().find(|(id, _)| *id == lane);
-                known.into_iter().for_each(|(_, spec)| set(spec));
+                if let Some((_, spec)) = specs.iter_mut().find(|(id, _)| *id == lane) {
+                    set(spec);
+                }
             }
             let lasts = |event: &Event| match (&event.kind, setting(event)) {
                 (EventKind::Done { action: Action::Solo { .. }, .. }, _) => false,
