@@ -34,6 +34,7 @@ mod truth;
 mod verdict;
 mod worker;
 
+pub use crate::sim::number::duration;
 pub use advice::{
     Adviser, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, MethodAdvice, ranked, recommended,
 };
@@ -52,6 +53,6 @@ pub use run::MAX_WORK;
 pub use stability_map::{Coverage, Here, MapRequest, Region, SeenLine, StabilityMap};
 pub use truth::LONG_RUN;
 pub use verdict::{
-    Comparison, Finding, LongTerm, NoTruth, NotJudged, RunFailure, Verdict, VerdictNumber, duration,
+    Comparison, Finding, LongTerm, NoTruth, NotJudged, RunFailure, Verdict, VerdictNumber,
 };
 pub use worker::{Advice, AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings};

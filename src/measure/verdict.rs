@@ -13,7 +13,7 @@ use crate::sim::integrators::StepFailure;
 mod schema;
 mod words;
 
-pub use words::{VerdictNumber, duration};
+pub use words::VerdictNumber;
 
 /// The largest error in amplitudes that counts as rounding.
 const ROUNDING: f64 = 1e-9;

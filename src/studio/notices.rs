@@ -1,11 +1,8 @@
 //! Notices about bodies that halt and bodies that resume.
 
-use crate::measure::duration;
-use crate::run::race::{Done, Halt, LaneBody, Observer, Race, Resumed, ResumedFrom};
+use crate::run::race::{Done, Halt, Observer, Race, Resumed, ResumedFrom};
 use crate::scene::{Action, LaneSpec, Scene};
 use crate::sim::bodies::FalseClaims;
-use crate::sim::integrators::StepFailure;
-use crate::sim::number::superscript;
 
 /// Collects notices from a race.
 pub(super) struct Notices<'s> {
@@ -34,53 +31,6 @@ impl Observer for Notices<'_> {
 
     fn ticked(&mut self, race: &Race) {
         self.tell(of_halts(self.scene, race));
-    }
-}
-
-impl Halt {
-    /// What became of the body, and when: `blew up at 8.4 s`.
-    pub fn fate(&self) -> String {
-        format!("{} at {}", self.how(), duration(self.t))
-    }
-}
-
-impl LaneBody {
-    /// What became of the body, if it halted, and with what values: `blew up at 8.4 s (speed 10³⁸ m/s)`.
-    pub fn fate(&self) -> Option<String> {
-        let halt = self.halted()?;
-        let (fate, how) = (halt.fate(), |name| self.quantity(name));
-        Some(match &halt.failure {
-            StepFailure::Escaped { coordinate, value } => {
-                let size = superscript(libm::round(libm::log10(value.abs())) as i32);
-                let (quantity, unit) = how(coordinate);
-                format!("{fate} ({quantity} 10{size}{unit})")
-            }
-            StepFailure::NotFinite { coordinate, .. } => {
-                format!("{fate} ({} overflowed)", how(coordinate).0)
-            }
-            failure => format!("{fate}: {failure}"),
-        })
-    }
-
-    /// The quantity of the body that has this name, in words, and its unit after a space, if it has one.
-    fn quantity(&self, name: &str) -> (String, String) {
-        let coordinates = self.coordinates();
-        let several = coordinates.len() > 1;
-        let velocity = coordinates.iter().find(|coordinate| *coordinate.velocity == *name);
-        let of = velocity.clone().or_else(|| coordinates.iter().find(|it| *it.name == *name));
-        let plain = if velocity.is_some() { "speed" } else { "position" };
-        let quantity = match self.kind.node(name) {
-            Some((_, node)) => format!("{plain} of node {node}"),
-            None if several => name.to_owned(),
-            None => plain.to_owned(),
-        };
-        let unit = match (of.map_or("1", |coordinate| coordinate.unit), velocity.is_some()) {
-            ("1", false) => String::new(),
-            ("1", true) => " per second".into(),
-            (unit, false) => format!(" {unit}"),
-            (unit, true) => format!(" {unit}/s"),
-        };
-        (quantity, unit)
     }
 }
 
@@ -142,6 +92,8 @@ fn of_claims(scene: &Scene, race: &Race, action: &Action) -> Option<String> {
 mod tests {
     use super::*;
     use crate::run::{METRICS, Metric};
+    use crate::sim::integrators::StepFailure;
+    use crate::sim::number::duration;
     use crate::studio::{RunCommand, StageCommand, Studio};
 
     #[test]

@@ -8,7 +8,7 @@ use crate::measure::chase_finding::ChaseFinding;
 use crate::measure::criterion::{TOLERANCE, VISIBLE};
 use crate::measure::energy_finding::EnergyFinding;
 use crate::measure::outcome::Outcome;
-use crate::sim::number::{round, significant, superscript};
+use crate::sim::number::{duration, in_unit, significant, superscript};
 
 /// The largest relative error of a frequency that is too small to be the cause of anything.
 const FAINT_PITCH: f64 = 1e-4;
@@ -335,26 +335,6 @@ fn brief_duration(seconds: f64) -> String {
     in_unit(seconds, |value| significant(value, 2))
 }
 
-/// A duration to three digits, in the unit that fits its length.
-pub fn duration(seconds: f64) -> String {
-    in_unit(seconds, |value| round(value, 3).to_string())
-}
-
-fn in_unit(seconds: f64, written: impl Fn(f64) -> String) -> String {
-    const MINUTE: f64 = 60.0;
-    const HOUR: f64 = 60.0 * MINUTE;
-    const DAY: f64 = 24.0 * HOUR;
-    // Seconds up to a thousand and hours up to two days, so that similar durations have one unit.
-    let (unit, name) = match seconds {
-        s if s < 999.5 => (1.0, "s"),
-        s if s < HOUR => (MINUTE, "min"),
-        s if s < 2.0 * DAY => (HOUR, "h"),
-        s if s < 999.5 * DAY => (DAY, "days"),
-        _ => (365.0 * DAY, "years"),
-    };
-    format!("{} {name}", written(seconds / unit))
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::RunFailure;
@@ -367,22 +347,6 @@ mod tests {
     fn verdict(scene: &str, id: &str, tick_hz: u32) -> Verdict {
         let judge = Judge::new(&Scene::built_in(scene).unwrap());
         judge.verdict(LaneSpec::plain(method(id).unwrap()), tick_hz)
-    }
-
-    #[test]
-    fn durations_have_three_digits_and_a_fitting_unit() {
-        for (seconds, shown) in [
-            (0.29, "0.29 s"),
-            (2.1234, "2.12 s"),
-            (20.0, "20 s"),
-            (769.3, "769 s"),
-            (1671.0, "27.9 min"),
-            (13.7 * 3600.0, "13.7 h"),
-            (14.6 * 86_400.0, "14.6 days"),
-            (5e8, "15.9 years"),
-        ] {
-            assert_eq!(duration(seconds), shown);
-        }
     }
 
     #[test]

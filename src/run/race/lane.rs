@@ -11,7 +11,7 @@ use super::follow::Ticked;
 use crate::scene::{Action, Appearance, Drawing, Preview, Scene, SceneBody};
 use crate::sim::bodies::{Coordinate, Coordinates, Custom, FalseClaims, Input, Kind, Law, Truth};
 use crate::sim::integrators::StepFailure;
-use crate::sim::number::superscript;
+use crate::sim::number::{duration, superscript};
 use crate::sim::{Solver, Stepper};
 
 /// The largest magnitude of a coordinate or velocity. Beyond it the value would not fit the picture's f32, and the
@@ -40,6 +40,11 @@ impl Halt {
     /// How the body ended: `blew up` or `gave up`.
     pub fn how(&self) -> &'static str {
         if self.is_blow_up() { "blew up" } else { "gave up" }
+    }
+
+    /// What became of the body, and when: `blew up at 8.4 s`.
+    pub fn fate(&self) -> String {
+        format!("{} at {}", self.how(), duration(self.t))
     }
 }
 
@@ -122,6 +127,44 @@ impl LaneBody {
     /// Why and when the body stopped, if it did.
     pub fn halted(&self) -> Option<&Halt> {
         self.halted.as_ref()
+    }
+
+    /// What became of the body, if it halted, and with what values: `blew up at 8.4 s (speed 10³⁸ m/s)`.
+    pub fn fate(&self) -> Option<String> {
+        let halt = self.halted()?;
+        let (fate, how) = (halt.fate(), |name| self.quantity(name));
+        Some(match &halt.failure {
+            StepFailure::Escaped { coordinate, value } => {
+                let size = superscript(libm::round(libm::log10(value.abs())) as i32);
+                let (quantity, unit) = how(coordinate);
+                format!("{fate} ({quantity} 10{size}{unit})")
+            }
+            StepFailure::NotFinite { coordinate, .. } => {
+                format!("{fate} ({} overflowed)", how(coordinate).0)
+            }
+            failure => format!("{fate}: {failure}"),
+        })
+    }
+
+    /// The quantity of the body that has this name, in words, and its unit after a space, if it has one.
+    fn quantity(&self, name: &str) -> (String, String) {
+        let coordinates = self.coordinates();
+        let several = coordinates.len() > 1;
+        let velocity = coordinates.iter().find(|coordinate| *coordinate.velocity == *name);
+        let of = velocity.clone().or_else(|| coordinates.iter().find(|it| *it.name == *name));
+        let plain = if velocity.is_some() { "speed" } else { "position" };
+        let quantity = match self.kind.node(name) {
+            Some((_, node)) => format!("{plain} of node {node}"),
+            None if several => name.to_owned(),
+            None => plain.to_owned(),
+        };
+        let unit = match (of.map_or("1", |coordinate| coordinate.unit), velocity.is_some()) {
+            ("1", false) => String::new(),
+            ("1", true) => " per second".into(),
+            (unit, false) => format!(" {unit}"),
+            (unit, true) => format!(" {unit}/s"),
+        };
+        (quantity, unit)
     }
 
     /// The evaluations of its acceleration in the last tick.
