@@ -96,8 +96,8 @@ pub(super) struct PortArgs {
     ///
     /// [default: all, or ui for what comes from one]
     #[arg(long, value_name = "ID,…|all|ui", value_delimiter = ',')]
-    #[arg(value_parser = ASKED, hide_possible_values = true)]
-    to: Vec<Asked>,
+    #[arg(value_parser = TARGET, hide_possible_values = true)]
+    to: Vec<Target>,
 
     /// The limits of a drive with these gains
     #[arg(long)]
@@ -118,7 +118,7 @@ pub(super) struct PortArgs {
 
 /// What the settings are sought of.
 #[derive(Clone, Copy, Debug)]
-enum Asked {
+enum Target {
     Engines,
     Engine(&'static Method),
     Dialects,
@@ -136,14 +136,14 @@ fn engines() -> impl Iterator<Item = &'static Method> {
 }
 
 /// Takes the id of what has a spring, or that of all of a kind.
-const ASKED: Id<Asked> = Id {
+const TARGET: Id<Target> = Id {
     thing: "engine or user interface with a spring",
     lists: &[],
     all: || {
         let dialects = DIALECTS.iter().flat_map(|it| it.ids().map(move |id| (id, it)));
-        let dialects = dialects.map(|(id, it)| (id.into(), Asked::Dialect(it)));
-        let all = [("all".into(), Asked::Engines), ("ui".into(), Asked::Dialects)];
-        let engines = engines().map(|it| (it.id.into(), Asked::Engine(it)));
+        let dialects = dialects.map(|(id, it)| (id.into(), Target::Dialect(it)));
+        let all = [("all".into(), Target::Engines), ("ui".into(), Target::Dialects)];
+        let engines = engines().map(|it| (it.id.into(), Target::Engine(it)));
         all.into_iter().chain(engines).chain(dialects).collect()
     },
     spellings: Vec::new,
@@ -177,8 +177,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     });
     let from = from.transpose()?;
     let usual = match from {
-        Some(From::Dialect(_)) if !args.drive => Asked::Dialects,
-        _ => Asked::Engines,
+        Some(From::Dialect(_)) if !args.drive => Target::Dialects,
+        _ => Target::Engines,
     };
     let wish = match from {
         Some(From::Approach(_, _)) if args.drive => {
@@ -211,19 +211,19 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     };
     let asked = if args.to.is_empty() { &[usual][..] } else { &args.to[..] };
     let is_asked = |method: &&Method| {
-        let asks = |asked: &Asked| match asked {
-            Asked::Engines => true,
-            Asked::Engine(asked) => asked == method,
-            Asked::Dialects | Asked::Dialect(_) => false,
+        let asks = |asked: &Target| match asked {
+            Target::Engines => true,
+            Target::Engine(asked) => asked == method,
+            Target::Dialects | Target::Dialect(_) => false,
         };
         asked.iter().any(asks)
     };
     let methods: Vec<&Method> = engines().filter(is_asked).collect();
     let setups = setups(Some(&methods), args.tick_hz, args.substeps);
     let asked = asked.iter().flat_map(|asked| match asked {
-        Asked::Dialects => DIALECTS,
-        Asked::Dialect(dialect) => std::slice::from_ref(*dialect),
-        Asked::Engines | Asked::Engine(_) => &[],
+        Target::Dialects => DIALECTS,
+        Target::Dialect(dialect) => std::slice::from_ref(*dialect),
+        Target::Engines | Target::Engine(_) => &[],
     });
     let mut dialects: Vec<&Dialect> = Vec::new();
     for dialect in asked {

@@ -12,7 +12,7 @@ use super::run::MAX_WORK;
 use super::searches::{
     FACTORS, FINE_FACTORS, PARTS_OF_STRIDE, RatesDown, fine_factor, tried_substeps,
 };
-use super::slices::{Meter, Once, at_once};
+use super::slices::{Meter, Once, block_on};
 use super::verdict::{Finding, NotJudged, Verdict};
 use crate::scene::{LaneSpec, Scene, SceneBody, edited_values};
 use crate::sim::integrators::Method;
@@ -58,7 +58,7 @@ impl MethodAdvice {
 
     /// Searches the margins of the criterion with this index, if the method meets it.
     pub fn search_margins(&mut self, adviser: &Adviser, criterion: usize) {
-        at_once(adviser.search_margins(self, criterion));
+        block_on(adviser.search_margins(self, criterion));
     }
 }
 
@@ -102,7 +102,7 @@ impl Adviser {
     /// As [`Self::new`], and with this work in all, in the unit of [`MAX_WORK`]: what it does not reach is not known.
     pub(super) fn within(max_work: u64, scene: &Scene, tick_hz: u32) -> Self {
         let meter = Meter::within(max_work).into();
-        at_once(Self::find(scene.clone(), FULL_THROTTLE, tick_hz, meter))
+        block_on(Self::find(scene.clone(), FULL_THROTTLE, tick_hz, meter))
     }
 
     /// Whether no work is left.
@@ -138,9 +138,9 @@ impl Adviser {
 
     /// Whether a method meets a criterion, with how many substeps, and its margins. The substeps of `spec` are ignored.
     pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
-        let mut result = at_once(self.fewest_substeps(spec, criterion));
+        let mut result = block_on(self.fewest_substeps(spec, criterion));
         if let CriterionResult::With(met) = &mut result {
-            at_once(self.add_margins(spec, criterion, met));
+            block_on(self.add_margins(spec, criterion, met));
         }
         result
     }
@@ -170,7 +170,8 @@ impl Adviser {
             };
             if let Some(method) = methods.pop_if(|method| at_least(&&**method) <= most) {
                 let spec = LaneSpec::plain(method);
-                if let CriterionResult::With(met) = at_once(self.fewest_substeps(spec, criterion)) {
+                if let CriterionResult::With(met) = block_on(self.fewest_substeps(spec, criterion))
+                {
                     judged.push((spec, met));
                 }
             } else if undecided.is_empty() || self.is_spent() {
@@ -179,7 +180,7 @@ impl Adviser {
             } else {
                 for row in undecided {
                     let (spec, met) = &mut judged[row];
-                    at_once(self.add_margins(*spec, criterion, met));
+                    block_on(self.add_margins(*spec, criterion, met));
                 }
             }
         }
@@ -187,7 +188,7 @@ impl Adviser {
 
     /// The verdict on a lane, and whether its method meets each criterion, with how many substeps. No margin is searched.
     pub fn judged(&self, spec: LaneSpec) -> MethodAdvice {
-        at_once(self.advice_on(spec))
+        block_on(self.advice_on(spec))
     }
 
     /// As [`Self::judged`].
@@ -317,7 +318,7 @@ impl Adviser {
     /// The lowest rate in Hz of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion; `None` if
     /// it meets it at no rate.
     pub fn slowest(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
-        RateSearch::run(|hz| at_once(self.judge.meets(criterion, spec, hz)).holds())
+        RateSearch::run(|hz| block_on(self.judge.meets(criterion, spec, hz)).holds())
     }
 
     /// The lowest rate, going down from the requested one, at which the lane still meets the criterion: one hertz lower

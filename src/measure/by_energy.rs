@@ -102,7 +102,7 @@ async fn spectral_radius(
     let mut iteration = PowerIteration::new(&*body.stepper, spec.solver(), tick, most).ok()??;
     let evaluations = spec.method.evaluations_per_tick(spec.substeps).map_or(n, u64::from);
     while iteration.advance().ok()? {
-        truth.meter.pass(evaluations * n).await;
+        truth.meter.yield_after(evaluations * n).await;
     }
     iteration.radius().filter(|radius| radius.is_finite())
 }

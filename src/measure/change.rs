@@ -99,7 +99,7 @@ mod tests {
 
     use super::*;
     use crate::measure::run::{MAX_WORK, Until, follow};
-    use crate::measure::slices::at_once;
+    use crate::measure::slices::block_on;
     use crate::measure::verdict::RunFailure;
     use crate::scene::{LaneSpec, Scene};
     use crate::sim::integrators::{StepFailure, method};
@@ -110,8 +110,8 @@ mod tests {
         let scene = Scene::parse("t", text).unwrap();
         let spec = LaneSpec::plain(method("velocity-verlet").unwrap());
         let body = &scene.bodies[0];
-        let truth = at_once(BodyTruth::find(body, &[], 1.0, scene.seconds, Arc::default()));
-        let run = at_once(follow(&truth, spec, 60, Until::LongRun, MAX_WORK));
+        let truth = block_on(BodyTruth::find(body, &[], 1.0, scene.seconds, Arc::default()));
+        let run = block_on(follow(&truth, spec, 60, Until::LongRun, MAX_WORK));
         (truth, run)
     }
 

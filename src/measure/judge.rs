@@ -14,7 +14,7 @@ use super::chase_finding::ChaseFinding;
 use super::criterion::TOLERANCE;
 use super::modes::Modes;
 use super::run::{MAX_WORK, Run, Until, follow};
-use super::slices::{Meter, Once, at_once};
+use super::slices::{Meter, Once, block_on};
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
 use crate::scene::{LaneSpec, Scene, Scripted};
@@ -59,7 +59,7 @@ impl Judge {
 
     /// As [`Judge::new`], over `horizon_s` simulated seconds, which is positive and may exceed the scene's length.
     pub fn over(scene: &Scene, horizon_s: f64) -> Self {
-        at_once(Self::find(scene, FULL_THROTTLE, horizon_s, Arc::default()))
+        block_on(Self::find(scene, FULL_THROTTLE, horizon_s, Arc::default()))
     }
 
     /// As [`Judge::new`], under a throttle for the bodies that have one.
@@ -69,7 +69,7 @@ impl Judge {
     #[track_caller]
     pub fn at_throttle(scene: &Scene, throttle: f64) -> Self {
         assert!((-1.0..=1.0).contains(&throttle), "the throttle is {throttle}; give -1 to 1");
-        at_once(Self::find(scene, throttle, horizon_s(scene), Arc::default()))
+        block_on(Self::find(scene, throttle, horizon_s(scene), Arc::default()))
     }
 
     /// As [`Self::over`], with its work counted by `meter`.
@@ -116,7 +116,7 @@ impl Judge {
 
     /// The verdict on a lane at this tick rate: that of its worst body.
     pub fn verdict(&self, spec: LaneSpec, tick_hz: u32) -> Verdict {
-        at_once(self.verdict_within(self.max_work, spec, tick_hz))
+        block_on(self.verdict_within(self.max_work, spec, tick_hz))
     }
 
     /// What counts its work.

@@ -138,7 +138,7 @@ impl<'a> Modes<'a> {
                 return Ok(None);
             };
             found.push(SteppedMode { moved, stability, curves });
-            truth.meter.pass(work_of_mode).await;
+            truth.meter.yield_after(work_of_mode).await;
         }
         Ok(Some(Self { modes: found, step_s: step.h }))
     }

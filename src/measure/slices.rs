@@ -60,11 +60,11 @@ impl Meter {
     /// Counts work that was done, and pauses if the slice is over.
     pub(super) async fn count(&self, work: u64) {
         self.counted.fetch_add(work, Ordering::Relaxed);
-        self.pass(work).await;
+        self.yield_after(work).await;
     }
 
     /// Pauses if the slice is over after work that is not counted.
-    pub(super) async fn pass(&self, work: u64) {
+    pub(super) async fn yield_after(&self, work: u64) {
         self.passed.fetch_add(work, Ordering::Relaxed);
         if self.left() == 0 {
             pause().await;
@@ -97,7 +97,7 @@ impl<T> Sliced<T> {
     }
 
     /// Goes on for about this much work, and returns what it leads to once that is found.
-    pub(super) fn go_on(&mut self, work: u64) -> Option<T> {
+    pub(super) fn resume(&mut self, work: u64) -> Option<T> {
         let end = self.meter.passed.load(Ordering::Relaxed).saturating_add(work);
         self.meter.end.store(end, Ordering::Relaxed);
         let found = poll(self.work.as_mut());
@@ -107,7 +107,7 @@ impl<T> Sliced<T> {
 }
 
 /// Does all of the work.
-pub(super) fn at_once<T>(work: impl Future<Output = T>) -> T {
+pub(super) fn block_on<T>(work: impl Future<Output = T>) -> T {
     let mut work = pin!(work);
     loop {
         if let Some(found) = poll(work.as_mut()) {
@@ -178,19 +178,19 @@ mod tests {
             for _ in 0..4 {
                 counts.count(3).await;
             }
-            counts.pass(10).await;
+            counts.yield_after(10).await;
             "found"
         });
         let mut passed = Vec::new();
         let found = loop {
-            let found = work.go_on(5);
+            let found = work.resume(5);
             passed.push(meter.passed());
             if let Some(found) = found {
                 break found;
             }
         };
         assert_eq!((found, passed, meter.counted()), ("found", vec![6, 12, 22, 22], 12));
-        at_once(meter.count(7));
+        block_on(meter.count(7));
         assert_eq!(meter.left(), u64::MAX - 29);
     }
 
@@ -208,9 +208,9 @@ mod tests {
             })
         };
         let mut given_up = seek(1);
-        assert_eq!((given_up.go_on(1), once.found()), (None, None));
+        assert_eq!((given_up.resume(1), once.found()), (None, None));
         drop(given_up);
-        assert_eq!([2, 3].map(|value| seek(value).go_on(9)), [Some(2); 2]);
+        assert_eq!([2, 3].map(|value| seek(value).resume(9)), [Some(2); 2]);
         assert_eq!(meter.counted(), 2);
     }
 }

@@ -291,11 +291,11 @@ impl Plane {
     /// What each method does at a value and a rate, and whether the true motion grows there.
     async fn here(&self, specs: &[(usize, LaneSpec)], value: f64, hz: f64) -> (Vec<Here>, bool) {
         let motion = self.motion_at(value);
-        self.meter.pass(self.work_of_motion()).await;
+        self.meter.yield_after(self.work_of_motion()).await;
         let mut found = Vec::with_capacity(specs.len());
         for (_, spec) in specs {
             found.push(here(spec, motion.as_ref(), hz));
-            self.meter.pass(motion.as_ref().map_or(0, |motion| motion.work(spec))).await;
+            self.meter.yield_after(motion.as_ref().map_or(0, |motion| motion.work(spec))).await;
         }
         (found, motion.is_some_and(|motion| motion.grows()))
     }
@@ -305,7 +305,7 @@ impl Plane {
         let mut rows = Vec::new();
         for j in 0..self.corners.counts()[1] {
             rows.push(self.motion_at(libm::pow(10.0, self.corners.at([0, j])[1])));
-            self.meter.pass(self.work_of_motion()).await;
+            self.meter.yield_after(self.work_of_motion()).await;
         }
         rows
     }
@@ -439,7 +439,7 @@ impl MapWork {
                 Sliced::new(self.plane.meter.clone(), find)
             };
             let mut finding = self.here.take().unwrap_or_else(new);
-            match finding.go_on(work) {
+            match finding.resume(work) {
                 Some((here, grows)) => (self.map.here, self.map.truth_grows) = (here, grows),
                 None => self.here = Some(finding),
             }
@@ -447,7 +447,7 @@ impl MapWork {
             return;
         }
         let mut part = self.part.take().unwrap_or_else(|| self.next_part());
-        match part.go_on(work) {
+        match part.resume(work) {
             Some(Part::Rows(rows)) => self.rows = Some(rows.into()),
             Some(Part::Region(region)) => self.map.regions.push(region),
             None => self.part = Some(part),

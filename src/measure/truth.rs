@@ -144,7 +144,7 @@ impl BodyTruth {
             }
             t = input.at_s;
             input.action.apply_to(&mut *body, t);
-            self.meter.pass(self.work_of_moment()).await;
+            self.meter.yield_after(self.work_of_moment()).await;
         }
         body
     }

@@ -276,7 +276,7 @@ impl AnalysisWorker {
             let new = || MapWork::new(kind.clone(), wanted.clone());
             self.mapping.get_or_insert_with(new).advance(WORK_OF_STEP);
         } else if let Some(mut part) = self.part.take().or_else(|| self.next_part()) {
-            match part.go_on(WORK_OF_STEP) {
+            match part.resume(WORK_OF_STEP) {
                 Some(found) => self.accept(found),
                 None => self.part = Some(part),
             }

@@ -37,7 +37,7 @@ impl OutlineView<'_> {
         Span { quay, block: self.camera.points(self.outline.at), size: self.camera.block }
     }
 
-    fn berth(&self, bow: glam::DVec2, length: f64) -> ShipPose {
+    fn pose(&self, bow: glam::DVec2, length: f64) -> ShipPose {
         ShipPose {
             at: self.camera.points(self.outline.at),
             bow: [bow.x as f32, -bow.y as f32],
@@ -83,11 +83,11 @@ impl OutlineView<'_> {
     }
 
     /// What carries the body: springs, rods, and what does not move, with names. It is drawn below the exact solution.
-    pub(super) fn carried(&self, picture: &mut Picture, coat: LaneStyle) {
+    pub(super) fn carried(&self, picture: &mut Picture, style: LaneStyle) {
         let camera = self.camera;
         let pen = &mut picture.pen(camera.rect);
         let still = mixed(self.palette.chart, self.palette.sea[1], 0.35);
-        let thread = mixed(coat.colour, self.palette.text, 0.15);
+        let thread = mixed(style.colour, self.palette.text, 0.15);
         for Thread { points, is_border } in &self.outline.threads {
             let points = points.iter().map(|point| camera.points(*point));
             let width = if *is_border { BORDER } else { THREAD };
@@ -105,7 +105,7 @@ impl OutlineView<'_> {
                 }
                 Mark::Rod { from, to } => {
                     let ends = [from, to].map(|end| camera.points(end));
-                    pen.line(ends[0], ends[1], 2.6, mixed(coat.colour, self.palette.text, 0.3));
+                    pen.line(ends[0], ends[1], 2.6, mixed(style.colour, self.palette.text, 0.3));
                 }
                 Mark::Sprung => coil(pen, self.span(), self.palette),
                 Mark::Anchor { centre, radius } => {
@@ -144,7 +144,7 @@ impl OutlineView<'_> {
                 }
                 Mark::Sprung => Part::Sprung(self.span()),
                 Mark::Block { centre, half } => Part::Block(self.box_of(centre, half)),
-                Mark::Hull { bow, length } => Part::Hull(self.berth(bow, length)),
+                Mark::Hull { bow, length } => Part::Hull(self.pose(bow, length)),
                 Mark::Wall { .. }
                 | Mark::Anchor { .. }
                 | Mark::Planet { .. }
@@ -165,7 +165,7 @@ impl OutlineView<'_> {
                 Part::Disc(at, radius) => mass::ball(pen, at, radius, colour),
                 Part::Sprung(span) => mass::block(pen, span.block, camera.block, colour),
                 Part::Block(corners) => mass::slab(pen, corners, colour),
-                Part::Hull(berth) => hull::ship(pen, berth, colour, self.palette),
+                Part::Hull(pose) => hull::ship(pen, pose, colour, self.palette),
             }
         }
     }
@@ -192,7 +192,7 @@ impl OutlineView<'_> {
                     pen.hollow(&face, 2.2, short);
                 }
                 Part::Block(corners) => pen.hollow(&mass::box_round(corners, 0.0), 2.0, short),
-                Part::Hull(berth) => pen.hollow(&berth.hull(0.0), 1.8, style),
+                Part::Hull(pose) => pen.hollow(&pose.hull(0.0), 1.8, style),
             }
         }
     }
@@ -219,7 +219,7 @@ impl OutlineView<'_> {
                 Part::Disc(at, radius) => pen.ghost(&mass::round(at, radius + 1.5), palette),
                 Part::Sprung(span) => silhouette(pen, span, palette),
                 Part::Block(corners) => pen.ghost(&mass::box_round(corners, 1.5), palette),
-                Part::Hull(berth) => pen.ghost(&berth.hull(-2.0), palette),
+                Part::Hull(pose) => pen.ghost(&pose.hull(-2.0), palette),
             }
         }
     }

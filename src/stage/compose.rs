@@ -230,7 +230,7 @@ impl BodyCell<'_> {
             let flag = Flag { at, number: entry + 1, colour };
             let is_front = self.is_front(lane);
             let colour_of_body = faded(colour, if is_front { 1.0 } else { BODY_BEHIND });
-            let coat = LaneStyle { colour: colour_of_body, dash, fill: self.fill() };
+            let style = LaneStyle { colour: colour_of_body, dash, fill: self.fill() };
             let seen = OutlineView { outline: &outline, camera, palette };
             let whose = Whose::Lane { lane: lane.id, entry };
             cell.seen.push((whose, coordinates));
@@ -246,10 +246,10 @@ impl BodyCell<'_> {
             }
             near.push(LoupeLane::of(moment, lane, index, colour));
             if !is_front {
-                seen.behind(picture, coat);
+                seen.behind(picture, style);
                 flagged.push(flag);
                 if self.lanes.len() <= MAX_NUMBERED && outline.threads.is_empty() {
-                    rivals.push((outline, LaneStyle { fill: 0.0, ..coat }));
+                    rivals.push((outline, LaneStyle { fill: 0.0, ..style }));
                 }
                 continue;
             }
@@ -260,12 +260,12 @@ impl BodyCell<'_> {
                     LaneStyle { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };
                 seen.behind(picture, left);
             }
-            shown.carried(picture, coat);
+            shown.carried(picture, style);
             self.draw_ghost(picture, shows_ghost);
-            shown.front(picture, coat);
+            shown.front(picture, style);
             // Those behind would be hidden by it.
-            for (outline, coat) in rivals.drain(..) {
-                OutlineView { outline: &outline, ..shown }.behind(picture, coat);
+            for (outline, style) in rivals.drain(..) {
+                OutlineView { outline: &outline, ..shown }.behind(picture, style);
             }
             if let Some(held) = held.filter(|held| held.lane == lane.id) {
                 let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));

@@ -62,11 +62,11 @@ impl ShipPose {
 }
 
 /// The ship itself.
-pub(super) fn ship(pen: &mut Pen<'_>, berth: ShipPose, colour: Rgba, palette: &Palette) {
-    let part = (berth.length / 150.0).clamp(0.2, 2.0);
+pub(super) fn ship(pen: &mut Pen<'_>, pose: ShipPose, colour: Rgba, palette: &Palette) {
+    let part = (pose.length / 150.0).clamp(0.2, 2.0);
     // Water that the bow throws aside.
     for (out, alpha) in [(7.0, 0.16), (3.5, 0.28)] {
-        let crest: Vec<[f32; 2]> = berth.hull(-out * part);
+        let crest: Vec<[f32; 2]> = pose.hull(-out * part);
         let bow = crest.len() / 2;
         let reach = crest.len() / 5;
         pen.path(
@@ -75,51 +75,51 @@ pub(super) fn ship(pen: &mut Pen<'_>, berth: ShipPose, colour: Rgba, palette: &P
             faded(palette.chart, 2.0 * alpha),
         );
     }
-    let shadow = ShipPose { at: [berth.at[0] + 2.0 * part, berth.at[1] + 4.0 * part], ..berth };
+    let shadow = ShipPose { at: [pose.at[0] + 2.0 * part, pose.at[1] + 4.0 * part], ..pose };
     pen.fill(&shadow.hull(-2.0 * part), faded(BLACK, 0.22));
-    let hull = berth.hull(0.0);
+    let hull = pose.hull(0.0);
     pen.fill(&hull, mixed(colour, BLACK, 0.08));
     pen.ring(&hull, (1.6 * part).max(0.8), mixed(colour, BLACK, 0.5));
-    if berth.length < breakpoints::DECK {
+    if pose.length < breakpoints::DECK {
         return;
     }
-    let deck = berth.hull(5.5 * part);
+    let deck = pose.hull(5.5 * part);
     let plank = |[_, y]: [f32; 2]| {
-        let low = (y - berth.at[1]) / (BEAM * berth.length) + 0.5;
+        let low = (y - pose.at[1]) / (BEAM * pose.length) + 0.5;
         mixed(DECK[0], DECK[1], low)
     };
     pen.shaded(&deck, plank);
-    if berth.length >= breakpoints::PLANKS {
-        planks(pen, berth, &deck);
+    if pose.length >= breakpoints::PLANKS {
+        planks(pen, pose, &deck);
     }
-    let house = berth.block((-0.36, -0.1), 0.078, 0.02);
-    pen.fill(&berth.block((-0.35, -0.075), 0.085, 0.02), faded(BLACK, 0.25));
+    let house = pose.block((-0.36, -0.1), 0.078, 0.02);
+    pen.fill(&pose.block((-0.35, -0.075), 0.085, 0.02), faded(BLACK, 0.25));
     pen.fill(&house, [222, 230, 236, 255]);
     pen.ring(&house, 1.2 * part, [70, 84, 98, 255]);
-    let bridge = berth.block((-0.13, -0.085), 0.092, 0.012);
+    let bridge = pose.block((-0.13, -0.085), 0.092, 0.012);
     pen.fill(&bridge, [96, 122, 144, 255]);
     pen.ring(&bridge, 1.0 * part, [40, 52, 64, 255]);
-    let funnel = berth.place(-0.26, 0.0);
-    pen.disc(funnel, 0.045 * berth.length, [36, 44, 54, 255]);
-    pen.disc(funnel, 0.034 * berth.length, colour);
-    pen.disc(funnel, 0.015 * berth.length, [20, 24, 30, 255]);
-    let stem = [berth.place(0.33, 0.0), berth.place(0.45, 0.0)];
+    let funnel = pose.place(-0.26, 0.0);
+    pen.disc(funnel, 0.045 * pose.length, [36, 44, 54, 255]);
+    pen.disc(funnel, 0.034 * pose.length, colour);
+    pen.disc(funnel, 0.015 * pose.length, [20, 24, 30, 255]);
+    let stem = [pose.place(0.33, 0.0), pose.place(0.45, 0.0)];
     pen.line(stem[0], stem[1], 1.2 * part, faded(WHITE, 0.6));
 }
 
 /// The seams of the deck, its rail and its hatches.
-fn planks(pen: &mut Pen<'_>, berth: ShipPose, deck: &[[f32; 2]]) {
-    let part = (berth.length / 150.0).clamp(0.2, 2.0);
+fn planks(pen: &mut Pen<'_>, pose: ShipPose, deck: &[[f32; 2]]) {
+    let part = (pose.length / 150.0).clamp(0.2, 2.0);
     for seam in -4..=4_i8 {
         let aside = f32::from(seam) * 0.022;
         let ends = 0.42 - 0.06 * libm::fabsf(f32::from(seam)) - 0.02;
         let ends = (-0.43, ends.max(0.1));
-        let seam = [berth.place(ends.0, aside), berth.place(ends.1, aside)];
+        let seam = [pose.place(ends.0, aside), pose.place(ends.1, aside)];
         pen.line(seam[0], seam[1], 0.6 * part, faded(BLACK, 0.16));
     }
     pen.ring(deck, 1.0 * part, faded(BLACK, 0.35));
     for from in [0.03, 0.135] {
-        let hatch = berth.block((from, from + 0.085), 0.05, 0.008);
+        let hatch = pose.block((from, from + 0.085), 0.05, 0.008);
         pen.fill(&hatch, HATCH);
         pen.ring(&hatch, 1.0 * part, mixed(HATCH, BLACK, 0.5));
     }

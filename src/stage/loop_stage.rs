@@ -255,24 +255,24 @@ impl<'a> LoopBand<'a> {
     fn before(&self, picture: &mut Picture, camera: &Camera, frames: &[LoopFrame]) {
         for (strength, before) in distinct_before(frames) {
             let outline = self.shown(before);
-            let coat = LaneStyle { colour: faded(self.colour, strength), dash: SOLID, fill: 0.12 };
-            self.seen(camera, &outline).behind(picture, coat);
+            let style = LaneStyle { colour: faded(self.colour, strength), dash: SOLID, fill: 0.12 };
+            self.seen(camera, &outline).behind(picture, style);
         }
     }
 
     fn ghost(&self, picture: &mut Picture, camera: &Camera, exact: &Outline) {
-        let coat = LaneStyle { colour: self.palette.exact, dash: SOLID, fill: 0.08 };
-        self.seen(camera, exact).behind(picture, coat);
+        let style = LaneStyle { colour: self.palette.exact, dash: SOLID, fill: 0.08 };
+        self.seen(camera, exact).behind(picture, style);
     }
 
     fn body(&self, picture: &mut Picture, camera: &Camera, drawn: &Outline) {
         let seen = self.seen(camera, drawn);
-        let coat = || LaneStyle { colour: self.colour, dash: SOLID, fill: 0.0 };
+        let style = || LaneStyle { colour: self.colour, dash: SOLID, fill: 0.0 };
         // A coil would hide the frames before.
         if !self.is_recorded() {
-            seen.carried(picture, coat());
+            seen.carried(picture, style());
         }
-        seen.front(picture, coat());
+        seen.front(picture, style());
     }
 
     /// Where the frames have shown the body, as a staircase in time, beside where it was.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{ASKED, Asked};
+use super::{TARGET, Target};
 use crate::scene::{MAX_SUBSTEPS, clip};
 use crate::sim::integrators::{JointMode, Method, Setting};
 use crate::tools::port::{Approach, Dialect, Key, Setup, Wish};
@@ -38,11 +38,11 @@ impl From {
     /// Reads it, at this tick rate in hertz and of a body of this mass in kg.
     pub(super) fn parse(written: &str, tick_hz: f64, mass_kg: f64) -> Result<Self, String> {
         let Some((head, rest)) = written.split_once(':') else {
-            return match ASKED.find(written) {
-                Ok(Asked::Engine(method)) => {
+            return match TARGET.find(written) {
+                Ok(Target::Engine(method)) => {
                     Err(format!("give its settings too: {}", example(method)))
                 }
-                Ok(Asked::Dialect(dialect)) => of_dialect(dialect, "", mass_kg).map(From::Dialect),
+                Ok(Target::Dialect(dialect)) => of_dialect(dialect, "", mass_kg).map(From::Dialect),
                 _ => Ok(From::Log(written.into())),
             };
         };
@@ -69,11 +69,11 @@ impl From {
             }
             // A drive of a path has one letter.
             _ if head.len() == 1 => Ok(From::Log(written.into())),
-            _ => match ASKED.find(head)? {
-                Asked::Engine(method) => {
+            _ => match TARGET.find(head)? {
+                Target::Engine(method) => {
                     of_engine(method, rest, tick_hz, mass_kg).map(From::Engine)
                 }
-                Asked::Dialect(dialect) => of_dialect(dialect, rest, mass_kg).map(From::Dialect),
+                Target::Dialect(dialect) => of_dialect(dialect, rest, mass_kg).map(From::Dialect),
                 _ => Err(format!("{head} is all of a kind; name one")),
             },
         }

@@ -53,7 +53,7 @@ pub(super) async fn contour(
     for (j, row) in holds.iter_mut().enumerate() {
         for i in 0..columns {
             row.push(at_corner([i, j]));
-            meter.pass(of_row).await;
+            meter.yield_after(of_row).await;
         }
     }
     let inside = |[i, j]: [usize; 2]| holds[j][i];
@@ -98,7 +98,7 @@ pub(super) async fn contour(
                     if let Entry::Vacant(unknown) = crossings.entry(side) {
                         unknown.insert(crossing(side));
                         let work = if side.1 == 0 { of_row } else { of_any };
-                        meter.pass(u64::from(HALVINGS) * work).await;
+                        meter.yield_after(u64::from(HALVINGS) * work).await;
                     }
                     piece.push(crossings[&side]);
                     crossed.push(side);
@@ -153,13 +153,13 @@ fn chains(mut segments: Vec<[Side; 2]>) -> Vec<Vec<Side>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::slices::at_once;
+    use crate::measure::slices::block_on;
 
     #[test]
     fn a_disc_has_one_round_boundary_and_its_own_area() {
         let corners = Corners::new([21, 17], [[-2.0, 2.0], [-1.5, 1.5]]);
         let holds = |[x, y]: [f64; 2]| x * x + y * y < 1.0;
-        let region = at_once(contour(
+        let region = block_on(contour(
             &corners,
             |index| holds(corners.at(index)),
             |x, j| holds([x, corners.at([0, j])[1]]),
@@ -189,7 +189,7 @@ mod tests {
             [(true, Coverage::Everywhere, 3), (false, Coverage::Nowhere, 0)]
         {
             let effort = (&Meter::default(), [1; 2]);
-            let region = at_once(contour(&corners, |_| holds, |_, _| holds, |_| holds, effort));
+            let region = block_on(contour(&corners, |_| holds, |_, _| holds, |_| holds, effort));
             assert_eq!((region.coverage, region.pieces.len()), (coverage, pieces));
             assert!(region.boundary.is_empty());
         }

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use super::*;
 use crate::measure::run::{MAX_WORK, Until, follow};
-use crate::measure::slices::at_once;
+use crate::measure::slices::block_on;
 use crate::measure::truth::BodyTruth;
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::method;
@@ -14,8 +14,8 @@ fn swings(head: &str, id: &str, tick_hz: u32, substeps: u32) -> Swings {
     let scene = Scene::parse("t", &text).unwrap();
     let spec = LaneSpec { substeps, ..LaneSpec::plain(method(id).unwrap()) };
     let body = &scene.bodies[0];
-    let truth = at_once(BodyTruth::find(body, &[], 1.0, scene.seconds, Arc::default()));
-    let run = at_once(follow(&truth, spec, tick_hz, Until::Swings, MAX_WORK));
+    let truth = block_on(BodyTruth::find(body, &[], 1.0, scene.seconds, Arc::default()));
+    let run = block_on(follow(&truth, spec, tick_hz, Until::Swings, MAX_WORK));
     run.swings.expect("it swings")
 }
 

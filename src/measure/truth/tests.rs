@@ -1,11 +1,11 @@
 //! Amplitudes, swings and the long run of true motions.
 
 use super::*;
-use crate::measure::slices::at_once;
+use crate::measure::slices::block_on;
 use crate::scene::Scene;
 
 fn of_first_body(scene: &Scene, seconds: f64) -> BodyTruth {
-    at_once(BodyTruth::find(&scene.bodies[0], &[], 1.0, seconds, Arc::default()))
+    block_on(BodyTruth::find(&scene.bodies[0], &[], 1.0, seconds, Arc::default()))
 }
 
 fn truth(text: &str, seconds: f64) -> BodyTruth {
@@ -78,7 +78,7 @@ fn the_long_run_is_as_far_as_by_a_reference() {
         let scene = Scene::built_in(name).unwrap();
         let truth = of_first_body(&scene, 2.0);
         let [close, exact] = [close_solver(), Solver::Truth]
-            .map(|solver| at_once(truth.long_run(solver, 2000)).ok().unwrap());
+            .map(|solver| block_on(truth.long_run(solver, 2000)).ok().unwrap());
         let n = close.means.len();
         for i in 0..n {
             let off = (close.means[i] - exact.means[i]).abs() / truth.amplitudes[i];

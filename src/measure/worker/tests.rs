@@ -261,7 +261,7 @@ fn what_is_found_in_slices_and_the_work_of_it_are_those_of_one_go_and_no_slice_e
             let mut slices = Vec::new();
             loop {
                 let before = meter.passed();
-                let found = sliced.go_on(slice);
+                let found = sliced.resume(slice);
                 slices.push(meter.passed() - before);
                 if let Some(found) = found {
                     return ((found, meter.counted()), slices);

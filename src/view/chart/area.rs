@@ -2,7 +2,7 @@
 
 use egui::{Pos2, Rect, pos2};
 
-use super::axis::{AxisScale, Mark};
+use super::axis::{AxisMark, AxisScale};
 
 /// The least and the greatest value along each axis of a plane.
 pub(in crate::view) type Bounds = [[f64; 2]; 2];
@@ -57,7 +57,12 @@ impl PlotArea {
     }
 
     /// Round marks along an axis of this scale, at least `apart` points from each other as long as there are three.
-    pub(in crate::view) fn marks(&self, axis: usize, scale: AxisScale, apart: f64) -> Vec<Mark> {
+    pub(in crate::view) fn marks(
+        &self,
+        axis: usize,
+        scale: AxisScale,
+        apart: f64,
+    ) -> Vec<AxisMark> {
         let room = [self.rect.width(), self.rect.height()][axis];
         scale.marks(self.bounds[axis], room, apart)
     }

@@ -14,7 +14,7 @@ pub enum AxisScale {
 }
 
 /// Where a mark lies along its axis, and its number.
-pub(in crate::view) type Mark = (f64, String);
+pub(in crate::view) type AxisMark = (f64, String);
 
 /// The fewest marks of an axis: with two, nothing says whether it is linear.
 const MIN_MARKS: usize = 3;
@@ -59,7 +59,7 @@ impl AxisScale {
 
     /// The marks between two places that are `room` points of the screen apart: at least three, and as many as fit at
     /// least `apart` points from each other.
-    pub(in crate::view) fn marks(self, range: [f64; 2], room: f32, apart: f64) -> Vec<Mark> {
+    pub(in crate::view) fn marks(self, range: [f64; 2], room: f32, apart: f64) -> Vec<AxisMark> {
         let apart = apart * (range[1] - range[0]) / f64::from(room.max(1.0));
         match self {
             Self::Linear => linear(range, apart),
@@ -70,17 +70,17 @@ impl AxisScale {
     }
 
     /// Evenly, in as many digits as tell the marks apart.
-    fn distinct(self, range: [f64; 2], apart: f64) -> Vec<Mark> {
+    fn distinct(self, range: [f64; 2], apart: f64) -> Vec<AxisMark> {
         let (places, _) = multiples(range, apart);
-        let texts = |digits: usize| -> Vec<Mark> {
+        let texts = |digits: usize| -> Vec<AxisMark> {
             places.iter().map(|&place| (place, round(self.value(place), digits))).collect()
         };
-        let differ = |marks: &Vec<Mark>| marks.windows(2).all(|pair| pair[0].1 != pair[1].1);
+        let differ = |marks: &Vec<AxisMark>| marks.windows(2).all(|pair| pair[0].1 != pair[1].1);
         (3..MAX_DIGITS).map(texts).find(differ).unwrap_or_else(|| texts(MAX_DIGITS))
     }
 
     /// Zero, and powers of ten on both sides of it.
-    fn symmetric(self, linear: f64, [low, high]: [f64; 2], apart: f64) -> Option<Vec<Mark>> {
+    fn symmetric(self, linear: f64, [low, high]: [f64; 2], apart: f64) -> Option<Vec<AxisMark>> {
         let first = libm::ceil(libm::log10(linear)) as i32;
         let last = first + libm::ceil(low.abs().max(high.abs())) as i32;
         let mut places = vec![(0.0, "0".to_owned())];
@@ -122,7 +122,7 @@ fn multiples([low, high]: [f64; 2], apart: f64) -> (Vec<f64>, f64) {
 }
 
 /// Marks at multiples of a round step, in as many digits as the step has.
-fn linear(range: [f64; 2], apart: f64) -> Option<Vec<Mark>> {
+fn linear(range: [f64; 2], apart: f64) -> Option<Vec<AxisMark>> {
     let (places, step) = multiples(range, apart);
     let decade = |x: f64| libm::floor(libm::log10(x) + 1e-9) as i32;
     let largest = range[0].abs().max(range[1].abs());
@@ -144,7 +144,7 @@ fn linear(range: [f64; 2], apart: f64) -> Option<Vec<Mark>> {
 
 /// Marks at powers of ten, every few where they crowd, and between them where there is room; `None` if there are fewer
 /// than [`MIN_MARKS`] or crowded ones only.
-fn logarithmic([low, high]: [f64; 2], apart: f64) -> Option<Vec<Mark>> {
+fn logarithmic([low, high]: [f64; 2], apart: f64) -> Option<Vec<AxisMark>> {
     let powers = |step: i64| -> Vec<(f64, i32)> {
         let [first, last] =
             [libm::ceil(low / step as f64), libm::floor(high / step as f64)].map(|i| i as i64);

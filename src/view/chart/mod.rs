@@ -4,8 +4,8 @@ use egui::{Align2, Color32, Pos2, Rect, Stroke, pos2, vec2};
 
 use super::theme::PanelPalette;
 pub(super) use area::{Bounds, PlotArea};
+pub(super) use axis::AxisMark;
 pub use axis::AxisScale;
-pub(super) use axis::Mark;
 pub(super) use curves::{Curve, Dots, LineStyle, ScreenCurve};
 pub(super) use primitive::{Primitive, Text, paint};
 
@@ -76,7 +76,7 @@ pub(super) fn text_width(words: &str, size: f32) -> f32 {
 /// goes on beyond `right`, and the edge.
 pub(super) fn axes(
     area: &PlotArea,
-    marks: [Vec<Mark>; 2],
+    marks: [Vec<AxisMark>; 2],
     palette: &PanelPalette,
     right: f32,
 ) -> Vec<Primitive> {
@@ -86,7 +86,7 @@ pub(super) fn axes(
 /// A plot with [its axes](axes) and all that is in it.
 pub(super) fn plot(
     area: &PlotArea,
-    marks: [Vec<Mark>; 2],
+    marks: [Vec<AxisMark>; 2],
     drawing: &Drawing,
     palette: &PanelPalette,
     right: f32,

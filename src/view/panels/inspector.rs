@@ -6,7 +6,7 @@ use egui::{
 };
 
 pub(super) use self::number::NumberField;
-use self::rows::{Reach, Row, Spacing, Values, rows};
+use self::rows::{Row, SliderRange, Spacing, Values, rows};
 pub(in crate::view) use self::sweep::is_under_way;
 use super::focus;
 use crate::scene::{Action, edited_values};
@@ -113,8 +113,8 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
         unit: &parameter.unit,
         name: &name,
         is_whole: matches!(
-            Reach::of(parameter.range, values),
-            Some(Reach { spacing: Spacing::Whole, .. })
+            SliderRange::of(parameter.range, values),
+            Some(SliderRange { spacing: Spacing::Whole, .. })
         ),
     };
     let check = |value| {
@@ -129,7 +129,7 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
         let number = number.max(field.width(ui));
         let buttons = RESTORE + sweep::BUTTON + 3.0 * ui.spacing().item_spacing.x;
         let slider = vec2((room - number - buttons).max(1.0), LINE);
-        let reach = Reach::of(parameter.range, values);
+        let reach = SliderRange::of(parameter.range, values);
         // Of what acts from the next start nothing would be seen.
         let swept_reach = reach.filter(|_| parameter.acts == Acts::AtOnce);
         let swept = sweep::show(ui, field.id, swept_reach, values, &name);
@@ -147,10 +147,10 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
 /// A slider that reaches round the value that the scene has. Returns what it was moved to.
 fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -> Option<f64> {
     let id = ui.scope_id().with((row.body, row.index, "reach"));
-    let fresh = Reach::of(row.parameter.range, values)?;
+    let fresh = SliderRange::of(row.parameter.range, values)?;
     // Under the mouse it stays, though the value that it sets brings its end nearer.
-    let held = ui.data(|data| data.get_temp::<Reach>(id));
-    let Reach { low, high, spacing } = held.unwrap_or(fresh);
+    let held = ui.data(|data| data.get_temp::<SliderRange>(id));
+    let SliderRange { low, high, spacing } = held.unwrap_or(fresh);
     let mut value = values.present;
     let slider = Slider::new(&mut value, low..=high).show_value(false);
     let slider = match spacing {
@@ -164,7 +164,7 @@ fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -
     if response.dragged() {
         ui.data_mut(|data| data.insert_temp(id, held.unwrap_or(fresh)));
     } else {
-        ui.data_mut(|data| data.remove::<Reach>(id));
+        ui.data_mut(|data| data.remove::<SliderRange>(id));
     }
     (value != values.present).then_some(value)
 }

@@ -54,7 +54,7 @@ pub(super) fn rows<'l>(studio: &'l Studio, body: usize) -> Vec<Row<'l>> {
 
 /// How far a slider reaches.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Reach {
+pub(super) struct SliderRange {
     pub(super) low: f64,
     pub(super) high: f64,
     pub(super) spacing: Spacing,
@@ -69,7 +69,7 @@ pub(super) enum Spacing {
     Whole,
 }
 
-impl Reach {
+impl SliderRange {
     /// How far the slider of a value in this range reaches: round the value that the scene has, so that it does not move
     /// with the value that it sets, and to the present one where that is further out. `None` of a curve.
     pub(super) fn of(range: Range, Values { present, opened }: Values) -> Option<Self> {
@@ -153,10 +153,10 @@ mod tests {
                     signed.map(f64::trunc).chain(positive).filter(|v| range.contains(*v)).collect();
                 for &present in &possible {
                     for &opened in &possible {
-                        let Some(reach) = Reach::of(range, Values { present, opened }) else {
+                        let Some(reach) = SliderRange::of(range, Values { present, opened }) else {
                             continue;
                         };
-                        let Reach { low, high, .. } = reach;
+                        let SliderRange { low, high, .. } = reach;
                         let what = format!("{} at {present}, {opened}: {reach:?}", parameter.key);
                         assert!(low < high && low <= present && present <= high, "{what}");
                         assert!(range.contains(low) && range.contains(high), "{what}");
@@ -171,15 +171,16 @@ mod tests {
     #[test]
     fn a_slider_of_a_positive_value_is_logarithmic_and_stays_while_it_is_dragged() {
         let reach = |present| {
-            Reach::of(Range::POSITIVE, Values { present, opened: 40.0 }).expect("it is no curve")
+            SliderRange::of(Range::POSITIVE, Values { present, opened: 40.0 })
+                .expect("it is no curve")
         };
-        let Reach { low, high, spacing } = reach(40.0);
+        let SliderRange { low, high, spacing } = reach(40.0);
         assert_eq!((low, high, spacing), (0.4, 4000.0, Spacing::Logarithmic(0.4)));
         for present in [0.4, 1.0, 4000.0] {
             assert_eq!(reach(present), reach(40.0));
         }
         assert_eq!(reach(9000.0).high, 9000.0);
-        let reach = Reach::of(Range::ANY, Values { present: 0.0, opened: 0.0 });
-        assert_eq!(reach, Some(Reach { low: -10.0, high: 10.0, spacing: Spacing::Linear }));
+        let reach = SliderRange::of(Range::ANY, Values { present: 0.0, opened: 0.0 });
+        assert_eq!(reach, Some(SliderRange { low: -10.0, high: 10.0, spacing: Spacing::Linear }));
     }
 }

@@ -2,7 +2,7 @@
 
 use egui::{Button, Id, RichText, Ui};
 
-use super::rows::{Reach, Spacing, Values};
+use super::rows::{SliderRange, Spacing, Values};
 use super::{LINE, named};
 use crate::view::theme::palette;
 
@@ -33,7 +33,7 @@ struct Sweep {
 }
 
 impl Sweep {
-    fn of(of: Id, began_s: f64, reach: Reach, Values { present: from, .. }: Values) -> Self {
+    fn of(of: Id, began_s: f64, reach: SliderRange, Values { present: from, .. }: Values) -> Self {
         let is_logarithmic = matches!(reach.spacing, Spacing::Logarithmic(_)) && from > 0.0;
         let far = if from == 0.0 { PART_FROM_ZERO * reach.high } else { FACTOR * from };
         // From the end of the slider it goes down, and so it does on the other side of zero.
@@ -72,7 +72,7 @@ pub(in crate::view) fn is_under_way(ui: &Ui) -> bool {
 pub(super) fn show(
     ui: &mut Ui,
     of: Id,
-    reach: Option<Reach>,
+    reach: Option<SliderRange>,
     values: Values,
     name: &str,
 ) -> Option<f64> {

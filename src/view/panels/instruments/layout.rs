@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use egui::{Rect, pos2};
 
 use super::plot_set::{PlotModel, PlotSet};
-use crate::view::chart::{ABOVE, Mark, NAMES, NUMBERS, PlotArea};
+use crate::view::chart::{ABOVE, AxisMark, NAMES, NUMBERS, PlotArea};
 use crate::view::panels::breakpoints;
 
 /// The least distance between marks along and up, in points, as long as three fit.
@@ -41,7 +41,7 @@ impl Cell<'_> {
     }
 
     /// The marks along an axis.
-    pub(super) fn marks(&self, area: &PlotArea, axis: usize) -> Vec<Mark> {
+    pub(super) fn marks(&self, area: &PlotArea, axis: usize) -> Vec<AxisMark> {
         area.marks(axis, self.plot.axes[axis].scale, MARKS_APART[axis])
     }
 }
