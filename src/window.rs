@@ -18,6 +18,7 @@ use crate::measure::AnalysisWorker;
 use crate::measure::cloud::CloudWorker;
 use crate::studio::{
     Command, DriverRequest, FrameLoop, SceneList, StageCommand, Studio, ToDo, ViewCommand,
+    cloud_request, list_as_file, loop_request,
 };
 use crate::view::Modifiers;
 
@@ -83,10 +84,10 @@ pub fn run(
     }
     let SceneFiles { read, opened, keep } = files;
     if let Some((path, _)) = &opened {
-        studio.list_as_file(path);
+        list_as_file(&mut studio.deck, &mut studio.viewer, path);
     }
     let watch = FileWatch::new(read, opened, proxy.clone());
-    studio.viewer_mut().preferences.is_recorded = keep.is_some();
+    studio.viewer.preferences.is_recorded = keep.is_some();
     let analysed = studio.analysis_request();
     let analysis = AnalysisWorker::new(analysed.clone());
     let mut app = App {
@@ -164,7 +165,7 @@ impl App {
             let scale = window.scale_factor() as f32;
             let notice =
                 screenshot::save(gpu, [size.width, size.height], scale, &self.frames.studio);
-            self.frames.studio.viewer_mut().set_notice(notice);
+            self.frames.studio.viewer.set_notice(notice);
             self.stand_still();
         }
         let waits_for_field = self.waits_for_field();
@@ -221,8 +222,8 @@ impl App {
         }
         let studio = &self.frames.studio;
         self.analysis.ask(studio.analysis_request());
-        self.loops.ask(studio.loop_request());
-        self.clouds.ask(studio.cloud_request().map(Arc::new));
+        self.loops.ask(loop_request(studio));
+        self.clouds.ask(cloud_request(studio).map(Arc::new));
         self.tick_timer.ask(studio, now);
         let last = self.seconds.map_or(u64::MAX, |s| studio.race().nearest_tick(s));
         let started = self.started;
@@ -250,7 +251,7 @@ impl App {
             DriverRequest::Screenshot => self.screenshot = true,
             DriverRequest::Record => {
                 let notice = recording::save(&mut self.frames.studio);
-                self.frames.studio.viewer_mut().set_notice(notice);
+                self.frames.studio.viewer.set_notice(notice);
                 self.stand_still();
             }
             DriverRequest::ExportInstrument => self.export_instrument(),
@@ -261,7 +262,7 @@ impl App {
                 }
             }
             DriverRequest::CompletePath => {
-                let path = opening::completed(self.frames.studio.viewer().typed_path());
+                let path = opening::completed(self.frames.studio.viewer.typed_path());
                 self.frames.studio.apply(ViewCommand::TypePath(path));
             }
             DriverRequest::CopyLink
@@ -274,7 +275,7 @@ impl App {
     /// Finds what to recommend for the spring that a person has described, which takes longer than a frame if it is stiff.
     fn advise_on_spring(&self) {
         let (spring, tick_hz) =
-            (self.frames.studio.viewer().my_spring(), self.frames.studio.clock().tick_hz());
+            (self.frames.studio.viewer.my_spring(), self.frames.studio.clock().tick_hz());
         let proxy = self.proxy.clone();
         thread::spawn(move || {
             let scene = spring.advised_scene(tick_hz).into();
@@ -314,11 +315,7 @@ impl ApplicationHandler<Event> for App {
         match Canvas::new(event_loop, window, self.proxy.clone()) {
             Ok(canvas) => {
                 if let Some(theme) = canvas.window.theme() {
-                    self.frames
-                        .studio
-                        .viewer_mut()
-                        .preferences
-                        .follow_theme(settings::theme_of(theme));
+                    self.frames.studio.viewer.preferences.follow_theme(settings::theme_of(theme));
                 }
                 canvas.window.set_visible(true);
                 self.canvas = Some(canvas);
@@ -381,11 +378,7 @@ impl ApplicationHandler<Event> for App {
                 self.minimised = size.width == 0 || size.height == 0;
             }
             WindowEvent::ThemeChanged(theme) => {
-                self.frames
-                    .studio
-                    .viewer_mut()
-                    .preferences
-                    .follow_theme(settings::theme_of(*theme));
+                self.frames.studio.viewer.preferences.follow_theme(settings::theme_of(*theme));
                 return self.request_redraw();
             }
             WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Moved(_) => canvas.resize(),

@@ -21,7 +21,7 @@ use crate::look::palette::Theme;
 use crate::loops::TraceCard;
 use crate::measure::cloud::{CloudKind, CloudShape};
 use crate::run::race::Mode;
-use crate::studio::Instrument;
+use crate::studio::{Instrument, loop_lab_refusal};
 
 const EXAMPLES: &str = "\
 Frame i shows the run at i / fps seconds. The same command makes the same bytes. manifest.json,
@@ -176,7 +176,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let studio = experiment.studio();
     if args.loop_trace.is_some()
-        && let Some(refusal) = studio.loop_lab_refusal()
+        && let Some(refusal) = loop_lab_refusal(&studio.deck, &studio.viewer)
     {
         return Err(Error::mistake(format!("--loop: {refusal}")));
     }

@@ -17,7 +17,7 @@ use crate::run::race::{Mode, lanes_that_race};
 use crate::scene::{LaneSpec, MAX_SECONDS, SCENES, Scene, SceneGroup};
 use crate::sim::Clock;
 use crate::sim::integrators::Method;
-use crate::studio::{Studio, lineup};
+use crate::studio::{Studio, lineup, open_loop_lab_on};
 
 /// The options that choose a scene, its methods and its tick rate.
 #[derive(Clone, Debug, Args)]
@@ -142,7 +142,7 @@ impl Experiment {
     pub(super) fn studio(&self) -> Studio {
         let mut studio = Studio::opened(self.scene.clone(), self.selected, self.mode);
         if let Some(card) = self.loop_trace {
-            studio.open_loop_lab_on(card.id);
+            open_loop_lab_on(&mut studio, card.id);
         }
         studio
     }
@@ -267,7 +267,7 @@ mod tests {
             let mut studio = line.experiment.load(Mode::Solo).unwrap().studio();
             assert_eq!(studio.entries()[studio.active()].method.id, ids[0]);
             studio.analyse();
-            let outcome = |entry: usize| studio.viewer().verdict(entry).unwrap().outcome();
+            let outcome = |entry: usize| studio.viewer.verdict(entry).unwrap().outcome();
             let best = (0..count).map(outcome).min().unwrap();
             assert_ne!(outcome(0), best);
             assert_eq!(outcome(studio.active()) == best, is_best, "{count}");
@@ -279,7 +279,7 @@ mod tests {
         let line = <Line as clap::Parser>::parse_from(["", "--scene", "spring"]);
         let mut studio = line.experiment.load(Mode::Race).unwrap().studio();
         studio.analyse();
-        let outcome = |entry: usize| studio.viewer().verdict(entry).unwrap().outcome();
+        let outcome = |entry: usize| studio.viewer.verdict(entry).unwrap().outcome();
         let best = (0..studio.race().entrants().len()).map(outcome).min().unwrap();
         assert!(outcome(studio.active()) == best && outcome(0) != best);
     }

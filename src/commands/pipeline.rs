@@ -17,7 +17,7 @@ use super::schedule::Schedule;
 use super::state_log::StateLog;
 use super::terminal::progress;
 use crate::measure::cloud::CloudWorker;
-use crate::studio::Studio;
+use crate::studio::{Studio, analyse_bounded, complete_clouds, run_loops};
 use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 
 /// Frames that the device draws at a time. More gain nothing on a software adapter and cost memory.
@@ -198,10 +198,12 @@ pub(super) fn complete_analysis(
     clouds: &mut CloudWorker,
     interrupted: &AtomicBool,
 ) -> bool {
-    studio.run_loops();
+    run_loops(studio);
     if renderer.panels() == Panels::Shown {
-        studio.analyse_bounded(|worker| jobs::result(interrupted, move || worker.finish()));
-        studio.complete_clouds(clouds, || interrupted.load(Ordering::Relaxed));
+        analyse_bounded(&mut studio.deck, &mut studio.viewer, |worker| {
+            jobs::result(interrupted, move || worker.finish())
+        });
+        complete_clouds(studio, clouds, || interrupted.load(Ordering::Relaxed));
     }
     !interrupted.load(Ordering::Relaxed)
 }

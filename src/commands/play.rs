@@ -23,7 +23,7 @@ use crate::look::palette::Theme;
 use crate::loops::TraceCard;
 use crate::run::race::Mode;
 use crate::sim::number::counted;
-use crate::studio::{Motion, SavedPreferences, Studio};
+use crate::studio::{Motion, SavedPreferences, Studio, show_clouds_of_scene};
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
 const EXAMPLES: &str = "\
@@ -105,10 +105,10 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     };
     let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let mut studio = experiment.studio();
-    studio.viewer_mut().preferences.display.motion =
+    studio.viewer.preferences.display.motion =
         if args.reduced_motion { Motion::Reduced } else { Motion::Live };
     if args.loop_trace.is_none() {
-        studio.show_clouds_of_scene();
+        show_clouds_of_scene(&mut studio.deck, &mut studio.viewer);
     }
     let opens_at_work = args.race || args.loop_trace.is_some();
     let shown = SavedPreferences {
@@ -129,7 +129,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let stream = opened.filter(|output| output.file().is_none());
     for told in unfinished::left_behind() {
         print_status(&told);
-        studio.viewer_mut().set_notice(told);
+        studio.viewer.set_notice(told);
     }
     let played = studio.scene().name.clone();
     let settings = WindowSettings {
@@ -157,7 +157,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     if let Some(to) = record {
         let mut record = stream.map_or_else(|| to.begin(), Ok)?;
         let wanted = record.name();
-        record.write_all(studio.recording().map_err(Error::failed)?.as_bytes())?;
+        record.write_all(studio.deck.recording().map_err(Error::failed)?.as_bytes())?;
         let name = record.close()?;
         if let Some(unfinished) = unfinished {
             unfinished.finish();
@@ -168,7 +168,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
             ));
         }
         if studio.scene().name != played {
-            let scene = studio.scene_name();
+            let scene = studio.deck.scene_name();
             print_status(&format!(
                 "the run recorded is that of {scene}, which was opened after {played}"
             ));

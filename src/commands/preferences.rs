@@ -50,9 +50,9 @@ pub(super) fn save(preferences: &SavedPreferences) {
 
 /// The open scene of a studio, as it is remembered: a name, or an absolute path.
 pub(super) fn scene_of(studio: &Studio) -> Option<PathBuf> {
-    match studio.scene_list().open_path() {
+    match studio.deck.scene_list().open_path() {
         Some(path) => path.canonicalize().ok(),
-        None => Some(studio.scene_name().into()),
+        None => Some(studio.deck.scene_name().into()),
     }
 }
 

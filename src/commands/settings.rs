@@ -36,11 +36,11 @@ pub(super) struct CaptureSettings {
 impl CaptureSettings {
     /// The studio of an experiment at the start of the run, as it is drawn.
     pub(super) fn dress(&self, mut studio: Studio) -> Studio {
-        studio.viewer_mut().preferences.display.motion =
+        studio.viewer.preferences.display.motion =
             if self.motion { Motion::Recorded } else { Motion::Reduced };
-        studio.viewer_mut().preferences.choose_theme(self.theme);
+        studio.viewer.preferences.choose_theme(self.theme);
         if let Some(instrument) = self.instrument {
-            studio.viewer_mut().preferences.display.instrument = instrument;
+            studio.viewer.preferences.display.instrument = instrument;
         }
         if let Some(kind) = self.cloud {
             studio.apply(RunCommand::Cloud(CloudChoice { kind, ..studio.display().cloud }));

@@ -1,6 +1,7 @@
 //! Words and marks on the stage: who, where, how far, and what became of it.
 
 use crate::scene::Mark;
+use crate::studio::{shown_state, shown_truth};
 use glam::DVec2;
 
 use super::moment::{DrawContext, turns};
@@ -203,7 +204,7 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
     if let Some(halt) = body.halted() {
         return (halt.fate(), palette.bad);
     }
-    let held = studio.viewer().held().filter(|held| held.body == index);
+    let held = studio.deck.held().filter(|held| held.body == index);
     let words = match held {
         Some(held) => {
             let (coordinate, plotted) = studio.past().coordinate(studio.race(), index);
@@ -212,7 +213,7 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
         }
         None => {
             let truth = &studio.race().truth().bodies()[index];
-            let (q, v) = studio.shown_truth(index);
+            let (q, v) = shown_truth(&studio.deck, &studio.viewer, index);
             Look::of(truth).promise(&q, &v).unwrap_or_default()
         }
     };
@@ -228,7 +229,7 @@ pub(super) fn speed(
     entrant: &Entrant,
 ) {
     let body = &entrant.lane.bodies()[index];
-    let (q, v) = moment.studio.shown_state(body);
+    let (q, v) = shown_state(&moment.studio.deck, &moment.studio.viewer, body);
     let outline = Look::of(body).outline(moment.t, &q);
     let bow = outline.marks.iter().find_map(|mark| match mark {
         Mark::Hull { length, .. } if !turns(body) => Some(DVec2::new(length / 2.0, 0.0)),
@@ -280,7 +281,7 @@ impl Chip {
     /// The chip of a body whose method is not accurate.
     fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
         let entry = moment.studio.entry(entrant);
-        let verdict = moment.studio.viewer().verdict(entry)?;
+        let verdict = moment.studio.viewer.verdict(entry)?;
         let palette = moment.palette;
         let halt = entrant.lane.bodies()[index].halted();
         let outcome = halt.map_or(verdict.outcome(), Outcome::of_halt);
@@ -289,7 +290,7 @@ impl Chip {
             return None;
         }
         // The run on the screen is another than the judged one.
-        let is_other = moment.studio.is_judged_apart();
+        let is_other = moment.studio.deck.is_judged_apart();
         Some(Self {
             sign: outcome.sign().glyph(),
             colours: [palette.of_severity(severity), moment.style(entry).0],

@@ -1,6 +1,7 @@
 //! Lays out the stage and draws every body of every lane, with its ghost, its trail and its captions.
 
 use crate::scene::{Mark, Outline};
+use crate::studio::{shown_state, shows_futures};
 use glam::DVec2;
 
 use super::body::OutlineView;
@@ -222,7 +223,8 @@ impl BodyCell<'_> {
         };
         for lane in behind.chain([&self.front]) {
             let body = &lane.lane.bodies()[index];
-            let (look, coordinates) = (Look::of(body), studio.shown_state(body).0);
+            let (look, coordinates) =
+                (Look::of(body), shown_state(&studio.deck, &studio.viewer, body).0);
             let outline = look.outline(moment.t, &coordinates);
             let entry = studio.entry(lane);
             let (colour, dash) = moment.style(entry);
@@ -234,7 +236,7 @@ impl BodyCell<'_> {
             let seen = OutlineView { outline: &outline, camera, palette };
             let whose = Whose::Lane { lane: lane.id, entry };
             cell.seen.push((whose, coordinates));
-            let held = studio.viewer().held().filter(|held| held.body == index);
+            let held = studio.deck.held().filter(|held| held.body == index);
             let away = self.trail(picture, lane, outline.at, flag).filter(|_| held.is_none());
             lost.extend(away);
             if held.is_none() && !self.room().contains(at) {
@@ -352,7 +354,7 @@ impl BodyCell<'_> {
     /// Whether the futures of the body are drawn, in place of where it has been.
     fn shows_futures(&self) -> bool {
         let is_afloat = matches!(self.view.framing, Framing::Follow { .. });
-        self.moment.studio.shows_futures() && !is_afloat
+        shows_futures(self.moment.studio) && !is_afloat
     }
 
     /// What lies under the bodies: the quay, a course, the exact trail, and how far the exact body swings.

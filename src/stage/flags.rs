@@ -359,8 +359,7 @@ mod tests {
     fn a_badge_says_how_far_in_a_cell_of_a_lane_of_its_own_too() {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.apply(StageCommand::ToggleRace);
-        studio.viewer_mut().preferences.display.arrangement =
-            crate::studio::Arrangement::SideBySide;
+        studio.viewer.preferences.display.arrangement = crate::studio::Arrangement::SideBySide;
         (0..10 * studio.race().tick_hz()).for_each(|_| studio.tick());
         for width in [780.0, 490.0] {
             let picture = compose(&studio, [width, 440.0]);

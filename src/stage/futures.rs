@@ -6,6 +6,7 @@ use super::sketch::Camera;
 use super::{Align, Picture, captions};
 use crate::look::Framing;
 use crate::measure::{Future, FutureMoment};
+use crate::studio::futures;
 
 /// Half the width of a thread, and of the exact one, in points.
 const THREAD: f32 = 1.7;
@@ -26,7 +27,9 @@ pub(super) fn draw(
 ) {
     let (palette, clip) = (moment.palette, camera.rect);
     let mut ends: Vec<([f32; 2], usize)> = Vec::new();
-    for Future { entry, moments } in moment.studio.futures(body).iter().rev() {
+    for Future { entry, moments } in
+        futures(&moment.studio.deck, &moment.studio.viewer, body).iter().rev()
+    {
         let now_s = moments[0].t;
         let place = |at: &FutureMoment| match framing {
             Framing::Recorder { .. } => camera.ahead(at.at, at.t - now_s),

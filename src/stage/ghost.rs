@@ -1,6 +1,7 @@
 //! The truth as the stage shows it: where the ghost is, where it has been, and how far it goes.
 
 use crate::scene::Outline;
+use crate::studio::shown_truth;
 use glam::DVec2;
 
 use super::framed::BodyView;
@@ -32,7 +33,7 @@ impl Ghost {
         // To find the truth between ticks, a body is copied. One that is not drawn is wanted only where the view follows it.
         let is_needed = moment.studio.display().ghost || matches!(framing, Framing::Follow { .. });
         let (q, v) = match is_needed {
-            true => moment.studio.shown_truth(index),
+            true => shown_truth(&moment.studio.deck, &moment.studio.viewer, index),
             false => (body.stepper.q().to_vec(), body.stepper.v().to_vec()),
         };
         let course = look.course(&q, &v);

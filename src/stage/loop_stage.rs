@@ -1,7 +1,6 @@
 //! The stage of the loop lab: a band for each loop, with the frame that the display holds, the frames before it, and the
 //! exact solution at the moment of display.
 
-use crate::scene::Outline;
 use glam::DVec2;
 
 use super::body::OutlineView;
@@ -10,6 +9,7 @@ use super::{Align, Label, Picture, Rect, breakpoints, captions, chart};
 use crate::look::palette::{Palette, Rgba, faded};
 use crate::look::{Framing, Look};
 use crate::loops::loop_lab::{LoopFrame, LoopLab, LoopLane};
+use crate::scene::Outline;
 use crate::sim::number::round;
 use crate::studio::Studio;
 

@@ -3,7 +3,7 @@
 use crate::look::palette::{Palette, Rgba};
 use crate::run::past::History;
 use crate::run::race::{Entrant, LaneBody};
-use crate::studio::Studio;
+use crate::studio::{Studio, shown_s};
 
 /// The part of a scene's duration that a chart recorder's paper holds: three swings of the harbour's
 /// 1 Hz spring, and no more of a faster one than can be told apart.
@@ -26,7 +26,7 @@ impl<'a> DrawContext<'a> {
         Self {
             studio,
             palette: studio.display().theme.palette(),
-            t: studio.shown_s(),
+            t: shown_s(&studio.deck, &studio.viewer),
             paper_s: (PAPER * studio.scene().seconds).min(MAX_PAPER_S),
         }
     }
@@ -54,7 +54,9 @@ mod tests {
     use crate::scene::Scene;
     use crate::sim::number::significant;
     use crate::stage::{Whose, compose};
-    use crate::studio::{RunCommand, StageCommand, Step, Studio, ViewCommand};
+    use crate::studio::{
+        RunCommand, StageCommand, Step, Studio, ViewCommand, shown_s, shown_state,
+    };
 
     /// A spring and a ship under RK4 at a rate at which a tick can be seen.
     fn studio() -> Studio {
@@ -105,7 +107,7 @@ mod tests {
                     assert!(are_near, "{way:?}: {places:?}, not {wanted:?}");
                 }
                 assert_eq!(said, format!("{} m/s", significant(speed, 2)));
-                assert_eq!(studio.shown_s(), studio.race().t());
+                assert_eq!(shown_s(&studio.deck, &studio.viewer), studio.race().t());
                 studio.apply(RunCommand::NextInterpolation);
             }
         }
@@ -120,13 +122,14 @@ mod tests {
             studio.advance(100_000_000);
             for way in Interpolation::ALL {
                 let ([[block, ghost], [ship, true_ship]], said) = drawn(&studio);
-                let t = studio.shown_s();
+                let t = shown_s(&studio.deck, &studio.viewer);
                 let exact = libm::cos(std::f64::consts::TAU * t);
                 assert!(is_near(ghost, exact), "{way:?}: {ghost} at {t} s");
                 let exact = 20.0 * (t + 10.0 * libm::expm1(-t / 10.0));
                 assert!(is_near(true_ship, exact), "{way:?}: {true_ship} at {t} s");
                 let bodies = studio.race().entrants()[0].lane.bodies();
-                let [spring, state] = [0, 1].map(|body| studio.shown_state(&bodies[body]));
+                let [spring, state] =
+                    [0, 1].map(|body| shown_state(&studio.deck, &studio.viewer, &bodies[body]));
                 assert!(is_near(block, spring.0[0]) && is_near(ship, state.0[0]), "{way:?}");
                 assert_eq!(said, format!("{} m/s", significant(state.1[0], 2)), "{way:?}");
                 studio.apply(RunCommand::NextInterpolation);

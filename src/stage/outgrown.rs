@@ -1,7 +1,6 @@
 //! How far a lane goes beyond what the stage shows. A stage that is watched zooms out after it. That follows from the run and
 //! the moment shown: what is gone back to looks the same again.
 
-use crate::scene::Outline;
 use glam::DVec2;
 
 use super::moment::DrawContext;
@@ -9,6 +8,7 @@ use crate::look::Look;
 use crate::run::Metric;
 use crate::run::past::{History, Sample};
 use crate::run::race::Entrant;
+use crate::scene::Outline;
 
 /// For how long the zoom is evened out, in seconds: a swing of the harbour's spring; and in how many parts.
 const EVENED_S: f64 = 1.0;
@@ -136,7 +136,7 @@ mod tests {
 
     fn watched(scene: &str) -> Studio {
         let mut studio = Studio::new(Scene::built_in(scene).unwrap());
-        studio.viewer_mut().preferences.display.motion = Motion::Live;
+        studio.viewer.preferences.display.motion = Motion::Live;
         studio
     }
 
@@ -174,10 +174,10 @@ mod tests {
     #[test]
     fn what_is_recorded_keeps_its_stage() {
         let mut studio = watched("harbour");
-        studio.viewer_mut().preferences.display.motion = Motion::Recorded;
+        studio.viewer.preferences.display.motion = Motion::Recorded;
         (0..15 * 60).for_each(|_| studio.tick());
         let (_, scale) = hero(&studio);
-        studio.viewer_mut().preferences.display.motion = Motion::Live;
+        studio.viewer.preferences.display.motion = Motion::Live;
         assert!(hero(&studio).1 < scale / 8.0);
     }
 
@@ -185,7 +185,7 @@ mod tests {
     fn with_reduced_motion_the_stage_zooms_out_as_far_but_in_few_steps_and_the_trail_is_there() {
         for scene in ["harbour", "spring"] {
             let mut studio = watched(scene);
-            studio.viewer_mut().preferences.display.motion = Motion::Reduced;
+            studio.viewer.preferences.display.motion = Motion::Reduced;
             studio.apply(StageCommand::Restart);
             let (_, first) = hero(&studio);
             let (mut last, mut steps) = (first, 0);
@@ -200,10 +200,10 @@ mod tests {
             }
             assert!((3..9).contains(&steps), "{scene}: {steps} steps");
             let stepped = hero(&studio).1;
-            studio.viewer_mut().preferences.display.motion = Motion::Live;
+            studio.viewer.preferences.display.motion = Motion::Live;
             let even = hero(&studio).1;
             assert!((0.3..1.1).contains(&(stepped / even)), "{scene}: {stepped} and {even}");
-            studio.viewer_mut().preferences.display.motion = Motion::Reduced;
+            studio.viewer.preferences.display.motion = Motion::Reduced;
             let explicit =
                 studio.display().theme.lane_style(studio.entries(), &studio.entries()[0]);
             let has_trail = |shape: &crate::stage::Shape| match shape {

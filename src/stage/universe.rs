@@ -240,7 +240,7 @@ mod tests {
 
     fn watched(scene: &str, motion: Motion) -> Studio {
         let mut studio = Studio::new(Scene::built_in(scene).unwrap());
-        studio.viewer_mut().preferences.display.motion = motion;
+        studio.viewer.preferences.display.motion = motion;
         studio
     }
 
@@ -269,7 +269,7 @@ mod tests {
         }
         let last = "after 20 s a 1 m spring swings as wide as three container ships";
         assert!(said(&studio).iter().any(|text| text == last), "{:?}", said(&studio));
-        studio.viewer_mut().preferences.display.motion = Motion::Reduced;
+        studio.viewer.preferences.display.motion = Motion::Reduced;
         assert!(!said(&studio).iter().any(|text| text.starts_with("after")));
     }
 

@@ -44,7 +44,7 @@ impl FrameLoop {
     /// A loop whose driver carries out the commands that `is_own` itself.
     pub fn new(studio: Studio, is_own: fn(&Command) -> bool, now_ns: u64) -> Self {
         Self {
-            openings: studio.openings(),
+            openings: studio.deck.openings(),
             studio,
             is_own,
             asked: Vec::new(),
@@ -90,21 +90,23 @@ impl FrameLoop {
     /// tick `last` and for as long as the driver still answers by its `clock`.
     pub fn pass(&mut self, now_ns: u64, last: u64, clock: &dyn Fn() -> u64) {
         // What it takes to build another scene is not time in its run.
-        if std::mem::replace(&mut self.openings, self.studio.openings()) != self.studio.openings() {
+        if std::mem::replace(&mut self.openings, self.studio.deck.openings())
+            != self.studio.deck.openings()
+        {
             self.skip_time();
         }
         let frame_ns = self.last_frame_ns.map_or(0, |last| now_ns.saturating_sub(last));
         self.last_frame_ns = self.studio.running().then_some(now_ns);
         let passed_ns = now_ns.saturating_sub(std::mem::replace(&mut self.passed_ns, now_ns));
-        if !self.studio.time_runs() {
-            self.studio.viewer_mut().pass(i64::try_from(passed_ns).unwrap_or(i64::MAX));
+        if !self.studio.deck.time_runs() {
+            self.studio.viewer.pass(i64::try_from(passed_ns).unwrap_or(i64::MAX));
         }
         let mut is_time_left = || clock().saturating_sub(now_ns) < MAX_SIMULATION_NS;
         if self.reach_goal(&mut is_time_left) {
             let frame_ns = i64::try_from(frame_ns).unwrap_or(i64::MAX);
             self.studio.advance_in_time(last, frame_ns, &mut is_time_left, &mut ());
         }
-        self.studio.viewer_mut().pace = Some(self.meter.pace());
+        self.studio.viewer.pace = Some(self.meter.pace());
     }
 
     /// Goes on to the goal, if there is one. Returns whether it is reached.
@@ -135,7 +137,7 @@ impl FrameLoop {
         if self.studio.running() || !self.asked.is_empty() {
             return 0;
         }
-        let notice = self.studio.viewer().notice.as_ref();
+        let notice = self.studio.viewer.notice.as_ref();
         notice.map_or(u64::MAX, |notice| notice.left_ns().unsigned_abs())
     }
 
@@ -240,9 +242,9 @@ mod tests {
         assert_eq!(frames.begin(), Some(ToDo::Own(StageCommand::OpenSpring.into())));
         assert!(frames.studio.running());
         assert_eq!((frames.begin(), frames.studio.running()), (None, false));
-        frames.studio.viewer_mut().notice = None;
+        frames.studio.viewer.notice = None;
         assert_eq!(frame(&mut frames, 0, Vec::new()), u64::MAX, "nothing changes");
-        frames.studio.viewer_mut().set_notice("it leaves");
+        frames.studio.viewer.set_notice("it leaves");
         let due_ns = frame(&mut frames, 0, Vec::new());
         assert!((1_000_000_000..60_000_000_000).contains(&due_ns), "{due_ns} ns");
         assert_eq!(frame(&mut frames, 0, vec![pause]), 0, "a command waits");

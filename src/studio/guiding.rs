@@ -1,133 +1,15 @@
 //! The guide and the hints of a studio: how a stop is opened, and when its task is done.
 
-use super::Studio;
-use super::guide::{Chosen, Goal, Hints, STOPS, Situation, Stop, Tour};
+use super::deck::Deck;
+use super::guide::{Chosen, Goal, STOPS, Situation, Stop, Tour};
+use super::opening::open_with;
+use super::resting::rest_hint;
 use super::step::Step;
+use super::viewer::Viewer;
 use crate::run::Metric;
 use crate::run::past::Quantity;
-use crate::run::race::{Author, Interpolation};
+use crate::run::race::Interpolation;
 use crate::scene::SCENES;
-
-impl Studio {
-    /// What to try next: the scene's own hint, then what follows on it. Keys stand between backticks.
-    pub fn hint(&self) -> Option<String> {
-        if let Some(rest) = self.rest_hint() {
-            return Some(rest);
-        }
-        if let Some(tour) = &self.viewer.tour {
-            let is_last = tour.index() + 1 == STOPS.len();
-            let next = match (tour.is_done(), is_last) {
-                (true, true) => "That was the last stop. Press `Esc` to close the guide.",
-                (true, false) => {
-                    "Press `Page Down` for the next stop, or `Esc` to close the guide."
-                }
-                (false, _) => {
-                    "`Page Down` goes to the next stop, `Page Up` back, `Esc` closes the guide."
-                }
-            };
-            return Some(next.to_owned());
-        }
-        let outcome = self.viewer.verdict(self.active()).map(|verdict| verdict.outcome());
-        self.viewer.hints.text(&self.situation(), outcome)
-    }
-
-    /// What it is doing, as far as goals and hints ask.
-    fn situation(&self) -> Situation<'_> {
-        Situation {
-            scene: self.scene(),
-            race: self.race(),
-            menu: self.entries(),
-            active: self.active(),
-            is_from_the_start: !self.was_changed_on_the_way(),
-            speed_percent: self.clock.speed_percent(),
-            is_paused: !self.running && !self.comes_to_rest(),
-            is_in_loop_lab: self.loop_lab().is_some(),
-            display: self.display(),
-        }
-    }
-
-    /// Whether a person has acted since the start, so that the run from the start is another.
-    pub(crate) fn was_changed_on_the_way(&self) -> bool {
-        let race = self.race();
-        let rows = &race.journal().rows()[..race.done()];
-        rows.iter().any(|row| row.tick > 0 && row.author == Author::Person)
-    }
-
-    /// Whether the run on the screen is another than the judged one: a person has changed it since on its way.
-    pub fn is_judged_apart(&self) -> bool {
-        self.run().starts().was_changed_since_judged(self.race())
-    }
-
-    /// Shows the hints from the first one again: for a driver that has set up the studio by commands.
-    pub fn begin_hints(&mut self) {
-        self.viewer.hints = Hints::default();
-    }
-
-    /// Opens the guide where it was left, or closes it.
-    pub(super) fn toggle_guide(&mut self) {
-        if !self.close_guide() {
-            self.go_to_stop(self.viewer.preferences.left_at);
-        }
-    }
-
-    /// Closes the guide, as what it tells of is no longer shown.
-    pub(super) fn leave_guide(&mut self) {
-        if self.close_guide() {
-            self.viewer.set_notice("the guide is closed: F2 opens it where you left it");
-        }
-    }
-
-    /// Closes the guide and shows again what the person chose before it. Scene, run and instrument stay: they are in sight.
-    /// Returns whether the guide was open.
-    pub(super) fn close_guide(&mut self) -> bool {
-        let Some(tour) = self.viewer.tour.take() else { return false };
-        self.viewer.preferences.left_at = tour.index();
-        tour.before().restore(&mut self.viewer.preferences.display);
-        true
-    }
-
-    /// Opens the stop this many further on, if the guide is open and has one.
-    pub(super) fn go_to_stop_beside(&mut self, step: Step) {
-        let Some(tour) = &self.viewer.tour else { return };
-        let index = tour
-            .index()
-            .checked_add_signed(step.sign() as isize)
-            .filter(|index| *index < STOPS.len());
-        index.into_iter().for_each(|index| self.go_to_stop(index));
-    }
-
-    /// Opens this stop of the guide: its scene from the start under its method and rate, and its instrument. Time runs,
-    /// unless a person is to step.
-    pub(super) fn go_to_stop(&mut self, index: usize) {
-        let display = &self.viewer.preferences.display;
-        let before = self.viewer.tour.take().map_or_else(|| Chosen::of(display), |t| t.before());
-        let tour = Tour::at(index, before);
-        let Stop { scene, method, tick_hz, mode, instrument, quantity, goal, .. } = *tour.stop();
-        let listed = SCENES.iter().position(|built_in| built_in.name == scene);
-        self.open_with(listed.expect("a stop names a built-in scene"), |next| {
-            let method = next.list.iter().position(|spec| spec.method.id == method);
-            next.entry = method.expect("a stop names a method");
-            next.tick_hz = tick_hz;
-            next.mode = mode;
-        });
-        self.clock.set_speed_percent(100);
-        self.running = !matches!(goal, Goal::SteppedTo(_));
-        // A scene of clouds opens with them in the place of the stage.
-        self.viewer.preferences.display.enlarged = false;
-        self.viewer.preferences.display.instrument = instrument;
-        self.viewer.preferences.display.quantity = Some(quantity);
-        self.viewer.preferences.display.metric = error_of(quantity);
-        self.viewer.preferences.display.interpolation = Interpolation::default();
-        self.viewer.tour = Some(tour);
-    }
-
-    /// Notes whether the task of the guide's stop is done.
-    pub(super) fn look_at_goal(&mut self) {
-        let Some(mut tour) = self.viewer.tour.take() else { return };
-        tour.look(&self.situation());
-        self.viewer.tour = Some(tour);
-    }
-}
 
 /// The index of the metric that compares this quantity with the truth's.
 fn error_of(quantity: Quantity) -> usize {
@@ -137,13 +19,95 @@ fn error_of(quantity: Quantity) -> usize {
     }
 }
 
+/// What it is doing, as far as goals and hints ask.
+fn situation<'a>(deck: &'a Deck, viewer: &'a Viewer, is_in_loop_lab: bool) -> Situation<'a> {
+    Situation {
+        scene: deck.scene(),
+        race: deck.race(),
+        menu: deck.entries(),
+        active: deck.active(),
+        is_from_the_start: !deck.was_changed_on_the_way(),
+        speed_percent: deck.clock.speed_percent(),
+        is_paused: !deck.running && !deck.comes_to_rest(viewer.motion()),
+        is_in_loop_lab,
+        display: viewer.display(),
+    }
+}
+
+/// Opens the guide where it was left, or closes it.
+pub(super) fn toggle_guide(deck: &mut Deck, viewer: &mut Viewer) {
+    if !viewer.close_guide() {
+        go_to_stop(deck, viewer, viewer.preferences.left_at);
+    }
+}
+
+/// Opens the stop this many further on, if the guide is open and has one.
+pub(super) fn go_to_stop_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step) {
+    let Some(tour) = &viewer.tour else { return };
+    let index =
+        tour.index().checked_add_signed(step.sign() as isize).filter(|index| *index < STOPS.len());
+    index.into_iter().for_each(|index| go_to_stop(deck, viewer, index));
+}
+
+/// Opens this stop of the guide: its scene from the start under its method and rate, and its instrument. Time runs,
+/// unless a person is to step.
+pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
+    let display = &viewer.preferences.display;
+    let before = viewer.tour.take().map_or_else(|| Chosen::of(display), |t| t.before());
+    let tour = Tour::at(index, before);
+    let Stop { scene, method, tick_hz, mode, instrument, quantity, goal, .. } = *tour.stop();
+    let listed = SCENES.iter().position(|built_in| built_in.name == scene);
+    open_with(deck, viewer, listed.expect("a stop names a built-in scene"), |next| {
+        let method = next.list.iter().position(|spec| spec.method.id == method);
+        next.entry = method.expect("a stop names a method");
+        next.tick_hz = tick_hz;
+        next.mode = mode;
+    });
+    deck.clock.set_speed_percent(100);
+    deck.running = !matches!(goal, Goal::SteppedTo(_));
+    // A scene of clouds opens with them in the place of the stage.
+    viewer.preferences.display.enlarged = false;
+    viewer.preferences.display.instrument = instrument;
+    viewer.preferences.display.quantity = Some(quantity);
+    viewer.preferences.display.metric = error_of(quantity);
+    viewer.preferences.display.interpolation = Interpolation::default();
+    viewer.tour = Some(tour);
+}
+
+/// Notes whether the task of the guide's stop is done.
+pub(super) fn look_at_goal(deck: &Deck, viewer: &mut Viewer, is_in_loop_lab: bool) {
+    let Some(mut tour) = viewer.tour.take() else { return };
+    tour.look(&situation(deck, viewer, is_in_loop_lab));
+    viewer.tour = Some(tour);
+}
+
+/// What to try next: the scene's own hint, then what follows on it. Keys stand between backticks.
+pub(super) fn hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option<String> {
+    if let Some(rest) = rest_hint(deck, viewer) {
+        return Some(rest);
+    }
+    if let Some(tour) = &viewer.tour {
+        let is_last = tour.index() + 1 == STOPS.len();
+        let next = match (tour.is_done(), is_last) {
+            (true, true) => "That was the last stop. Press `Esc` to close the guide.",
+            (true, false) => "Press `Page Down` for the next stop, or `Esc` to close the guide.",
+            (false, _) => {
+                "`Page Down` goes to the next stop, `Page Up` back, `Esc` closes the guide."
+            }
+        };
+        return Some(next.to_owned());
+    }
+    let outcome = viewer.verdict(deck.active()).map(|verdict| verdict.outcome());
+    viewer.hints.text(&situation(deck, viewer, is_in_loop_lab), outcome)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::run::METRICS;
     use crate::scene::Scene;
     use crate::studio::command::{Command, RunCommand, StageCommand, ViewCommand};
-    use crate::studio::{Key, command_for};
+    use crate::studio::{Key, Studio, command_for};
 
     #[test]
     fn what_a_stop_sets_without_saying_so_is_undone_when_the_guide_is_left() {

@@ -1,6 +1,7 @@
 //! A spring of a studio's scene as engines are told it.
 
-use super::Studio;
+use super::deck::Deck;
+use super::viewer::Viewer;
 use crate::run::race::LaneBody;
 use crate::scene::{Action, Swing};
 use crate::tools::port::{Setup, setups};
@@ -35,7 +36,7 @@ impl SpringJoint {
     }
 }
 
-impl Studio {
+impl Deck {
     /// A body of the scene that is a spring which engines can be told, as it is now.
     pub fn spring_joint(&self, body: usize) -> Option<SpringJoint> {
         let LaneBody { kind, stepper, .. } = &self.race().truth().bodies()[body];
@@ -49,44 +50,44 @@ impl Studio {
     pub fn joint_setups(&self) -> Vec<Setup> {
         setups(None, f64::from(self.race().tick_hz()), None)
     }
+}
 
-    /// The lines of code that tell the engine with this index in the list the displayed body's spring. `None` if it is no
-    /// engine with a joint, or the body no spring.
-    pub fn joint_code(&self, entry: usize) -> Option<String> {
-        let spring = self.spring_joint(self.view().body)?;
-        let spec = self.entries().get(entry)?;
-        let tick_hz = f64::from(self.race().tick_hz());
-        let setup = *setups(Some(&[spec.method]), tick_hz, Some(spec.substeps)).first()?;
-        let joint = spec.joint.map_or(spring.joint, Swing::per_mass);
-        Some(setup.code(setup.mode.values(joint, spring.mass_kg)) + "\n")
-    }
+/// The lines of code that tell the engine with this index in the list the displayed body's spring. `None` if it is no
+/// engine with a joint, or the body no spring.
+pub fn joint_code(deck: &Deck, viewer: &Viewer, entry: usize) -> Option<String> {
+    let spring = deck.spring_joint(viewer.view.body)?;
+    let spec = deck.entries().get(entry)?;
+    let tick_hz = f64::from(deck.race().tick_hz());
+    let setup = *setups(Some(&[spec.method]), tick_hz, Some(spec.substeps)).first()?;
+    let joint = spec.joint.map_or(spring.joint, Swing::per_mass);
+    Some(setup.code(setup.mode.values(joint, spring.mass_kg)) + "\n")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::studio::{DriverRequest, RunCommand, StageCommand, ViewCommand};
+    use crate::studio::{DriverRequest, RunCommand, StageCommand, Studio, ViewCommand};
 
     #[test]
     fn a_setting_of_an_engine_sets_the_spring_and_control_c_on_the_engine_copies_it() {
         let mut studio = Studio::new(Scene::built_in("engines").unwrap());
-        let spring = studio.spring_joint(0).unwrap();
-        let setups = studio.joint_setups();
+        let spring = studio.deck.spring_joint(0).unwrap();
+        let setups = studio.deck.joint_setups();
         let box2d = setups.iter().find(|setup| setup.mode.stiffness.name == "hertz").unwrap();
         for action in spring.set(*box2d, 0, 3.0) {
             studio.apply(RunCommand::Act(action));
         }
-        let spring = studio.spring_joint(0).unwrap();
+        let spring = studio.deck.spring_joint(0).unwrap();
         for action in spring.set(*box2d, 1, 0.25) {
             studio.apply(RunCommand::Act(action));
         }
-        let spring = studio.spring_joint(0).unwrap();
+        let spring = studio.deck.spring_joint(0).unwrap();
         let [hertz, ratio] = box2d.mode.values(spring.joint, spring.mass_kg);
         assert!((hertz - 3.0).abs() < 1e-12 && (ratio - 0.25).abs() < 1e-12, "{hertz} {ratio}");
 
         let entry = studio.entries().iter().position(|spec| spec.method == box2d.method).unwrap();
-        let code = studio.joint_code(entry).unwrap();
+        let code = joint_code(&studio.deck, &studio.viewer, entry).unwrap();
         assert!(code.contains("def.hertz = 3.0;\n"), "{code}");
         assert_eq!(
             studio.apply(DriverRequest::CopyJoint(entry)),
@@ -96,14 +97,14 @@ mod tests {
         assert_eq!(studio.apply(ViewCommand::Copy), Some(DriverRequest::CopyJoint(entry)));
         // A custom method is copied as source code, and so is an engine's step by its menu.
         let ship = studio.scene().bodies.iter().position(|body| body.kind.id == "ship").unwrap();
-        assert_eq!(studio.spring_joint(ship), None);
+        assert_eq!(studio.deck.spring_joint(ship), None);
         studio.apply(StageCommand::Body(ship));
         studio.apply(ViewCommand::PointAt(Some(entry)));
         assert_eq!(studio.apply(ViewCommand::Copy), Some(DriverRequest::CopyMethod(entry)));
         assert_eq!(studio.apply(DriverRequest::CopyJoint(entry)), None);
         // An engine that is told other numbers has those.
         let alike = Studio::new(Scene::built_in("alike").unwrap());
-        let told = [0, 3].map(|entry| alike.joint_code(entry).unwrap());
+        let told = [0, 3].map(|entry| joint_code(&alike.deck, &alike.viewer, entry).unwrap());
         assert!(told[0].contains("= 1.5;") && told[1].contains("= 1.50169895;"), "{told:?}");
     }
 }

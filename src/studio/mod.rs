@@ -5,19 +5,25 @@
 //! [`DriverRequest`]. What a person looks at is in its [`Viewer`]: the [`Preferences`], which survive the scene, and the
 //! [`View`], which does not. [`INSTRUMENTS`] stand beside the stage, and the [`guide`] leads through the scenes.
 
+use crate::loops::Due;
 use crate::loops::loop_lab::LoopLab;
+use crate::measure::{AnalysisRequest, AnalysisWorker};
 use crate::run::past::Past;
-use crate::run::race::{Entrant, Mode, Race};
-use crate::run::{
-    RecordingError, Run, Session, StartSettings, link, recording_among, recording_text,
-};
+use crate::run::race::{Entrant, Mode, Observer, Race};
+use crate::run::{Run, Session, StartSettings};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::Clock;
+use crate::sim::integrators::Method;
+use driving::{advance, make_tick};
+use guiding::hint;
+use looping::title_of_loops;
 
+mod acting;
 mod ahead;
 mod apply;
 mod clouding;
 mod command;
+mod deck;
 mod display;
 mod driving;
 mod file_names;
@@ -50,24 +56,39 @@ mod work;
 mod zoom_pan;
 
 pub use crate::measure::{Future, FutureMoment, OneStep, Slope};
+pub use ahead::{futures, one_step, orbit, shows_futures};
+pub use clouding::{accept_cloud, cloud_refusal, cloud_request, complete_clouds, shown_cloud};
 pub use command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,
 };
+pub use deck::Deck;
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, View};
+pub use file_names::{instrument_file_name, picture_file_name};
+pub use findings::{
+    accept_findings, analyse_bounded, analysis_request, mappable_parameters, mapped_parameter,
+    unanswered_request,
+};
 pub use frame_loop::{FrameLoop, ToDo};
 pub use gesture::{GESTURES, Gesture};
 pub use held::HeldBody;
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup};
-pub use joint::SpringJoint;
+pub use joint::{SpringJoint, joint_code};
 pub use key::{Binding, KEYS, Key, command_for};
 pub use live_loop::{LiveFrame, LiveLoop};
-use looping::Activity;
+pub use looping::{
+    accept_loop, loop_lab_refusal, loop_request, open_loop_lab_on, open_traces, run_loops,
+};
 pub use my_spring::MySpring;
 pub use notice::Notice;
-pub use opening::{MANY_LANES, lineup};
+pub use opening::{
+    MANY_LANES, file_is_back, file_is_gone, lineup, list_as_file, open_advised_spring, open_file,
+    refuse_typed_path, reload_failed, reload_file, show_clouds_of_scene, show_comparison,
+    show_mistakes,
+};
 pub use pace::PaceMeter;
 pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
+pub use showing::{shown_s, shown_state, shown_truth};
 pub use step::Step;
 pub use viewer::{Dialog, Preferences, Viewer};
 pub use work::{Asked, Found, Work};
@@ -75,19 +96,12 @@ pub use zoom_pan::ZoomPan;
 
 /// A scene being run and looked at.
 pub struct Studio {
-    scene_list: SceneList,
-    run: Run,
-    clock: Clock,
-    running: bool,
-    dropped: u64,
-    /// How many scenes were opened, of which a driver leaves the time out that it takes.
-    openings: u64,
-    /// How often a person has changed the run or its start, and how often of that a file has.
-    deeds: u64,
-    saved_deeds: u64,
-    viewer: Viewer,
-    /// What the stage shows.
-    activity: Activity,
+    /// The run, and what steers it.
+    pub deck: Deck,
+    /// What a person looks at.
+    pub viewer: Viewer,
+    /// The loop lab, while it is on the stage and the run waits.
+    pub(super) loops: Option<Box<LoopLab>>,
 }
 
 impl Studio {
@@ -95,177 +109,179 @@ impl Studio {
     /// under the first of its lanes. The caller decides on
     /// [`Scene::opens_as_race`].
     pub fn new(scene: Scene) -> Self {
-        let scene_list = SceneList::of(&scene);
-        Self::of_run(scene_list, Run::starting_with(StartSettings::of(scene)))
+        Self::starting_with(StartSettings::of(scene))
     }
 
-    /// A person before the start of a run, which is running.
-    fn of_run(scene_list: SceneList, run: Run) -> Self {
-        Self {
-            scene_list,
-            clock: Clock::new(run.start().tick_hz()),
-            running: true,
-            dropped: 0,
-            openings: 0,
-            deeds: 0,
-            saved_deeds: 0,
-            viewer: Viewer::new(run.race().entrants()[0].id),
-            run,
-            activity: Activity::Run,
+    /// At tick 0 of a scene, as options ask for it: under the method `selected`, or else the one that the scene opens with.
+    /// Of a race in which none was selected the verdicts select one. A single lane is shown solo.
+    pub fn opened(scene: Scene, selected: Option<&'static Method>, mode: Mode) -> Self {
+        let method = selected.unwrap_or_else(|| scene.opening_lane().method);
+        let mut next = StartSettings::of(scene);
+        if let Some(entry) = next.list.iter().position(|spec| spec.method == method) {
+            next.entry = entry;
         }
+        if next.scene.lanes.len() > 1 {
+            next.mode = mode;
+        }
+        let mut studio = Self::starting_with(next);
+        studio.deck.select_entry_of_start();
+        studio.deck.is_selected = mode == Mode::Solo || selected.is_some();
+        studio
     }
 
-    /// Goes on with a run, where it is, in its mode.
+    fn starting_with(next: StartSettings) -> Self {
+        let scene_list = SceneList::of(&next.opened);
+        Self::of_deck(Deck::new(scene_list, Run::starting_with(next)))
+    }
+
+    fn of_deck(deck: Deck) -> Self {
+        Self { deck, viewer: Viewer::default(), loops: None }
+    }
+
+    /// Continues a session at its current tick, in its mode.
     pub fn of_session(session: Session) -> Self {
         let tick = session.race().tick();
-        let run = Run::new(session.before_its_first_tick());
-        let mut studio = Self::of_run(SceneList::of(session.scene()), run);
-        (0..tick).for_each(|_| studio.run.tick(&mut ()));
-        studio
+        let scene_list = SceneList::of(session.scene());
+        let mut run = Run::new(session.before_its_first_tick());
+        (0..tick).for_each(|_| run.tick(&mut ()));
+        Self::of_deck(Deck::new(scene_list, run))
     }
 
     /// The open scene with the parameters and the length that a person has set.
     pub fn scene(&self) -> &Scene {
-        &self.run.next().scene
-    }
-    /// The scene as it was opened.
-    pub fn scene_as_opened(&self) -> &Scene {
-        &self.run.next().opened
+        self.deck.scene()
     }
     /// The run, its past and its future.
     pub fn run(&self) -> &Run {
-        &self.run
+        self.deck.run()
     }
     /// The lanes and the truth.
     pub fn race(&self) -> &Race {
-        self.run.session().race()
+        self.deck.race()
     }
     /// The recorded past of the lanes and the truth.
     pub fn past(&self) -> &Past {
-        self.run.past()
+        self.deck.past()
     }
-    /// The methods that digits and rows refer to: those of the [menu](crate::run::past::Menu).
+    /// The methods that digits and rows refer to: those of the [menu](crate::run::Menu).
     pub fn entries(&self) -> &[LaneSpec] {
-        self.run().menu().specs()
-    }
-    /// The name of the method with this index on the menu, told apart from others of the same method.
-    pub fn lane_name(&self, entry: usize) -> String {
-        let spec = &self.entries()[entry];
-        spec.distinct_name(spec.method.name, self.entries())
-    }
-    /// How many methods of the menu a person meets at first: the scene's, and all up to the one that is active.
-    pub fn offered(&self) -> usize {
-        self.scene().lanes.len().max(self.active() + 1).min(self.entries().len())
-    }
-    /// Solo or race.
-    pub fn mode(&self) -> Mode {
-        self.race().mode()
-    }
-    /// The method in solo mode, or of the selected lane in a race, by its index on the menu.
-    pub fn active(&self) -> usize {
-        self.entry(self.selected())
+        self.deck.entries()
     }
     /// The method of a lane, by its index on the menu.
     pub fn entry(&self, entrant: &Entrant) -> usize {
-        self.run().menu().entry(entrant.id)
+        self.deck.entry(entrant)
     }
-    /// The lane under the method with this index on the menu, if one flies it.
-    pub fn flown(&self, entry: usize) -> Option<&Entrant> {
-        self.race().entrant(self.run().menu().lane(entry)?)
+    /// The name of the method with this index on the menu, told apart from others of the same method.
+    pub fn lane_name(&self, entry: usize) -> String {
+        self.deck.lane_name(entry)
+    }
+    /// Solo or race.
+    pub fn mode(&self) -> Mode {
+        self.deck.mode()
+    }
+    /// The method in solo mode, or of the selected lane in a race, by its index on the menu.
+    pub fn active(&self) -> usize {
+        self.deck.active()
     }
     /// The lane in solo mode, or the selected lane in a race.
     pub fn selected(&self) -> &Entrant {
-        let lanes = self.race().entrants();
-        self.race().entrant(self.viewer.selected).unwrap_or(&lanes[0])
+        self.deck.selected()
     }
     /// The clock.
     pub fn clock(&self) -> &Clock {
-        &self.clock
-    }
-    /// The open loop lab; `None` in solo and in a race.
-    pub fn loop_lab(&self) -> Option<&LoopLab> {
-        match &self.activity {
-            Activity::Run => None,
-            Activity::Loops(loops) => Some(loops),
-        }
+        self.deck.clock()
     }
     /// Whether it is not paused.
     pub fn running(&self) -> bool {
-        self.running
-    }
-    /// Whether time runs: it is not paused, and no body is in hand.
-    pub fn time_runs(&self) -> bool {
-        self.running && self.viewer.held.is_none()
-    }
-    /// The simulated time in seconds with the owed part of a tick. It advances evenly with real time, while the race
-    /// advances by ticks.
-    pub fn time_with_owed_s(&self) -> f64 {
-        self.race().t() + self.clock.alpha() / f64::from(self.clock.tick_hz())
-    }
-    /// Ticks dropped since the scene was opened or restarted.
-    pub fn dropped(&self) -> u64 {
-        self.dropped
-    }
-    /// The scenes that were opened, or read again, in place of others.
-    pub fn openings(&self) -> u64 {
-        self.openings
-    }
-    /// What a person looks at.
-    pub fn viewer(&self) -> &Viewer {
-        &self.viewer
-    }
-    /// What a person looks at, to be changed by a driver.
-    pub fn viewer_mut(&mut self) -> &mut Viewer {
-        &mut self.viewer
+        self.deck.running()
     }
     /// How the studio is displayed.
     pub fn display(&self) -> &Display {
-        &self.viewer.preferences.display
+        self.viewer.display()
     }
     /// Where a person looks in the scene.
     pub fn view(&self) -> &View {
         &self.viewer.view
     }
-
-    /// Sets the memory in bytes that a run may take to be rewound; see [`Run`].
-    pub fn set_rewind_bytes(&mut self, bytes: usize) {
-        self.run.set_limit(bytes);
+    /// The open loop lab; `None` in solo and in a race.
+    pub fn loop_lab(&self) -> Option<&LoopLab> {
+        self.loops.as_deref()
     }
 
     /// The window's title: people and tests read it.
     pub fn title(&self) -> String {
-        if let Activity::Loops(loops) = &self.activity {
-            return self.title_of_loops(loops);
+        if let Some(loops) = &self.loops {
+            return title_of_loops(&self.deck, loops);
         }
         let race = if self.mode() == Mode::Race { "race: " } else { "" };
         let tick = self.race().tick();
-        let paused = if self.running { String::new() } else { format!(" (paused, tick {tick})") };
+        let paused = if self.running() { String::new() } else { format!(" (paused, tick {tick})") };
         format!(
             "Regatta - {} - {race}{} - {} Hz{paused}",
-            self.scene_name(),
+            self.deck.scene_name(),
             self.lane_name(self.active()),
-            self.clock.tick_hz(),
+            self.clock().tick_hz(),
         )
     }
 
-    /// The run up to the last tick reached, as the text of a scene file.
-    ///
-    /// # Errors
-    /// As [`Session::recording_text`](crate::run::Session::recording_text).
-    pub fn recording(&self) -> Result<String, RecordingError> {
-        recording_text(&self.run.recording())
+    /// What to try next: the scene's own hint, then what follows on it. Keys stand between backticks.
+    pub fn hint(&self) -> Option<String> {
+        hint(&self.deck, &self.viewer, self.loops.is_some())
     }
 
-    /// The link to the run up to the last tick reached, with the methods that stand beside it.
-    ///
-    /// # Errors
-    /// As [`Session::recording_text`](crate::run::Session::recording_text).
-    pub fn link(&self) -> Result<String, RecordingError> {
-        let recording = self.run.recording();
-        // What no file can hold, no link can.
-        recording_text(&recording)?;
-        let recording = recording_among(recording, &self.scene().lanes);
-        link::to(&recording)
-            .map_err(|_| RecordingError::TooLong { bytes: recording.to_toml().len() })
+    /// Performs the actions at this tick, and steps to the next.
+    pub fn tick(&mut self) {
+        make_tick(&mut self.deck, &mut self.viewer, &mut ());
+    }
+
+    /// Adds a frame of `frame_ns` nanoseconds of real time, and makes the ticks that are due.
+    pub fn advance(&mut self, frame_ns: i64) -> Due {
+        self.advance_in_time(u64::MAX, frame_ns, &mut || true, &mut ())
+    }
+
+    /// Like [`Studio::advance`], but stops at tick `last`, and before the eyes of an observer. After each tick it asks whether
+    /// there is time for another; if there is not, it drops those that are still due.
+    pub fn advance_in_time(
+        &mut self,
+        last: u64,
+        frame_ns: i64,
+        is_time_left: &mut dyn FnMut() -> bool,
+        observer: &mut dyn Observer,
+    ) -> Due {
+        let Self { deck, viewer, loops } = self;
+        if !deck.time_runs() {
+            viewer.live.jump();
+            return Due::default();
+        }
+        viewer.pass(frame_ns);
+        if let Some(loops) = loops {
+            loops.advance(frame_ns);
+            return Due::default();
+        }
+        advance(deck, viewer, last, frame_ns, is_time_left, observer)
+    }
+
+    /// The verdicts and the advice that the studio wants at present: see [`analysis_request`].
+    pub fn analysis_request(&self) -> AnalysisRequest {
+        analysis_request(&self.deck, &self.viewer)
+    }
+
+    /// Computes all requested verdicts and advice now.
+    pub fn analyse(&mut self) {
+        if let Some(request) = unanswered_request(&self.deck, &self.viewer) {
+            let findings = AnalysisWorker::new(request).finish();
+            accept_findings(&mut self.deck, &mut self.viewer, findings);
+        }
+    }
+
+    /// Keeps what was found, if it is still wanted.
+    pub fn accept(&mut self, found: Found) {
+        match found {
+            Found::Analysed(findings) => {
+                accept_findings(&mut self.deck, &mut self.viewer, *findings);
+            }
+            Found::LoopRun(found) => accept_loop(self, *found),
+            Found::Clouds(found) => accept_cloud(self, *found),
+        }
     }
 }

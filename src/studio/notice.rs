@@ -70,15 +70,15 @@ mod tests {
         for is_running in [true, false] {
             let shown_s = |words: &str| {
                 let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-                studio.running = is_running;
-                studio.viewer_mut().set_notice(words);
+                studio.deck.running = is_running;
+                studio.viewer.set_notice(words);
                 let mut frames = 0;
-                while studio.viewer().notice.is_some() {
+                while studio.viewer.notice.is_some() {
                     studio.advance(70_000_000);
-                    studio.viewer_mut().pass(if is_running { 0 } else { 70_000_000 });
+                    studio.viewer.pass(if is_running { 0 } else { 70_000_000 });
                     frames += 1;
                 }
-                assert_eq!(studio.viewer().notice.as_ref().map(Notice::left_ns), None);
+                assert_eq!(studio.viewer.notice.as_ref().map(Notice::left_ns), None);
                 f64::from(frames) * 0.07
             };
             let [short, long] = [shown_s("saved"), shown_s(&"word ".repeat(20))];

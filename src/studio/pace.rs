@@ -22,13 +22,13 @@ impl PaceMeter {
     /// the measurement again.
     pub fn frame(&mut self, now_ns: u64, studio: &Studio) {
         let under = (studio.clock().tick_hz(), studio.clock().speed_percent());
-        let t = studio.time_with_owed_s();
+        let t = studio.deck.time_with_owed_s();
         let went_back = self.frames.back().is_some_and(|&(_, last)| t < last);
-        if !studio.time_runs() || went_back || under != self.under {
+        if !studio.deck.time_runs() || went_back || under != self.under {
             self.frames.clear();
             self.under = under;
         }
-        if !studio.time_runs() {
+        if !studio.deck.time_runs() {
             return;
         }
         self.frames.push_back((now_ns, t));

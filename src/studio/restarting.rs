@@ -1,92 +1,101 @@
-//! Restarts, and taking back what a person did.
+//! Jumps of the run: restarts, undo and redo, and what has to follow them.
 
 use std::sync::Arc;
 
-use super::Studio;
+use super::deck::Deck;
+use super::plotting::record_chosen_coordinates;
+use super::viewer::Viewer;
 use crate::run::race::{Author, Mode};
 use crate::run::{Run, StartSettings};
 
-impl Studio {
-    /// Begins the run again, with its settings as `set` sets them. The run so far is kept for an undo of the change `kept`,
-    /// and lost if there is none.
-    pub(super) fn restart(&mut self, kept: Option<&str>, set: impl FnOnce(&mut StartSettings)) {
-        self.running = self.runs_or_rests();
-        self.run.restart(kept, set);
-        self.record_chosen_coordinates();
-        self.select_entry_of_start();
-        (self.viewer.notice, self.viewer.parting) = (None, None);
-        self.viewer.live.jump();
-        self.viewer.held = None;
-        self.clock.set_tick_hz(self.race().tick_hz());
-        self.clock.restart();
-        self.dropped = 0;
-    }
+/// Where the run has jumped to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Jump {
+    /// Another tick.
+    ToAnotherTick,
+    /// The other side of an edit.
+    OverAnEdit,
+    /// The start of another run.
+    ToAnotherRun,
+}
 
-    /// Selects the lane under the method with which a solo run starts.
-    pub(super) fn select_entry_of_start(&mut self) {
-        let picked = self.picked(self.run.next().entry);
-        self.viewer.selected = picked.unwrap_or(self.race().entrants()[0].id);
+/// Has the clock, the plots, the hand and the selection follow a run that has jumped.
+pub(super) fn follow(deck: &mut Deck, viewer: &mut Viewer, jump: Jump) {
+    deck.clock.set_tick_hz(deck.race().tick_hz());
+    viewer.live.jump();
+    if jump != Jump::ToAnotherTick {
+        deck.held = None;
+        record_chosen_coordinates(deck, viewer);
     }
-
-    /// Restarts. A run in which a person has done something, or that began with other settings, is kept for an undo; any
-    /// other would only repeat itself. Returns whether it was kept.
-    pub(super) fn restart_keeping_run(&mut self) -> bool {
-        let is_edited = !Arc::ptr_eq(self.run.session().scene(), &self.run.next().scene);
-        let keeps = is_by_hand(&self.run) || is_edited;
-        self.restart(keeps.then_some("the restart"), |_| ());
-        keeps
+    if jump == Jump::ToAnotherRun {
+        deck.select_entry_of_start();
+        deck.clock.restart();
+        deck.dropped = 0;
+        (viewer.notice, viewer.parting) = (None, None);
     }
-
-    /// Makes what was done so far part of the start, so that none of it can be undone: for a driver that has set up the studio
-    /// by commands.
-    pub fn forget_changes(&mut self) {
-        self.run.forget_changes();
-        self.note_saved();
-    }
-
-    /// Takes back the last change.
-    pub(super) fn undo(&mut self) {
-        let what = self.run.undoes().map(str::to_owned);
-        let undone = what.map(|what| format!("undid {what}: Ctrl Shift Z redoes it"));
-        self.exchange(Run::undo, undone.as_deref().unwrap_or("nothing to undo"));
-    }
-
-    /// Makes the change again that was undone last.
-    pub(super) fn redo(&mut self) {
-        let what = self.run.redoes().map(str::to_owned);
-        let redone = what.map(|what| format!("redid {what}: Ctrl Z takes it back"));
-        self.exchange(Run::redo, redone.as_deref().unwrap_or("nothing to redo"));
-    }
-
-    /// Goes to the other side of a change, if `exchange` does, and tells this.
-    fn exchange(&mut self, exchange: fn(&mut Run) -> bool, notice: &str) {
-        let rested = self.comes_to_rest();
-        let StartSettings { entry, ref opened, .. } = *self.run.next();
-        let opened = Arc::clone(opened);
-        if !exchange(&mut self.run) {
-            return self.viewer.set_notice(notice);
-        }
-        // Selecting a lane is not a change: the one that is selected stays so.
-        let is_there = self.race().entrant(self.viewer.selected).is_some();
-        if self.mode() == Mode::Race && is_there {
-            self.run.next_mut().entry = entry;
-        } else {
-            self.select_entry_of_start();
-        }
-        if !Arc::ptr_eq(&opened, &self.run.next().opened) {
-            self.viewer.findings = None;
-        }
-        self.viewer.held = None;
-        self.viewer.live.jump();
-        self.record_chosen_coordinates();
-        self.run.show_present();
-        self.clock.set_tick_hz(self.race().tick_hz());
-        self.running |= rested && !self.comes_to_rest();
-        self.viewer.set_notice(notice);
-    }
+    deck.run.show_present();
 }
 
 /// Whether a person has acted on a run.
 pub(super) fn is_by_hand(run: &Run) -> bool {
     run.session().journal().rows().iter().any(|row| row.author == Author::Person)
+}
+
+/// Begins the run again, with its settings as `set` sets them. The run so far is kept for an undo of the change `kept`,
+/// and lost if there is none.
+pub(super) fn restart(
+    deck: &mut Deck,
+    viewer: &mut Viewer,
+    kept: Option<&str>,
+    set: impl FnOnce(&mut StartSettings),
+) {
+    deck.running = deck.runs_or_rests(viewer.motion());
+    deck.run.restart(kept, set);
+    follow(deck, viewer, Jump::ToAnotherRun);
+}
+
+/// Restarts. A run in which a person has done something, or that began with other settings, is kept for an undo; any
+/// other would only repeat itself. Returns whether it was kept.
+pub(super) fn restart_keeping_run(deck: &mut Deck, viewer: &mut Viewer) -> bool {
+    let is_edited = !Arc::ptr_eq(deck.run.session().scene(), &deck.run.next().scene);
+    let keeps = is_by_hand(&deck.run) || is_edited;
+    restart(deck, viewer, keeps.then_some("the restart"), |_| ());
+    keeps
+}
+
+/// Takes back the last change.
+pub(super) fn undo(deck: &mut Deck, viewer: &mut Viewer) {
+    let what = deck.run.undoes().map(str::to_owned);
+    let undone = what.map(|what| format!("undid {what}: Ctrl Shift Z redoes it"));
+    exchange(deck, viewer, Run::undo, undone.as_deref().unwrap_or("nothing to undo"));
+}
+
+/// Makes the change again that was undone last.
+pub(super) fn redo(deck: &mut Deck, viewer: &mut Viewer) {
+    let what = deck.run.redoes().map(str::to_owned);
+    let redone = what.map(|what| format!("redid {what}: Ctrl Z takes it back"));
+    exchange(deck, viewer, Run::redo, redone.as_deref().unwrap_or("nothing to redo"));
+}
+
+/// Goes to the other side of a change, if `exchange` does, and tells this.
+fn exchange(deck: &mut Deck, viewer: &mut Viewer, exchange: fn(&mut Run) -> bool, notice: &str) {
+    let rested = deck.comes_to_rest(viewer.motion());
+    let StartSettings { entry, ref opened, .. } = *deck.run.next();
+    let opened = Arc::clone(opened);
+    if !exchange(&mut deck.run) {
+        return viewer.set_notice(notice);
+    }
+    // Selecting a lane is not a change: the one that is selected stays so.
+    let is_there = deck.race().entrant(deck.selected).is_some();
+    if deck.mode() == Mode::Race && is_there {
+        deck.run.next_mut().entry = entry;
+    } else {
+        deck.select_entry_of_start();
+    }
+    if !Arc::ptr_eq(&opened, &deck.run.next().opened) {
+        viewer.findings = None;
+    }
+    follow(deck, viewer, Jump::OverAnEdit);
+    deck.running |= rested && !deck.comes_to_rest(viewer.motion());
+    viewer.set_notice(notice);
 }

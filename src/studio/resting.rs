@@ -1,8 +1,10 @@
 //! Where a run before a person rests: at its scene's length, and where all its bodies have blown up, which can be watched
 //! again.
 
-use super::Studio;
+use super::acting::seek;
+use super::deck::Deck;
 use super::display::Motion;
+use super::viewer::Viewer;
 use crate::run::race::{Halt, Mode};
 use crate::sim::number::{round, significant};
 
@@ -10,48 +12,30 @@ use crate::sim::number::{round, significant};
 const LEAD_S: f64 = 1.0;
 const MIN_LEAD: u64 = 24;
 
-impl Studio {
+impl Deck {
     /// Whether the run rests at this tick.
-    pub(super) fn comes_to_rest(&self) -> bool {
-        self.is_at_its_end() || self.just_lost().is_some()
+    pub(super) fn comes_to_rest(&self, motion: Motion) -> bool {
+        self.is_at_its_end(motion) || self.just_lost(motion).is_some()
     }
 
     /// Whether the scene's length is over.
-    fn is_at_its_end(&self) -> bool {
+    fn is_at_its_end(&self, motion: Motion) -> bool {
         let race = self.race();
         let (late_s, half_s) = (race.t() - self.scene().seconds, race.last_step_s() / 2.0);
-        late_s > -half_s && late_s <= half_s && self.display().motion == Motion::Live
+        late_s > -half_s && late_s <= half_s && motion == Motion::Live
     }
 
     /// Whether time runs once another run is on the stage: also after a rest, which nobody asked for.
-    pub(super) fn runs_or_rests(&self) -> bool {
-        self.running || self.comes_to_rest()
+    pub(super) fn runs_or_rests(&self, motion: Motion) -> bool {
+        self.running || self.comes_to_rest(motion)
     }
 
     /// The halt of the last body of the lane on the stage, if it has just halted.
-    fn just_lost(&self) -> Option<&Halt> {
-        let are_lost = self.display().motion == Motion::Live
+    fn just_lost(&self, motion: Motion) -> Option<&Halt> {
+        let are_lost = motion == Motion::Live
             && self.mode() == Mode::Solo
             && self.selected().lane.bodies().iter().all(|body| body.halted().is_some());
         self.last_halt().filter(|halt| are_lost && halt.tick + 1 == self.race().tick())
-    }
-
-    /// What to do where the run rests. Keys stand between backticks.
-    pub(super) fn rest_hint(&self) -> Option<String> {
-        if self.running || !self.comes_to_rest() {
-            return None;
-        }
-        if let Some(halt) = self.just_lost() {
-            let (name, how) = (self.lane_name(self.active()), halt.how());
-            let t = significant(halt.t, 3);
-            return Some(format!(
-                "{name} {how} at {t} s. `W` shows it again, `Home` starts over, `Space` goes on."
-            ));
-        }
-        let seconds = round(self.scene().seconds, 4);
-        Some(format!(
-            "The {seconds} s of this scene are over. `Home` starts again, `Space` goes on."
-        ))
     }
 
     /// The halt of the body of the selected lane that halted last.
@@ -64,29 +48,46 @@ impl Studio {
     pub fn lost_at(&self) -> Option<u64> {
         self.last_halt().map(|halt| halt.tick)
     }
+}
 
-    /// Goes back to before the selected lane was lost, and runs on from there.
-    pub(super) fn watch_again(&mut self) {
-        let Some(tick) = self.lost_at() else {
-            return self.viewer.set_notice("nothing has halted in this lane");
-        };
-        let lead = ((LEAD_S * f64::from(self.race().tick_hz())) as u64).max(MIN_LEAD);
-        self.seek(tick.saturating_sub(lead));
-        self.viewer.notice = None;
-        self.running = true;
+/// What to do where the run rests. Keys stand between backticks.
+pub(super) fn rest_hint(deck: &Deck, viewer: &Viewer) -> Option<String> {
+    if deck.running || !deck.comes_to_rest(viewer.motion()) {
+        return None;
     }
+    if let Some(halt) = deck.just_lost(viewer.motion()) {
+        let (name, how) = (deck.lane_name(deck.active()), halt.how());
+        let t = significant(halt.t, 3);
+        return Some(format!(
+            "{name} {how} at {t} s. `W` shows it again, `Home` starts over, `Space` goes on."
+        ));
+    }
+    let seconds = round(deck.scene().seconds, 4);
+    Some(format!("The {seconds} s of this scene are over. `Home` starts again, `Space` goes on."))
+}
+
+/// Goes back to before the selected lane was lost, and runs on from there.
+pub(super) fn watch_again(deck: &mut Deck, viewer: &mut Viewer) {
+    let Some(tick) = deck.lost_at() else {
+        return viewer.set_notice("nothing has halted in this lane");
+    };
+    let lead = ((LEAD_S * f64::from(deck.race().tick_hz())) as u64).max(MIN_LEAD);
+    seek(deck, viewer, tick.saturating_sub(lead));
+    viewer.notice = None;
+    deck.running = true;
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::{Action, Scene};
+    use crate::studio::slow_motion::slow_motion_percent;
     use crate::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
 
     /// A studio that somebody watches.
     fn watched(scene: &str) -> Studio {
         let mut studio = Studio::new(Scene::built_in(scene).unwrap());
-        studio.viewer_mut().preferences.display.motion = Motion::Live;
+        studio.viewer.preferences.display.motion = Motion::Live;
         studio
     }
 
@@ -106,7 +107,7 @@ mod tests {
         watch(&mut studio, 21);
         assert_eq!((studio.race().t(), studio.running()), (studio.scene().seconds, false));
         assert_eq!(
-            studio.slow_motion_percent(),
+            slow_motion_percent(&studio.deck, &studio.viewer),
             100,
             "a swing that grows by itself is fast enough"
         );
@@ -196,17 +197,17 @@ mod tests {
         assert_eq!(escape(&mut studio), quits, "a race repeats itself");
         studio.apply(RunCommand::Act(Action::Kick(1.0)));
         assert_eq!(escape(&mut studio), None);
-        let told = studio.viewer().notice.as_deref().unwrap_or_default();
+        let told = studio.viewer.notice.as_deref().unwrap_or_default();
         assert!(told.contains("F5") && told.contains("Esc"), "{told}");
         assert_eq!(escape(&mut studio), quits, "it was asked");
-        studio.viewer_mut().notice = None;
+        studio.viewer.notice = None;
         assert_eq!(escape(&mut studio), None, "the question has left");
-        studio.note_saved();
+        studio.deck.note_saved();
         assert_eq!(escape(&mut studio), quits, "it is saved");
         studio.apply(StageCommand::TickHz(30));
-        studio.viewer_mut().notice = None;
+        studio.viewer.notice = None;
         assert_eq!(escape(&mut studio), None, "it has changed since");
-        studio.viewer_mut().preferences.is_recorded = true;
+        studio.viewer.preferences.is_recorded = true;
         assert_eq!(escape(&mut studio), quits);
     }
 
@@ -215,10 +216,10 @@ mod tests {
         let mut studio = watched("spring");
         (0..120).for_each(|_| studio.tick());
         studio.apply(RunCommand::Seek(60));
-        assert_eq!((studio.race().tick(), studio.viewer().notice.as_deref()), (60, None));
+        assert_eq!((studio.race().tick(), studio.viewer.notice.as_deref()), (60, None));
         studio.apply(RunCommand::Seek(600));
         assert_eq!((studio.race().tick(), studio.running()), (120, false));
-        let told = studio.viewer().notice.as_deref().unwrap_or_default();
+        let told = studio.viewer.notice.as_deref().unwrap_or_default();
         assert!(told.contains("10 s is still to come") && told.contains("2 s"), "{told}");
     }
 
@@ -232,11 +233,11 @@ mod tests {
         watch(&mut studio, end as u32 + 2);
         assert!(!studio.running());
         studio.apply(ViewCommand::ToggleGhost);
-        assert!(!studio.viewer().tour().unwrap().is_done());
+        assert!(!studio.viewer.tour().unwrap().is_done());
         studio.apply(ViewCommand::TogglePause);
         watch(&mut studio, 1);
         studio.apply(ViewCommand::TogglePause);
-        assert!(studio.viewer().tour().unwrap().is_done());
+        assert!(studio.viewer.tour().unwrap().is_done());
     }
 
     #[test]
@@ -260,8 +261,8 @@ mod tests {
         let scene = Scene::parse("t.toml", text).unwrap();
         let mut frames = [Motion::Recorded, Motion::Live].map(|motion| {
             let mut studio = Studio::new(scene.clone());
-            studio.viewer_mut().preferences.display.motion = motion;
-            let halts = |studio: &Studio| studio.lost_at().is_some();
+            studio.viewer.preferences.display.motion = motion;
+            let halts = |studio: &Studio| studio.deck.lost_at().is_some();
             let frames = (0..2000).take_while(|_| {
                 studio.advance(16_666_667);
                 !halts(&studio)
@@ -270,7 +271,7 @@ mod tests {
         });
         let [(usual, plain), (slow, studio)] = &mut frames;
         assert!(*slow > 3 * *usual, "{slow} frames of what takes {usual}");
-        assert_eq!(studio.lost_at(), plain.lost_at());
+        assert_eq!(studio.deck.lost_at(), plain.deck.lost_at());
         assert!(!studio.running() && plain.running(), "it rests");
         assert!(studio.hint().is_some_and(|hint| hint.contains("blew up") && hint.contains("`W`")));
         let (end, hash) = (studio.race().tick(), studio.race().state_hash());

@@ -28,14 +28,14 @@ impl SavedPreferences {
     /// What is to be remembered of a studio. Its scene and the size of its window are the driver's.
     pub fn of(studio: &Studio) -> Self {
         let &Display { scale_percent, measure, splits, .. } = studio.display();
-        let theme = studio.viewer().preferences.chosen_theme();
+        let theme = studio.viewer.preferences.chosen_theme();
         let scale_percent = Some(scale_percent);
         Self { scene: None, theme, scale_percent, size: None, measure, splits }
     }
 
     /// Has a studio shown as it was.
     pub fn apply(&self, studio: &mut Studio) {
-        let preferences = &mut studio.viewer_mut().preferences;
+        let preferences = &mut studio.viewer.preferences;
         self.theme.into_iter().for_each(|theme| preferences.choose_theme(theme));
         self.scale_percent.into_iter().for_each(|percent| preferences.choose_scale(percent));
         preferences.display.measure = self.measure;

@@ -1,7 +1,9 @@
 //! How much slower time runs while a lane outgrows the stage too fast to see. It follows from the run and the moment shown:
 //! what is gone back to looks the same again.
 
-use super::{Motion, Studio};
+use super::Motion;
+use super::deck::Deck;
+use super::viewer::Viewer;
 use crate::look::{Framing, Look};
 use crate::run::past::History;
 use crate::run::race::Mode;
@@ -15,31 +17,6 @@ const MIN_PERCENT: u32 = 6;
 const MEASURED: usize = 4;
 const REMEMBERED_S: f64 = 2.0;
 
-impl Studio {
-    /// How fast time runs so that a lane which outgrows the stage can be watched, in percent of the speed that is set.
-    pub(super) fn slow_motion_percent(&self) -> u32 {
-        if self.display().motion == Motion::Recorded || self.mode() != Mode::Solo {
-            return 100;
-        }
-        let selected = self.selected();
-        let decades = self.past().histories(selected.id).iter().zip(selected.lane.bodies());
-        let decades = decades.map(|(history, body)| {
-            let base_m = match Look::of(body).framing() {
-                Framing::Recorder { half_width_m } => half_width_m,
-                Framing::Fixed { half_m, .. } => half_m.max_element(),
-                Framing::Follow { width_m, .. } => width_m,
-            };
-            if body.halted().is_some() { 0.0 } else { decades_per_s(history, base_m) }
-        });
-        let speed = f64::from(self.clock().speed_percent()) / 100.0;
-        let fastest = speed * decades.fold(0.0, f64::max);
-        match fastest <= MAX_ZOOM {
-            true => 100,
-            false => ((100.0 * MAX_ZOOM / fastest) as u32).max(MIN_PERCENT),
-        }
-    }
-}
-
 /// How fast a body goes beyond this distance and beyond where it has been, in powers of ten per simulated second.
 fn decades_per_s(history: &History, base_m: f64) -> f64 {
     let newest = history.samples().rev();
@@ -50,4 +27,27 @@ fn decades_per_s(history: &History, base_m: f64) -> f64 {
         lately.map(|sample| sample.at.length()).fold(base_m, f64::max)
     };
     libm::log10(reach(0) / reach(MEASURED)) / (now.t - then.t)
+}
+
+/// How fast time runs so that a lane which outgrows the stage can be watched, in percent of the speed that is set.
+pub(super) fn slow_motion_percent(deck: &Deck, viewer: &Viewer) -> u32 {
+    if viewer.display().motion == Motion::Recorded || deck.mode() != Mode::Solo {
+        return 100;
+    }
+    let selected = deck.selected();
+    let decades = deck.past().histories(selected.id).iter().zip(selected.lane.bodies());
+    let decades = decades.map(|(history, body)| {
+        let base_m = match Look::of(body).framing() {
+            Framing::Recorder { half_width_m } => half_width_m,
+            Framing::Fixed { half_m, .. } => half_m.max_element(),
+            Framing::Follow { width_m, .. } => width_m,
+        };
+        if body.halted().is_some() { 0.0 } else { decades_per_s(history, base_m) }
+    });
+    let speed = f64::from(deck.clock().speed_percent()) / 100.0;
+    let fastest = speed * decades.fold(0.0, f64::max);
+    match fastest <= MAX_ZOOM {
+        true => 100,
+        false => ((100.0 * MAX_ZOOM / fastest) as u32).max(MIN_PERCENT),
+    }
 }

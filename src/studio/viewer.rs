@@ -1,18 +1,20 @@
 //! What a person looks at. It does not change a run and is not part of one.
 
-use super::command::{SCALE_LADDER, USUAL_SCALE_PERCENT};
+use super::command::{
+    Command, RunCommand, SCALE_LADDER, StageCommand, USUAL_SCALE_PERCENT, ViewCommand,
+};
 use super::display::{Arrangement, Display, Motion, Pace, Splits, View};
 use super::guide::{Hints, Tour};
-use super::held::HeldBody;
 use super::instrument::Instrument;
 use super::live_loop::LiveLoop;
 use super::my_spring::MySpring;
 use super::notice::Notice;
 use crate::look::palette::Theme;
+use crate::loops::loop_lab::LoopCommand;
 use crate::measure::cloud::{CloudChoice, FoundCloud};
 use crate::measure::{Advice, Findings, StabilityMap, Verdict};
 use crate::run::race::Interpolation;
-use crate::scene::{LaneId, LaneSpec, Mistake};
+use crate::scene::{LaneSpec, Mistake};
 use crate::tools::source_code::Language;
 
 /// A dialog over the window.
@@ -118,16 +120,12 @@ impl Default for Preferences {
 }
 
 /// How a run is looked at, and the texts beside it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Viewer {
     /// What a person has chosen.
     pub preferences: Preferences,
     /// Where the person looks.
     pub view: View,
-    /// The lane selected in a race: it stays selected, whatever method it is put under.
-    pub(super) selected: LaneId,
-    /// Whether a person, a script or a verdict has selected it.
-    pub(super) is_selected: bool,
     /// The index of the lane that the pointer or the keyboard's focus is on.
     pub(super) pointed: Option<usize>,
     /// The driver's pace while time runs; `None` without real time, as in a capture.
@@ -146,8 +144,6 @@ pub struct Viewer {
     pub(super) cloud: Option<FoundCloud>,
     /// The tick rate at which the pointer's button went down, in Hz, while it is.
     pub(super) hz_at_press: Option<u32>,
-    /// The body that the person holds.
-    pub(super) held: Option<HeldBody>,
     pub(super) dialog: Option<Dialog>,
     pub(super) hints: Hints,
     /// The open guide.
@@ -155,38 +151,25 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// A viewer who has selected this lane.
-    pub(super) fn new(selected: LaneId) -> Self {
-        Self {
-            preferences: Preferences::default(),
-            view: View::default(),
-            selected,
-            is_selected: false,
-            pointed: None,
-            pace: None,
-            tick_times: Vec::new(),
-            notice: None,
-            live: LiveLoop::default(),
-            findings: None,
-            parting: None,
-            cloud: None,
-            hz_at_press: None,
-            held: None,
-            dialog: None,
-            hints: Hints::default(),
-            tour: None,
-        }
-    }
-
-    /// The same person before another scene, with this lane selected: what was chosen stays, and the guide that is open.
-    pub(super) fn before_next_scene(&mut self, selected: LaneId) -> Self {
+    /// The same person before another scene: what was chosen stays, and the guide that is open.
+    pub(super) fn before_next_scene(&mut self) -> Self {
         Self {
             preferences: self.preferences.clone(),
             pace: self.pace,
             hints: self.hints.of_next_scene(),
             tour: self.tour.take(),
-            ..Self::new(selected)
+            ..Self::default()
         }
+    }
+
+    /// How the run is displayed.
+    pub fn display(&self) -> &Display {
+        &self.preferences.display
+    }
+
+    /// What moves on the stage besides the bodies.
+    pub(super) fn motion(&self) -> Motion {
+        self.preferences.display.motion
     }
 
     /// The index in the list of the lane that the pointer or the keyboard's focus is on, if it is on one.
@@ -224,13 +207,8 @@ impl Viewer {
         self.preferences.my_spring
     }
 
-    /// The body that the person holds, if any.
-    pub fn held(&self) -> Option<&HeldBody> {
-        self.held.as_ref()
-    }
-
     /// The verdict on the method with this index in the list, of the run that [`Studio::analysis_request`](super::Studio::analysis_request)
-    /// describes; `None` until it has been [found](super::Studio::accept_findings).
+    /// describes; `None` until it has been [found](super::accept_findings).
     pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
         self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
     }
@@ -240,18 +218,18 @@ impl Viewer {
         matches!(self.dialog, Some(Dialog::Path { compares: true, .. }))
     }
 
-    /// The tick at which the recording that was [compared](super::Studio::show_comparison) first differs from the run, and in
+    /// The tick at which the recording that was [compared](super::show_comparison) first differs from the run, and in
     /// what; `None` if none was, or if the run has begun anew.
     pub fn parting(&self) -> Option<&(u64, String)> {
         self.parting.as_ref()
     }
 
-    /// The advice on this scene, as far as it has been [found](super::Studio::accept_findings); `None` while it is not shown.
+    /// The advice on this scene, as far as it has been [found](super::accept_findings); `None` while it is not shown.
     pub fn advice(&self) -> Option<&Advice> {
         self.findings.as_ref()?.advice.as_ref()
     }
 
-    /// The stability map, as far as it has been [found](super::Studio::accept_findings); `None` while it is not shown.
+    /// The stability map, as far as it has been [found](super::accept_findings); `None` while it is not shown.
     pub fn stability_map(&self) -> Option<&StabilityMap> {
         self.findings.as_ref()?.map.as_ref()
     }
@@ -288,5 +266,61 @@ impl Viewer {
         };
         self.preferences.display.arrangement = arrangement;
         self.set_notice(told);
+    }
+
+    /// Shows the hints from the first one again: for a driver that has set up the studio by commands.
+    pub fn begin_hints(&mut self) {
+        self.hints = Hints::default();
+    }
+
+    /// Closes the guide, as what it tells of is no longer shown.
+    pub(super) fn leave_guide(&mut self) {
+        if self.close_guide() {
+            self.set_notice("the guide is closed: F2 opens it where you left it");
+        }
+    }
+
+    /// Closes the guide and shows again what the person chose before it. Scene, run and instrument stay: they are in sight.
+    /// Returns whether the guide was open.
+    pub(super) fn close_guide(&mut self) -> bool {
+        let Some(tour) = self.tour.take() else { return false };
+        self.preferences.left_at = tour.index();
+        tour.before().restore(&mut self.preferences.display);
+        true
+    }
+
+    pub(super) fn type_path(&mut self, path: String) {
+        if let Some(Dialog::Path { refused, .. }) = &mut self.dialog
+            && path != self.preferences.typed_path
+        {
+            *refused = None;
+        }
+        self.preferences.typed_path = path;
+    }
+
+    pub(super) fn tell(&mut self, told: Vec<String>) {
+        if !told.is_empty() {
+            self.set_notice(told);
+        }
+    }
+
+    /// Shows the instruments if this command is about what they show.
+    pub(super) fn measure_for(&mut self, command: &Command) {
+        let is_about = match command {
+            Command::Stage(command) => matches!(
+                command,
+                StageCommand::ToggleRace
+                    | StageCommand::Instrument(_)
+                    | StageCommand::InstrumentBeside(_)
+                    | StageCommand::OpenSpring
+            ),
+            Command::Loop(command) => *command == LoopCommand::ToggleLab,
+            Command::Run(command) => *command == RunCommand::ToggleInspector,
+            Command::View(command) => {
+                matches!(command, ViewCommand::ToggleEnlarged | ViewCommand::ToggleGuide)
+            }
+            Command::Ask(_) => false,
+        };
+        self.preferences.display.measure |= is_about;
     }
 }

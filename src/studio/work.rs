@@ -3,7 +3,6 @@
 
 use std::sync::Arc;
 
-use super::Studio;
 use crate::loops::loop_lab::{FoundLoop, LoopRequest, LoopWorker};
 use crate::measure::cloud::{CloudRequest, CloudWorker, FoundCloud};
 use crate::measure::{AnalysisRequest, AnalysisWorker, Findings};
@@ -47,17 +46,6 @@ pub enum Found {
     LoopRun(Box<FoundLoop>),
     /// Clouds were stepped.
     Clouds(Box<FoundCloud>),
-}
-
-impl Studio {
-    /// Keeps what was found, if it is still wanted.
-    pub fn accept(&mut self, found: Found) {
-        match found {
-            Found::Analysed(findings) => self.accept_findings(*findings),
-            Found::LoopRun(found) => self.accept_loop(*found),
-            Found::Clouds(found) => self.accept_cloud(*found),
-        }
-    }
 }
 
 impl Work for AnalysisWorker {

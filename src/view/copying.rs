@@ -1,7 +1,7 @@
 //! What is copied to the clipboard, and what is said of it.
 
 use super::panels;
-use crate::studio::{Display, DriverRequest, Studio};
+use crate::studio::{Display, DriverRequest, Studio, joint_code};
 use crate::tools::source_code::{Precision, source_code};
 
 /// A text for the clipboard.
@@ -29,7 +29,7 @@ impl Copied {
 /// Why there is nothing to copy.
 pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, String>> {
     let (text, told, otherwise) = match request {
-        DriverRequest::CopyLink => match studio.link() {
+        DriverRequest::CopyLink => match studio.deck.link() {
             Ok(run) => {
                 let Display { measure, instrument, .. } = studio.display();
                 let seen = measure.then(|| format!("&instrument={}", instrument.id()));
@@ -47,7 +47,7 @@ pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, 
             None => return Some(Err("this instrument has no values to copy".into())),
         },
         DriverRequest::CopyMethod(entry) => {
-            let (language, method) = (studio.viewer().language(), studio.entries()[entry].method);
+            let (language, method) = (studio.viewer.language(), studio.entries()[entry].method);
             match source_code(method, language, Precision::Double) {
                 Ok(code) => {
                     let shown = format!("`regatta show {} --as {}`", method.id, language.id());
@@ -57,7 +57,8 @@ pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, 
             }
         }
         DriverRequest::CopyJoint(entry) => {
-            let (code, method) = (studio.joint_code(entry)?, studio.entries()[entry].method);
+            let (code, method) =
+                (joint_code(&studio.deck, &studio.viewer, entry)?, studio.entries()[entry].method);
             let told = format!("copied the spring's settings of {}", method.name);
             (code, told, format!("`regatta port --to {}` prints them", method.id))
         }

@@ -107,7 +107,7 @@ impl FrameRenderer {
         let shown = self.shown;
         let mut touch = std::mem::take(&mut self.touch);
         let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {
-            let was_down = studio.viewer().pointer_is_down();
+            let was_down = studio.viewer.pointer_is_down();
             let is_down = ui.input(|input| input.pointer.any_down()) || panels::is_under_way(ui);
             if is_down && !was_down {
                 commands.push(Command::View(ViewCommand::PointerDown(true)));

@@ -16,7 +16,8 @@ use crate::stage::compose;
 use crate::studio::guide::STOPS;
 use crate::studio::{
     Arrangement, Command, INSTRUMENTS, Instrument, InstrumentGroup, Motion, RunCommand,
-    SCALE_LADDER, StageCommand, Step, Studio, ViewCommand,
+    SCALE_LADDER, StageCommand, Step, Studio, ViewCommand, complete_clouds, run_loops,
+    unanswered_request,
 };
 
 /// Sizes of windows in points: the first is the least, the last has four times the usual pixels.
@@ -181,7 +182,7 @@ fn every_text_of_every_scene_can_be_read_alone_and_racing() {
         // With the verdicts of the race: those of a net take seconds.
         studio.apply(StageCommand::ToggleRace);
         move_on(&mut studio);
-        assert!(studio.unanswered_request().is_none());
+        assert!(unanswered_request(&studio.deck, &studio.viewer).is_none());
         assert_legible(&studio, &format!("{}, alone", scene.name));
     });
 }
@@ -225,7 +226,7 @@ fn every_text_can_be_read_beside_clouds_and_sections() {
         (0..studio.race().tick_hz()).for_each(|_| studio.tick());
         studio.apply(StageCommand::Instrument(Instrument::Cloud));
         studio.apply(RunCommand::Cloud(CloudChoice { kind, points: 1000 }));
-        studio.complete_clouds(&mut CloudWorker::default(), || false);
+        complete_clouds(&mut studio, &mut CloudWorker::default(), || false);
         assert_legible(&studio, &format!("clouds of {name}, race {race}"));
         studio.apply(ViewCommand::ToggleEnlarged);
         assert_legible(&studio, &format!("large clouds of {name}, race {race}"));
@@ -288,7 +289,7 @@ fn every_text_can_be_read_at_every_size_of_type() {
     let mut labs = [("harbour", race_of_all("harbour")), ("stiff", run("stiff", false))];
     for scale_percent in SCALE_LADDER {
         for (name, studio) in &mut labs {
-            studio.viewer_mut().preferences.choose_scale(scale_percent);
+            studio.viewer.preferences.choose_scale(scale_percent);
             assert_legible(studio, &format!("{name} at {scale_percent} %"));
         }
     }
@@ -326,9 +327,9 @@ fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
     for name in ["spring", "harbour", "orbit"] {
         for theme in [Theme::Dark, Theme::Light] {
             let mut studio = run(name, false);
-            studio.viewer_mut().preferences.choose_theme(theme);
+            studio.viewer.preferences.choose_theme(theme);
             studio.apply(Command::Loop(LoopCommand::ToggleLab));
-            studio.run_loops();
+            run_loops(&mut studio);
             studio.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
             assert_legible(&studio, &format!("loop lab on {name}, {theme:?}"));
             studio.apply(StageCommand::ToggleArrangement);
@@ -341,12 +342,12 @@ fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
 fn every_text_of_the_loop_lab_can_be_read_with_every_loop_and_on_every_display() {
     let mut studio = run("spring", false);
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
-    studio.run_loops();
+    run_loops(&mut studio);
     let loops = studio.loop_lab().expect("it is open");
     let (traces, lanes) = (loops.traces().len(), loops.lanes().len());
     for trace in 0..traces {
         studio.apply(Command::Loop(LoopCommand::Trace(trace)));
-        studio.run_loops();
+        run_loops(&mut studio);
         studio.apply(Command::Loop(LoopCommand::Seek(5_000_000_000)));
         assert_legible(&studio, &format!("trace {trace}"));
     }
@@ -361,7 +362,7 @@ fn every_text_of_every_instrument_of_the_loop_lab_can_be_read() {
     for name in ["spring", "harbour"] {
         let mut studio = run(name, false);
         studio.apply(Command::Loop(LoopCommand::ToggleLab));
-        studio.run_loops();
+        run_loops(&mut studio);
         studio.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
         for instrument in Instrument::all().filter(|one| one.is_in_loop_lab()) {
             studio.apply(StageCommand::Instrument(instrument));
@@ -444,7 +445,7 @@ fn one_step_far_out_the_stability_map_and_the_times_of_ticks_can_be_read() {
     studio.analyse();
     assert_legible(&studio, "the map");
     let times = studio.entries().iter().map(|spec| (*spec, Some(987.6))).collect();
-    studio.viewer_mut().tick_times = times;
+    studio.viewer.tick_times = times;
     studio.apply(StageCommand::Instrument(Instrument::Cost));
     assert_legible(&studio, "the times");
     studio.apply(StageCommand::Instrument(Instrument::OneStep));
@@ -514,8 +515,8 @@ fn the_opening_has_few_words_and_numbers_and_no_tab_and_measuring_not_many() {
         // How far the spring has got stands over a stage that zooms out after it.
         let sentence = [20, 6];
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
-        studio.viewer_mut().preferences.display.measure = measure;
-        studio.viewer_mut().preferences.display.motion = Motion::Live;
+        studio.viewer.preferences.display.measure = measure;
+        studio.viewer.preferences.display.motion = Motion::Live;
         studio.analyse();
         for seconds in [0, 2, 7, 15] {
             while studio.race().tick() < 60 * seconds {

@@ -127,7 +127,7 @@ impl Touch {
     /// The studio may have released the body itself (Escape), or may still hold one that this state forgot.
     fn agree_with(&mut self, studio: &Studio, commands: &mut Vec<Command>) {
         let holds = matches!(self.press, Some(Press { on: Pressed::Body { .. }, .. }));
-        match studio.viewer().held() {
+        match studio.deck.held() {
             None if holds => self.press = None,
             Some(_) if !holds => commands.push(Command::View(ViewCommand::LetGo)),
             _ => {}

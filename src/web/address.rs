@@ -6,7 +6,7 @@ use regatta::run::race::Mode;
 use regatta::scene::Scene;
 use regatta::sim::Clock;
 use regatta::sim::integrators::{Method, method};
-use regatta::studio::{Instrument, Studio, lineup};
+use regatta::studio::{Instrument, Studio, lineup, open_loop_lab_on, show_clouds_of_scene};
 
 /// What was asked for.
 #[derive(Debug, Default)]
@@ -89,13 +89,13 @@ impl Address {
         let mut studio = Studio::opened(scene.with_methods(&methods), selected, mode);
         match loop_trace {
             Some(trace) => {
-                studio.open_loop_lab_on(trace);
+                open_loop_lab_on(&mut studio, trace);
                 let traces = studio.loop_lab().map_or(&[][..], |loops| loops.traces());
                 if !trace.is_empty() && !traces.iter().any(|known| known.name() == trace) {
                     return Err(format!("this page has no frames {trace:?} for this scene"));
                 }
             }
-            None => studio.show_clouds_of_scene(),
+            None => show_clouds_of_scene(&mut studio.deck, &mut studio.viewer),
         }
         Ok(studio)
     }

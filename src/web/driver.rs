@@ -8,6 +8,7 @@ use regatta::run::Replay;
 use regatta::scene::Scene;
 use regatta::studio::{
     Command, DriverRequest, FrameLoop, Motion, SavedPreferences, StageCommand, ViewCommand,
+    open_file,
 };
 use regatta::view::egui;
 use wasm_bindgen::JsCast;
@@ -110,8 +111,8 @@ impl Driver {
         let remembered = storage(&window).and_then(|storage| storage.get_item(STORED).ok()?);
         let remembered = remembered.and_then(|text| SavedPreferences::parse(&text).ok());
         remembered.unwrap_or_default().apply(&mut studio);
-        studio.set_rewind_bytes(REWIND_BYTES);
-        let preferences = &mut studio.viewer_mut().preferences;
+        studio.deck.set_rewind_bytes(REWIND_BYTES);
+        let preferences = &mut studio.viewer.preferences;
         preferences.follow_theme(theme_of(&window));
         address.theme.into_iter().for_each(|theme| preferences.choose_theme(theme));
         preferences.display.motion = match prefers(&window, "(prefers-reduced-motion: reduce)") {
@@ -141,14 +142,14 @@ impl Driver {
             work_is_due: false,
         };
         if let Some(refused) = refused {
-            driver.frames.studio.viewer_mut().set_notice(refused);
+            driver.frames.studio.viewer.set_notice(refused);
         }
         let runs = address.runs_at_first();
         if let Some(run) = address.run {
             driver.open_run(run);
         }
         if let Some(instrument) = address.instrument {
-            driver.frames.studio.viewer_mut().preferences.display.instrument = instrument;
+            driver.frames.studio.viewer.preferences.display.instrument = instrument;
         }
         if let Some(tick) = address.tick {
             // Beyond its end a run has nothing to show that an address could mean.
@@ -169,9 +170,9 @@ impl Driver {
         match run {
             Ok(scene) => {
                 self.arrival = Some(Replay::new(scene.clone().into()));
-                self.frames.studio.open_file(Path::new(LINK), scene);
+                open_file(&mut self.frames.studio, Path::new(LINK), scene);
             }
-            Err(refused) => self.frames.studio.viewer_mut().set_notice(refused),
+            Err(refused) => self.frames.studio.viewer.set_notice(refused),
         }
     }
 
@@ -192,7 +193,7 @@ impl Driver {
     pub(crate) fn start_again(&self) {
         let plays = if self.frames.studio.running() { "&play" } else { "" };
         let tick = self.frames.studio.race().tick();
-        let link = self.frames.studio.link().map(|link| format!("{link}&tick={tick}{plays}"));
+        let link = self.frames.studio.deck.link().map(|link| format!("{link}&tick={tick}{plays}"));
         let (history, location) = (self.window.history(), self.window.location());
         if let (Ok(history), Ok(link)) = (history, link) {
             _ = history.replace_state_with_url(&JsValue::NULL, "", Some(&link));

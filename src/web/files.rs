@@ -5,6 +5,7 @@ use std::path::Path;
 use js_sys::{Array, Uint8Array};
 use regatta::loops::trace_file;
 use regatta::scene::Scene;
+use regatta::studio::{instrument_file_name, open_file, open_traces, show_mistakes};
 use regatta::view::{instrument_csv, instrument_svg};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::{Closure, JsValue};
@@ -50,7 +51,7 @@ pub(crate) fn save_picture(canvas: &HtmlCanvasElement, name: String) {
             None => "no screenshot: the browser gave no picture".into(),
         };
         with(|driver| {
-            driver.frames.studio.viewer_mut().set_notice(notice);
+            driver.frames.studio.viewer.set_notice(notice);
             driver.request_frame();
         });
     });
@@ -88,16 +89,26 @@ impl Driver {
         let is = |known| path.extension().is_some_and(|end| end.eq_ignore_ascii_case(known));
         if is("csv") || is("txt") {
             match trace_file::from_bytes(name, bytes) {
-                Ok(traces) => self.frames.studio.open_traces(traces),
+                Ok(traces) => open_traces(&mut self.frames.studio, traces),
                 Err(error) => {
                     let report = vec![format!("error: {error}").into()];
-                    self.frames.studio.show_mistakes(path, report);
+                    show_mistakes(
+                        &mut self.frames.studio.deck,
+                        &mut self.frames.studio.viewer,
+                        path,
+                        report,
+                    );
                 }
             }
         } else {
             match Scene::from_bytes(name, bytes) {
-                Ok(scene) => self.frames.studio.open_file(path, scene),
-                Err(errors) => self.frames.studio.show_mistakes(path, errors.into()),
+                Ok(scene) => open_file(&mut self.frames.studio, path, scene),
+                Err(errors) => show_mistakes(
+                    &mut self.frames.studio.deck,
+                    &mut self.frames.studio.viewer,
+                    path,
+                    errors.into(),
+                ),
             }
         }
         self.frames.skip_time();
@@ -106,21 +117,21 @@ impl Driver {
 
     /// Saves the run so far.
     pub(crate) fn save_recording(&mut self) {
-        let notice = match self.frames.studio.recording() {
+        let notice = match self.frames.studio.deck.recording() {
             Ok(text) => {
-                let name = self.frames.studio.recording_file_name();
+                let name = self.frames.studio.deck.recording_file_name();
                 save_text(&text, "text/plain", &name);
-                self.frames.studio.note_saved();
+                self.frames.studio.deck.note_saved();
                 format!("Saved {name}. Check it with: regatta verify {name}")
             }
             Err(error) => format!("no recording: {error}"),
         };
-        self.frames.studio.viewer_mut().set_notice(notice);
+        self.frames.studio.viewer.set_notice(notice);
     }
 
     /// Saves the plots of the instrument as a drawing and a table.
     pub(crate) fn save_instrument(&mut self) {
-        let name = self.frames.studio.instrument_file_name();
+        let name = instrument_file_name(&self.frames.studio);
         let csv = instrument_csv(&self.frames.studio).map(|lines| lines.concat());
         let files = [
             ("svg", "image/svg+xml", instrument_svg(&self.frames.studio)),
@@ -134,7 +145,7 @@ impl Driver {
                 saved.push(name);
             }
         }
-        self.frames.studio.viewer_mut().set_notice(match saved.is_empty() {
+        self.frames.studio.viewer.set_notice(match saved.is_empty() {
             true => "nothing saved: this instrument has no plots".into(),
             false => format!("saved {}", saved.join(", ")),
         });

@@ -1,6 +1,6 @@
 //! A frame: commands → ticks → picture → canvas; and the work between frames.
 
-use regatta::studio::{Command, DriverRequest, ToDo, ViewCommand};
+use regatta::studio::{Command, DriverRequest, ToDo, ViewCommand, picture_file_name};
 use regatta::view::{copied, egui};
 use wasm_bindgen::prelude::JsValue;
 
@@ -28,7 +28,7 @@ impl Driver {
             return self.after(100, Self::request_frame);
         };
         if std::mem::take(&mut self.saves_picture) {
-            let name = format!("{}.png", self.frames.studio.picture_file_name());
+            let name = format!("{}.png", picture_file_name(&self.frames.studio));
             files::save_picture(&self.canvas.element, name);
         }
         let due_ns = self.frames.end(now_ns, self.now_ns(), commands);
@@ -52,7 +52,7 @@ impl Driver {
                 ToDo::Own(Command::View(ViewCommand::AskForPath)) => files::ask(),
                 ToDo::Own(_) => {
                     let told = "a page compares no recordings; `regatta diff` does";
-                    self.frames.studio.viewer_mut().set_notice(told);
+                    self.frames.studio.viewer.set_notice(told);
                 }
                 ToDo::Request(DriverRequest::Screenshot) => self.saves_picture = true,
                 ToDo::Request(DriverRequest::Record) => self.save_recording(),
@@ -69,7 +69,7 @@ impl Driver {
     fn copy(&mut self, request: DriverRequest) {
         let copied = match copied(&self.frames.studio, request) {
             Some(Ok(copied)) => copied,
-            Some(Err(refused)) => return self.frames.studio.viewer_mut().set_notice(refused),
+            Some(Err(refused)) => return self.frames.studio.viewer.set_notice(refused),
             None => return,
         };
         let mut text = copied.text.clone();
@@ -84,7 +84,7 @@ impl Driver {
                 Err(_) if is_link => "the address of this page is the run now; copy it".into(),
                 taken => copied.notice(taken),
             };
-            driver.frames.studio.viewer_mut().set_notice(notice);
+            driver.frames.studio.viewer.set_notice(notice);
             driver.request_frame();
         });
     }
@@ -137,7 +137,7 @@ impl Driver {
                 && let Some(told) = crate::arrival::told_after_slice(replay)
             {
                 self.arrival = None;
-                self.frames.studio.viewer_mut().set_notice(told);
+                self.frames.studio.viewer.set_notice(told);
                 has_found = true;
             }
         }

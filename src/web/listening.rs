@@ -83,7 +83,7 @@ pub(crate) fn listen() {
         if let Ok(Some(light)) = window.match_media("(prefers-color-scheme: light)") {
             on(&light, "change", |driver, _: Event| {
                 let theme = theme_of(&driver.window);
-                driver.frames.studio.viewer_mut().preferences.follow_theme(theme);
+                driver.frames.studio.viewer.preferences.follow_theme(theme);
                 driver.request_frame();
             });
         }

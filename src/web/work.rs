@@ -5,7 +5,7 @@ use std::sync::Arc;
 use regatta::loops::loop_lab::LoopWorker;
 use regatta::measure::AnalysisWorker;
 use regatta::measure::cloud::CloudWorker;
-use regatta::studio::{Asked, Found, Studio, Work};
+use regatta::studio::{Asked, Found, Studio, Work, cloud_request, loop_request};
 
 /// A worker, and its request.
 struct Worker<W: Work> {
@@ -58,8 +58,8 @@ impl Workers {
     /// Takes in what a studio wants now.
     pub(crate) fn ask(&mut self, studio: &Studio) {
         self.analysis.ask(studio.analysis_request());
-        self.loops.ask(studio.loop_request());
-        self.clouds.ask(studio.cloud_request().map(Arc::new));
+        self.loops.ask(loop_request(studio));
+        self.clouds.ask(cloud_request(studio).map(Arc::new));
     }
 
     /// Whether there is more to do.

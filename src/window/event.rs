@@ -9,7 +9,9 @@ use super::opening::ReadFile;
 #[cfg(feature = "accessibility")]
 use super::screen_reader::{self, Request};
 use crate::scene::{LaneSpec, Mistake, Scene, SceneErrors};
-use crate::studio::{Dialog, Found};
+use crate::studio::{
+    Dialog, Found, file_is_back, file_is_gone, open_advised_spring, reload_failed, reload_file,
+};
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {
@@ -34,6 +36,13 @@ pub(super) enum Event {
     FileGone(PathBuf),
     /// A scene file that was gone exists again, unchanged.
     FileBack(PathBuf),
+}
+
+#[cfg(feature = "accessibility")]
+impl From<Request> for Event {
+    fn from(request: Request) -> Self {
+        Self::ScreenReader(request)
+    }
 }
 
 impl From<Found> for Event {
@@ -65,8 +74,8 @@ impl App {
             }
             Event::SpringAdvised(scene) => {
                 // Whoever has closed the dialog meanwhile wants it no more.
-                if self.frames.studio.viewer().dialog() == Some(&Dialog::Spring) {
-                    self.frames.studio.open_advised_spring(*scene);
+                if self.frames.studio.viewer.dialog() == Some(&Dialog::Spring) {
+                    open_advised_spring(&mut self.frames.studio, *scene);
                     self.stand_still();
                     self.request_redraw();
                 }
@@ -74,12 +83,12 @@ impl App {
             Event::NotRecorded(reason) => {
                 self.frames
                     .studio
-                    .viewer_mut()
+                    .viewer
                     .set_notice(format!("The recording is not kept as it grows: {reason}"));
                 self.request_redraw();
             }
             Event::TicksTimed(times) => {
-                self.frames.studio.viewer_mut().tick_times = times;
+                self.frames.studio.viewer.tick_times = times;
                 if !self.frames.studio.running() {
                     self.request_redraw();
                 }
@@ -91,17 +100,22 @@ impl App {
                 self.request_redraw();
             }
             Event::FileGone(path) => {
-                self.frames.studio.file_is_gone(&path);
+                file_is_gone(&mut self.frames.studio.deck, &mut self.frames.studio.viewer, &path);
                 self.request_redraw();
             }
             Event::FileBack(path) => {
-                self.frames.studio.file_is_back(&path);
+                file_is_back(&mut self.frames.studio.deck, &mut self.frames.studio.viewer, &path);
                 self.request_redraw();
             }
             Event::FileChanged { path, read } => {
                 match *read {
-                    Ok((scene, _)) => self.frames.studio.reload_file(&path, scene),
-                    Err(report) => self.frames.studio.reload_failed(&path, report),
+                    Ok((scene, _)) => reload_file(&mut self.frames.studio, &path, scene),
+                    Err(report) => reload_failed(
+                        &mut self.frames.studio.deck,
+                        &mut self.frames.studio.viewer,
+                        &path,
+                        report,
+                    ),
                 }
                 // The time that this took is not simulated.
                 self.stand_still();

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::App;
 use crate::atomic_file::{IfExists, write_file};
-use crate::studio::{DriverRequest, Studio};
+use crate::studio::{DriverRequest, Studio, instrument_file_name};
 use crate::view::{Gpu, OffscreenRenderer, Panels, copied, instrument_csv, instrument_svg, png};
 
 /// The size of the picture, in pixels, and its pixels per point.
@@ -19,7 +19,7 @@ impl App {
             Ok(copied) => copied.notice(self.clipboard.set_text(copied.text.clone())),
             Err(refused) => refused,
         };
-        self.frames.studio.viewer_mut().set_notice(notice);
+        self.frames.studio.viewer.set_notice(notice);
         self.stand_still();
     }
 
@@ -27,7 +27,7 @@ impl App {
     pub(super) fn export_instrument(&mut self) {
         if let Some(canvas) = &self.canvas {
             let notice = save(&canvas.gpu, &self.frames.studio);
-            self.frames.studio.viewer_mut().set_notice(notice);
+            self.frames.studio.viewer.set_notice(notice);
         }
         self.stand_still();
     }
@@ -56,7 +56,7 @@ fn try_save(gpu: &Gpu, studio: &Studio) -> Result<Vec<PathBuf>, String> {
     let png = png::encode(SIZE_PX, &rgba);
     let svg = instrument_svg(studio).map(String::into_bytes);
     let files = [("png", Some(png)), ("svg", svg), ("csv", Some(csv.concat().into_bytes()))];
-    let name = studio.instrument_file_name();
+    let name = instrument_file_name(studio);
     let files = files.into_iter().filter_map(|(ending, bytes)| Some((ending, bytes?)));
     let written = files.map(|(ending, bytes)| {
         let path = format!("{name}.{ending}");

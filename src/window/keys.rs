@@ -42,13 +42,13 @@ impl App {
     /// Whether the path field is open but has no focus yet, because no frame has shown it.
     pub(super) fn waits_for_field(&self) -> bool {
         let panels = self.canvas.as_ref().map(|canvas| canvas.egui.egui_ctx());
-        matches!(self.frames.studio.viewer().dialog(), Some(Dialog::Path { .. }))
+        matches!(self.frames.studio.viewer.dialog(), Some(Dialog::Path { .. }))
             && panels.is_some_and(|panels| !panels.text_edit_focused())
     }
 
     /// Whether keys are text for the path field, once the commands that wait for the next frame are applied.
     fn asks_for_path(&self) -> bool {
-        let is_open = matches!(self.frames.studio.viewer().dialog(), Some(Dialog::Path { .. }));
+        let is_open = matches!(self.frames.studio.viewer.dialog(), Some(Dialog::Path { .. }));
         self.frames.asked().iter().fold(is_open, |is_open, command| match command {
             Command::View(ViewCommand::AskForPath | ViewCommand::AskForRun) => true,
             // `OpenTypedPath` closes the field only if the scene can be opened.

@@ -8,7 +8,10 @@ use crate::regular_file::{self, MAX_TABLE_BYTES};
 use crate::run::diff::{Comparison, NotComparable, Tolerance, diff};
 use crate::run::trace::{Made, last_tick};
 use crate::scene::{Mistake, SCENES, Scene};
-use crate::studio::{SceneList, StageCommand, Studio, ViewCommand};
+use crate::studio::{
+    SceneList, StageCommand, Studio, ViewCommand, open_file, open_traces, refuse_typed_path,
+    show_comparison, show_mistakes,
+};
 
 /// Reads a scene file and returns its scene and its text, or what the command line would print of its mistakes.
 pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), Vec<Mistake>> + Send + Sync>;
@@ -56,8 +59,8 @@ impl Asked {
     /// What was typed, as the command line takes it: the built-in scene of that name, which opens at once, or else the file
     /// at that path.
     pub(super) fn typed(studio: &mut Studio) -> Option<Self> {
-        let typed = studio.viewer().typed_path().trim().to_owned();
-        if studio.viewer().compares_typed_path() {
+        let typed = studio.viewer.typed_path().trim().to_owned();
+        if studio.viewer.compares_typed_path() {
             let compared = Some(studio.run().recording().into());
             return Some(Self { path: from_home(&typed), is_typed: true, compared });
         }
@@ -109,19 +112,21 @@ impl ReadFile {
         let Asked { path, is_typed, .. } = self.asked;
         let path = name.unwrap_or(path);
         match self.held {
-            Ok(Held::Scene { scene, .. }) => studio.open_file(&path, *scene),
+            Ok(Held::Scene { scene, .. }) => open_file(studio, &path, *scene),
             Ok(Held::Traces(traces)) => {
-                studio.open_traces(traces);
+                open_traces(studio, traces);
                 if is_typed {
                     studio.apply(ViewCommand::CloseDialog);
                 }
             }
             Ok(Held::Compared(found)) => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
-                studio.show_comparison(&name, &found);
+                show_comparison(&mut studio.deck, &mut studio.viewer, &name, &found);
             }
-            Err(report) if is_typed => studio.refuse_typed_path(&path, report),
-            Err(report) => studio.show_mistakes(&path, report),
+            Err(report) if is_typed => {
+                refuse_typed_path(&mut studio.deck, &mut studio.viewer, &path, report)
+            }
+            Err(report) => show_mistakes(&mut studio.deck, &mut studio.viewer, &path, report),
         }
     }
 }
@@ -152,7 +157,7 @@ fn traces_in(path: &Path) -> Result<Vec<FrameTrace>, Vec<Mistake>> {
 fn known(studio: &Studio, path: &Path) -> PathBuf {
     let real = path.canonicalize().ok();
     let is_same = |listed: &&Path| real.is_some() && listed.canonicalize().ok() == real;
-    studio.scene_list().paths().find(is_same).unwrap_or(path).to_owned()
+    studio.deck.scene_list().paths().find(is_same).unwrap_or(path).to_owned()
 }
 
 /// Replaces a `~` at the beginning of a path by the home directory.
@@ -217,14 +222,14 @@ mod tests {
         let recording = folder.path().join("clip.toml");
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         (0..90).for_each(|_| studio.tick());
-        let recorded = studio.recording().unwrap();
+        let recorded = studio.deck.recording().unwrap();
         let mut compare = |text: &str| {
             std::fs::write(&recording, text).unwrap();
             studio.apply(ViewCommand::AskForRun);
             studio.apply(ViewCommand::TypePath(recording.display().to_string()));
             Asked::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
-            let notice = studio.viewer().notice.as_deref().unwrap().to_owned();
-            (studio.viewer().parting().map(|(tick, _)| *tick), studio.race().tick(), notice)
+            let notice = studio.viewer.notice.as_deref().unwrap().to_owned();
+            (studio.viewer.parting().map(|(tick, _)| *tick), studio.race().tick(), notice)
         };
         let same = compare(&recorded);
         assert!(same.0.is_none() && same.1 == 90, "{same:?}");
@@ -239,13 +244,13 @@ mod tests {
     fn a_link_that_is_typed_opens_its_run_and_is_no_file() {
         let mut studio = Studio::new(Scene::built_in("ship").unwrap());
         (0..90).for_each(|_| studio.tick());
-        let link = studio.link().unwrap();
+        let link = studio.deck.link().unwrap();
         studio.apply(ViewCommand::AskForPath);
         studio.apply(ViewCommand::TypePath(format!("https://example.org/{link}")));
         let found = Asked::typed(&mut studio).unwrap().read(&read());
         assert_eq!(found.scene(), None);
         found.show(&mut studio);
-        assert_eq!((studio.scene_name().as_str(), studio.race().tick()), ("a link", 0));
+        assert_eq!((studio.deck.scene_name().as_str(), studio.race().tick()), ("a link", 0));
         assert_eq!(studio.scene().checks.last().unwrap().tick, 90);
     }
 
@@ -260,19 +265,19 @@ mod tests {
         let found = Asked::dropped(&studio, &good).read(&read());
         assert_eq!(found.scene(), Some((good, text.to_owned())));
         found.show(&mut studio);
-        assert_eq!(studio.scene_name(), "ship.toml");
+        assert_eq!(studio.deck.scene_name(), "ship.toml");
         studio.tick();
         let found = Asked::dropped(&studio, &bad).read(&read());
         assert_eq!(found.scene(), None);
         found.show(&mut studio);
-        assert_eq!((studio.scene_name().as_str(), studio.race().tick()), ("ship.toml", 1));
-        let Some(Dialog::Mistakes { report, .. }) = studio.viewer().dialog() else { panic!() };
+        assert_eq!((studio.deck.scene_name().as_str(), studio.race().tick()), ("ship.toml", 1));
+        let Some(Dialog::Mistakes { report, .. }) = studio.viewer.dialog() else { panic!() };
         let message = &report[0].message;
         assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
         studio.apply(ViewCommand::AskForPath);
         studio.apply(ViewCommand::TypePath(bad.display().to_string()));
         Asked::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
-        let Some(Dialog::Path { refused: Some(report), .. }) = studio.viewer().dialog() else {
+        let Some(Dialog::Path { refused: Some(report), .. }) = studio.viewer.dialog() else {
             panic!()
         };
         let message = &report[0].message;
@@ -280,7 +285,7 @@ mod tests {
         // The name of a built-in scene opens that, as on the command line.
         studio.apply(ViewCommand::TypePath(" ship ".into()));
         assert!(Asked::typed(&mut studio).is_none());
-        assert_eq!((studio.scene_name().as_str(), studio.viewer().dialog()), ("ship", None));
+        assert_eq!((studio.deck.scene_name().as_str(), studio.viewer.dialog()), ("ship", None));
     }
 
     #[test]
@@ -314,7 +319,7 @@ mod tests {
         let path = folder.path().join("a.toml");
         std::fs::write(&path, "").unwrap();
         let mut studio = Studio::new(Scene::built_in("ship").unwrap());
-        studio.open_file(&path, Scene::built_in("ship").unwrap());
+        open_file(&mut studio, &path, Scene::built_in("ship").unwrap());
         assert_eq!(known(&studio, &folder.path().join("./a.toml")), path);
         let other = folder.path().join("b.toml");
         assert_eq!(known(&studio, &other), other);

@@ -9,7 +9,7 @@ use crate::studio::Studio;
 pub(super) fn save(studio: &mut Studio) -> String {
     match try_save(studio) {
         Ok(path) => {
-            studio.note_saved();
+            studio.deck.note_saved();
             format!("Saved {0}. Check it with: regatta verify {0}", path.display())
         }
         Err(reason) => format!("no recording: {reason}"),
@@ -17,8 +17,8 @@ pub(super) fn save(studio: &mut Studio) -> String {
 }
 
 fn try_save(studio: &Studio) -> Result<PathBuf, String> {
-    let name = studio.recording_file_name();
-    let text = studio.recording().map_err(|error| error.to_string())?;
+    let name = studio.deck.recording_file_name();
+    let text = studio.deck.recording().map_err(|error| error.to_string())?;
     write_file(name.as_ref(), text.as_bytes(), IfExists::Beside)
         .map_err(|error| format!("cannot write {name} here: {error}"))
 }

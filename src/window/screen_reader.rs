@@ -3,16 +3,8 @@
 use egui_winit::State;
 use egui_winit::accesskit_winit::{self, WindowEvent};
 
-use super::Event;
-
 /// A request of a screen reader.
 pub(super) type Request = accesskit_winit::Event;
-
-impl From<Request> for Event {
-    fn from(request: Request) -> Self {
-        Event::ScreenReader(request)
-    }
-}
 
 pub(super) fn answer(egui: &mut State, request: Request) {
     match request.window_event {

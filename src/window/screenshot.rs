@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use crate::atomic_file::{IfExists, write_file};
-use crate::studio::Studio;
+use crate::studio::{Studio, picture_file_name};
 use crate::view::{Gpu, OffscreenRenderer, png};
 
 /// Saves a picture under a new name, and returns a notice with the name or the error.
@@ -21,7 +21,7 @@ fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, studio: &Studio) -> Result
         .map_err(|error| error.to_string())?
         .draw(studio, &mut rgba)
         .map_err(|error| error.to_string())?;
-    let path = format!("{}.png", studio.picture_file_name());
+    let path = format!("{}.png", picture_file_name(studio));
     write_file(path.as_ref(), &png::encode(size_px, &rgba), IfExists::Beside)
         .map_err(|error| format!("cannot write {path} here: {error}"))
 }

@@ -4,8 +4,7 @@
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
-use regatta::run::Observations;
-use regatta::run::Race;
+use regatta::run::{Observations, Race};
 use regatta::scene::{Action, Options, SCENES, Scene};
 use regatta::sim::bodies::{Follow, Form, Grid, NetPlan, Pin, Ship, Spring, net_kind};
 use regatta::sim::integrators::{

@@ -178,9 +178,9 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
         assert_eq!(studio.mode(), Mode::Race);
         let mut notices = Vec::new();
         for _ in 0..ticks {
-            studio.viewer_mut().set_notice("nothing new");
+            studio.viewer.set_notice("nothing new");
             studio.tick();
-            let news = studio.viewer().notice.as_deref().filter(|notice| *notice != "nothing new");
+            let news = studio.viewer.notice.as_deref().filter(|notice| *notice != "nothing new");
             notices.extend(news.map(String::from));
         }
         let halts =
@@ -206,12 +206,12 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
 fn the_halt_of_a_lane_is_not_told_once_that_lane_is_gone() {
     let mut studio = Studio::new(Scene::built_in("stiff").expect("a built-in scene"));
     studio.apply(StageCommand::ToggleRace);
-    while studio.viewer().notice.as_deref().is_none() {
+    while studio.viewer.notice.as_deref().is_none() {
         studio.tick();
         assert!(studio.race().tick() < 1000);
     }
     studio.apply(StageCommand::ToggleRace);
-    assert_eq!(studio.viewer().notice.as_deref(), None);
+    assert_eq!(studio.viewer.notice.as_deref(), None);
 }
 
 #[test]
@@ -238,7 +238,7 @@ fn a_kick_past_all_bounds_is_no_state_but_a_halt_with_its_reason() {
             assert_eq!(spring.previous_v, spring.stepper.v(), "nothing is drawn moving");
         }
         studio.tick();
-        let notice = studio.viewer().notice.as_deref().expect("a halt is told");
+        let notice = studio.viewer.notice.as_deref().expect("a halt is told");
         assert!(notice.contains(&format!("halted at tick 5: light {reason}")), "{notice}");
         assert!(notice.starts_with("the exact solution halted at tick 5: "), "{notice}");
     }

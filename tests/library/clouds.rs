@@ -16,7 +16,10 @@ use regatta::scene::{Action, LaneSpec, Scene, Scripted};
 use regatta::sim::bodies::Kind;
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, State, Stepper, System};
-use regatta::studio::{Command, Instrument, RunCommand, StageCommand, Studio, ViewCommand};
+use regatta::studio::{
+    Command, Instrument, RunCommand, StageCommand, Studio, ViewCommand, accept_cloud,
+    cloud_refusal, cloud_request, complete_clouds, shown_cloud,
+};
 
 /// The first body of a scene, with its kind.
 struct Built(Arc<Kind>, Box<dyn Stepper>);
@@ -230,8 +233,8 @@ fn race_of(scene: &str, methods: &[&str], kind: CloudKind) -> Studio {
 }
 
 fn picture<'l>(studio: &'l mut Studio, worker: &mut CloudWorker) -> &'l CloudPicture {
-    studio.complete_clouds(worker, || false);
-    studio.cloud().expect("it was stepped").picture.as_ref().unwrap()
+    complete_clouds(studio, worker, || false);
+    shown_cloud(studio).expect("it was stepped").picture.as_ref().unwrap()
 }
 
 /// All that a picture shows.
@@ -275,21 +278,21 @@ fn clouds_that_fall_behind_go_on_with_fewer_points_and_have_all_again_once_time_
     let mut points = BTreeSet::new();
     // Two ticks go by for each that is stepped.
     for _ in 0..20 {
-        worker.set_request(studio.cloud_request().map(Arc::new));
-        worker.work().into_iter().for_each(|found| studio.accept_cloud(found));
-        points.insert(studio.cloud().unwrap().picture.as_ref().unwrap().points);
+        worker.set_request(cloud_request(&studio).map(Arc::new));
+        worker.work().into_iter().for_each(|found| accept_cloud(&mut studio, found));
+        points.insert(shown_cloud(&studio).unwrap().picture.as_ref().unwrap().points);
         (0..2).for_each(|_| studio.tick());
     }
     assert_eq!(Vec::from_iter(points), [1_000, 10_000], "and no fewer");
     studio.apply(ViewCommand::TogglePause);
     let whole = shown(picture(&mut studio, &mut worker));
-    assert_eq!(studio.cloud().unwrap().picture.as_ref().unwrap().points, 10_000);
+    assert_eq!(shown_cloud(&studio).unwrap().picture.as_ref().unwrap().points, 10_000);
     assert!(whole == shown(picture(&mut studio, &mut CloudWorker::default())));
     // Those that are asked for late have fewer from their first picture on.
     studio.apply(ViewCommand::TogglePause);
     (0..600).for_each(|_| studio.tick());
     let mut late = CloudWorker::default();
-    late.set_request(studio.cloud_request().map(Arc::new));
+    late.set_request(cloud_request(&studio).map(Arc::new));
     let first = std::iter::repeat_with(|| late.work()).find_map(|found| found);
     assert_eq!(first.unwrap().picture.unwrap().points, 1_000);
 }
@@ -322,13 +325,13 @@ fn clouds_start_anew_under_another_rate_method_or_parameter_and_tell_until_then_
         Command::Run(RunCommand::Act(set)),
     ] {
         studio.apply(command);
-        assert!(studio.cloud().is_none());
+        assert!(shown_cloud(&studio).is_none());
         (0..6).for_each(|_| studio.tick());
         let now = picture(&mut studio, &mut worker);
         assert!(now.tick > 0 && now.lanes[0].areas.len() > 3);
     }
     studio.apply(StageCommand::Instrument(Instrument::Motion));
-    assert!(studio.cloud_request().is_none() && studio.cloud().is_none());
+    assert!(cloud_request(&studio).is_none() && shown_cloud(&studio).is_none());
 }
 
 /// The clouds of a law of one coordinate `x`, 1 at the start, under Runge-Kutta after so many ticks.
@@ -438,10 +441,11 @@ fn every_lane_has_a_cloud_on_the_same_axes_and_what_blew_up_is_counted() {
 #[test]
 fn a_body_that_has_several_coordinates_has_no_clouds_in_a_lab_which_says_why() {
     let studio = race_of("orbit", &["rk4"], CloudKind::default());
-    assert!(studio.cloud_request().is_none());
-    let why = studio.cloud_refusal().unwrap().to_string();
+    assert!(cloud_request(&studio).is_none());
+    let why = cloud_refusal(&studio.deck, &studio.viewer).unwrap().to_string();
     assert!(why.contains("has 2 coordinates"), "{why}");
-    assert!(race_of("spring", &["rk4"], CloudKind::default()).cloud_refusal().is_none());
+    let studio = race_of("spring", &["rk4"], CloudKind::default());
+    assert!(cloud_refusal(&studio.deck, &studio.viewer).is_none());
 }
 
 #[test]

@@ -70,7 +70,7 @@ fn a_race_restarts_with_the_methods_that_a_person_gave_its_lanes() {
     studio.apply(StageCommand::Restart);
     assert_eq!(methods(&studio), given);
     assert_eq!((studio.selected().id, studio.selected().lane.substeps()), (LaneId(1), 3));
-    for (lane, spec) in (1..).map(LaneId).zip(studio.scene_as_opened().lanes.clone()) {
+    for (lane, spec) in (1..).map(LaneId).zip(studio.deck.scene_as_opened().lanes.clone()) {
         studio.apply(RunCommand::Act(Action::Lane { lane, spec }));
     }
     studio.apply(StageCommand::Restart);
@@ -88,7 +88,7 @@ fn a_new_scene_length_applies_to_plots_and_verdicts_and_stays_after_a_restart() 
     studio.apply(RunCommand::Seconds(2.0 * seconds));
     studio.apply(StageCommand::Restart);
     assert_eq!(studio.scene().seconds, 2.0 * seconds);
-    assert_eq!(studio.scene_as_opened().seconds, seconds);
+    assert_eq!(studio.deck.scene_as_opened().seconds, seconds);
 }
 
 #[test]

@@ -95,7 +95,7 @@ fn a_run_judged_from_a_hand_has_the_rest_of_the_script_at_its_times() {
     rest.script.insert(0, Scripted { at_s: 0.0, action: place });
     let entry = studio.active();
     studio.analyse();
-    let found = studio.viewer().verdict(entry).expect("it is judged").error();
+    let found = studio.viewer.verdict(entry).expect("it is judged").error();
     let wanted = Judge::new(&rest).verdict(studio.entries()[entry], 60).error();
     let (found, wanted) = (found.unwrap(), wanted.unwrap());
     assert!(wanted > 0.01 && (found / wanted - 1.0).abs() < 1e-9, "{found}, {wanted}");
@@ -156,7 +156,7 @@ fn a_recording_speaks_of_ticks_and_is_read_without_a_warning() {
     (0..12).for_each(|_| studio.tick());
     studio.apply(StageCommand::TickHz(60));
     (0..260).for_each(|_| studio.tick());
-    let text = studio.recording().unwrap();
+    let text = studio.deck.recording().unwrap();
     assert!(!text.contains("at_s"), "{text}");
     let ticks: Vec<_> = text.lines().filter(|line| line.starts_with("tick = ")).collect();
     // The rate, and 0.6 s later, at 60 Hz, the rudder.

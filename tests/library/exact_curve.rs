@@ -7,7 +7,7 @@ use regatta::run::past::TruthSample;
 use regatta::run::race::{Interpolation, Race};
 use regatta::scene::{Action, Scene};
 use regatta::stage::{Grip, Picture, Whose, compose};
-use regatta::studio::{RunCommand, StageCommand, Studio};
+use regatta::studio::{RunCommand, StageCommand, Studio, shown_s};
 
 fn open(scene: &str, tick_hz: u32) -> Studio {
     let mut studio = Studio::new(Scene::built_in(scene).unwrap());
@@ -125,12 +125,12 @@ fn the_ghost_is_the_exact_motion_at_the_moment_of_the_lanes_however_they_are_dra
             studio.apply(RunCommand::NextInterpolation);
             let picture = compose(&studio, size);
             let x = picture.cells[0].metres(ghost(&studio, &picture)[0].at).x;
-            let exact = libm::cos(TAU * studio.shown_s());
+            let exact = libm::cos(TAU * shown_s(&studio.deck, &studio.viewer));
             assert!((x - exact).abs() < 1e-3, "frame {frame}: {x} m, truly {exact} m");
             reach = (reach.0.min(x), reach.1.max(x));
         }
         assert_eq!(studio.display().interpolation, Interpolation::Monotone);
-        assert!((studio.shown_s() - moment_s).abs() < 1e-12, "frame {frame}");
+        assert!((shown_s(&studio.deck, &studio.viewer) - moment_s).abs() < 1e-12, "frame {frame}");
     }
     assert!(reach.0 < -0.99 && reach.1 > 0.99, "{reach:?}");
 }

@@ -10,7 +10,7 @@ use regatta::sim::integrators::method;
 use regatta::studio::guide::{Goal, STOPS};
 use regatta::studio::{
     Command, Instrument, KEYS, Key, RunCommand, StageCommand, Step, Studio, ViewCommand,
-    command_for,
+    command_for, complete_clouds, one_step, run_loops, shown_cloud,
 };
 use regatta::tools::port;
 use regatta::tools::port::{Wish, setups};
@@ -22,14 +22,14 @@ fn lab_at(stop: usize) -> Studio {
 }
 
 fn is_done(studio: &Studio) -> bool {
-    studio.viewer().tour().expect("the guide is open").is_done()
+    studio.viewer.tour().expect("the guide is open").is_done()
 }
 
 #[test]
 fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
     for (index, stop) in STOPS.iter().enumerate() {
         let mut studio = lab_at(index);
-        let tour = studio.viewer().tour().unwrap();
+        let tour = studio.viewer.tour().unwrap();
         assert_eq!((tour.index(), tour.guess(), tour.is_done()), (index, None, false));
         assert_eq!(studio.scene().name, stop.scene, "{}", stop.title);
         assert_eq!(studio.entries()[studio.active()].method.id, stop.method, "{}", stop.title);
@@ -54,10 +54,10 @@ fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
             studio.apply(command);
         }
         assert!(is_done(&studio), "{} is not done by its keys", stop.title);
-        assert_eq!(studio.viewer().tour().unwrap().guess(), Some(stop.right));
+        assert_eq!(studio.viewer.tour().unwrap().guess(), Some(stop.right));
         // The prediction was one.
         studio.apply(ViewCommand::Predict(0));
-        assert_eq!(studio.viewer().tour().unwrap().guess(), Some(stop.right));
+        assert_eq!(studio.viewer.tour().unwrap().guess(), Some(stop.right));
     }
 }
 
@@ -88,12 +88,12 @@ fn stops_name_scenes_and_methods_that_there_are_and_keys_between_pairs_of_backti
 fn the_guide_closes_with_escape_and_opens_where_it_was_left() {
     let mut studio = lab_at(3);
     assert_eq!(studio.apply(ViewCommand::Escape), None);
-    assert!(studio.viewer().tour().is_none());
+    assert!(studio.viewer.tour().is_none());
     studio.apply(ViewCommand::ToggleGuide);
-    assert_eq!(studio.viewer().tour().unwrap().index(), 3);
+    assert_eq!(studio.viewer.tour().unwrap().index(), 3);
     assert_eq!(studio.scene().name, STOPS[3].scene);
     studio.apply(ViewCommand::GoToStop(usize::MAX));
-    assert_eq!(studio.viewer().tour().unwrap().index(), STOPS.len() - 1);
+    assert_eq!(studio.viewer.tour().unwrap().index(), STOPS.len() - 1);
 }
 
 fn place_of(goal: Goal) -> usize {
@@ -111,11 +111,11 @@ fn what_a_stop_says_never_stays_over_another_scene_or_mode() {
     ] {
         let mut studio = lab_at(index);
         studio.apply(elsewhere.clone());
-        assert!(studio.viewer().tour().is_none(), "{elsewhere:?}");
-        let notice = studio.viewer().notice.as_deref().expect("the way back");
+        assert!(studio.viewer.tour().is_none(), "{elsewhere:?}");
+        let notice = studio.viewer.notice.as_deref().expect("the way back");
         assert!(notice.contains("F2"), "{notice}");
         studio.apply(ViewCommand::ToggleGuide);
-        assert_eq!(studio.viewer().tour().map(|tour| tour.index()), Some(index));
+        assert_eq!(studio.viewer.tour().map(|tour| tour.index()), Some(index));
         assert_eq!(studio.scene().name, STOPS[index].scene);
         assert!(studio.loop_lab().is_none());
     }
@@ -124,7 +124,7 @@ fn what_a_stop_says_never_stays_over_another_scene_or_mode() {
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     assert!(is_done(&studio));
     studio.apply(StageCommand::SceneBeside(Step::Next));
-    assert!(studio.loop_lab().is_some() && studio.viewer().tour().is_none());
+    assert!(studio.loop_lab().is_some() && studio.viewer.tour().is_none());
 }
 
 #[test]
@@ -155,8 +155,8 @@ fn the_area_of_a_cloud_of_pendulums_becomes_what_the_guide_says() {
     studio.apply(RunCommand::Cloud(CloudChoice { kind, points: 10_000 }));
     // 1.25 s.
     (0..15).for_each(|_| studio.tick());
-    studio.complete_clouds(&mut CloudWorker::default(), || false);
-    let lanes = &studio.cloud().unwrap().picture.as_ref().unwrap().lanes;
+    complete_clouds(&mut studio, &mut CloudWorker::default(), || false);
+    let lanes = &shown_cloud(&studio).unwrap().picture.as_ref().unwrap().lanes;
     let areas: Vec<f64> = lanes.iter().map(|lane| lane.area_ratio.unwrap()).collect();
     assert!((1.4..1.7).contains(&areas[0]), "{areas:?}");
     assert!(areas[1] < 0.6, "{areas:?}");
@@ -297,7 +297,8 @@ fn each_step_of_explicit_euler_makes_the_swing_18_percent_wider_at_10_hz() {
     let omega = std::f64::consts::TAU;
     let swing = |[q, v]: [f64; 2]| q.hypot(v / omega);
     for _ in 0..4 {
-        let OneStep { from, landing, .. } = studio.one_step().expect("a next step");
+        let OneStep { from, landing, .. } =
+            one_step(&studio.deck, &studio.viewer).expect("a next step");
         let wider = swing(landing.expect("it lands")) / swing(from);
         assert!((1.175..1.185).contains(&wider), "{wider}");
         studio.apply(StageCommand::Tick(Step::Next));
@@ -343,7 +344,7 @@ fn a_spring_4_times_as_stiff_needs_2_times_the_tick_rate() {
 fn the_fixed_loop_judders_by_12_ms_and_the_one_that_counts_refreshes_does_not() {
     let mut studio = lab_at(place_of(Goal::LoopLab));
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
-    studio.run_loops();
+    run_loops(&mut studio);
     let loops: &LoopLab = studio.loop_lab().expect("it opens");
     assert_eq!(loops.slowness(), 8);
     let shown: Vec<(&str, f64)> = loops
@@ -517,8 +518,8 @@ fn the_area_of_the_cloud_is_never_less_than_at_its_start_under_explicit_euler() 
     let mut areas = Vec::new();
     for _ in 0..6 {
         (0..12).for_each(|_| studio.tick());
-        studio.complete_clouds(&mut worker, || false);
-        let lanes = &studio.cloud().unwrap().picture.as_ref().unwrap().lanes;
+        complete_clouds(&mut studio, &mut worker, || false);
+        let lanes = &shown_cloud(&studio).unwrap().picture.as_ref().unwrap().lanes;
         areas.push(lanes[0].area_ratio.unwrap());
     }
     let most = areas.iter().copied().fold(0.0, f64::max);

@@ -195,7 +195,7 @@ fn after_home_the_next_step_of_the_tour_is_shown_and_what_brings_back_the_run_af
         press(studio, &[Key::Digit(2)]);
         (0..10).for_each(|_| studio.tick());
         press(studio, &[Key::Home]);
-        (studio.hint(), studio.viewer().notice.as_deref().map(str::to_owned))
+        (studio.hint(), studio.viewer.notice.as_deref().map(str::to_owned))
     };
     let (hint, notice) = restart_later(&mut studio);
     assert_eq!((hint.unwrap().contains("`C`"), notice), (true, None));
@@ -268,10 +268,10 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
         (Command::Run(RunCommand::Act(Action::Rudder(0.0))), "rudder", ("rk4", 10, 0.5, 0.0)),
     ] {
         let mut studio = scripted();
-        assert_eq!(studio.viewer().notice.as_deref(), None);
+        assert_eq!(studio.viewer.notice.as_deref(), None);
         studio.apply(command.clone());
         let said = format!("you have the {name} now: the script leaves it alone until a restart");
-        assert_eq!(studio.viewer().notice.as_deref(), Some(&*said), "{command:?}");
+        assert_eq!(studio.viewer.notice.as_deref(), Some(&*said), "{command:?}");
         run_to(&mut studio, 8.5);
         assert_eq!(controls(&studio), expected, "{command:?}");
 
@@ -285,12 +285,12 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
 fn taking_the_same_control_again_is_not_told_again() {
     let mut studio = scripted();
     studio.apply(RunCommand::Act(Action::Rudder(0.3)));
-    studio.viewer_mut().set_notice("something else");
+    studio.viewer.set_notice("something else");
     studio.apply(RunCommand::RudderRight);
-    assert_eq!(studio.viewer().notice.as_deref(), Some("something else"));
+    assert_eq!(studio.viewer.notice.as_deref(), Some("something else"));
     studio.apply(RunCommand::Act(Action::Throttle(0.1)));
     assert_eq!(
-        studio.viewer().notice.as_deref(),
+        studio.viewer.notice.as_deref(),
         Some("you have the throttle now: the script leaves it alone until a restart")
     );
 }
@@ -304,12 +304,12 @@ fn where_no_script_is_to_come_there_is_nothing_to_tell() {
         Command::Run(RunCommand::Act(Action::Throttle(0.3))),
     ] {
         studio.apply(command.clone());
-        assert_eq!(studio.viewer().notice.as_deref(), None, "{command:?}");
+        assert_eq!(studio.viewer.notice.as_deref(), None, "{command:?}");
     }
     let mut studio = open("helm");
     (0..200).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Rudder(0.5)));
-    assert_eq!(studio.viewer().notice.as_deref(), None, "the script is over");
+    assert_eq!(studio.viewer.notice.as_deref(), None, "the script is over");
 }
 
 #[test]
@@ -384,7 +384,7 @@ fn presses(after: &str) -> (usize, Option<u32>) {
 /// Presses what a hint asks for and holds what happens against the hint.
 fn hold(studio: &mut Studio, hint: &str, command: &Command, told: &Told<'_>) {
     let (tick, hz, mode) = (studio.race().tick(), studio.clock().tick_hz(), studio.mode());
-    let scene = studio.scene_name();
+    let scene = studio.deck.scene_name();
     let helm = (studio.race().throttle(), studio.race().rudder());
     let rows = studio.race().journal().rows().len();
     let asked = studio.apply(command.clone());
@@ -424,10 +424,10 @@ fn hold(studio: &mut Studio, hint: &str, command: &Command, told: &Told<'_>) {
             assert_eq!(mode, Mode::Race, "{hint}");
         }
         Command::Stage(StageCommand::SceneBeside(_)) => {
-            assert_ne!(studio.scene_name(), scene, "{hint}");
+            assert_ne!(studio.deck.scene_name(), scene, "{hint}");
         }
         Command::View(ViewCommand::TogglePause) => assert!(studio.running(), "{hint}"),
-        Command::View(ViewCommand::ToggleGuide) => assert!(studio.viewer().tour().is_some()),
+        Command::View(ViewCommand::ToggleGuide) => assert!(studio.viewer.tour().is_some()),
         Command::View(ViewCommand::Copy) => assert!(asked.is_some(), "{hint}"),
         Command::Run(RunCommand::ToggleInspector) => assert!(studio.display().inspector, "{hint}"),
         Command::Run(RunCommand::Act(Action::Kick(_))) => {
@@ -475,7 +475,7 @@ fn in_every_scene_mode_and_pause_under_every_method_each_key_of_each_hint_does_w
                 if race {
                     studio.apply(StageCommand::ToggleRace);
                 }
-                studio.begin_hints();
+                studio.viewer.begin_hints();
                 while studio.race().t() < f64::from(seconds) {
                     studio.tick();
                 }
@@ -492,7 +492,7 @@ fn in_every_scene_mode_and_pause_under_every_method_each_key_of_each_hint_does_w
             };
             loop {
                 let reached = again(&done);
-                let hint = reached.hint().filter(|_| reached.viewer().tour().is_none());
+                let hint = reached.hint().filter(|_| reached.viewer.tour().is_none());
                 let Some(hint) = hint else { break };
                 assert!(done.len() < 20, "{}: {hint} stays", scene.name);
                 assert!(names_the_selected_method(&reached, &hint), "{}: {hint}", scene.name);
@@ -520,7 +520,7 @@ fn a_recording_does_not_ask_for_the_digits_of_the_scene_that_it_was_made_in() {
         let mut studio = open(scene);
         assert!(studio.hint().unwrap().contains("`2`"));
         (0..60).for_each(|_| studio.tick());
-        let text = studio.recording().unwrap();
+        let text = studio.deck.recording().unwrap();
         let recorded = Studio::new(Scene::parse("recording.toml", &text).unwrap());
         assert_ne!(recorded.entries()[1].method.id, "semi-implicit-euler", "else it may");
         let hint = recorded.hint().expect("a lead");
@@ -532,7 +532,7 @@ fn a_recording_does_not_ask_for_the_digits_of_the_scene_that_it_was_made_in() {
 fn in_a_race_that_has_gone_on_into_the_next_scene_nobody_is_asked_to_race() {
     let mut studio = open("jump");
     studio.apply(StageCommand::ToggleRace);
-    studio.begin_hints();
+    studio.viewer.begin_hints();
     for _ in SCENES {
         assert_eq!(studio.mode(), Mode::Race);
         let hint = studio.hint().unwrap_or_default();

@@ -15,7 +15,7 @@ fn opened(scene: &Scene) -> Studio {
 fn verdicts(studio: &mut Studio) -> Vec<String> {
     studio.analyse();
     let of = |entry| {
-        let verdict = studio.viewer().verdict(entry).unwrap().clone();
+        let verdict = studio.viewer.verdict(entry).unwrap().clone();
         everything(&Verdict { starts_at_s: 0.0, ..verdict })
     };
     (0..studio.entries().len()).map(of).collect()
@@ -24,7 +24,7 @@ fn verdicts(studio: &mut Studio) -> Vec<String> {
 /// The time of the run at which the judged part begins, by the first verdict.
 fn starts_at_s(studio: &mut Studio) -> f64 {
     studio.analyse();
-    studio.viewer().verdict(0).unwrap().starts_at_s
+    studio.viewer.verdict(0).unwrap().starts_at_s
 }
 
 /// The judge's verdict on each method of the scene's list.

@@ -45,7 +45,7 @@ fn brackets_walk_the_tick_rates_and_n_and_b_the_scenes() {
     let mut walk = |key: char| -> Vec<String> {
         let mut title_of = |_| {
             press(&mut studio, Key::Sign(key));
-            studio.scene_name()
+            studio.deck.scene_name()
         };
         SCENES.iter().map(&mut title_of).collect()
     };
@@ -60,7 +60,7 @@ fn brackets_walk_the_tick_rates_and_n_and_b_the_scenes() {
 fn the_first_press_of_t_or_of_what_the_instruments_show_puts_them_round_the_stage() {
     let alone = || {
         let mut studio = studio("harbour");
-        studio.viewer_mut().preferences.display.measure = false;
+        studio.viewer.preferences.display.measure = false;
         studio
     };
     for (key, shows) in [
@@ -99,7 +99,7 @@ fn the_first_press_of_t_or_of_what_the_instruments_show_puts_them_round_the_stag
 #[test]
 fn the_loop_lab_is_not_without_its_instruments() {
     let mut studio = studio("spring");
-    studio.viewer_mut().preferences.display.measure = false;
+    studio.viewer.preferences.display.measure = false;
     press(&mut studio, Key::Sign('l'));
     for _ in 0..2 {
         assert!(studio.loop_lab().is_some() && studio.display().measure);

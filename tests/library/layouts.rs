@@ -124,7 +124,7 @@ fn a_lane_takes_the_substeps_that_are_advised_in_flight_and_keeps_them() {
         substeps: 3,
         ..LaneSpec::plain(method("pefrl").unwrap())
     }));
-    assert_eq!(studio.viewer().notice.as_deref(), Some("the race restarted with PEFRL in it"));
+    assert_eq!(studio.viewer.notice.as_deref(), Some("the race restarted with PEFRL in it"));
     assert_eq!((studio.race().tick(), studio.race().entrants().len()), (0, 6));
     assert_eq!(studio.entries()[studio.active()].substeps, 3);
 }

@@ -5,7 +5,7 @@ use regatta::loops::loop_lab::LoopCommand;
 use regatta::run::race::{ESCAPE, Mode};
 use regatta::scene::{Action, SCENES, Scene};
 use regatta::stage::{FAR, Picture, Shape, Whose, compose};
-use regatta::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
+use regatta::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand, run_loops};
 
 fn assert_drawable(picture: &Picture, what: &str) {
     let finite = |values: &[f32]| values.iter().all(|x| x.is_finite() && x.abs() <= 2.0 * FAR);
@@ -339,7 +339,7 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
 fn loops_over_each_other_are_named_below_and_numbered_above_their_bodies() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
-    studio.run_loops();
+    run_loops(&mut studio);
     studio.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
     let below = compose(&studio, [780.0, 500.0]);
     studio.apply(StageCommand::ToggleArrangement);

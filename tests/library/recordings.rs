@@ -4,7 +4,7 @@ use regatta::run::race::{Mode, equal_cost, lanes_that_race};
 use regatta::run::{Journal, RecordingError, Session, link};
 use regatta::scene::{Action, LaneId, LaneSpec, SCENES, Scene, Scripted, Swing};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
-use regatta::studio::{Command, RunCommand, StageCommand, Studio};
+use regatta::studio::{Command, RunCommand, StageCommand, Studio, open_file};
 
 fn built_in(name: &str) -> Scene {
     Scene::built_in(name).expect("a built-in scene")
@@ -127,7 +127,7 @@ fn a_recording_of_a_scene_with_comments_keeps_them_and_repeats_its_run() {
     (0..45).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Kick(2.0)));
     (0..45).for_each(|_| studio.tick());
-    let text = studio.recording().unwrap();
+    let text = studio.deck.recording().unwrap();
     assert_eq!(
         other_lines(BY_HAND, &text),
         [
@@ -196,7 +196,7 @@ fn ticks(scene: &Scene) -> Vec<u64> {
 #[test]
 fn a_recording_has_all_actions_and_repeats_the_run_to_the_bit() {
     let studio = flown();
-    let scene = parsed(&studio.recording().unwrap());
+    let scene = parsed(&studio.deck.recording().unwrap());
     assert_eq!(ticks(&scene), (1..=9).map(|n| 25 * n).collect::<Vec<_>>());
     assert_eq!(scene.bodies[0].values, built_in("harbour").bodies[0].values, "as at the start");
     assert_eq!((scene.lanes.len(), scene.tick_hz), (1, 60));
@@ -217,10 +217,14 @@ fn a_recording_has_all_actions_and_repeats_the_run_to_the_bit() {
 #[test]
 fn a_recording_repeats_its_run_in_a_lab() {
     let studio = flown();
-    let mut again = Studio::new(parsed(&studio.recording().unwrap()));
+    let mut again = Studio::new(parsed(&studio.deck.recording().unwrap()));
     (0..250).for_each(|_| again.tick());
     assert_eq!(again.race().state_hash(), studio.race().state_hash());
-    assert_eq!(again.recording().unwrap(), studio.recording().unwrap(), "and is recorded alike");
+    assert_eq!(
+        again.deck.recording().unwrap(),
+        studio.deck.recording().unwrap(),
+        "and is recorded alike"
+    );
 }
 
 #[test]
@@ -230,14 +234,14 @@ fn a_recording_of_a_scripted_race_that_goes_solo_repeats_it_to_the_bit() {
     (0..200).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Rudder(0.4)));
     (0..200).for_each(|_| studio.tick());
-    let recorded = parsed(&studio.recording().unwrap());
+    let recorded = parsed(&studio.deck.recording().unwrap());
     assert!(recorded.checks.iter().any(|check| check.lane.0 == recorded.lanes.len()));
     assert!(wrong_lanes(&recorded).is_empty());
 
     studio.apply(StageCommand::Pick(2));
     studio.apply(StageCommand::ToggleRace);
     (0..50).for_each(|_| studio.tick());
-    let recorded = parsed(&studio.recording().unwrap());
+    let recorded = parsed(&studio.deck.recording().unwrap());
     let last = recorded.checks.last().unwrap();
     assert_eq!((last.tick, last.lane), (450, LaneId(3)), "its number is that of before");
     assert!(recorded.script.iter().any(|row| row.action == Action::Solo { lane: LaneId(3) }));
@@ -247,23 +251,23 @@ fn a_recording_of_a_scripted_race_that_goes_solo_repeats_it_to_the_bit() {
 #[test]
 fn a_recorded_race_opens_as_a_race_and_a_recorded_solo_run_does_not() {
     let mut studio = flown();
-    let solo = parsed(&studio.recording().unwrap());
+    let solo = parsed(&studio.deck.recording().unwrap());
     assert!(!solo.opens_as_race);
     studio.apply(StageCommand::ToggleRace);
     (0..90).for_each(|_| studio.tick());
-    let text = studio.recording().unwrap();
+    let text = studio.deck.recording().unwrap();
     assert!(text.contains("\n[race]\nopen = true\n"), "{text}");
     let race = parsed(&text);
     assert!(race.opens_as_race && wrong_lanes(&race).is_empty());
 
     let mut again = Studio::new(solo.clone());
-    again.open_file("solo.toml".as_ref(), solo);
+    open_file(&mut again, "solo.toml".as_ref(), solo);
     assert_eq!(again.mode(), Mode::Solo);
-    again.open_file("race.toml".as_ref(), race);
+    open_file(&mut again, "race.toml".as_ref(), race);
     assert_eq!(again.mode(), Mode::Race);
     (0..90).for_each(|_| again.tick());
     assert_eq!(again.race().state_hash(), studio.race().state_hash());
-    assert_eq!(again.recording().unwrap(), text, "and is recorded alike");
+    assert_eq!(again.deck.recording().unwrap(), text, "and is recorded alike");
 }
 
 #[test]
@@ -420,11 +424,11 @@ fn new_hashes_are_written_into_a_file_without_other_changes() {
 fn an_action_at_the_last_tick_is_in_the_recording() {
     let mut studio = Studio::new(built_in("spring"));
     studio.apply(RunCommand::Act(Action::Place { body: 0, q: [2.5].into(), v: [0.0].into() }));
-    let at_start = parsed(&studio.recording().unwrap());
+    let at_start = parsed(&studio.deck.recording().unwrap());
     assert_eq!(at_start.script.len(), 1);
     (0..10).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Kick(1.0)));
-    let recorded = parsed(&studio.recording().unwrap());
+    let recorded = parsed(&studio.deck.recording().unwrap());
     assert_eq!(ticks(&recorded), [0, 10]);
     assert!(wrong_lanes(&recorded).is_empty());
 }
@@ -475,14 +479,14 @@ fn what_no_file_could_say_is_refused_where_it_enters() {
         let mut studio = Studio::new(parsed(&text));
         let journal = studio.race().journal().clone();
         studio.apply(RunCommand::Act(action.clone()));
-        let told = studio.viewer().notice.as_deref().unwrap_or_default().to_owned();
+        let told = studio.viewer.notice.as_deref().unwrap_or_default().to_owned();
         assert!(told.starts_with("out of range"), "{action:?}: {told}");
         assert!(*studio.race().journal() == journal, "{action:?}");
         let mut session = Session::racing(parsed(&text).into());
         assert!(!session.act(action.clone()) && *session.journal() == journal, "{action:?}");
         (0..40).for_each(|_| studio.tick());
         assert_eq!(studio.race().tick_hz(), 30, "{action:?}: the script goes on");
-        parsed(&studio.recording().unwrap());
+        parsed(&studio.deck.recording().unwrap());
     }
     // A mass that is below zero is refused with its range, and a throttle is clamped.
     let mut studio = Studio::new(built_in("ship"));
@@ -490,7 +494,7 @@ fn what_no_file_could_say_is_refused_where_it_enters() {
     studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: mass, value: -1.0 }));
     studio.apply(RunCommand::Act(Action::Throttle(-5.0)));
     studio.tick();
-    let recorded = parsed(&studio.recording().unwrap());
+    let recorded = parsed(&studio.deck.recording().unwrap());
     assert_eq!(recorded.script[0].action, Action::Throttle(-1.0));
     assert_eq!(recorded.script.len(), 1);
 }
@@ -513,14 +517,14 @@ fn a_method_that_is_not_on_the_list_is_told_of_and_changes_nothing() {
                 Command::Stage(StageCommand::Method(spec.method)),
                 Command::Run(RunCommand::SetLane(spec)),
             ] {
-                studio.viewer_mut().set_notice("nothing");
+                studio.viewer.set_notice("nothing");
                 studio.apply(command);
-                let told = studio.viewer().notice.as_deref().unwrap();
+                let told = studio.viewer.notice.as_deref().unwrap();
                 assert!(told.contains(why), "{id} on {scene}: {told}");
             }
             assert_eq!(studio.race().state_hash(), hash);
             studio.apply(RunCommand::SetLane(LaneSpec { substeps: 0, ..studio.entries()[0] }));
-            assert!(studio.viewer().notice.as_deref().unwrap().starts_with("out of range"));
+            assert!(studio.viewer.notice.as_deref().unwrap().starts_with("out of range"));
         }
     }
     // An action that names one steps nothing by it, if it cannot.
@@ -543,7 +547,7 @@ fn a_link_to_a_solo_run_opens_with_the_methods_that_stood_beside_it() {
     studio.apply(StageCommand::Pick(1));
     (0..70).for_each(|_| studio.tick());
 
-    let text = link::text(&studio.link().unwrap()).unwrap();
+    let text = link::text(&studio.deck.link().unwrap()).unwrap();
     let scene = parsed(&text);
     let mut opened = Studio::new(scene.clone());
     assert_eq!((ids(&opened), opened.active()), (menu, 2));
@@ -560,7 +564,7 @@ fn a_link_to_a_solo_run_opens_with_the_methods_that_stood_beside_it() {
     for (entry, count) in [(0, 2), (1, 1)] {
         studio.apply(StageCommand::Pick(entry));
         studio.apply(StageCommand::Restart);
-        let text = link::text(&studio.link().unwrap()).unwrap();
+        let text = link::text(&studio.deck.link().unwrap()).unwrap();
         assert_eq!(parsed(&text).lanes.len(), count);
     }
 }

@@ -76,7 +76,7 @@ fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
     (0..40).for_each(|_| studio.tick());
     let (hash, journal) = (studio.race().state_hash(), studio.race().journal().clone());
     studio.apply(StageCommand::Restart);
-    assert_eq!(studio.viewer().notice, None, "the hint leads on");
+    assert_eq!(studio.viewer.notice, None, "the hint leads on");
     assert!(studio.hint().is_some());
     (0..3).for_each(|_| studio.tick());
     // A second restart is not about the run of three ticks.
@@ -85,7 +85,7 @@ fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
     studio.apply(RunCommand::Undo);
     assert_eq!((studio.race().tick(), studio.race().state_hash()), (80, hash));
     assert_eq!(studio.race().journal(), &journal);
-    let notice = studio.viewer().notice.as_deref().unwrap();
+    let notice = studio.viewer.notice.as_deref().unwrap();
     assert!(notice.starts_with("undid the restart"), "{notice}");
     studio.apply(RunCommand::Seek(40));
     studio.apply(RunCommand::Seek(80));
@@ -107,7 +107,7 @@ fn a_frame_whose_time_is_up_drops_the_ticks_that_are_left() {
         },
         &mut (),
     );
-    assert_eq!((due.ticks, due.dropped, studio.dropped(), studio.race().tick()), (2, 4, 4, 2));
+    assert_eq!((due.ticks, due.dropped, studio.deck.dropped(), studio.race().tick()), (2, 4, 4, 2));
     let due = studio.advance_in_time(u64::MAX, 50_000_000, &mut || true, &mut ());
     assert_eq!((due.ticks, due.dropped, studio.race().tick()), (3, 0, 5));
 }

@@ -86,7 +86,7 @@ fn recording(scene: &str) -> String {
     (0..70).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Kick(0.5)));
     (0..70).for_each(|_| studio.tick());
-    studio.recording().expect("a run that can be written")
+    studio.deck.recording().expect("a run that can be written")
 }
 
 fn read_scene(bytes: &[u8], round: usize) -> bool {

@@ -279,7 +279,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
         studio.apply(RunCommand::Act(Action::Kick(-0.4)));
         assert_eq!((studio.run().end(), studio.run().is_in_past()), (400, false));
         assert_eq!(studio.run().session().journal().rows().len(), rows, "one came, one went");
-        let notice = studio.viewer().notice.as_deref().expect("it says so");
+        let notice = studio.viewer.notice.as_deref().expect("it says so");
         assert!(notice.contains("Ctrl Z"), "{notice}");
         (0..900).for_each(|_| studio.tick());
         assert_ne!(shown(studio.run()).hashes, end.hashes);

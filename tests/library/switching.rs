@@ -400,15 +400,15 @@ fn a_method_is_not_blamed_for_a_state_that_it_inherits_and_the_notice_says_where
     (0..30).for_each(|_| studio.tick());
     studio.apply(StageCommand::Pick(3));
     assert_eq!(
-        studio.viewer().notice.as_deref(),
+        studio.viewer.notice.as_deref(),
         Some("stiff spring had blown up: resumed from the exact solution")
     );
     for _ in 0..1000 {
         studio.tick();
         assert!(
-            !studio.viewer().notice.as_deref().unwrap().contains("Runge-Kutta 4"),
+            !studio.viewer.notice.as_deref().unwrap().contains("Runge-Kutta 4"),
             "{:?}",
-            studio.viewer().notice.as_deref()
+            studio.viewer.notice.as_deref()
         );
     }
     assert_eq!(studio.race().entrants()[0].lane.halted(), None);

@@ -193,7 +193,7 @@ fn random_changes_are_undone_and_done_again_to_the_bit() {
 #[test]
 fn the_changes_that_can_be_undone_stay_within_the_memory_for_rewinding() {
     let mut studio = studio("harbour");
-    studio.set_rewind_bytes(1 << 20);
+    studio.deck.set_rewind_bytes(1 << 20);
     for n in 0..60_u32 {
         (0..120).for_each(|_| studio.tick());
         studio.apply(RunCommand::Act(Action::Kick(1.0)));
@@ -204,7 +204,7 @@ fn the_changes_that_can_be_undone_stay_within_the_memory_for_rewinding() {
     }
     assert_eq!(studio.run().undoes(), Some("the kick at tick 360"));
     for (limit, is_kept) in [(64 << 20, true), (1 << 20, false)] {
-        studio.set_rewind_bytes(limit);
+        studio.deck.set_rewind_bytes(limit);
         studio.apply(RunCommand::Act(Action::Kick(2.0)));
         let before = studio.run().bytes();
         studio.apply(StageCommand::Restart);

@@ -5,7 +5,7 @@ use regatta::run::Session;
 use regatta::run::race::Mode;
 use regatta::scene::{Action, SCENES, Scene};
 use regatta::studio::guide::STOPS;
-use regatta::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
+use regatta::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand, open_file};
 
 use crate::dice::Dice;
 
@@ -74,9 +74,9 @@ fn step(dice: &mut Dice, studio: &mut Studio) -> String {
             StageCommand::Scene(at).into()
         }
         _ => {
-            let recording = studio.recording().expect("a run that can be written");
+            let recording = studio.deck.recording().expect("a run that can be written");
             let scene = Scene::parse("walk.toml", &recording).expect("a recording is a scene");
-            studio.open_file("walk.toml".as_ref(), scene);
+            open_file(studio, "walk.toml".as_ref(), scene);
             return "the recording is opened".into();
         }
     };
@@ -87,7 +87,7 @@ fn step(dice: &mut Dice, studio: &mut Studio) -> String {
 
 /// Runs the recording of a studio's run from its text, and compares all that was noted and the end.
 fn repeats(studio: &mut Studio) -> Result<(), String> {
-    let text = studio.recording().map_err(|error| error.to_string())?;
+    let text = studio.deck.recording().map_err(|error| error.to_string())?;
     let scene = Scene::parse("walk.toml", &text).map_err(|errors| errors.to_string())?;
     if scene.to_toml() != studio.run().recording().to_toml() {
         return Err("its text is another when it was read".into());

@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
 use regatta::scene::{Action, SCENES, Scene};
-use regatta::studio::{RunCommand, StageCommand, Step, Studio};
+use regatta::studio::{
+    RunCommand, StageCommand, Step, Studio, analyse_bounded, open_loop_lab_on, run_loops,
+};
 use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels};
 
 const SIZE_PX: [u32; 2] = [400, 225];
@@ -40,7 +42,7 @@ fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Studio)) -> Studi
     } else {
         studio.apply(StageCommand::Pick(1));
     }
-    studio.forget_changes();
+    studio.deck.forget_changes();
     let is_net = studio.scene().bodies.iter().any(|body| body.kind.net().is_some());
     for frame in 0..FRAMES {
         if frame == FRAMES / 2 && !race {
@@ -50,7 +52,7 @@ fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Studio)) -> Studi
         studio.advance(16_666_667);
         // Nets are judged once: the rest of the run would take as long as all other scenes together.
         if !is_net || frame + 1 == FRAMES {
-            studio.analyse_bounded(|worker| Some(worker.finish()));
+            analyse_bounded(&mut studio.deck, &mut studio.viewer, |worker| Some(worker.finish()));
         }
         each_frame(&studio);
     }
@@ -145,7 +147,7 @@ fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
     studio.apply(StageCommand::Second(Step::Next));
     studio.apply(RunCommand::Seek(FRAMES - 20));
     studio.apply(RunCommand::ToggleInspector);
-    studio.analyse_bounded(|worker| Some(worker.finish()));
+    analyse_bounded(&mut studio.deck, &mut studio.viewer, |worker| Some(worker.finish()));
     let drawn = drawn(&mut OffscreenRenderer::new(gpu, size_px, 0.4).unwrap(), size_px, &studio);
     assert_eq!(wrong("spring-inspector.png", &drawn), None);
 }
@@ -154,8 +156,8 @@ fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
 fn the_loop_lab_looks_as_it_did() {
     let Some(gpu) = gpu_or_skip("the_loop_lab_looks_as_it_did") else { return };
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-    studio.open_loop_lab_on("steady-144");
-    studio.run_loops();
+    open_loop_lab_on(&mut studio, "steady-144");
+    run_loops(&mut studio);
     (0..FRAMES).for_each(|_| _ = studio.advance(16_666_667));
     let drawn = drawn(&mut OffscreenRenderer::new(gpu, SIZE_PX, SCALE).unwrap(), SIZE_PX, &studio);
     assert_eq!(wrong("spring-loops.png", &drawn), None);

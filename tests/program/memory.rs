@@ -11,7 +11,7 @@ use egui::{
     vec2,
 };
 use regatta::scene::Scene;
-use regatta::studio::{KEYS, Studio, ViewCommand};
+use regatta::studio::{KEYS, Studio, ViewCommand, open_file};
 use regatta::view::{AdapterPreference, FrameRenderer, Gpu, Offscreen};
 
 use crate::dice::Dice;
@@ -84,7 +84,7 @@ impl Program {
     fn at_rest(&mut self) -> f64 {
         self.studio.apply(ViewCommand::CloseDialog);
         let scene = Scene::built_in("spring").expect("a built-in scene");
-        self.studio.open_file("rest.toml".as_ref(), scene);
+        open_file(&mut self.studio, "rest.toml".as_ref(), scene);
         (0..30).for_each(|_| self.frame(vec![Event::PointerGone]));
         HELD.get() as f64 / f64::from(1 << 20)
     }
@@ -141,7 +141,7 @@ fn hundreds_of_random_events_leave_no_more_memory_held_than_a_few_megabytes() {
         Err(error) => return drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")),
     };
     let mut studio = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
-    studio.set_rewind_bytes(REWIND_MB << 20);
+    studio.deck.set_rewind_bytes(REWIND_MB << 20);
     let canvas = Offscreen::new(&gpu, SIZE_PX).expect("640x360 is within any limit");
     let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
     let mut program = Program { studio, gpu, canvas, renderer, time_s: 0.0 };

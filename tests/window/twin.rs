@@ -3,7 +3,7 @@
 use egui::accesskit::{Action, Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect};
 use image::RgbaImage;
-use regatta::studio::{Command, Pace, Studio};
+use regatta::studio::{Command, Pace, Studio, run_loops};
 use regatta::view::{AdapterPreference, FrameOutput, FrameRenderer, Gpu, Offscreen, Readback};
 
 use crate::desk::Desk;
@@ -26,7 +26,7 @@ pub(crate) struct Twin {
 impl Twin {
     pub(crate) fn new(mut studio: Studio) -> Self {
         // As in a window: it tells of the memory for rewinding.
-        studio.viewer_mut().pace = Some(Pace::Unknown);
+        studio.viewer.pace = Some(Pace::Unknown);
         let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
             .expect("the window has an adapter too");
         let target = Offscreen::new(&gpu, SIZE_PX).unwrap();
@@ -58,7 +58,7 @@ impl Twin {
 
     /// Shows frames until nothing changes any more.
     fn settle(&mut self) {
-        self.studio.run_loops();
+        run_loops(&mut self.studio);
         self.studio.analyse();
         (0..3).for_each(|_| drop(self.frame(None)));
     }
@@ -182,7 +182,7 @@ impl Twin {
     #[track_caller]
     pub(crate) fn looks_alike(&mut self, desk: &Desk) {
         self.move_aside(desk);
-        self.studio.viewer_mut().pass(i64::MAX);
+        self.studio.viewer.pass(i64::MAX);
         self.settle();
         let drawing = self.frame(None).drawing;
         let mut rgba = Vec::new();

@@ -22,7 +22,7 @@ pub(crate) fn paused_with(
 ) -> Option<(Desk, Twin)> {
     let desk = Desk::open_with(test, &format!("--scene {scene}"), variables)?;
     let mut twin = Twin::new(Studio::new(Scene::built_in(scene).unwrap()));
-    twin.studio.viewer_mut().preferences.display.measure = measure;
+    twin.studio.viewer.preferences.display.measure = measure;
     desk.press("space");
     twin.apply(ViewCommand::TogglePause);
     desk.titled(&twin.studio.title());
@@ -39,7 +39,7 @@ pub(crate) fn paused_with(
 #[track_caller]
 fn same(desk: &Desk, twin: &mut Twin) {
     twin.looks_alike(desk);
-    let [window, twin] = [desk.recording(), twin.studio.recording().unwrap()];
+    let [window, twin] = [desk.recording(), twin.studio.deck.recording().unwrap()];
     let end = |text: &str| text.rsplit("[[command]]").next().map(str::to_owned);
     assert_eq!(end(&window), end(&twin));
 }
@@ -133,12 +133,12 @@ fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
     // In the window time ran, so that there is a run to bring back.
     twin.studio.tick();
     twin.click(&desk, "restart (Home)");
-    let choice = twin.studio.viewer().tour().unwrap().stop().choices[1];
+    let choice = twin.studio.viewer.tour().unwrap().stop().choices[1];
     twin.click(&desk, choice);
-    assert_eq!(twin.studio.viewer().tour().unwrap().guess(), Some(1));
+    assert_eq!(twin.studio.viewer.tour().unwrap().guess(), Some(1));
     same(&desk, &mut twin);
     twin.click(&desk, "Close");
-    assert!(twin.studio.viewer().tour().is_none());
+    assert!(twin.studio.viewer.tour().is_none());
     same(&desk, &mut twin);
     desk.quit();
 }
@@ -175,7 +175,10 @@ fn a_spring_of_ones_own_is_typed_advised_on_and_kept_for_the_next_time() {
     twin.enter(&desk, "frequency", "3");
     twin.enter(&desk, "damping ratio", "1");
     twin.click(&desk, "Advise at");
-    assert_eq!((twin.studio.scene_name().as_str(), twin.studio.race().tick()), ("my spring", 0));
+    assert_eq!(
+        (twin.studio.deck.scene_name().as_str(), twin.studio.race().tick()),
+        ("my spring", 0)
+    );
     assert_eq!(twin.studio.display().instrument, Instrument::Advice);
     desk.titled(&twin.studio.title());
     let softer = MySpring { stiffness_n_per_m: 50.0, ..MySpring::default() };

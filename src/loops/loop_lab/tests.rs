@@ -3,7 +3,9 @@ use crate::loops::{policy, trace_file};
 use crate::measure::Severity;
 use crate::scene::Action;
 use crate::sim::integrators::method;
-use crate::studio::{Command, RunCommand, StageCommand, Step, Studio};
+use crate::studio::{
+    Command, RunCommand, StageCommand, Step, Studio, accept_loop, loop_request, run_loops,
+};
 
 fn studio() -> LoopLab {
     lab_of(&Scene::built_in("spring").unwrap())
@@ -227,7 +229,7 @@ fn a_net_is_not_taken_and_the_reason_is_told() {
     let mut studio = Studio::new(Scene::built_in("rope").unwrap());
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     assert!(studio.loop_lab().is_none());
-    assert!(studio.viewer().notice.as_ref().is_some_and(|told| told.starts_with("rope is a net")));
+    assert!(studio.viewer.notice.as_ref().is_some_and(|told| told.starts_with("rope is a net")));
 }
 
 #[test]
@@ -238,8 +240,8 @@ fn a_net_that_is_opened_in_it_leaves_it_with_the_reason() {
     let rope = crate::scene::SCENES.iter().position(|scene| scene.name == "rope").unwrap();
     studio.apply(StageCommand::Scene(rope));
     assert!(studio.loop_lab().is_none());
-    assert_eq!(studio.scene_name(), "rope");
-    let notice = studio.viewer().notice.as_deref().unwrap_or_default();
+    assert_eq!(studio.deck.scene_name(), "rope");
+    let notice = studio.viewer.notice.as_deref().unwrap_or_default();
     assert!(notice.contains("is a net, which the loop lab does not take"), "{notice}");
 }
 
@@ -250,21 +252,21 @@ fn opening_it_and_choosing_run_nothing_and_loops_are_shown_as_they_come() {
     let shown =
         |studio: &Studio| studio.loop_lab().unwrap().lanes().iter().filter(|l| l.was_run()).count();
     assert_eq!(shown(&studio), 0);
-    let request = studio.loop_request();
+    let request = loop_request(&studio);
     let mut worker = LoopWorker::default();
     worker.set_request(request.clone());
     studio.advance(1_000_000_000);
-    studio.accept_loop(worker.work(&|| false).unwrap());
+    accept_loop(&mut studio, worker.work(&|| false).unwrap());
     let loops = studio.loop_lab().unwrap();
     assert!(loops.lanes()[loops.on_stage()[0]].was_run(), "what is on the stage comes first");
     assert_eq!((loops.now_ns(), loops.is_stage_complete()), (0, false), "time waits for the stage");
     let late = worker.work(&|| false).unwrap();
     studio.apply(StageCommand::TickRate(Step::Next));
     assert_eq!(shown(&studio), 0, "all of them are of the old rate");
-    studio.accept_loop(late);
+    accept_loop(&mut studio, late);
     assert_eq!(shown(&studio), 0, "and so is one that comes late");
-    studio.run_loops();
-    assert!(studio.loop_request().is_none(), "it has all");
+    run_loops(&mut studio);
+    assert!(loop_request(&studio).is_none(), "it has all");
 }
 
 #[test]
@@ -298,7 +300,7 @@ fn the_loop_lab_keeps_every_command_on_the_run_from_the_run_behind_it() {
             (studio.race().state_hash(), studio.clock().speed_percent(), studio.scene().seconds);
         assert_eq!(now, before, "{command:?}");
         assert_eq!(studio.view().mapped_parameter, None);
-        let notice = studio.viewer().notice.as_deref().unwrap_or_default();
+        let notice = studio.viewer.notice.as_deref().unwrap_or_default();
         assert_eq!(notice, "not in the loop lab: L leaves it", "{command:?}");
     }
 }

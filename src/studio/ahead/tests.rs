@@ -18,6 +18,11 @@ fn studio(scene: &str, method: &str, ticks: u64) -> Studio {
     studio
 }
 
+/// The next tick of the selected lane.
+fn step_of(studio: &Studio) -> Option<OneStep> {
+    one_step(&studio.deck, &studio.viewer)
+}
+
 /// A scene that the method steps.
 fn scene_for(method: &Method) -> &'static str {
     let fits = |name: &&str| Scene::built_in(name).unwrap().refusal(method).is_none();
@@ -30,7 +35,7 @@ fn near(found: [f64; 2], wanted: [f64; 2]) -> bool {
 
 #[test]
 fn runge_kutta_4_evaluates_at_the_places_of_the_textbook() {
-    let step = studio("spring", "rk4", 7).one_step().unwrap();
+    let step = step_of(&studio("spring", "rk4", 7)).unwrap();
     let h = 1.0 / 60.0;
     let omega_squared = std::f64::consts::TAU * std::f64::consts::TAU;
     let f = |[x, v]: [f64; 2]| [v, -omega_squared * x];
@@ -60,8 +65,8 @@ fn every_method_lands_where_the_run_goes_to_the_bit_and_does_not_disturb_it() {
             let mut studio = studio(scene, method.id, 5);
             let before: Vec<u64> = studio.race().lane_hashes().collect();
             let evaluations = studio.race().entrants()[0].lane.evaluations();
-            let step = studio.one_step().unwrap();
-            let counted = studio.evaluations_of_next_tick(0);
+            let step = one_step(&studio.deck, &studio.viewer).unwrap();
+            let counted = studio.deck.evaluations_of_next_tick(0);
             assert_eq!(studio.race().lane_hashes().collect::<Vec<_>>(), before, "{}", method.id);
             studio.tick();
             let lane = &studio.race().entrants()[0].lane;
@@ -79,7 +84,7 @@ fn every_method_lands_where_the_run_goes_to_the_bit_and_does_not_disturb_it() {
 fn weights_on_a_card_lead_to_the_landing() {
     let mut chains = 0;
     for method in METHODS {
-        let step = studio(scene_for(method), method.id, 3).one_step().unwrap();
+        let step = step_of(&studio(scene_for(method), method.id, 3)).unwrap();
         assert_eq!(step.chain.is_empty(), method.weights.is_empty(), "{}", method.id);
         if let Some(&end) = step.chain.last() {
             assert!(near(end, step.landing.unwrap()), "{}: {end:?}", method.id);
@@ -93,7 +98,7 @@ fn weights_on_a_card_lead_to_the_landing() {
 fn a_halted_body_has_no_next_step() {
     let studio = studio("stiff", "explicit-euler", 400);
     assert!(studio.race().entrants()[0].lane.halted().is_some());
-    assert_eq!(studio.one_step(), None);
+    assert_eq!(one_step(&studio.deck, &studio.viewer), None);
 }
 
 #[test]
@@ -103,15 +108,15 @@ fn runge_kutta_4_loses_the_same_part_of_the_swing_in_every_tick_and_a_32nd_of_it
         studio.apply(StageCommand::TickHz(5));
         studio.apply(StageCommand::Restart);
         (0..ticks).for_each(|_| studio.tick());
-        let [whole, halves] = studio.one_step().unwrap().growth.unwrap();
+        let [whole, halves] = one_step(&studio.deck, &studio.viewer).unwrap().growth.unwrap();
         // |R(iz)|² = 1 - z⁶/72 + z⁸/576 with z = 2π/5.
         let z = std::f64::consts::TAU / 5.0;
         let wanted = (1.0 - z.powi(6) / 72.0 + z.powi(8) / 576.0).sqrt() - 1.0;
         assert!((whole - wanted).abs() < 1e-6, "{whole}, not {wanted}");
         assert!((25.0..40.0).contains(&(whole / halves)), "{}", whole / halves);
     }
-    assert_eq!(studio("ship", "rk4", 3).one_step().unwrap().growth, None, "a ship does not swing");
-    assert_eq!(studio("chain", "rk4", 3).one_step().unwrap().growth, None);
+    assert_eq!(step_of(&studio("ship", "rk4", 3)).unwrap().growth, None, "a ship does not swing");
+    assert_eq!(step_of(&studio("chain", "rk4", 3)).unwrap().growth, None);
 }
 
 #[test]
@@ -119,8 +124,8 @@ fn an_orbit_has_the_energy_of_its_state_and_turns_where_it_has_no_speed() {
     let studio = studio("spring", "rk4", 7);
     let tau = std::f64::consts::TAU;
     let size = |[q, v]: [f64; 2]| libm::hypot(q, v / tau);
-    let from = studio.one_step().unwrap().from;
-    let lines = studio.orbit(from, [-0.2, 2.0]);
+    let from = one_step(&studio.deck, &studio.viewer).unwrap().from;
+    let lines = orbit(&studio.deck, &studio.viewer, from, [-0.2, 2.0]);
     assert_eq!(lines.len(), 2, "above and below");
     for line in &lines {
         assert!(line.len() > 40);
@@ -137,7 +142,7 @@ fn each_future_is_what_the_run_comes_to_under_its_method() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..7).for_each(|_| studio.tick());
     studio.apply(StageCommand::TickHz(12));
-    let futures = studio.futures(0);
+    let futures = futures(&studio.deck, &studio.viewer, 0);
     assert_eq!(futures.len(), studio.scene().lanes.len() + 1);
     for Future { entry, moments } in futures {
         let Some(entry) = entry else {
@@ -167,19 +172,19 @@ fn each_future_is_what_the_run_comes_to_under_its_method() {
 #[test]
 fn futures_are_shown_at_rest_if_asked_for_and_while_the_rate_is_dragged() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-    assert!(!studio.shows_futures());
+    assert!(!shows_futures(&studio));
     studio.apply(ViewCommand::PointerDown(true));
-    assert!(!studio.shows_futures());
+    assert!(!shows_futures(&studio));
     studio.apply(StageCommand::TickHz(12));
-    assert!(studio.shows_futures(), "it is dragged");
+    assert!(shows_futures(&studio), "it is dragged");
     studio.apply(ViewCommand::PointerDown(false));
-    assert!(!studio.shows_futures());
+    assert!(!shows_futures(&studio));
     studio.apply(ViewCommand::ToggleFutures);
-    assert!(studio.shows_futures() && !studio.running(), "it stands still to be looked at");
+    assert!(shows_futures(&studio) && !studio.running(), "it stands still to be looked at");
     studio.apply(ViewCommand::TogglePause);
-    assert!(!studio.shows_futures());
+    assert!(!shows_futures(&studio));
     studio.apply(ViewCommand::TogglePause);
-    assert!(studio.shows_futures());
+    assert!(shows_futures(&studio));
     studio.apply(ViewCommand::ToggleFutures);
-    assert!(!studio.shows_futures());
+    assert!(!shows_futures(&studio));
 }

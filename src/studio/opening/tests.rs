@@ -17,7 +17,7 @@ const PATH: &str = "boat/ship.toml";
 /// A studio that runs the file's scene.
 fn studio(text: &str) -> Studio {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
-    studio.open_file(Path::new(PATH), scene(text));
+    open_file(&mut studio, Path::new(PATH), scene(text));
     studio
 }
 
@@ -25,17 +25,17 @@ fn studio(text: &str) -> Studio {
 fn a_file_stays_on_the_list_and_does_not_pass_for_a_built_in_scene() {
     let mut studio = studio(text("ship"));
     assert!(studio.title().starts_with("Regatta - ship.toml - "), "{}", studio.title());
-    assert_eq!(studio.scene_list().open(), Some(SCENES.len()));
+    assert_eq!(studio.deck.scene_list().open(), Some(SCENES.len()));
     studio.apply(StageCommand::SceneBeside(Step::Next));
     assert!(studio.title().starts_with("Regatta - harbour - "), "{}", studio.title());
     studio.apply(StageCommand::SceneBeside(Step::Previous));
     assert!(studio.title().starts_with("Regatta - ship.toml - "), "{}", studio.title());
     studio.apply(StageCommand::SceneBeside(Step::Previous));
-    assert_eq!(studio.scene_list().open(), Some(SCENES.len() - 1));
+    assert_eq!(studio.deck.scene_list().open(), Some(SCENES.len() - 1));
     for _ in 0..=SCENES.len() {
         studio.apply(StageCommand::SceneBeside(Step::Next));
     }
-    assert_eq!(studio.scene_list().open(), Some(SCENES.len() - 1), "round");
+    assert_eq!(studio.deck.scene_list().open(), Some(SCENES.len() - 1), "round");
 }
 
 #[test]
@@ -43,11 +43,11 @@ fn a_file_that_tells_ticks_is_told_of_where_it_opens() {
     for (when, told) in [("at_s = 1", false), ("tick = 1", true)] {
         let text = format!("{}\n[[command]]\n{when}\nthrottle = 0", text("ship"));
         let opened = studio(&text);
-        let notice = opened.viewer().notice.as_deref().unwrap_or_default();
+        let notice = opened.viewer.notice.as_deref().unwrap_or_default();
         assert_eq!(notice.starts_with("ship.toml: `tick`"), told, "{notice}");
         let mut listed = Studio::new(scene(&text));
-        listed.list_as_file(Path::new(PATH));
-        assert_eq!(listed.viewer().notice.is_some(), told);
+        list_as_file(&mut listed.deck, &mut listed.viewer, Path::new(PATH));
+        assert_eq!(listed.viewer.notice.is_some(), told);
     }
 }
 
@@ -66,9 +66,9 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
     (0..50).for_each(|_| old.tick());
     old.apply(RunCommand::Act(Action::Kick(1.0)));
     let kicked = old.race().state_hash();
-    old.reload_file(Path::new(PATH), scene(&after));
+    reload_file(&mut old, Path::new(PATH), scene(&after));
     assert_eq!(
-        old.viewer().notice.as_deref(),
+        old.viewer.notice.as_deref(),
         Some(
             "ship.toml: reloaded and rerun to tick 50 (your kicks and edits left out; Ctrl Z: old run)"
         )
@@ -90,9 +90,9 @@ fn a_file_that_changes_in_comments_only_leaves_the_run_and_its_journal_alone() {
     (0..50).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Kick(1.0)));
     let (hash, rows) = (studio.race().state_hash(), studio.race().journal().rows().len());
-    studio.reload_file(Path::new(PATH), scene(&format!("# A remark.\n{}", text("spring"))));
+    reload_file(&mut studio, Path::new(PATH), scene(&format!("# A remark.\n{}", text("spring"))));
     let notice = "ship.toml saved; nothing that matters changed";
-    assert_eq!(studio.viewer().notice.as_deref(), Some(notice));
+    assert_eq!(studio.viewer.notice.as_deref(), Some(notice));
     assert_eq!(studio.race().state_hash(), hash);
     assert_eq!((studio.race().tick(), studio.race().journal().rows().len()), (50, rows));
 }
@@ -106,9 +106,9 @@ fn a_changed_file_with_other_bodies_or_lanes_begins_again() {
         assert_ne!(before, after);
         let mut studio = studio(before);
         (0..50).for_each(|_| studio.tick());
-        studio.reload_file(Path::new(PATH), scene(&after));
+        reload_file(&mut studio, Path::new(PATH), scene(&after));
         assert_eq!(studio.race().tick(), 0);
-        assert!(studio.viewer().notice.as_deref().unwrap().contains("from the start"));
+        assert!(studio.viewer.notice.as_deref().unwrap().contains("from the start"));
     }
 }
 
@@ -122,7 +122,7 @@ fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
         if let Some(hz) = chosen {
             studio.apply(StageCommand::TickHz(hz));
         }
-        studio.reload_file(Path::new(PATH), scene(&after));
+        reload_file(&mut studio, Path::new(PATH), scene(&after));
         assert_eq!(studio.race().tick_hz(), rate);
     }
 }
@@ -130,31 +130,36 @@ fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
 #[test]
 fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited() {
     let mut studio = studio(text("spring"));
-    let refused = |studio: &Studio| match studio.viewer().dialog() {
+    let refused = |studio: &Studio| match studio.viewer.dialog() {
         Some(Dialog::Path { refused, .. }) => refused.clone(),
         other => panic!("{other:?}"),
     };
     studio.apply(ViewCommand::AskForPath);
     studio.apply(ViewCommand::TypePath("boat/none.toml".into()));
     assert_eq!(studio.apply(DriverRequest::OpenTypedPath), Some(DriverRequest::OpenTypedPath));
-    studio.refuse_typed_path(Path::new("boat/none.toml"), vec!["no such file".into()]);
-    assert_eq!(studio.viewer().typed_path(), "boat/none.toml");
+    refuse_typed_path(
+        &mut studio.deck,
+        &mut studio.viewer,
+        Path::new("boat/none.toml"),
+        vec!["no such file".into()],
+    );
+    assert_eq!(studio.viewer.typed_path(), "boat/none.toml");
     assert_eq!(refused(&studio), Some(vec!["no such file".into()]));
     studio.apply(ViewCommand::TypePath("boat/none.toml".into()));
     assert!(refused(&studio).is_some());
     studio.apply(ViewCommand::TypePath("boat/non.toml".into()));
     assert_eq!(refused(&studio), None);
-    studio.open_file(Path::new(PATH), scene(text("ship")));
-    assert_eq!(studio.viewer().dialog(), None);
+    open_file(&mut studio, Path::new(PATH), scene(text("ship")));
+    assert_eq!(studio.viewer.dialog(), None);
 }
 
 #[test]
 fn a_file_that_goes_and_comes_back_is_told_by_its_name() {
     let mut studio = studio(text("spring"));
-    studio.file_is_gone(Path::new(PATH));
-    assert!(studio.viewer().notice.as_deref().unwrap().starts_with("ship.toml is gone: "));
-    studio.file_is_back(Path::new(PATH));
-    assert_eq!(studio.viewer().notice.as_deref(), Some("ship.toml is back, unchanged"));
+    file_is_gone(&mut studio.deck, &mut studio.viewer, Path::new(PATH));
+    assert!(studio.viewer.notice.as_deref().unwrap().starts_with("ship.toml is gone: "));
+    file_is_back(&mut studio.deck, &mut studio.viewer, Path::new(PATH));
+    assert_eq!(studio.viewer.notice.as_deref(), Some("ship.toml is back, unchanged"));
 }
 
 #[test]
@@ -162,8 +167,13 @@ fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
     let mut studio = studio(text("spring"));
     (0..50).for_each(|_| studio.tick());
     let hash = studio.race().state_hash();
-    studio.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
-    let shown = |studio: &Studio| matches!(studio.viewer().dialog(), Some(Dialog::Mistakes { .. }));
+    reload_failed(
+        &mut studio.deck,
+        &mut studio.viewer,
+        Path::new(PATH),
+        vec!["boat/ship.toml:1:1: no".into()],
+    );
+    let shown = |studio: &Studio| matches!(studio.viewer.dialog(), Some(Dialog::Mistakes { .. }));
     assert!(shown(&studio) && studio.race().state_hash() == hash);
     assert_eq!(studio.apply(ViewCommand::Escape), None);
     assert!(!shown(&studio));
@@ -172,21 +182,26 @@ fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
     assert!(!shown(&studio));
     studio.apply(StageCommand::SceneBeside(Step::Previous));
     assert!(shown(&studio));
-    studio.reload_file(Path::new(PATH), scene(text("spring")));
+    reload_file(&mut studio, Path::new(PATH), scene(text("spring")));
     assert!(!shown(&studio));
     // Of a file that is not open, nothing is shown yet.
     studio.apply(StageCommand::SceneBeside(Step::Next));
-    studio.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
+    reload_failed(
+        &mut studio.deck,
+        &mut studio.viewer,
+        Path::new(PATH),
+        vec!["boat/ship.toml:1:1: no".into()],
+    );
     assert!(!shown(&studio));
 }
 
 #[test]
 fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
-    studio.set_rewind_bytes(1 << 20);
+    studio.deck.set_rewind_bytes(1 << 20);
     studio.apply(StageCommand::SceneBeside(Step::Next));
     assert_eq!(studio.run().limit(), 1 << 20);
-    studio.open_file(Path::new(PATH), scene(text("stiff")));
+    open_file(&mut studio, Path::new(PATH), scene(text("stiff")));
     assert_eq!(studio.run().limit(), 1 << 20);
     for _ in 0..20_000 {
         studio.tick();
@@ -197,7 +212,7 @@ fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
 #[test]
 fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
-    let chosen = studio.viewer().preferences.clone();
+    let chosen = studio.viewer.preferences.clone();
     for command in [
         Command::Stage(StageCommand::Body(1)),
         Command::Run(RunCommand::MapParameter(0)),
@@ -209,10 +224,10 @@ fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
     ] {
         studio.apply(command);
     }
-    let (preferences, view) = (format!("{:?}", studio.viewer().preferences), studio.view().clone());
+    let (preferences, view) = (format!("{:?}", studio.viewer.preferences), studio.view().clone());
     assert!(preferences != format!("{chosen:?}") && view != View::default());
     studio.apply(StageCommand::SceneBeside(Step::Next));
-    assert_eq!(format!("{:?}", studio.viewer().preferences), preferences);
-    assert_eq!(studio.viewer().language(), Language::GdScript);
+    assert_eq!(format!("{:?}", studio.viewer.preferences), preferences);
+    assert_eq!(studio.viewer.language(), Language::GdScript);
     assert_eq!(*studio.view(), View::default());
 }

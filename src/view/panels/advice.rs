@@ -35,7 +35,7 @@ const CRITERION: f32 = 76.0;
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 2.0;
     which_bodies(ui, studio, commands);
-    let Some(advice) = studio.viewer().advice() else {
+    let Some(advice) = studio.viewer.advice() else {
         line(ui, RichText::new("judging every method …").color(palette(ui).dim));
         return;
     };
@@ -174,7 +174,7 @@ fn taken_line(
 
 /// The language in which methods are copied.
 fn language_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
-    let chosen = studio.viewer().language();
+    let chosen = studio.viewer.language();
     let text = RichText::new(format!("code: {chosen}")).size(SMALL);
     let menu = ComboBox::from_id_salt("language").selected_text(text).width(92.0);
     let response = menu.show_ui(ui, |ui| {
@@ -191,7 +191,7 @@ fn language_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 fn copy_button(ui: &mut Ui, studio: &Studio, spec: LaneSpec, commands: &mut Vec<Command>) {
     let place = studio.entries().iter().position(|entry| entry.method == spec.method);
     let Some(entry) = place.filter(|_| !is_picture(ui)) else { return };
-    let language = studio.viewer().language();
+    let language = studio.viewer.language();
     let about = format!("copy {} as {language}", spec.method.name);
     let word = match ui.available_width() < breakpoints::COPY_CODE {
         true => "Copy".to_owned(),
@@ -365,7 +365,7 @@ mod tests {
     use super::*;
     use crate::measure::AnalysisWorker;
     use crate::scene::Scene;
-    use crate::studio::{Instrument, StageCommand};
+    use crate::studio::{Instrument, StageCommand, accept_findings};
     use crate::view::panels;
     use crate::view::testing::{ShownText, TestWindow};
 
@@ -411,9 +411,9 @@ mod tests {
 
     /// Has so many methods judged.
     fn judge(studio: &mut Studio, worker: &mut AnalysisWorker, count: usize) {
-        while studio.viewer().advice().is_none_or(|advice| advice.advised.len() < count) {
+        while studio.viewer.advice().is_none_or(|advice| advice.advised.len() < count) {
             worker.work();
-            studio.accept_findings(worker.findings());
+            accept_findings(&mut studio.deck, &mut studio.viewer, worker.findings());
         }
     }
 
@@ -500,7 +500,7 @@ mod tests {
             assert!(texts.iter().any(|(_, text)| text == "spring alone"), "{texts:?}");
             let whose = texts.iter().any(|(_, text)| text.ends_with(", all bodies"));
             assert_eq!(whose, !is_of_one, "{texts:?}");
-            let euler = &studio.viewer().advice().unwrap().advised[1];
+            let euler = &studio.viewer.advice().unwrap().advised[1];
             assert_eq!(euler.spec.method.id, "semi-implicit-euler");
             euler.met[0].met().unwrap().evaluations_per_s
         };

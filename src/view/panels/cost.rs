@@ -38,7 +38,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     let height = (ROW * (rows.len() + 1) as f32).min(room.y - 66.0).max(60.0);
     let groups = rows.into_iter().map(|row| vec![row]).collect();
     ui.allocate_ui(vec2(room.x, height), |ui| table.show(ui, groups, commands, |_, _, _| {}));
-    let is_window = studio.viewer().pace.is_some();
+    let is_window = studio.viewer.pace.is_some();
     let note = match (has_times, is_window) {
         (true, _) => MEASURED,
         (false, true) => "Measuring the time …",
@@ -120,12 +120,12 @@ struct Row<'a> {
 impl<'a> Row<'a> {
     fn new(studio: &'a Studio, index: usize, lane: &Entrant) -> Self {
         let spec = lane.spec;
-        let mut times = studio.viewer().tick_times.iter();
+        let mut times = studio.viewer.tick_times.iter();
         Self {
             studio,
             entry: studio.entry(lane),
             spec,
-            evaluations: studio.evaluations_of_next_tick(index),
+            evaluations: studio.deck.evaluations_of_next_tick(index),
             is_halted: lane.lane.halted().is_some(),
             ns: times.find(|(of, _)| *of == spec).and_then(|(_, ns)| *ns),
         }

@@ -44,11 +44,11 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 
 /// The parts of the notice, or else of the hint, or else what the scene is about; and whether it is one of the first two.
 fn told(studio: &Studio) -> (Vec<String>, bool) {
-    if let Some(notice) = &studio.viewer().notice {
+    if let Some(notice) = &studio.viewer.notice {
         return (notice.parts().to_vec(), true);
     }
     if let Some(loops) = studio.loop_lab()
-        && studio.viewer().tour().is_none()
+        && studio.viewer.tour().is_none()
     {
         return (loops::hints::parts(loops), true);
     }
@@ -72,7 +72,7 @@ fn key_hints(studio: &Studio) -> [KeyHint; 2] {
         input
     } else if studio.loop_lab().is_some() {
         hint("L", "leave the lab", Command::Loop(LoopCommand::ToggleLab))
-    } else if studio.lost_at().is_some() {
+    } else if studio.deck.lost_at().is_some() {
         hint("W", "watch again", Command::Run(RunCommand::WatchAgain))
     } else if !studio.display().measure {
         hint("T", "measure", Command::View(ViewCommand::ToggleMeasure))

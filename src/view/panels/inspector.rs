@@ -314,11 +314,11 @@ mod tests {
             studio.apply(command);
         }
         assert_eq!(restoring(&studio), []);
-        assert_eq!(studio.race().values(0), studio.scene_as_opened().bodies[0].values);
-        assert_eq!(studio.scene().bodies[0].values, studio.scene_as_opened().bodies[0].values);
-        assert_eq!(studio.scene().seconds, studio.scene_as_opened().seconds);
-        assert_eq!(studio.race().tick_hz(), studio.scene_as_opened().tick_hz);
-        assert_eq!(studio.entries()[0], studio.scene_as_opened().lanes[0]);
+        assert_eq!(studio.race().values(0), studio.deck.scene_as_opened().bodies[0].values);
+        assert_eq!(studio.scene().bodies[0].values, studio.deck.scene_as_opened().bodies[0].values);
+        assert_eq!(studio.scene().seconds, studio.deck.scene_as_opened().seconds);
+        assert_eq!(studio.race().tick_hz(), studio.deck.scene_as_opened().tick_hz);
+        assert_eq!(studio.entries()[0], studio.deck.scene_as_opened().lanes[0]);
     }
 
     #[test]

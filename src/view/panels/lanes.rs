@@ -6,7 +6,9 @@ use super::parts::formula;
 use super::table::{Table, TableRow};
 use super::verdict::VerdictText;
 use crate::run::race::{LaneBody, Mode};
-use crate::studio::{Command, DriverRequest, StageCommand, Studio, ViewCommand};
+use crate::studio::{
+    Command, DriverRequest, StageCommand, Studio, ViewCommand, joint_code, shown_truth,
+};
 use crate::tools::source_code::Language;
 use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
@@ -48,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
 
 /// What is said of the method on this index of the list.
 pub(super) fn verdict_on(studio: &Studio, entry: usize) -> VerdictText {
-    verdict::text_of(studio, entry, studio.flown(entry), (None, None))
+    verdict::text_of(studio, entry, studio.deck.flown(entry), (None, None))
 }
 
 /// The card of the method on this index of the list, and the whole verdict on it.
@@ -68,7 +70,8 @@ fn table(studio: &Studio) -> Table<Row<'_>> {
 fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
     let truth = studio.race().truth().bodies().iter().enumerate();
     let exact = |(body, truth): (usize, &LaneBody)| {
-        let (q, _) = truth.halted().is_none().then(|| studio.shown_truth(body))?;
+        let (q, _) =
+            truth.halted().is_none().then(|| shown_truth(&studio.deck, &studio.viewer, body))?;
         q.first().copied()
     };
     let exact: Vec<Option<f64>> = truth.map(exact).collect();
@@ -85,13 +88,13 @@ fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
 
 /// The menu of a row: a spring's settings in its engine, and its method as code, in each language.
 pub(super) fn menu(ui: &mut Ui, studio: &Studio, entry: usize, commands: &mut Vec<Command>) {
-    let has_joint = studio.joint_code(entry).is_some();
+    let has_joint = joint_code(&studio.deck, &studio.viewer, entry).is_some();
     if has_joint && ui.button("Copy the spring's settings (Ctrl C)").clicked() {
         commands.push(Command::Ask(DriverRequest::CopyJoint(entry)));
         ui.close();
     }
     for language in Language::ALL {
-        let is_by_key = language == studio.viewer().language() && !has_joint;
+        let is_by_key = language == studio.viewer.language() && !has_joint;
         let key = if is_by_key { " (Ctrl C)" } else { "" };
         if ui.button(format!("Copy as {language}{key}")).clicked() {
             commands.push(Command::View(ViewCommand::CopyMethod { entry, language }));

@@ -164,7 +164,7 @@ fn of_lab(loops: &LoopLab) -> Vec<String> {
 }
 
 fn of_window(studio: &Studio) -> Vec<String> {
-    let frames = studio.viewer().live.frames().enumerate().map(|(number, frame)| {
+    let frames = studio.viewer.live.frames().enumerate().map(|(number, frame)| {
         let time_ms = frame.duration_ns as f64 / 1e6;
         csv_row(&[&number, &time_ms, &frame.ticks, &frame.dropped, &frame.animation_error_ms])
     });

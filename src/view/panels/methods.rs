@@ -24,7 +24,7 @@ const SIGN: f32 = 12.0;
 /// or none where that would leave a method out. Returns the index of the method that the pointer or the keyboard's focus is
 /// on.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
-    let count = studio.offered().min(DIGITS);
+    let count = studio.deck.offered().min(DIGITS);
     let room = ui.available_width();
     let chosen = studio.active();
     let width_of = |entry: usize, is_named: bool| width(ui, studio, entry, is_named) + BETWEEN;

@@ -101,10 +101,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         let in_table = round_the_stage(ui, studio, size, &mut commands);
         pointed = pointed.or(in_table);
     }
-    if pointed != studio.viewer().pointed_lane() {
+    if pointed != studio.viewer.pointed_lane() {
         commands.push(Command::View(ViewCommand::PointAt(pointed)));
     }
-    if let Some(tour) = studio.viewer().tour() {
+    if let Some(tour) = studio.viewer.tour() {
         let height = guide::height(ui.available_height());
         let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::symmetric(14, 8));
         let panel = egui::Panel::bottom("guide").exact_size(height).frame(frame);
@@ -127,7 +127,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     if studio.display().help {
         help::show(ui, &mut commands);
     }
-    if let Some(dialog) = studio.viewer().dialog() {
+    if let Some(dialog) = studio.viewer.dialog() {
         // Beside the instruments, whose letters it would cut.
         let is_wide = stage.width() >= breakpoints::DIALOG_ON_STAGE;
         let along = if is_wide { stage } else { whole };
@@ -346,7 +346,7 @@ mod tests {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         for is_race in [false, true] {
             for measure in [false, true] {
-                studio.viewer_mut().preferences.display.measure = measure;
+                studio.viewer.preferences.display.measure = measure;
                 let mut window = TestWindow::new(SIZE);
                 window.context.enable_accesskit();
                 let mut frame = || window.show(Vec::new(), |ui| show(ui, &studio));

@@ -105,7 +105,7 @@ pub(super) fn show(ui: &Ui, studio: &Studio, over: Rect, commands: &mut Vec<Comm
         ui.spacing_mut().item_spacing.y = 4.0;
         let (tick_hz, has_focus) = (studio.clock().tick_hz(), ui.memory(|m| m.focused().is_some()));
         let is_new = is_new(ui);
-        let spring = studio.viewer().my_spring();
+        let spring = studio.viewer.my_spring();
         for (i, number) in made_of(spring).into_iter().enumerate() {
             line(ui, "", number, is_new && i == 0, commands);
         }

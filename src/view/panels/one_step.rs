@@ -14,7 +14,7 @@ use crate::measure::{OneStep, Slope};
 use crate::run::Unit;
 use crate::stage::Coordinate;
 use crate::stage::number::{round, significant};
-use crate::studio::Studio;
+use crate::studio::{Studio, one_step, orbit};
 use crate::view::chart::{self, AxisScale, Curve, Drawing, LineStyle, PlotArea};
 use crate::view::theme::{TYPE, colour, palette, strong_font};
 
@@ -49,7 +49,7 @@ const MAX_DRAWN: usize = 12;
 const MARGIN: f64 = 0.16;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
-    let Some(step) = studio.one_step() else {
+    let Some(step) = one_step(&studio.deck, &studio.viewer) else {
         let why = "No next step: the body has halted under this method.";
         ui.label(RichText::new(why).color(palette(ui).dim));
         return;
@@ -147,8 +147,9 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
     // The states with the energy of the present one, and of the landing.
     let mut curves = Vec::new();
     for (through, colour) in [(Some(step.from), palette.exact), (step.landing, own)] {
-        let lines =
-            through.map(|through| studio.orbit(through, area.bounds[0])).unwrap_or_default();
+        let lines = through
+            .map(|through| orbit(&studio.deck, &studio.viewer, through, area.bounds[0]))
+            .unwrap_or_default();
         let style = LineStyle::solid(colour.gamma_multiply(ORBIT), 1.0);
         let thin = LineStyle { dash: [6.0, 4.0], ..style };
         curves.extend(lines.into_iter().map(|line| Curve::new(thin, line)));

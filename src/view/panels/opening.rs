@@ -22,7 +22,7 @@ pub(super) fn path(
 ) {
     let ctx = ui.ctx();
     let width = WIDTH.min(over.width() - 40.0).max(40.0);
-    let (title, hint, does) = match studio.viewer().compares_typed_path() {
+    let (title, hint, does) = match studio.viewer.compares_typed_path() {
         true => ("Compare the run with a recording", "path of a recording", "compares"),
         false => ("Open a scene or a frame log", "path of a scene or of a frame log", "opens"),
     };
@@ -35,7 +35,7 @@ pub(super) fn path(
             select(ctx, id, 0);
             ui.memory_mut(|memory| memory.request_focus(id));
         }
-        let typed = studio.viewer().typed_path();
+        let typed = studio.viewer.typed_path();
         let mut text = typed.to_owned();
         let field = text_field(&mut text, id, MAX_LETTERS).desired_width(width).lock_focus(true);
         let field = field.hint_text(hint).show(ui);
@@ -54,7 +54,7 @@ pub(super) fn path(
             select(ctx, id, usize::MAX);
         }
         let mut keys = format!("Enter {does}, Tab completes, Esc closes.");
-        if !studio.viewer().compares_typed_path() {
+        if !studio.viewer.compares_typed_path() {
             keys += " Or drop a file onto the window.";
         }
         ui.label(RichText::new(keys).color(palette(ui).dim));
@@ -117,14 +117,14 @@ fn report_within(ui: &mut Ui, report: &[Mistake], room: egui::Vec2) {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::studio::Dialog;
+    use crate::studio::{Dialog, refuse_typed_path, show_mistakes};
     use crate::view::testing::TestWindow;
 
     /// The size of the only window over the studio, in points.
     fn size_of_dialog(studio: &Studio, title: &str) -> egui::Vec2 {
         let mut window = TestWindow::new([800.0, 600.0]);
         for _ in 0..3 {
-            window.show(Vec::new(), |ui| match studio.viewer().dialog() {
+            window.show(Vec::new(), |ui| match studio.viewer.dialog() {
                 Some(Dialog::Path { refused, .. }) => {
                     path(ui, studio, refused.as_deref(), ui.max_rect(), &mut Vec::new());
                 }
@@ -143,7 +143,12 @@ mod tests {
         let message = |words: usize| format!("a.toml:1:1: {}", "words ".repeat(words));
         let shown = |report: Mistake| {
             let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-            studio.show_mistakes(std::path::Path::new("a.toml"), vec![report]);
+            show_mistakes(
+                &mut studio.deck,
+                &mut studio.viewer,
+                std::path::Path::new("a.toml"),
+                vec![report],
+            );
             size_of_dialog(&studio, "a.toml cannot be opened")
         };
         let [short, long] = [8, 80].map(|words| shown(message(words).into()));
@@ -168,7 +173,7 @@ mod tests {
                 studio.apply(command);
             }
         }
-        assert_eq!(studio.viewer().typed_path().chars().count(), MAX_LETTERS);
+        assert_eq!(studio.viewer.typed_path().chars().count(), MAX_LETTERS);
     }
 
     #[test]
@@ -176,7 +181,9 @@ mod tests {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(ViewCommand::AskForPath);
         let before = size_of_dialog(&studio, "Open a scene or a frame log");
-        studio.refuse_typed_path(
+        refuse_typed_path(
+            &mut studio.deck,
+            &mut studio.viewer,
             std::path::Path::new("a.toml"),
             vec!["error: none ".repeat(40).into()],
         );

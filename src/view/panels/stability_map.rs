@@ -15,7 +15,9 @@ use crate::measure::{Coverage, MapRequest, SeenLine, StabilityMap};
 use crate::scene::{Action, edited_values};
 use crate::stage::Parameter;
 use crate::stage::number::round;
-use crate::studio::{Command, RunCommand, StageCommand, Step, Studio};
+use crate::studio::{
+    Command, RunCommand, StageCommand, Step, Studio, mappable_parameters, mapped_parameter,
+};
 use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 use crate::view::theme::{colour, palette, strong_font};
 use words::{full_name, point_in_words, sentence, short_sentence};
@@ -43,7 +45,7 @@ const HALF_LETTER: f32 = 6.0;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let top = ui.cursor().top();
-    let Some(index) = studio.mapped_parameter() else {
+    let Some(index) = mapped_parameter(&studio.deck, &studio.viewer) else {
         ui.label(
             RichText::new("This body has no parameter that a map could show.")
                 .color(palette(ui).dim),
@@ -51,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
         return;
     };
     head(ui, studio, index, commands);
-    let map = studio.viewer().stability_map();
+    let map = studio.viewer.stability_map();
     let wanted = (studio.view().body, index);
     let map = map.filter(|map| (map.request.body, map.request.parameter) == wanted);
     let Some(map) = map else {
@@ -92,7 +94,7 @@ fn head(ui: &mut Ui, studio: &Studio, index: usize, commands: &mut Vec<Command>)
         }
         let menu = ComboBox::from_id_salt("mapped parameter").selected_text(name(index));
         let menu = menu.show_ui(ui, |ui| {
-            for other in studio.mappable_parameters() {
+            for other in mappable_parameters(&studio.deck, &studio.viewer) {
                 if ui.selectable_label(other == index, name(other)).clicked() {
                     commands.push(Command::Run(RunCommand::MapParameter(other)));
                 }

@@ -62,7 +62,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         start: studio.run().start(),
         times: &times,
         palette: track.palette,
-        parting: studio.viewer().parting(),
+        parting: studio.viewer.parting(),
     };
     let in_view = |x: f32| along.expand(1.0).contains(x);
     let end = studio.run().end();
@@ -378,7 +378,7 @@ fn beside(ui: &mut Ui, studio: &Studio, room: Rect, commands: &mut Vec<Command>)
     let timeline = studio.run();
     let is_near = timeline.bytes() as f64 >= NEAR_THE_BOUND * timeline.limit() as f64;
     // A recording of the picture says nothing of the machine that it is made on.
-    let is_told = studio.viewer().pace.is_some() && room.width() >= MEMORY - 1.0;
+    let is_told = studio.viewer.pace.is_some() && room.width() >= MEMORY - 1.0;
     if is_told && is_near && room.height() > HEIGHT_OF_TRACK {
         let text = memory(timeline.bytes(), timeline.limit());
         let at = room.right_bottom();

@@ -11,6 +11,7 @@ use crate::run::race::Mode;
 use crate::scene::{SCENES, Scene};
 use crate::studio::{
     Command, RunCommand, SPEED_LADDER, StageCommand, Step, Studio, TICK_LADDER, ViewCommand,
+    shown_s,
 };
 use crate::view::theme::{TYPE, palette, strong_font};
 
@@ -55,7 +56,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
                     if width >= breakpoints::MENUS {
                         inspector_button(ui, studio, commands);
                     }
-                    let t = studio.shown_s();
+                    let t = shown_s(&studio.deck, &studio.viewer);
                     match is_wide {
                         true => format!("t = {t:.3} s · tick {}", studio.race().tick()),
                         false => format!("{t:.3} s"),
@@ -77,7 +78,7 @@ fn word(ui: &mut Ui, width: f32, word: &str) {
 
 /// Each scene by its name, with its title beside it, below the heading of its group.
 fn scene_menu(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) {
-    let name = studio.scene_name();
+    let name = studio.deck.scene_name();
     let menu = ComboBox::from_id_salt("scene").selected_text(&name).height(480.0);
     let menu = match width >= breakpoints::WIDE_PARTS_OF_TOP_BAR {
         true => menu.width(92.0),
@@ -92,11 +93,11 @@ fn scene_menu(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Comma
             commands.push(Command::View(ViewCommand::AskForSpring));
         }
         let group = |index: usize| SCENES.get(index).map_or("Files", |scene| scene.group.title());
-        for (index, name) in studio.scene_list().names().enumerate() {
+        for (index, name) in studio.deck.scene_list().names().enumerate() {
             if index == 0 || group(index) != group(index - 1) {
                 ui.label(RichText::new(group(index)).size(11.0).color(palette(ui).dim));
             }
-            let is_open = studio.scene_list().open() == Some(index);
+            let is_open = studio.deck.scene_list().open() == Some(index);
             let title = SCENES.get(index).and_then(|scene| Scene::built_in(scene.name));
             let title = title.map(|scene| scene.title).unwrap_or_default();
             let mut line = egui::text::LayoutJob::default();

@@ -61,7 +61,7 @@ impl Table {
     }
 
     fn held(&self) -> Option<&HeldBody> {
-        self.studio.viewer().held()
+        self.studio.deck.held()
     }
 }
 
@@ -86,7 +86,7 @@ fn with_shift_a_drag_places_the_body_once_and_at_rest() {
     let mut table = Table::new("spring");
     let (tick, at) = (table.studio.race().tick(), table.body());
     assert_eq!(placed(&table.press(at)), None);
-    assert!(table.held().is_some() && !table.studio.time_runs() && table.studio.running());
+    assert!(table.held().is_some() && !table.studio.deck.time_runs() && table.studio.running());
     for step in 1..=6 {
         assert_eq!(placed(&table.move_to(at + vec2(-15.0 * step as f32, 4.0))), None);
         assert_eq!(table.studio.advance(50_000_000).ticks, 0);
@@ -96,7 +96,7 @@ fn with_shift_a_drag_places_the_body_once_and_at_rest() {
     let commands = table.release(to, true);
     let action = Action::Place { body: 0, q: [x].into(), v: [0.0].into() };
     assert_eq!(placed(&commands), Some(&action));
-    assert!(table.held().is_none() && table.studio.time_runs());
+    assert!(table.held().is_none() && table.studio.deck.time_runs());
     let row = table.studio.run().session().journal().rows().last().unwrap();
     assert_eq!((row.tick, &row.action), (tick, &action));
     assert!((table.body().x - to.x).abs() < 0.1, "{}", table.body().x);

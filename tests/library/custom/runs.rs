@@ -109,7 +109,7 @@ fn the_lab_goes_on_with_a_run_where_it_is() {
     studio.tick();
     session.tick(&mut ());
     assert_eq!(studio.race().state_hash(), session.race().state_hash());
-    assert_eq!(studio.scene_list().open(), None, "it is in no list");
+    assert_eq!(studio.deck.scene_list().open(), None, "it is in no list");
 }
 
 #[test]

@@ -186,7 +186,7 @@ fn a_method_that_does_not_fit_is_not_taken_up_and_the_reason_is_told() {
     let before = studio.active();
     studio.apply(StageCommand::Method(method("smooth-damp").unwrap()));
     assert_eq!(studio.active(), before);
-    let notice = studio.viewer().notice.as_deref().unwrap_or_default();
+    let notice = studio.viewer.notice.as_deref().unwrap_or_default();
     assert!(notice.contains("smooth-damp does not step the body \"spring\""), "{notice}");
 }
 

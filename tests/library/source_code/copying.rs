@@ -22,10 +22,10 @@ fn the_method_is_copied_while_a_lane_is_pointed_at_and_else_the_instrument() {
 #[test]
 fn a_language_that_was_chosen_is_kept() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-    assert_eq!(studio.viewer().language(), Language::Rust);
+    assert_eq!(studio.viewer.language(), Language::Rust);
     let command = Command::View(ViewCommand::CopyMethod { entry: 2, language: Language::GdScript });
     assert_eq!(studio.apply(command), Some(DriverRequest::CopyMethod(2)));
-    assert_eq!(studio.viewer().language(), Language::GdScript);
+    assert_eq!(studio.viewer.language(), Language::GdScript);
     let command = Command::View(ViewCommand::CopyMethod { entry: 999, language: Language::C });
     assert_eq!(studio.apply(command), None);
 }

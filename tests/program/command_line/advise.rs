@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use regatta::measure::{AnalysisWorker, MethodAdvice, Report, recommended as taken};
 use regatta::scene::Scene;
 use regatta::sim::integrators::GENERAL_METHODS;
-use regatta::studio::{Instrument, StageCommand, Studio};
+use regatta::studio::{Instrument, StageCommand, Studio, accept_findings};
 use serde_json::Value;
 
 use super::{refusal, regatta, run_in, stdout_of};
@@ -87,8 +87,9 @@ fn is_said_by_library_and_window(recommended: &Value, name: &str) {
     assert_eq!(&serde_json::to_value(&report.recommended).unwrap(), recommended, "{report}");
     let mut studio = Studio::new(scene);
     studio.apply(StageCommand::Instrument(Instrument::Advice));
-    studio.accept_findings(AnalysisWorker::new(studio.analysis_request()).finish());
-    let advised = &studio.viewer().advice().expect("it is found").advised;
+    let findings = AnalysisWorker::new(studio.analysis_request()).finish();
+    accept_findings(&mut studio.deck, &mut studio.viewer, findings);
+    let advised = &studio.viewer.advice().expect("it is found").advised;
     for (i, criterion) in CRITERIA.iter().enumerate() {
         let MethodAdvice { spec, met, .. } = &advised[taken(advised, i).expect("one meets it")];
         assert_eq!(recommended[criterion]["method"], spec.method.id);

@@ -10,10 +10,10 @@ use crate::view::theme::palette;
 
 /// Shows the numbers of a body that is a spring as the engine has them that is chosen; nothing of any other body.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec<Command>) {
-    let Some(spring) = studio.spring_joint(body) else { return };
+    let Some(spring) = studio.deck.spring_joint(body) else { return };
     let header = CollapsingHeader::new(RichText::new("as in engine…").color(palette(ui).dim));
     header.id_salt(("engine", body)).show_unindented(ui, |ui| {
-        let setups = studio.joint_setups();
+        let setups = studio.deck.joint_setups();
         let id = ui.scope_id().with("mode");
         let selected = studio.selected().spec.method;
         let of_lane = setups.iter().position(|setup| setup.method == selected).unwrap_or(0);

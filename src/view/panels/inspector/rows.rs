@@ -37,7 +37,7 @@ impl Values {
 
 /// The parameters of a body: those that act at once, then those that act from the next start.
 pub(super) fn rows<'l>(studio: &'l Studio, body: usize) -> Vec<Row<'l>> {
-    let opened = &studio.scene_as_opened().bodies[body];
+    let opened = &studio.deck.scene_as_opened().bodies[body];
     let (present, next) = (studio.race().values(body), &studio.scene().bodies[body].values);
     let row = |(index, parameter): (usize, &'l Parameter)| {
         let is_number = !matches!(parameter.range, Range::Curve { .. });

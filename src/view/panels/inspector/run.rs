@@ -116,17 +116,17 @@ fn show_methods(
 /// What a lane is under in the scene as it was opened; in solo, the method that it is under now as the scene has it.
 fn opened(studio: &Studio, entrant: &Entrant) -> LaneSpec {
     let present = entrant.spec;
-    let list = studio.scene_as_opened().method_list();
+    let list = studio.deck.scene_as_opened().method_list();
     let lane = list
         .get(entrant.id.index())
         .filter(|_| studio.mode() == Mode::Race)
-        .filter(|_| entrant.id.index() < studio.scene_as_opened().lanes.len());
+        .filter(|_| entrant.id.index() < studio.deck.scene_as_opened().lanes.len());
     let listed = || list.iter().find(|spec| spec.method == present.method);
     *lane.or_else(listed).unwrap_or(&present)
 }
 
 pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
-    let opened = studio.scene_as_opened();
+    let opened = studio.deck.scene_as_opened();
     let tick_hz = studio.race().tick_hz();
     let rate = NumberField {
         id: ui.scope_id().with("tick rate"),
@@ -181,7 +181,7 @@ pub(super) fn restoring(studio: &Studio) -> impl Iterator<Item = Command> {
         let is_changed = entrant.spec != spec;
         is_changed.then_some(Command::Run(RunCommand::Act(Action::Lane { lane, spec })))
     });
-    let opened = studio.scene_as_opened();
+    let opened = studio.deck.scene_as_opened();
     let rate = (studio.race().tick_hz() != opened.tick_hz)
         .then_some(Command::Stage(StageCommand::TickHz(opened.tick_hz)));
     let length = (studio.scene().seconds != opened.seconds)

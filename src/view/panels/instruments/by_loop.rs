@@ -192,13 +192,13 @@ mod tests {
     use super::*;
     use crate::loops::loop_lab::LoopCommand;
     use crate::scene::Scene;
-    use crate::studio::{Command, StageCommand};
+    use crate::studio::{Command, StageCommand, run_loops};
     use crate::view::panels::instruments::{csv, svg};
 
     fn lab_at(scene: &str, now_ns: i64) -> Studio {
         let mut studio = Studio::new(Scene::built_in(scene).unwrap());
         studio.apply(Command::Loop(LoopCommand::ToggleLab));
-        studio.run_loops();
+        run_loops(&mut studio);
         studio.apply(Command::Loop(LoopCommand::Seek(now_ns)));
         studio
     }

@@ -22,7 +22,9 @@ use crate::measure::cloud::{
 };
 use crate::run::race::Mode;
 use crate::stage::number::{grouped, significant};
-use crate::studio::{Command, RunCommand, StageCommand, Studio};
+use crate::studio::{
+    Command, RunCommand, StageCommand, Studio, cloud_refusal, cloud_request, shown_cloud,
+};
 use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 use crate::view::panels::breakpoints;
 use crate::view::theme::{PanelPalette, palette, strong_font};
@@ -64,7 +66,7 @@ const BEHIND_S: f64 = 0.25;
 
 /// The areas of all clouds over time; `None` while there are none.
 pub(super) fn plot_set(studio: &Studio) -> Option<PlotSet> {
-    let picture = studio.cloud()?.picture.as_ref().ok()?;
+    let picture = shown_cloud(studio)?.picture.as_ref().ok()?;
     let body = studio.view().body;
     let scale = AxisScale::Log;
     let place = |[t, area]: [f64; 2]| (t, [t, scale.place(area)]);
@@ -103,10 +105,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     let say = |ui: &mut Ui, words: String| {
         ui.add(Label::new(RichText::new(words).color(palette(ui).dim)).wrap());
     };
-    if let Some(why) = studio.cloud_refusal() {
+    if let Some(why) = cloud_refusal(&studio.deck, &studio.viewer) {
         return say(ui, capitalised(&format!("{why}.")));
     }
-    let picture = match studio.cloud().map(|found| &found.picture) {
+    let picture = match shown_cloud(studio).map(|found| &found.picture) {
         None => return say(ui, "Stepping the points …".into()),
         Some(Err(why)) => return say(ui, capitalised(&format!("{why}."))),
         Some(Ok(picture)) => picture,
@@ -130,7 +132,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
 /// The title, and what can be chosen.
 fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let chosen = studio.display().cloud;
-    let picture = studio.cloud().and_then(|found| found.picture.as_ref().ok());
+    let picture = shown_cloud(studio).and_then(|found| found.picture.as_ref().ok());
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Cloud").font(strong_font(15.0)).color(palette(ui).text));
         let kind = |kind: CloudKind| {
@@ -160,7 +162,7 @@ fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 
 /// The time of the pictures, how far they are behind the run if that can be seen, and how many points keep up with it.
 fn moment(studio: &Studio, picture: &CloudPicture) -> String {
-    let Some(request) = studio.cloud_request() else { return String::new() };
+    let Some(request) = cloud_request(studio) else { return String::new() };
     let mut words = format!("t = {:.2} s", request.t_s(picture));
     let behind = request.behind_s(picture);
     if behind > BEHIND_S {

@@ -62,7 +62,7 @@ pub(in crate::view) fn svg(studio: &Studio) -> Option<String> {
         let plots = layout(studio, &set, room, all.right(), palette);
         (set.title.clone(), super::legend_entries(&set), plots)
     };
-    let head = format!("{}: {title}", studio.scene_name());
+    let head = format!("{}: {title}", studio.deck.scene_name());
     let head = Text::new(pos2(MARGIN, MARGIN + 2.0), Align2::LEFT_CENTER, head, 17.0, palette.text);
     let mut drawing = vec![Primitive::Area(all, palette.background), head.into()];
     drawing.extend(legend::layout(&entries, pos2(MARGIN, MARGIN + 26.0), palette));

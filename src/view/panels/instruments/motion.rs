@@ -12,7 +12,7 @@ use crate::measure::Future;
 use crate::run::past::Quantity;
 use crate::run::race::Mode;
 use crate::stage::Coordinate;
-use crate::studio::Studio;
+use crate::studio::{Studio, futures, shows_futures};
 use crate::view::chart::{Curve, Dots, LineStyle};
 use crate::view::theme::palette_of;
 
@@ -43,7 +43,7 @@ fn track(studio: &Studio, body: usize) -> Option<PlotModel> {
         return None;
     }
     let mut tracks = Track::of(studio, body, |sample| sample.at.into());
-    let held = studio.viewer().held().filter(|held| held.body == body);
+    let held = studio.deck.held().filter(|held| held.body == body);
     for (track, held) in tracks.iter_mut().filter(|track| track.is_front).zip(held) {
         track.put(studio.race().t(), [held.q[0], held.q[1]]);
     }
@@ -73,7 +73,7 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let [from_s, _] = time_in_view(studio.scene().seconds, studio.race().t());
     let selected = lanes.iter().filter(|lane| lane.is_front);
     let seen = selected.flat_map(|lane| lane.along_since(from_s)).chain(exact.fitted(studio, 1));
-    let futures = futures(studio, body, quantity);
+    let futures = future_curves(studio, body, quantity);
     let exact_future = futures.last().into_iter().flat_map(|curve| &curve.points);
     let seen = seen.chain(origin(studio)).chain(exact_future.map(|at| at[1]));
     let y = ranges::around_truth(seen, &lanes, 1, HEALTHY);
@@ -89,8 +89,8 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
 }
 
 /// The next second of a body under each method, and in truth, if they are shown.
-fn futures(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve> {
-    if !studio.shows_futures() {
+fn future_curves(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve> {
+    if !shows_futures(studio) {
         return Vec::new();
     }
     let palette = palette_of(studio.display().theme);
@@ -105,7 +105,7 @@ fn futures(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve> {
         let points = future.moments.iter().map(|moment| [moment.t, quantity.among(moment.state)]);
         Curve::new(style, points.collect())
     };
-    studio.futures(body).into_iter().map(curve).collect()
+    futures(&studio.deck, &studio.viewer, body).into_iter().map(curve).collect()
 }
 
 /// The name of a body, and of a net which node it is that its plot shows.
@@ -123,7 +123,7 @@ pub(super) fn put_in_hand(
     tracks: &mut [Track],
     place: impl Fn(f64, [f64; 2]) -> [f64; 2],
 ) {
-    let Some(held) = studio.viewer().held().filter(|held| held.body == body) else { return };
+    let Some(held) = studio.deck.held().filter(|held| held.body == body) else { return };
     let (_, plotted) = studio.past().coordinate(studio.race(), body);
     let (q, v) = (held.q[plotted], held.v[plotted]);
     let front = tracks.iter_mut().filter(|track| track.is_front);

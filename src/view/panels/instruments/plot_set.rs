@@ -10,7 +10,7 @@ use crate::run::Unit;
 use crate::run::past::{Quantity, TruthCurve, TruthSample};
 use crate::stage::Coordinate;
 use crate::stage::number::significant;
-use crate::studio::Studio;
+use crate::studio::{Studio, shows_futures};
 use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
 use crate::view::theme::palette_of;
 use egui::Color32;
@@ -395,7 +395,7 @@ impl PlotSet {
 pub(super) fn over_time(studio: &Studio, (low, high): (f64, f64)) -> Bounds {
     let [from, to] = time_in_view(studio.scene().seconds, studio.race().t());
     // The next second too, where that is shown.
-    let to = if studio.shows_futures() { to.max(studio.race().t() + 1.0) } else { to };
+    let to = if shows_futures(studio) { to.max(studio.race().t() + 1.0) } else { to };
     [[from, to], [low, high]]
 }
 

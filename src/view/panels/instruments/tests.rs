@@ -6,7 +6,7 @@ use super::error::{NO_ERROR, capitalised};
 use super::*;
 use crate::measure::cloud::{CloudChoice, CloudWorker};
 use crate::scene::{Action, SCENES, Scene};
-use crate::studio::{RunCommand, StageCommand};
+use crate::studio::{RunCommand, StageCommand, complete_clouds};
 use crate::view::chart::PlotArea;
 use crate::view::panels;
 use crate::view::testing::{TestWindow, button};
@@ -312,7 +312,7 @@ fn the_cloud_tells_what_becomes_of_the_area_and_why_a_body_has_none() {
     };
     let mut studio = lab_of("liouville");
     assert!(said(&studio, "Stepping the points") && csv(&studio).is_none());
-    studio.complete_clouds(&mut CloudWorker::default(), || false);
+    complete_clouds(&mut studio, &mut CloudWorker::default(), || false);
     for wanted in
         ["Explicit Euler\n×1.", "grows ×2 in", "keeps area", "shrinks ×½ in", "t = 1.00 s"]
     {

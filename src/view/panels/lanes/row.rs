@@ -6,7 +6,7 @@ use crate::run::race::{Entrant, LaneBody, Mode};
 use crate::run::{METRICS, Metric, energy_gained_percent};
 use crate::scene::LaneSpec;
 use crate::stage::number::significant;
-use crate::studio::Studio;
+use crate::studio::{Studio, shown_state};
 use crate::view::panels::verdict::VerdictText;
 
 /// A method, or a body of the lane that is flown solo.
@@ -39,7 +39,7 @@ impl<'a> Row<'a> {
         exact: &[Option<f64>],
         named_above: Option<usize>,
     ) -> Vec<Self> {
-        let flown = studio.flown(entry);
+        let flown = studio.deck.flown(entry);
         let shown = studio.view().body;
         let count = studio.scene().bodies.len();
         let is_active = entry == studio.active();
@@ -70,7 +70,7 @@ impl<'a> Row<'a> {
 
     /// What else its verdict found.
     pub(super) fn details(&self) -> Vec<String> {
-        let verdict = self.studio.viewer().verdict(self.entry);
+        let verdict = self.studio.viewer.verdict(self.entry);
         let of_row = |verdict: &'a Verdict| match self.is_of_body {
             true => verdict.of_bodies.get(self.body),
             false => Some(verdict),
@@ -104,7 +104,7 @@ impl<'a> Row<'a> {
     }
 
     pub(super) fn position(&self) -> Option<f64> {
-        let (q, _) = self.studio.shown_state(self.flown_body()?);
+        let (q, _) = shown_state(&self.studio.deck, &self.studio.viewer, self.flown_body()?);
         q.first().copied()
     }
 
@@ -135,7 +135,7 @@ impl<'a> Row<'a> {
     }
 
     fn chase(&self) -> Option<&'a ChaseFinding> {
-        self.studio.viewer().verdict(self.entry)?.of_bodies.get(self.body)?.chase.as_ref()
+        self.studio.viewer.verdict(self.entry)?.of_bodies.get(self.body)?.chase.as_ref()
     }
 
     pub(super) fn evaluations(&self) -> Option<u64> {
@@ -162,7 +162,7 @@ pub(super) fn judged_body(studio: &Studio) -> Option<usize> {
         return None;
     }
     let lanes = studio.race().entrants().iter();
-    let mut bodies = lanes.map(|lane| Some(studio.viewer().verdict(studio.entry(lane))?.body));
+    let mut bodies = lanes.map(|lane| Some(studio.viewer.verdict(studio.entry(lane))?.body));
     let first = bodies.next()??;
     bodies.all(|body| body == Some(first)).then_some(first)
 }

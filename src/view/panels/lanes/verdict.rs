@@ -34,7 +34,7 @@ pub(super) fn text_of(
         let wordings = vec![all.join("; "), short, did.into()];
         return text(Outcome::of_halt(first), wordings);
     }
-    let verdict = studio.viewer().verdict(entry);
+    let verdict = studio.viewer.verdict(entry);
     let verdict = match body {
         Some(body) => verdict.and_then(|verdict| verdict.of_bodies.get(body)),
         None => verdict,
@@ -43,7 +43,7 @@ pub(super) fn text_of(
         return VerdictText { sign: None, wordings: vec!["judging…".into()], rank: None };
     };
     let is_named = body.is_none() && named_above != Some(verdict.body);
-    let wordings = match studio.is_judged_apart() {
+    let wordings = match studio.deck.is_judged_apart() {
         true => verdict.wordings_of_another_run(is_named),
         false => verdict.wordings(is_named),
     };

@@ -58,12 +58,12 @@ fn time_ms(frame: &LiveFrame) -> f64 {
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
     let top = ui.cursor().top();
-    if let Some(Pace::Measured { frames_per_second, real_time_factor }) = studio.viewer().pace {
+    if let Some(Pace::Measured { frames_per_second, real_time_factor }) = studio.viewer.pace {
         let pace =
             format!("{frames_per_second:.0} frames per second, {real_time_factor:.2}× real time");
         ui.label(RichText::new(pace).color(palette(ui).text));
     }
-    let frames = studio.viewer().live.frames();
+    let frames = studio.viewer.live.frames();
     ui.label(RichText::new(TITLE).font(strong_font(15.0)).color(palette(ui).text));
     let Some(summary) = Summary::of(frames) else {
         let words = "No frame yet: run it with Space, and its frames show here. \
@@ -75,7 +75,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
     let [mean, usual, worst] =
         [mean_ms, usual_ms, worst_ms].map(|time_ms| shown(time_ms, Unit::Milliseconds));
     let times = format!("Frame time: mean {mean}, 99 % within {usual}, worst {worst}.");
-    let (lost, colour) = match studio.dropped() {
+    let (lost, colour) = match studio.deck.dropped() {
         0 => ("No tick dropped since the start.".into(), palette(ui).dim),
         1 => ("1 tick dropped since the start.".into(), palette(ui).bad),
         many => (format!("{many} ticks dropped since the start."), palette(ui).bad),
@@ -106,7 +106,7 @@ pub(super) fn layout(
     room: Rect,
     palette: &PanelPalette,
 ) -> Option<Vec<Primitive>> {
-    let summary = Summary::of(studio.viewer().live.frames())?;
+    let summary = Summary::of(studio.viewer.live.frames())?;
     let (upper, below) = parts(room);
     let mut all = frame_times(studio, upper, &summary, palette);
     all.extend(
@@ -127,7 +127,7 @@ fn parts(room: Rect) -> (Rect, Option<Rect>) {
 }
 
 fn series(studio: &Studio, palette: &PanelPalette) -> Series {
-    Series::new(own_colour(palette), studio.viewer().live.frames().map(|frame| frame.ticks))
+    Series::new(own_colour(palette), studio.viewer.live.frames().map(|frame| frame.ticks))
 }
 
 /// The chart of the frame times against real time up to the last frame, in a room.
@@ -145,7 +145,7 @@ fn frame_times(
     let area = PlotArea { rect, bounds: [[-LENGTH_S, 0.0], [0.0, reach]] };
     let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [56.0, 24.0][axis]));
     let mut all = vec![Primitive::Area(rect, palette.plot)];
-    let times_ms = studio.viewer().live.frames().map(time_ms);
+    let times_ms = studio.viewer.live.frames().map(time_ms);
     let mut ago_s = times_ms.clone().sum::<f64>() / 1000.0;
     let moment = |time_ms: f64| {
         ago_s -= time_ms / 1000.0;

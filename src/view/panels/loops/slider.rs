@@ -51,7 +51,7 @@ mod tests {
 
     use super::*;
     use crate::scene::Scene;
-    use crate::studio::Studio;
+    use crate::studio::{Studio, run_loops};
     use crate::view::panels;
     use crate::view::panels::timeline::{HEIGHT, MARGIN, MEMORY, TRACK_Y};
     use crate::view::testing::TestWindow;
@@ -62,7 +62,7 @@ mod tests {
     fn a_press_on_the_track_goes_to_the_moment_there_and_a_row_and_its_eye_select_and_show() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(Command::Loop(LoopCommand::ToggleLab));
-        studio.run_loops();
+        run_loops(&mut studio);
         let mut window = TestWindow::new(SIZE);
         let loops = studio.loop_lab().unwrap();
         let bottom = SIZE.y - panels::footer::HEIGHT;

@@ -144,13 +144,13 @@ mod tests {
     use super::*;
     use crate::loops::loop_lab::LoopCommand;
     use crate::scene::Scene;
-    use crate::studio::Studio;
+    use crate::studio::{Studio, run_loops};
 
     #[test]
     fn rows_are_sorted_by_their_verdicts_and_back() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(Command::Loop(LoopCommand::ToggleLab));
-        studio.run_loops();
+        run_loops(&mut studio);
         let loops = studio.loop_lab().unwrap();
         let ranks = |order| -> Vec<Option<f64>> {
             let rows = table(loops).sorted(groups(loops), order).into_iter().flatten();

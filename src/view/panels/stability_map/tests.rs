@@ -48,7 +48,7 @@ fn the_cross_sets_rate_and_parameter_where_it_is_dragged_to() {
 #[test]
 fn the_sentence_counts_the_stable_methods() {
     let studio = studio("stiff");
-    let map = studio.viewer().stability_map().unwrap();
+    let map = studio.viewer.stability_map().unwrap();
     assert_eq!(
         map.stable_here().split(" Explicit").next().unwrap(),
         // At 60 Hz ω h is 1.67.
@@ -100,7 +100,7 @@ fn a_boundary_is_labelled_with_its_limit_where_nothing_is_damped() {
     let mut damped = Studio::new(Scene::built_in("damped").unwrap());
     damped.apply(StageCommand::Instrument(Instrument::StabilityMap));
     damped.analyse();
-    let map = damped.viewer().stability_map().unwrap();
+    let map = damped.viewer.stability_map().unwrap();
     assert!(map.regions.iter().all(|region| region.limit.is_none()));
 }
 
@@ -135,7 +135,7 @@ fn the_lines_of_equal_damping_of_the_selected_engine_are_labelled_and_explained(
 fn every_boundary_has_its_name() {
     for scene in ["harbour", "stiff", "engines", "damped", "quarter-car"] {
         let studio = studio(scene);
-        let map = studio.viewer().stability_map().expect("a map");
+        let map = studio.viewer.stability_map().expect("a map");
         for size in [[1280.0, 720.0], [960.0, 600.0]] {
             let words = TestWindow::new(size).panels(&studio, Vec::new()).1.words();
             for (region, (entry, _)) in map.regions.iter().zip(&map.request.specs) {

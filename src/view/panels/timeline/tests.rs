@@ -3,7 +3,7 @@ use egui::Event as Input;
 use super::*;
 use crate::run::diff::{Comparison, Difference};
 use crate::scene::{Action, Scene};
-use crate::studio::{RunCommand, StageCommand, Step};
+use crate::studio::{RunCommand, StageCommand, Step, show_comparison};
 use crate::view::panels;
 use crate::view::testing::{TestWindow, button};
 
@@ -116,7 +116,7 @@ fn a_recording_is_compared_in_the_menu_and_its_first_difference_is_marked_and_go
         assert_eq!(window.panels(&studio, vec![event]).0, [], "a menu goes nowhere");
     }
     studio.apply(ViewCommand::AskForRun);
-    assert!(studio.viewer().compares_typed_path());
+    assert!(studio.viewer.compares_typed_path());
     let other = Difference {
         tick: 250,
         row: [Some("1".into()), Some("spring".into()), Some("x".into())],
@@ -126,17 +126,17 @@ fn a_recording_is_compared_in_the_menu_and_its_first_difference_is_marked_and_go
         relative: Some(0.2),
     };
     let found = Comparison { rows: 900, moved: 2.0, first: Some(other), ..Default::default() };
-    studio.show_comparison("clip.toml", &found);
+    show_comparison(&mut studio.deck, &mut studio.viewer, "clip.toml", &found);
     // The run had not come so far, and goes on from there.
     assert_eq!((studio.race().tick(), studio.run().end()), (250, 250));
-    let (tick, told) = studio.viewer().parting().unwrap().clone();
+    let (tick, told) = studio.viewer.parting().unwrap().clone();
     assert!(
         tick == 250 && told.contains("at tick 250, lane 1, spring, x: q is 1.5 in a"),
         "{told}"
     );
-    assert!(studio.viewer().dialog().is_none());
+    assert!(studio.viewer.dialog().is_none());
     studio.tick();
-    assert!(studio.viewer().parting().is_some());
+    assert!(studio.viewer.parting().is_some());
     studio.apply(StageCommand::Restart);
-    assert!(studio.viewer().parting().is_none());
+    assert!(studio.viewer.parting().is_none());
 }

@@ -1,0 +1,206 @@
+//! What a person does to a run by hand: actions, picks, steps in time.
+
+use super::deck::Deck;
+use super::driving::make_tick;
+use super::joint::joint_code;
+use super::restarting::{Jump, follow, restart};
+use super::viewer::Viewer;
+
+use super::display::DriverRequest;
+
+use super::step::Step;
+use crate::run::StartSettings;
+use crate::run::race::{Mode, equal_cost};
+use crate::scene::{Action, LaneId, LaneSpec};
+use crate::sim::bodies::Acts;
+use crate::sim::integrators::Method;
+use crate::sim::number::round;
+
+/// What is asked before a run that is not saved is lost.
+const QUIT_QUESTION: &str = "what you did in this run is not saved: F5 saves it, Esc again quits";
+
+/// The request, unless there is nothing for the driver to copy.
+pub(super) fn possible(
+    deck: &Deck,
+    viewer: &Viewer,
+    request: DriverRequest,
+) -> Option<DriverRequest> {
+    match request {
+        DriverRequest::CopyMethod(entry) => deck.entries().get(entry).map(|_| request),
+        DriverRequest::CopyJoint(entry) => joint_code(deck, viewer, entry).map(|_| request),
+        _ => Some(request),
+    }
+}
+
+/// Quits; while there is something to lose, at the second time of asking.
+pub(super) fn quit(deck: &mut Deck, viewer: &mut Viewer) -> Option<DriverRequest> {
+    let is_asked = viewer.notice.as_deref() == Some(QUIT_QUESTION);
+    if is_asked || deck.edits == deck.saved_edits || viewer.preferences.is_recorded {
+        return Some(DriverRequest::Quit);
+    }
+    viewer.set_notice(QUIT_QUESTION);
+    None
+}
+
+/// Performs an action on the run by hand.
+pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {
+    if let Action::Set { body, parameter, value } = action
+        && let Some(of) = deck.scene().bodies.get(body)
+        && of.kind.parameters.get(parameter).is_some_and(|it| it.acts == Acts::AtStart)
+    {
+        let set = |start: &mut StartSettings| start.set(body, parameter, value);
+        return deck.set_start("the start value", set);
+    }
+    if action.clone().checked().is_none() {
+        return viewer.set_notice(out_of_range(action.noun()));
+    }
+    let was_past = deck.run.is_in_past();
+    let (is_input, rests) = (action.input().is_some(), deck.comes_to_rest(viewer.motion()));
+    let (done, mut told) = deck.watched(|run, notices| run.act_within(action, notices));
+    let Some(done) = done else { return viewer.tell(told) };
+    deck.edits += 1;
+    // What a person does at rest is to be seen.
+    deck.running |= is_input && rests;
+    if let Action::Lane { .. } = done.action {
+        deck.run.next_mut().entry = deck.active();
+    }
+    let discarded = was_past.then(|| {
+        let tick = deck.race().tick();
+        format!("you changed the past at tick {tick}: Ctrl Z takes it back")
+    });
+    let released = done.released.map(|control| {
+        format!("you have the {} now: the script leaves it alone until a restart", control.name())
+    });
+    told.extend(released.into_iter().chain(discarded));
+    viewer.tell(told);
+}
+
+pub(super) fn pick(deck: &mut Deck, viewer: &mut Viewer, entry: usize) {
+    let Some(lane) = deck.picked(entry) else { return };
+    deck.selected = lane;
+    deck.is_selected = true;
+    if deck.mode() == Mode::Solo {
+        let spec = deck.entries()[entry];
+        act(deck, viewer, Action::Lane { lane, spec });
+    }
+    deck.run.next_mut().entry = entry;
+}
+
+/// The index of a method on the list. If it is not there, a notice says why.
+pub(super) fn listed(deck: &mut Deck, viewer: &mut Viewer, method: &Method) -> Option<usize> {
+    let listed = deck.entries().iter().position(|spec| spec.method == method);
+    if listed.is_none() {
+        let why = match deck.scene().refusal(method) {
+            Some(refusal) => refusal.to_string(),
+            None => {
+                format!("{} is not on this scene's list: the scene does not name it", method.name)
+            }
+        };
+        viewer.set_notice(why);
+    }
+    listed
+}
+
+/// Gives a method of the list new substeps and a new tolerance, switches its lane in a race to them, and picks it. A race
+/// without the method restarts with it.
+pub(super) fn set_lane(deck: &mut Deck, viewer: &mut Viewer, spec: LaneSpec) {
+    let Some(entry) = listed(deck, viewer, spec.method) else { return };
+    if !spec.is_in_range() {
+        return viewer.set_notice(out_of_range("the switch"));
+    }
+    match (deck.mode(), deck.flown(entry)) {
+        (Mode::Race, None) => {
+            restart(deck, viewer, Some("the new race"), |next| {
+                next.list[entry] = spec;
+                next.entry = entry;
+            });
+            viewer.set_notice(format!("the race restarted with {} in it", spec.method.name));
+        }
+        (Mode::Race, Some(flown)) => {
+            let lane = flown.id;
+            act(deck, viewer, Action::Lane { lane, spec });
+            pick(deck, viewer, entry);
+        }
+        (Mode::Solo, _) => {
+            let lane = deck.race().entrants()[0].id;
+            act(deck, viewer, Action::Lane { lane, spec });
+        }
+    }
+}
+
+/// Picks the next index on the list that can be picked, cyclically, that way.
+pub(super) fn pick_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step) {
+    let count = deck.entries().len();
+    let beside = |entry: &usize| Some(step.around(*entry, count));
+    let mut around = std::iter::successors(Some(deck.active()), beside).skip(1).take(count);
+    if let Some(entry) = around.find(|&entry| deck.picked(entry).is_some()) {
+        pick(deck, viewer, entry);
+    }
+}
+
+/// Switches equal cost on or off.
+pub(super) fn toggle_equal_cost(deck: &mut Deck, viewer: &mut Viewer) {
+    if deck.mode() == Mode::Solo {
+        return viewer.set_notice("equal cost needs a race: press C");
+    }
+    let lanes: Vec<(LaneId, LaneSpec)> =
+        deck.race().entrants().iter().map(|entrant| (entrant.id, entrant.spec)).collect();
+    let (wanted, before, notice) = match &deck.run.next().before_equal_cost {
+        Some(before) => {
+            let of = |(lane, spec): &(LaneId, LaneSpec)| {
+                let own = before.iter().find(|(known, _)| known == lane);
+                let substeps = own.map_or(spec.method.default_substeps, |(_, own)| own.substeps);
+                LaneSpec { substeps, ..*spec }
+            };
+            let wanted: Vec<LaneSpec> = lanes.iter().map(of).collect();
+            (wanted, None, "equal cost is off: lanes have their own substeps again")
+        }
+        None => {
+            let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
+            let equal = equal_cost(deck.scene(), &specs, deck.race().tick_hz());
+            (
+                equal,
+                Some(lanes.clone()),
+                "equal cost is on: each lane has as many substeps as match the dearest lane's cost",
+            )
+        }
+    };
+    for ((lane, _), spec) in lanes.into_iter().zip(wanted) {
+        act(deck, viewer, Action::Lane { lane, spec });
+    }
+    deck.run.next_mut().before_equal_cost = before;
+    viewer.set_notice(notice);
+}
+
+/// Pauses and goes `ticks` ticks forward, or back if negative.
+pub(super) fn step_by(deck: &mut Deck, viewer: &mut Viewer, ticks: i64) {
+    deck.running = false;
+    let tick = deck.race().tick().saturating_add_signed(ticks);
+    seek(deck, viewer, tick);
+    while deck.race().tick() < tick {
+        make_tick(deck, viewer, &mut ());
+    }
+    deck.run.show_present();
+}
+
+/// Says how far the run has got, if that is before this tick.
+pub(super) fn tell_of_the_future(deck: &mut Deck, viewer: &mut Viewer, tick: u64) {
+    let (end, times) = (deck.run.end(), deck.run.times());
+    if tick > end {
+        let [wanted, end] = [tick, end].map(|tick| format!("{} s", round(times.t(tick), 3)));
+        viewer.set_notice(vec![
+            format!("{wanted} is still to come: the run has got to {end}"),
+            "Space goes on".into(),
+        ]);
+    }
+}
+
+pub(super) fn seek(deck: &mut Deck, viewer: &mut Viewer, tick: u64) {
+    deck.run.seek(tick);
+    follow(deck, viewer, Jump::ToAnotherTick);
+}
+
+/// What is told of an action with a number that is out of its range.
+fn out_of_range(noun: &str) -> String {
+    format!("out of range, so that nothing was changed: {noun}")
+}
