@@ -30,12 +30,10 @@ mod export;
 mod growing_recording;
 mod keys;
 mod opening;
-mod recording;
 mod run_of_session;
 mod schedule;
 #[cfg(feature = "accessibility")]
 mod screen_reader;
-mod screenshot;
 mod settings;
 mod tick_timer;
 mod watch;
@@ -164,7 +162,7 @@ impl App {
             let size = window.inner_size();
             let scale = window.scale_factor() as f32;
             let notice =
-                screenshot::save(gpu, [size.width, size.height], scale, &self.frames.studio);
+                export::save_screenshot(gpu, [size.width, size.height], scale, &self.frames.studio);
             self.frames.studio.viewer.set_notice(notice);
             self.stand_still();
         }
@@ -250,7 +248,7 @@ impl App {
             DriverRequest::Quit => self.end(event_loop, Ok(())),
             DriverRequest::Screenshot => self.screenshot = true,
             DriverRequest::Record => {
-                let notice = recording::save(&mut self.frames.studio);
+                let notice = export::save_recording(&mut self.frames.studio);
                 self.frames.studio.viewer.set_notice(notice);
                 self.stand_still();
             }

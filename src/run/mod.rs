@@ -8,8 +8,7 @@
 use std::mem::{replace, swap};
 
 use crate::scene::Action;
-use course::{Course, Noted, Snapshot};
-use hashes::Hashes;
+use course::{Course, Hashes, Noted, Snapshot};
 use past::Past;
 use race::{Done, Mode, Observer, Starts, TimeScale};
 use undo::{Change, Future, Replaced, UndoStack};
@@ -19,7 +18,6 @@ mod course;
 mod csv_row;
 pub mod diff;
 mod event;
-mod hashes;
 pub mod link;
 mod menu;
 mod metrics;
@@ -27,7 +25,6 @@ mod observations;
 pub mod past;
 pub mod race;
 mod recording;
-mod replay;
 mod session;
 mod start;
 pub mod trace;
@@ -41,8 +38,7 @@ pub use metrics::{METRICS, Metric, Scale, Unit, energy_gained_percent};
 pub use observations::Observations;
 pub use race::{Follow, Journal, Lane, Race};
 pub(crate) use recording::among as recording_among;
-pub use recording::{RecordingError, text as recording_text};
-pub use replay::{Reached, Replay};
+pub use recording::{Reached, RecordingError, Replay, text as recording_text};
 pub use session::Session;
 pub(crate) use start::StartSettings;
 

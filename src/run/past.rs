@@ -9,21 +9,15 @@ use crate::scene::{Action, LaneId};
 use crate::sim::bodies::Coordinate;
 use history::HistoryMark;
 
-mod energies;
 mod history;
 mod quantity;
 mod sample;
-mod summary;
-mod swept_range;
 mod truth_curve;
 mod windowed_log;
 
-pub use energies::Energies;
 pub use history::{History, Samples};
 pub use quantity::Quantity;
-pub use sample::{CAPACITY, Sample};
-pub use summary::Summary;
-pub use swept_range::SweptRange;
+pub use sample::{CAPACITY, Energies, Sample, Summary, SweptRange};
 use truth_curve::TruthMark;
 pub use truth_curve::{TruthCurve, TruthSample};
 

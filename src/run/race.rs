@@ -8,14 +8,13 @@ use std::sync::Arc;
 
 use crate::scene::custom::{self, Options};
 use crate::scene::{LaneId, LaneSpec, Piece, Scene, Scripted};
-use crate::sim::{Solver, State, System, Vector};
+use crate::sim::{Solver, State, Stepper, System, Vector};
 
 pub use crate::scene::TimeScale;
 pub use chase::Chase;
 pub use equal_cost::{equal_cost, lanes_that_race};
 pub(crate) use extent::Extent;
 pub use follow::{Follow, StopReason, Ticked};
-pub(crate) use hash::Fnv;
 pub use interpolation::Interpolation;
 pub(crate) use interpolation::{hermite, slope};
 pub(crate) use intervention::Interventions;
@@ -29,7 +28,6 @@ mod chase;
 mod equal_cost;
 mod extent;
 mod follow;
-mod hash;
 mod interpolation;
 mod intervention;
 mod journal;
@@ -349,6 +347,45 @@ impl Race {
             method.expect("lanes are under methods, and only the truth is under none").id
         });
         methods.zip(self.lane_hashes())
+    }
+}
+
+/// The hash so far.
+pub(crate) struct Fnv(pub(crate) u64);
+
+impl Fnv {
+    pub(crate) fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    pub(super) fn lane(&mut self, lane: &Lane) {
+        self.word(u64::from(lane.substeps()));
+        if lane.halted().is_none() {
+            self.word(u64::MAX);
+        }
+        for halt in lane.halts() {
+            self.word(halt.tick);
+            // Where there is one body, it is that one.
+            if lane.bodies().len() > 1 {
+                self.word(halt.body as u64);
+            }
+        }
+        for body in lane.bodies() {
+            let stepper: &dyn Stepper = &*body.stepper;
+            for &value in stepper.q().iter().chain(stepper.v()) {
+                self.number(value);
+            }
+        }
+    }
+
+    pub(crate) fn number(&mut self, value: f64) {
+        self.word(if value == 0.0 { 0 } else { value.to_bits() });
+    }
+
+    pub(super) fn word(&mut self, word: u64) {
+        for byte in word.to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use super::viewer::Viewer;
 
 use super::display::DriverRequest;
 
-use super::step::Step;
+use super::command::Step;
 use crate::run::StartSettings;
 use crate::run::race::{Mode, equal_cost};
 use crate::scene::{Action, LaneId, LaneSpec};

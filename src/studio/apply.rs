@@ -11,8 +11,7 @@ use super::looping::{
     carry_out_in_loop_lab, change_loop_lab, leave_loop_lab, open_loop_lab, refuse_in_loop_lab,
 };
 use super::opening::{open, open_beside, open_spring};
-use super::plotting::plot_coordinate;
-use super::restarting::{redo, restart, restart_keeping_run, undo};
+use super::restarting::{plot_coordinate, redo, restart, restart_keeping_run, undo};
 use super::resting::watch_again;
 use super::viewer::Viewer;
 use std::mem::take;

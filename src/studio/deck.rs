@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::held::HeldBody;
+use glam::DVec2;
+
 use super::notices::Notices;
 use super::scene_list::SceneList;
 use crate::measure::cloud::MAX_CLOUDS;
@@ -305,4 +306,22 @@ impl Deck {
     pub fn held(&self) -> Option<&HeldBody> {
         self.held.as_ref()
     }
+}
+
+/// A body that the pointer holds in a place. Time stands still until it is released: otherwise the body would move on
+/// meanwhile, and the lanes of a race would diverge before they start from the new state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeldBody {
+    /// The lane in whose cell it is held.
+    pub lane: LaneId,
+    /// The body's index in the scene.
+    pub body: usize,
+    /// The coordinates with which it would be released.
+    pub q: Box<[f64]>,
+    /// The velocities with which it would be released.
+    pub v: Box<[f64]>,
+    /// The place of the pointer, in metres.
+    pub hand: DVec2,
+    /// The place of the held point of the body, in metres: as near to the pointer as the body can be.
+    pub handle: DVec2,
 }

@@ -1,12 +1,13 @@
 //! Time in a studio: for each frame it makes the ticks that are due.
 
+use super::Motion;
 use super::deck::Deck;
 use super::live_loop::LiveFrame;
-use super::showing::shown_s;
-use super::slow_motion::slow_motion_percent;
 use super::viewer::Viewer;
+use crate::look::{Framing, Look};
 use crate::loops::Due;
-use crate::run::race::Observer;
+use crate::run::past::History;
+use crate::run::race::{Interpolation, LaneBody, Mode, Observer};
 
 fn note_frame(deck: &mut Deck, viewer: &mut Viewer, duration_ns: i64, due: Due) {
     let shown_s = shown_s(deck, viewer);
@@ -61,4 +62,74 @@ pub(super) fn advance(
     deck.dropped += due.dropped;
     note_frame(deck, viewer, frame_ns, due);
     due
+}
+
+/// How bodies are drawn now: at rest as they are at the tick, however they are drawn between ticks.
+fn drawn(deck: &Deck, viewer: &Viewer) -> Interpolation {
+    if deck.time_runs() { viewer.display().interpolation } else { Interpolation::Raw }
+}
+
+/// The moment shown, in ticks from the one reached.
+fn shown_ticks(deck: &Deck, viewer: &Viewer) -> f64 {
+    drawn(deck, viewer).shown(deck.clock.alpha())
+}
+
+/// The moment shown, in seconds. Everything on the stage, and what is said of it, is of this moment.
+pub fn shown_s(deck: &Deck, viewer: &Viewer) -> f64 {
+    deck.race().t() + deck.race().last_step_s() * shown_ticks(deck, viewer)
+}
+
+/// The coordinates and the velocities of a lane's body at the moment shown.
+pub fn shown_state(deck: &Deck, viewer: &Viewer, body: &LaneBody) -> (Vec<f64>, Vec<f64>) {
+    let (drawn, alpha, h) = (drawn(deck, viewer), deck.clock.alpha(), deck.race().last_step_s());
+    (drawn.coordinates(body, alpha, h), drawn.velocities(body, alpha, h))
+}
+
+/// The true coordinates and velocities of the body at this index of the scene at the moment shown.
+pub fn shown_truth(deck: &Deck, viewer: &Viewer, body: usize) -> (Vec<f64>, Vec<f64>) {
+    deck.past().truth_between(deck.race(), body, 1.0 + shown_ticks(deck, viewer))
+}
+
+/// The fastest zoom that can be watched, in powers of ten per second of real time.
+const MAX_ZOOM: f64 = 6.0;
+/// The least part of its speed to which time slows down, in percent.
+const MIN_PERCENT: u32 = 6;
+/// The newest samples of a motion, by which its growth is measured, and the time in seconds for which it is remembered where
+/// the body has been: longer than a swing that anybody waits for.
+const MEASURED: usize = 4;
+const REMEMBERED_S: f64 = 2.0;
+
+/// How fast a body goes beyond this distance and beyond where it has been, in powers of ten per simulated second.
+fn decades_per_s(history: &History, base_m: f64) -> f64 {
+    let newest = history.samples().rev();
+    let Some(now) = newest.clone().next() else { return 0.0 };
+    let Some(then) = newest.clone().nth(MEASURED) else { return 0.0 };
+    let reach = |from: usize| {
+        let lately = newest.clone().skip(from).take_while(|sample| now.t - sample.t < REMEMBERED_S);
+        lately.map(|sample| sample.at.length()).fold(base_m, f64::max)
+    };
+    libm::log10(reach(0) / reach(MEASURED)) / (now.t - then.t)
+}
+
+/// How fast time runs so that a lane which outgrows the stage can be watched, in percent of the speed that is set.
+pub(super) fn slow_motion_percent(deck: &Deck, viewer: &Viewer) -> u32 {
+    if viewer.display().motion == Motion::Recorded || deck.mode() != Mode::Solo {
+        return 100;
+    }
+    let selected = deck.selected();
+    let decades = deck.past().histories(selected.id).iter().zip(selected.lane.bodies());
+    let decades = decades.map(|(history, body)| {
+        let base_m = match Look::of(body).framing() {
+            Framing::Recorder { half_width_m } => half_width_m,
+            Framing::Fixed { half_m, .. } => half_m.max_element(),
+            Framing::Follow { width_m, .. } => width_m,
+        };
+        if body.halted().is_some() { 0.0 } else { decades_per_s(history, base_m) }
+    });
+    let speed = f64::from(deck.clock().speed_percent()) / 100.0;
+    let fastest = speed * decades.fold(0.0, f64::max);
+    match fastest <= MAX_ZOOM {
+        true => 100,
+        false => ((100.0 * MAX_ZOOM / fastest) as u32).max(MIN_PERCENT),
+    }
 }

@@ -6,10 +6,9 @@ use super::viewer::Viewer;
 use std::sync::Arc;
 
 use super::Studio;
-use super::command::{StageCommand, TICK_LADDER};
+use super::command::{StageCommand, Step, TICK_LADDER};
 use super::guide::Goal;
 use super::instrument::Instrument;
-use super::step::Step;
 use crate::loops::FrameTrace;
 use crate::loops::loop_lab::{FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopWorker, SLOWNESS};
 use crate::scene::SceneBody;

@@ -32,7 +32,6 @@ mod frame_loop;
 mod gesture;
 pub mod guide;
 mod guiding;
-mod held;
 mod instrument;
 mod joint;
 mod key;
@@ -43,14 +42,10 @@ mod notice;
 mod notices;
 mod opening;
 mod pace;
-mod plotting;
 mod restarting;
 mod resting;
 mod saved_preferences;
 mod scene_list;
-mod showing;
-mod slow_motion;
-mod step;
 mod viewer;
 mod work;
 mod zoom_pan;
@@ -59,10 +54,11 @@ pub use crate::measure::{Future, FutureMoment, OneStep, Slope};
 pub use ahead::{futures, one_step, orbit, shows_futures};
 pub use clouding::{accept_cloud, cloud_refusal, cloud_request, complete_clouds, shown_cloud};
 pub use command::{
-    Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,
+    Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, Step, TICK_LADDER, ViewCommand,
 };
-pub use deck::Deck;
+pub use deck::{Deck, HeldBody};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, View};
+pub use driving::{shown_s, shown_state, shown_truth};
 pub use file_names::{instrument_file_name, picture_file_name};
 pub use findings::{
     accept_findings, analyse_bounded, analysis_request, mappable_parameters, mapped_parameter,
@@ -70,7 +66,6 @@ pub use findings::{
 };
 pub use frame_loop::{FrameLoop, ToDo};
 pub use gesture::{GESTURES, Gesture};
-pub use held::HeldBody;
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup};
 pub use joint::{SpringJoint, joint_code};
 pub use key::{Binding, KEYS, Key, command_for};
@@ -88,8 +83,6 @@ pub use opening::{
 pub use pace::PaceMeter;
 pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
-pub use showing::{shown_s, shown_state, shown_truth};
-pub use step::Step;
 pub use viewer::{Dialog, Preferences, Viewer};
 pub use work::{Asked, Found, Work};
 pub use zoom_pan::ZoomPan;

@@ -81,7 +81,7 @@ pub(super) fn watch_again(deck: &mut Deck, viewer: &mut Viewer) {
 mod tests {
     use super::*;
     use crate::scene::{Action, Scene};
-    use crate::studio::slow_motion::slow_motion_percent;
+    use crate::studio::driving::slow_motion_percent;
     use crate::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
 
     /// A studio that somebody watches.

@@ -134,7 +134,7 @@ impl Driver {
         while self.now_ns() < end_ns && (self.workers.have_more() || self.arrival.is_some()) {
             has_found |= self.workers.step(&mut self.frames.studio);
             if let Some(replay) = &mut self.arrival
-                && let Some(told) = crate::arrival::told_after_slice(replay)
+                && let Some(told) = crate::work::told_after_slice(replay)
             {
                 self.arrival = None;
                 self.frames.studio.viewer.set_notice(told);

@@ -2,8 +2,7 @@
 
 use regatta::measure::Judge;
 use regatta::run::Session;
-use regatta::scene::SceneBody;
-use regatta::scene::{LaneSpec, Scene};
+use regatta::scene::{LaneSpec, Scene, SceneBody};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// The lines of a built-in scene in `tests/early_hashes.txt`, stepped here: its name, a method, and the hash of its lane; then

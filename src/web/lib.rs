@@ -4,7 +4,6 @@
 //! The page is one thread. What takes longer than a frame is done in slices between frames; see [`work`].
 
 mod address;
-mod arrival;
 mod canvas;
 mod clipboard;
 mod driver;

@@ -1,10 +1,10 @@
-//! Copies what a person asks for, and saves the instrument as a picture, a drawing and a table.
+//! What a person copies and saves: the instrument as a picture, a drawing and a table, a screenshot, the run as a scene file.
 
 use std::path::PathBuf;
 
 use super::App;
 use crate::atomic_file::{IfExists, write_file};
-use crate::studio::{DriverRequest, Studio, instrument_file_name};
+use crate::studio::{DriverRequest, Studio, instrument_file_name, picture_file_name};
 use crate::view::{Gpu, OffscreenRenderer, Panels, copied, instrument_csv, instrument_svg, png};
 
 /// The size of the picture, in pixels, and its pixels per point.
@@ -58,10 +58,47 @@ fn try_save(gpu: &Gpu, studio: &Studio) -> Result<Vec<PathBuf>, String> {
     let files = [("png", Some(png)), ("svg", svg), ("csv", Some(csv.concat().into_bytes()))];
     let name = instrument_file_name(studio);
     let files = files.into_iter().filter_map(|(ending, bytes)| Some((ending, bytes?)));
-    let written = files.map(|(ending, bytes)| {
-        let path = format!("{name}.{ending}");
-        write_file(path.as_ref(), &bytes, IfExists::Beside)
-            .map_err(|error| format!("cannot write {path} here: {error}"))
-    });
-    written.collect()
+    files.map(|(ending, bytes)| write(&format!("{name}.{ending}"), &bytes)).collect()
+}
+
+/// Writes a file of this name, or of one beside it if there is one, and returns its path.
+fn write(name: &str, bytes: &[u8]) -> Result<PathBuf, String> {
+    write_file(name.as_ref(), bytes, IfExists::Beside)
+        .map_err(|error| format!("cannot write {name} here: {error}"))
+}
+
+/// Saves a picture of the studio in the size of the window under a new name, and returns a notice with the name or the error.
+pub(super) fn save_screenshot(gpu: &Gpu, size_px: [u32; 2], scale: f32, studio: &Studio) -> String {
+    match screenshot(gpu, size_px, scale, studio) {
+        Ok(path) => format!("saved {}", path.display()),
+        Err(reason) => format!("no screenshot: {reason}"),
+    }
+}
+
+fn screenshot(
+    gpu: &Gpu,
+    size_px: [u32; 2],
+    scale: f32,
+    studio: &Studio,
+) -> Result<PathBuf, String> {
+    let mut rgba = Vec::new();
+    // Drawn to a texture of its own, because a surface may not be readable.
+    OffscreenRenderer::new(gpu.clone(), size_px, scale)
+        .map_err(|error| error.to_string())?
+        .draw(studio, &mut rgba)
+        .map_err(|error| error.to_string())?;
+    write(&format!("{}.png", picture_file_name(studio)), &png::encode(size_px, &rgba))
+}
+
+/// Saves the run so far as a scene file under a new name, and returns a notice with the name or the error.
+pub(super) fn save_recording(studio: &mut Studio) -> String {
+    let text = studio.deck.recording().map_err(|error| error.to_string());
+    let name = studio.deck.recording_file_name();
+    match text.and_then(|text| write(&name, text.as_bytes())) {
+        Ok(path) => {
+            studio.deck.note_saved();
+            format!("Saved {0}. Check it with: regatta verify {0}", path.display())
+        }
+        Err(reason) => format!("no recording: {reason}"),
+    }
 }

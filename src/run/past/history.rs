@@ -6,9 +6,7 @@
 use std::collections::vec_deque;
 use std::{iter, option};
 
-use super::sample::Sample;
-use super::summary::Summary;
-use super::swept_range::SweptRange;
+use super::sample::{Sample, Summary, SweptRange};
 use super::windowed_log::WindowedLog;
 
 /// The most samples that a summary stands for: what lies between its ends is still told from its range.

@@ -6,9 +6,8 @@ use std::mem::discriminant;
 
 use glam::DVec2;
 
-use super::energies::Energies;
 use super::quantity::Quantity;
-use super::swept_range::SweptRange;
+use super::sample::{Energies, SweptRange};
 use super::windowed_log::WindowedLog;
 use crate::run::race::{LaneBody, LastTick, hermite, slope};
 use crate::sim::bodies::Input;

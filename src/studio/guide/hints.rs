@@ -4,11 +4,11 @@
 use super::Situation;
 use crate::measure::Outcome;
 use crate::run::race::Mode;
+use crate::studio::Step;
 use crate::studio::command::{Command, RunCommand, StageCommand, TICK_LADDER, ViewCommand};
 use crate::studio::display::Arrangement;
 use crate::studio::instrument::Instrument;
 use crate::studio::key::KEYS;
-use crate::studio::step::Step;
 
 /// What a hint after the scene's own asks for.
 struct Lead {
