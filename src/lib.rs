@@ -9,7 +9,7 @@
 //! |---|---|---|---|
 //! | [`sim`] | mathematics: states, equations, methods, bodies | - | `sim/integrators/rk4.rs` |
 //! | [`scene`] | a scene as text and as value; actions; custom bodies | `sim` | `scene/mod.rs` |
-//! | [`run`] | a race of methods against the truth, its journal, its past, its rows | `sim scene` | `run/race.rs` |
+//! | [`run`] | a race of methods against the truth; what was done to it, what is drawn of it, its text | `sim scene` | `run/mod.rs` |
 //! | [`tools`] | what one takes away: the method of a log, a spring for an engine, source code | `sim scene` | `tools/port.rs` |
 //! | [`measure`] | verdicts, advice, stability maps, clouds of starts | `sim scene run tools` | `measure/judge.rs` |
 //! | [`loops`] | game loops, traces of frames, the loop lab | `sim scene run measure` | `loops/loop_run.rs` |
@@ -27,9 +27,10 @@
 //!
 //! # A frame
 //!
-//! events → [`Command`](studio::Command)s → [`Action`](scene::Action)s → [`Session::act`](run::Session::act) →
-//! [`Clock::advance`](sim::Clock::advance) → the [ticks](run::Session::tick) that are due → [`compose`](stage::compose()) →
-//! `FrameRenderer::draw` → present or read back.
+//! events → [`Command`](studio::Command)s → [`Studio::apply`](studio::Studio::apply) → [`Action`](scene::Action)s →
+//! [`Race`](run::Race) → [`Done`](run::race::Done) → [`Clock::advance`](sim::Clock::advance) → the [ticks](run::Run::tick) that are
+//! due → [`compose`](stage::compose()) → `FrameRenderer::draw` → present or read back; in real time, by a
+//! [`FrameLoop`](studio::FrameLoop).
 //!
 //! # What holds
 //!
@@ -38,7 +39,7 @@
 //!   [`Race::lane_hashes`](run::Race::lane_hashes) with committed values.
 //! - **A run is a value.** A [`Session`](run::Session) changes by [`Action`](scene::Action)s and ticks only, and its
 //!   [`Journal`](run::Journal) holds them all, whether a script, a person or a test gave them. A
-//!   [`Timeline`](run::Run) goes to any tick and finds the same bits (`tests/library/sessions.rs`).
+//!   [`Run`](run::Run) goes to any tick and finds the same bits (`tests/library/sessions.rs`).
 //! - **A body that blows up is data.** It halts, keeps its last good state and says why; the others go on, unchanged to the bit.
 //! - **The step allocates nothing**, takes no lock and touches no file (`tests/library/allocation.rs`).
 //! - **Claims are measured.** `tests/library/conformance` tests every field of a [`Method`](sim::integrators::Method) card both

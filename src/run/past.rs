@@ -25,7 +25,7 @@ pub use truth_curve::{TruthCurve, TruthSample};
 /// samples would make axes too narrow for it.
 const BEGUN: f64 = 0.1;
 
-/// The most memory of the histories in bytes: room for ninety of [`CAPACITY`] samples. Those of more lanes and bodies
+/// The most memory of the histories in bytes: room for 130 of [`CAPACITY`] samples. Those of more lanes and bodies
 /// are coarser.
 const MAX_BYTES: usize = 64 << 20;
 
@@ -394,7 +394,8 @@ mod tests {
 
     #[test]
     fn many_histories_have_fewer_samples_each_reach_as_far_back_and_fit_into_the_memory() {
-        for (histories, is_full) in [(1, true), (32, true), (80, true), (128, false), (2048, false)]
+        for (histories, is_full) in
+            [(1, true), (32, true), (128, true), (160, false), (2048, false)]
         {
             let capacity = capacity_of(histories);
             assert_eq!(capacity == CAPACITY, is_full, "{histories}");

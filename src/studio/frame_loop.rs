@@ -198,7 +198,7 @@ mod tests {
         let (mut frames, mut now_ns) = begun("spring");
         frame(&mut frames, now_ns, Vec::new());
         assert_eq!(frames.studio.race().tick(), 1);
-        for command in [StageCommand::SceneBeside(Step::Next), StageCommand::Restart] {
+        for command in [StageCommand::SceneBeside(Step::Previous), StageCommand::Restart] {
             let is_opened = command != StageCommand::Restart;
             frames.ask([command.into()]);
             // The frame before took long, as the next one does if a scene was opened.

@@ -1,5 +1,8 @@
 //! Editing in the inspector, as the title tells.
 
+use std::thread;
+use std::time::Duration;
+
 use crate::desk::Desk;
 
 #[test]
@@ -32,5 +35,30 @@ fn what_is_typed_into_the_inspector_is_an_edit_and_works_no_other_key() {
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     desk.press("ctrl+shift+z space");
     desk.titled("Regatta - spring - Explicit Euler - 90 Hz");
+    desk.quit();
+}
+
+#[test]
+fn a_parameter_that_is_swept_advances_time() {
+    let test = "a_parameter_that_is_swept_advances_time";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    let paused = "Regatta - spring - Explicit Euler - 60 Hz (paused)";
+    desk.press("space");
+    desk.titled(paused);
+    desk.resize(1280, 900);
+    desk.press_and_see("e");
+    desk.still();
+    let from = desk.tick_of(paused);
+    // The button beside the stiffness, which then changes with each frame for eight seconds.
+    desk.click(965, 392);
+    desk.press("space");
+    thread::sleep(Duration::from_secs(3));
+    desk.press("space");
+    desk.titled(paused);
+    let ticks = desk.tick_of(paused) - from;
+    assert!((45..=400).contains(&ticks), "{ticks} ticks in three seconds of edits");
+    // All of it is one change.
+    desk.press("ctrl+z");
+    desk.at_tick(from);
     desk.quit();
 }
