@@ -6,6 +6,7 @@ use super::argument::brief;
 use super::error::Error;
 use super::output::Input;
 use super::terminal::print_status;
+
 pub(super) use crate::regular_file::is_link;
 use crate::regular_file::{self, Unreadable};
 use crate::run::link;

@@ -8,7 +8,6 @@ use super::{Drawn, Framing, Handle, Mark, Outline, Pull, typed};
 use crate::run::race::LaneBody;
 use crate::sim::bodies::Law;
 use crate::sim::law::Layout;
-
 use carriage::Carriage;
 use places::Places;
 use vertical::Vertical;

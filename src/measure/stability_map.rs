@@ -7,6 +7,7 @@
 use std::sync::Arc;
 
 use contour::{Corners, contour};
+
 pub use seen::SeenLine;
 use seen::seen_lines;
 

@@ -1,10 +1,11 @@
 //! A run as a scene: its start, its actions, and its states as checks; and such a scene run again past them.
 
+use std::sync::Arc;
+
 use super::course::Hashes;
 use super::race::{Done, Mode, Observer, Race, Switch};
 use super::{Run, Session};
 use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
-use std::sync::Arc;
 
 /// The most checks of a recording, so that its file is not too large to read. A long run has fewer than one per second.
 const MAX_CHECKS: usize = 8_000;

@@ -7,7 +7,6 @@
 //! calls itself for brackets, signs and functions, at most [`MAX_DEPTH`] within each other.
 
 use super::body::Distances;
-
 use compile::{Compiled, Compiler, check_names};
 use fault::{ExpressionFault, quoted};
 use form::{is_angle, is_linear};

@@ -1,7 +1,5 @@
 //! Words and marks on the stage: who, where, how far, and what became of it.
 
-use crate::scene::Mark;
-use crate::studio::{shown_state, shown_truth};
 use glam::DVec2;
 
 use super::moment::{DrawContext, turns};
@@ -11,8 +9,10 @@ use crate::look::Look;
 use crate::look::palette::{Palette, Rgba, faded};
 use crate::measure::{Outcome, Severity};
 use crate::run::race::{Entrant, Halt, LaneBody};
+use crate::scene::Mark;
 use crate::sim::number::{round, significant};
 use crate::studio::Studio;
+use crate::studio::{shown_state, shown_truth};
 
 /// Room that a scale bar may take at the right of a cell, in points.
 const BAR_MARGIN: f32 = 130.0;

@@ -1,7 +1,5 @@
 //! Lays out the stage and draws every body of every lane, with its ghost, its trail and its captions.
 
-use crate::scene::{Mark, Outline};
-use crate::studio::{shown_state, shows_futures};
 use glam::DVec2;
 
 use super::body::OutlineView;
@@ -19,7 +17,9 @@ use super::{
 use crate::look::palette::{Rgba, faded};
 use crate::look::{Framing, Look};
 use crate::run::race::{Entrant, Mode};
+use crate::scene::{Mark, Outline};
 use crate::studio::{Arrangement, Studio, ZoomPan};
+use crate::studio::{shown_state, shows_futures};
 
 /// The most lanes of which each body has its number on it.
 const MAX_NUMBERED: usize = 9;

@@ -1,7 +1,5 @@
 //! The truth as the stage shows it: where the ghost is, where it has been, and how far it goes.
 
-use crate::scene::Outline;
-use crate::studio::shown_truth;
 use glam::DVec2;
 
 use super::framed::BodyView;
@@ -10,6 +8,8 @@ use super::trails::Place;
 use crate::look::palette::{Rgba, faded};
 use crate::look::{Framing, Look};
 use crate::run::past::{TruthCurve, TruthSample};
+use crate::scene::Outline;
+use crate::studio::shown_truth;
 
 /// The true motion of one body at the moment drawn.
 pub(super) struct Ghost {

@@ -12,7 +12,6 @@ use crate::look::palette::{Palette, faded, mixed};
 use crate::run::race::Entrant;
 use crate::sim::number::{round, significant, superscript};
 use crate::studio::Motion;
-
 use Part::{Disc, Outline, Ring};
 
 /// Something that one knows the size of.

@@ -1,14 +1,12 @@
 //! What a person does to a run by hand: actions, picks, steps in time.
 
 use super::deck::Deck;
+use super::display::DriverRequest;
 use super::driving::make_tick;
 use super::joint::joint_code;
 use super::restarting::{Jump, follow, restart};
+use super::step::Step;
 use super::viewer::Viewer;
-
-use super::display::DriverRequest;
-
-use super::command::Step;
 use crate::run::StartSettings;
 use crate::run::race::{Mode, equal_cost};
 use crate::scene::{Action, LaneId, LaneSpec};

@@ -1,11 +1,11 @@
 //! The clouds of the studio: which it wants, and how it takes them in.
 
-use super::deck::Deck;
-use super::viewer::Viewer;
 use std::sync::Arc;
 
 use super::Studio;
+use super::deck::Deck;
 use super::instrument::Instrument;
+use super::viewer::Viewer;
 use crate::measure::cloud::{CloudKind, CloudRequest, CloudWorker, FoundCloud, NoCloud};
 use crate::run::race::Interventions;
 

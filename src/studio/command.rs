@@ -6,6 +6,7 @@ use super::deck::HeldBody;
 use super::display::{DriverRequest, Splits};
 use super::instrument::Instrument;
 use super::my_spring::MySpring;
+use super::step::Step;
 use super::zoom_pan::ZoomPan;
 use crate::loops::loop_lab::LoopCommand;
 use crate::measure::cloud::CloudChoice;
@@ -227,46 +228,3 @@ pub const SCALE_LADDER: [u32; 8] = [75, 90, 100, 110, 125, 150, 175, 200];
 
 /// The size of type and panels that nobody chose, in percent.
 pub(super) const USUAL_SCALE_PERCENT: u32 = 100;
-
-/// A step along a list, or along a ladder of numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
-    /// The next, or the next higher.
-    Next,
-    /// The one before, or the next lower.
-    Previous,
-}
-
-impl Step {
-    /// 1 to the next, -1 to the previous.
-    pub(super) fn sign(self) -> i64 {
-        match self {
-            Self::Next => 1,
-            Self::Previous => -1,
-        }
-    }
-
-    /// The index that it leads to on a list that goes round.
-    pub(super) fn around(self, index: usize, count: usize) -> usize {
-        match self {
-            Self::Next => (index + 1) % count,
-            Self::Previous => (index + count - 1) % count,
-        }
-    }
-
-    /// The step the other way.
-    pub(super) fn other(self) -> Self {
-        match self {
-            Self::Next => Self::Previous,
-            Self::Previous => Self::Next,
-        }
-    }
-
-    /// The rung that it leads to; `None` at the end of the ladder.
-    pub(super) fn along(self, ladder: &[u32], rung: u32) -> Option<u32> {
-        match self {
-            Self::Next => ladder.iter().copied().find(|&other| other > rung),
-            Self::Previous => ladder.iter().copied().rfind(|&other| other < rung),
-        }
-    }
-}

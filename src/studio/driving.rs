@@ -2,7 +2,7 @@
 
 use super::Motion;
 use super::deck::Deck;
-use super::live_loop::LiveFrame;
+use super::pace::LiveFrame;
 use super::viewer::Viewer;
 use crate::look::{Framing, Look};
 use crate::loops::Due;

@@ -1,10 +1,10 @@
 //! The verdicts and the advice of a studio: what it requests, and how it takes the findings in.
 
-use super::deck::Deck;
-use super::viewer::Viewer;
 use std::sync::Arc;
 
+use super::deck::Deck;
 use super::instrument::Instrument;
+use super::viewer::Viewer;
 use crate::measure::{AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings, MapRequest};
 use crate::run::race::{Entrant, Interventions, Mode};
 use crate::scene::SceneBody;

@@ -1,10 +1,10 @@
 //! The guide and the hints of a studio: how a stop is opened, and when its task is done.
 
-use super::command::Step;
 use super::deck::Deck;
 use super::guide::{Chosen, Goal, STOPS, Situation, Stop, Tour};
 use super::opening::open_with;
 use super::resting::rest_hint;
+use super::step::Step;
 use super::viewer::Viewer;
 use crate::run::Metric;
 use crate::run::past::Quantity;

@@ -49,7 +49,7 @@ pub struct InstrumentCard {
     pub about: &'static str,
 }
 
-use super::command::Step;
+use super::step::Step;
 use InstrumentGroup::{Do, See, Why};
 
 /// Every instrument, in the order of the tabs.

@@ -4,8 +4,9 @@
 use std::fmt;
 
 use super::command::Command::{self, Ask, Loop, Run, Stage, View};
-use super::command::{RunCommand, StageCommand, Step, ViewCommand};
+use super::command::{RunCommand, StageCommand, ViewCommand};
 use super::display::DriverRequest;
+use super::step::Step;
 use crate::loops::loop_lab::LoopCommand;
 use crate::scene::Action;
 

@@ -1,14 +1,15 @@
 //! The loop lab as a mode of the studio: opening and leaving it, and what commands do in it.
 
-use super::apply::carry_out_on_stage;
-use super::deck::Deck;
-use super::viewer::Viewer;
 use std::sync::Arc;
 
 use super::Studio;
-use super::command::{StageCommand, Step, TICK_LADDER};
+use super::command::{StageCommand, TICK_LADDER};
+use super::deck::Deck;
+use super::dispatch::carry_out_on_stage;
 use super::guide::Goal;
 use super::instrument::Instrument;
+use super::step::Step;
+use super::viewer::Viewer;
 use crate::loops::FrameTrace;
 use crate::loops::loop_lab::{FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopWorker, SLOWNESS};
 use crate::scene::SceneBody;

@@ -24,6 +24,7 @@ mod apply;
 mod clouding;
 mod command;
 mod deck;
+mod dispatch;
 mod display;
 mod driving;
 mod file_names;
@@ -35,7 +36,6 @@ mod guiding;
 mod instrument;
 mod joint;
 mod key;
-mod live_loop;
 mod looping;
 mod my_spring;
 mod notice;
@@ -46,6 +46,7 @@ mod restarting;
 mod resting;
 mod saved_preferences;
 mod scene_list;
+mod step;
 mod viewer;
 mod work;
 mod zoom_pan;
@@ -54,7 +55,7 @@ pub use crate::measure::{Future, FutureMoment, OneStep, Slope};
 pub use ahead::{futures, one_step, orbit, shows_futures};
 pub use clouding::{accept_cloud, cloud_refusal, cloud_request, complete_clouds, shown_cloud};
 pub use command::{
-    Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, Step, TICK_LADDER, ViewCommand,
+    Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,
 };
 pub use deck::{Deck, HeldBody};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, View};
@@ -69,7 +70,6 @@ pub use gesture::{GESTURES, Gesture};
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup};
 pub use joint::{SpringJoint, joint_code};
 pub use key::{Binding, KEYS, Key, command_for};
-pub use live_loop::{LiveFrame, LiveLoop};
 pub use looping::{
     accept_loop, loop_lab_refusal, loop_request, open_loop_lab_on, open_traces, run_loops,
 };
@@ -80,9 +80,10 @@ pub use opening::{
     refuse_typed_path, reload_failed, reload_file, show_clouds_of_scene, show_comparison,
     show_mistakes,
 };
-pub use pace::PaceMeter;
+pub use pace::{LiveFrame, LiveLoop, PaceMeter};
 pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
+pub use step::Step;
 pub use viewer::{Dialog, Preferences, Viewer};
 pub use work::{Asked, Found, Work};
 pub use zoom_pan::ZoomPan;

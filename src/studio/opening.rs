@@ -4,11 +4,11 @@ use std::path::Path;
 
 use super::Studio;
 use super::acting::seek;
-use super::command::Step;
 use super::deck::Deck;
 use super::driving::make_tick;
 use super::instrument::Instrument;
 use super::restarting::{Jump, follow, is_by_hand, restart};
+use super::step::Step;
 use super::viewer::{Dialog, Viewer};
 use crate::run::diff::Comparison;
 use crate::run::race::Mode;

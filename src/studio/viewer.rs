@@ -6,9 +6,9 @@ use super::command::{
 use super::display::{Arrangement, Display, Motion, Pace, Splits, View};
 use super::guide::{Hints, Tour};
 use super::instrument::Instrument;
-use super::live_loop::LiveLoop;
 use super::my_spring::MySpring;
 use super::notice::Notice;
+use super::pace::LiveLoop;
 use crate::look::palette::Theme;
 use crate::loops::loop_lab::LoopCommand;
 use crate::measure::cloud::{CloudChoice, FoundCloud};

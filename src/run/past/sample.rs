@@ -1,10 +1,10 @@
 //! One moment of a body in a history.
 
-use crate::sim::Stepper;
 use glam::DVec2;
 
 use crate::run::METRICS;
 use crate::run::race::LaneBody;
+use crate::sim::Stepper;
 
 /// The most samples shown: every tick of 30 s at 60 Hz, and more than a plot has pixels.
 pub const CAPACITY: usize = 2048;

@@ -5,11 +5,10 @@
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
 //! of each card, both ways. A [custom](Method::custom) method needs no place in the table. To add one, copy `midpoint.rs`, declare it, and name it in `methods!`.
 
-use custom_method::{CustomMethod, Unfit};
-use reset_on_change::ResetOnChange;
-
 use super::state::Vector;
 use super::system::{BodyClass, Counted, Coupling, System};
+use custom_method::{CustomMethod, Unfit};
+use reset_on_change::ResetOnChange;
 
 mod adams_bashforth_2;
 mod adaptive_euler;

@@ -3,6 +3,7 @@
 use egui::{Align2, Color32, Pos2, Rect, Stroke, pos2, vec2};
 
 use super::theme::PanelPalette;
+
 pub(super) use area::{Bounds, PlotArea};
 pub(super) use axis::AxisMark;
 pub use axis::AxisScale;

@@ -18,6 +18,7 @@ use crate::studio::{
 };
 use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{TYPE, palette, strong_font};
+
 pub(in crate::view) use export::{csv, svg};
 use plot_set::PlotSet;
 

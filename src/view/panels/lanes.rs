@@ -11,7 +11,6 @@ use crate::studio::{
 };
 use crate::tools::source_code::Language;
 use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
-
 use row::Row;
 
 mod columns;

@@ -9,6 +9,7 @@ use egui::{
 };
 
 use self::marks::{Context, Group, Sign, grouped};
+
 pub(super) use self::span::Span;
 use super::breakpoints;
 use crate::run::Event;

@@ -4,6 +4,8 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use egui::Color32;
+
 use super::super::series_styles::{SeriesStyle, SeriesStyles};
 use super::super::tracks::{self, Track, TrackStyle};
 use crate::run::Unit;
@@ -13,7 +15,6 @@ use crate::stage::number::significant;
 use crate::studio::{Studio, shows_futures};
 use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
 use crate::view::theme::palette_of;
-use egui::Color32;
 
 /// The width of the exact curve, in points: a lane that keeps to the truth is seen on both sides of it.
 pub(super) const EXACT: f32 = 1.3;

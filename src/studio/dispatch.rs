@@ -1,0 +1,122 @@
+//! Commands on the run and on the stage while the run is on it: each is carried out by the function that owns it.
+
+use super::acting::{
+    act, listed, pick, pick_beside, seek, set_lane, step_by, tell_of_the_future, toggle_equal_cost,
+};
+use super::command::{RunCommand, SPEED_LADDER, StageCommand, TICK_LADDER};
+use super::deck::Deck;
+use super::findings::select_best;
+use super::guiding::hint;
+use super::opening::{open, open_beside, open_spring};
+use super::restarting::{redo, restart, restart_keeping_run, undo};
+use super::resting::watch_again;
+use super::viewer::Viewer;
+use crate::run::METRICS;
+use crate::run::race::Mode;
+use crate::scene::Action;
+
+pub(super) fn carry_out_on_run(deck: &mut Deck, viewer: &mut Viewer, command: RunCommand) {
+    let race = deck.race();
+    match command {
+        RunCommand::Act(action) => act(deck, viewer, action),
+        RunCommand::SetLane(spec) => set_lane(deck, viewer, spec),
+        RunCommand::SpeedPercent(percent) => deck.clock.set_speed_percent(percent),
+        RunCommand::ThrottleUp => act(deck, viewer, Action::Throttle(tenths(race.throttle(), 1.0))),
+        RunCommand::ThrottleDown => {
+            act(deck, viewer, Action::Throttle(tenths(race.throttle(), -1.0)))
+        }
+        RunCommand::RudderLeft => act(deck, viewer, Action::Rudder(tenths(race.rudder(), 1.0))),
+        RunCommand::RudderRight => act(deck, viewer, Action::Rudder(tenths(race.rudder(), -1.0))),
+        RunCommand::Seek(tick) => {
+            deck.running = false;
+            seek(deck, viewer, tick);
+            tell_of_the_future(deck, viewer, tick);
+        }
+        RunCommand::WatchAgain => watch_again(deck, viewer),
+        RunCommand::Undo => undo(deck, viewer),
+        RunCommand::Redo => redo(deck, viewer),
+        RunCommand::NextInterpolation => viewer.next_interpolation(),
+        RunCommand::MapParameter(parameter) => {
+            let view = &mut viewer.view;
+            view.mapped_parameter = Some((view.body, parameter));
+        }
+        RunCommand::Cloud(choice) => viewer.preferences.display.cloud = choice,
+        RunCommand::ToggleInspector => {
+            let display = &mut viewer.preferences.display;
+            display.inspector = !display.inspector;
+        }
+        RunCommand::Seconds(seconds) => {
+            deck.set_start("the length", |start| start.set_seconds(seconds));
+        }
+        RunCommand::Hold(held) => deck.held = Some(held),
+        RunCommand::ToggleEqualCost => toggle_equal_cost(deck, viewer),
+    }
+}
+
+pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: StageCommand) {
+    let race = deck.race();
+    match command {
+        StageCommand::Method(method) => {
+            if let Some(entry) = listed(deck, viewer, method) {
+                pick(deck, viewer, entry);
+            }
+        }
+        StageCommand::Pick(entry) => pick(deck, viewer, entry),
+        StageCommand::MethodBeside(step) => pick_beside(deck, viewer, step),
+        StageCommand::TickHz(tick_hz) => act(deck, viewer, Action::TickHz(tick_hz)),
+        StageCommand::TickRate(step) => {
+            if let Some(hz) = step.along(&TICK_LADDER, race.tick_hz()) {
+                act(deck, viewer, Action::TickHz(hz));
+            }
+        }
+        StageCommand::Speed(step) => {
+            if let Some(percent) = step.along(&SPEED_LADDER, deck.clock.speed_percent()) {
+                deck.clock.set_speed_percent(percent);
+            }
+        }
+        StageCommand::ToggleRace => match race.mode() {
+            Mode::Solo => {
+                restart(deck, viewer, Some("the race"), |next| next.mode = Mode::Race);
+                select_best(deck, viewer);
+            }
+            Mode::Race => {
+                let lane = deck.selected().id;
+                act(deck, viewer, Action::Solo { lane });
+                deck.run.next_mut().mode = Mode::Solo;
+                // It may be about a lane that has left the race.
+                viewer.notice = None;
+            }
+        },
+        StageCommand::Tick(step) => step_by(deck, viewer, step.sign()),
+        StageCommand::Second(step) => {
+            step_by(deck, viewer, step.sign() * i64::from(race.tick_hz()))
+        }
+        StageCommand::Restart => {
+            viewer.view.zoom_pans.clear();
+            // A hint leads on; the old run is a click away on the timeline.
+            if restart_keeping_run(deck, viewer) && hint(deck, viewer, false).is_none() {
+                viewer.set_notice("restarted: Ctrl Z brings the run back");
+            }
+        }
+        StageCommand::Scene(index) => open(deck, viewer, index),
+        StageCommand::SceneBeside(step) => open_beside(deck, viewer, step),
+        StageCommand::ToggleArrangement => viewer.toggle_arrangement(),
+        StageCommand::Instrument(instrument) => viewer.preferences.display.instrument = instrument,
+        StageCommand::InstrumentBeside(step) => {
+            let instrument = &mut viewer.preferences.display.instrument;
+            *instrument = instrument.beside(step);
+        }
+        StageCommand::Metric(index) => {
+            viewer.preferences.display.metric = index.min(METRICS.len() - 1)
+        }
+        StageCommand::Body(body) => {
+            viewer.view.body = body.min(deck.scene().bodies.len() - 1);
+        }
+        StageCommand::OpenSpring => open_spring(deck, viewer),
+    }
+}
+
+/// `part` plus `more` tenths, rounded to tenths, so that ten steps up and ten down end at the initial value.
+fn tenths(part: f64, more: f64) -> f64 {
+    ((part * 10.0).round() + more) / 10.0
+}
