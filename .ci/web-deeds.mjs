@@ -10,6 +10,7 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
     await holdSharing();
     await holdScrolling();
     await holdKeys();
+    await holdSweep();
     await holdFiles();
     await holdMemory();
     await holdLostContext();
@@ -85,6 +86,22 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
         await page.puppeteer.keyboard.press("Escape");
         await page.puppeteer.keyboard.press("Tab");
         hold(`Escape and Tab do not lead out of the stage: ${from}, ${await focused()}`, from === "stage" && (await focused()) !== "stage");
+        await page.close();
+    }
+
+    async function holdSweep() {
+        const page = await opened("#scene=spring", { width: 1280, height: 900 });
+        await page.puppeteer.keyboard.press("e");
+        await seconds(1);
+        const still = await seen(page);
+        // The button beside the stiffness, which then changes with each frame for eight seconds.
+        await page.puppeteer.mouse.click(965, 392);
+        await seconds(1);
+        const from = await tick(page);
+        await seconds(3);
+        const ticks = (await tick(page)) - from;
+        hold(`${ticks} ticks in three seconds of a parameter that is swept`, ticks > 45 && ticks < 400);
+        hold("the inspector shows no sweep", (await seen(page)) !== still);
         await page.close();
     }
 

@@ -1,4 +1,4 @@
-//! Draws recordings, and figures of charts: the renderer for each, and what is said at the end or of an interrupt.
+//! Draws recordings, and figures of charts: the renderer for each, and the sentence at the end or of an interrupt.
 
 use std::io::Write;
 

@@ -52,7 +52,7 @@ pub struct Past {
 
 /// The end of the recorded past at some tick, to which it can be [rewound](Past::rewind).
 #[derive(Clone, Debug)]
-pub(crate) struct PastMark {
+pub(super) struct PastMark {
     /// By lane and body.
     histories: Box<[(LaneId, Box<[HistoryMark]>)]>,
     truth_curves: Box<[TruthMark]>,
@@ -61,7 +61,7 @@ pub(crate) struct PastMark {
 
 impl PastMark {
     /// Its heap memory in bytes.
-    pub(crate) fn heap_bytes(&self) -> usize {
+    pub(super) fn heap_bytes(&self) -> usize {
         let row = |(_, marks): &(LaneId, Box<[HistoryMark]>)| size_of_val(&marks[..]);
         size_of_val(&self.histories[..])
             + self.histories.iter().map(row).sum::<usize>()
@@ -100,7 +100,7 @@ impl Past {
     }
 
     /// Its heap memory in bytes.
-    pub(crate) fn heap_bytes(&self) -> usize {
+    pub(super) fn heap_bytes(&self) -> usize {
         let histories: usize = self.histories.iter().map(|(_, histories)| histories.len()).sum();
         histories * History::heap_bytes(self.capacity)
             + self.truth_curves.iter().map(TruthCurve::heap_bytes).sum::<usize>()
@@ -205,7 +205,7 @@ impl Past {
     }
 
     /// The present end of the recorded past.
-    pub(crate) fn mark(&self) -> PastMark {
+    pub(super) fn mark(&self) -> PastMark {
         let marks = |(lane, histories): &(LaneId, Vec<History>)| {
             (*lane, histories.iter().map(History::mark).collect())
         };
@@ -217,7 +217,7 @@ impl Past {
     }
 
     /// Whether a run repeated from the mark `from` will be drawn at `mark` as it was drawn then.
-    pub(crate) fn fills(&self, from: &PastMark, mark: &PastMark) -> bool {
+    pub(super) fn fills(&self, from: &PastMark, mark: &PastMark) -> bool {
         let histories = mark.histories.iter().all(|(lane, marks)| {
             let begun = from.histories.iter().find(|(other, _)| other == lane);
             let (Some((_, begun)), Some(kept)) = (begun, self.index(*lane)) else { return false };
@@ -230,7 +230,7 @@ impl Past {
     }
 
     /// Goes back to a mark, or forward to one in the recorded future: that of the present of `race`.
-    pub(crate) fn rewind(&mut self, mark: &PastMark, race: &Race) {
+    pub(super) fn rewind(&mut self, mark: &PastMark, race: &Race) {
         self.changed_s = mark.changed_s;
         self.leave_with(race);
         for (lane, marks) in &mark.histories {
@@ -252,7 +252,7 @@ impl Past {
     }
 
     /// Drops the recorded future.
-    pub(crate) fn forget_future(&mut self) {
+    pub(super) fn forget_future(&mut self) {
         let lanes = self.histories.iter_mut().flat_map(|(_, histories)| histories);
         lanes.for_each(History::forget_future);
         self.truth_curves.iter_mut().for_each(TruthCurve::forget_future);

@@ -303,7 +303,7 @@ impl Race {
     }
 
     /// Performs the journal's actions at this tick, and steps every lane and the truth to the next, before the eyes of an
-    /// observer. Never allocates.
+    /// observer. Allocates for actions only.
     pub fn step(&mut self, observer: &mut dyn Observer) {
         self.catch_up(observer);
         let (t, h) = (self.t(), 1.0 / f64::from(self.tick_hz()));

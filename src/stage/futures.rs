@@ -27,9 +27,7 @@ pub(super) fn draw(
 ) {
     let (palette, clip) = (moment.palette, camera.rect);
     let mut ends: Vec<([f32; 2], usize)> = Vec::new();
-    for Future { entry, moments } in
-        futures(&moment.studio.deck, &moment.studio.viewer, body).iter().rev()
-    {
+    for Future { entry, moments } in futures(&moment.studio.deck, body).iter().rev() {
         let now_s = moments[0].t;
         let place = |at: &FutureMoment| match framing {
             Framing::Recorder { .. } => camera.ahead(at.at, at.t - now_s),

@@ -37,7 +37,7 @@ pub fn shows_futures(studio: &Studio) -> bool {
 
 /// The next second of the body at this index of the scene in the selected lane, the truth last; empty if it has halted, or
 /// has too many coordinates.
-pub fn futures(deck: &Deck, _viewer: &Viewer, body: usize) -> Vec<Future> {
+pub fn futures(deck: &Deck, body: usize) -> Vec<Future> {
     let of = &deck.selected().lane.bodies()[body];
     let held = deck.held().filter(|held| held.body == body);
     let held = held.map(|held| (&*held.q, &*held.v));

@@ -200,7 +200,7 @@ impl Deck {
         lane.evaluations() - before
     }
 
-    /// Of the run as a scene file.
+    /// The file name of a recording.
     pub fn recording_file_name(&self) -> String {
         format!("regatta-{}-recording.toml", self.scene().name)
     }
@@ -236,17 +236,10 @@ impl Deck {
         self.saved_edits = self.edits;
     }
 
-    /// Makes what was done so far part of the start, so that none of it can be undone: for a driver that has set up the studio
-    /// by commands.
+    /// Makes what was done so far part of the start, so that none of it can be undone.
     pub fn forget_changes(&mut self) {
         self.run.forget_changes();
         self.note_saved();
-    }
-
-    /// Leaves the selection in a race to the verdicts, as if nobody had selected one: for a driver that has set up
-    /// the studio by commands.
-    pub fn leave_selection(&mut self) {
-        self.is_selected = false;
     }
 
     /// Selects the lane under the method with which a solo run starts.

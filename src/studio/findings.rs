@@ -192,7 +192,7 @@ mod tests {
         assert_ne!(studio.active(), 0, "explicit Euler leaves the stage");
         let mut studio = Studio::new(brief("lerp"));
         studio.apply(StageCommand::ToggleRace);
-        studio.deck.leave_selection();
+        studio.deck.is_selected = false;
         let named = studio.active();
         studio.analyse();
         assert_eq!(studio.active(), named);

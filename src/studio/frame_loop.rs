@@ -25,7 +25,7 @@ pub struct FrameLoop {
     pub studio: Studio,
     /// The commands that a driver carries out itself.
     is_own: fn(&Command) -> bool,
-    /// Commands that the next frame carries out before time passes, the next one last.
+    /// Commands that the next frame carries out before time passes, the next one first.
     asked: Vec<Command>,
     /// A tick to go to before time passes, and whether time runs from there.
     goal: Option<(u64, bool)>,
@@ -141,6 +141,13 @@ impl FrameLoop {
         notice.map_or(u64::MAX, |notice| notice.left_ns().unsigned_abs())
     }
 
+    /// The frame could not be drawn: until the first of a scene is, no time passes in its run.
+    pub fn not_drawn(&mut self) {
+        if self.draws_long {
+            self.last_frame_ns = None;
+        }
+    }
+
     /// Leaves out of the run what the driver has just done, up to `now_ns`.
     pub fn stand_still(&mut self, now_ns: u64) {
         self.last_frame_ns = self.last_frame_ns.map(|_| now_ns);
@@ -208,6 +215,23 @@ mod tests {
             now_ns += FRAME_NS;
             frame(&mut frames, now_ns, Vec::new());
         }
+    }
+
+    #[test]
+    fn no_time_passes_until_the_first_picture_of_a_scene_is_drawn() {
+        let studio = Studio::new(Scene::built_in("spring").unwrap());
+        let mut frames = FrameLoop::new(studio, |_| false, 0);
+        for n in 0..5 {
+            frames.pass(n * FRAME_NS, u64::MAX, &|| n * FRAME_NS);
+            frames.not_drawn();
+        }
+        assert_eq!(frames.studio.race().tick(), 0);
+        for n in 5..8 {
+            frame(&mut frames, n * FRAME_NS, Vec::new());
+            // A surface that is gone for a moment stops nothing.
+            frames.not_drawn();
+        }
+        assert_eq!(frames.studio.race().tick(), 2);
     }
 
     #[test]

@@ -32,7 +32,7 @@ pub fn loop_lab_refusal(deck: &Deck, viewer: &Viewer) -> Option<String> {
     kind.net().is_some().then(|| format!("{name} {refusal}"))
 }
 
-/// Opens the loop lab with the displayed body, unless it is [refused](Studio::loop_lab_refusal).
+/// Opens the loop lab with the displayed body, unless it is [refused](loop_lab_refusal).
 pub(super) fn open_loop_lab(studio: &mut Studio) {
     let method = method(METHOD_AT_FIRST).expect("a built-in method");
     let body = studio.viewer.view.body;

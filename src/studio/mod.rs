@@ -85,7 +85,7 @@ pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
 pub use step::Step;
 pub use viewer::{Dialog, Preferences, Viewer};
-pub use work::{Asked, Found, Work};
+pub use work::{CurrentRequest, Found, Work};
 pub use zoom_pan::ZoomPan;
 
 /// A scene being run and looked at.
@@ -111,15 +111,14 @@ impl Studio {
     pub fn opened(scene: Scene, selected: Option<&'static Method>, mode: Mode) -> Self {
         let method = selected.unwrap_or_else(|| scene.opening_lane().method);
         let mut next = StartSettings::of(scene);
-        if let Some(entry) = next.list.iter().position(|spec| spec.method == method) {
-            next.entry = entry;
-        }
+        let listed = next.list.iter().position(|spec| spec.method == method);
+        next.entry = listed.unwrap_or(next.entry);
         if next.scene.lanes.len() > 1 {
             next.mode = mode;
         }
         let mut studio = Self::starting_with(next);
         studio.deck.select_entry_of_start();
-        studio.deck.is_selected = mode == Mode::Solo || selected.is_some();
+        studio.deck.is_selected = listed.is_some() && (mode == Mode::Solo || selected.is_some());
         studio
     }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::Studio;
-use super::acting::seek;
+use super::command::RunCommand;
 use super::deck::Deck;
 use super::driving::make_tick;
 use super::instrument::Instrument;
@@ -79,9 +79,11 @@ pub(super) fn open_spring(deck: &mut Deck, viewer: &mut Viewer) {
     open_described(deck, viewer, scene);
 }
 
-/// Opens what `MySpring::advised_scene` has made of it.
+/// Opens the scene that `MySpring::advised_scene` has made of a person's spring, or shows its mistakes.
 pub fn open_advised_spring(studio: &mut Studio, scene: Result<Scene, SceneErrors>) {
-    studio.loops = None;
+    if scene.is_ok() {
+        studio.loops = None;
+    }
     open_described(&mut studio.deck, &mut studio.viewer, scene);
 }
 
@@ -133,7 +135,6 @@ pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
     let left_out = match (is_by_hand, keeps) {
         (false, _) => "",
         (true, true) => " (your kicks and edits left out; Ctrl Z: old run)",
-        // Another scene has another studio.
         // Opening another scene drops the undo stack.
         (true, false) => " (your kicks and edits left out)",
     };
@@ -149,9 +150,9 @@ pub fn refuse_typed_path(deck: &mut Deck, viewer: &mut Viewer, path: &Path, repo
 }
 
 /// Marks where the recording of this name, which is side a, first differs from the run, and goes there.
-pub fn show_comparison(deck: &mut Deck, viewer: &mut Viewer, name: &str, found: &Comparison) {
-    viewer.dialog = None;
-    viewer.parting = None;
+pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison) {
+    studio.viewer.dialog = None;
+    studio.viewer.parting = None;
     let told = match &found.first {
         _ if !found.is_comparable() => {
             format!("{name} and this run have nothing to compare that moves")
@@ -162,16 +163,15 @@ pub fn show_comparison(deck: &mut Deck, viewer: &mut Viewer, name: &str, found: 
         }
         Some(first) => {
             let told = format!("{name} is a, this run is b; they first differ {first}");
-            viewer.parting = Some((first.tick, told.clone()));
-            deck.running = false;
-            seek(deck, viewer, first.tick);
+            studio.viewer.parting = Some((first.tick, told.clone()));
+            studio.apply(RunCommand::Seek(first.tick));
             // The run may not have come so far yet.
-            let ahead = first.tick.saturating_sub(deck.race().tick()).min(MAX_RERUN);
-            (0..ahead).for_each(|_| make_tick(deck, viewer, &mut ()));
+            let ahead = first.tick.saturating_sub(studio.race().tick()).min(MAX_RERUN);
+            (0..ahead).for_each(|_| studio.tick());
             told
         }
     };
-    viewer.set_notice(told);
+    studio.viewer.set_notice(told);
 }
 
 /// Tells that a file on the list is not there any more. The run goes on.

@@ -268,7 +268,7 @@ impl Viewer {
         self.set_notice(told);
     }
 
-    /// Shows the hints from the first one again: for a driver that has set up the studio by commands.
+    /// Shows the hints from the first one again.
     pub fn begin_hints(&mut self) {
         self.hints = Hints::default();
     }

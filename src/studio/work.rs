@@ -25,9 +25,9 @@ pub trait Work {
 }
 
 /// The request that a worker has.
-pub struct Asked<W: Work>(pub W::Request);
+pub struct CurrentRequest<W: Work>(pub W::Request);
 
-impl<W: Work> Asked<W> {
+impl<W: Work> CurrentRequest<W> {
     /// Replaces the request. Returns it for the worker, unless it asks for the same.
     pub fn replace(&mut self, request: W::Request) -> Option<W::Request> {
         let is_other = !W::is_same(&request, &self.0);

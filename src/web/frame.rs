@@ -25,6 +25,7 @@ impl Driver {
         let input = std::mem::replace(&mut self.input, next);
         let scale = self.window.device_pixel_ratio();
         let Some((commands, output)) = self.canvas.draw(scale, input, &self.frames.studio) else {
+            self.frames.not_drawn();
             return self.after(100, Self::request_frame);
         };
         if std::mem::take(&mut self.saves_picture) {

@@ -7,18 +7,18 @@ use regatta::measure::AnalysisWorker;
 use regatta::measure::cloud::CloudWorker;
 use regatta::run::Replay;
 use regatta::scene::Check;
-use regatta::studio::{Asked, Found, Studio, Work, cloud_request, loop_request};
+use regatta::studio::{CurrentRequest, Found, Studio, Work, cloud_request, loop_request};
 
 /// A worker, and its request.
 struct Worker<W: Work> {
     worker: W,
-    asked: Asked<W>,
+    asked: CurrentRequest<W>,
     has_more: bool,
 }
 
 impl<W: Work<Found = Found>> Worker<W> {
     fn new(worker: W, request: W::Request) -> Self {
-        Self { worker, asked: Asked(request), has_more: true }
+        Self { worker, asked: CurrentRequest(request), has_more: true }
     }
 
     fn ask(&mut self, request: W::Request) {

@@ -121,7 +121,7 @@ impl ReadFile {
             }
             Ok(Held::Compared(found)) => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
-                show_comparison(&mut studio.deck, &mut studio.viewer, &name, &found);
+                show_comparison(studio, &name, &found);
             }
             Err(report) if is_typed => {
                 refuse_typed_path(&mut studio.deck, &mut studio.viewer, &path, report)

@@ -9,12 +9,12 @@ use std::thread;
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use crate::studio::{Asked, Work};
+use crate::studio::{CurrentRequest, Work};
 
 /// A handle to a thread that works. The thread ends when this is dropped.
 pub(super) struct WorkThread<W: Work> {
     requests: Sender<W::Request>,
-    asked: Asked<W>,
+    asked: CurrentRequest<W>,
     /// How many requests were sent.
     sent: Arc<AtomicU64>,
 }
@@ -29,7 +29,7 @@ where
         let sent = Arc::new(AtomicU64::new(0));
         let counted = Arc::clone(&sent);
         thread::spawn(move || run(worker, &received, &counted, &events));
-        Self { requests, asked: Asked(request), sent }
+        Self { requests, asked: CurrentRequest(request), sent }
     }
 
     /// The request that was sent last.

@@ -9,7 +9,7 @@ use std::{iter, option};
 use super::sample::{Sample, Summary, SweptRange};
 use super::windowed_log::WindowedLog;
 
-/// The most samples that a summary stands for: what lies between its ends is still told from its range.
+/// The most samples that a summary stands for: its range keeps what lies between its ends.
 const MAX_SUMMED: usize = 4;
 
 /// The recent past of one body in one lane, oldest first.
@@ -55,8 +55,8 @@ impl History {
         self.after(0)
     }
 
-    /// The samples, several to a summary, but at least `least` summaries as far as there are samples. A sample stays with the
-    /// same others while the history grows.
+    /// The samples, several to a summary, but at least `least` summaries as far as there are samples. In a full
+    /// history a sample stays with the same others as time goes on.
     pub fn summaries(&self, least: usize) -> Vec<Summary> {
         let together = (self.samples.len() / least.max(1)).clamp(1, MAX_SUMMED) as u64;
         let mut summaries: Vec<Summary> = Vec::with_capacity(self.samples.len() + 1);

@@ -57,7 +57,10 @@ impl Race {
         self.done = done;
         let done = match planned {
             Some(planned) => self.carry_out(planned, observer),
-            None => Done::new(action, Author::Person, None),
+            None => {
+                let switch = self.switch(&action);
+                Done::new(action, Author::Person, switch)
+            }
         };
         // The rate is another now, or a change of it that was to come is none.
         self.journal.put_on_ticks(self.done, self.piece);

@@ -16,7 +16,7 @@ pub struct Done {
     pub switch: Option<Switch>,
     /// The halted bodies that go on because of it; none before it is performed.
     pub resumed: Vec<Resumed>,
-    /// The control that a person has taken from the script by it.
+    /// The control that a person has taken from the script by it; observers do not see it.
     pub(crate) released: Option<Control>,
 }
 

@@ -48,7 +48,7 @@ impl RunStart {
 pub(crate) struct Starts {
     /// Right after a person last placed or kicked a body.
     pub(super) judged: Option<Arc<RunStart>>,
-    /// Right after a person or the script last acted on a body.
+    /// Right after a person or the script last changed a body.
     pub(super) cloud: Option<Arc<RunStart>>,
 }
 

@@ -142,7 +142,7 @@ fn each_future_is_what_the_run_comes_to_under_its_method() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..7).for_each(|_| studio.tick());
     studio.apply(StageCommand::TickHz(12));
-    let futures = futures(&studio.deck, &studio.viewer, 0);
+    let futures = futures(&studio.deck, 0);
     assert_eq!(futures.len(), studio.scene().lanes.len() + 1);
     for Future { entry, moments } in futures {
         let Some(entry) = entry else {

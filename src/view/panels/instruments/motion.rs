@@ -105,7 +105,7 @@ fn future_curves(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve>
         let points = future.moments.iter().map(|moment| [moment.t, quantity.among(moment.state)]);
         Curve::new(style, points.collect())
     };
-    futures(&studio.deck, &studio.viewer, body).into_iter().map(curve).collect()
+    futures(&studio.deck, body).into_iter().map(curve).collect()
 }
 
 /// The name of a body, and of a net which node it is that its plot shows.

@@ -126,7 +126,7 @@ fn a_recording_is_compared_in_the_menu_and_its_first_difference_is_marked_and_go
         relative: Some(0.2),
     };
     let found = Comparison { rows: 900, moved: 2.0, first: Some(other), ..Default::default() };
-    show_comparison(&mut studio.deck, &mut studio.viewer, "clip.toml", &found);
+    show_comparison(&mut studio, "clip.toml", &found);
     // The run had not come so far, and goes on from there.
     assert_eq!((studio.race().tick(), studio.run().end()), (250, 250));
     let (tick, told) = studio.viewer.parting().unwrap().clone();
