@@ -2,7 +2,7 @@
 
 use super::amplitude::{Trend, amplitude};
 use super::frequency::{FrequencyError, frequency_error};
-use super::run::Run;
+use super::run::JudgedRun;
 use super::truth::{BodyTruth, Swing};
 use super::verdict::LongTerm;
 use crate::sim::stability::FOREVER_S;
@@ -28,7 +28,7 @@ pub(super) struct MotionChange {
 
 impl MotionChange {
     /// The change of the motion in a run.
-    pub(super) fn of_run(truth: &BodyTruth, run: &Run, horizon_s: f64) -> Self {
+    pub(super) fn of_run(truth: &BodyTruth, run: &JudgedRun, horizon_s: f64) -> Self {
         let period = truth.swing.as_ref().map_or(horizon_s, Swing::period);
         let end = run.followed_s;
         // The swing stays small for some turns, after so many turns that the time of halving is sharp.
@@ -64,7 +64,7 @@ impl MotionChange {
 }
 
 /// Whether the amplitude of a body stays bounded by the true one; `None` if the run did not get to its end.
-pub(super) fn bounded(truth: &BodyTruth, run: &Run) -> Option<bool> {
+pub(super) fn bounded(truth: &BodyTruth, run: &JudgedRun) -> Option<bool> {
     let failed = run.failure.is_some() || run.later.is_some();
     if failed || run.doubled_at.is_some() || run.velocity_doubled_at.is_some() {
         return Some(false);
@@ -79,7 +79,7 @@ pub(super) fn bounded(truth: &BodyTruth, run: &Run) -> Option<bool> {
 
 /// When the amplitude of a linear oscillator doubles that gains as much energy in each quarter of the long run as in the
 /// one before, up to [`FOREVER_S`]: its swing grows at a constant rate. `None` of any other body or run.
-fn steadily_doubles_in_s(truth: &BodyTruth, run: &Run) -> Option<f64> {
+fn steadily_doubles_in_s(truth: &BodyTruth, run: &JudgedRun) -> Option<f64> {
     let [first, early, middle, late] = run.long_quarters;
     let gains = [early - first, middle - early, late - middle];
     let least = gains.iter().copied().fold(f64::INFINITY, f64::min);
@@ -105,7 +105,7 @@ mod tests {
     use crate::sim::integrators::{StepFailure, method};
 
     /// A run to the end of a swing that neither grows nor dies.
-    fn followed() -> (BodyTruth, Run) {
+    fn followed() -> (BodyTruth, JudgedRun) {
         let text = "title = 't'\ntick_hz = 60\nseconds = 10\n[[pendulum]]\nlength_m = 1\n";
         let scene = Scene::parse("t", text).unwrap();
         let spec = LaneSpec::plain(method("velocity-verlet").unwrap());
@@ -120,33 +120,37 @@ mod tests {
         let (mut truth, run) = followed();
         let cause = StepFailure::Escaped { coordinate: "x".into(), value: 1e39 };
         let failure = Some(RunFailure { t: 1.0, cause: cause.clone() });
-        let cases: [(&str, Run, Option<bool>); 12] = [
+        let cases: [(&str, JudgedRun, Option<bool>); 12] = [
             ("as it is", run.clone(), Some(true)),
-            ("ended early", Run { failure: failure.clone(), ..run.clone() }, Some(false)),
-            ("ended late", Run { later: failure.clone(), ..run.clone() }, Some(false)),
-            ("doubled", Run { doubled_at: Some(7.0), ..run.clone() }, Some(false)),
-            ("rushed", Run { velocity_doubled_at: Some(150.0), ..run.clone() }, Some(false)),
-            ("cut short", Run { is_too_much: true, ..run.clone() }, None),
+            ("ended early", JudgedRun { failure: failure.clone(), ..run.clone() }, Some(false)),
+            ("ended late", JudgedRun { later: failure.clone(), ..run.clone() }, Some(false)),
+            ("doubled", JudgedRun { doubled_at: Some(7.0), ..run.clone() }, Some(false)),
+            ("rushed", JudgedRun { velocity_doubled_at: Some(150.0), ..run.clone() }, Some(false)),
+            ("cut short", JudgedRun { is_too_much: true, ..run.clone() }, None),
             (
                 "doubled, and then cut short",
-                Run { is_too_much: true, doubled_at: Some(7.0), ..run.clone() },
+                JudgedRun { is_too_much: true, doubled_at: Some(7.0), ..run.clone() },
                 Some(false),
             ),
-            ("losing", Run { is_losing: true, ..run.clone() }, None),
+            ("losing", JudgedRun { is_losing: true, ..run.clone() }, None),
             (
                 "come to rest",
-                Run { is_losing: true, has_come_to_rest: true, ..run.clone() },
+                JudgedRun { is_losing: true, has_come_to_rest: true, ..run.clone() },
                 Some(true),
             ),
-            ("gaining", Run { long_quarters: [0.0, 0.0, 0.0, 6e-3], ..run.clone() }, Some(false)),
+            (
+                "gaining",
+                JudgedRun { long_quarters: [0.0, 0.0, 0.0, 6e-3], ..run.clone() },
+                Some(false),
+            ),
             (
                 "hardly gaining",
-                Run { long_quarters: [0.0, 0.0, 0.0, 3e-3], ..run.clone() },
+                JudgedRun { long_quarters: [0.0, 0.0, 0.0, 3e-3], ..run.clone() },
                 Some(true),
             ),
             (
                 "gained at once",
-                Run { long_quarters: [0.0, 0.2, 0.2, 0.2], ..run.clone() },
+                JudgedRun { long_quarters: [0.0, 0.2, 0.2, 0.2], ..run.clone() },
                 Some(true),
             ),
         ];
@@ -163,16 +167,17 @@ mod tests {
     #[test]
     fn what_grows_after_the_horizon_has_not_grown_within_it() {
         let (mut truth, run) = followed();
-        let tell = |run: &Run, truth: &BodyTruth| MotionChange::of_run(truth, run, 10.0).within;
+        let tell =
+            |run: &JudgedRun, truth: &BodyTruth| MotionChange::of_run(truth, run, 10.0).within;
         for (at, change) in [(9.0, Trend::Grows), (11.0, Trend::None)] {
-            let doubled = Run { doubled_at: Some(at), ..run.clone() };
+            let doubled = JudgedRun { doubled_at: Some(at), ..run.clone() };
             assert_eq!(tell(&doubled, &truth), change, "doubled at {at} s");
         }
         truth.energy_scale = None;
         for (at, change) in [(9.0, Trend::Grows), (11.0, Trend::None)] {
-            let doubled = Run { doubled_at: Some(at), ..run.clone() };
+            let doubled = JudgedRun { doubled_at: Some(at), ..run.clone() };
             assert_eq!(tell(&doubled, &truth), change, "doubled at {at} s");
-            let rushed = Run { velocity_doubled_at: Some(at), ..run.clone() };
+            let rushed = JudgedRun { velocity_doubled_at: Some(at), ..run.clone() };
             assert_eq!(tell(&rushed, &truth), change, "rushed at {at} s");
         }
         assert_eq!(tell(&run, &truth), Trend::None);

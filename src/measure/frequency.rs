@@ -1,6 +1,6 @@
 //! The frequency error of a lane, from the times at which it crosses its centre.
 
-use super::run::Run;
+use super::run::JudgedRun;
 use super::truth::{BodyTruth, Swing};
 use crate::sim::numerics::bisect;
 
@@ -27,7 +27,7 @@ impl FrequencyError {
 }
 
 /// The frequency error of a run; `None` if it has too few turns.
-pub(super) fn frequency_error(truth: &BodyTruth, run: &Run) -> Option<FrequencyError> {
+pub(super) fn frequency_error(truth: &BodyTruth, run: &JudgedRun) -> Option<FrequencyError> {
     let swing = truth.swing.as_ref()?;
     let h = run.horizon_s / run.series.len().max(1) as f64;
     let level = truth.centres[swing.coordinate];

@@ -13,7 +13,7 @@ use super::change::MotionChange;
 use super::chase_finding::ChaseFinding;
 use super::criterion::TOLERANCE;
 use super::modes::Modes;
-use super::run::{MAX_WORK, Run, Until, follow};
+use super::run::{JudgedRun, MAX_WORK, Until, follow};
 use super::slices::{Meter, Once, block_on};
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
@@ -189,7 +189,7 @@ impl Judge {
         body: usize,
         spec: LaneSpec,
         tick_hz: u32,
-        run: &Run,
+        run: &JudgedRun,
         by_modes: Option<MotionChange>,
     ) -> Verdict {
         let truth = &self.truths[body];
@@ -288,7 +288,7 @@ impl Judge {
 }
 
 /// Why the truth cannot be used; `None` if it can. `gap` is its largest error in amplitudes.
-fn without_truth(truth: &BodyTruth, run: &Run, gap: f64) -> Option<NoTruth> {
+fn without_truth(truth: &BodyTruth, run: &JudgedRun, gap: f64) -> Option<NoTruth> {
     if let Some(failure) = run.no_truth.as_ref().or(truth.failure.as_ref()) {
         return Some(NoTruth::Failed(failure.clone()));
     }

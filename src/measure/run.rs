@@ -40,9 +40,9 @@ pub(super) enum Until {
     LongRun,
 }
 
-/// What was measured on a run.
-#[derive(Clone, Debug)]
-pub(super) struct Run {
+/// The measurements of one body followed under one method.
+#[derive(Clone, Debug, Default)]
+pub(super) struct JudgedRun {
     /// The largest error of a coordinate or a velocity over the horizon, in amplitudes, and its time. Infinite if the body
     /// failed.
     pub(super) error: f64,
@@ -95,7 +95,7 @@ pub(super) async fn follow(
     tick_hz: u32,
     until: Until,
     max_work: u64,
-) -> Run {
+) -> JudgedRun {
     let hz = f64::from(tick_hz);
     let horizon = ticks(truth.horizon_s, tick_hz);
     let end = match until {
@@ -109,7 +109,7 @@ pub(super) async fn follow(
         _ => Some(truth.series(tick_hz).await),
     };
     if series.as_ref().is_some_and(|series| series.is_too_much) {
-        return Run { is_too_much: true, ..Run::new(horizon as f64 / hz) };
+        return JudgedRun { is_too_much: true, ..JudgedRun::new(horizon as f64 / hz) };
     }
     let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
     let stepper = &*followed.body.stepper;
@@ -120,7 +120,7 @@ pub(super) async fn follow(
     let mut measured = Measured {
         chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.at_s),
         energy: Energy::of(stepper, truth, horizon, end),
-        run: Run { chase: Chase::new(stepper, 0.0), ..Run::new(horizon as f64 / hz) },
+        run: JudgedRun { chase: Chase::new(stepper, 0.0), ..JudgedRun::new(horizon as f64 / hz) },
         series,
         until,
         horizon,
@@ -144,7 +144,7 @@ pub(super) async fn follow(
 
 /// What is measured on a run on its way.
 struct Measured {
-    run: Run,
+    run: JudgedRun,
     energy: Energy,
     series: Option<Arc<TruthSeries>>,
     until: Until,
@@ -201,7 +201,7 @@ impl Measured {
     }
 
     /// The run, which has stopped after so many ticks, at time `t` (s).
-    fn end(self, stop: StopReason, ticks: u64, t: f64) -> Run {
+    fn end(self, stop: StopReason, ticks: u64, t: f64) -> JudgedRun {
         let Self { mut run, energy, horizon, .. } = self;
         (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
         run.is_too_much = stop == StopReason::TooMuchWork;
@@ -219,33 +219,9 @@ impl Measured {
     }
 }
 
-impl Run {
+impl JudgedRun {
     fn new(horizon_s: f64) -> Self {
-        Self {
-            error: 0.0,
-            error_at_s: 0.0,
-            last_error: 0.0,
-            energy_drift: None,
-            failure: None,
-            no_truth: None,
-            is_too_much: false,
-            evaluations: 0,
-            seconds: 0.0,
-            horizon_s,
-            followed_s: 0.0,
-            later: None,
-            widest: 0.0,
-            doubled_at: None,
-            velocity_doubled_at: None,
-            halved_at: None,
-            is_losing: false,
-            has_come_to_rest: false,
-            quarters: [0.0; 4],
-            long_quarters: [0.0; 4],
-            chase: None,
-            series: Vec::new(),
-            swings: None,
-        }
+        Self { horizon_s, ..Self::default() }
     }
 
     fn compare(
@@ -300,7 +276,7 @@ impl Run {
     }
 }
 
-impl Run {
+impl JudgedRun {
     /// Whether it was stopped within the horizon.
     pub(super) fn is_cut_short(&self) -> bool {
         self.is_too_much && self.seconds < self.horizon_s

@@ -1,9 +1,7 @@
 //! What a person does to a run by hand: actions, picks, steps in time.
 
 use super::deck::Deck;
-use super::display::DriverRequest;
 use super::driving::make_tick;
-use super::joint::joint_code;
 use super::restarting::{Jump, follow, restart};
 use super::step::Step;
 use super::viewer::Viewer;
@@ -13,32 +11,6 @@ use crate::scene::{Action, LaneId, LaneSpec};
 use crate::sim::bodies::Acts;
 use crate::sim::integrators::Method;
 use crate::sim::number::round;
-
-/// What is asked before a run that is not saved is lost.
-const QUIT_QUESTION: &str = "what you did in this run is not saved: F5 saves it, Esc again quits";
-
-/// The request, unless there is nothing for the driver to copy.
-pub(super) fn possible(
-    deck: &Deck,
-    viewer: &Viewer,
-    request: DriverRequest,
-) -> Option<DriverRequest> {
-    match request {
-        DriverRequest::CopyMethod(entry) => deck.entries().get(entry).map(|_| request),
-        DriverRequest::CopyJoint(entry) => joint_code(deck, viewer, entry).map(|_| request),
-        _ => Some(request),
-    }
-}
-
-/// Quits; while there is something to lose, at the second time of asking.
-pub(super) fn quit(deck: &mut Deck, viewer: &mut Viewer) -> Option<DriverRequest> {
-    let is_asked = viewer.notice.as_deref() == Some(QUIT_QUESTION);
-    if is_asked || deck.edits == deck.saved_edits || viewer.preferences.is_recorded {
-        return Some(DriverRequest::Quit);
-    }
-    viewer.set_notice(QUIT_QUESTION);
-    None
-}
 
 /// Performs an action on the run by hand.
 pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {

@@ -3,17 +3,21 @@
 use std::mem::take;
 
 use super::Studio;
-use super::acting::{possible, quit};
 use super::command::{Command, SCALE_LADDER, USUAL_SCALE_PERCENT, ViewCommand};
+use super::deck::Deck;
 use super::dispatch::{carry_out_on_run, carry_out_on_stage};
 use super::display::DriverRequest;
 use super::guiding::{go_to_stop, go_to_stop_beside, look_at_goal, toggle_guide};
+use super::joint::joint_code;
 use super::looping::{
     carry_out_in_loop_lab, change_loop_lab, leave_loop_lab, open_loop_lab, refuse_in_loop_lab,
 };
 use super::restarting::plot_coordinate;
-use super::viewer::Dialog;
+use super::viewer::{Dialog, Viewer};
 use crate::loops::loop_lab::LoopCommand;
+
+/// What is asked before a run that is not saved is lost.
+const QUIT_QUESTION: &str = "what you did in this run is not saved: F5 saves it, Esc again quits";
 
 impl Studio {
     /// Carries out a command. Returns what the driver has to do for it, if anything.
@@ -144,4 +148,23 @@ impl Studio {
             || take(&mut self.viewer.preferences.display.inspector)
             || leave_loop_lab(self)
     }
+}
+
+/// The request, unless there is nothing for the driver to copy.
+fn possible(deck: &Deck, viewer: &Viewer, request: DriverRequest) -> Option<DriverRequest> {
+    match request {
+        DriverRequest::CopyMethod(entry) => deck.entries().get(entry).map(|_| request),
+        DriverRequest::CopyJoint(entry) => joint_code(deck, viewer, entry).map(|_| request),
+        _ => Some(request),
+    }
+}
+
+/// Quits; while there is something to lose, at the second time of asking.
+fn quit(deck: &mut Deck, viewer: &mut Viewer) -> Option<DriverRequest> {
+    let is_asked = viewer.notice.as_deref() == Some(QUIT_QUESTION);
+    if is_asked || deck.edits == deck.saved_edits || viewer.preferences.is_recorded {
+        return Some(DriverRequest::Quit);
+    }
+    viewer.set_notice(QUIT_QUESTION);
+    None
 }

@@ -1,4 +1,5 @@
-//! Time in a studio: for each frame it makes the ticks that are due.
+//! Time in a studio: the ticks that are due in a frame, the moment that is shown between two of them, and how much slower time
+//! runs while a lane outgrows the stage too fast to see.
 
 use super::Motion;
 use super::deck::Deck;
@@ -9,20 +10,14 @@ use crate::loops::Due;
 use crate::run::past::History;
 use crate::run::race::{Interpolation, LaneBody, Mode, Observer};
 
-fn note_frame(deck: &mut Deck, viewer: &mut Viewer, duration_ns: i64, due: Due) {
-    let shown_s = shown_s(deck, viewer);
-    let percent = deck.clock.speed_percent() * slow_motion_percent(deck, viewer);
-    let speed = f64::from(percent) / 1e4;
-    let Due { ticks, dropped } = due;
-    let frame = LiveFrame { duration_ns, ticks, dropped, animation_error_ms: 0.0 };
-    viewer.live.add(frame, shown_s, speed);
-}
-
-/// Performs the actions at this tick, and steps to the next.
-pub(super) fn make_tick(deck: &mut Deck, viewer: &mut Viewer, observer: &mut dyn Observer) {
-    let ((), told) = deck.watched(|run, notices| run.tick(&mut (notices, observer)));
-    viewer.tell(told);
-}
+/// The fastest zoom that can be watched, in powers of ten per second of real time.
+const MAX_ZOOM: f64 = 6.0;
+/// The least part of its speed to which time slows down, in percent.
+const MIN_PERCENT: u32 = 6;
+/// The newest samples of a motion, by which its growth is measured, and the time in seconds for which it is remembered where
+/// the body has been: longer than a swing that anybody waits for.
+const MEASURED: usize = 4;
+const REMEMBERED_S: f64 = 2.0;
 
 /// Adds a frame of `frame_ns` nanoseconds of real time to a run: see [`Studio::advance_in_time`](super::Studio::advance_in_time).
 pub(super) fn advance(
@@ -64,6 +59,21 @@ pub(super) fn advance(
     due
 }
 
+/// Performs the actions at this tick, and steps to the next.
+pub(super) fn make_tick(deck: &mut Deck, viewer: &mut Viewer, observer: &mut dyn Observer) {
+    let ((), told) = deck.watched(|run, notices| run.tick(&mut (notices, observer)));
+    viewer.tell(told);
+}
+
+fn note_frame(deck: &mut Deck, viewer: &mut Viewer, duration_ns: i64, due: Due) {
+    let shown_s = shown_s(deck, viewer);
+    let percent = deck.clock.speed_percent() * slow_motion_percent(deck, viewer);
+    let speed = f64::from(percent) / 1e4;
+    let Due { ticks, dropped } = due;
+    let frame = LiveFrame { duration_ns, ticks, dropped, animation_error_ms: 0.0 };
+    viewer.live.add(frame, shown_s, speed);
+}
+
 /// How bodies are drawn now: at rest as they are at the tick, however they are drawn between ticks.
 fn drawn(deck: &Deck, viewer: &Viewer) -> Interpolation {
     if deck.time_runs() { viewer.display().interpolation } else { Interpolation::Raw }
@@ -90,27 +100,6 @@ pub fn shown_truth(deck: &Deck, viewer: &Viewer, body: usize) -> (Vec<f64>, Vec<
     deck.past().truth_between(deck.race(), body, 1.0 + shown_ticks(deck, viewer))
 }
 
-/// The fastest zoom that can be watched, in powers of ten per second of real time.
-const MAX_ZOOM: f64 = 6.0;
-/// The least part of its speed to which time slows down, in percent.
-const MIN_PERCENT: u32 = 6;
-/// The newest samples of a motion, by which its growth is measured, and the time in seconds for which it is remembered where
-/// the body has been: longer than a swing that anybody waits for.
-const MEASURED: usize = 4;
-const REMEMBERED_S: f64 = 2.0;
-
-/// How fast a body goes beyond this distance and beyond where it has been, in powers of ten per simulated second.
-fn decades_per_s(history: &History, base_m: f64) -> f64 {
-    let newest = history.samples().rev();
-    let Some(now) = newest.clone().next() else { return 0.0 };
-    let Some(then) = newest.clone().nth(MEASURED) else { return 0.0 };
-    let reach = |from: usize| {
-        let lately = newest.clone().skip(from).take_while(|sample| now.t - sample.t < REMEMBERED_S);
-        lately.map(|sample| sample.at.length()).fold(base_m, f64::max)
-    };
-    libm::log10(reach(0) / reach(MEASURED)) / (now.t - then.t)
-}
-
 /// How fast time runs so that a lane which outgrows the stage can be watched, in percent of the speed that is set.
 pub(super) fn slow_motion_percent(deck: &Deck, viewer: &Viewer) -> u32 {
     if viewer.display().motion == Motion::Recorded || deck.mode() != Mode::Solo {
@@ -132,4 +121,16 @@ pub(super) fn slow_motion_percent(deck: &Deck, viewer: &Viewer) -> u32 {
         true => 100,
         false => ((100.0 * MAX_ZOOM / fastest) as u32).max(MIN_PERCENT),
     }
+}
+
+/// How fast a body goes beyond this distance and beyond where it has been, in powers of ten per simulated second.
+fn decades_per_s(history: &History, base_m: f64) -> f64 {
+    let newest = history.samples().rev();
+    let Some(now) = newest.clone().next() else { return 0.0 };
+    let Some(then) = newest.clone().nth(MEASURED) else { return 0.0 };
+    let reach = |from: usize| {
+        let lately = newest.clone().skip(from).take_while(|sample| now.t - sample.t < REMEMBERED_S);
+        lately.map(|sample| sample.at.length()).fold(base_m, f64::max)
+    };
+    libm::log10(reach(0) / reach(MEASURED)) / (now.t - then.t)
 }

@@ -18,12 +18,6 @@ use crate::sim::integrators::{Method, method};
 /// The method of the body at first: none that adds much of its own.
 const METHOD_AT_FIRST: &str = "rk4";
 
-fn method_beside(loops: &LoopLab, step: Step) -> &'static Method {
-    let methods: Vec<_> = loops.scene().fitting_methods().collect();
-    let index = methods.iter().position(|method| *method == loops.method()).unwrap_or(0);
-    methods[step.around(index, methods.len())]
-}
-
 /// Why the loop lab does not take the displayed body: a net, because what is made ready for every loop would take too
 /// long. `None` if it does.
 pub fn loop_lab_refusal(deck: &Deck, viewer: &Viewer) -> Option<String> {
@@ -194,6 +188,12 @@ pub(super) fn change_loop_lab(studio: &mut Studio, command: LoopCommand) {
     if let Some(loops) = &mut studio.loops {
         loops.end_opening();
     }
+}
+
+fn method_beside(loops: &LoopLab, step: Step) -> &'static Method {
+    let methods: Vec<_> = loops.scene().fitting_methods().collect();
+    let index = methods.iter().position(|method| *method == loops.method()).unwrap_or(0);
+    methods[step.around(index, methods.len())]
 }
 
 fn set_loop_method(studio: &mut Studio, method: &'static Method) {

@@ -32,11 +32,10 @@ pub fn bound_key(place: Option<char>, meaning: Meaning<'_>, held: Modifiers) -> 
     match meaning {
         // By the layout, unless it turns the chord into a control character.
         Meaning::Text(text) if held.control => {
-            let sign = text.chars().next().filter(|sign| !sign.is_control());
-            let sign = sign.and_then(|sign| sign.to_lowercase().next());
-            sign.map(|sign| match shift && sign.is_alphabetic() {
-                true => Key::ControlShiftSign(sign),
-                false => Key::ControlSign(sign),
+            let sign = sign_of(text).filter(|sign| !sign.is_control())?;
+            Some(match shift && sign.is_alphabetic() {
+                true => Key::ControlShiftSign(lower(sign)),
+                false => Key::ControlSign(lower(sign)),
             })
         }
         Meaning::Named(_) if held.control => None,
@@ -51,16 +50,24 @@ pub fn bound_key(place: Option<char>, meaning: Meaning<'_>, held: Modifiers) -> 
             }
             (_, Meaning::Named(key)) => Some(key),
             (_, Meaning::Text(text)) => {
-                let mut chars = text.chars();
-                let (Some(sign), None) = (chars.next(), chars.next()) else { return None };
-                let lower = sign.to_lowercase().next().unwrap_or(sign);
+                let sign = sign_of(text)?;
                 Some(match shift && sign.is_alphabetic() {
-                    true => Key::ShiftSign(lower),
-                    false => Key::Sign(lower),
+                    true => Key::ShiftSign(lower(sign)),
+                    false => Key::Sign(lower(sign)),
                 })
             }
         },
     }
+}
+
+/// The sign that a text is. A name of a key, such as `Control` or `Dead`, is none.
+fn sign_of(text: &str) -> Option<char> {
+    let mut signs = text.chars();
+    signs.next().filter(|_| signs.next().is_none())
+}
+
+fn lower(sign: char) -> char {
+    sign.to_lowercase().next().unwrap_or(sign)
 }
 
 /// What a pressed key asks for, unless it is for a panel or bound to nothing: a command, or nothing more where it is held
@@ -145,6 +152,23 @@ mod tests {
         assert_eq!(pressed(Some('0'), "=", true), Some(Key::Sign('=')));
         let end = bound_key(Some('1'), Meaning::Named(Key::Home), Modifiers::default());
         assert_eq!(end, Some(Key::Digit(1)));
+    }
+
+    /// Keys that are no signs, by the names that browsers give them: `Control` is told before each chord that begins with it.
+    const NAMES: &str = "Alt AltGraph AltLeft AudioVolumeUp Backspace BrowserBack CapsLock Clear ContextMenu Control \
+        Convert Copy Cut Dead Delete End Enter Escape Fn FnLock F4 F13 GroupNext Hyper Insert KanaMode LaunchMail \
+        MediaPlayPause Meta NumLock OS Paste Pause PrintScreen Process ScrollLock Select Shift Super Symbol Tab \
+        Undo Unidentified ZoomIn";
+
+    #[test]
+    fn the_name_of_a_key_is_no_sign_whatever_is_held() {
+        for name in NAMES.split_whitespace() {
+            for bits in 0..4 {
+                let modifiers =
+                    Modifiers { control: bits & 1 > 0, shift: bits & 2 > 0, other: false };
+                assert_eq!(held(None, name, modifiers), None, "{name}, {modifiers:?}");
+            }
+        }
     }
 
     #[test]

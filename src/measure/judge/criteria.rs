@@ -5,7 +5,7 @@ use crate::measure::by_energy::follow_energy;
 use crate::measure::change::bounded;
 use crate::measure::criterion::{Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use crate::measure::modes::{Modes, TooMuch};
-use crate::measure::run::{Run, Until, follow};
+use crate::measure::run::{JudgedRun, Until, follow};
 use crate::measure::truth::BodyTruth;
 use crate::scene::LaneSpec;
 
@@ -152,7 +152,7 @@ impl Judge {
         spec: LaneSpec,
         tick_hz: u32,
         until: Until,
-    ) -> Result<Run, CriterionMiss> {
+    ) -> Result<JudgedRun, CriterionMiss> {
         if truth.is_too_dear() {
             return Err(CriterionMiss::Unknown);
         }
@@ -200,7 +200,7 @@ impl Judge {
         body: usize,
         spec: LaneSpec,
         tick_hz: u32,
-        known: Option<&Run>,
+        known: Option<&JudgedRun>,
     ) -> Result<f64, CriterionMiss> {
         let truth = &self.truths[body];
         let own;
@@ -238,7 +238,7 @@ impl Judge {
         truth: &BodyTruth,
         spec: LaneSpec,
         tick_hz: u32,
-    ) -> Result<Run, CriterionMiss> {
+    ) -> Result<JudgedRun, CriterionMiss> {
         let until = match Modes::tell_the_width(truth, spec) {
             true => Until::Horizon,
             false => Until::Swings,
@@ -250,7 +250,7 @@ impl Judge {
     async fn swings_alike(
         &self,
         truth: &BodyTruth,
-        run: &Run,
+        run: &JudgedRun,
         spec: LaneSpec,
         tick_hz: u32,
     ) -> Result<bool, CriterionMiss> {
@@ -278,7 +278,7 @@ impl Judge {
 }
 
 /// The evaluations per simulated second of a run, if it meets a criterion.
-fn cost_if(holds: bool, run: &Run) -> Result<f64, CriterionMiss> {
+fn cost_if(holds: bool, run: &JudgedRun) -> Result<f64, CriterionMiss> {
     match holds {
         _ if run.is_too_much => Err(CriterionMiss::Unknown),
         true => Ok(run.evaluations as f64 / run.seconds),

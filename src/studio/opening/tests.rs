@@ -1,4 +1,6 @@
 use super::*;
+use crate::loops::loop_lab::LoopCommand;
+use crate::run::diff::Difference;
 use crate::run::race::Mode;
 use crate::scene::{Action, SCENES};
 use crate::studio::{Command, DriverRequest, RunCommand, StageCommand, Step, View, ViewCommand};
@@ -230,4 +232,25 @@ fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
     assert_eq!(format!("{:?}", studio.viewer.preferences), preferences);
     assert_eq!(studio.viewer.language(), Language::GdScript);
     assert_eq!(*studio.view(), View::default());
+}
+
+#[test]
+fn a_comparison_that_ends_in_the_loop_lab_marks_the_run_and_leaves_it_where_it_is() {
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..200).for_each(|_| studio.tick());
+    studio.apply(LoopCommand::ToggleLab);
+    let first = Some(Difference {
+        tick: 50,
+        row: [Some("1".into()), Some("spring".into()), Some("x".into())],
+        column: "q".into(),
+        values: [Some("1.5".into()), Some("1.25".into())],
+        ulps: None,
+        relative: Some(0.2),
+    });
+    let found = Comparison { rows: 900, moved: 2.0, first, ..Comparison::default() };
+    show_comparison(&mut studio, "clip.toml", &found);
+    assert!(studio.loop_lab().is_some() && studio.running());
+    assert_eq!(studio.viewer.parting().map(|parting| parting.0), Some(50));
+    studio.apply(LoopCommand::ToggleLab);
+    assert_eq!((studio.race().tick(), studio.running()), (200, true));
 }

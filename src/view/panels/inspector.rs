@@ -132,7 +132,9 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
         let reach = SliderRange::of(parameter.range, values);
         // Of what acts from the next start nothing would be seen.
         let swept_reach = reach.filter(|_| parameter.acts == Acts::AtOnce);
-        let swept = sweep::show(ui, field.id, swept_reach, values, &name);
+        // A sweep ends with the scene: another has other parameters at the same places.
+        let of = field.id.with(studio.deck.openings());
+        let swept = sweep::show(ui, of, swept_reach, values, &name);
         commands.extend(swept.filter(|value| check(*value).is_ok()).map(set));
         let slid = show_slider(ui, row, values, &name, slider);
         commands.extend(slid.filter(|value| check(*value).is_ok()).map(set));
