@@ -10,10 +10,11 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
     await holdSharing();
     await holdScrolling();
     await holdKeys();
-    await holdSweep();
     await holdFiles();
     await holdMemory();
     await holdLostContext();
+    // Last, for the browser remembers that it opens the instruments.
+    await holdSweep();
 
     async function holdFingers() {
         const phone = { width: 390, height: 844, deviceScaleFactor: 2, isMobile: true, hasTouch: true };
