@@ -9,13 +9,13 @@
 //! |---|---|---|---|
 //! | [`sim`] | mathematics: states, equations, methods, bodies | - | `sim/integrators/rk4.rs` |
 //! | [`scene`] | a scene as text and as value; actions; custom bodies | `sim` | `scene/mod.rs` |
-//! | [`run`] | a race of methods against the truth; what was done to it, what is drawn of it, its text | `sim scene` | `run/mod.rs` |
-//! | [`tools`] | what one takes away: the method of a log, a spring for an engine, source code | `sim scene` | `tools/port.rs` |
+//! | [`run`] | a race of methods against the truth: its actions, its drawn past, its text | `sim scene` | `run/mod.rs` |
+//! | [`tools`] | a developer's tools: the method of a log, a spring for an engine, source code | `sim scene` | `tools/port.rs` |
 //! | [`measure`] | verdicts, advice, stability maps, clouds of starts | `sim scene run tools` | `measure/judge.rs` |
 //! | [`loops`] | game loops, traces of frames, the loop lab | `sim scene run measure` | `loops/loop_run.rs` |
 //! | [`look`] | how a body looks and is held; colours | `sim scene run measure` | `look/pendulum.rs` |
-//! | [`studio`] | a person at a run: commands, what is shown, work in the background | `sim scene run tools measure loops look` | `studio/apply.rs` |
-//! | [`stage`] | what to draw, as plain data: [`compose`](stage::compose()) makes a [`Picture`](stage::Picture) | `sim scene run measure loops look studio` | `stage/compose.rs` |
+//! | [`studio`] | a person at a run: commands, the view, work in the background | `sim scene run tools measure loops look` | `studio/apply.rs` |
+//! | [`stage`] | the picture as plain data: [`compose`](stage::compose()) makes a [`Picture`](stage::Picture) | `sim scene run measure loops look studio` | `stage/compose.rs` |
 //! | `view` | pixels: panels, charts, and `FrameRenderer::draw`, the one way to draw | `scene run tools measure loops look studio stage` | `view/frame.rs` |
 //! | `window` | a screen, real time, a person's files | `scene run measure loops look studio view` | `window.rs` |
 //! | `commands` | the command line: files, captures, threads | `sim scene run tools measure loops look studio view window` | `commands/mod.rs` |
@@ -120,8 +120,10 @@
 //! (`commands/sweep/round_off.rs`); and constraints, because a closed body with natural coordinates needs
 //! none.
 
-// Only `main` exits, and what is said to a person goes by way of the commands.
-#![warn(clippy::exit, clippy::print_stderr)]
+// Only `main` exits, and the printers of the commands alone speak to a person.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+// Files, clocks, threads and the environment are for drivers, each of which is named below: see clippy.toml.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 // docs.rs marks what needs a feature with its name.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -133,59 +135,44 @@
         reason = "the commands and the window share it, and each has parts of its own"
     )
 )]
+#[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 mod atomic_file;
 #[cfg(feature = "cli")]
+#[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 pub mod commands;
 #[cfg(feature = "lab")]
 pub mod lab;
 #[cfg(feature = "lab")]
-#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
-#[warn(clippy::print_stdout)]
 pub mod look;
 #[cfg(feature = "lab")]
-#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
-#[warn(clippy::print_stdout)]
 pub mod loops;
 pub mod manual;
 #[cfg(feature = "lab")]
-#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
-#[warn(clippy::print_stdout)]
 pub mod measure;
 #[cfg(any(feature = "cli", feature = "view"))]
 mod picture_note;
 pub mod prelude;
 #[cfg(any(feature = "cli", feature = "window"))]
+#[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 mod regular_file;
 #[cfg(feature = "lab")]
-#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
-#[warn(clippy::print_stdout)]
 pub mod run;
 #[cfg(feature = "lab")]
-#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
-#[warn(clippy::print_stdout)]
 pub mod scene;
-#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
-#[warn(clippy::print_stdout)]
 pub mod sim;
 #[cfg(feature = "lab")]
-#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
-#[warn(clippy::print_stdout)]
 pub mod stage;
 #[cfg(any(feature = "cli", feature = "window"))]
+#[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 mod stopwatch;
 #[cfg(feature = "lab")]
-#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
-#[warn(clippy::print_stdout)]
 pub mod studio;
 #[cfg(feature = "lab")]
-#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
-#[warn(clippy::print_stdout)]
 pub mod tools;
 #[cfg(feature = "view")]
-#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
-#[warn(clippy::print_stdout)]
 pub mod view;
 #[cfg(feature = "window")]
+#[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 pub mod window;
 
 #[cfg(feature = "lab")]

@@ -58,7 +58,7 @@ use work_thread::WorkThread;
 /// a window that is hidden, or not asked for frames by the window system, drops no ticks.
 const MAX_WAIT: Duration = Duration::from_millis(100);
 
-/// What takes longer than a frame, and is done by a thread of its own.
+/// Advice on a spring takes longer than a frame: a thread of its own gives it.
 const OPEN_SPRING: Command = Command::Stage(StageCommand::OpenSpring);
 
 /// Opens a window on `studio` and runs it until it is closed. `files` reads the scene files that are opened in the window.

@@ -1,5 +1,5 @@
-//! Measurements: verdicts on methods on a scene, advice on which method to choose, and what a method does to a state or an
-//! area of states.
+//! Measurements: verdicts on methods on a scene, advice on which method to choose, and the effect of a method on a
+//! state or an area of states.
 //!
 //! A [`Judge`] runs a scene under a method and gives a [`Verdict`], and an
 //! [`Adviser`] searches for the fewest substeps that meet a [`Criterion`]: both are pure functions of the scene.

@@ -47,7 +47,7 @@ impl Course {
         self.session.race.catch_up(&mut (&mut self.seen, observer));
     }
 
-    /// Makes a tick, and notes of one that is made first what happened in it.
+    /// Makes a tick. The first time that it is made, its halts and hashes are noted.
     pub(super) fn tick(&mut self, observer: &mut dyn Observer) {
         self.session.tick(&mut (&mut self.seen, observer));
         let (race, noted) = (&self.session.race, &mut self.noted);

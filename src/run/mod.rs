@@ -1,4 +1,4 @@
-//! A run: lanes racing against the truth, a person's actions on them, what is drawn of it, and its text.
+//! A run: lanes racing against the truth, a person's actions on them, its drawn past, and its text.
 //!
 //! A [`race`] ticks its lanes and performs the actions of its journal; a [`Session`] is a race of a scene as a plain value. A
 //! [`Run`] goes back and forth in time, and takes back what a person did. [`Observations`] follow its race: the [`Menu`], the
@@ -55,7 +55,7 @@ const MAX_REPEATED_WORK: u64 = 10_000_000;
 /// What an evaluation costs beside its coordinates, in the cost of one.
 const WORK_OF_AN_EVALUATION: u64 = 4;
 
-/// A session that can go back and forth in time, with what is drawn of it and the settings of its next restart.
+/// A session that can go back and forth in time, with its drawn past and the settings of its next restart.
 ///
 /// It keeps snapshots of the session at regular ticks, and reaches any tick from the nearest snapshot before it by
 /// repeating the journal's actions. When the snapshots reach their memory limit, their spacing doubles. What a person does
@@ -95,7 +95,7 @@ impl Run {
     pub fn session(&self) -> &Session {
         &self.course.session
     }
-    /// The settings of the next restart: those of this start, with what a person has set since.
+    /// The settings of the next restart: those of this start, with a person's edits since.
     pub(crate) fn next(&self) -> &StartSettings {
         &self.next
     }

@@ -4,7 +4,7 @@ use super::Menu;
 use super::past::{Past, PastMark};
 use super::race::{Done, Observer, Race, Starts};
 
-/// What is known of a race beside its present.
+/// The menu, the checkpoints and the drawn past of a race.
 pub struct Observations {
     menu: Menu,
     starts: Starts,

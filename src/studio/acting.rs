@@ -1,4 +1,4 @@
-//! What a person does to a run by hand: actions, picks, steps in time.
+//! Edits of a run by hand: actions, picks, steps in time.
 
 use super::deck::Deck;
 use super::driving::make_tick;

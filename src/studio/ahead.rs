@@ -1,4 +1,4 @@
-//! What the selected lane is about to do: the anatomy of its next tick, and a fan of futures.
+//! The next moments of the selected lane: the anatomy of its next tick, and a fan of futures.
 
 use super::Studio;
 use super::deck::Deck;
@@ -7,7 +7,7 @@ use crate::measure;
 use crate::measure::{Future, OneStep};
 use crate::sim::stability::Tick;
 
-/// What the selected lane is about to do with the displayed body. `None` if the body has halted.
+/// The anatomy of the next tick of the displayed body in the selected lane. `None` if the body has halted.
 pub fn one_step(deck: &Deck, viewer: &Viewer) -> Option<OneStep> {
     let (entrant, race) = (deck.selected(), deck.race());
     let spec = entrant.spec;
@@ -43,8 +43,7 @@ pub fn futures(deck: &Deck, body: usize) -> Vec<Future> {
     let held = held.map(|held| (&*held.q, &*held.v));
     let plotted = deck.past().coordinate(deck.race(), body).1;
     let (t, tick_hz) = (deck.race().t(), deck.race().tick_hz());
-    let offered = &deck.entries()[..deck.offered().min(deck.entries().len())];
-    measure::futures(of, t, tick_hz, held, plotted, offered)
+    measure::futures(of, t, tick_hz, held, plotted, &deck.entries()[..deck.offered()])
 }
 
 #[cfg(test)]

@@ -65,7 +65,7 @@ impl Studio {
         match command {
             ViewCommand::TogglePause => self.deck.running = !self.deck.running,
             ViewCommand::PointerDown(is_down) => {
-                self.viewer.hz_at_press = is_down.then(|| self.deck.run.session().race().tick_hz());
+                self.viewer.hz_at_press = is_down.then(|| self.deck.race().tick_hz());
             }
             ViewCommand::ToggleFutures => {
                 display.futures = !display.futures;

@@ -13,29 +13,25 @@ use crate::run::race::Interventions;
 /// a person or the script last acted on the bodies. `None` while the instrument is another, or the displayed body has no
 /// cloud.
 pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
-    let is_shown =
-        studio.viewer.display().instrument == Instrument::Cloud && studio.loop_lab().is_none();
-    if !is_shown || cloud_refusal(&studio.deck, &studio.viewer).is_some() {
+    let Studio { deck, viewer, loops } = studio;
+    let is_shown = viewer.display().instrument == Instrument::Cloud && loops.is_none();
+    if !is_shown || cloud_refusal(deck, viewer).is_some() {
         return None;
     }
-    let changes = Interventions::all(studio.deck.run().starts());
-    let (tick_hz, choice) = (studio.deck.clock.tick_hz(), studio.viewer.display().cloud);
-    let seconds = (studio.deck.race().t() - changes.starts_at_s()).max(0.0);
+    let changes = Interventions::all(deck.run().starts());
+    let (tick_hz, choice) = (deck.clock.tick_hz(), viewer.display().cloud);
+    let seconds = (deck.race().t() - changes.starts_at_s()).max(0.0);
     Some(CloudRequest {
-        scene: Arc::clone(&studio.deck.run.next().scene),
-        body: studio.viewer.view.body,
-        lanes: studio
-            .deck
-            .clouded_lanes()
-            .map(|entry| (entry, studio.deck.entries()[entry]))
-            .collect(),
+        scene: Arc::clone(&deck.run.next().scene),
+        body: viewer.view.body,
+        lanes: deck.clouded_lanes().map(|entry| (entry, deck.entries()[entry])).collect(),
         tick_hz,
         choice,
         tick: match choice.kind {
             CloudKind::Shape(_) => (seconds * f64::from(tick_hz)).round() as u64,
             CloudKind::Section => 0,
         },
-        in_time: studio.deck.running(),
+        in_time: deck.running(),
         changes,
     })
 }
@@ -71,5 +67,7 @@ pub fn complete_clouds(studio: &mut Studio, worker: &mut CloudWorker, stop: impl
     while !worker.is_done() && !stop() {
         last = worker.work().or(last);
     }
-    last.into_iter().for_each(|found| accept_cloud(studio, found));
+    if let Some(found) = last {
+        accept_cloud(studio, found);
+    }
 }

@@ -1,4 +1,4 @@
-//! What a person steers: a run, the clock that drives it, the selected lane, and a body in hand.
+//! The deck from which a person steers: a run, the clock that drives it, the selected lane, and a body in hand.
 
 use std::sync::Arc;
 
@@ -70,7 +70,7 @@ impl Deck {
 
     /// The lanes and the truth.
     pub fn race(&self) -> &Race {
-        self.run.session().race()
+        self.run.race()
     }
 
     /// The recorded past of the lanes and the truth.

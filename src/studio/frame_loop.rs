@@ -1,7 +1,7 @@
 //! The loop of a driver, without a clock and without a screen: commands → ticks → picture → commands.
 //!
-//! A driver tells the time in nanoseconds since any moment of its own. It begins a frame, does what the commands ask of it,
-//! lets time pass, draws, and ends the frame with the commands of the panels.
+//! A driver gives the time in nanoseconds since any moment of its own. It begins a frame, carries out the requests of the
+//! commands, lets time pass, draws, and ends the frame with the commands of the panels.
 
 use super::pace::PaceMeter;
 use super::{Command, DriverRequest, Studio, ViewCommand};
@@ -10,7 +10,7 @@ use super::{Command, DriverRequest, Studio, ViewCommand};
 /// still answers.
 const MAX_SIMULATION_NS: u64 = 50_000_000;
 
-/// What a command asks of the driver.
+/// A task that a command leaves to the driver.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ToDo {
     /// The studio has carried out the command, and this is left to do.
@@ -89,7 +89,7 @@ impl FrameLoop {
     /// Lets the time since the last frame pass, for a frame that began at `now_ns`: makes the ticks that are due, at most up to
     /// tick `last` and for as long as the driver still answers by its `clock`.
     pub fn pass(&mut self, now_ns: u64, last: u64, clock: &dyn Fn() -> u64) {
-        // What it takes to build another scene is not time in its run.
+        // Building another scene takes no time of its run.
         if std::mem::replace(&mut self.openings, self.studio.deck.openings())
             != self.studio.deck.openings()
         {
@@ -148,12 +148,12 @@ impl FrameLoop {
         }
     }
 
-    /// Leaves out of the run what the driver has just done, up to `now_ns`.
+    /// Leaves the time up to `now_ns` out of the run, after work of the driver that took long.
     pub fn stand_still(&mut self, now_ns: u64) {
         self.last_frame_ns = self.last_frame_ns.map(|_| now_ns);
     }
 
-    /// Leaves out of the run all time up to the next frame, and what that takes to draw.
+    /// Leaves the time up to the next frame out of the run, and the time to draw that frame.
     pub fn skip_time(&mut self) {
         (self.draws_long, self.last_frame_ns) = (true, None);
     }

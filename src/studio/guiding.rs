@@ -46,7 +46,9 @@ pub(super) fn go_to_stop_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step
     let Some(tour) = &viewer.tour else { return };
     let index =
         tour.index().checked_add_signed(step.sign() as isize).filter(|index| *index < STOPS.len());
-    index.into_iter().for_each(|index| go_to_stop(deck, viewer, index));
+    if let Some(index) = index {
+        go_to_stop(deck, viewer, index);
+    }
 }
 
 /// Opens this stop of the guide: its scene from the start under its method and rate, and its instrument. Time runs,

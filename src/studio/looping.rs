@@ -122,13 +122,15 @@ pub(super) fn carry_out_in_loop_lab(studio: &mut Studio, command: StageCommand) 
             loops.choose_trace(step.around(loops.trace(), loops.traces().len()));
         }
         StageCommand::Restart => loops.seek(0),
-        StageCommand::Tick(step) => step_loops(studio, step.sign()),
-        StageCommand::Second(step) => step_loops(studio, step.sign() * frames_per_second),
+        StageCommand::Tick(step) => step_loops(&mut studio.deck, loops, step.sign()),
+        StageCommand::Second(step) => {
+            step_loops(&mut studio.deck, loops, step.sign() * frames_per_second);
+        }
         StageCommand::MethodBeside(step) => {
             let beside = method_beside(loops, step);
-            set_loop_method(studio, beside);
+            set_loop_method(&mut studio.viewer, loops, beside);
         }
-        StageCommand::Method(method) => set_loop_method(studio, method),
+        StageCommand::Method(method) => set_loop_method(&mut studio.viewer, loops, method),
         StageCommand::TickHz(tick_hz) => loops.set_tick_hz(tick_hz),
         StageCommand::TickRate(step) => {
             let beside = step.along(&TICK_LADDER, tick_hz);
@@ -196,8 +198,7 @@ fn method_beside(loops: &LoopLab, step: Step) -> &'static Method {
     methods[step.around(index, methods.len())]
 }
 
-fn set_loop_method(studio: &mut Studio, method: &'static Method) {
-    let Some(loops) = &mut studio.loops else { return };
+fn set_loop_method(viewer: &mut Viewer, loops: &mut LoopLab, method: &'static Method) {
     let notice = match loops.scene().refusal(method) {
         Some(refusal) => refusal.to_string(),
         None => {
@@ -205,14 +206,12 @@ fn set_loop_method(studio: &mut Studio, method: &'static Method) {
             format!("every loop steps by {}", method.name)
         }
     };
-    studio.viewer.set_notice(notice);
+    viewer.set_notice(notice);
 }
 
-fn step_loops(studio: &mut Studio, frames: i64) {
-    studio.deck.running = false;
-    if let Some(loops) = &mut studio.loops {
-        loops.step(frames);
-    }
+fn step_loops(deck: &mut Deck, loops: &mut LoopLab, frames: i64) {
+    deck.running = false;
+    loops.step(frames);
 }
 
 pub(super) fn title_of_loops(deck: &Deck, loops: &LoopLab) -> String {

@@ -90,9 +90,9 @@ pub use zoom_pan::ZoomPan;
 
 /// A scene being run and looked at.
 pub struct Studio {
-    /// The run, and what steers it.
+    /// The run, its clock and the selected lane.
     pub deck: Deck,
-    /// What a person looks at.
+    /// The view of a person, and the texts beside it.
     pub viewer: Viewer,
     /// The loop lab, while it is on the stage and the run waits.
     pub(super) loops: Option<Box<LoopLab>>,

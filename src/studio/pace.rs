@@ -1,4 +1,4 @@
-//! The frames of a driver: how many a second, how fast time runs in them, and what the studio's own loop did in the last ones.
+//! The frames of a driver: their rate, the pace of time in them, and a log of the last ten seconds.
 
 use std::collections::VecDeque;
 

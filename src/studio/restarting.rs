@@ -1,4 +1,4 @@
-//! Jumps of the run: restarts, undo and redo, and what has to follow them.
+//! Jumps of the run: restarts, undo and redo, and their followers: clock, plots, hand and selection.
 
 use std::sync::Arc;
 

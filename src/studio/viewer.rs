@@ -151,7 +151,7 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// The same person before another scene: what was chosen stays, and the guide that is open.
+    /// The same person before another scene: preferences and an open guide stay.
     pub(super) fn before_next_scene(&mut self) -> Self {
         Self {
             preferences: self.preferences.clone(),
@@ -167,7 +167,7 @@ impl Viewer {
         &self.preferences.display
     }
 
-    /// What moves on the stage besides the bodies.
+    /// The motion on the stage besides the bodies.
     pub(super) fn motion(&self) -> Motion {
         self.preferences.display.motion
     }

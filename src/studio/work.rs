@@ -20,7 +20,7 @@ pub trait Work {
     /// Replaces the request.
     fn take(&mut self, request: Self::Request);
 
-    /// Does one step, which may end early when `stop` says so. Returns what was found, and whether there is more to do.
+    /// Does one step, which may end early when `stop` says so. Returns its result, if it has one, and whether there is more to do.
     fn step(&mut self, stop: &dyn Fn() -> bool) -> (Option<Self::Found>, bool);
 }
 

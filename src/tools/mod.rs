@@ -1,4 +1,4 @@
-//! What a developer takes away: the method behind a log, a spring's settings in another engine, a method's source code.
+//! A developer's tools: the method behind a log, a spring's settings in another engine, a method's source code.
 
 pub mod identify;
 pub mod port;

@@ -154,7 +154,7 @@ mod tests {
         assert_eq!(end, Some(Key::Digit(1)));
     }
 
-    /// Keys that are no signs, by the names that browsers give them: `Control` is told before each chord that begins with it.
+    /// Keys that are no signs, by the names that browsers give them. `Control` comes before each chord that begins with it.
     const NAMES: &str = "Alt AltGraph AltLeft AudioVolumeUp Backspace BrowserBack CapsLock Clear ContextMenu Control \
         Convert Copy Cut Dead Delete End Enter Escape Fn FnLock F4 F13 GroupNext Hyper Insert KanaMode LaunchMail \
         MediaPlayPause Meta NumLock OS Paste Pause PrintScreen Process ScrollLock Select Shift Super Symbol Tab \

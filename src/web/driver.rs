@@ -87,7 +87,7 @@ pub(crate) fn now_ns(window: &Window) -> u64 {
     (ms * 1e6) as u64
 }
 
-/// What a page does otherwise: it picks a file, and compares no recordings.
+/// Commands that a page carries out itself: it picks a file, and compares no recordings.
 fn is_own(command: &Command) -> bool {
     matches!(command, Command::View(ViewCommand::AskForPath | ViewCommand::AskForRun))
 }

@@ -1,4 +1,4 @@
-//! What a person copies and saves: the instrument as a picture, a drawing and a table, a screenshot, the run as a scene file.
+//! Copies and saved files: the instrument as a picture, a drawing and a table, a screenshot, the run as a scene file.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! Observers of a race, and the actions that they see: one tick loop serves all who need to know what happens in it.
+//! Observers of a race, and the actions that they see. One tick loop serves all of them.
 
 use super::Race;
 use super::journal::Author;
