@@ -300,7 +300,7 @@ impl ApplicationHandler<Event> for App {
             return;
         }
         self.title = self.frames.studio.title();
-        let attributes = settings::attributes(self.size)
+        let attributes = settings::attributes(self.size, event_loop)
             .with_title(self.title.clone())
             // AccessKit has to be there before the window shows.
             .with_visible(false);

@@ -83,8 +83,9 @@ impl ExperimentArgs {
     }
 
     /// A scene with the other options.
-    fn applied_to(&self, mut scene: Scene) -> Result<Scene, Error> {
-        scene.tick_hz = self.tick_hz.unwrap_or(scene.tick_hz);
+    fn applied_to(&self, scene: Scene) -> Result<Scene, Error> {
+        let tick_hz = self.tick_hz.unwrap_or(scene.tick_hz);
+        let scene = scene.at_tick_hz(tick_hz);
         self.methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
         Ok(scene.with_methods(&self.methods))
     }

@@ -94,7 +94,7 @@ pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Set
 pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings), String> {
     let SceneText { name, text, .. } = &settings.scene;
     let known = |id: &str| method(id).ok_or_else(|| format!("this program has no method {id:?}"));
-    let mut scene = Scene::parse(&format!("{name}.toml"), text)
+    let scene = Scene::parse(&format!("{name}.toml"), text)
         .map_err(|errors| format!("this program cannot read the scene: {errors}"))?;
     let substeps = |lane: &LaneEntry| (1..=MAX_SUBSTEPS).contains(&lane.substeps);
     let tolerance = |lane: &LaneEntry| {
@@ -117,7 +117,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings),
             return Err(format!("its {key} is out of range; capture again"));
         }
     }
-    scene.tick_hz = settings.tick_hz;
+    let mut scene = scene.at_tick_hz(settings.tick_hz);
     let lane = |lane: &LaneEntry| {
         let method = known(&lane.method)?;
         if lane.tolerance.is_some() && method.tolerance.is_none() {

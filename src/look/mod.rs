@@ -99,6 +99,11 @@ trait Drawn {
         None
     }
 
+    /// How far to each side of its rest it swings in truth from this state on, at most, in metres, if that is simple.
+    fn swing_m(&self, _q: &[f64], _v: &[f64]) -> Option<f64> {
+        None
+    }
+
     /// Whether it is one body over a ground, on which it comes down again.
     fn has_ground(&self) -> bool {
         false
@@ -211,6 +216,11 @@ impl<'a> Look<'a> {
     /// What the body does in truth from this state on, in a few words, if that is simple.
     pub fn promise(&self, q: &[f64], v: &[f64]) -> Option<String> {
         self.picture.promise(q, v)
+    }
+
+    /// How far to each side of its rest the body swings in truth from this state on, at most, in metres, if that is simple.
+    pub fn swing_m(&self, q: &[f64], v: &[f64]) -> Option<f64> {
+        self.picture.swing_m(q, v)
     }
 
     /// Whether it is one body over a ground, on which it comes down again.

@@ -29,8 +29,11 @@ impl Drawn for Spring {
         if self.damping > 0.0 {
             return Some("should come to rest".into());
         }
-        let swing = libm::hypot(q[0], v[0] / self.angular_frequency());
-        Some(format!("should keep to ±{} m", round(swing, 3)))
+        Some(format!("should keep to ±{} m", round(self.swing_m(q, v)?, 3)))
+    }
+
+    fn swing_m(&self, q: &[f64], v: &[f64]) -> Option<f64> {
+        Some(libm::hypot(q[0], v[0] / self.angular_frequency()))
     }
 
     fn handles(&self, q: &[f64]) -> Vec<Handle> {

@@ -216,11 +216,13 @@ impl Run {
         let added = self.race().done() - 1;
         let rows = journal.tail_beside(self.course.session.journal(), added);
         let noted = self.course.noted.split_off(tick);
+        let what = format!("{} (tick {tick})", done.action.in_words(self.course.session.scene()));
         // A change that was made in the past has a future of its own to bring back.
         if was_past || !self.changes.has_future() {
-            let what = format!("{} at tick {tick}", done.action.noun());
             let replaced = Replaced::Future(Future { tick, rows, noted });
             self.changes.push(Change { what, next: self.next.clone(), replaced });
+        } else {
+            self.changes.rename_newest(what);
         }
         self.next.keep(&done, self.course.race(), self.course.seen.menu());
         Some(done)

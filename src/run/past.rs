@@ -46,7 +46,7 @@ pub struct Past {
     span_s: f64,
     /// The most samples of a history.
     capacity: usize,
-    /// When a body was last placed or a parameter last set, in seconds; before the start if neither was done.
+    /// When bodies were last kicked, one was placed or a parameter was set, in seconds; before the start if none was.
     changed_s: f64,
 }
 
@@ -134,7 +134,7 @@ impl Past {
         (race.truth().bodies()[body].coordinates().at(index), index)
     }
 
-    /// The time (s) of the last placement of a body or change of a parameter; before the start if there was none.
+    /// The time (s) of the last kick, placement of a body or change of a parameter; before the start if there was none.
     pub fn changed_s(&self) -> f64 {
         self.changed_s
     }
@@ -300,6 +300,9 @@ impl Past {
     pub(super) fn after(&mut self, race: &Race, menu: &Menu, done: &Done) {
         match &done.action {
             Action::Throttle(_) | Action::Rudder(_) | Action::Kick(_) => {
+                if let Action::Kick(_) = done.action {
+                    self.changed_s = race.t();
+                }
                 self.keep_corner(race);
                 let input = done.action.input().expect("it is one");
                 self.truth_curves.iter_mut().for_each(|curve| curve.bend(input));

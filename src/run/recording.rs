@@ -105,13 +105,10 @@ pub(crate) fn among(recording: Scene, lanes: &[LaneSpec]) -> Scene {
     let ([flown], false) = (&recording.lanes[..], recording.opens_as_race) else {
         return recording;
     };
-    let (flown, mut lanes) = (*flown, lanes.to_vec());
-    if !lanes.contains(&flown) {
-        lanes.push(flown);
-    }
-    let index = lanes.iter().position(|lane| lane.method == flown.method);
-    let Some(index) = index.filter(|&index| lanes[index] == flown) else { return recording };
-    let mut scene = Scene { lanes, opening_method: Some(flown.method), ..recording };
+    let method = flown.method;
+    let index = lanes.iter().position(|lane| lane.method == method);
+    let Some(index) = index.filter(|&index| lanes[index] == *flown) else { return recording };
+    let mut scene = Scene { lanes: lanes.to_vec(), opening_method: Some(method), ..recording };
     scene.checks.iter_mut().for_each(|check| check.lane = LaneId::of_index(index));
     for Scripted { action, .. } in &mut scene.script {
         if let Action::Lane { lane, .. } = action {

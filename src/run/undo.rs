@@ -69,6 +69,11 @@ impl UndoStack {
         }
     }
 
+    /// Names the newest change by what it has come to.
+    pub(super) fn rename_newest(&mut self, what: String) {
+        self.done.last_mut().expect("a change is open").what = what;
+    }
+
     /// Whether an action now belongs to the newest change, which already has the future before it.
     pub(super) fn has_future(&self) -> bool {
         let newest = self.done.last().filter(|_| self.is_open);

@@ -1,9 +1,11 @@
 //! The actions on a run, which a person, a script, a recording and a test have in common.
 
+use super::Scene;
 use super::lane_spec::{LaneId, LaneSpec};
 use crate::sim::Stepper;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::Method;
+use crate::sim::number::round;
 
 /// An action on a run at a tick. It states the new value rather than a change: except for a kick, performing it twice
 /// has the same effect as once.
@@ -108,6 +110,14 @@ impl Action {
             Action::Kick(times) => Some(Input::Kick(times)),
             _ => None,
         }
+    }
+
+    /// What it changes in `scene`, for people: of a parameter its new value.
+    pub(crate) fn in_words(&self, scene: &Scene) -> String {
+        let &Action::Set { body, parameter, value } = self else { return self.noun().into() };
+        let parameter = &scene.bodies[body].kind.parameters[parameter];
+        let words = format!("{} {} {}", parameter.quantity(), round(value, 6), parameter.unit);
+        words.trim_end().to_owned()
     }
 
     /// What it is, for people.

@@ -55,8 +55,16 @@ impl Scene {
         lanes
     }
 
-    /// The scene with the lanes of these methods, if there are several; one alone joins the others.
+    /// The scene at this tick rate. Its hint, which is of the rate of its file, goes with another.
+    pub fn at_tick_hz(self, tick_hz: u32) -> Self {
+        let hint = self.hint.filter(|_| tick_hz == self.tick_hz);
+        Self { tick_hz, hint, ..self }
+    }
+
+    /// The scene with the lanes of these methods, if there are several; one alone joins the others. Its hint, which is of its
+    /// own lanes, goes with others.
     pub fn with_methods(mut self, methods: &[&'static Method]) -> Self {
+        let own = self.lanes.clone();
         if methods.len() > 1 {
             self.lanes = self.lanes_of(methods);
         }
@@ -66,6 +74,7 @@ impl Scene {
                 self.lanes.push(LaneSpec::plain(method));
             }
         }
+        self.hint.take_if(|_| self.lanes != own);
         self
     }
 

@@ -496,7 +496,7 @@ mod tests {
         };
         for (ticks, wide, narrow) in [
             (0, "blows up · at 4.14 s", "blows up · at 4.14 s"),
-            (20, "from the start: blows up · at 4.14 s", "blows up, if run from the start"),
+            (20, "if run from the start: blows up · at 4.14 s", "blows up, if run from the start"),
         ] {
             let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
             (0..ticks).for_each(|_| studio.tick());

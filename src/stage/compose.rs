@@ -326,7 +326,8 @@ impl BodyCell<'_> {
         captions::halts(picture, camera.rect, halted, truth, palette);
         if has_outgrown {
             let of_lane = (index, self.front);
-            universe::sentence(picture, camera, moment, (view, ghost.view.reach_m.x), of_lane);
+            let swing_m = ghost.swing_m.unwrap_or(ghost.view.reach_m.x);
+            universe::sentence(picture, camera, moment, (view, swing_m), of_lane);
         }
         picture.cells.push(cell);
     }
@@ -367,7 +368,9 @@ impl BodyCell<'_> {
             }
             Framing::Recorder { .. } => {
                 chart::mooring(picture, camera, moment.palette);
-                envelope(picture, camera, ghost.view.reach_m.x, faded(moment.palette.exact, 0.6));
+                if let Some(swing_m) = ghost.swing_m {
+                    envelope(picture, camera, swing_m, faded(moment.palette.exact, 0.6));
+                }
             }
             Framing::Follow { .. } | Framing::Fixed { .. } => {}
         }

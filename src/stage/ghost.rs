@@ -19,6 +19,9 @@ pub(super) struct Ghost {
     pub(super) q: Vec<f64>,
     /// What it looks like there.
     pub(super) outline: Outline,
+    /// How far to each side it swings, in metres: as far as it has since it was last changed, and will; `None` while that is not
+    /// known.
+    pub(super) swing_m: Option<f64>,
 }
 
 impl Ghost {
@@ -46,7 +49,13 @@ impl Ghost {
         let reach_m = curve.reach_m(centre_m, since_s);
         let (followed, turns) = (outline.at, turns(body));
         let view = BodyView { framing, followed, reach_m, turns, zoomed_as: index, grown: 1.0 };
-        Self { view, q, outline }
+        let changed_s = remembered.changed_s();
+        let has_swung = |from_s: f64| curve.reach_m(DVec2::ZERO, from_s).x;
+        let swing_m = match look.swing_m(&q, &v) {
+            Some(now_m) => Some(now_m.max(has_swung(changed_s))),
+            None => (since_s == changed_s).then_some(reach_m.x),
+        };
+        Self { view, q, outline, swing_m }
     }
 
     /// Where it has been in the last `trail_s` seconds, newest first, within this tolerance in metres.

@@ -2,6 +2,7 @@
 
 use super::deck::Deck;
 use super::driving::make_tick;
+use super::notice::Notice;
 use super::restarting::{Jump, follow, restart};
 use super::step::Step;
 use super::viewer::Viewer;
@@ -157,11 +158,9 @@ pub(super) fn step_by(deck: &mut Deck, viewer: &mut Viewer, ticks: i64) {
 pub(super) fn tell_of_the_future(deck: &mut Deck, viewer: &mut Viewer, tick: u64) {
     let (end, times) = (deck.run.end(), deck.run.times());
     if tick > end {
-        let [wanted, end] = [tick, end].map(|tick| format!("{} s", round(times.t(tick), 3)));
-        viewer.set_notice(vec![
-            format!("{wanted} is still to come: the run has got to {end}"),
-            "Space goes on".into(),
-        ]);
+        let end = format!("{} s", round(times.t(end), 3));
+        let parts = vec![format!("The run has only reached {end}"), "Space continues".into()];
+        viewer.set_notice(Notice::of_tick(parts));
     }
 }
 

@@ -9,7 +9,7 @@ use super::scene_list::SceneList;
 use crate::measure::cloud::MAX_CLOUDS;
 use crate::run::past::Past;
 use crate::run::race::{Author, Entrant, Interpolation, Mode, Race};
-use crate::run::{RecordingError, Run, StartSettings, link, recording_among, recording_text};
+use crate::run::{Menu, RecordingError, Run, StartSettings, link, recording_among, recording_text};
 use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::sim::Clock;
 
@@ -25,6 +25,8 @@ pub struct Deck {
     pub(super) selected: LaneId,
     /// Whether a person, a script or a verdict has selected it.
     pub(super) is_selected: bool,
+    /// How many methods of the menu a person has met: all up to the last that was active.
+    met: usize,
     pub(super) dropped: u64,
     /// How many scenes were opened, of which a driver leaves the time out that it takes.
     pub(super) openings: u64,
@@ -46,6 +48,7 @@ impl Deck {
             held: None,
             selected,
             is_selected: false,
+            met: 0,
             dropped: 0,
             openings: 0,
             edits: 0,
@@ -89,9 +92,10 @@ impl Deck {
         spec.distinct_name(spec.method.name, self.entries())
     }
 
-    /// How many methods of the menu a person meets at first: the scene's, and all up to the one that is active.
+    /// How many methods of the menu a person meets at first: the scene's, and all up to the last that was active.
     pub fn offered(&self) -> usize {
-        self.scene().lanes.len().max(self.active() + 1).min(self.entries().len())
+        let met = self.met.max(self.active() + 1);
+        self.scene().lanes.len().max(met).min(self.entries().len())
     }
 
     /// Solo or race.
@@ -178,7 +182,7 @@ impl Deck {
         rows.iter().any(|row| row.tick > 0 && row.author == Author::Person)
     }
 
-    /// Whether the run on the screen is another than the judged one: a person has changed it since on its way.
+    /// Whether the run on the screen is another than the judged one: it was changed since on its way.
     pub fn is_judged_apart(&self) -> bool {
         self.run().starts().was_changed_since_judged(self.race())
     }
@@ -210,7 +214,15 @@ impl Deck {
     /// # Errors
     /// As [`Session::recording_text`](crate::run::Session::recording_text).
     pub fn recording(&self) -> Result<String, RecordingError> {
-        recording_text(&self.run.recording())
+        recording_text(&self.recorded())
+    }
+
+    /// The run up to the last tick reached as a scene, with the methods that stand on the menu beside it.
+    pub fn recorded(&self) -> Scene {
+        let menu = Menu::new(self.run.start());
+        let start = menu.entry(self.run.start().entrants()[0].id) + 1;
+        let offered = start.max(self.scene().lanes.len());
+        recording_among(self.run.recording(), &menu.specs()[..offered])
     }
 
     /// The link to the run up to the last tick reached, with the methods that stand beside it.
@@ -218,10 +230,9 @@ impl Deck {
     /// # Errors
     /// As [`Session::recording_text`](crate::run::Session::recording_text).
     pub fn link(&self) -> Result<String, RecordingError> {
-        let recording = self.run.recording();
+        let recording = self.recorded();
         // What no file can hold, no link can.
         recording_text(&recording)?;
-        let recording = recording_among(recording, &self.scene().lanes);
         link::to(&recording)
             .map_err(|_| RecordingError::TooLong { bytes: recording.to_toml().len() })
     }
@@ -276,6 +287,7 @@ impl Deck {
         let told = notices.told;
         self.clock.set_tick_hz(self.race().tick_hz());
         self.select_as_scripted(done);
+        self.met = self.met.max(self.active() + 1);
         (changed, told)
     }
 

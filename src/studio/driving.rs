@@ -61,6 +61,7 @@ pub(super) fn advance(
 
 /// Performs the actions at this tick, and steps to the next.
 pub(super) fn make_tick(deck: &mut Deck, viewer: &mut Viewer, observer: &mut dyn Observer) {
+    viewer.notice.take_if(|notice| notice.is_of_tick());
     let ((), told) = deck.watched(|run, notices| run.tick(&mut (notices, observer)));
     viewer.tell(told);
 }
@@ -89,10 +90,16 @@ pub fn shown_s(deck: &Deck, viewer: &Viewer) -> f64 {
     deck.race().t() + deck.race().last_step_s() * shown_ticks(deck, viewer)
 }
 
+/// The last tick at or before the moment shown.
+pub fn shown_tick(deck: &Deck, viewer: &Viewer) -> u64 {
+    let is_before = shown_ticks(deck, viewer) < 0.0;
+    deck.race().tick().saturating_sub(u64::from(is_before))
+}
+
 /// The coordinates and the velocities of a lane's body at the moment shown.
 pub fn shown_state(deck: &Deck, viewer: &Viewer, body: &LaneBody) -> (Vec<f64>, Vec<f64>) {
     let (drawn, alpha, h) = (drawn(deck, viewer), deck.clock.alpha(), deck.race().last_step_s());
-    (drawn.coordinates(body, alpha, h), drawn.velocities(body, alpha, h))
+    (drawn.coordinates(body, alpha, h), drawn.velocities(body, alpha))
 }
 
 /// The true coordinates and velocities of the body at this index of the scene at the moment shown.

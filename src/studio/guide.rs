@@ -82,6 +82,8 @@ pub(super) struct Situation<'a> {
     /// The menu, and the index on it of the method of the selected lane.
     pub(super) menu: &'a [LaneSpec],
     pub(super) active: usize,
+    /// Whether all parameters have the values that the scene was opened with.
+    pub(super) has_own_values: bool,
     /// Whether the run is what it would be from its start: nobody has changed it on the way.
     pub(super) is_from_the_start: bool,
     pub(super) speed_percent: u32,

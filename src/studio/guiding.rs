@@ -9,7 +9,7 @@ use super::viewer::Viewer;
 use crate::run::Metric;
 use crate::run::past::Quantity;
 use crate::run::race::Interpolation;
-use crate::scene::SCENES;
+use crate::scene::{SCENES, SceneBody};
 
 /// The index of the metric that compares this quantity with the truth's.
 fn error_of(quantity: Quantity) -> usize {
@@ -21,7 +21,12 @@ fn error_of(quantity: Quantity) -> usize {
 
 /// What it is doing, as far as goals and hints ask.
 fn situation<'a>(deck: &'a Deck, viewer: &'a Viewer, is_in_loop_lab: bool) -> Situation<'a> {
+    let own = &deck.scene_as_opened().bodies;
+    let has_own_values = |(index, body): (usize, &SceneBody)| {
+        body.values == deck.race().values(index) && body.values == deck.scene().bodies[index].values
+    };
     Situation {
+        has_own_values: own.iter().enumerate().all(has_own_values),
         scene: deck.scene(),
         race: deck.race(),
         menu: deck.entries(),

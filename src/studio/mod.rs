@@ -59,7 +59,7 @@ pub use command::{
 };
 pub use deck::{Deck, HeldBody};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, View};
-pub use driving::{shown_s, shown_state, shown_truth};
+pub use driving::{shown_s, shown_state, shown_tick, shown_truth};
 pub use file_names::{instrument_file_name, picture_file_name};
 pub use findings::{
     accept_findings, analyse_bounded, analysis_request, mappable_parameters, mapped_parameter,

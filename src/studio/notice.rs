@@ -12,9 +12,21 @@ pub struct Notice {
     text: String,
     parts: Vec<String>,
     left_ns: i64,
+    /// Whether it is of the present tick only.
+    is_of_tick: bool,
 }
 
 impl Notice {
+    /// One that leaves when the run goes on, too.
+    pub(super) fn of_tick(parts: Vec<String>) -> Self {
+        Self { is_of_tick: true, ..parts.into() }
+    }
+
+    /// Whether it leaves when the run goes on.
+    pub(super) fn is_of_tick(&self) -> bool {
+        self.is_of_tick
+    }
+
     /// What it tells, the most important first. Its text has all of it.
     pub fn parts(&self) -> &[String] {
         &self.parts
@@ -35,7 +47,7 @@ impl From<Vec<String>> for Notice {
     fn from(parts: Vec<String>) -> Self {
         let text = parts.join("; ");
         let left_ns = MIN_NS + LETTER_NS * text.chars().count() as i64;
-        Self { text, parts, left_ns }
+        Self { text, parts, left_ns, is_of_tick: false }
     }
 }
 

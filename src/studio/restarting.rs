@@ -65,14 +65,14 @@ pub(super) fn restart_keeping_run(deck: &mut Deck, viewer: &mut Viewer) -> bool 
 /// Takes back the last change.
 pub(super) fn undo(deck: &mut Deck, viewer: &mut Viewer) {
     let what = deck.run.undoes().map(str::to_owned);
-    let undone = what.map(|what| format!("undid {what}: Ctrl Shift Z redoes it"));
+    let undone = what.map(|what| format!("undid: {what}. Ctrl Shift Z redoes it"));
     exchange(deck, viewer, Run::undo, undone.as_deref().unwrap_or("nothing to undo"));
 }
 
 /// Makes the change again that was undone last.
 pub(super) fn redo(deck: &mut Deck, viewer: &mut Viewer) {
     let what = deck.run.redoes().map(str::to_owned);
-    let redone = what.map(|what| format!("redid {what}: Ctrl Z takes it back"));
+    let redone = what.map(|what| format!("redid: {what}. Ctrl Z takes it back"));
     exchange(deck, viewer, Run::redo, redone.as_deref().unwrap_or("nothing to redo"));
 }
 

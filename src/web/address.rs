@@ -82,7 +82,8 @@ impl Address {
         }
         if let Some(hz) = tick_hz {
             let is_one = |hz: &u32| Clock::TICK_HZ.contains(hz);
-            scene.tick_hz = hz.parse().ok().filter(is_one).ok_or("tick-hz is 1 to 10000")?;
+            let hz = hz.parse().ok().filter(is_one).ok_or("tick-hz is 1 to 10000")?;
+            scene = scene.at_tick_hz(hz);
         }
         let asked = if *races { Mode::Race } else { Mode::Solo };
         let (mode, selected) = lineup(&scene, &methods, asked);

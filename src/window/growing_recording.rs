@@ -39,7 +39,7 @@ impl Grown {
             scene: Arc::clone(session.scene()),
             journal: session.journal().clone(),
             end: timeline.end(),
-            recording: timeline.recording().into(),
+            recording: studio.deck.recorded().into(),
         }
     }
 

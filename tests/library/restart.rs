@@ -86,7 +86,7 @@ fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
     assert_eq!((studio.race().tick(), studio.race().state_hash()), (80, hash));
     assert_eq!(studio.race().journal(), &journal);
     let notice = studio.viewer.notice.as_deref().unwrap();
-    assert!(notice.starts_with("undid the restart"), "{notice}");
+    assert!(notice.starts_with("undid: the restart"), "{notice}");
     studio.apply(RunCommand::Seek(40));
     studio.apply(RunCommand::Seek(80));
     assert_eq!(studio.race().state_hash(), hash, "with its past");

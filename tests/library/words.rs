@@ -89,7 +89,7 @@ fn a_swing_that_is_too_wide_or_too_narrow_says_how_wide_it_is() {
 #[test]
 fn beside_a_run_that_was_changed_each_wording_tells_of_which_run_it_is() {
     let found = compared(Comparison { early_s: Some(0.02), ..COMPARED });
-    for (starts_at_s, from) in [(0.0, "from the start: "), (3.0, "from 3 s: ")] {
+    for (starts_at_s, from) in [(0.0, "if run from the start: "), (3.0, "if run from 3 s: ")] {
         let verdict = Verdict { starts_at_s, ..found.clone() };
         let wordings = verdict.wordings_of_another_run(true);
         let said = ["bounded · 20 ms early after 20 s", "bounded"];

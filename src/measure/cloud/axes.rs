@@ -90,20 +90,21 @@ impl CloudAxes {
         Ok(Self { whole, widest })
     }
 
-    /// The part of the plane that is shown while the exact border and the points of others are there: it follows those of
-    /// them that the whole has, and is no wider or higher.
-    pub(super) fn around(&self, border: &[[f64; 2]], others: &[[f64; 2]]) -> PlaneView {
+    /// The part of the plane that is shown while the exact border and these points of each cloud are there: all of a cloud that
+    /// is alone; of several, the points that the whole has, on axes no wider or higher than that.
+    pub(super) fn around(&self, border: &[[f64; 2]], clouds: &[Vec<[f64; 2]>]) -> PlaneView {
         let mut view = self.whole;
-        let is_within = |[q, v]: &[f64; 2]| {
-            self.whole.place(*q, *v).iter().all(|part| (0.0..=1.0).contains(part))
+        let is_alone = clouds.len() == 1;
+        let is_seen = |[q, v]: &[f64; 2]| {
+            is_alone || self.whole.place(*q, *v).iter().all(|part| (0.0..=1.0).contains(part))
         };
-        let others: Vec<_> = others.iter().copied().filter(is_within).collect();
-        let near = PlaneView::around(border, &others, f64::INFINITY, false);
+        let seen: Vec<_> = clouds.concat().into_iter().filter(is_seen).collect();
+        let near = PlaneView::around(border, &seen, f64::INFINITY, false);
         for (i, (range, [low, high])) in
             [(&mut view.q, near.q), (&mut view.v, near.v)].into_iter().enumerate()
         {
             let wide = (high - low).max(NARROWEST * self.widest[i]);
-            if wide < range[1] - range[0] && !(i == 0 && self.whole.wraps) {
+            if (is_alone || wide < range[1] - range[0]) && !(i == 0 && self.whole.wraps) {
                 let middle = (low + high) / 2.0;
                 *range = [middle - wide / 2.0, middle + wide / 2.0];
             }

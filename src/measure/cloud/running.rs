@@ -263,8 +263,8 @@ impl CloudRun {
             let points = cloud.q().iter().zip(cloud.v()).map(|(&q, &v)| [q, v]);
             points.step_by(cloud.q().len().div_ceil(SEEN)).collect::<Vec<_>>()
         };
-        let others: Vec<_> = self.lanes.iter().flat_map(some).collect();
-        let view = self.axes.around(&border.concat(), &others);
+        let clouds: Vec<_> = self.lanes.iter().map(some).collect();
+        let view = self.axes.around(&border.concat(), &clouds);
         let lane = |(entry, SampledCloud { cloud, areas }): &(usize, SampledCloud<Cloud>)| {
             let mut density = Density::new([GRID; 2], view);
             density.add(cloud.q(), cloud.v());

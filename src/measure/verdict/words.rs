@@ -298,7 +298,7 @@ impl Verdict {
     /// way, of which it tells nothing.
     pub fn wordings_of_another_run(&self, is_named: bool) -> Vec<String> {
         let wordings = self.wordings(is_named).into_iter();
-        wordings.map(|words| format!("from {}: {words}", self.start())).collect()
+        wordings.map(|words| format!("if run from {}: {words}", self.start())).collect()
     }
 
     /// The verdict in fewer and fewer words, as room is short: the word and the number, then the word alone. The body is named

@@ -167,31 +167,35 @@ impl TruthCurve {
         samples: &[TruthSample],
         spacing_s: f64,
     ) -> Vec<[f64; 2]> {
-        let mut copy = truth.stepper.with_solver(Solver::Truth, 0.0);
-        let mut flow = |from: &TruthSample, t: f64| {
-            if truth.coordinates().len() > 1 {
-                return None;
-            }
-            copy.set(from.t, &[from.q], &[from.v]);
-            copy.advance(from.t, t - from.t, 1).ok()?;
-            Some([copy.q()[0], copy.v()[0]])
-        };
+        let mut flow = Flow::of(truth);
         let mut points = Vec::new();
         for pair in samples.windows(2) {
             let [from, to] = [&pair[0], &pair[1]];
             let wide = to.t - from.t;
-            let near = |a: f64, b: f64| (a - b).abs() <= FOLLOWS * a.abs().max(b.abs());
-            let follows = flow(from, to.t).is_some_and(|[q, v]| near(q, to.q) && near(v, to.v));
+            let follows = flow.leads(from, to);
             let count = libm::ceil(wide / spacing_s).clamp(1.0, MAX_BETWEEN) as u32;
             for i in 0..count {
                 let part = f64::from(i) / f64::from(count);
                 let t = from.t + part * wide;
-                let state = if follows { flow(from, t) } else { None };
+                let state = if follows { flow.state(from, t) } else { None };
                 points.push([t, quantity.among(state.unwrap_or_else(|| cubic(from, to, part)))]);
             }
         }
         points.extend(samples.last().map(|last| [last.t, quantity.among([last.q, last.v])]));
         points
+    }
+
+    /// A quantity of the true body `truth` at time `t` (s) between two consecutive samples, on the curve of
+    /// [`finer`](Self::finer).
+    pub fn between(
+        truth: &LaneBody,
+        quantity: Quantity,
+        [from, to]: [&TruthSample; 2],
+        t: f64,
+    ) -> f64 {
+        let mut flow = Flow::of(truth);
+        let state = flow.leads(from, to).then(|| flow.state(from, t)).flatten();
+        quantity.among(state.unwrap_or_else(|| cubic(from, to, (t - from.t) / (to.t - from.t))))
     }
 
     /// The coordinates and velocities of `truth` within its last tick, in which `part` goes from 0 to 1, or beyond it.
@@ -329,6 +333,35 @@ impl TruthCurve {
     pub(super) fn forget_future(&mut self) {
         self.samples.forget_future();
         self.extents.forget_future();
+    }
+}
+
+/// The motion of a true body of one coordinate without inputs.
+struct Flow {
+    copy: Box<dyn Stepper>,
+    is_known: bool,
+}
+
+impl Flow {
+    fn of(truth: &LaneBody) -> Self {
+        let copy = truth.stepper.with_solver(Solver::Truth, 0.0);
+        Self { copy, is_known: truth.coordinates().len() == 1 }
+    }
+
+    /// The coordinate and its velocity at time `t` (s), from a sample on.
+    fn state(&mut self, from: &TruthSample, t: f64) -> Option<[f64; 2]> {
+        if !self.is_known {
+            return None;
+        }
+        self.copy.set(from.t, &[from.q], &[from.v]);
+        self.copy.advance(from.t, t - from.t, 1).ok()?;
+        Some([self.copy.q()[0], self.copy.v()[0]])
+    }
+
+    /// Whether the motion from one sample leads to the other.
+    fn leads(&mut self, from: &TruthSample, to: &TruthSample) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() <= FOLLOWS * a.abs().max(b.abs());
+        self.state(from, to.t).is_some_and(|[q, v]| near(q, to.q) && near(v, to.v))
     }
 }
 

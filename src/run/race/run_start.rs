@@ -3,9 +3,9 @@
 
 use std::sync::Arc;
 
-use super::Race;
-use super::journal::Author;
+use super::journal::{Author, JournalRow};
 use super::observer::{Done, Observer};
+use super::{Mode, Race};
 use crate::scene::Action;
 
 /// The true state of a race right after an action on its bodies.
@@ -58,11 +58,19 @@ impl Starts {
         [&self.judged, &self.cloud].into_iter().flatten().map(|start| start.bytes()).sum()
     }
 
-    /// Whether a person has changed this run since it is judged, so that verdicts are of another run.
+    /// Whether verdicts are of another run than this: since it is judged, a person has changed it, or a script a method, a
+    /// parameter or the tick rate. What a script does to the bodies is part of the judged run too.
     pub(crate) fn was_changed_since_judged(&self, race: &Race) -> bool {
         let from = self.judged.as_ref().map_or(0, |start| start.tick);
-        let rows = &race.journal().rows()[..race.done()];
-        rows.iter().any(|row| row.tick > from && row.author == Author::Person)
+        let is_setting = |action: &Action| match action {
+            Action::Method(_) => race.mode() == Mode::Solo,
+            Action::Lane { .. } | Action::Substeps { .. } | Action::Tolerance { .. } => true,
+            Action::TickHz(_) | Action::Set { .. } => true,
+            Action::Throttle(_) | Action::Rudder(_) | Action::Kick(_) => false,
+            Action::Place { .. } | Action::Solo { .. } => false,
+        };
+        let differs = |row: &JournalRow| row.author == Author::Person || is_setting(&row.action);
+        race.journal().rows()[..race.done()].iter().any(|row| row.tick > from && differs(row))
     }
 }
 

@@ -145,16 +145,16 @@ impl Hints {
         let is_asked_to_restart = self.scene && !now.is_from_the_start && !self.leads[0];
         // A verdict is about a run from the start, and not about the one on the stage.
         Some(match reaction(outcome).filter(|_| is_asked_to_restart) {
-            Some(reaction) => format!("From its start {} {reaction}. {text}", now.method().name),
+            Some(reaction) => format!("{} {reaction}. {text}", now.method().name),
             None => text.to_owned(),
         })
     }
 }
 
-/// Whether a scene's hint is so. What it says of a method is said of the scene's opening method, with the digits of the
-/// scene's own lanes, in the mode in which the scene opens, and what it says of a tick rate is counted from the scene's.
+/// Whether a scene's hint is of the moment: the scene has its own tick rate and values, and what the hint says of a method, it
+/// says of the opening one, with the digits of the scene's own lanes, in the mode in which the scene opens.
 fn is_so(hint: &str, now: &Situation<'_>) -> bool {
-    use StageCommand::{Method, MethodBeside, Pick, TickRate, ToggleArrangement, ToggleRace};
+    use StageCommand::{Method, MethodBeside, Pick, ToggleArrangement, ToggleRace};
     let asked: Vec<&StageCommand> = keys(hint)
         .flat_map(bound_to)
         .filter_map(|command| match command {
@@ -167,28 +167,28 @@ fn is_so(hint: &str, now: &Situation<'_>) -> bool {
     let is_of_mode = asks(|asked| {
         matches!(asked, Pick(_) | Method(_) | MethodBeside(_) | ToggleRace | ToggleArrangement)
     });
-    let is_of_rate = asks(|asked| matches!(asked, TickRate(_))) && hint.contains(" Hz");
     let lanes = &now.scene.lanes;
     let hint = hint.to_lowercase();
     let is_of_method = asks(|asked| matches!(asked, Pick(_) | Method(_) | MethodBeside(_)))
         || now.menu.iter().any(|spec| hint.contains(&spec.method.name.to_lowercase()));
     let opening = now.scene.opening_method.or(lanes.first().map(|spec| spec.method));
     let is_beyond = |asked: &&StageCommand| matches!(asked, Pick(entry) if *entry >= lanes.len());
-    (!is_of_mode || now.race.mode() == opens_in)
-        && (!is_of_rate || now.race.tick_hz() == now.scene.tick_hz)
+    now.has_own_values
+        && now.race.tick_hz() == now.scene.tick_hz
+        && (!is_of_mode || now.race.mode() == opens_in)
         && (!is_of_method || now.race.mode() == Mode::Race || Some(now.method()) == opening)
         && !asked.iter().any(is_beyond)
 }
 
-/// What a method does, in words that follow its name; `None` if that is not known.
+/// What a method would have done, in words that follow its name; `None` if that is not known.
 fn reaction(outcome: Option<Outcome>) -> Option<&'static str> {
     match outcome? {
-        Outcome::Rounding | Outcome::Accurate => Some("keeps to the exact motion"),
-        Outcome::LooksRight => Some("looks right"),
-        Outcome::Bounded => Some("stays bounded"),
-        Outcome::DiesAway => Some("dies away"),
-        Outcome::Grows => Some("grows"),
-        Outcome::GaveUp | Outcome::BlewUp => Some("is lost"),
+        Outcome::Rounding | Outcome::Accurate => Some("would have kept to the exact motion"),
+        Outcome::LooksRight => Some("would have looked right"),
+        Outcome::Bounded => Some("would have stayed bounded"),
+        Outcome::DiesAway => Some("would have died away"),
+        Outcome::Grows => Some("would have grown"),
+        Outcome::GaveUp | Outcome::BlewUp => Some("would have been lost"),
         Outcome::NotJudged | Outcome::NoTruth => None,
     }
 }

@@ -5,7 +5,7 @@ use egui::Color32;
 use crate::loops::POLICIES;
 use crate::loops::loop_lab::LoopLab;
 use crate::run::race::Mode;
-use crate::studio::Studio;
+use crate::studio::{Studio, shown_s};
 use crate::view::theme::{colour, palette_of};
 
 /// Whose curves the plots show.
@@ -19,7 +19,7 @@ pub(super) struct SeriesStyles {
     /// The name of the exact curve.
     pub(super) exact: String,
     pub(super) exact_colour: Color32,
-    /// The present and the length of the run, in seconds.
+    /// The moment shown and the length of the run, in seconds.
     pub(super) now_s: f64,
     pub(super) length_s: f64,
 }
@@ -56,7 +56,7 @@ impl SeriesStyles {
             is_race: studio.mode() == Mode::Race,
             exact: studio.race().truth().bodies()[studio.view().body].truth_in_words(),
             exact_colour: palette.exact,
-            now_s: studio.race().t(),
+            now_s: shown_s(&studio.deck, &studio.viewer),
             length_s: studio.scene().seconds,
         }
     }

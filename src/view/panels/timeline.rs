@@ -396,7 +396,7 @@ fn beside(ui: &mut Ui, studio: &Studio, room: Rect, commands: &mut Vec<Command>)
         let rect = Rect::from_min_size(pos2(room.right() - size.x, room.top() + 1.0), size);
         let button =
             ui.put(rect, egui::Button::new(egui::RichText::new("Undo").size(11.0)).small());
-        let about = format!("undo {what} (Ctrl Z)");
+        let about = format!("undo: {what}, Ctrl Z");
         button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
         if button.on_hover_text(about).clicked() {
             commands.push(Command::Run(RunCommand::Undo));

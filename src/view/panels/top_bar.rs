@@ -11,7 +11,7 @@ use crate::run::race::Mode;
 use crate::scene::{SCENES, Scene};
 use crate::studio::{
     Command, RunCommand, SPEED_LADDER, StageCommand, Step, Studio, TICK_LADDER, ViewCommand,
-    shown_s,
+    shown_s, shown_tick,
 };
 use crate::view::theme::{TYPE, palette, strong_font};
 
@@ -58,7 +58,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
                     }
                     let t = shown_s(&studio.deck, &studio.viewer);
                     match is_wide {
-                        true => format!("t = {t:.3} s · tick {}", studio.race().tick()),
+                        true => {
+                            let tick = shown_tick(&studio.deck, &studio.viewer);
+                            format!("t = {t:.3} s · tick {tick}")
+                        }
                         false => format!("{t:.3} s"),
                     }
                 }

@@ -42,6 +42,11 @@ impl Detail {
     }
 }
 
+/// The least and the greatest value along an axis on the way to a point.
+fn ends(axis: usize) -> impl Fn(&Point) -> [f64; 2] + Clone {
+    move |point| if axis == 1 { point.swept } else { [point.at[axis]; 2] }
+}
+
 fn finite(points: impl Iterator<Item = Point>) -> Vec<Point> {
     let mut kept = Vec::with_capacity(points.size_hint().0);
     let finite = points.filter(|point| point.at.iter().all(|x| x.is_finite()));
@@ -198,14 +203,20 @@ impl Track {
 
     /// The values along an axis, with those between samples.
     pub(super) fn along(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
-        let ends = move |point: &Point| if axis == 1 { point.swept } else { [point.at[axis]; 2] };
-        self.points.iter().flat_map(ends)
+        self.points.iter().flat_map(ends(axis))
     }
 
-    /// The heights from time `t` (s) on, with those between samples.
-    pub(super) fn along_since(&self, t: f64) -> impl Iterator<Item = f64> {
-        let later = self.points.partition_point(|point| point.t < t);
-        self.points[later..].iter().flat_map(|point| point.swept).filter(|y| y.is_finite())
+    /// The values along an axis of the lane in front from time `t` (s) on, with those between samples: the axes of a plot
+    /// always show them.
+    pub(super) fn front_since(
+        tracks: &[Self],
+        axis: usize,
+        t: f64,
+    ) -> impl Iterator<Item = f64> + Clone {
+        let front = tracks.iter().filter(|track| track.is_front);
+        let later = move |track: &Self| track.points.partition_point(|point| point.t < t);
+        let points = front.flat_map(move |track| &track.points[later(track)..]);
+        points.flat_map(ends(axis)).filter(|value| value.is_finite())
     }
 
     /// The tracks that an axis is fitted to: without what was before a body was put elsewhere or a parameter changed, but

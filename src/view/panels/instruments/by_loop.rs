@@ -4,6 +4,7 @@ use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
 use super::error::capitalised;
+use super::motion::HEALTHY;
 use super::phase::SAMPLES;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, time_in_view};
 use crate::loops::loop_lab::{FRAME_METRICS, LoopFrame, LoopLab, LoopLane};
@@ -14,9 +15,7 @@ use crate::view::chart::{AxisScale, Bounds, Dots};
 
 /// The seconds in view where every frame shows.
 const FRAMES_S: f64 = 1.0;
-/// A loop this many times further out than the exact solution does not stretch the axes.
-const HEALTHY: f64 = 1.6;
-/// The same for an energy, in fiftieths of the exact one.
+/// As [`HEALTHY`], for an energy.
 const HEALTHY_ENERGY: f64 = 50.0;
 /// What of the body is in a plot.
 const SHOWN: &str = "as shown";
@@ -59,8 +58,9 @@ impl Plots<'_> {
     fn motion(self) -> PlotModel {
         let tracks = self.held(|frame| frame.q[0]);
         let exact = self.exact(|t, frame| [t, frame.exact[0]]);
-        let range = self.loops.range();
-        let y = ranges::around_truth(range.into_iter(), &tracks, 1, HEALTHY);
+        let [from_s, _] = self.last_frames();
+        let seen = Track::front_since(&tracks, 1, from_s).chain(self.loops.range());
+        let y = ranges::around_truth(seen, &tracks, 1, HEALTHY);
         let up = PlotAxis::of(&self.loops.body().coordinates().at(0));
         self.over_time("motion by loop", up, tracks, Some(exact), (self.last_frames(), y))
     }
@@ -89,10 +89,11 @@ impl Plots<'_> {
         let total = |energies: Option<Energies>| energies.map_or(f64::NAN, |known| known.total_j);
         let tracks = self.held(|frame| total(frame.stepped.energies));
         let exact = self.exact(|t, frame| [t, total(frame.exact_state.energies)]);
-        let y = ranges::around_truth(exact.values(1), &tracks, 1, HEALTHY_ENERGY);
+        let view = self.time_in_view();
+        let seen = Track::front_since(&tracks, 1, view[0]).chain(exact.values(1));
+        let y = ranges::around_truth(seen, &tracks, 1, HEALTHY_ENERGY);
         let up = PlotAxis::new("total energy", "J", AxisScale::Linear);
         let is_empty = exact.times.is_empty();
-        let view = self.time_in_view();
         let plot = self.over_time("energy by loop", up, tracks, Some(exact), (view, y));
         let truth = &self.studio.race().truth().bodies()[self.studio.view().body];
         let why = is_empty.then(|| METRICS[Metric::ENERGY_DRIFT].absent_on(truth).to_owned());
@@ -108,8 +109,10 @@ impl Plots<'_> {
             let state = frame.exact_state;
             if t >= since_s { [state.q, state.v] } else { [f64::NAN; 2] }
         });
-        let [x, y] =
-            [0, 1].map(|axis| ranges::around_orbit(exact.values(axis), &tracks, axis, HEALTHY));
+        let [x, y] = [0, 1].map(|axis| {
+            let front = Track::front_since(&tracks, axis, f64::NEG_INFINITY);
+            ranges::around_orbit(front.chain(exact.values(axis)), &tracks, axis, HEALTHY)
+        });
         let axes = PlotAxis::of_phase(&self.loops.body().coordinates().at(0));
         let plot = self.plot("phase portrait by loop", STEPPED, axes, [x.into(), y.into()]);
         PlotModel { tracks, dots: Dots::Sparse, exact: vec![exact], ..plot }
@@ -247,10 +250,10 @@ mod tests {
         assert!(track.is_front);
         assert_eq!(track.at(between).unwrap().1[1], one.q[0]);
         // The cosine of the spring, between the exact values at two frames.
-        let exact = motion.exact[0].at(between).unwrap()[1];
+        let exact = motion.exact[0].at((&studio, 0), between).unwrap()[1];
         let true_value = libm::cos(2.0 * std::f64::consts::PI * between);
         assert!((exact - true_value).abs() < 3e-3, "{exact} and {true_value}");
-        assert!(motion.exact[0].at(0.9).is_some(), "the present is known");
+        assert!(motion.exact[0].at((&studio, 0), 0.9).is_some(), "the present is known");
         assert!(motion.fit[0][1] - motion.fit[0][0] == FRAMES_S);
     }
 

@@ -108,7 +108,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut V
             let t = at.and_then(|(over, at)| {
                 hover::time_at(cells[over].plot, &views.area(&cells[over]), at)
             });
-            hover::show(ui, &set.styles, (cell, &area), t, place == 0);
+            hover::show(ui, studio, &set.styles, (cell, &area), t, place == 0);
         }
     }
     if views.0 != studio.view().plot_ranges {

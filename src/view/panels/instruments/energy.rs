@@ -4,8 +4,8 @@ use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
 use super::error;
-use super::motion::healthy;
-use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
+use super::motion::HEALTHY;
+use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time, time_in_view};
 use crate::run::Metric;
 use crate::run::past::Energies;
 use crate::studio::Studio;
@@ -46,8 +46,11 @@ fn energies(studio: &Studio, body: usize) -> PlotModel {
             .into_part(part, dash, strength)
     });
     let tracks: Vec<Track> = PARTS.into_iter().flat_map(energy).collect();
-    let range = exact.iter().flat_map(|line| line.fitted(studio, 1));
-    let y = ranges::around_truth(range, &Track::fitted(studio, &tracks), 1, healthy(studio));
+    let [from_s, _] = time_in_view(studio.scene().seconds, studio.race().t());
+    let lanes = Track::fitted(studio, &tracks);
+    let exact_range = exact.iter().flat_map(|line| line.fitted(studio, 1));
+    let seen = Track::front_since(&lanes, 1, from_s).chain(exact_range);
+    let y = ranges::around_truth(seen, &lanes, 1, HEALTHY);
     let (id, title) = (format!("energies of {body}"), "kinetic dashed, potential dotted".into());
     let axes = [PlotAxis::time("time t"), PlotAxis::new("energy", "J", AxisScale::Linear)];
     let plot = PlotModel::new(body, id, title, axes, over_time(studio, y));

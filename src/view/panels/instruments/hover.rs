@@ -5,6 +5,7 @@ use egui::{Align2, FontId, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 use super::super::series_styles::SeriesStyles;
 use super::layout::Cell;
 use super::plot_set::{PlotModel, Readout};
+use crate::studio::Studio;
 use crate::view::chart::{NAME, PlotArea};
 use crate::view::theme::{palette, strong_font};
 
@@ -34,6 +35,7 @@ pub(super) fn time_at(plot: &PlotModel, area: &PlotArea, at: Pos2) -> Option<f64
 /// time is written above the plot.
 pub(super) fn show(
     ui: &Ui,
+    studio: &Studio,
     styles: &SeriesStyles,
     (cell, area): (&Cell<'_>, &PlotArea),
     t: Option<f64>,
@@ -42,7 +44,7 @@ pub(super) fn show(
     let (frame, now) = (area.rect, styles.now_s);
     let [from, to] = area.bounds[0];
     let is_over_time = cell.plot.is_over_time();
-    let readouts = cell.plot.readouts(styles, t.unwrap_or(now));
+    let readouts = cell.plot.readouts(studio, styles, t.unwrap_or(now));
     let painter = ui.painter();
     if is_over_time && (from..to).contains(&now) {
         let x = area.at([now, 0.0]).x;

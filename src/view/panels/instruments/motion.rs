@@ -10,16 +10,14 @@ use super::plot_set::{
 use crate::look::{Framing, Look};
 use crate::measure::Future;
 use crate::run::past::Quantity;
-use crate::run::race::Mode;
 use crate::stage::Coordinate;
 use crate::studio::{Studio, futures, shows_futures};
 use crate::view::chart::{Curve, Dots, LineStyle};
 use crate::view::theme::palette_of;
 
-/// A lane this many times further out than the truth no longer stretches the axes, and here than the selected lane; and
-/// where it is alone, squeezes nothing but the truth, and is looked at for how it grows.
-const HEALTHY: f64 = 1.6;
-const HEALTHY_ALONE: f64 = 4.0;
+/// A lane that is further out than what is looked at, the truth and the selected lane, by more than this factor stretches no
+/// axis.
+pub(super) const HEALTHY: f64 = 1.6;
 
 /// The width of the curve of a future, in points.
 const FUTURE: f32 = 1.8;
@@ -50,7 +48,7 @@ fn track(studio: &Studio, body: usize) -> Option<PlotModel> {
     let exact = ExactLine::of(studio, body, |sample| Some(sample.at.into()));
     let lanes = Track::fitted(studio, &tracks);
     let range = |axis: usize| {
-        let front = lanes.iter().filter(|lane| lane.is_front).flat_map(|lane| lane.along(axis));
+        let front = Track::front_since(&lanes, axis, f64::NEG_INFINITY);
         let seen = front.chain(exact.fitted(studio, axis)).chain(origin(studio));
         ranges::around_truth(seen, &lanes, axis, HEALTHY)
     };
@@ -71,8 +69,7 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let lanes = Track::fitted(studio, &tracks);
     // What is looked at is the selected lane: beside one that has grown the truth may be a flat line.
     let [from_s, _] = time_in_view(studio.scene().seconds, studio.race().t());
-    let selected = lanes.iter().filter(|lane| lane.is_front);
-    let seen = selected.flat_map(|lane| lane.along_since(from_s)).chain(exact.fitted(studio, 1));
+    let seen = Track::front_since(&lanes, 1, from_s).chain(exact.fitted(studio, 1));
     let futures = future_curves(studio, body, quantity);
     let exact_future = futures.last().into_iter().flat_map(|curve| &curve.points);
     let seen = seen.chain(origin(studio)).chain(exact_future.map(|at| at[1]));
@@ -128,12 +125,4 @@ pub(super) fn put_in_hand(
     let (q, v) = (held.q[plotted], held.v[plotted]);
     let front = tracks.iter_mut().filter(|track| track.is_front);
     front.for_each(|track| track.put(studio.race().t(), place(studio.race().t(), [q, v])));
-}
-
-/// How many times further out than the truth a lane still stretches the axes.
-pub(super) fn healthy(studio: &Studio) -> f64 {
-    match studio.mode() {
-        Mode::Solo => HEALTHY_ALONE,
-        Mode::Race => HEALTHY,
-    }
 }

@@ -3,7 +3,7 @@
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
-use super::motion::{healthy, name_of_plotted, put_in_hand};
+use super::motion::{HEALTHY, name_of_plotted, put_in_hand};
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, origin};
 use crate::studio::Studio;
 use crate::view::chart::Dots;
@@ -22,8 +22,9 @@ pub(super) fn plot_set(studio: &Studio) -> PlotSet {
     let exact = ExactLine::of(studio, body, |s| (s.t >= since_s).then_some([s.q, s.v]));
     let fitted = Track::fitted(studio, &tracks);
     let [x, y] = [0, 1].map(|axis| {
-        let truth = exact.fitted(studio, axis).chain(origin(studio));
-        ranges::around_orbit(truth, &fitted, axis, healthy(studio))
+        let front = Track::front_since(&fitted, axis, f64::NEG_INFINITY);
+        let seen = front.chain(exact.fitted(studio, axis)).chain(origin(studio));
+        ranges::around_orbit(seen, &fitted, axis, HEALTHY)
     });
     let (coordinate, _) = studio.past().coordinate(studio.race(), body);
     let id = format!("phase portrait of {} of {body}", coordinate.name);

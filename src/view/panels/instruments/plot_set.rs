@@ -257,8 +257,8 @@ impl ExactLine {
         self.curve.points.iter().map(move |point| point[axis])
     }
 
-    /// Where it was at time `t` (s), on the line between samples.
-    pub(super) fn at(&self, t: f64) -> Option<[f64; 2]> {
+    /// Where it was at time `t` (s): on the line between two points, unless more is known of `body`.
+    pub(super) fn at(&self, (studio, body): (&Studio, usize), t: f64) -> Option<[f64; 2]> {
         let after = self.times.partition_point(|&time| time <= t);
         let before = after.checked_sub(1)?;
         let (from_s, from) = (self.times[before], self.curve.points[before]);
@@ -266,6 +266,12 @@ impl ExactLine {
             return Some(from);
         }
         let (&to_s, to) = self.times.get(after).zip(self.curve.points.get(after))?;
+        if let Some(quantity) = self.known.filter(|_| to_s > from_s) {
+            let mut ends = samples(studio, body).filter(|sample| known(quantity, sample).is_some());
+            let (from, to) = ends.nth(before).zip(ends.next())?;
+            let truth = &studio.race().truth().bodies()[body];
+            return Some([t, TruthCurve::between(truth, quantity, [&from, &to], t)]);
+        }
         let part = if to_s > from_s { (t - from_s) / (to_s - from_s) } else { 1.0 };
         Some([0, 1].map(|axis| from[axis] + part * (to[axis] - from[axis])))
     }
@@ -344,7 +350,7 @@ impl PlotModel {
     }
 
     /// The values of all curves at time `t` (s).
-    pub(super) fn readouts(&self, styles: &SeriesStyles, t: f64) -> Vec<Readout> {
+    pub(super) fn readouts(&self, studio: &Studio, styles: &SeriesStyles, t: f64) -> Vec<Readout> {
         let lanes = self.tracks.iter().filter_map(|track| {
             let (entry, at) = track.at(t)?;
             let key = if styles.is_race { format!("{}", entry + 1) } else { String::new() };
@@ -352,7 +358,7 @@ impl PlotModel {
             Some(Readout { entry: Some(entry), colour, is_front: track.is_front, name, at })
         });
         let exact = self.exact.iter().filter_map(|line| {
-            let (at, name) = (line.at(t)?, joined("", line.part));
+            let (at, name) = (line.at((studio, self.body), t)?, joined("", line.part));
             Some(Readout { entry: None, colour: styles.exact_colour, is_front: true, name, at })
         });
         lanes.chain(exact).collect()

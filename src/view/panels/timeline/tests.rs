@@ -71,7 +71,7 @@ fn an_undo_is_offered_once_something_was_changed() {
     (0..60).for_each(|_| studio.tick());
     studio.apply(RunCommand::Seek(30));
     studio.apply(RunCommand::Act(Action::Kick(1.0)));
-    assert_eq!(studio.run().undoes(), Some("the kick at tick 30"));
+    assert_eq!(studio.run().undoes(), Some("the kick (tick 30)"));
 }
 
 #[test]

@@ -14,7 +14,7 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
     (0..17).for_each(|_| studio.tick());
     let at_the_end = |studio: &Studio| {
         let set = plot_set_of(studio, Detail::Samples).unwrap();
-        let readouts = set.plots[0].readouts(&set.styles, 8.5);
+        let readouts = set.plots[0].readouts(studio, &set.styles, 8.5);
         [readouts[0].at[1], readouts[1].at[1]]
     };
     studio.apply(ViewCommand::Quantity(Some(Quantity::Position)));
@@ -47,7 +47,7 @@ fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
     assert!(rows.len() > 90 && rows.len() + 1 == table.lines().count(), "from the start: {table}");
     let now = studio.race().entrants()[0].lane.bodies()[0].stepper.q()[chosen];
     let set = plot_set_of(&studio, Detail::Samples).unwrap();
-    assert_eq!(set.plots[0].readouts(&set.styles, studio.race().t())[0].at[1], now);
+    assert_eq!(set.plots[0].readouts(&studio, &set.styles, studio.race().t())[0].at[1], now);
     // To go back repeats the run as it was recorded.
     studio.apply(RunCommand::Seek(40));
     studio.apply(RunCommand::Seek(90));
@@ -81,7 +81,7 @@ fn while_a_body_is_held_and_when_it_was_let_go_the_plot_says_what_the_stage_says
     let mut studio = race_of_springs();
     let front = |studio: &Studio| {
         let set = plot_set_of(studio, Detail::Samples).unwrap();
-        let readouts = set.plots[0].readouts(&set.styles, studio.race().t());
+        let readouts = set.plots[0].readouts(studio, &set.styles, studio.race().t());
         let of = |entry: Option<usize>| readouts.iter().find(|it| it.entry == entry).unwrap().at[1];
         [of(Some(studio.active())), of(None)]
     };
