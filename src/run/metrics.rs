@@ -240,11 +240,24 @@ pub const METRICS: &[Metric] = &[
 pub fn energy_gained_percent(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
     let of_swing = (METRICS[Metric::ENERGY_DRIFT].measure)(lane, truth);
     of_swing.or_else(|| {
-        let [lane, exact] = both(lane, truth).filter(|_| truth.stepper.is_linear())?;
-        let sum = |body: &LaneBody| Some(body.stepper.mechanical_energy()?.iter().sum::<f64>());
+        let [_, exact] = both(lane, truth).filter(|_| truth.stepper.is_linear())?;
         let most_j = exact.stepper.energy().unwrap_or(exact.extent()?.most_j());
-        known(100.0 * (sum(lane)? - sum(exact)?) / most_j)
+        known(100.0 * energy_gained_j(lane, truth)? / most_j)
     })
+}
+
+/// The energy that a body in a lane has more than in truth, in joules; `None` where its energies are not known.
+pub fn energy_gained_j(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
+    let [lane, exact] = both(lane, truth)?.map(energy_j);
+    known(lane? - exact?)
+}
+
+/// The kinetic and potential energy of a body, in joules; `None` where they are not known, and of one that has halted.
+pub fn energy_j(body: &LaneBody) -> Option<f64> {
+    let stepper = &body.stepper;
+    let parts = || Some(stepper.mechanical_energy()?.iter().sum());
+    let energy = stepper.energy().or_else(parts).filter(|_| body.halted().is_none());
+    energy.and_then(known)
 }
 
 /// The body in a lane and in truth; `None` once either has halted.

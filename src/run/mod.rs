@@ -34,7 +34,7 @@ mod undo;
 pub(crate) use csv_row::csv_row;
 pub use event::{Event, EventKind};
 pub use menu::Menu;
-pub use metrics::{METRICS, Metric, Scale, Unit, energy_gained_percent};
+pub use metrics::{METRICS, Metric, Scale, Unit, energy_gained_j, energy_gained_percent, energy_j};
 pub use observations::Observations;
 pub use race::{Follow, Journal, Lane, Race};
 pub(crate) use recording::among as recording_among;

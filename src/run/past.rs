@@ -15,7 +15,7 @@ mod sample;
 mod truth_curve;
 mod windowed_log;
 
-pub use history::{History, Samples};
+pub use history::{History, Most, Samples};
 pub use quantity::Quantity;
 pub use sample::{CAPACITY, Energies, Sample, Summary, SweptRange};
 use truth_curve::TruthMark;
@@ -96,6 +96,7 @@ impl Past {
             changed_s: f64::NEG_INFINITY,
         };
         past.sample(race, menu);
+        past.note_most(race);
         past
     }
 
@@ -319,7 +320,8 @@ impl Past {
                 let coordinate = self.truth_curves[*body].coordinate();
                 for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
                     let (placed, entry) = (&entrant.lane.bodies()[*body], menu.entry(entrant.id));
-                    histories[*body].jump(Sample::new(t, entry, coordinate, [placed, truth]));
+                    let sample = Sample::new(t, entry, coordinate, [placed, truth]);
+                    histories[*body].jump(sample, Most::of(placed, truth));
                 }
             }
             Action::Solo { .. } => self.leave_with(race),
@@ -346,6 +348,17 @@ impl Past {
             }
         }
         self.sample(race, menu);
+        self.note_most(race);
+    }
+
+    /// Adds the present to the largest values of each history.
+    fn note_most(&mut self, race: &Race) {
+        for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
+            let bodies = entrant.lane.bodies().iter().zip(race.truth().bodies()).zip(histories);
+            for ((body, truth), history) in bodies.filter(|((b, _), _)| b.halted().is_none()) {
+                history.note(Most::of(body, truth));
+            }
+        }
     }
 }
 

@@ -115,6 +115,60 @@ fn thinned(trail: impl Iterator<Item = Place> + Clone, tolerance_m: f64) -> Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{Action, Scene};
+    use crate::stage::compose;
+    use crate::studio::{RunCommand, StageCommand, Studio};
+
+    /// How far the marks of the spring are from its rest, and the number that its caption names, in metres.
+    fn marked_and_said(studio: &Studio) -> (f64, f64) {
+        let marked = Ghost::new(&DrawContext::of(studio), 0).swing_m.expect("a spring has marks");
+        let mut labels = compose(studio, [780.0, 460.0]).labels.into_iter();
+        let said = labels.find_map(|label| {
+            let number = label.text.strip_prefix("should keep to ±")?.strip_suffix(" m")?;
+            Some(number.parse().expect("a number"))
+        });
+        (marked, said.expect("a caption"))
+    }
+
+    #[test]
+    fn marks_and_caption_agree_after_a_kick_a_throw_an_edit_and_all_along() {
+        let spring = Scene::built_in("harbour").unwrap().bodies[0].clone();
+        let (stiffness, _) = spring.kind.parameter("stiffness_n_per_m").unwrap();
+        let place = |q: f64, v: f64| Action::Place { body: 0, q: [q].into(), v: [v].into() };
+        for action in [
+            Action::Kick(1.0),
+            Action::Kick(-2.0),
+            place(0.3, -2.0),
+            Action::Set { body: 0, parameter: stiffness, value: 7.0 * spring.values[stiffness] },
+            Action::Place { body: 1, q: [30.0].into(), v: [1.0].into() },
+        ] {
+            let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+            (0..47).for_each(|_| studio.tick());
+            studio.apply(RunCommand::Act(action.clone()));
+            for tick in 0..240 {
+                let (marked, said) = marked_and_said(&studio);
+                assert!((marked - said).abs() < 6e-3 * said, "{action:?}, {tick}: {marked} {said}");
+                studio.tick();
+            }
+            studio.apply(StageCommand::Restart);
+        }
+    }
+
+    #[test]
+    fn of_a_damped_spring_the_marks_hold_all_that_it_does_after_a_kick() {
+        let mut studio = Studio::new(Scene::built_in("damped").unwrap());
+        (0..100).for_each(|_| studio.tick());
+        studio.apply(RunCommand::Act(Action::Kick(3.0)));
+        let mut widest = 0.0_f64;
+        for _ in 0..600 {
+            let marked = Ghost::new(&DrawContext::of(&studio), 0).swing_m.unwrap();
+            widest = widest.max(studio.race().truth().bodies()[0].stepper.q()[0].abs());
+            assert!(marked >= widest * (1.0 - 1e-9), "{marked} {widest}");
+            studio.tick();
+        }
+        let marked = Ghost::new(&DrawContext::of(&studio), 0).swing_m.unwrap();
+        assert!(marked < 1.05 * widest, "in the end they are where it turned: {marked} {widest}");
+    }
 
     #[test]
     fn a_thinned_trail_keeps_its_ends_its_corners_and_within_the_tolerance_all_else() {

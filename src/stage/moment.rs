@@ -138,6 +138,24 @@ mod tests {
     }
 
     #[test]
+    fn the_speed_told_lies_between_those_of_the_two_states_though_what_is_drawn_may_move_otherwise()
+    {
+        let mut studio = Studio::new(Scene::built_in("surge").unwrap());
+        for _ in 0..70 {
+            studio.advance(137_000_000);
+            for _ in Interpolation::ALL {
+                let body = &studio.race().entrants()[0].lane.bodies()[0];
+                let (_, v) = shown_state(&studio.deck, &studio.viewer, body);
+                let ends = [body.previous_v[0], body.stepper.v()[0]];
+                let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+                let way = studio.display().interpolation;
+                assert!((low - 1e-9..=high + 1e-9).contains(&v[0]), "{way:?}: {v:?} of {ends:?}");
+                studio.apply(RunCommand::NextInterpolation);
+            }
+        }
+    }
+
+    #[test]
     fn when_time_runs_on_the_stage_goes_on_from_what_was_shown_at_rest() {
         for ways in 0..Interpolation::ALL.len() {
             let mut studio = studio();

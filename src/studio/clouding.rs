@@ -71,3 +71,34 @@ pub fn complete_clouds(studio: &mut Studio, worker: &mut CloudWorker, stop: impl
         accept_cloud(studio, found);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::studio::{StageCommand, Studio};
+
+    #[test]
+    fn a_cloud_that_is_alone_stays_in_its_picture_however_far_it_goes() {
+        for (scene, pick) in [("spring", 0), ("spring", 1), ("pendulum", 0), ("duffing", 0)] {
+            let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+            studio.apply(StageCommand::Pick(pick));
+            studio.apply(StageCommand::Instrument(Instrument::Cloud));
+            let mut worker = CloudWorker::default();
+            for _ in 0..4 {
+                (0..180).for_each(|_| studio.tick());
+                complete_clouds(&mut studio, &mut worker, || false);
+                let picture = shown_cloud(&studio).unwrap().picture.as_ref().unwrap();
+                let hidden = picture.lanes[0].hidden as f64 / picture.points as f64;
+                let method = studio.entries()[studio.active()].method.id;
+                assert!(hidden < 0.02, "{scene}, {method}: {hidden} outside");
+                let border = picture.border.concat();
+                let is_in = |&[q, v]: &[f64; 2]| {
+                    let at = picture.view.place(q, v);
+                    at.iter().all(|part| (0.0..=1.0).contains(part))
+                };
+                assert!(border.iter().all(is_in), "{scene}: the exact cloud is in it too");
+            }
+        }
+    }
+}

@@ -526,7 +526,7 @@ fn beside(step: Step, hz: u32) -> u32 {
 
 /// Each rate (Hz) that a hint names, with what stands before it.
 fn rates(hint: &str) -> impl Iterator<Item = (&str, u32)> {
-    hint.match_indices(" Hz").map(|(end, _)| {
+    hint.match_indices(" Hz").map(move |(end, _)| {
         let before = hint[..end].rsplit(' ').next().unwrap_or_default();
         let hz = before.parse().unwrap_or_else(|_| panic!("no rate before Hz in {hint}"));
         (&hint[..end - before.len()], hz)

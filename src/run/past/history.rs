@@ -8,6 +8,8 @@ use std::{iter, option};
 
 use super::sample::{Sample, Summary, SweptRange};
 use super::windowed_log::WindowedLog;
+use crate::run::race::LaneBody;
+use crate::run::{METRICS, Metric};
 
 /// The most samples that a summary stands for: its range keeps what lies between its ends.
 const MAX_SUMMED: usize = 4;
@@ -20,6 +22,29 @@ pub struct History {
     present: Option<Sample>,
     /// The range of the recorded coordinate since the newest sample.
     since: SweptRange,
+    most: Most,
+}
+
+/// The largest values since the start, or since the body was last put elsewhere.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Most {
+    /// The largest position error, in the unit of the first coordinate.
+    pub error: f64,
+    /// The largest coordinate in that unit, in the lane or in truth.
+    pub size: f64,
+}
+
+impl Most {
+    /// The largest values of a moment.
+    pub(super) fn of(body: &LaneBody, truth: &LaneBody) -> Self {
+        let error = (METRICS[Metric::POSITION_ERROR].measure)(body, truth).unwrap_or_default();
+        let all = [body, truth].into_iter().flat_map(|body| body.like_first(body.stepper.q()));
+        Self { error, size: all.map(f64::abs).fold(0.0, f64::max) }
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self { error: self.error.max(other.error), size: self.size.max(other.size) }
+    }
 }
 
 /// The end of a [`History`] at some tick.
@@ -28,6 +53,7 @@ pub(super) struct HistoryMark {
     /// The number of samples since the start.
     samples: u64,
     since: SweptRange,
+    most: Most,
 }
 
 /// Samples of a [`History`], oldest first.
@@ -42,6 +68,7 @@ impl History {
             samples: WindowedLog::new(capacity, spare),
             present: None,
             since: SweptRange::NOTHING,
+            most: Most::default(),
         }
     }
 
@@ -83,6 +110,16 @@ impl History {
         let skipped = self.samples.count_before(t, |sample| (sample.t, sample.jumped));
         let is_over = self.present.as_ref().is_some_and(|present| present.t < t);
         self.after(skipped + usize::from(is_over))
+    }
+
+    /// The largest values since the start, or since the body was last put elsewhere.
+    pub fn most(&self) -> Most {
+        self.most
+    }
+
+    /// Adds the values of a tick to the largest.
+    pub(super) fn note(&mut self, now: Most) {
+        self.most = self.most.and(now);
     }
 
     /// Adds a tick at which no sample is due.
@@ -138,13 +175,14 @@ impl History {
     }
 
     /// Goes on from `now`, where the body was put.
-    pub(super) fn jump(&mut self, now: Sample) {
+    pub(super) fn jump(&mut self, now: Sample, most: Most) {
+        self.most = most;
         self.begin_at(Sample { jumped: true, ..now });
     }
 
     /// Where it is now.
     pub(super) fn mark(&self) -> HistoryMark {
-        HistoryMark { samples: self.samples.mark(), since: self.since }
+        HistoryMark { samples: self.samples.mark(), since: self.since, most: self.most }
     }
 
     /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
@@ -155,7 +193,7 @@ impl History {
     /// Goes back to a mark, or forward to one of the future that is kept.
     pub(super) fn rewind(&mut self, mark: HistoryMark) {
         self.present = None;
-        self.since = mark.since;
+        (self.since, self.most) = (mark.since, mark.most);
         self.samples.rewind(mark.samples);
     }
 
@@ -170,7 +208,6 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
-    use crate::run::METRICS;
     use crate::run::past::sample::CAPACITY;
 
     fn sample(t: f64, entry: usize) -> Sample {
@@ -267,7 +304,7 @@ mod tests {
         switch(&mut history, 2.5, 0, 1);
         assert_eq!(swept(&history)[2..], [[0.0; 2], [-2.0, 1.0], [0.0; 2]]);
         history.pass(9.0);
-        history.jump(sample(3.0, 1));
+        history.jump(sample(3.0, 1), Most::default());
         assert_eq!(swept(&history)[5], [0.0; 2], "nothing leads to where it was put");
     }
 
@@ -275,7 +312,7 @@ mod tests {
     fn what_is_since_a_placement_begins_where_the_body_was_put() {
         let mut history = flown(0);
         history.end_run(Sample { q: 5.0, ..sample(2.5, 0) });
-        history.jump(Sample { q: 1.0, ..sample(2.5, 0) });
+        history.jump(Sample { q: 1.0, ..sample(2.5, 0) }, Most::default());
         history.record(sample(3.0, 0));
         history.record_passing(sample(3.5, 0));
         let since = |t: f64| history.since(t).map(|sample| sample.q).collect::<Vec<_>>();
@@ -299,7 +336,7 @@ mod tests {
         let mut history = History::new(CAPACITY);
         (0..6).for_each(|t| history.record(at(t, f64::from(t))));
         switch(&mut history, 5.5, 0, 1);
-        history.jump(Sample { entry: 1, ..at(6, 9.0) });
+        history.jump(Sample { entry: 1, ..at(6, 9.0) }, Most::default());
         history.record(Sample { entry: 1, ..at(7, f64::INFINITY) });
         history.record_passing(Sample { entry: 1, ..at(8, 7.0) });
         let summaries = |least: usize| -> Vec<(f64, usize, [f64; 2], bool)> {
@@ -326,7 +363,7 @@ mod tests {
             assert!((whole..=whole + 1).contains(&before.len()), "{least}: {}", before.len());
             (0..together).for_each(|n| record(&mut history, 3 * CAPACITY + n));
             assert_eq!(times(&history)[..whole - 1], before[1..whole]);
-            let mark = HistoryMark { samples: 3 * CAPACITY as u64, since: SweptRange::NOTHING };
+            let mark = HistoryMark { samples: 3 * CAPACITY as u64, ..history.mark() };
             history.rewind(mark);
             assert_eq!(times(&history), before);
         }

@@ -1,7 +1,6 @@
 //! The columns of the table of lanes.
 
 use super::row::{self, Row};
-use crate::run::Metric;
 use crate::run::race::Mode;
 use crate::stage::number::{round, significant};
 use crate::studio::Studio;
@@ -46,7 +45,10 @@ pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
     if truths.any(|body| body.chase().is_none()) {
         columns.push(energy());
     }
-    columns.extend(work());
+    columns.push(evaluations());
+    if !is_solo {
+        columns.push(cost());
+    }
     columns
 }
 
@@ -121,10 +123,9 @@ fn exact<'a>() -> Column<Row<'a>> {
 }
 
 fn error<'a>() -> Column<Row<'a>> {
-    let error = |row: &Row<'a>| row.measure(Metric::POSITION_ERROR);
-    let text = move |row: &Row<'a>| row.in_unit(error(row)?);
-    let about = "largest difference from the exact solution in a coordinate";
-    Column::number("error", (88.0, 2), about, text, error)
+    let text = |row: &Row<'a>| row.in_unit(row.largest_error()?);
+    let about = "largest difference from the exact solution in a coordinate so far: since the start, or since the body was put elsewhere";
+    Column::number("error", (88.0, 2), about, text, Row::largest_error)
 }
 
 /// What becomes of a body that follows a target.
@@ -148,30 +149,32 @@ fn chase<'a>() -> [Column<Row<'a>>; 2] {
 
 fn energy<'a>() -> Column<Row<'a>> {
     let text = |row: &Row<'a>| {
-        let drift = row.energy_percent()?;
-        let sign = if drift > 0.0 { "+" } else { "" };
-        Some(format!("{sign}{} %", significant(drift, 3)))
+        let (energy, unit) = row.energy()?;
+        let sign = if energy > 0.0 && row.has_truth() { "+" } else { "" };
+        Some(format!("{sign}{} {unit}", significant(energy, 3)))
     };
-    let about = "energy gained or lost, in percent of the energy that the exact swing exchanges, or else of the most that the exact body had";
-    Column::number("energy", (98.0, 3), about, text, Row::energy_percent)
+    let about = "energy gained or lost, in percent of the energy that the exact swing exchanges, or else of the most that the exact body had; in joules where neither is known, and all that the body has where there is no truth";
+    Column::number("energy", (98.0, 3), about, text, |row| Some(row.energy()?.0))
 }
 
-fn work<'a>() -> [Column<Row<'a>>; 2] {
-    let evaluations = Column::number(
+fn evaluations<'a>() -> Column<Row<'a>> {
+    Column::number(
         "evaluations",
         (84.0, 6),
         "evaluations of this body's acceleration since the start",
         |row: &Row<'a>| row.evaluations().map(|count| format!("{count}")),
         |row| row.evaluations().map(|count| count as f64),
-    );
-    let cost = Column::number(
+    )
+}
+
+fn cost<'a>() -> Column<Row<'a>> {
+    Column::number(
         "cost",
         (48.0, 4),
         "evaluations per tick; explicit Euler with one substep costs 1 ×",
         |row: &Row<'a>| Some(format!("{} ×", round(row.cost()?, 3))),
         Row::cost,
-    );
-    [evaluations, cost]
+    )
 }
 
 #[cfg(test)]

@@ -2,12 +2,16 @@
 
 use super::verdict;
 use crate::measure::{ChaseFinding, Verdict};
+use crate::run::past::Most;
 use crate::run::race::{Entrant, LaneBody, Mode};
-use crate::run::{METRICS, Metric, energy_gained_percent};
+use crate::run::{METRICS, Metric, energy_gained_j, energy_gained_percent, energy_j};
 use crate::scene::LaneSpec;
 use crate::stage::number::significant;
 use crate::studio::{Studio, shown_state};
 use crate::view::panels::verdict::VerdictText;
+
+/// A value below this part of its scale is the rounding of a computation.
+const ROUNDING: f64 = 1e-12;
 
 /// A method, or a body of the lane that is flown solo.
 pub(super) struct Row<'a> {
@@ -93,12 +97,28 @@ impl<'a> Row<'a> {
         Some(&self.flown?.lane.bodies()[self.body])
     }
 
+    /// Whether there is a truth to compare the body with.
+    pub(super) fn has_truth(&self) -> bool {
+        self.truth().halted().is_none()
+    }
+
     fn truth(&self) -> &'a LaneBody {
         &self.studio.race().truth().bodies()[self.body]
     }
 
+    /// The largest values so far of the body, if it is flown.
+    fn most(&self) -> Option<Most> {
+        Some(self.studio.past().histories(self.flown?.id)[self.body].most())
+    }
+
+    /// A value, or 0 where it is only the rounding of this scale.
+    fn above_rounding(value: f64, scale: f64) -> f64 {
+        if value.abs() < ROUNDING * scale { 0.0 } else { value }
+    }
+
     /// A value with the unit of the body's first coordinate.
     pub(super) fn in_unit(&self, value: f64) -> Option<String> {
+        let value = Self::above_rounding(value, self.most().map_or(0.0, |most| most.size));
         let unit = self.truth().coordinates().at(0).shown_unit();
         Some(format!("{} {unit}", significant(value, 3)).trim_end().to_owned())
     }
@@ -113,13 +133,29 @@ impl<'a> Row<'a> {
     }
 
     /// The metric with this index in [`METRICS`], of the body, if it is flown.
-    pub(super) fn measure(&self, metric: usize) -> Option<f64> {
+    fn measure(&self, metric: usize) -> Option<f64> {
         (METRICS[metric].measure)(self.flown_body()?, self.truth())
     }
 
-    /// The energy that the body has more than in truth, in percent.
-    pub(super) fn energy_percent(&self) -> Option<f64> {
-        energy_gained_percent(self.flown_body()?, self.truth())
+    /// The largest position error so far, while there is a truth.
+    pub(super) fn largest_error(&self) -> Option<f64> {
+        self.most().filter(|_| self.has_truth()).map(|most| most.error)
+    }
+
+    /// The energy that the body has more than in truth, in percent, or else in joules; where there is no truth, all that it
+    /// has. With its unit.
+    pub(super) fn energy(&self) -> Option<(f64, &'static str)> {
+        let (lane, truth) = (self.flown_body()?, self.truth());
+        if !self.has_truth() {
+            return Some((energy_j(lane)?, "J"));
+        }
+        match energy_gained_percent(lane, truth) {
+            Some(percent) => Some((Self::above_rounding(percent, 100.0), "%")),
+            None => {
+                let scale = energy_j(truth).map_or(0.0, f64::abs);
+                Some((Self::above_rounding(energy_gained_j(lane, truth)?, scale), "J"))
+            }
+        }
     }
 
     /// The half-life of the body in this lane, or else the one of the verdict.

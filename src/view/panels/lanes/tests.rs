@@ -181,3 +181,56 @@ fn who_hears_a_row_hears_its_numbers() {
         assert!(row.contains(&format!(", {head}")), "{row}");
     }
 }
+
+#[test]
+fn the_error_in_the_table_is_the_largest_so_far_also_after_a_seek_and_begins_again_at_a_throw() {
+    let mut studio = Studio::new(Scene { seconds: 200.0, ..Scene::built_in("spring").unwrap() });
+    studio.apply(StageCommand::Pick(2));
+    let error = |studio: &Studio| groups(studio)[0][0].largest_error().expect("there is a truth");
+    let now = |studio: &Studio| {
+        let lanes = [&studio.race().entrants()[0].lane, studio.race().truth()];
+        let [q, exact] = lanes.map(|lane| lane.bodies()[0].stepper.q()[0]);
+        (q - exact).abs()
+    };
+    let mut largest = Vec::from([0.0]);
+    for _ in 0..1500 {
+        studio.tick();
+        largest.push(f64::max(largest[largest.len() - 1], now(&studio)));
+        assert_eq!(error(&studio), largest[largest.len() - 1]);
+    }
+    assert!(largest[1500] > 1e-3);
+    for tick in [900, 200, 1400] {
+        studio.apply(RunCommand::Seek(tick));
+        assert_eq!(error(&studio), largest[tick as usize], "at tick {tick}");
+    }
+    let place = crate::scene::Action::Place { body: 0, q: [0.3].into(), v: [0.0].into() };
+    studio.apply(RunCommand::Act(place));
+    assert_eq!(error(&studio), 0.0, "it begins again with the truth");
+    studio.apply(RunCommand::Undo);
+    assert_eq!(error(&studio), largest[1400]);
+}
+
+#[test]
+fn every_body_with_a_known_energy_has_a_number_for_it_and_rounding_is_nought() {
+    for scene in crate::scene::SCENES {
+        let mut studio = Studio::new(Scene::built_in(scene.name).unwrap());
+        (0..30).for_each(|_| studio.tick());
+        let body = &studio.race().entrants()[0].lane.bodies()[studio.view().body];
+        let is_known = body.stepper.energy().or(body.stepper.mechanical_energy().map(|_| 0.0));
+        let row = &groups(&studio)[0][0];
+        assert_eq!(row.energy().is_some(), is_known.is_some(), "{}", scene.name);
+    }
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..30).for_each(|_| studio.tick());
+    let in_unit = |value: f64| groups(&studio)[0][0].in_unit(value).unwrap();
+    assert_eq!([in_unit(-7.62e-24), in_unit(1e-9)], ["0 m", "1.00·10⁻⁹ m"]);
+}
+
+#[test]
+fn the_cost_has_a_column_in_a_race_only() {
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    let has_cost = |studio: &Studio| table(studio).columns.iter().any(|it| it.name == "cost");
+    assert!(!has_cost(&studio));
+    studio.apply(StageCommand::ToggleRace);
+    assert!(has_cost(&studio));
+}

@@ -285,3 +285,56 @@ fn a_lane_alone_has_a_number_in_the_legend_only_where_a_key_picks_it() {
         assert!(names.iter().any(|name| name == told), "{names:?}");
     }
 }
+
+#[test]
+fn the_selected_lane_stays_in_every_plot_however_far_it_goes() {
+    for (scene, seconds) in [("harbour", 13), ("spring", 9), ("orbit", 5)] {
+        for is_race in [false, true] {
+            let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+            if is_race {
+                studio.apply(StageCommand::ToggleRace);
+                studio.apply(StageCommand::Pick(0));
+            }
+            assert_eq!(studio.entries()[studio.active()].method.id, "explicit-euler");
+            (0..seconds * studio.race().tick_hz()).for_each(|_| studio.tick());
+            for instrument in [Instrument::Motion, Instrument::Phase, Instrument::Energy] {
+                studio.apply(StageCommand::Instrument(instrument));
+                let set = plot_set_of(&studio, Detail::Samples).unwrap();
+                let plot = &set.plots[0];
+                let tracks = plot.tracks.iter().filter(|track| track.is_front);
+                let mut points = 0;
+                for (t, _, at) in tracks.flat_map(|track| track.places()) {
+                    let [[from, to], [low, high]] = plot.fit;
+                    let is_in_time = !plot.is_over_time() || (from..=to).contains(&t);
+                    let is_in = (from..=to).contains(&at[0]) && (low..=high).contains(&at[1]);
+                    assert!(is_in || !is_in_time, "{scene}, {instrument:?} at {t} s: {at:?}");
+                    points += 1;
+                }
+                assert!(points > 100, "{scene}, {instrument:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn while_time_runs_stage_and_plot_tell_one_speed_at_one_time() {
+    let mut studio = Studio::new(Scene::built_in("surge").unwrap());
+    studio.apply(ViewCommand::Quantity(Some(Quantity::Velocity)));
+    for _ in 0..60 {
+        studio.advance(173_000_000);
+        let (deck, viewer) = (&studio.deck, &studio.viewer);
+        let body = &studio.race().entrants()[0].lane.bodies()[0];
+        let on_stage = crate::studio::shown_state(deck, viewer, body).1[0];
+        let exact = crate::studio::shown_truth(deck, viewer, 0).1[0];
+        let set = plot_set_of(&studio, Detail::Samples).unwrap();
+        let now_s = crate::studio::shown_s(deck, viewer);
+        assert_eq!(set.styles.now_s, now_s);
+        let readouts = set.plots[0].readouts(&studio, &set.styles, now_s);
+        let near = |found: f64, wanted: f64| (found - wanted).abs() < 1e-6 * wanted.abs().max(1.0);
+        for readout in &readouts {
+            let wanted = if readout.entry.is_some() { on_stage } else { exact };
+            assert!(near(readout.at[1], wanted), "{now_s} s: {} and {wanted}", readout.at[1]);
+        }
+        assert_eq!(readouts.len(), 2);
+    }
+}
