@@ -43,7 +43,7 @@ Examples:
   regatta cloud --scene liouville
   regatta cloud --scene spring --points 1000000 --out cloud.csv";
 
-/// Step a shape of many starts and show what becomes of its area
+/// Step a cloud of starting points and measure its area
 #[derive(Clone, Debug, Args)]
 #[command(after_long_help = flowing(ABOUT))]
 pub(super) struct CloudArgs {

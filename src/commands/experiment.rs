@@ -234,8 +234,8 @@ fn scene_help() -> String {
     let first = SCENES.iter().filter(|scene| scene.group == SceneGroup::StartHere);
     let names: Vec<&str> = first.map(|scene| scene.name).collect();
     format!(
-        "A scene or the file of one [default: {}]\n\nStart with {}; `regatta list scenes` has all. What is no name is the path \
-         of a file, or a link to a run.",
+        "A scene or the file of one [default: {}]\n\nStart with {}; `regatta list scenes` has all. Anything else is read as a \
+         file or a link.",
         names[0],
         names.join(", ")
     )

@@ -54,7 +54,7 @@ Examples:
   regatta port --from swiftui:duration=0.5,bounce=0.3 --to compose,css
   regatta port --from react-spring:tension=170,friction=26 --to ui --tick-hz 30";
 
-/// Say with what settings a spring moves alike in all engines
+/// Print the settings that make a spring move the same in every engine
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(&about()))]
 #[command(group = ArgGroup::new("wish").required(true))]
@@ -66,7 +66,7 @@ pub(super) struct PortArgs {
 
     /// The damping ratio to be seen [default: 0]
     ///
-    /// At 1 it just swings no more.
+    /// At 1 it is critically damped and no longer swings.
     #[arg(long, alias = "zeta", value_name = "RATIO", value_parser = number)]
     #[arg(allow_negative_numbers = true, requires = "frequency", conflicts_with = "from")]
     damping_ratio: Option<f64>,

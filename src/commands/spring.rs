@@ -27,7 +27,7 @@ pub(super) struct SpringArgs {
 
     /// The damping of that spring [default: 0]
     ///
-    /// At 1 it just swings no more.
+    /// At 1 it is critically damped and no longer swings.
     #[arg(long, value_name = "RATIO", value_parser = number, allow_negative_numbers = true)]
     #[arg(requires = "frequency", conflicts_with_all = ["k", "scene"])]
     damping_ratio: Option<f64>,

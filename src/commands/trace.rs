@@ -30,7 +30,7 @@ Examples:
   regatta trace --scene ship --method explicit-euler --seconds 8.5
   regatta trace --scene my.toml --method rk4 > run.csv";
 
-/// Write the truth and every lane's numbers, tick by tick
+/// Write the exact motion and every method's, tick by tick
 ///
 /// To standard output.
 #[derive(Debug, Args)]

@@ -356,10 +356,10 @@ impl Cloud {
     /// How the area is measured.
     pub fn measured_in_words(&self) -> String {
         match &self.area {
-            Area::Border(_) => "by the border".into(),
+            Area::Border(_) => "measured by its border".into(),
             Area::Lozenges(corners) => match corners.areas().len() {
-                1 => "by the determinant".into(),
-                samples => format!("by the determinants about {samples} points"),
+                1 => "measured at the middle".into(),
+                samples => format!("measured around {samples} points"),
             },
         }
     }
@@ -412,8 +412,7 @@ impl Cloud {
         let far = |area: f64| libm::log(area).abs();
         let farthest = before.into_iter().max_by(|&a, &b| far(a).total_cmp(&far(b)));
         if let Some(area) = farthest.filter(|&area| far(area) > BACK * far(ratio) + LITTLE_BACK) {
-            let way = if area > ratio { "down" } else { "up" };
-            return format!("is {way} from ×{}", significant(area, 3));
+            return format!("was ×{} before", significant(area, 3));
         }
         let change = libm::log(ratio);
         let time = || super::duration(seconds * std::f64::consts::LN_2 / change.abs());
@@ -472,7 +471,7 @@ impl Cloud {
 /// What part of a cloud of so many points is beyond the axes, in words; `None` of little.
 pub fn hidden_in_words(hidden: usize, points: usize) -> Option<String> {
     let part = hidden as f64 / points as f64;
-    (part >= HIDDEN).then(|| format!("{} % outside", significant(100.0 * part, 2)))
+    (part >= HIDDEN).then(|| format!("{} % off the picture", significant(100.0 * part, 2)))
 }
 
 /// The mean of areas, and its standard error.

@@ -360,8 +360,8 @@ pub(super) fn exact(
     picture.labels.push(label.strong());
 }
 
-/// The line of a ship's course with distance marks.
-pub(super) fn course(picture: &mut Picture, camera: &Camera, palette: &Palette) {
+/// The line of the course of a ship `beam` points wide, with distance marks whose numbers are beside the ship.
+pub(super) fn course(picture: &mut Picture, camera: &Camera, beam: f32, palette: &Palette) {
     let Rect { min, max } = camera.rect;
     let y = camera.points(DVec2::new(0.0, camera.centre_m.y))[1];
     let chart = faded(palette.chart, 0.45);
@@ -387,7 +387,7 @@ pub(super) fn course(picture: &mut Picture, camera: &Camera, palette: &Palette) 
             let words = round(x_m, 6) + unit;
             picture.labels.push(text(
                 palette,
-                [x, (y + 32.0).min(max[1] - 9.0)],
+                [x, (y + (beam / 2.0 + 14.0).max(32.0)).min(max[1] - 9.0)],
                 Align::Centre,
                 12.0,
                 colour,

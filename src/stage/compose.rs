@@ -11,8 +11,8 @@ use super::loupe::LoupeLane;
 use super::moment::DrawContext;
 use super::sketch::{Camera, LaneStyle};
 use super::{
-    Cell, Picture, Rect, Whose, apex, breakpoints, captions, chart, futures, loop_stage, loupe,
-    universe,
+    Cell, Picture, Rect, Whose, apex, breakpoints, captions, chart, futures, hull, loop_stage,
+    loupe, universe,
 };
 use crate::look::palette::{Rgba, faded};
 use crate::look::{Framing, Look};
@@ -364,7 +364,12 @@ impl BodyCell<'_> {
         let framing = view.framing;
         match framing {
             Framing::Follow { .. } if !view.turns => {
-                captions::course(picture, camera, moment.palette);
+                let hull_m = ghost.outline.marks.iter().find_map(|mark| match mark {
+                    Mark::Hull { length, .. } => Some(*length),
+                    _ => None,
+                });
+                let beam = hull::BEAM * camera.length(hull_m.unwrap_or_default());
+                captions::course(picture, camera, beam, moment.palette);
             }
             Framing::Recorder { .. } => {
                 chart::mooring(picture, camera, moment.palette);

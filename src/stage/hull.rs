@@ -11,7 +11,7 @@ use crate::look::palette::{BLACK, Palette, Rgba, WHITE, faded, mixed};
 const DECK: [Rgba; 2] = [[236, 220, 184, 255], [206, 186, 146, 255]];
 const HATCH: Rgba = [138, 160, 112, 255];
 /// The beam of a ship as a part of its length.
-const BEAM: f32 = 0.26;
+pub(super) const BEAM: f32 = 0.26;
 
 /// Where a ship is and how it lies, in points.
 #[derive(Clone, Copy)]

@@ -14,7 +14,7 @@ use crate::sim::number::{enlargement, round};
 /// Its radius, how far it keeps from the edges of its cell, and the height of the number in it, in points.
 const RADIUS: f32 = 36.0;
 const INSET: f32 = 10.0;
-const NUMBER: f32 = 11.0;
+const NUMBER: f32 = 10.5;
 /// The least size of a cell that it does not crowd, in points.
 const ROOM: [f32; 2] = [360.0, 118.0];
 /// The part of its radius that the furthest lane reaches.
@@ -98,7 +98,7 @@ pub(super) fn draw(
         pen.ring(&circle(place, LANE, ROUND), 1.0, palette.panel);
     }
     pen.ring(&rim, 1.6, palette.dim);
-    let (at, words) = ([x, y + RADIUS - NUMBER], format!("×{}", round(times, 1)));
+    let (at, words) = ([x, y + RADIUS - 1.2 * NUMBER], format!("loupe ×{}", round(times, 1)));
     picture.labels.push(Label::new(at, Align::Centre, NUMBER, palette.text, words));
 }
 
@@ -118,7 +118,7 @@ mod tests {
         (0..seconds * studio.race().tick_hz()).for_each(|_| studio.tick());
         let picture = compose(&studio, [800.0, 440.0]);
         let texts = picture.labels.into_iter().map(|label| label.text);
-        texts.filter(|text| text.starts_with('×')).collect()
+        texts.filter(|text| text.starts_with("loupe ×")).collect()
     }
 
     #[test]

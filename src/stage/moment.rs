@@ -27,7 +27,11 @@ impl<'a> DrawContext<'a> {
             studio,
             palette: studio.display().theme.palette(),
             t: shown_s(&studio.deck, &studio.viewer),
-            paper_s: (PAPER * studio.scene().seconds).min(MAX_PAPER_S),
+            paper_s: match studio.scene().checks.is_empty() {
+                true => (PAPER * studio.scene().seconds).min(MAX_PAPER_S),
+                // A recording is as long as somebody had time.
+                false => MAX_PAPER_S,
+            },
         }
     }
 

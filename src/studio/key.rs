@@ -93,7 +93,7 @@ macro_rules! keys {
 
 /// Every key and its command.
 pub static KEYS: &[Binding] = keys! {
-    once "1 … 9, 0" "solo: switch the bodies to that method, in flight; race, loop lab: select that lane":
+    once "1 … 9, 0" "solo: this method takes over at once; race, loop lab: select that lane":
         Digit(1) => Stage(StageCommand::Pick(0)), Digit(2) => Stage(StageCommand::Pick(1)),
         Digit(3) => Stage(StageCommand::Pick(2)), Digit(4) => Stage(StageCommand::Pick(3)),
         Digit(5) => Stage(StageCommand::Pick(4)), Digit(6) => Stage(StageCommand::Pick(5)),

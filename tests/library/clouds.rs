@@ -353,7 +353,7 @@ fn an_area_that_comes_back_neither_grows_nor_is_kept() {
     let [turning, back] = [150, 314].map(|ticks| of_law("-x - cos(t)*vx", ticks));
     assert!(turning.lanes[0].words.starts_with("shrinks"), "{}", turning.lanes[0].words);
     assert!((back.lanes[0].area_ratio.unwrap() - 1.0).abs() < 0.01);
-    assert_eq!(back.lanes[0].words, "is up from ×0.368");
+    assert_eq!(back.lanes[0].words, "was ×0.368 before");
 }
 
 #[test]
@@ -457,7 +457,7 @@ fn a_section_has_every_start_at_every_crossing_and_does_not_depend_on_the_tick()
     let lane = &first.lanes[0];
     // The momentum of the sea and the islands that are in sight is that of most points.
     let points = lane.density.counts().iter().map(|&n| u64::from(n)).sum::<u64>();
-    assert_eq!(lane.words, "400 starts, 3000 times");
+    assert_eq!(lane.words, "400 starts, 3000 ticks each");
     assert!((400_000..=1_200_000).contains(&points), "{points}");
     let first = shown(first);
     (0..30).for_each(|_| studio.tick());

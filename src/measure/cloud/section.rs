@@ -51,6 +51,8 @@ pub(super) struct SectionRun {
     lanes: Vec<SectionLane>,
     axes: CloudAxes,
     strobe: String,
+    /// What lies between two crossings: `ticks`, or `periods` of the drive.
+    intervals: &'static str,
 }
 
 struct SectionLane {
@@ -87,7 +89,8 @@ impl SectionRun {
             Ok(SectionLane { entry: *entry, cloud, section, wanted })
         };
         let lanes = lanes.iter().map(lane).collect::<Result<_, NoCloud>>()?;
-        Ok(Self { lanes, axes, strobe })
+        let intervals = if drive.is_some() { "periods" } else { "ticks" };
+        Ok(Self { lanes, axes, strobe, intervals })
     }
 
     pub(super) fn is_done(&self) -> bool {
@@ -110,7 +113,7 @@ impl SectionRun {
             lost: STARTS - lane.cloud.points_left(),
             hidden: 0,
             area_ratio: None,
-            words: format!("{STARTS} starts, {} times", lane.section.crossings),
+            words: format!("{STARTS} starts, {} {} each", lane.section.crossings, self.intervals),
             measured: self.strobe.clone(),
             areas: Vec::new(),
         };

@@ -51,8 +51,8 @@ impl StabilityMap {
         let fastest = fastest.map(|(name, here, _)| format!(" {name} {here}."));
         let own = match own {
             0 => String::new(),
-            1 => ", 1 picks its own steps".into(),
-            _ => format!(", {own} pick their own steps"),
+            1 => ", 1 chooses its own steps".into(),
+            _ => format!(", {own} choose their own steps"),
         };
         let all = counted(all, "method");
         format!("{stable} of {all} {verb} bounded{own}.{}", fastest.unwrap_or_default())
@@ -72,7 +72,7 @@ impl StabilityMap {
             notes += &format!(" {} {verb} bounded nowhere on this map.", nowhere.join(", "));
         }
         if !own.is_empty() {
-            let verb = if own.len() == 1 { "picks its" } else { "pick their" };
+            let verb = if own.len() == 1 { "chooses its" } else { "choose their" };
             notes += &format!(" {} {verb} own steps.", own.join(", "));
         }
         if !self.is_linear {

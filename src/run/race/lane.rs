@@ -129,7 +129,7 @@ impl LaneBody {
         self.halted.as_ref()
     }
 
-    /// What became of the body, if it halted, and with what values: `blew up at 8.4 s (speed 10³⁸ m/s)`.
+    /// What became of the body, if it halted, and with what values: `blew up at 8.4 s (speed reached 10³⁸ m/s)`.
     pub fn fate(&self) -> Option<String> {
         let halt = self.halted()?;
         let (fate, how) = (halt.fate(), |name| self.quantity(name));
@@ -137,7 +137,7 @@ impl LaneBody {
             StepFailure::Escaped { coordinate, value } => {
                 let size = superscript(libm::round(libm::log10(value.abs())) as i32);
                 let (quantity, unit) = how(coordinate);
-                format!("{fate} ({quantity} 10{size}{unit})")
+                format!("{fate} ({quantity} reached 10{size}{unit})")
             }
             StepFailure::NotFinite { coordinate, .. } => {
                 format!("{fate} ({} overflowed)", how(coordinate).0)
@@ -154,7 +154,7 @@ impl LaneBody {
         let of = velocity.clone().or_else(|| coordinates.iter().find(|it| *it.name == *name));
         let plain = if velocity.is_some() { "speed" } else { "position" };
         let quantity = match self.kind.node(name) {
-            Some((_, node)) => format!("{plain} of node {node}"),
+            Some((_, node)) => format!("node {node}"),
             None if several => name.to_owned(),
             None => plain.to_owned(),
         };

@@ -53,7 +53,7 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
             if ui.button("Close (Esc)").clicked() {
                 commands.push(Command::View(ViewCommand::ToggleHelp));
             }
-            let note = "The exact solution is white, black by day; each method has its own colour and dash.";
+            let note = "The exact solution is white, or black in the light theme; each method has its own colour and dash.";
             if columns == 2 {
                 ui.add(egui::Label::new(RichText::new(note).color(palette(ui).dim)).truncate());
             }

@@ -2,7 +2,6 @@
 
 use egui::{FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 
-use super::parts::short;
 use super::verdict::VerdictText;
 use super::{keycap, lanes};
 use crate::studio::{Command, StageCommand, Studio};
@@ -17,30 +16,77 @@ const BUTTON: f32 = 30.0;
 const BETWEEN: f32 = 10.0;
 const CLOSE: f32 = 4.0;
 const PADDING: f32 = 7.0;
+/// The size of names in two lines, in points.
+const SMALL: f32 = 10.5;
 /// The room that the sign of its verdict takes, in points.
 const SIGN: f32 = 12.0;
 
-/// Shows the scene's methods, or else those with a digit: with their names where all have room, else the chosen one's alone,
-/// or none where that would leave a method out. Returns the index of the method that the pointer or the keyboard's focus is
-/// on.
+/// How the names of the methods stand beside their digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Naming {
+    OneLine,
+    TwoLines,
+    /// The chosen one's alone.
+    Chosen,
+    None,
+}
+
+impl Naming {
+    /// Each that leaves no method out, the best first.
+    const ALL: [Self; 4] = [Self::OneLine, Self::TwoLines, Self::Chosen, Self::None];
+
+    /// The name of a method as it stands beside its digit, and its size; `None` where it does not.
+    fn name(self, ui: &Ui, studio: &Studio, entry: usize) -> Option<(String, FontId)> {
+        let is_chosen = entry == studio.active();
+        let name = studio.lane_name(entry);
+        let font =
+            |size: f32| if is_chosen { strong_font(size) } else { FontId::proportional(size) };
+        match self {
+            Self::OneLine => Some((name, font(TYPE))),
+            Self::TwoLines => Some((in_two_lines(ui, &name), font(SMALL))),
+            Self::Chosen => is_chosen.then(|| (name, font(TYPE))),
+            Self::None => None,
+        }
+    }
+}
+
+/// A name with a break at the blank or the hyphen that makes it narrowest.
+fn in_two_lines(ui: &Ui, name: &str) -> String {
+    let breaks = name.match_indices([' ', '-']).map(|(at, sign)| {
+        let end = if sign == "-" { at + 1 } else { at };
+        format!("{}\n{}", &name[..end], &name[at + 1..])
+    });
+    let wide = |lines: &String| {
+        let width = |line: &str| text_width(ui, line, strong_font(SMALL));
+        lines.lines().map(width).fold(0.0, f32::max)
+    };
+    breaks.min_by(|a, b| wide(a).total_cmp(&wide(b))).unwrap_or_else(|| name.to_owned())
+}
+
+fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
+    ui.painter().layout_no_wrap(text.to_owned(), font, palette(ui).text).size().x
+}
+
+/// Shows the scene's methods, or else those with a digit: with their names where all have room. Returns the index of the
+/// method that the pointer or the keyboard's focus is on.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
     let count = studio.deck.offered().min(DIGITS);
     let room = ui.available_width();
-    let chosen = studio.active();
-    let width_of = |entry: usize, is_named: bool| width(ui, studio, entry, is_named) + BETWEEN;
-    let all: f32 = (0..count).map(|entry| width_of(entry, true)).sum();
-    let are_named = all <= room;
-    let with_one_name: f32 = (0..count).map(|entry| width_of(entry, entry == chosen)).sum();
-    let is_chosen_named = with_one_name - BETWEEN <= room;
+    let all = |naming: &Naming| {
+        let widths = (0..count).map(|entry| width(ui, studio, entry, *naming) + BETWEEN);
+        widths.sum::<f32>() - BETWEEN
+    };
+    let naming = Naming::ALL.into_iter().find(|naming| all(naming) <= room);
+    let between = if naming.is_some() { BETWEEN } else { CLOSE };
+    let naming = naming.unwrap_or(Naming::None);
     let mut pointed = None;
     ui.horizontal_centered(|ui| {
-        ui.spacing_mut().item_spacing.x = if is_chosen_named { BETWEEN } else { CLOSE };
+        ui.spacing_mut().item_spacing.x = between;
         for entry in 0..count {
-            let is_named = are_named || is_chosen_named && entry == chosen;
-            if width(ui, studio, entry, is_named) > ui.available_width() {
+            if width(ui, studio, entry, naming) > ui.available_width() {
                 break;
             }
-            let response = method(ui, studio, entry, is_named, commands);
+            let response = method(ui, studio, entry, naming, commands);
             response.context_menu(|ui| lanes::menu(ui, studio, entry, commands));
             if response.hovered() || response.has_focus() {
                 pointed = Some(entry);
@@ -54,11 +100,12 @@ fn digit(entry: usize) -> String {
     ((entry + 1) % DIGITS).to_string()
 }
 
-fn width(ui: &Ui, studio: &Studio, entry: usize, is_named: bool) -> f32 {
-    let name =
-        ui.painter().layout_no_wrap(studio.lane_name(entry), strong_font(TYPE), palette(ui).text);
-    let named = if is_named { name.size().x + PADDING } else { 0.0 };
-    3.0 * PADDING + keycap::width(ui.painter(), &digit(entry)) + named + SIGN
+fn width(ui: &Ui, studio: &Studio, entry: usize, naming: Naming) -> f32 {
+    // In the strong type, so that a choice moves no other.
+    let name = naming.name(ui, studio, entry);
+    let named = name.map(|(name, font)| text_width(ui, &name, strong_font(font.size)) + PADDING);
+    let digit = keycap::width(ui.painter(), &digit(entry));
+    3.0 * PADDING + digit + named.unwrap_or_default() + SIGN
 }
 
 /// Shows a method. A click on it does what its digit does.
@@ -66,10 +113,10 @@ fn method(
     ui: &mut Ui,
     studio: &Studio,
     entry: usize,
-    is_named: bool,
+    naming: Naming,
     commands: &mut Vec<Command>,
 ) -> Response {
-    let size = vec2(width(ui, studio, entry, is_named), BUTTON);
+    let size = vec2(width(ui, studio, entry, naming), BUTTON);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let (name, is_chosen) = (studio.lane_name(entry), entry == studio.active());
     let verdict = lanes::verdict_on(studio, entry);
@@ -78,7 +125,8 @@ fn method(
         egui::WidgetInfo::selected(egui::Role::RadioButton, true, is_chosen, &spoken)
     });
     let (colour, _) = palette(ui).style(studio.entries(), &studio.entries()[entry]);
-    paint(ui, rect, (&digit(entry), colour), is_named.then_some(&*name), is_chosen, &verdict);
+    let shown = naming.name(ui, studio, entry);
+    paint(ui, rect, (&digit(entry), colour), shown, is_chosen, &verdict);
     if response.hovered() || response.has_focus() {
         let stroke = Stroke::new(1.0, palette(ui).accent);
         ui.painter().rect_stroke(rect, 7.0, stroke, StrokeKind::Inside);
@@ -94,7 +142,7 @@ fn paint(
     ui: &Ui,
     rect: Rect,
     (digit, colour): (&str, egui::Color32),
-    name: Option<&str>,
+    name: Option<(String, FontId)>,
     is_chosen: bool,
     verdict: &VerdictText,
 ) {
@@ -104,12 +152,9 @@ fn paint(
     ui.painter().rect(rect, 7.0, fill, stroke, StrokeKind::Inside);
     let (mut x, middle) = (rect.left() + PADDING, rect.center().y);
     x += keycap::paint(ui, x, middle, digit, colour) + PADDING;
-    if let Some(name) = name {
-        let (font, colour) = match is_chosen {
-            true => (strong_font(TYPE), palette(ui).text),
-            false => (FontId::proportional(TYPE), palette(ui).dim),
-        };
-        let (text, _) = short(ui, name, font, f32::INFINITY, colour);
+    if let Some((name, font)) = name {
+        let colour = if is_chosen { palette(ui).text } else { palette(ui).dim };
+        let text = ui.painter().layout_no_wrap(name, font, colour);
         ui.painter().galley(pos2(x, middle - text.size().y / 2.0), text, colour);
     }
     verdict.paint_sign(ui, pos2(rect.right() - PADDING - SIGN / 2.0, middle));

@@ -428,19 +428,24 @@ fn signed(value: f64, figures: usize) -> String {
 /// A change of the swing below this part is rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// What the tick does to the swing, and what half the tick would.
+/// What the tick does to the swing, and what a tick half as long would.
 fn swing([whole, halves]: [f64; 2]) -> String {
     if whole.abs() < ROUNDING {
-        return "This tick keeps the swing.".into();
+        return "One tick keeps the swing.".into();
     }
-    let does = if whole < 0.0 { "loses" } else { "gains" };
+    let does = if whole < 0.0 { "narrows" } else { "widens" };
     let percent = significant(100.0 * whole.abs(), 2);
     let ratio = (whole / halves).round();
+    let part = match ratio {
+        2.0 => "half".to_owned(),
+        4.0 => "a quarter".into(),
+        ratio => format!("1/{ratio}"),
+    };
     let half = match ratio >= 2.0 && halves.abs() >= ROUNDING {
-        true => format!("; half the tick, 1/{ratio} of that"),
+        true => format!("; a tick half as long by {part} of that"),
         false => String::new(),
     };
-    format!("This tick {does} {percent} % of the swing{half}.")
+    format!("One tick {does} the swing by {percent} %{half}.")
 }
 
 /// What the tick does to the swing, how far it misses, and what is not drawn.

@@ -85,7 +85,7 @@ fn parameter(studio: &Studio, index: usize) -> &Parameter {
 fn head(ui: &mut Ui, studio: &Studio, index: usize, commands: &mut Vec<Command>) {
     let body = &studio.scene().bodies[studio.view().body];
     ui.horizontal(|ui| {
-        let title = RichText::new(format!("Stability: {} over", body.name));
+        let title = RichText::new(format!("Stability of the {}, by", body.name));
         ui.add(Label::new(title.font(strong_font(13.0))).truncate());
         let name = |index: usize| full_name(parameter(studio, index));
         if is_picture(ui) {

@@ -369,7 +369,7 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
     }
     if group.marks.len() > 1 {
         let at = centre + vec2(if mark.sign == Sign::Halt { 8.5 } else { 5.5 }, -1.0);
-        let count = group.marks.len().to_string();
+        let count = format!("×{}", group.marks.len());
         painter.text(at, Align2::LEFT_CENTER, count, FontId::proportional(9.0), track.palette.text);
     }
 }

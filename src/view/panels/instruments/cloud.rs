@@ -169,7 +169,7 @@ fn moment(studio: &Studio, picture: &CloudPicture) -> String {
         words += &format!(", {} s behind", significant(behind, 2));
     }
     if picture.points < studio.display().cloud.points {
-        words += &format!("; {} keep up", grouped(picture.points as u64));
+        words += &format!(", {} points drawn", grouped(picture.points as u64));
     }
     words
 }
@@ -252,7 +252,8 @@ fn words(points: usize, lane: &LaneCloud) -> String {
 
 /// What is told of a cloud: its area, in words too if these are asked for, and the points that are not seen.
 fn parts(points: usize, lane: &LaneCloud, told: Told) -> Vec<String> {
-    let area = lane.area_ratio.map(|ratio| format!("×{}", significant(ratio, 3)));
+    let name = if told == Told::Words { "area " } else { "" };
+    let area = lane.area_ratio.map(|ratio| format!("{name}×{}", significant(ratio, 3)));
     let words = (told == Told::Words).then(|| lane.words.clone());
     let lost = (lane.lost > 0).then(|| format!("{} blew up", grouped(lane.lost as u64)));
     let hidden = hidden_in_words(lane.hidden, points);

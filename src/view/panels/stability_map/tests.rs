@@ -52,12 +52,12 @@ fn the_sentence_counts_the_stable_methods() {
     assert_eq!(
         map.stable_here().split(" Explicit").next().unwrap(),
         // At 60 Hz ω h is 1.67.
-        "2 of 5 methods are bounded, 1 picks its own steps."
+        "2 of 5 methods are bounded, 1 chooses its own steps."
     );
     assert!(
         map.not_drawn().contains("Explicit Euler, Improved Euler are bounded nowhere on this map.")
     );
-    assert!(map.not_drawn().contains("Adaptive Euler picks its own steps"));
+    assert!(map.not_drawn().contains("Adaptive Euler chooses its own steps"));
     assert_eq!(point_in_words(&studio, 1, 20, 90.0), "20 Hz, k = 90 N/m");
 }
 

@@ -2,7 +2,7 @@
 
 use egui::Rangef;
 
-/// The room ahead of a run that has outlasted its scene, as a part of what was run.
+/// The room ahead of a run that has outlasted its scene, as a part of the time since.
 const AHEAD: f64 = 0.1;
 /// Where the present stands when the view has to follow it, as a part of the view.
 const FOLLOWED_AT: f64 = 0.8;
@@ -15,9 +15,9 @@ pub(in crate::view::panels) struct Span {
 }
 
 impl Span {
-    /// All of a run that was run to `end_s`, and room ahead: at least to the end of the scene.
+    /// All of a run that was run to `end_s`: to the end of the scene, or beyond that with room ahead.
     pub(in crate::view::panels) fn whole(scene_s: f64, end_s: f64) -> Self {
-        Self { from_s: 0.0, to_s: scene_s.max(end_s * (1.0 + AHEAD)) }
+        Self { from_s: 0.0, to_s: scene_s.max(end_s + AHEAD * (end_s - scene_s)) }
     }
 
     pub(in crate::view::panels) fn length_s(self) -> f64 {
@@ -83,7 +83,8 @@ mod tests {
     #[test]
     fn the_whole_has_the_scene_in_it_and_room_ahead_of_a_longer_run() {
         assert_eq!(Span::whole(20.0, 3.0), WHOLE);
-        assert_near(Span::whole(20.0, 100.0), 0.0, 110.0);
+        assert_eq!(Span::whole(20.0, 19.9), WHOLE, "its end stays in its place to the last");
+        assert_near(Span::whole(20.0, 100.0), 0.0, 108.0);
     }
 
     #[test]
