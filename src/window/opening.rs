@@ -61,7 +61,7 @@ impl Asked {
     pub(super) fn typed(studio: &mut Studio) -> Option<Self> {
         let typed = studio.viewer.typed_path().trim().to_owned();
         if studio.viewer.compares_typed_path() {
-            let compared = Some(studio.run().recording().into());
+            let compared = Some(studio.deck.recorded().into());
             return Some(Self { path: from_home(&typed), is_typed: true, compared });
         }
         if let Some(index) = SCENES.iter().position(|scene| scene.name == typed) {

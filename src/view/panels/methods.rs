@@ -159,3 +159,39 @@ fn paint(
     }
     verdict.paint_sign(ui, pos2(rect.right() - PADDING - SIGN / 2.0, middle));
 }
+
+#[cfg(test)]
+mod tests {
+    use egui::vec2;
+
+    use super::*;
+    use crate::scene::Scene;
+    use crate::view::testing::TestWindow;
+
+    /// The words in the row on a window this wide, the lines of a name apart by a blank.
+    fn words(studio: &Studio, width: f32) -> Vec<String> {
+        let mut window = TestWindow::new([width, 100.0]);
+        let ((), shown) = window.show(Vec::new(), |ui| {
+            ui.set_max_size(vec2(width, HEIGHT));
+            show(ui, studio, &mut Vec::new());
+        });
+        let joined = |word: &str| word.replace("-\n", "-").replace('\n', " ");
+        shown.words().iter().map(|word| joined(word)).collect()
+    }
+
+    #[test]
+    fn ten_methods_without_a_scene_that_names_any_have_their_names_on_a_usual_window() {
+        let text = "title = 'mine'\ntick_hz = 60\nseconds = 9\n\
+             [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 9\nx0_m = 1\n";
+        let studio = Studio::new(Scene::parse("mine.toml", text).unwrap());
+        assert!(studio.deck.offered() >= DIGITS);
+        let shown = words(&studio, 1264.0);
+        for entry in 0..DIGITS {
+            let name = studio.lane_name(entry);
+            assert!(shown.contains(&name), "{name}: {shown:?}");
+        }
+        let narrow = words(&studio, 560.0);
+        assert!(narrow.contains(&studio.lane_name(studio.active())), "{narrow:?}");
+        assert!((0..DIGITS).all(|entry| narrow.contains(&digit(entry))), "{narrow:?}");
+    }
+}
