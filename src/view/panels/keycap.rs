@@ -26,6 +26,11 @@ fn pieces(sentence: &str) -> impl Iterator<Item = Piece<'_>> {
     })
 }
 
+/// How much closer than others words stand to the key before them: a stop belongs to it.
+fn closer(words: &str) -> f32 {
+    if words.starts_with(['.', ',', ':', ';']) { GAP - 1.0 } else { 0.0 }
+}
+
 /// A sentence as it is read aloud: without the marks of its keys.
 pub(super) fn plain(sentence: &str) -> String {
     sentence.replace('`', "")
@@ -54,7 +59,8 @@ pub(super) fn line_width(ui: &Ui, sentence: &str) -> f32 {
         Piece::Key(key) => width(ui.painter(), key) + GAP,
         Piece::Words(words) => {
             let font = FontId::proportional(TYPE);
-            ui.painter().layout_no_wrap(words.to_owned(), font, Color32::WHITE).size().x + GAP
+            let size = ui.painter().layout_no_wrap(words.to_owned(), font, Color32::WHITE).size();
+            size.x + GAP - closer(words)
         }
     };
     pieces(sentence).map(of).sum()
@@ -76,6 +82,7 @@ pub(super) fn line(ui: &mut Ui, sentence: &str, room: f32, colour: Color32) -> R
             }
             Piece::Key(_) => is_whole = false,
             Piece::Words(words) => {
+                x -= closer(words);
                 let (text, whole) = short(ui, words, FontId::proportional(TYPE), left, colour);
                 is_whole &= whole;
                 let size = text.size();
@@ -104,6 +111,7 @@ pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32) {
                     paint(ui, rect.left(), rect.center().y, key, palette(ui).accent);
                 }
                 Piece::Words(words) => {
+                    ui.add_space(-closer(words));
                     ui.label(egui::RichText::new(words).color(colour));
                 }
             }

@@ -14,7 +14,9 @@ pub(super) use self::span::Span;
 use super::breakpoints;
 use crate::run::Event;
 use crate::run::race::{Mode, TimeScale};
-use crate::studio::{Command, DriverRequest, RunCommand, StageCommand, Step, Studio, ViewCommand};
+use crate::studio::{
+    Command, DriverRequest, RunCommand, StageCommand, Step, Studio, ViewCommand, shown_s,
+};
 use crate::view::chart::AxisScale;
 use crate::view::theme::{PanelPalette, palette};
 use crate::view::touch::wheel_or_pinch;
@@ -77,7 +79,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     groove.write(&painter, span, track.palette);
     fill(&painter, studio, &events, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
-    let present = track.x(studio.race().tick());
+    // As on the stage and in the plots.
+    let shown_s = shown_s(&studio.deck, &studio.viewer);
+    let present = span.x(shown_s, along);
     if along.expand(1.0).contains(present) {
         groove.handle(&painter, present, response.has_focus(), track.palette);
     }
