@@ -24,7 +24,7 @@ fn main() -> Result<(), NoCloud> {
     let start = State { q: 0.4, v: 0.0 };
     for id in ["explicit-euler", "semi-implicit-euler"] {
         let lane = LaneSpec::plain(method(id).expect("a built-in method"));
-        let mut cloud = Cloud::of(&Buoy, start.clone(), CloudShape::Cat, 2000, &lane, 60)?;
+        let mut cloud = Cloud::of(&Buoy, start, CloudShape::Cat, 2000, &lane, 60)?;
         cloud.advance(600);
         println!("{id}: the cloud {}", cloud.in_words(cloud.area_ratio(), []));
     }

@@ -1,6 +1,6 @@
 //! A custom body: which method should step it, and at what rate?
 
-use regatta::prelude::glam::DVec2;
+use regatta::glam::DVec2;
 use regatta::prelude::*;
 
 /// A hover craft, held over a place on the water by a spring.
@@ -40,7 +40,7 @@ fn main() {
         ..Options::default()
     };
 
-    let report = regatta::advise(&craft, start.clone(), options());
+    let report = regatta::advise(&craft, start, options());
     println!("{report}");
     let accurate = report.recommended.accurate.expect("one of them is accurate");
     assert_eq!(accurate.method, "velocity-verlet");

@@ -1,6 +1,6 @@
 //! A ball falls through air, stepped at 120 Hz whatever the frame rate, and drawn between ticks.
 
-use regatta::prelude::glam::DVec2;
+use regatta::glam::DVec2;
 use regatta::prelude::*;
 
 struct Ball {
@@ -17,7 +17,7 @@ impl System for Ball {
 fn main() -> Result<(), StepFailure> {
     let ball = Ball { drag_per_s: 0.1 };
     let mut state = State { q: DVec2::new(0.0, 2.0), v: DVec2::new(5.0, 3.0) };
-    let mut previous = state.clone();
+    let mut previous = state;
     let mut rk4 = integrator::<Ball>(method("rk4").expect("a built-in method"), &state.q);
 
     let (mut clock, mut tick) = (Clock::new(120), 0_u64);

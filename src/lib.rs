@@ -175,6 +175,9 @@ pub mod view;
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 pub mod window;
 
+/// The vectors of the systems, in the version whose bits are promised.
+pub use glam;
+
 #[cfg(feature = "lab")]
 pub use measure::{advise, try_advise};
 #[cfg(feature = "lab")]

@@ -1,8 +1,7 @@
-//! What a game's loop needs, in one import, with [`glam`] in the version whose vectors the systems use.
+//! What a game's loop needs, in one import.
 //!
-//! With the feature `lab` it also has bodies, scenes, races and verdicts.
-
-pub use glam;
+//! With the feature `lab` it also has bodies, scenes, races and verdicts. The vectors of the systems are in
+//! [`regatta::glam`](crate::glam), beside which a game may have another version.
 
 #[cfg(feature = "lab")]
 pub use crate::measure::{Adviser, CRITERIA, Judge, Report, Verdict};
@@ -11,7 +10,7 @@ pub use crate::run::{Lane, METRICS, Race, Session};
 #[cfg(feature = "lab")]
 pub use crate::scene::Mark;
 #[cfg(feature = "lab")]
-pub use crate::scene::{LaneSpec, Options, SCENES, Scene};
+pub use crate::scene::{LaneSpec, Options, OptionsError, SCENES, Scene};
 #[cfg(feature = "lab")]
 pub use crate::sim::bodies::{BODIES, Extras};
 pub use crate::sim::integrators::{

@@ -178,7 +178,10 @@ pub fn advise<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Re
 where
     S: System<Vector: Vector> + Clone + Send + 'static,
 {
-    try_advise(system, start, options).unwrap_or_else(|error| panic!("{error}"))
+    match try_advise(system, start, options) {
+        Ok(report) => report,
+        Err(error) => panic!("{error}"),
+    }
 }
 
 /// As [`advise`].

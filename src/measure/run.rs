@@ -9,11 +9,9 @@ use super::truth::{BodyTruth, FollowedBody, LONG_RUN, TruthSeries, ticks};
 use super::verdict::RunFailure;
 use crate::run::race::{Chase, StopReason};
 use crate::scene::LaneSpec;
+pub use crate::scene::custom::MAX_WORK;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
-
-/// The most work of a run, in evaluations of one coordinate: a second or two.
-pub const MAX_WORK: u64 = 100_000_000;
 
 /// A swing of this many true amplitudes has grown, and a swing below the inverse has died away.
 const TWICE: f64 = 2.0;

@@ -114,6 +114,7 @@ impl Race {
     ///
     /// # Panics
     /// If an option cannot be; [`Scene::of`] returns an error instead.
+    #[track_caller]
     pub fn of<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Self
     where
         S: System<Vector: Vector> + Clone + Send + 'static,

@@ -16,7 +16,11 @@ use crate::sim::{State, System, Vector};
 /// Draws a system whose coordinates are these, in metres, x right and y up.
 pub type Draw<S> = fn(&S, &<S as System>::Vector) -> Vec<Mark>;
 
+/// The most work of a run, in evaluations of one coordinate: a second or two.
+pub const MAX_WORK: u64 = 100_000_000;
+
 /// The experiment on a custom body. Every field has a [default](Options::default).
+#[derive(Clone)]
 pub struct Options<S: System> {
     /// The name of the body, for people: at most [`MAX_NAME_CHARS`] characters. The default is `body`.
     pub name: &'static str,
@@ -28,8 +32,8 @@ pub struct Options<S: System> {
     /// The methods, at most [`MAX_LANES`], from [`METHODS`] or custom ones. Empty: all that step such a body.
     pub methods: Vec<&'static Method>,
     /// The most work of [advice](crate::advise), in evaluations of one coordinate, counted and therefore the same on every
-    /// machine: what it does not reach is not known. [`MAX_WORK`](crate::measure::MAX_WORK) takes a second or two. The
-    /// default is no limit.
+    /// machine: what it does not reach is not known. The default, [`MAX_WORK`], takes a second or
+    /// two; `u64::MAX` is no limit.
     pub max_work: u64,
     /// What is known of the body beyond its equation.
     pub extras: Extras<S>,
@@ -44,7 +48,7 @@ impl<S: System> Default for Options<S> {
             tick_hz: 60,
             seconds: 20.0,
             methods: Vec::new(),
-            max_work: u64::MAX,
+            max_work: MAX_WORK,
             extras: Extras::default(),
             draw: None,
         }
@@ -158,11 +162,15 @@ impl Scene {
 ///
 /// # Panics
 /// If an option cannot be.
+#[track_caller]
 pub(crate) fn scene<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Scene
 where
     S: System<Vector: Vector> + Clone + Send + 'static,
 {
-    Scene::of(system, start, options).unwrap_or_else(|error| panic!("{error}"))
+    match Scene::of(system, start, options) {
+        Ok(scene) => scene,
+        Err(error) => panic!("{error}"),
+    }
 }
 
 fn check_methods(chosen: &[&'static Method]) -> Result<(), OptionsError> {

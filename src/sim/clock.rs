@@ -10,7 +10,7 @@ use std::fmt;
 const TICK: i128 = 1_000_000_000 * 100;
 
 /// Turns real time into ticks.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clock {
     tick_hz: u32,
     speed_percent: u32,
@@ -31,6 +31,13 @@ impl fmt::Display for TickRateError {
 
 impl std::error::Error for TickRateError {}
 
+/// 60 Hz.
+impl Default for Clock {
+    fn default() -> Self {
+        Self::new(60)
+    }
+}
+
 impl Clock {
     /// The tick rates a clock can run at, in Hz.
     pub const TICK_HZ: std::ops::RangeInclusive<u32> = 1..=10_000;
@@ -43,7 +50,11 @@ impl Clock {
     /// If the rate is not in [`Clock::TICK_HZ`]; [`Clock::try_new`] returns an error instead.
     #[track_caller]
     pub fn new(tick_hz: u32) -> Self {
-        Self::try_new(tick_hz).unwrap_or_else(|error| panic!("{error}"))
+        // A closure would panic at its own line, and not at the caller's.
+        match Self::try_new(tick_hz) {
+            Ok(clock) => clock,
+            Err(error) => panic!("{error}"),
+        }
     }
 
     /// A clock at full speed that owes nothing, at a rate that a file or a person gives.
@@ -60,6 +71,11 @@ impl Clock {
     /// The tick rate in Hz.
     pub fn tick_hz(&self) -> u32 {
         self.tick_hz
+    }
+
+    /// The length of a tick, in seconds.
+    pub fn dt_s(&self) -> f64 {
+        1.0 / f64::from(self.tick_hz)
     }
 
     /// The speed in percent of real time.
@@ -237,6 +253,18 @@ mod tests {
         let mut clock = Clock::new(1);
         let total = run(&mut clock, std::iter::repeat_n(100_000_000, 30));
         assert_eq!(total, (3, 0));
+    }
+
+    #[test]
+    fn a_clock_knows_its_tick_and_is_equal_to_one_that_owes_the_same() {
+        assert_eq!(
+            [60, 120, 7].map(|hz| Clock::new(hz).dt_s()),
+            [1.0 / 60.0, 1.0 / 120.0, 1.0 / 7.0]
+        );
+        let mut clock = Clock::default();
+        assert_eq!(clock, Clock::new(60));
+        clock.advance(1_000_000);
+        assert_ne!(clock, Clock::new(60));
     }
 
     #[test]

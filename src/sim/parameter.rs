@@ -147,12 +147,14 @@ pub struct Fault {
 }
 
 /// A parameter of bodies of type `B`, with the field that holds its value.
+#[derive(Clone)]
 pub struct ParameterOf<B> {
     parameter: Parameter,
     slot: Slot<B>,
 }
 
 /// The field of a body that holds a parameter's value.
+#[derive(Clone)]
 enum Slot<B> {
     Number(fn(&mut B) -> &mut f64),
     Count(fn(&mut B) -> &mut usize),

@@ -21,7 +21,11 @@ use super::cores::in_parts;
 ///     let _ = <Rk4<S::Vector> as Integrator<S>>::new(like);
 /// }
 /// ```
-pub trait Elementwise: Clone + Send + 'static {
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no vector of coordinates",
+    note = "a vector is f64, DVec2, DVec3, DVec4, [f64; N] or Vec<f64>: two bodies in the plane are one [f64; 4]"
+)]
+pub trait Elementwise: Clone + Send + Sync + 'static {
     /// Copies `from`, which has as many numbers. Never allocates.
     fn assign(&mut self, from: &Self);
     /// `self += h x`, rounded after the product and after the sum.
@@ -60,8 +64,13 @@ pub trait Elementwise: Clone + Send + 'static {
 /// The coordinates of one body.
 ///
 /// `f64` is for bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] for motion in a plane or
-/// in space, `Vec<f64>` for many coordinates. A method is written once over this trait; it compiles to
-/// registers for the small types and to loops for `Vec`.
+/// in space, `[f64; N]` and [`glam::DVec4`] for a few coordinates, such as those of two bodies in the plane,
+/// `Vec<f64>` for many. A method is written once over this trait; it compiles to registers for the small types and to
+/// loops for `Vec`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no vector of one body's coordinates",
+    note = "a vector is f64, DVec2, DVec3, DVec4, [f64; N] or Vec<f64>: two bodies in the plane are one [f64; 4]"
+)]
 pub trait Vector: Elementwise {
     /// Whether the coordinates fit into registers, so that each method is compiled for each body of this type. For all
     /// bodies of another it is compiled once.
@@ -110,9 +119,10 @@ small! {
     f64: std::slice::from_ref, std::slice::from_mut;
     glam::DVec2: AsRef::<[f64; 2]>::as_ref, AsMut::<[f64; 2]>::as_mut;
     glam::DVec3: AsRef::<[f64; 3]>::as_ref, AsMut::<[f64; 3]>::as_mut;
+    glam::DVec4: AsRef::<[f64; 4]>::as_ref, AsMut::<[f64; 4]>::as_mut;
 }
 
-/// One coordinate of each of `W` bodies.
+/// Coordinates of one body, or one coordinate of each of `W`.
 impl<const W: usize> Elementwise for [f64; W] {
     #[inline(always)]
     fn assign(&mut self, from: &Self) {
@@ -127,6 +137,18 @@ impl<const W: usize> Elementwise for [f64; W] {
     #[inline(always)]
     fn scale(&mut self, h: f64) {
         self.iter_mut().for_each(|number| *number *= h);
+    }
+}
+
+impl<const N: usize> Vector for [f64; N] {
+    const IS_SMALL: bool = N <= 4;
+
+    fn components(&self) -> &[f64] {
+        self
+    }
+
+    fn components_mut(&mut self) -> &mut [f64] {
+        self
     }
 }
 
@@ -229,12 +251,20 @@ pub(in crate::sim) fn nan_is_infinite(error: f64) -> f64 {
 }
 
 /// Coordinates and velocities. Also their time derivative `(v, a)`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct State<V> {
     /// Coordinates, in metres or radians.
     pub q: V,
     /// Velocities, per second.
     pub v: V,
+}
+
+/// Of coordinates and velocities.
+impl<V> From<(V, V)> for State<V> {
+    fn from((q, v): (V, V)) -> Self {
+        Self { q, v }
+    }
 }
 
 impl<V: Elementwise> State<V> {

@@ -8,8 +8,14 @@ use super::system::{Coupling, Pursuit, Query, System};
 
 /// A system as one of a `Vec`.
 pub(super) struct VecSystem<'a, S: System> {
-    pub(super) system: &'a S,
-    pub(super) scratch: &'a RefCell<Scratch<S::Vector>>,
+    system: &'a S,
+    scratch: RefCell<&'a mut Scratch<S::Vector>>,
+}
+
+impl<'a, S: System> VecSystem<'a, S> {
+    pub(super) fn new(system: &'a S, scratch: &'a mut Scratch<S::Vector>) -> Self {
+        Self { system, scratch: RefCell::new(scratch) }
+    }
 }
 
 /// The coordinates in the system's own vectors: a state, a direction, and what the system writes.
@@ -43,7 +49,7 @@ impl<S: System<Vector: Vector>> System for VecSystem<'_, S> {
     type Vector = Vec<f64>;
 
     fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        let scratch = &mut *self.scratch.borrow_mut();
+        let scratch = &mut **self.scratch.borrow_mut();
         scratch.state(q, Some(v));
         let Scratch { state, result, .. } = scratch;
         self.system.acceleration(t, &state.q, &state.v, result);
@@ -57,7 +63,7 @@ impl<S: System<Vector: Vector>> System for VecSystem<'_, S> {
     }
 
     fn query(&self, t: f64, query: Query<'_, Vec<f64>>) -> bool {
-        let scratch = &mut *self.scratch.borrow_mut();
+        let scratch = &mut **self.scratch.borrow_mut();
         let (is_answered, to) = match query {
             Query::Slope { state: State { q, v }, along: toward, slope } => {
                 scratch.state(q, Some(v));

@@ -176,6 +176,25 @@ fn the_manuals_test_passes_and_fails_for_every_lane_whose_method_is_another() {
     }
 }
 
+/// Another glam, as far as the manual names it.
+const OTHER_GLAM: &str = "#[derive(Clone, Copy)]
+pub struct DVec2 { x: f64, y: f64 }
+impl DVec2 {
+    pub const fn from_array([x, y]: [f64; 2]) -> Self { Self { x, y } }
+    pub const fn to_array(self) -> [f64; 2] { [self.x, self.y] }
+}";
+
+#[test]
+fn what_the_manual_prints_beside_another_glam_compiles_beside_another_glam() {
+    let library = compile("glam", OTHER_GLAM, &["--crate-type", "rlib"]);
+    let other = format!("glam={}", library.with_file_name("libglam.rlib").display());
+    let printed = blocks("rust").find(|block| block.contains("use glam::"));
+    let printed = printed.expect("the manual has a paragraph on it");
+    assert!(printed.contains("use regatta::prelude::*;"), "{printed}");
+    let program = format!("{printed}\nfn main() {{}}\n");
+    compile("beside_glam", &program, &["--extern", &other, "--emit", "metadata"]);
+}
+
 #[test]
 fn the_examples_run_and_need_nothing_but_the_library() {
     let mut ran = 0;

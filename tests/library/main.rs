@@ -51,6 +51,7 @@ mod printed;
 mod recordings;
 mod restart;
 mod robot;
+mod rollback;
 mod scenes;
 mod sessions;
 mod source_code;

@@ -1,7 +1,11 @@
 //! What a game is told that misuses the lowest layer: never a state that is silently not a number.
 
-use std::panic::{UnwindSafe, catch_unwind};
+use std::cell::Cell;
+use std::panic::{self, AssertUnwindSafe, UnwindSafe, catch_unwind};
+use std::sync::Once;
 
+use regatta::measure::Judge;
+use regatta::run::Race;
 use regatta::scene::{Options, Scene};
 use regatta::sim::batch::{Batch, Ticks};
 use regatta::sim::bodies::Ship;
@@ -15,6 +19,40 @@ fn panic_of<T>(work: impl FnOnce() -> T + UnwindSafe) -> String {
         Ok(message) => *message,
         Err(payload) => payload.downcast_ref::<&str>().expect("a message").to_string(),
     }
+}
+
+/// The line of this file at which `work` panics; `None` if it panics elsewhere.
+fn line_of_panic<T>(work: impl FnOnce() -> T + UnwindSafe) -> Option<u32> {
+    thread_local!(static LINE: Cell<Option<u32>> = const { Cell::new(None) });
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let former = panic::take_hook();
+        panic::set_hook(Box::new(move |panic| {
+            let here = panic.location().filter(|at| at.file().ends_with("misuse.rs"));
+            LINE.set(here.map(panic::Location::line));
+            former(panic);
+        }));
+    });
+    LINE.set(None);
+    panic_of(work);
+    LINE.get()
+}
+
+#[test]
+fn a_panic_names_the_line_of_the_game() {
+    let start = State { q: 1.0, v: 0.0 };
+    let wrong = || Options { tick_hz: 0, ..Options::default() };
+    let ship = Scene::built_in("ship").expect("a scene");
+    let first = line!() + 2;
+    let lines = [
+        line_of_panic(|| Clock::new(0)),
+        line_of_panic(|| Clock::new(60).set_tick_hz(0)),
+        line_of_panic(|| regatta::advise(&Spring, start, wrong())),
+        line_of_panic(|| Race::of(&Spring, start, wrong())),
+        line_of_panic(|| Ticks::from_start(0, 1, 1)),
+        line_of_panic(AssertUnwindSafe(|| Judge::at_throttle(&ship, 2.0))),
+    ];
+    assert_eq!(lines.to_vec(), (first..first + 6).map(Some).collect::<Vec<_>>());
 }
 
 #[test]

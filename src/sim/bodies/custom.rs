@@ -170,6 +170,7 @@ pub type Energy<S> = fn(&S, &State<<S as System>::Vector>) -> f64;
 pub type Exact<S> = fn(&S, f64) -> State<<S as System>::Vector>;
 
 /// Optional properties of a custom body. Each has a default.
+#[derive(Clone)]
 pub struct Extras<S: System> {
     /// The name and the unit of each coordinate, such as `("height", "m")`; an angle has the unit `rad`. Empty:
     /// x, y and z, or q1, q2 …, in metres.

@@ -133,7 +133,7 @@ type PositionAndVelocity = ([DoubleDouble; 2], [DoubleDouble; 2]);
 /// The result is not finite if the path starts at the centre or hits it.
 pub(super) fn flow(mu: f64, dt: f64, from: &State<DVec2>) -> State<DVec2> {
     if dt == 0.0 {
-        return from.clone();
+        return *from;
     }
     let reach = from.q.x.abs().max(from.q.y.abs());
     if reach == 0.0 || !from.q.is_finite() || !from.v.is_finite() {

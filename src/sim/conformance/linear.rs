@@ -22,7 +22,7 @@ fn error<B: Body<Vector = f64> + 'static>(
     h: f64,
 ) -> Result<f64, StepFailure> {
     let (start, system) = (body.start(), problem(body.clone()));
-    let (mut integrator, mut state) = (fresh(method), start.clone());
+    let (mut integrator, mut state) = (fresh(method), start);
     let (mut worst, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
     for step in 0..STEPS {
         integrator.step(&system, h * f64::from(step), h, &mut state)?;

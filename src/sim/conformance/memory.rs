@@ -13,7 +13,7 @@ fn step(integrator: &mut dyn Integrator<Problem<f64>>, state: &mut State<f64>) -
 /// Whether a method that is reset before every step goes another way than one that is not.
 fn carries(method: &Method) -> Result<bool, StepFailure> {
     let mut left_alone = State { q: -0.3, v: 11.0 };
-    let mut interrupted = left_alone.clone();
+    let mut interrupted = left_alone;
     let [mut continued, mut restarted] = [fresh(method), fresh(method)];
     for _ in 0..20 {
         step(&mut *continued, &mut left_alone)?;
@@ -31,7 +31,7 @@ fn forgets(method: &Method) -> Result<bool, StepFailure> {
     }
     used.reset();
     let mut reset = State { q: -0.3, v: 11.0 };
-    let mut new = reset.clone();
+    let mut new = reset;
     let mut fresh = fresh(method);
     for _ in 0..20 {
         step(&mut *used, &mut reset)?;

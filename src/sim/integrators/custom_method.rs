@@ -1,8 +1,6 @@
 //! Methods behind a pointer, which are compiled once for each type of vector. Custom ones are in no table, and their
 //! cards say how they are built.
 
-use std::cell::RefCell;
-
 use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
@@ -77,7 +75,7 @@ impl<V> Clone for Box<dyn AnyIntegrator<V>> {
 pub(super) struct CustomMethod<V> {
     integrator: Box<dyn AnyIntegrator>,
     state: State<Vec<f64>>,
-    scratch: RefCell<Scratch<V>>,
+    scratch: Scratch<V>,
 }
 
 impl<V: Vector> CustomMethod<V> {
@@ -87,7 +85,7 @@ impl<V: Vector> CustomMethod<V> {
         Self {
             integrator: build(zero.len()),
             state: State { q: zero.clone(), v: zero },
-            scratch: RefCell::new(Scratch::new(like)),
+            scratch: Scratch::new(like),
         }
     }
 }
@@ -102,7 +100,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
         let Self { integrator, state: many, scratch } = self;
         many.q.copy_from_slice(state.q.components());
         many.v.copy_from_slice(state.v.components());
-        let system: AnySystem<'_> = &VecSystem { system, scratch };
+        let system: AnySystem<'_> = &VecSystem::new(system, scratch);
         let stepped = integrator.step(&system, t, h, many);
         state.q.components_mut().copy_from_slice(&many.q);
         state.v.components_mut().copy_from_slice(&many.v);

@@ -39,7 +39,7 @@ impl<V> EngineTick<'_, V> {
 }
 
 /// What a tick of an engine does.
-pub trait EngineRule: Carded + Clone + Send + 'static {
+pub trait EngineRule: Carded + Clone + Send + Sync + 'static {
     /// Advances the coordinates `q` and the velocities `v` by a tick.
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V);
 }

@@ -9,7 +9,7 @@ use crate::sim::state::{State, Vector};
 use crate::sim::system::{Pursuit, StateOf, System};
 
 /// The rule by which a follower moves.
-pub trait FollowerRule: Carded + Clone + Send + 'static {
+pub trait FollowerRule: Carded + Clone + Send + Sync + 'static {
     /// Where a coordinate `x` with velocity `v` is a step of `h` (s) later, and its velocity there. The target is at `g` at
     /// the end of the step, and `rate` is k or ω of the law, per second.
     fn step(h: f64, rate: f64, g: f64, x: f64, v: f64) -> (f64, f64);

@@ -1,5 +1,7 @@
 //! The trait that every method implements, and what may be set of a method, such as its tolerance.
 
+use std::fmt;
+
 use super::failure::Stepped;
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{Coupling, StateOf, System};
@@ -7,8 +9,21 @@ use crate::sim::system::{Coupling, StateOf, System};
 /// A method that advances a system by steps.
 ///
 /// The system is a parameter of the trait: the force law is inlined into the method, and
-/// `Box<dyn Integrator<Ship>>` is still swappable at run time.
-pub trait Integrator<S: System>: Send {
+/// `Box<dyn Integrator<Ship>>` is still swappable at run time. Its [clone](CloneIntegrator) has the same memory, so that a
+/// game which goes back to an earlier tick keeps one beside the state:
+///
+/// ```
+/// # use regatta::sim::{State, bodies::Spring, integrators::{integrator, method}};
+/// # let spring = Spring { mass: 1.0, stiffness: 40.0, damping: 0.0, x0: 1.0, v0: 0.0, kick: 1.0 };
+/// let mut state = State { q: 1.0, v: 0.0 };
+/// let mut bdf2 = integrator(method("bdf2").unwrap(), &state.q);
+/// bdf2.step(&spring, 0.0, 0.01, &mut state).unwrap();
+/// let mut saved = (state, bdf2.clone());
+/// bdf2.step(&spring, 0.01, 0.01, &mut state).unwrap();
+/// saved.1.step(&spring, 0.01, 0.01, &mut saved.0).unwrap();
+/// assert_eq!(saved.0, state);
+/// ```
+pub trait Integrator<S: System>: CloneIntegrator<S> + Send + Sync {
     /// Returns a method without memory, with scratch space for coordinate vectors shaped `like` this
     /// one.
     fn new(like: &S::Vector) -> Self
@@ -57,6 +72,31 @@ pub trait Integrator<S: System>: Send {
     /// [keeps time](super::Method::keeps_time).
     fn lost_time(&self) -> f64 {
         0.0
+    }
+}
+
+/// Copies an [`Integrator`] behind a pointer. Every integrator that is `Clone` has it.
+pub trait CloneIntegrator<S: System> {
+    /// A copy with the same memory: from equal states both make steps of equal bits.
+    fn clone_boxed(&self) -> Box<dyn Integrator<S>>;
+}
+
+impl<S: System, I: Integrator<S> + Clone + 'static> CloneIntegrator<S> for I {
+    fn clone_boxed(&self) -> Box<dyn Integrator<S>> {
+        Box::new(self.clone())
+    }
+}
+
+impl<S: System> Clone for Box<dyn Integrator<S>> {
+    fn clone(&self) -> Self {
+        (**self).clone_boxed()
+    }
+}
+
+impl<S: System> fmt::Debug for dyn Integrator<S> {
+    /// The type of the method is not known here, nor is its memory.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Integrator").finish_non_exhaustive()
     }
 }
 

@@ -82,7 +82,7 @@ pub use engine::{EngineMethod, EngineRule, EngineTick};
 pub use failure::{StepFailure, Stepped};
 pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
-pub use integrator::{Integrator, Override, Tolerance};
+pub use integrator::{CloneIntegrator, Integrator, Override, Tolerance};
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
 

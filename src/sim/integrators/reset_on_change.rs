@@ -6,6 +6,7 @@ use crate::sim::state::{State, Vector};
 use crate::sim::system::{Coupling, StateOf, System};
 
 /// A method that is [reset](Integrator::reset) if it is given a state other than it returned.
+#[derive(Clone)]
 pub(super) struct ResetOnChange<I, V> {
     method: I,
     returned: State<V>,
@@ -36,7 +37,11 @@ impl<I, V: Vector> ResetOnChange<I, V> {
     }
 }
 
-impl<S: System<Vector: Vector>, I: Integrator<S>> Integrator<S> for ResetOnChange<I, S::Vector> {
+impl<S, I> Integrator<S> for ResetOnChange<I, S::Vector>
+where
+    S: System<Vector: Vector>,
+    I: Integrator<S> + Clone + 'static,
+{
     fn new(like: &S::Vector) -> Self {
         Self::around(I::new(like), like)
     }

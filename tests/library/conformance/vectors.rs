@@ -1,6 +1,6 @@
 //! One formula over every kind of coordinate vector.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 use regatta::sim::integrators::{GENERAL_METHODS, Integrator, integrator};
 use regatta::sim::{State, Vector};
 
@@ -40,6 +40,15 @@ fn equal_springs_get_equal_bits_in_every_vector() {
         check(plane.q.components(), plane.v.components());
         let space = run(integrator(method, &DVec3::ZERO), &DVec3::ZERO);
         check(space.q.components(), space.v.components());
+        let four = run(integrator(method, &DVec4::ZERO), &DVec4::ZERO);
+        check(four.q.components(), four.v.components());
+        let [one, six] = [run(integrator(method, &[0.0]), &[0.0]).q.to_vec(), {
+            let state = run(integrator(method, &[0.0; 6]), &[0.0; 6]);
+            check(&state.q, &state.v);
+            state.q.to_vec()
+        }];
+        assert_eq!((one.len(), six.len()), (1, 6));
+        check(&one, &[]);
         for n in [1, 2, 3, 17] {
             let like = vec![0.0; n];
             let many = run(integrator(method, &like), &like);

@@ -99,17 +99,13 @@ impl<S: System<Vector: Vector>> Typed<S> {
             scratch: RefCell::new(Scratch::new(like)),
         }
     }
-
-    fn of_vec(&self) -> VecSystem<'_, Scaled<S>> {
-        VecSystem { system: &self.scaled, scratch: &self.scratch }
-    }
 }
 
 impl<S: System<Vector: Vector>> System for Typed<S> {
     type Vector = Vec<f64>;
 
     fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        self.of_vec().acceleration(t, q, v, a);
+        VecSystem::new(&self.scaled, &mut self.scratch.borrow_mut()).acceleration(t, q, v, a);
     }
 
     fn coupling(&self) -> Coupling {
@@ -117,7 +113,7 @@ impl<S: System<Vector: Vector>> System for Typed<S> {
     }
 
     fn query(&self, t: f64, query: Query<'_, Vec<f64>>) -> bool {
-        self.of_vec().query(t, query)
+        VecSystem::new(&self.scaled, &mut self.scratch.borrow_mut()).query(t, query)
     }
 }
 

@@ -12,7 +12,7 @@ use crate::sim::system::{StateOf, System};
 /// The tableau of a pair of `N` stages. The last stage is at the kept solution, so that its slope is
 /// the first of the next step: it is evaluated if the error needs it or another step follows, and carried to the next
 /// tick in the first case.
-pub trait Pair<const N: usize>: Send + 'static {
+pub trait Pair<const N: usize>: Clone + Send + Sync + 'static {
     /// The order of the kept solution.
     const ORDER: u32;
     /// The times of the stages, as fractions of the step.
