@@ -17,7 +17,8 @@ const AIMS_MS: (f64, f64) = (5.0, 50.0);
 const TIMES: u64 = 40;
 
 fn harbour(lanes: Vec<LaneSpec>) -> Run {
-    let scene = Scene { lanes, ..Scene::built_in("harbour").expect("a built-in scene") };
+    let mut scene = Scene::built_in("harbour").expect("a built-in scene");
+    scene.lanes = lanes;
     let mut timeline = Run::new(Session::racing(scene.into()));
     (0..TICKS).for_each(|_| timeline.tick(&mut ()));
     timeline

@@ -64,7 +64,9 @@ impl Field {
             Field::Everyone => {
                 let spec = |method| LaneSpec { method, ..scene.lanes[0] };
                 let lanes = scene.fitting_methods().map(spec).collect();
-                let mut studio = Studio::new(Scene { lanes, ..scene.clone() });
+                let mut opened = scene.clone();
+                opened.lanes = lanes;
+                let mut studio = Studio::new(opened);
                 studio.apply(StageCommand::ToggleRace);
                 studio
             }
@@ -222,8 +224,9 @@ fn fields() -> [(&'static str, Field); 2] {
 }
 
 fn scripted(name: &str, script: Vec<(u64, Action)>) -> Scene {
-    let scene = built_in(name);
-    Scene { script: Scripted::of_ticks(scene.tick_hz, script), ..scene }
+    let mut scene = built_in(name);
+    scene.script = Scripted::of_ticks(scene.tick_hz, script);
+    scene
 }
 
 /// The built-in scenes but the cloth, of which thousands of ticks take minutes in a debug build.

@@ -63,6 +63,7 @@ pub(super) const MAX_STIFFER: f64 = 10.0;
 /// The fewest substeps with which a method meets a criterion, and its margins.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct CriterionMet {
     /// The requested tick rate in Hz, at which it meets it.
     pub tick_hz: u32,

@@ -43,6 +43,7 @@ impl<T> Criteria<T> {
 /// What is advised for a body at a tick rate.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Report {
     /// The body's name.
     pub name: String,
@@ -62,6 +63,7 @@ pub struct Report {
 /// What is found of one method.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct MethodReport {
     /// Its id.
     pub method: &'static str,
@@ -74,6 +76,7 @@ pub struct MethodReport {
 /// A cheaper method that is not recommended for want of a reserve.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct PassedOver {
     /// Its id.
     pub method: &'static str,
@@ -99,6 +102,7 @@ impl fmt::Display for PassedOver {
 /// A method for a criterion.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Recommendation {
     /// The method's id.
     pub method: &'static str,

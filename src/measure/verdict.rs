@@ -11,6 +11,8 @@ use crate::sim::integrators::StepFailure;
 
 #[cfg(feature = "serde")]
 mod schema;
+#[cfg(test)]
+mod tests;
 mod words;
 
 pub use words::VerdictNumber;
@@ -46,6 +48,7 @@ impl RunFailure {
 
 /// Why a lane cannot be compared with the truth.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum NoTruth {
     /// The exact solution or the reference has failed.
     Failed(StepFailure),
@@ -55,6 +58,7 @@ pub enum NoTruth {
 
 /// Why a lane is not judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NotJudged {
     /// Its run takes more than [`MAX_WORK`](super::MAX_WORK).
     TooMuchWork,
@@ -64,6 +68,7 @@ pub enum NotJudged {
 
 /// What is found of a run on a body.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Finding {
     /// It is compared with the truth over the horizon.
     Compared(Comparison),
@@ -84,6 +89,7 @@ pub enum Finding {
 
 /// A run compared with the truth over the horizon. Errors are in amplitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Comparison {
     /// The largest error of a coordinate or a velocity.
     pub error: f64,
@@ -148,6 +154,7 @@ pub struct LongTerm {
 /// by the commands too: `word` is the id of its outcome, `text` the line, and `quantity`, `value` and `unit` the number in it.
 /// A field without a meaning is null.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Verdict {
     /// What is found of the worst body, which the verdict is about.
     pub finding: Finding,

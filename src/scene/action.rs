@@ -10,6 +10,7 @@ use crate::sim::number::round;
 /// An action on a run at a tick. It states the new value rather than a change: except for a kick, performing it twice
 /// has the same effect as once.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Action {
     /// Solo: puts the bodies under this method, with its substeps and tolerance [at the start](crate::run::Race::methods). Race:
     /// does nothing, as each lane keeps its method.

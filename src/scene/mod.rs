@@ -104,6 +104,7 @@ pub const MAX_NAME_CHARS: usize = 64;
 
 /// What is simulated, and how.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Scene {
     /// The built-in scene's name, or its file's name without directory and ending.
     pub name: String,
@@ -142,6 +143,7 @@ pub struct Scene {
 
 /// A body of a scene.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct SceneBody {
     /// Its name, not found on any other body of the scene.
     pub name: String,

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 /// One part of a body, in metres, x right and y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Mark {
     /// What the body hangs on, a line that does not move.
     Wall {

@@ -180,6 +180,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
 
 /// An input from a person or a script.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Input {
     /// Sets the thrust to this fraction of full thrust, -1 to 1.
     Throttle(f64),

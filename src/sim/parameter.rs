@@ -76,6 +76,7 @@ impl Acts {
 
 /// The values a parameter may take. All are finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Range {
     /// Greater than 0 and at most this.
     Positive(f64),

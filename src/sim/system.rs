@@ -43,6 +43,7 @@ pub type StateOf<S> = State<<S as System>::Vector>;
 
 /// What is asked of a system. [`Counted`] counts an answer as an evaluation.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum Query<'a, V> {
     /// The derivative of the acceleration at a state in the direction `along`. Methods take differences without it.
     Slope {

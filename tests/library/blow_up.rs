@@ -7,6 +7,8 @@ use regatta::sim::Clock;
 use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, method};
 use regatta::studio::{RunCommand, StageCommand, Studio};
 
+use crate::scenes::edited;
+
 /// Ticks of the long race: 83 min at 60 Hz.
 const TICKS: u64 = 60_000;
 /// Ticks in which it is held against the race without the lane: 300 times as long as that lane lives.
@@ -116,7 +118,7 @@ fn harbour_of_springs() -> Scene {
 /// Its bodies and one of them alone, under explicit Euler.
 fn harbour_and(body: usize) -> [Race; 2] {
     let harbour = harbour_of_springs();
-    let alone = Scene { bodies: vec![harbour.bodies[body].clone()], ..harbour.clone() };
+    let alone = edited(&harbour, |scene| scene.bodies = vec![harbour.bodies[body].clone()]);
     let euler = LaneSpec::plain(method("explicit-euler").expect("a method"));
     [harbour, alone].map(|scene| Race::new(&scene, [euler]))
 }

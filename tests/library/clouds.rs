@@ -21,6 +21,8 @@ use regatta::studio::{
     cloud_refusal, cloud_request, complete_clouds, shown_cloud,
 };
 
+use crate::scenes::edited;
+
 /// The first body of a scene, with its kind.
 struct Built(Arc<Kind>, Box<dyn Stepper>);
 
@@ -225,7 +227,8 @@ fn the_number_of_threads_changes_no_count_of_a_picture() {
 fn race_of(scene: &str, methods: &[&str], kind: CloudKind) -> Studio {
     let plain = |id: &&str| LaneSpec::plain(method(id).unwrap());
     let lanes = methods.iter().map(plain).collect();
-    let mut studio = Studio::new(Scene { lanes, ..Scene::built_in(scene).unwrap() });
+    let mut studio =
+        Studio::new(edited(&Scene::built_in(scene).unwrap(), |scene| scene.lanes = lanes));
     studio.apply(StageCommand::ToggleRace);
     studio.apply(StageCommand::Instrument(Instrument::Cloud));
     studio.apply(RunCommand::Cloud(CloudChoice { kind, points: 1500 }));
@@ -380,7 +383,8 @@ fn clouds_that_blow_up_right_after_they_start_anew_are_drawn_without_them() {
          [[law]]\ncoordinates = { x = { start = 1.0, acceleration = \"-x*x*x\" } }\n";
     let place = Action::Place { body: 0, q: [1e9].into(), v: [0.0].into() };
     let script = vec![Scripted { at_s: 0.05, action: place }];
-    let mut studio = Studio::new(Scene { script, ..Scene::parse("it.toml", law).unwrap() });
+    let mut studio =
+        Studio::new(edited(&Scene::parse("it.toml", law).unwrap(), |scene| scene.script = script));
     studio.apply(StageCommand::Instrument(Instrument::Cloud));
     studio.apply(RunCommand::Cloud(CloudChoice { points: 500, ..CloudChoice::default() }));
     let mut worker = CloudWorker::default();
@@ -399,7 +403,7 @@ fn the_exact_cloud_goes_with_the_exact_body_through_kicks_and_other_parameters()
         scene.bodies[0].kind.parameters.iter().position(|it| it.key == "length_m").unwrap();
     let set = |value: f64| Action::Set { body: 0, parameter: length, value };
     let script = Scripted::of_ticks(scene.tick_hz, [(10, Action::Kick(1.0)), (20, set(2.0))]);
-    let mut studio = Studio::new(Scene { script, ..scene });
+    let mut studio = Studio::new(edited(&scene, |scene| scene.script = script));
     studio.apply(StageCommand::Instrument(Instrument::Cloud));
     let disc = CloudKind::Shape(CloudShape::Disc);
     studio.apply(RunCommand::Cloud(CloudChoice { kind: disc, points: 100 }));
@@ -493,13 +497,13 @@ impl System for Hertz {
 #[test]
 fn a_custom_body_of_one_coordinate_is_a_cloud_with_the_bits_of_its_system() {
     let start = State { q: 0.8, v: 0.1 };
-    let scene = Scene::of(&Hertz, start.clone(), Options::default()).unwrap();
+    let scene = Scene::of(&Hertz, start, Options::default()).unwrap();
     let body = built(&scene);
     for id in ["rk4", "implicit-midpoint", "adams-bashforth-2"] {
         let spec = LaneSpec::plain(method(id).unwrap());
         let about = CloudStart::about(body.of(), CloudShape::Cat, None).unwrap();
         let mut cloud = Cloud::new(body.of(), &spec, about, 300, 60).unwrap();
-        let mut twin = Cloud::of(&Hertz, start.clone(), CloudShape::Cat, 300, &spec, 60).unwrap();
+        let mut twin = Cloud::of(&Hertz, start, CloudShape::Cat, 300, &spec, 60).unwrap();
         for cloud in [&mut cloud, &mut twin] {
             cloud.advance(90);
         }

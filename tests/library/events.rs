@@ -7,10 +7,15 @@ use regatta::scene::{Action, LaneSpec, SCENES, Scene, Scripted};
 use regatta::sim::integrators::method;
 use regatta::studio::{RunCommand, StageCommand, Studio};
 
+use crate::scenes::edited;
+
 /// The first coordinates and velocities of the truth after each tick of the scene's own rate, run at `times` that rate.
 fn truth(scene: &Scene, times: u32, ticks: u64) -> Vec<Vec<f64>> {
     let tick_hz = times * scene.tick_hz;
-    let mut race = Race::of_scene(&Scene { tick_hz, lanes: Vec::new(), ..scene.clone() });
+    let mut race = Race::of_scene(&edited(scene, |scene| {
+        scene.tick_hz = tick_hz;
+        scene.lanes.clear();
+    }));
     let mut curve = Vec::new();
     for _ in 0..ticks {
         race.run(u64::from(times));
@@ -142,7 +147,7 @@ fn ticks_of_a_scene_are_read_with_a_warning_and_saved_as_seconds() {
     // At another rate, at the same times.
     let journal = Journal::of_script(&scene.script, 20);
     assert_eq!(journal.rows().iter().map(|row| row.tick).collect::<Vec<_>>(), [30, 40, 45]);
-    let faster = Scene { tick_hz: 120, ..scene };
+    let faster = edited(&scene, |scene| scene.tick_hz = 120);
     for text in [faster.to_toml(), faster.to_saved_toml()] {
         let again = Scene::parse("new.toml", &text).unwrap();
         assert!(again.outdated.is_none() && text.contains("at_s = 2.5"), "{text}");

@@ -58,7 +58,7 @@ impl System for Told {
             Query::Target(pursuit) => {
                 *pursuit = Some(Pursuit { target: target(t), rate, order, is_still: false });
             }
-            Query::Slope { .. } => return false,
+            _ => return false,
         }
         true
     }
@@ -127,7 +127,7 @@ fn steps(method: &Method, formula: &[&str], case: &Case) -> Vec<Step> {
     let mut before = Values::new();
     for n in 0..STEPS {
         let t = case.h * f64::from(n);
-        let from = state.clone();
+        let from = state;
         if stepper.steps(&told, t, case.h, substeps, &mut state).is_err() {
             return Vec::new();
         }

@@ -5,8 +5,12 @@ use regatta::run::past::History;
 use regatta::scene::{LaneId, Scene};
 use regatta::studio::{StageCommand, Step, Studio};
 
+use crate::scenes::edited;
+
 fn studio(seconds: f64, tick_hz: u32) -> Studio {
-    let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
+    let scene = edited(&Scene::built_in("spring").unwrap(), |scene| {
+        (scene.seconds, scene.tick_hz) = (seconds, tick_hz);
+    });
     Studio::new(scene)
 }
 

@@ -1,22 +1,25 @@
 //! Verdicts are of the run on the stage: of the scene as it is edited, and from where a person last moved a body.
 
-use regatta::measure::{Judge, Verdict};
+use regatta::measure::Judge;
 use regatta::scene::{Action, Scene, Scripted};
 use regatta::studio::{RunCommand, StageCommand, Step, Studio};
+
+use crate::scenes::edited;
 
 use crate::words::everything;
 
 /// A studio on a scene in which every method has a lane, so that all are judged.
 fn opened(scene: &Scene) -> Studio {
-    Studio::new(Scene { lanes: scene.method_list(), ..scene.clone() })
+    Studio::new(edited(scene, |scene| scene.lanes = scene.method_list()))
 }
 
 /// The studio's verdict on each method of its list, with times that count from where the run is judged.
 fn verdicts(studio: &mut Studio) -> Vec<String> {
     studio.analyse();
     let of = |entry| {
-        let verdict = studio.viewer.verdict(entry).unwrap().clone();
-        everything(&Verdict { starts_at_s: 0.0, ..verdict })
+        let mut verdict = studio.viewer.verdict(entry).unwrap().clone();
+        verdict.starts_at_s = 0.0;
+        everything(&verdict)
     };
     (0..studio.entries().len()).map(of).collect()
 }
@@ -93,7 +96,7 @@ fn damped_by_script() -> Scene {
 fn a_parameter_set_by_the_script_is_judged_like_one_set_by_hand() {
     let scene = damped_by_script();
     let mut scripted = opened(&scene);
-    let mut by_hand = opened(&Scene { script: Vec::new(), ..scene.clone() });
+    let mut by_hand = opened(&edited(&scene, |scene| scene.script.clear()));
     let before = verdicts(&mut scripted);
     assert_ne!(before, verdicts(&mut by_hand), "the script is part of what is judged");
     (0..61).for_each(|_| scripted.tick());
@@ -109,7 +112,7 @@ fn a_parameter_set_by_the_script_is_judged_like_one_set_by_hand() {
 #[test]
 fn growth_is_that_of_the_parameters_that_the_script_leaves_in_force() {
     let damped = with(damped_by_script(), &[("damping_n_s_per_m", 60.0)]);
-    let edited = Scene { script: Vec::new(), ..damped };
+    let edited = edited(&damped, |scene| scene.script.clear());
     let grows = |scene: &Scene| {
         let verdicts = verdicts_on(scene).into_iter();
         verdicts.map(|verdict| verdict.contains("deviation ×2 in")).collect::<Vec<_>>()
@@ -172,7 +175,7 @@ fn a_run_judged_from_a_placement_keeps_its_throttle_and_the_rest_of_the_script()
     let scripted = |times: &[(f64, f64)]| {
         let row = |&(at_s, part)| Scripted { at_s, action: Action::Throttle(part) };
         let script = times.iter().map(row).collect();
-        Scene { script, ..Scene::built_in("ship").unwrap() }
+        edited(&Scene::built_in("ship").unwrap(), |scene| scene.script = script)
     };
     let hz = u64::from(scripted(&[]).tick_hz);
     let mut studio = opened(&scripted(&[(1.0, 0.5), (9.0, -0.25)]));

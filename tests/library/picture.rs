@@ -7,6 +7,8 @@ use regatta::scene::{Action, SCENES, Scene};
 use regatta::stage::{FAR, Picture, Shape, Whose, compose};
 use regatta::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand, run_loops};
 
+use crate::scenes::edited;
+
 fn assert_drawable(picture: &Picture, what: &str) {
     let finite = |values: &[f32]| values.iter().all(|x| x.is_finite() && x.abs() <= 2.0 * FAR);
     for shape in &picture.shapes {
@@ -63,10 +65,8 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
          u0_m_per_s = 1e15\nthrust_curve = [[0, 0], [1, 0]]\n";
     let scene = Scene::parse("far.toml", text).unwrap();
     // One after the other, so that one that halts stops no other; then all at once.
-    let alone = (0..scene.bodies.len()).map(|body| {
-        let bodies = vec![scene.bodies[body].clone()];
-        Scene { bodies, ..scene.clone() }
-    });
+    let alone = (0..scene.bodies.len())
+        .map(|body| edited(&scene, |alone| alone.bodies = vec![scene.bodies[body].clone()]));
     for scene in alone.chain([scene.clone()]) {
         let what = format!("far {}", scene.bodies.last().expect("a body").name);
         let mut studio = Studio::new(scene);

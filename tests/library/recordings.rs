@@ -6,6 +6,8 @@ use regatta::scene::{Action, LaneId, LaneSpec, SCENES, Scene, Scripted, Swing};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 use regatta::studio::{Command, RunCommand, StageCommand, Studio, open_file};
 
+use crate::scenes::edited;
+
 fn built_in(name: &str) -> Scene {
     Scene::built_in(name).expect("a built-in scene")
 }
@@ -338,7 +340,7 @@ fn equal_cost_includes_the_effect_of_the_script_on_the_cost() {
     let parameter = plain.bodies[0].kind.parameter("stiffness_n_per_m").unwrap().0;
     let action = Action::Set { body: 0, parameter, value: 1e6 };
     let script = vec![Scripted { at_s: 200.0 / 60.0, action }];
-    let stiffened = Scene { script, ..plain.clone() };
+    let stiffened = edited(&plain, |scene| scene.script = script);
     let lanes = ["rk4", "dormand-prince-54"].map(|id| LaneSpec::plain(method(id).unwrap()));
     let substeps = |scene: &Scene| equal_cost(scene, &lanes, 60)[0].substeps;
     let (soft, stiff) = (substeps(&plain), substeps(&stiffened));
@@ -560,7 +562,7 @@ fn a_link_to_a_solo_run_opens_with_the_methods_that_stood_beside_it() {
     // One that is told from none by its method is alone, as in a file.
     let plain = LaneSpec::plain(method("rk4").unwrap());
     let lanes = vec![LaneSpec { substeps: 4, ..plain }, plain];
-    let mut studio = Studio::new(Scene { lanes, ..built_in("spring") });
+    let mut studio = Studio::new(edited(&built_in("spring"), |scene| scene.lanes = lanes));
     for (entry, count) in [(0, 2), (1, 1)] {
         studio.apply(StageCommand::Pick(entry));
         studio.apply(StageCommand::Restart);

@@ -11,6 +11,8 @@ use regatta::sim::bodies::BODIES;
 use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::studio::{Command, RunCommand, StageCommand, Studio};
 
+use crate::scenes::edited;
+
 impl Dice {
     fn spec(&mut self) -> LaneSpec {
         let method = &GENERAL_METHODS[self.below(GENERAL_METHODS.len())];
@@ -51,7 +53,10 @@ fn scene(dice: &mut Dice, n: usize) -> Scene {
             lanes.push(spec);
         }
     }
-    Scene { bodies, lanes, opening_method: None, tick_hz: 60, seconds: 20.0, ..all[0].clone() }
+    edited(&all[0], |scene| {
+        (scene.bodies, scene.lanes, scene.opening_method) = (bodies, lanes, None);
+        (scene.tick_hz, scene.seconds) = (60, 20.0);
+    })
 }
 
 /// A random action that is possible in the session's present.
@@ -305,7 +310,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
 #[test]
 fn snapshots_of_ten_hours_stay_within_their_memory_limit() {
     // Of a million ticks, more than of ten hours at the scene's rate.
-    let scene = Scene { tick_hz: 30, ..Scene::built_in("spring").unwrap() };
+    let scene = edited(&Scene::built_in("spring").unwrap(), |scene| scene.tick_hz = 30);
     let limit = 1 << 20;
     let mut timeline = Run::with_limit(Session::racing(scene.into()), limit);
     let mut most = 0;

@@ -286,7 +286,8 @@ fn ship_and_lively_spring() -> Scene {
     let mut scene = scene("harbour");
     scene.tick_hz = 10;
     let lively = vec![1.0, 400.0, 8.0, 1.0, 0.0, 3.0];
-    scene.bodies = vec![scene_body("ship"), SceneBody { values: lively, ..scene_body("spring") }];
+    scene.bodies = ["ship", "spring"].map(scene_body).into();
+    scene.bodies[1].values = lively;
     scene.script.clear();
     scene
 }

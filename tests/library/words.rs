@@ -1,237 +1,12 @@
-//! What verdicts say, word by word.
+//! Verdicts beside the manual and in other tests.
 
 use regatta::manual::chapter;
-use regatta::measure::{
-    CRITERIA, Comparison, Finding, LongTerm, Measure, NoTruth, NotJudged, Outcome, RunFailure,
-    Severity, Sign, TOLERANCE, Trend, Verdict,
-};
-use regatta::sim::integrators::StepFailure;
-use regatta::studio::KEYS;
-
-const COMPARED: Comparison = Comparison {
-    error: 0.25,
-    error_at_s: 3.0,
-    last_error: 0.2,
-    truth_error: 0.0,
-    change: Trend::None,
-    looks_right: Some(false),
-    width: Some(1.0),
-    early_s: None,
-    energy_change: None,
-    energy_drift_percent: None,
-    frequency_error: None,
-};
-
-const SWINGS: LongTerm = LongTerm {
-    measure: Measure::Swing,
-    doubles_in_s: None,
-    halves_in_s: None,
-    parasite_doubles_in_s: None,
-    is_bounded: Some(true),
-};
-
-/// A verdict with nothing in it but this finding.
-fn of(finding: Finding) -> Verdict {
-    Verdict {
-        finding,
-        long_term: SWINGS,
-        chase: None,
-        body: 0,
-        body_name: "buoy".into(),
-        evaluations: 1,
-        seconds: 20.0,
-        horizon_s: 20.0,
-        starts_at_s: 0.0,
-        of_bodies: Vec::new(),
-    }
-}
-
-fn compared(comparison: Comparison) -> Verdict {
-    of(Finding::Compared(comparison))
-}
-
-/// The same of one of two bodies.
-fn of_two(verdict: Verdict) -> Verdict {
-    Verdict { of_bodies: vec![verdict.clone(), verdict.clone()], ..verdict }
-}
-
-fn failed(cause: &StepFailure) -> Finding {
-    Finding::Failed { failure: RunFailure { t: 4.0, cause: cause.clone() }, by_energy: None }
-}
+use regatta::measure::{CRITERIA, Outcome, Severity, Sign, Verdict};
+use regatta::studio::{KEYS, Key};
 
 /// The word, the number and the details of a verdict.
 pub(crate) fn everything(verdict: &Verdict) -> String {
     [vec![verdict.to_string()], verdict.details()].concat().join("; ")
-}
-
-#[test]
-fn a_swing_that_is_too_wide_or_too_narrow_says_how_wide_it_is() {
-    let off = "off by up to 281 % at 3 s, by 20 % after 20 s";
-    for (width, shown) in [
-        (1.8, "bounded · swings 1.8 × too wide"),
-        (0.7, "bounded · swings 0.70 × as wide"),
-        (1.04, "bounded · off by 281 % at 3 s"),
-    ] {
-        let found = Comparison {
-            width: Some(width),
-            energy_change: Some(0.0),
-            frequency_error: Some(0.18),
-            error: 2.81,
-            ..COMPARED
-        };
-        let verdict = compared(found);
-        assert_eq!(verdict.to_string(), shown);
-        assert_eq!(verdict.details(), [off, "18 % fast"]);
-        assert_eq!(verdict.outcome().severity(), Severity::Doubtful);
-    }
-}
-
-#[test]
-fn beside_a_run_that_was_changed_each_wording_tells_of_which_run_it_is() {
-    let found = compared(Comparison { early_s: Some(0.02), ..COMPARED });
-    for (starts_at_s, from) in [(0.0, "if run from the start: "), (3.0, "if run from 3 s: ")] {
-        let verdict = Verdict { starts_at_s, ..found.clone() };
-        let wordings = verdict.wordings_of_another_run(true);
-        let said = ["bounded · 20 ms early after 20 s", "bounded"];
-        assert_eq!(wordings, said.map(|words| format!("{from}{words}")));
-    }
-}
-
-#[test]
-fn a_verdict_says_the_number_that_its_outcome_is_about_and_its_details_the_rest() {
-    let is = |verdict: Verdict, shown: &str, details: &[&str]| {
-        assert_eq!(verdict.to_string(), shown);
-        assert_eq!(verdict.details(), details, "{shown}");
-    };
-    is(compared(Comparison { error: 3e-12, ..COMPARED }), "accurate · within 10⁻⁹ %", &[]);
-    is(
-        compared(Comparison { error: 0.004, ..COMPARED }),
-        "accurate · within 0.40 %",
-        &["largest error 0.40 % of the amplitude, at 3 s"],
-    );
-
-    let faded = "off by up to 25 % at 3 s, by 20 % after 20 s";
-    is(compared(COMPARED), "bounded · off by 25 % at 3 s", &[faded]);
-    let right = Comparison { looks_right: Some(true), ..COMPARED };
-    is(compared(right), "looks right · off by 25 % at 3 s", &[faded]);
-    let unknown = LongTerm { is_bounded: None, ..SWINGS };
-    let open = Verdict { long_term: unknown, ..compared(COMPARED) };
-    is(open, "inaccurate · off by 25 % at 3 s", &[faded]);
-    is(
-        compared(Comparison { last_error: 0.25, ..COMPARED }),
-        "bounded · off by 25 %",
-        &["off by up to 25 % at 3 s, by 25 % after 20 s"],
-    );
-    is(
-        compared(Comparison { last_error: TOLERANCE, ..COMPARED }),
-        "bounded · off by 25 % at 3 s",
-        &["off by 25 % at 3 s, settled by 20 s"],
-    );
-    for (early_s, time) in [
-        (0.0174, "17 ms early"),
-        (-0.0174, "17 ms late"),
-        (0.9994, "999 ms early"),
-        (-1.25, "1.2 s late"),
-        (2.0, "2.0 s early"),
-    ] {
-        let found = Comparison { early_s: Some(early_s), ..right };
-        let shown = format!("looks right · {time} after 20 s");
-        is(compared(found), &shown, &[faded]);
-        is(of_two(compared(found)), &format!("{shown} (buoy)"), &[faded]);
-    }
-    for (error, pitch) in [(-0.02, "2.0 % slow"), (0.02, "2.0 % fast")] {
-        let found = Comparison { frequency_error: Some(error), ..COMPARED };
-        for (measure, shown) in [
-            (Measure::Modes, format!("bounded · main mode {pitch}")),
-            (Measure::Reach, format!("bounded · {pitch}")),
-            (Measure::Swing, "bounded · off by 25 % at 3 s".to_owned()),
-        ] {
-            let long_term = LongTerm { measure, ..SWINGS };
-            is(Verdict { long_term, ..compared(found) }, &shown, &[faded, pitch]);
-        }
-    }
-    let doubling = LongTerm { doubles_in_s: Some(90.0), ..SWINGS };
-    is(
-        Verdict {
-            long_term: LongTerm { parasite_doubles_in_s: Some(7.0), ..doubling },
-            ..compared(right)
-        },
-        "looks right · off by 25 % at 3 s",
-        &[faded, "grows slowly: swing ×2 in 90 s", "a faint mode grows: ×2 in 7 s"],
-    );
-
-    let grows = Comparison { change: Trend::Grows, ..COMPARED };
-    let of_energy = Comparison { energy_change: Some(0.5), ..grows };
-    is(compared(grows), "grows · off by 25 %", &[]);
-    is(compared(of_energy), "grows · energy +50 % in 20 s", &[]);
-    for (measure, name) in [
-        (Measure::Swing, "swing"),
-        (Measure::Modes, "swing"),
-        (Measure::Reach, "reach"),
-        (Measure::Deviation, "deviation"),
-    ] {
-        is(
-            Verdict { long_term: LongTerm { measure, ..doubling }, ..compared(of_energy) },
-            &format!("grows · {name} ×2 in 90 s"),
-            &[&format!("its {name} doubles in 90 s")],
-        );
-    }
-    let faint = LongTerm { parasite_doubles_in_s: Some(7.0), is_bounded: Some(false), ..SWINGS };
-    is(
-        Verdict { long_term: faint, ..compared(grows) },
-        "grows · a faint mode ×2 in 7.0 s",
-        &["a faint mode grows: ×2 in 7 s"],
-    );
-    let loses = Comparison { energy_change: Some(-0.5), change: Trend::Dies, ..COMPARED };
-    is(compared(loses), "dies away · energy −50 % in 20 s", &[]);
-    let all = Comparison { energy_change: Some(-0.998), ..loses };
-    is(compared(all), "dies away · all its energy in 20 s", &[]);
-    let more = Comparison { energy_change: Some(-1.08), ..loses };
-    is(compared(more), "dies away · all its energy in 20 s", &[]);
-    for (halves_in_s, shown) in
-        [(5.04, "swing ½ in 5.0 s"), (400.0, "swing ½ in 400 s"), (401.0, "energy −50 % in 20 s")]
-    {
-        let long_term = LongTerm { halves_in_s: Some(halves_in_s), ..SWINGS };
-        is(Verdict { long_term, ..compared(loses) }, &format!("dies away · {shown}"), &[]);
-    }
-
-    let escaped = StepFailure::NotFinite { coordinate: "x".into(), value: f64::NAN };
-    let unsolved = StepFailure::LinearSolveFailed;
-    let long_term = LongTerm { parasite_doubles_in_s: Some(7.0), ..doubling };
-    let start = "if run from the start";
-    is(
-        Verdict { long_term, ..of(failed(&escaped)) },
-        "blows up · at 4 s",
-        &[start, &escaped.to_string()],
-    );
-    is(
-        Verdict { long_term, ..of(failed(&unsolved)) },
-        "gives up · at 4 s",
-        &[start, &unsolved.to_string(), "its swing doubles in 90 s"],
-    );
-
-    let without = |why| of(Finding::NoTruth(why));
-    is(
-        without(NoTruth::Vague(0.05)),
-        "no truth · known to 5.0 %",
-        &["the true motion is known to 5.0 % of the amplitude only"],
-    );
-    is(
-        without(NoTruth::Vague(f64::INFINITY)),
-        "no truth",
-        &["the true motion is not known precisely enough"],
-    );
-    is(
-        without(NoTruth::Failed(escaped.clone())),
-        "no truth",
-        &[&format!("the true motion is not known: it {escaped}")],
-    );
-    for (why, shown) in [
-        (NotJudged::TooMuchWork, "not judged · too much work"),
-        (NotJudged::ShorterThanATick, "not judged · the scene is shorter than a tick"),
-    ] {
-        is(of(Finding::NotJudged(why)), shown, &[]);
-    }
 }
 
 #[test]
@@ -278,4 +53,15 @@ fn the_manual_says_of_escape_what_the_list_of_keys_says() {
     let escape = KEYS.iter().find(|binding| binding.shown == "Esc").unwrap();
     let row = format!("| `Esc` | {} |", escape.about);
     assert!(chapter("keys").unwrap().text.contains(&row), "{row}");
+}
+
+#[test]
+fn the_manual_has_every_letter_that_is_a_key() {
+    let keys = chapter("keys").unwrap().text;
+    let letters = KEYS.iter().flat_map(|binding| binding.keys).filter_map(|(key, _)| match key {
+        Key::Sign(sign) if sign.is_alphabetic() => Some(sign.to_ascii_uppercase()),
+        _ => None,
+    });
+    let missing: String = letters.filter(|letter| !keys.contains(&format!("`{letter}`"))).collect();
+    assert_eq!(missing, "", "src/manual/keys.md leaves them out");
 }

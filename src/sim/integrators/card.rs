@@ -11,6 +11,7 @@ use crate::sim::system::{BodyClass, Coupling};
 
 /// The families of methods, for menus and tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Family {
     /// Computes each stage from known values.
     Explicit,
@@ -74,6 +75,7 @@ pub struct Only {
 
 /// What a method needs of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Needs {
     /// A target that it follows by a law.
     Law {

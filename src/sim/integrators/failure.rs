@@ -10,6 +10,7 @@ pub type Stepped = Result<(), StepFailure>;
 
 /// Why a body could not be advanced to the end of its tick.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum StepFailure {
     /// An adaptive method used up its substeps before the end of the tick.
     TooManySubsteps {

@@ -102,6 +102,7 @@ impl<S: System> fmt::Debug for dyn Integrator<S> {
 
 /// What a method may be given in place of what its card or the body says.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Override {
     /// The tolerance of an adaptive method.
     Tolerance(Tolerance),

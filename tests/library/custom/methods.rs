@@ -9,6 +9,8 @@ use regatta::sim::integrators::{
 };
 use regatta::sim::{State, System};
 
+use crate::scenes::edited;
+
 /// Copies of built-in methods under other ids.
 fn copies() -> [(&'static Method, Method); 5] {
     let copy = |id: &str, new_id: &'static str, own| {
@@ -29,7 +31,9 @@ fn with_copies(scene: &str) -> Scene {
     let pairs = copies().map(|(card, copy)| [card, Box::leak(Box::new(copy))]);
     let lanes = pairs.into_iter().flatten().map(LaneSpec::plain).collect();
     let scene = Scene::built_in(scene).expect("a built-in scene");
-    Scene { lanes, opening_method: None, equal_cost: false, ..scene }
+    edited(&scene, |scene| {
+        (scene.lanes, scene.opening_method, scene.equal_cost) = (lanes, None, false);
+    })
 }
 
 #[test]

@@ -6,6 +6,8 @@ use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::{StepFailure, method};
 use regatta::sim::number::round;
 
+use crate::scenes::edited;
+
 fn scene(stiffness: f64, more: &str) -> Scene {
     let text = format!(
         "title = 't'\ntick_hz = 60\nseconds = 4\nmethods = ['rk4', 'implicit-euler']\n\
@@ -121,7 +123,7 @@ fn the_race_goes_on_without_a_truth() {
 
 #[test]
 fn advice_without_a_truth_is_on_stability_only() {
-    let scene = Scene { seconds: 1.0, ..scene(1000.0, "") };
+    let scene = edited(&scene(1000.0, ""), |scene| scene.seconds = 1.0);
     let adviser = Adviser::new(&scene, 60);
     let plain = |id: &str| LaneSpec::plain(method(id).unwrap());
     for id in ["semi-implicit-euler", "implicit-euler"] {

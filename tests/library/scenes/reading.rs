@@ -8,6 +8,8 @@ use regatta::scene::{
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 use regatta::studio::{StageCommand, Studio};
 
+use crate::scenes::edited;
+
 use super::built_in;
 
 fn parse(text: &str) -> Scene {
@@ -152,7 +154,7 @@ fn each_limit_itself_is_allowed() {
 #[test]
 fn other_editors_line_ends_byte_order_mark_and_inline_tables_are_the_same_scene() {
     let text = format!("title = 'Mine'\ntick_hz = 60\nseconds = 10\n{SPRING}");
-    let read = |text: &str| format!("{:?}", Scene { source: None, ..parse(text) });
+    let read = |text: &str| format!("{:?}", edited(&parse(text), |scene| scene.source = None));
     let expected = read(&text);
     let inline = "title = 'Mine'\ntick_hz = 60\nseconds = 10\n\
                   spring = [{ mass_kg = 1, stiffness_n_per_m = 40 }]";

@@ -100,7 +100,7 @@ impl System for Run {
                 let (rate, order) = (RATE, self.order);
                 *pursuit = Some(Pursuit { target: target(t), rate, order, is_still: false });
             }
-            Query::Slope { .. } => return false,
+            _ => return false,
         }
         true
     }
