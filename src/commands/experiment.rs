@@ -161,8 +161,7 @@ pub(super) fn known_trace(id: &str) -> Result<&'static TraceCard, String> {
 
 /// Whether what is meant to be an id looks like the path of a file.
 fn is_path(id: &str) -> bool {
-    Path::new(id).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"))
-        || id.contains(['/', '\\'])
+    Path::new(id).extension().is_some() || id.contains(['/', '\\'])
 }
 
 /// A theme on the command line.

@@ -5,13 +5,16 @@ use clap::{Args, Command};
 use super::argument::brief;
 use super::error::Error;
 use super::output::print;
-use crate::manual::{CHAPTERS, chapter};
+use crate::manual::{CHAPTERS, Chapter, chapter};
 use crate::scene::nearest;
 
 const EXAMPLES: &str = "\
 Examples:
   regatta help capture
   regatta help scenes | less";
+
+/// The chapter of keys.
+const KEYS: &str = "keys";
 
 /// The columns that every help fits.
 pub(super) const COLUMNS: usize = 80;
@@ -62,11 +65,33 @@ fn manual() -> String {
     format!("{EXAMPLES}\n\nChapters:{}", lines.collect::<String>())
 }
 
-/// Prints what `cli` says of itself or of one of its commands, or a chapter.
-pub(super) fn run(args: &HelpArgs, cli: Command) -> Result<(), Error> {
+/// The examples of the program, and the chapters of its manual.
+pub(super) fn overview(examples: &str) -> String {
+    let chapters: Vec<&str> = CHAPTERS.iter().map(|chapter| chapter.id).collect();
+    let chapters = chapters.join(", ");
+    flowing(&format!(
+        "{examples} and `regatta help CHAPTER` prints a chapter of the manual: {chapters}."
+    ))
+}
+
+/// A chapter for a terminal. The table of keys is wider than one: `keys` stands in its place.
+fn shown(chapter: &Chapter, keys: &str) -> String {
+    let is_row = |line: &&str| line.starts_with('|');
+    match chapter.text.lines().find(is_row).filter(|_| chapter.id == KEYS) {
+        None => chapter.text.to_owned(),
+        Some(row) => {
+            let (before, table) = chapter.text.split_once(row).expect("a line of it");
+            let after: Vec<&str> = table.lines().skip(1).skip_while(is_row).collect();
+            format!("{before}{keys}{}\n", after.join("\n"))
+        }
+    }
+}
+
+/// Prints what `cli` says of itself or of one of its commands, or a chapter; `keys` is the list of keys.
+pub(super) fn run(args: &HelpArgs, cli: Command, keys: &str) -> Result<(), Error> {
     let topic = args.topic.as_deref();
     if let Some(chapter) = topic.and_then(chapter) {
-        return print(chapter.text);
+        return print(shown(chapter, keys));
     }
     if let Some(topic) = topic
         && cli.find_subcommand(topic).is_none()

@@ -39,7 +39,13 @@ impl<T: Copy> Id<T> {
         }
         let ids: Vec<&str> = all.iter().map(|(id, _)| &**id).collect();
         let spellings = ids.iter().map(|id| (*id, *id)).chain((self.spellings)());
-        let meant = nearest(id, spellings).map(|meant| format!("; did you mean {meant}?"));
+        let written = id.to_lowercase();
+        let parts = |known: &&str| id.len() > 1 && known.contains(&*written);
+        let meant = match nearest(id, spellings) {
+            Some(meant) => vec![meant],
+            None => ids.iter().copied().filter(parts).collect(),
+        };
+        let meant = (!meant.is_empty()).then(|| format!("; did you mean {}?", meant.join(", ")));
         let see = match self.lists {
             [] => format!("There are {}", ids.join(", ")),
             [list] => format!("`regatta list {list}` names all"),

@@ -23,13 +23,15 @@ Examples:
   regatta list bodies                  the tables and keys of a scene file
   regatta list methods --format json   with everything on a method's card";
 
+const WHAT: &str = "scenes|methods|bodies|metrics|policies|traces|keys";
+
 /// List scenes, methods, bodies, metrics, policies, traces or keys
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(EXAMPLES))]
 #[command(override_usage = "regatta list [OPTIONS] <WHAT>")]
 pub(super) struct ListArgs {
     /// What to list
-    #[arg(value_name = "scenes|methods|bodies|metrics|policies|traces|keys")]
+    #[arg(value_name = WHAT)]
     what: Listing,
 
     /// The format: text or json
@@ -53,6 +55,16 @@ enum Listing {
     Traces,
     /// The keys of the window
     Keys,
+}
+
+/// The names of all lists.
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    WHAT.split('|')
+}
+
+/// The keys of the window, for people.
+pub(super) fn keys() -> String {
+    write(KEY, KEYS, TableFormat::Text)
 }
 
 pub(super) fn run(args: &ListArgs) -> Result<(), Error> {

@@ -18,7 +18,7 @@
 
 use std::ffi::OsString;
 
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
 mod advise;
@@ -88,12 +88,13 @@ use play::PlayArgs;
 pub use terminal::{print_error, print_status, stderr_renderer};
 pub use visible::visible;
 
-use crate::scene::clip as shortened;
+use crate::manual::{CHAPTERS, chapter};
+use crate::scene::{SCENES, clip as shortened, nearest};
 
 const EXAMPLES: &str = "\
 Examples:
   regatta                              open the harbour under explicit Euler
-  regatta --scene stiff --race         race all methods on a stiff spring
+  regatta stiff --race                 race all methods on a stiff spring
   regatta --scene ship --method explicit-euler --tick-hz 2
   regatta capture --scene spring --race --out clip
   regatta advise --scene stiff
@@ -103,8 +104,7 @@ Examples:
   regatta fixture --as pytest          exact states, to test your engine by
   regatta diff before.csv after.csv    where two runs first differ
 
-In the window, H shows the keys. `regatta help COMMAND` explains a command;
-`regatta help help` lists the chapters of the manual.";
+In the window, H shows the keys. `regatta help COMMAND` explains a command,";
 
 /// Race numerical integrators against the exact solution
 ///
@@ -112,7 +112,7 @@ In the window, H shows the keys. `regatta help COMMAND` explains a command;
 #[derive(Debug, Parser)]
 #[command(name = "regatta", version, args_conflicts_with_subcommands = true)]
 #[command(disable_help_subcommand = true)]
-#[command(after_long_help = help::flowing(EXAMPLES), subcommand_help_heading = "Commands")]
+#[command(after_long_help = help::overview(EXAMPLES), subcommand_help_heading = "Commands")]
 #[command(max_term_width = help::COLUMNS)]
 pub struct Cli {
     #[command(subcommand)]
@@ -125,17 +125,22 @@ pub struct Cli {
 /// The most bytes of an argument: more than a path has. Messages quote arguments.
 const MAX_ARGUMENT_BYTES: usize = 4096;
 
-/// Where a link stands for the scene that it is of, without an option before it, in a command that takes a scene.
-fn lone_link(arguments: &[OsString]) -> Option<usize> {
-    let end = arguments.iter().position(|one| one == "--").unwrap_or(arguments.len());
-    let is_link = |at: &usize| scene_file::is_link(arguments[*at].as_ref());
-    let links: Vec<usize> = (1..end).filter(is_link).collect();
-    if links.is_empty() {
-        return None;
+/// The command before a word that is the name of no command, but of a list or of a chapter.
+fn unnamed_command(cli: &clap::Command, arguments: &[OsString]) -> Option<&'static str> {
+    let word = arguments.get(1)?.to_str().filter(|word| cli.find_subcommand(word).is_none())?;
+    match list::names().any(|name| name == word) {
+        true => Some("list"),
+        false => chapter(word).map(|_| "help"),
     }
-    let cli = Cli::command();
+}
+
+/// Where a scene stands without an option before it, in a command that takes one: a link, or where no other argument is without
+/// an option the name of a built-in scene or of a scene file.
+fn lone_scene(cli: &clap::Command, arguments: &[OsString]) -> Option<usize> {
+    let end = arguments.iter().position(|one| one == "--").unwrap_or(arguments.len());
     let named = arguments.get(1).and_then(|one| cli.find_subcommand(one));
-    let command = named.unwrap_or(&cli);
+    let command = named.unwrap_or(cli);
+    let takes_names = command.get_positionals().next().is_none();
     let option = |written: &OsString| {
         let name = written.to_str()?.strip_prefix("--")?;
         command.get_arguments().find(|argument| argument.get_long() == Some(name))
@@ -146,7 +151,22 @@ fn lone_link(arguments: &[OsString]) -> Option<usize> {
         let before = option(&arguments[at - 1]);
         !is_option && before.is_none_or(|before| !before.get_action().takes_values())
     };
-    links.into_iter().find(is_lone)
+    let is_scene = |at: &usize| {
+        let written = arguments[*at].as_ref();
+        scene_file::is_link(written) || takes_names && scene_file::is_name(written)
+    };
+    (1..end).filter(is_scene).find(is_lone)
+}
+
+/// The error of an unknown word, with the name of a scene, a list or a chapter that is like it.
+fn with_similar_name(mut error: clap::Error, word: &str) -> clap::Error {
+    let others = list::names().chain(CHAPTERS.iter().map(|chapter| chapter.id));
+    let names = SCENES.iter().map(|scene| scene.name).chain(others);
+    if let Some(meant) = nearest(word, names.map(|name| (name, name))) {
+        let tip = format!("there is `regatta {meant}`");
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    }
+    error
 }
 
 impl Cli {
@@ -168,7 +188,10 @@ impl Cli {
             );
             return Err(Self::command().error(ErrorKind::InvalidValue, message));
         }
-        if let Some(at) = lone_link(&arguments) {
+        let cli = Self::command();
+        if let Some(command) = unnamed_command(&cli, &arguments) {
+            arguments.insert(1, command.into());
+        } else if let Some(at) = lone_scene(&cli, &arguments) {
             arguments.insert(at, "--scene".into());
         }
         Self::try_parse_from(&arguments).map_err(|error| {
@@ -180,6 +203,10 @@ impl Cli {
                 false => {
                     Self::try_parse_from(shown.iter().map(|one| &**one)).err().unwrap_or(error)
                 }
+            };
+            let error = match (error.kind(), texts.get(1)) {
+                (ErrorKind::InvalidSubcommand, Some(word)) => with_similar_name(error, word),
+                _ => error,
             };
             argument::with_brief_arguments(error)
         })
@@ -244,7 +271,7 @@ subcommands! {
     Chapter(chapter::ChapterArgs) => chapter::run,
     List(list::ListArgs) => list::run,
     Completions(completions::CompletionsArgs) => |args| completions::run(args, &mut Cli::command()),
-    Help(help::HelpArgs) => |args| help::run(args, Cli::command()),
+    Help(help::HelpArgs) => |args| help::run(args, Cli::command(), &list::keys()),
 }
 
 /// Runs the command that the command line names.

@@ -46,6 +46,11 @@ pub(super) fn is_built_in(path: &Path) -> bool {
     built_in(path).is_some()
 }
 
+/// Whether `path` says by its ending, or as a built-in scene by its name, that it is a scene.
+pub(super) fn is_name(path: &Path) -> bool {
+    is_built_in(path) || path.extension().is_some_and(|ending| ending == "toml")
+}
+
 /// Whether `path` is the path of a file.
 pub(super) fn is_file(path: &Path) -> bool {
     !is_built_in(path) && !is_link(path)

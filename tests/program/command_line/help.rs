@@ -1,18 +1,85 @@
 //! `regatta help` has the commands and the manual.
 
+use regatta::commands::Cli;
 use regatta::manual::CHAPTERS;
+use regatta::scene::SCENES;
 
 use super::{run, run_in, stderr, stdout_of};
 
 #[test]
 fn every_chapter_of_the_manual_is_printed_as_it_stands() {
-    for chapter in CHAPTERS {
+    for chapter in CHAPTERS.iter().filter(|chapter| chapter.id != "keys") {
         assert_eq!(stdout_of(&format!("help {}", chapter.id)), chapter.text);
     }
     // Lines break where the terminal ends.
     let list = stdout_of("help help").split_whitespace().collect::<Vec<_>>().join(" ");
     for chapter in CHAPTERS {
         assert!(list.contains(&format!(" {} {}", chapter.id, chapter.about)), "{list}");
+    }
+}
+
+#[test]
+fn the_chapter_of_keys_has_their_list_and_then_what_the_mouse_does() {
+    let (chapter, list) = (stdout_of("help keys"), stdout_of("list keys"));
+    let mouse = chapter.strip_prefix(&format!("# Keys\n\n{list}\n")).expect("the list of keys");
+    assert!(mouse.contains("Mouse: drag a body") && !mouse.contains('|'), "{mouse}");
+}
+
+#[test]
+fn help_names_the_chapters() {
+    let help = stdout_of("help").split_whitespace().collect::<Vec<_>>().join(" ");
+    let chapters: Vec<&str> = CHAPTERS.iter().map(|chapter| chapter.id).collect();
+    let named =
+        format!("`regatta help CHAPTER` prints a chapter of the manual: {}.", chapters.join(", "));
+    assert!(help.contains(&named), "{help}");
+}
+
+#[test]
+fn a_list_or_a_chapter_is_printed_without_the_word_before_it() {
+    for list in ["keys", "scenes", "methods", "keys --format json"] {
+        assert_eq!(stdout_of(list), stdout_of(&format!("list {list}")));
+    }
+    for chapter in
+        CHAPTERS.iter().filter(|chapter| !["keys", "scenes", "methods"].contains(&chapter.id))
+    {
+        assert_eq!(stdout_of(chapter.id), chapter.text);
+    }
+}
+
+#[test]
+fn a_scene_stands_without_its_option_in_every_command_that_takes_one() {
+    let read = |line: &str| {
+        let words = format!("regatta {line}");
+        let read = Cli::read(words.split_whitespace().map(Into::into));
+        read.map(|cli| format!("{cli:?}")).map_err(|error| error.to_string())
+    };
+    let others = |name: &&str| CHAPTERS.iter().any(|it| it.id == *name);
+    assert_eq!(SCENES.iter().map(|scene| scene.name).find(others), None, "a chapter is a scene");
+    for scene in SCENES.iter().map(|scene| scene.name).chain(["run.toml", "../mine/run.toml"]) {
+        for (command, rest) in [
+            #[cfg(feature = "window")]
+            ("", ""),
+            #[cfg(feature = "window")]
+            ("play", ""),
+            #[cfg(feature = "window")]
+            ("", "--race --tick-hz 30"),
+            ("trace", "--seconds 2"),
+            ("advise", ""),
+            ("sweep", ""),
+            ("cloud", ""),
+            ("loop", ""),
+            #[cfg(feature = "view")]
+            ("capture", "--out x"),
+        ] {
+            let wanted = read(&format!("{command} --scene {scene} {rest}"));
+            assert!(wanted.is_ok(), "{wanted:?}");
+            assert_eq!(read(&format!("{command} {scene} {rest}")), wanted);
+            assert_eq!(read(&format!("{command} {rest} {scene}")), wanted);
+        }
+    }
+    // Of a command that takes other words, a scene's name is one of them.
+    for line in ["show spring", "diff spring ship", "identify run.toml"] {
+        assert!(read(line).map_or(true, |cli| !cli.contains("scene: Some")), "{line}");
     }
 }
 
