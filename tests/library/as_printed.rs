@@ -25,7 +25,7 @@ fn sail(id: &str, h: f64, n: u32) -> Vec<State<f64>> {
     let mut state = SHIP.start();
     let states = (0..n).map(|step| {
         integrator.step(&ship, h * f64::from(step), h, &mut state).unwrap();
-        state.clone()
+        state
     });
     states.collect()
 }

@@ -8,6 +8,8 @@ use std::thread;
 use regatta::measure::Judge;
 use regatta::scene::{LaneSpec, Scene};
 
+use crate::kept::hold_text;
+
 /// Of each kind that a verdict has words for, at least one.
 const SCENES: [&str; 8] =
     ["spring", "ship", "stiff", "jump", "lerp", "follow", "alike", "pendulum"];
@@ -34,5 +36,6 @@ fn the_verdicts_of_eight_scenes_have_the_words_that_are_kept() {
         std::fs::write(&path, &found).unwrap();
     }
     let kept = std::fs::read_to_string(path).unwrap();
-    assert_eq!(found, kept, "BLESS=1 writes them again");
+    let remedy = "BLESS=1 cargo test --test library judged_words writes them";
+    hold_text("tests/judged_words.txt", &found, &kept, remedy);
 }

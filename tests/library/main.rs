@@ -33,6 +33,8 @@ mod honesty;
 mod judged_runs;
 mod judged_words;
 mod judging;
+#[path = "../kept/mod.rs"]
+mod kept;
 mod keys;
 mod laws;
 mod layouts;

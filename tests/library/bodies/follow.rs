@@ -72,7 +72,7 @@ fn two_strides_are_one_within_the_bound_on_the_error_and_the_bound_is_not_far_of
         let from = body.start();
         for (t, a, b) in [(0.0, 0.1, 0.7), (0.3, 2.0, 1.0), (50.0, 0.5, 4.0), (7.0, 0.5, -0.5)] {
             let flown = |t: f64, dt: f64, from: &State<f64>| {
-                let mut to = from.clone();
+                let mut to = *from;
                 body.exact_into(t, dt, from, &mut to);
                 to
             };
@@ -106,7 +106,7 @@ fn two_strides_are_one_within_the_bound_on_the_error_and_the_bound_is_not_far_of
 fn a_kick_displaces_a_follower_and_keeps_it_on_its_law() {
     for mut body in bodies() {
         let mut state = body.start();
-        let before = state.clone();
+        let before = state;
         assert!(body.input(Input::Kick(2.0), &mut state));
         assert_eq!(state.q, before.q + 1.0);
         let slower = if body.order == 1 { body.rate } else { 0.0 };

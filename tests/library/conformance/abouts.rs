@@ -12,7 +12,7 @@ fn course(id: &str, spring: Spring, h: f64, steps: u32) -> Vec<State<f64>> {
     let mut state = State { q: 1.0, v: 0.7 };
     let states = (0..steps).map(|step| {
         integrator.step(&system, h * f64::from(step), h, &mut state).unwrap();
-        state.clone()
+        state
     });
     states.collect()
 }
@@ -47,7 +47,7 @@ fn no_explicit_method_is_cheaper_than_ssp_rk3_and_bounded_on_a_spring() {
 fn pefrl_is_more_accurate_than_yoshida_4_at_the_same_cost() {
     let error = |id, evaluations: u32| {
         let start = kepler_orbit(0.3, 0.0);
-        let mut state = start.clone();
+        let mut state = start;
         let card = method(id).expect("a method");
         let mut integrator = integrator::<Problem<_>>(card, &state.q);
         let steps = evaluations / card.evaluations.expect("on the card");

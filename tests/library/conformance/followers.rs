@@ -33,7 +33,7 @@ fn course(method: &Method, body: &Follow, h: f64, steps: u32) -> Vec<State<f64>>
     let mut state = body.start();
     let states = (0..steps).map(|step| {
         integrator.step(&system, h * f64::from(step), h, &mut state).expect("the law it is for");
-        state.clone()
+        state
     });
     states.collect()
 }
@@ -143,7 +143,7 @@ fn a_follower_has_no_memory_and_looks_at_the_target_at_the_end_of_its_step() {
         let are_near = asked.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(asked.len() == 3 && are_near, "{}: {asked:?}", method.id);
 
-        let mut alike = state.clone();
+        let mut alike = state;
         kept.step(&system, 5.3, 0.1, &mut state).expect("the law it is for");
         fresh(method).step(&system, 5.3, 0.1, &mut alike).expect("the law it is for");
         assert_eq!(bits(&state), bits(&alike), "{}", method.id);

@@ -18,10 +18,10 @@ fn course(
     steps: u32,
 ) -> Vec<State<f64>> {
     let (system, mut integrator) = (problem(system), fresh(method(id).expect("a method")));
-    let mut state = start.clone();
+    let mut state = *start;
     let states = (0..steps).map(|step| {
         integrator.step(&system, h * f64::from(step), h, &mut state).unwrap();
-        state.clone()
+        state
     });
     states.collect()
 }

@@ -69,7 +69,7 @@ fn out_and_back(method: &Method, system: impl System<Vector = f64> + 'static) ->
     const H: f64 = 0.1;
     const STEPS: u32 = 100_000;
     let start = State { q: 1.2, v: 0.5 };
-    let mut state = start.clone();
+    let mut state = start;
     let (system, mut integrator) = (problem(system), fresh(method));
     let out = (0..STEPS).map(|n| (H * f64::from(n), H));
     let back = (1..=STEPS).rev().map(|n| (H * f64::from(n), -H));

@@ -27,7 +27,7 @@ fn memory_is_dropped_for_a_state_that_was_changed() {
             let (mut used, mut kicked) = (fresh(method), State { q: -0.3, v: 11.0 });
             run(&mut *used, &mut kicked, 0.03, 10);
             kicked.add_scaled(1.0, &kick);
-            let mut new = kicked.clone();
+            let mut new = kicked;
             run(&mut *used, &mut kicked, 0.03, 10);
             run(&mut *fresh(method), &mut new, 0.03, 10);
             assert_eq!(bits(&kicked), bits(&new), "{} after {kick:?}", method.id);
@@ -41,7 +41,7 @@ fn memory_is_dropped_for_a_step_of_another_length() {
         for h in [0.02, 0.04, -0.03] {
             let (mut used, mut going_on) = (fresh(method), State { q: -0.3, v: 11.0 });
             run(&mut *used, &mut going_on, 0.03, 10);
-            let mut new = going_on.clone();
+            let mut new = going_on;
             run(&mut *used, &mut going_on, h, 10);
             run(&mut *fresh(method), &mut new, h, 10);
             assert_eq!(bits(&going_on), bits(&new), "{} by {h} s", method.id);

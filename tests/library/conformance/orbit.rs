@@ -8,7 +8,7 @@ use super::systems::{Kepler, Problem, kepler_orbit, problem};
 /// How far from periapsis ten orbits of eccentricity 0.6 end, at 200 steps an orbit.
 fn after_ten_orbits(id: &str) -> f64 {
     let start = kepler_orbit(0.6, 0.0);
-    let mut state = start.clone();
+    let mut state = start;
     let mut integrator = integrator::<Problem<_>>(method(id).expect("a method"), &state.q);
     let (kepler, h) = (problem(Kepler), std::f64::consts::TAU / 200.0);
     for step in 0..2000 {

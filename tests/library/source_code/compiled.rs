@@ -90,7 +90,12 @@ fn off_from_table(
             worst = if off.is_nan() || off > worst { off } else { worst };
         }
     }
-    (worst.is_nan() || worst > allowed).then(|| format!("{worst:.1e}"))
+    let bound = match allowed {
+        0.0 => "bits have to be equal; add the terms one by one, in the order of `add_terms`"
+            .to_owned(),
+        allowed => format!("at most {allowed:e}"),
+    };
+    (worst.is_nan() || worst > allowed).then(|| format!("differs by {worst:.1e}: {bound}"))
 }
 
 /// What is wrong with a run that begins at rest, or in which no time passes in some steps.
