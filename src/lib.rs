@@ -124,6 +124,8 @@
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 // Files, clocks, threads and the environment are for drivers, each of which is named below: see clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+// The order of a hash map differs from run to run.
+#![warn(clippy::iter_over_hash_type)]
 // docs.rs marks what needs a feature with its name.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -170,6 +172,7 @@ pub mod studio;
 #[cfg(feature = "lab")]
 pub mod tools;
 #[cfg(feature = "view")]
+#[allow(clippy::iter_over_hash_type, reason = "textures are uploaded in any order")]
 pub mod view;
 #[cfg(feature = "window")]
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]

@@ -1,6 +1,8 @@
 //! What a package installs beside the program is what the program says of itself.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::{env, fs};
 
 use clap::CommandFactory;
@@ -58,6 +60,54 @@ fn the_icon_is_square_and_the_version_that_of_the_package() {
     assert_eq!((icon.width(), icon.height()), (256, 256));
     let about = fs::read_to_string(folder().join("org.example.regatta.metainfo.xml")).unwrap();
     assert!(about.contains(&format!("version=\"{}\"", env!("CARGO_PKG_VERSION"))));
+}
+
+/// The crates in the program on this system, as `name version`.
+fn crates() -> BTreeSet<String> {
+    let mut tree = Command::new(env!("CARGO"));
+    tree.args(["tree", "--offline", "--locked", "--edges", "normal", "--prefix", "none"]);
+    let output = tree.current_dir(env!("CARGO_MANIFEST_DIR")).output().expect("cargo runs this");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).expect("names");
+    let named = text.lines().map(|line| {
+        let mut words = line.split(' ');
+        let [name, version] = [words.next(), words.next()].map(Option::unwrap_or_default);
+        format!("{name} {}", version.trim_start_matches('v'))
+    });
+    named.filter(|named| !named.starts_with("regatta ")).collect()
+}
+
+#[test]
+fn the_licence_of_every_crate_in_the_program_is_packed_with_it() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let [kept, lock, manifest] = ["assets/linux/licenses.txt", "Cargo.lock", "Cargo.toml"]
+        .map(|file| fs::read_to_string(here.join(file)).unwrap());
+    let listed = kept.lines().filter_map(|line| line.strip_prefix("crate: "));
+    let listed: BTreeSet<String> = listed.map(String::from).collect();
+    let missing: Vec<String> = crates().difference(&listed).cloned().collect();
+    assert!(missing.is_empty(), ".ci/licences writes them: {missing:?}");
+    let is_locked = |named: &&String| {
+        let (name, version) = named.split_once(' ').expect("two words");
+        lock.contains(&format!("\nname = \"{name}\"\nversion = \"{version}\"\n"))
+    };
+    let gone: Vec<&String> = listed.iter().filter(|named| !is_locked(named)).collect();
+    assert!(gone.is_empty() && listed.len() > 250, ".ci/licences leaves them out: {gone:?}");
+    for packed in
+        ["LICENSE-APACHE", "LICENSE-MIT", "assets/fonts/*.txt", "assets/linux/licenses.txt"]
+    {
+        assert!(manifest.contains(&format!("[\"{packed}\", \"usr/share/doc/regatta/")), "{packed}");
+    }
+}
+
+/// Cargo drops `strip` of a package that has a table of its own in a profile.
+#[test]
+fn no_profile_has_a_table_for_a_package_of_ours() {
+    let manifest = include_str!("../../Cargo.toml");
+    let is_profile = |line: &&str| line.starts_with("[profile.");
+    let tables = manifest.lines().filter(is_profile).filter(|line| line.contains("regatta"));
+    assert_eq!(tables.collect::<Vec<_>>(), [""; 0]);
+    let rows = manifest.lines().filter(|line| line.starts_with("regatta") && line.contains('{'));
+    assert_eq!(rows.collect::<Vec<_>>(), [""; 0]);
 }
 
 #[test]
