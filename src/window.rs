@@ -70,7 +70,7 @@ pub fn run(
     settings: WindowSettings,
     files: SceneFiles,
 ) -> Result<Closed, WindowError> {
-    let WindowSettings { seconds, size, on_interrupt } = settings;
+    let WindowSettings { seconds, tick, size, on_interrupt } = settings;
     let event_loop = EventLoop::<Event>::with_user_event()
         .build()
         .map_err(|error| WindowError::NoDisplay(reason(&error)))?;
@@ -112,6 +112,9 @@ pub fn run(
         interrupted: false,
         outcome: Ok(()),
     };
+    if let Some(tick) = tick {
+        app.frames.go_to(tick, false);
+    }
     event_loop.run_app(&mut app).map_err(|error| WindowError::Refused(reason(&error)))?;
     let App { outcome, frames, interrupted, size, .. } = app;
     outcome.map(|()| Closed { studio: frames.studio, interrupted, size })

@@ -15,14 +15,15 @@ use crate::run::link::MAX_LETTERS;
 
 const ABOUT: &str = "\
 The link holds the scene, its lanes, its script and the hashes at its end, so that `regatta verify LINK`
-says whether the run is the same to the bit here. It stands in the place of a scene, alone or after an
-address:
+says whether the run is the same to the bit here. A built-in scene goes by its name. A link stands in the
+place of a scene, alone or after an address:
 
   play, capture, trace, verify, diff … LINK
 
 Examples:
   regatta link recording.toml
-  regatta play '#v1.…'";
+  regatta play '#v1.…'
+  regatta play '#scene=spring&method=rk4'";
 
 /// Print a run as a link
 #[derive(Debug, Args)]
@@ -34,6 +35,9 @@ pub(super) struct LinkArgs {
 }
 
 pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {
+    if let Some(name) = args.run.to_str().filter(|_| scene_file::is_built_in(&args.run)) {
+        return print(link::to_built_in(name) + "\n");
+    }
     let (mut scene, _) = scene_file::load(&args.run)?;
     refuse_late_checks(&args.run, &scene)?;
     if scene.checks.is_empty() {

@@ -22,6 +22,7 @@ use crate::atomic_file::IfExists;
 use crate::look::palette::Theme;
 use crate::loops::TraceCard;
 use crate::run::race::Mode;
+use crate::run::trace::last_tick;
 use crate::sim::number::counted;
 use crate::studio::{Motion, SavedPreferences, Studio, show_clouds_of_scene};
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
@@ -134,6 +135,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let played = studio.scene().name.clone();
     let settings = WindowSettings {
         seconds: args.seconds,
+        tick: scene_file::tick_of(options.scene()).map(|tick| tick.min(last_tick(studio.scene()))),
         size: preferences.size,
         on_interrupt: record.map(|_| tell_of_interrupt as _),
     };

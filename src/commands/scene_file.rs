@@ -9,7 +9,7 @@ use super::terminal::print_status;
 
 pub(super) use crate::regular_file::is_link;
 use crate::regular_file::{self, Unreadable};
-use crate::run::link;
+use crate::run::link::{self, Link};
 use crate::scene::{BuiltIn, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, nearest};
 use crate::sim::integrators::Method;
 
@@ -19,7 +19,7 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
         return Ok((Scene::parse(built_in.name, built_in.text)?, built_in.text.to_owned()));
     }
     let bytes = read(path)?;
-    let scene = Scene::from_bytes(&shown(path), &bytes)?;
+    let scene = Scene::from_bytes(&name_in_link(path).unwrap_or_else(|| shown(path)), &bytes)?;
     let outdated = scene.outdated.iter().flat_map(|outdated| outdated.messages());
     outdated.for_each(|message| print_status(&format!("warning: {message}")));
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
@@ -64,6 +64,18 @@ pub(super) fn input(path: &Path) -> Option<Input<'_>> {
 /// The path for people; a link is as long as its run.
 pub(super) fn shown(path: &Path) -> String {
     if is_link(path) { "the link".into() } else { brief(path) }
+}
+
+/// The built-in scene that a link names, if `path` is one that does.
+fn name_in_link(path: &Path) -> Option<String> {
+    let link = Link::read(path.to_str().filter(|_| is_link(path))?).ok()?;
+    link.named().ok().filter(|_| !link.is_packed()).map(|named| named.scene.name)
+}
+
+/// The tick at which a link is to be looked at, if `path` is one that says so.
+pub(super) fn tick_of(path: &Path) -> Option<u64> {
+    let written = path.to_str().filter(|_| is_link(path))?;
+    Link::read(written).ok()?.tick()
 }
 
 fn built_in(path: &Path) -> Option<&'static BuiltIn> {

@@ -1,20 +1,37 @@
-//! A run in an address: the text of its recording, compressed, after `#v1.`, where no server sees it.
+//! A run in an address: the text of its recording, compressed, after `#v1.`, where no server sees it; or a built-in scene by its
+//! name, as `#scene=spring&method=rk4`.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_zlib_with_limit};
 
-use crate::scene::{Check, LaneId, MAX_FILE_BYTES, Scene};
+use super::Session;
+use super::race::{Author, Mode, lanes_that_race};
+use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, SCENES, Scene, nearest};
+use crate::sim::Clock;
+use crate::sim::integrators::{METHODS, Method, method};
 
-/// What stands before the version, which ends at a point.
-const MARK: &str = "#v";
+/// What begins a link.
+const MARK: char = '#';
+/// What stands before the version of a packed run, which ends at a point.
+const VERSION_MARK: char = 'v';
 /// The version that is written, and the newest that is read.
 const VERSION: u32 = 1;
-/// What ends the run: a page's own settings follow.
-const SETTINGS: char = '&';
+/// What ends a packed run, and each setting.
+const END: char = '&';
+/// The settings by which a link names a run, as the options of `regatta play`.
+const SCENE: &str = "scene";
+const METHOD: &str = "method";
+const TICK_HZ: &str = "tick-hz";
+const RACE: &str = "race";
+/// The settings of a page, which no run has.
+const OF_A_PAGE: [&str; 6] = ["tick", "play", "panels", "theme", "instrument", "loop"];
+/// The most letters of an unknown word that a message quotes.
+const QUOTED: usize = 40;
 /// How hard it is compressed, 0 to 10.
 const LEVEL: u8 = 10;
 
@@ -41,6 +58,35 @@ pub enum LinkError {
         "the link unpacks to more than {MAX_FILE_BYTES} bytes, the most of a scene file; make a shorter run"
     )]
     TooLong,
+    /// It names something that is not there.
+    #[error("the link asks for {thing} {written:?}, and there is none; {remedy}")]
+    Unknown {
+        /// The kind of thing: a setting, or the setting that has the name as its value.
+        thing: String,
+        /// The name, as it is written.
+        written: String,
+        /// What to write.
+        remedy: String,
+    },
+    /// It names a method that does not step its scene.
+    #[error("the link names a method in vain: {reason}; name another")]
+    Refused {
+        /// Why the method does not.
+        reason: String,
+    },
+}
+
+impl LinkError {
+    /// The error for a name that is none of `known`.
+    pub fn unknown(thing: &str, written: &str, known: &[&str]) -> Self {
+        let remedy = match nearest(written, known.iter().map(|name| (*name, *name))) {
+            Some(meant) => format!("did you mean {meant:?}?"),
+            None if known.len() <= 2 * OF_A_PAGE.len() => format!("write {}", known.join(", ")),
+            None => "it may be of a newer release".into(),
+        };
+        let written = written.chars().take(QUOTED).collect();
+        Self::Unknown { thing: thing.to_owned(), written, remedy }
+    }
 }
 
 fn format_name(version: u32) -> String {
@@ -52,17 +98,191 @@ fn format_name(version: u32) -> String {
 
 /// Whether a text is a link, or an address that ends in one.
 pub fn is_link(written: &str) -> bool {
-    parts(written).is_some()
+    let written = decoded(written);
+    let Some((_, fragment)) = written.rsplit_once(MARK) else { return false };
+    let names = [SCENE, METHOD, TICK_HZ];
+    let is_named = |part: &str| part.split_once('=').is_some_and(|(key, _)| names.contains(&key));
+    fragment.split(END).any(|part| packed(part).is_some() || is_named(part))
 }
 
-/// The version of a link, and the letters of its run.
-fn parts(written: &str) -> Option<(u32, &str)> {
-    let (_, after) = written.rsplit_once(MARK)?;
-    let (version, run) = after.split_once('.')?;
+/// A link that is taken apart.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Link {
+    /// Behind its mark, without what stood around it.
+    fragment: String,
+    /// The version and the letters of a packed run.
+    packed: Option<(u32, String)>,
+    /// The settings that name a run, and those of a page, in order: each by its key and its value.
+    names: Vec<(String, String)>,
+    settings: Vec<(String, String)>,
+}
+
+/// A run that a link names.
+#[derive(Clone, Debug)]
+pub struct Named {
+    /// The scene, with the lanes of several methods and the tick rate.
+    pub scene: Scene,
+    /// The methods, in order.
+    pub methods: Vec<&'static Method>,
+    /// Whether its lanes race.
+    pub races: bool,
+}
+
+impl Link {
+    /// Takes apart a link, or an address that ends in one: of an address without one, nothing. Percent codes are decoded, and
+    /// punctuation at the end, as of a sentence around the address, is left out.
+    ///
+    /// # Errors
+    /// If it has a setting that is not known, or no run after its version.
+    pub fn read(written: &str) -> Result<Self, LinkError> {
+        let written = decoded(written);
+        let fragment = written.rsplit_once(MARK).map_or("", |(_, fragment)| fragment);
+        // No letter of a run, and no setting, ends in one of these.
+        let is_around = |end: char| !(end.is_ascii_alphanumeric() || end == '-' || end == '_');
+        let fragment = fragment.trim_end_matches(is_around);
+        let mut link = Self { fragment: fragment.to_owned(), ..Self::default() };
+        for part in fragment.split(END) {
+            if let Some((version, run)) = packed(part) {
+                link.packed = Some((version, run.to_owned()));
+                continue;
+            }
+            let version = part.strip_prefix(VERSION_MARK).unwrap_or_default();
+            if version.starts_with(|first: char| first.is_ascii_digit()) {
+                return Err(LinkError::Broken);
+            }
+            let (key, value) = part.split_once('=').unwrap_or((part, ""));
+            match key {
+                "" => continue,
+                SCENE | METHOD | TICK_HZ | RACE => &mut link.names,
+                key if OF_A_PAGE.contains(&key) => &mut link.settings,
+                key => {
+                    let known = [&[SCENE, METHOD, TICK_HZ, RACE], &OF_A_PAGE[..]].concat();
+                    return Err(LinkError::unknown("setting", key, &known));
+                }
+            }
+            .push((key.to_owned(), value.trim().to_owned()));
+        }
+        match link.names.first().filter(|_| link.packed.is_some()) {
+            // The run has a scene and methods of its own.
+            Some((name, _)) => Err(LinkError::unknown("setting", name, &OF_A_PAGE)),
+            None => Ok(link),
+        }
+    }
+
+    /// The settings of a page, in order: each by its key and its value.
+    pub fn settings(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.settings.iter().map(|(key, value)| (&**key, &**value))
+    }
+
+    /// The tick that is to be looked at, while time stands still; `None` of a run that begins, or goes on by itself.
+    pub fn tick(&self) -> Option<u64> {
+        let value =
+            |wanted| self.settings().find(|(key, _)| *key == wanted).map(|(_, value)| value);
+        value("tick").filter(|_| value("play").is_none())?.parse().ok()
+    }
+
+    /// Whether it holds a whole run.
+    pub fn is_packed(&self) -> bool {
+        self.packed.is_some()
+    }
+
+    /// Whether it opens the lanes of a race by name.
+    pub fn asks_to_race(&self) -> bool {
+        self.names.iter().any(|(key, _)| key == RACE)
+    }
+
+    /// The run that it names: without a scene, the first of [`SCENES`].
+    ///
+    /// # Errors
+    /// If there is no such scene, method or rate, or if a method does not step the scene.
+    pub fn named(&self) -> Result<Named, LinkError> {
+        let of = |wanted| self.names.iter().filter(move |(key, _)| key == wanted);
+        let values = |wanted| of(wanted).flat_map(|(_, value)| value.split(','));
+        let name = values(SCENE).last().unwrap_or(SCENES[0].name);
+        let names = || SCENES.iter().map(|scene| scene.name).collect::<Vec<_>>();
+        let mut scene =
+            Scene::built_in(name).ok_or_else(|| LinkError::unknown(SCENE, name, &names()))?;
+        let ids = || METHODS.iter().map(|method| method.id).collect::<Vec<_>>();
+        let known = |id: &str| method(id).ok_or_else(|| LinkError::unknown(METHOD, id, &ids()));
+        let methods: Vec<&'static Method> = values(METHOD).map(known).collect::<Result<_, _>>()?;
+        if let Some(refusal) = methods.iter().find_map(|method| scene.refusal(method)) {
+            return Err(LinkError::Refused { reason: refusal.to_string() });
+        }
+        if let Some(hz) = values(TICK_HZ).last() {
+            let known = hz.parse().ok().filter(|hz| Clock::TICK_HZ.contains(hz));
+            let range = format!("{} to {}", Clock::TICK_HZ.start(), Clock::TICK_HZ.end());
+            scene.tick_hz = known.ok_or_else(|| LinkError::unknown(TICK_HZ, hz, &[&range]))?;
+        }
+        let races = self.asks_to_race() || methods.len() > 1;
+        Ok(Named { scene: scene.with_methods(&methods), methods, races })
+    }
+
+    /// The text of the scene file that it holds, or of the run that it names.
+    ///
+    /// # Errors
+    /// Why it holds none. It never unpacks more than a scene file may have.
+    pub fn text(&self) -> Result<String, LinkError> {
+        let Some((version, run)) = &self.packed else { return Ok(self.named()?.alone().to_toml()) };
+        match *version {
+            VERSION => {}
+            0 => return Err(LinkError::Broken),
+            version => return Err(LinkError::Newer { version }),
+        }
+        let packed = URL_SAFE_NO_PAD.decode(run).map_err(|_| LinkError::Broken)?;
+        let bytes = decompress_to_vec_zlib_with_limit(&packed, MAX_FILE_BYTES).map_err(
+            |error| match error.status {
+                TINFLStatus::HasMoreOutput => LinkError::TooLong,
+                _ => LinkError::Broken,
+            },
+        )?;
+        String::from_utf8(bytes).map_err(|_| LinkError::Broken)
+    }
+}
+
+impl fmt::Display for Link {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{MARK}{}", self.fragment)
+    }
+}
+
+impl Named {
+    /// The scene as one that opens so by itself.
+    fn alone(self) -> Scene {
+        let Self { mut scene, methods, races } = self;
+        scene.opens_as_race |= races;
+        if let [method] = methods[..]
+            && method != scene.opening_lane().method
+        {
+            if scene.lanes.iter().all(|lane| lane.method != method) {
+                scene.lanes.push(LaneSpec::plain(method));
+            }
+            // The scene's hint is of the method that it opened with.
+            (scene.opening_method, scene.hint) = (Some(method), None);
+        }
+        scene
+    }
+}
+
+/// The version of a packed run, and its letters.
+fn packed(part: &str) -> Option<(u32, &str)> {
+    let (version, run) = part.strip_prefix(VERSION_MARK)?.split_once('.')?;
     let is_version = !version.is_empty() && version.bytes().all(|digit| digit.is_ascii_digit());
-    let run = run.split(SETTINGS).next().unwrap_or_default().trim_end();
     // A version of many digits is newer, whichever it is.
     is_version.then(|| (version.parse().unwrap_or(u32::MAX), run))
+}
+
+/// A text without its percent codes, as a messenger may write them.
+fn decoded(written: &str) -> String {
+    let mut parts = written.split('%');
+    let mut bytes = parts.next().unwrap_or_default().as_bytes().to_vec();
+    for part in parts {
+        let code = part.get(..2).filter(|code| code.bytes().all(|digit| digit.is_ascii_hexdigit()));
+        match code.and_then(|code| u8::from_str_radix(code, 16).ok()) {
+            Some(byte) => bytes.extend([&[byte], &part.as_bytes()[2..]].concat()),
+            None => bytes.extend([b"%", part.as_bytes()].concat()),
+        }
+    }
+    String::from_utf8(bytes).unwrap_or_else(|_| written.to_owned())
 }
 
 /// The ticks of a run's checks that a link keeps: few that are early too, for a motion may have come to rest at the end.
@@ -108,7 +328,68 @@ pub fn to(scene: &Scene) -> Result<String, LinkError> {
     }
     // With a checksum: a letter that was changed must not be another run.
     let packed = compress_to_vec_zlib(text.as_bytes(), LEVEL);
-    Ok(format!("{MARK}{VERSION}.{}", URL_SAFE_NO_PAD.encode(packed)))
+    Ok(format!("{MARK}{VERSION_MARK}{VERSION}.{}", URL_SAFE_NO_PAD.encode(packed)))
+}
+
+/// The link to the built-in scene of this name.
+pub fn to_built_in(name: &str) -> String {
+    format!("{MARK}{SCENE}={name}")
+}
+
+/// The link that names a run, from its start to whatever tick it has reached: that of a built-in scene which nobody has changed,
+/// under methods, and at a rate, that a link can name. `None` for any other.
+pub fn naming(session: &Session) -> Option<String> {
+    let (scene, start) = (session.scene(), session.start());
+    let built_in = Scene::built_in(&scene.name).filter(|_| scene.in_rust().is_none())?;
+    let as_built_in = Scene {
+        lanes: built_in.lanes.clone(),
+        opening_method: built_in.opening_method,
+        tick_hz: built_in.tick_hz,
+        opens_as_race: built_in.opens_as_race,
+        equal_cost: built_in.equal_cost,
+        hint: built_in.hint.clone(),
+        ..(**scene).clone()
+    };
+    if as_built_in.to_toml() != built_in.to_toml() {
+        return None;
+    }
+    let mut flown: Vec<LaneSpec> = start.entrants().iter().map(|entrant| entrant.spec).collect();
+    for row in session.journal().rows().iter().filter(|row| row.author == Author::Person) {
+        match (row.tick, &row.action, start.mode()) {
+            (0, Action::Method(method), Mode::Solo) => {
+                flown = start.methods().iter().filter(|it| it.method == *method).copied().collect();
+                flown.truncate(1);
+            }
+            _ => return None,
+        }
+    }
+    let methods: Vec<&'static Method> = flown.iter().map(|spec| spec.method).collect();
+    let (names, race) = match start.mode() {
+        Mode::Race if flown == lanes_that_race(&built_in) => (false, !built_in.opens_as_race),
+        Mode::Race if flown.len() > 1 && flown == built_in.lanes_of(&methods) => (true, false),
+        Mode::Race => return None,
+        Mode::Solo => {
+            let list = built_in.clone().with_methods(&methods).method_list();
+            let listed = list.into_iter().find(|spec| Some(&spec.method) == methods.first());
+            if listed.is_none() || listed != flown.first().copied() {
+                return None;
+            }
+            let is_opening = methods[0] == built_in.opening_lane().method;
+            (!is_opening || built_in.opens_as_race, false)
+        }
+    };
+    let mut link = to_built_in(&built_in.name);
+    if names {
+        let ids: Vec<&str> = methods.iter().map(|method| method.id).collect();
+        link += &format!("{END}{METHOD}={}", ids.join(","));
+    }
+    if start.tick_hz() != built_in.tick_hz {
+        link += &format!("{END}{TICK_HZ}={}", start.tick_hz());
+    }
+    if race {
+        link += &format!("{END}{RACE}");
+    }
+    Some(link)
 }
 
 /// The text of the scene file that a [link](is_link) holds, or an address that ends in one.
@@ -116,21 +397,7 @@ pub fn to(scene: &Scene) -> Result<String, LinkError> {
 /// # Errors
 /// Why it holds none. It never unpacks more than a scene file may have.
 pub fn text(written: &str) -> Result<String, LinkError> {
-    let (version, run) = parts(written).ok_or(LinkError::Broken)?;
-    match version {
-        VERSION => {}
-        0 => return Err(LinkError::Broken),
-        _ => return Err(LinkError::Newer { version }),
-    }
-    let packed = URL_SAFE_NO_PAD.decode(run).map_err(|_| LinkError::Broken)?;
-    let bytes =
-        decompress_to_vec_zlib_with_limit(&packed, MAX_FILE_BYTES).map_err(|error| match error
-            .status
-        {
-            TINFLStatus::HasMoreOutput => LinkError::TooLong,
-            _ => LinkError::Broken,
-        })?;
-    String::from_utf8(bytes).map_err(|_| LinkError::Broken)
+    if is_link(written) { Link::read(written)?.text() } else { Err(LinkError::Broken) }
 }
 
 #[cfg(test)]
@@ -152,6 +419,12 @@ mod tests {
         // A minute, with a kick five times a second.
         assert!(link.len() < 8_000, "{} bytes", link.len());
         let around = format!("https://example.org/play/{link}&panels=off&play");
+        for end in ["", ")", ").", ",", ">", " ", "\u{201d}"] {
+            let coded = around.replace('.', "%2E").replace('&', "%26").replace('#', "%23");
+            for around in [&around, &link, &coded] {
+                assert_eq!(text(&format!("{around}{end}")), text(&link), "{end}");
+            }
+        }
         let read = Scene::parse("link", &text(&around).unwrap()).unwrap();
         let mut again = Session::racing(read.clone().into());
         again.run(session.race().tick());
@@ -184,5 +457,107 @@ mod tests {
         let bomb = format!("#v1.{}", URL_SAFE_NO_PAD.encode(bomb));
         assert_eq!(text(&bomb), Err(LinkError::TooLong));
         assert!(!is_link("a#b.toml") && !is_link("spring") && is_link("x#v9.y"));
+    }
+
+    /// A run of a built-in scene from its start, solo under the method with this index on its list, or in a race.
+    fn begun(name: &str, entry: Option<usize>) -> Session {
+        let scene = Scene::built_in(name).unwrap();
+        match entry {
+            Some(entry) => Session::solo(scene.into(), entry),
+            None => Session::racing(scene.into()),
+        }
+    }
+
+    #[test]
+    fn the_link_that_names_a_run_opens_the_same_run_of_every_scene() {
+        for built_in in SCENES {
+            let scene = Scene::built_in(built_in.name).unwrap();
+            let solos = (0..scene.method_list().len()).step_by(3).map(Some);
+            for entry in solos.chain([None]) {
+                let run = begun(built_in.name, entry);
+                let Some(link) = naming(&run) else {
+                    // Lanes that race at equal cost, or twice under one method, have no name.
+                    assert!(entry.is_none() || scene.lanes.len() > 1, "{}", built_in.name);
+                    continue;
+                };
+                assert!(link.len() < 80, "{link}");
+                let named = Link::read(&link).unwrap().named().unwrap();
+                assert_eq!(
+                    named.races || named.scene.opens_as_race && named.methods.is_empty(),
+                    run.mode() == Mode::Race,
+                    "{link}"
+                );
+                let read = Scene::parse("link", &text(&link).unwrap()).unwrap();
+                let again = match run.mode() {
+                    Mode::Race => Session::racing(read.into()),
+                    Mode::Solo => {
+                        let opening = *read.opening_lane();
+                        let entry = read.method_list().iter().position(|it| *it == opening);
+                        Session::solo(read.into(), entry.unwrap())
+                    }
+                };
+                assert_eq!(again.race().state_hash(), run.race().state_hash(), "{link}");
+                assert!(naming(&again).is_none(), "a file of another name is not the scene");
+            }
+        }
+    }
+
+    #[test]
+    fn only_a_run_that_nobody_has_changed_is_named() {
+        let named = |change: &dyn Fn(&mut Session)| {
+            let mut run = begun("spring", Some(0));
+            change(&mut run);
+            naming(&run)
+        };
+        let rk4 = method("rk4").unwrap();
+        assert_eq!(named(&|run| run.run(90)).unwrap(), "#scene=spring");
+        let switched = named(&|run| _ = run.act(Action::Method(rk4)));
+        assert_eq!(switched.unwrap(), "#scene=spring&method=rk4");
+        assert_eq!(named(&|run| _ = run.act(Action::Kick(1.0))), None);
+        let late = |run: &mut Session| {
+            run.run(1);
+            run.act(Action::Method(rk4));
+        };
+        assert_eq!(named(&late), None);
+        let slow = Scene { tick_hz: 30, ..Scene::built_in("spring").unwrap() };
+        let race = Session::racing(slow.clone().into());
+        assert_eq!(naming(&race).unwrap(), "#scene=spring&tick-hz=30&race");
+        let short = Scene { seconds: 3.0, ..slow.clone() };
+        assert_eq!(naming(&Session::racing(short.into())), None);
+        let mut heavy = slow;
+        heavy.bodies[0].values[0] *= 2.0;
+        assert_eq!(naming(&Session::racing(heavy.into())), None);
+    }
+
+    #[test]
+    fn an_unknown_word_of_a_link_is_refused_by_its_name() {
+        for (written, word, meant) in [
+            ("#scen=spring", "setting \"scen\"", "did you mean \"scene\"?"),
+            ("#scene=Spring", "scene \"Spring\"", "did you mean \"spring\"?"),
+            ("#scene=spring&method=rk5", "method \"rk5\"", "did you mean \"rk4\"?"),
+            ("#scene=xyzzy", "scene \"xyzzy\"", "newer release"),
+            ("#scene=spring&tick-hz=0", "tick-hz \"0\"", "write 1 to 10000"),
+            ("#scene=spring&xyzzy", "setting \"xyzzy\"", "write scene, method,"),
+            ("#v1.AAAA&scene=spring", "setting \"scene\"", "write tick, play"),
+        ] {
+            let found = Link::read(written).and_then(|link| link.named().map(|_| link));
+            let refused = found.unwrap_err().to_string();
+            assert!(refused.contains(word) && refused.contains(meant), "{refused}");
+            assert!(refused.starts_with("the link ") && !refused.contains('\n'), "{refused}");
+        }
+        let refused = Link::read("#scene=spring&method=lerp-per-frame").unwrap().named();
+        assert!(matches!(refused, Err(LinkError::Refused { .. })));
+        assert_eq!(Link::read("#v1"), Err(LinkError::Broken));
+        assert_eq!(Link::read("https://example.org/page"), Ok(Link::default()));
+        for coded in ["#scene%3Dspring%26method%3Drk4", "<https://x.org/#scene=spring&method=rk4>."]
+        {
+            let named = Link::read(coded).unwrap().named().unwrap();
+            let ids: Vec<_> = named.methods.iter().map(|method| method.id).collect();
+            assert_eq!((&*named.scene.name, &ids[..]), ("spring", &["rk4"][..]), "{coded}");
+            assert!(is_link(coded) && text(coded).is_ok());
+            let own = Link::read(coded).unwrap().to_string();
+            assert_eq!(own, "#scene=spring&method=rk4");
+        }
+        assert_eq!(decoded("100 %, %zz, %C3%A9 and %"), "100 %, %zz, é and %");
     }
 }

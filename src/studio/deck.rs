@@ -225,11 +225,14 @@ impl Deck {
         recording_among(self.run.recording(), &menu.specs()[..offered])
     }
 
-    /// The link to the run up to the last tick reached, with the methods that stand beside it.
+    /// The link to the run up to the last tick reached, with the methods that stand beside it: by name if nobody has changed it.
     ///
     /// # Errors
     /// As [`Session::recording_text`](crate::run::Session::recording_text).
     pub fn link(&self) -> Result<String, RecordingError> {
+        if let Some(named) = link::naming(self.run.session()) {
+            return Ok(named);
+        }
         let recording = self.recorded();
         // What no file can hold, no link can.
         recording_text(&recording)?;

@@ -26,7 +26,7 @@ impl Deck {
     }
 
     /// Whether time runs once another run is on the stage: also after a rest, which nobody asked for.
-    pub(super) fn runs_or_rests(&self, motion: Motion) -> bool {
+    pub(crate) fn runs_or_rests(&self, motion: Motion) -> bool {
         self.running || self.comes_to_rest(motion)
     }
 

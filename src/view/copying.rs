@@ -31,10 +31,14 @@ pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, 
     let (text, told, otherwise) = match request {
         DriverRequest::CopyLink => match studio.deck.link() {
             Ok(run) => {
-                let Display { measure, instrument, .. } = studio.display();
+                let Display { measure, instrument, motion, .. } = studio.display();
                 let seen = measure.then(|| format!("&instrument={}", instrument.id()));
-                let link = run + &seen.unwrap_or_default();
-                let told = format!("copied the run as a link of {} letters", link.len());
+                // The moment that is looked at, and not one at which the run rests by itself.
+                let tick = Some(studio.race().tick()).filter(|tick| *tick > 0);
+                let tick = tick.filter(|_| !studio.deck.runs_or_rests(*motion));
+                let at = tick.map(|tick| format!("&tick={tick}"));
+                let link = [Some(run), at, seen].into_iter().flatten().collect::<String>();
+                let told = format!("copied the run as a link of {} characters", link.len());
                 (link, told, "Ctrl S saves the run, and `regatta link` prints it".into())
             }
             Err(error) => return Some(Err(error.to_string())),
@@ -71,6 +75,28 @@ pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, 
 mod tests {
     use super::*;
     use crate::scene::Scene;
+    use crate::studio::{StageCommand, ViewCommand};
+
+    #[test]
+    fn a_link_has_the_tick_that_is_looked_at_and_none_of_a_run_that_goes_on() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.viewer.preferences.display.measure = false;
+        let link = |studio: &Studio| {
+            let copied = copied(studio, DriverRequest::CopyLink).unwrap().unwrap();
+            (copied.text.clone(), copied.notice(Ok(())))
+        };
+        let told = "copied the run as a link of 13 characters".to_owned();
+        assert_eq!(link(&studio), ("#scene=spring".to_owned(), told));
+        (0..30).for_each(|_| studio.tick());
+        assert_eq!(link(&studio).0, "#scene=spring");
+        studio.apply(ViewCommand::TogglePause);
+        assert_eq!(link(&studio).0, "#scene=spring&tick=30");
+        studio.apply(ViewCommand::ToggleMeasure);
+        assert_eq!(link(&studio).0, "#scene=spring&tick=30&instrument=motion");
+        studio.apply(StageCommand::Pick(1));
+        let (changed, _) = link(&studio);
+        assert!(changed.starts_with("#v1.") && changed.contains("&tick=30&"), "{changed}");
+    }
 
     #[test]
     fn without_a_clipboard_a_notice_says_why_and_names_the_command_that_prints_the_method() {

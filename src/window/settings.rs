@@ -12,6 +12,8 @@ use crate::studio::Studio;
 pub struct WindowSettings {
     /// The end of the run, at the tick nearest to this many simulated seconds.
     pub seconds: Option<f64>,
+    /// The tick to go to at first, where time then stands still.
+    pub tick: Option<u64>,
     /// The size at first, in points; `None` for the usual one.
     pub size: Option<[u32; 2]>,
     /// Takes what is to be called when Ctrl-C in the terminal, or the system, asks the window to close; `None` for a window

@@ -83,8 +83,23 @@ fn a_text_of_another_program_is_pasted_into_a_field_and_a_text_of_a_field_into_a
     desk.titled("Regatta - orbit - Explicit Euler - 30 Hz");
     // The run as a link, which is pasted like a path.
     desk.press("ctrl+l");
-    until("the link on the clipboard", || desk.clipboard().starts_with("#v1.").then_some(()));
+    until("the link on the clipboard", || {
+        desk.clipboard().starts_with("#scene=orbit").then_some(())
+    });
     desk.press("o ctrl+a ctrl+v Return");
     desk.titled("Regatta - a link - Explicit Euler - 30 Hz");
+    desk.quit();
+}
+
+#[test]
+fn a_link_that_names_a_scene_opens_it_at_its_tick_and_stands_still() {
+    let test = "a_link_that_names_a_scene_opens_it_at_its_tick_and_stands_still";
+    let link = "#scene=spring&method=rk4&tick-hz=30&tick=45";
+    let Some(desk) = Desk::open(test, &format!("--scene {link}")) else { return };
+    desk.titled("Regatta - spring - Runge-Kutta 4 - 30 Hz");
+    // As long as a person looks at it before sending it on.
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    desk.press("ctrl+l");
+    until("the link on the clipboard", || desk.clipboard().starts_with(link).then_some(()));
     desk.quit();
 }

@@ -40,7 +40,7 @@ fn a_file_that_is_called_like_a_link_is_a_file_and_another_options_value_is_its_
     let done = run_in(folder.path(), "sweep --scene spring --seconds 0.1 --out b#v1.csv");
     assert_eq!(done.status.code(), Some(0), "{}", stderr(&done));
     assert!(folder.path().join("b#v1.csv").exists());
-    let link = stdout_of("link spring");
+    let link = stdout_of("link #scene=spring");
     let link = link.trim();
     assert!(refusal(&format!("list {link}"), 2).contains("invalid value"));
     assert!(refusal(&format!("verify {link} --bless"), 2).contains("a link is not blessed"));
@@ -50,12 +50,36 @@ fn a_file_that_is_called_like_a_link_is_a_file_and_another_options_value_is_its_
 }
 
 #[test]
+fn a_built_in_scene_is_a_link_by_its_name_which_stands_for_its_options() {
+    assert_eq!(stdout_of("link spring"), "#scene=spring\n");
+    let asked = "trace --scene spring --method rk4 --tick-hz 30 --seconds 1";
+    let link = "#scene=spring&method=rk4&tick-hz=30&tick=7";
+    let coded = "https://example.org/#scene%3Dspring%26method%3Drk4%26tick-hz%3D30).";
+    for written in [link, coded, &format!("<https://example.org/{link}>")] {
+        let lane = |text: &str| {
+            let rows = text.lines().filter(|row| row.contains(",rk4,"));
+            rows.map(|row| row.split_once(",rk4,").unwrap().1.to_owned()).collect::<Vec<_>>()
+        };
+        let found = lane(&stdout_of(&format!("trace {written} --seconds 1")));
+        assert_eq!(found, lane(&stdout_of(asked)), "{written}");
+        assert!(found.len() >= 30, "{written}: {} rows", found.len());
+    }
+    let whole = stdout_of("link #scene=spring&method=rk4");
+    assert!(whole.starts_with("#v1."), "{whole}");
+    assert!(stdout_of(&format!("verify {}", whole.trim())).contains("same"));
+}
+
+#[test]
 fn a_link_that_leads_to_no_run_is_refused_in_a_sentence() {
-    let link = stdout_of("link spring").trim().to_owned();
+    let link = stdout_of("link #scene=spring").trim().to_owned();
     for (written, told) in [
         (link.replace("#v1.", "#v7."), "the link is of format 7, and this release reads up to 1"),
         (link[..link.len() - 9].to_owned(), "the link is broken; copy it whole"),
         ("#v1.!".to_owned(), "the link is broken; copy it whole"),
+        ("#scene=sprin".to_owned(), "scene \"sprin\", and there is none; did you mean \"spring\"?"),
+        ("#scene=spring&metod=rk4".to_owned(), "setting \"metod\", and there is none"),
+        ("#scene=spring&method=rk5".to_owned(), "did you mean \"rk4\"?"),
+        ("#scene=spring&method=lerp-per-frame".to_owned(), "does not step the body"),
     ] {
         for command in ["trace", "verify", "advise --scene", "link"] {
             let said = refusal(&format!("{command} {written}"), 2);
