@@ -71,6 +71,17 @@ impl fmt::Display for Key {
     }
 }
 
+impl Key {
+    /// Whether a browser has a use for it that a visitor expects of every page: to load it again, to look behind it, to fill
+    /// the screen, and to enlarge it. A page leaves it to the browser.
+    pub fn is_browsers(self) -> bool {
+        matches!(
+            self,
+            Key::Function(5 | 11 | 12) | Key::ControlSign('+' | '=' | '-' | '0' | '1'..='9')
+        )
+    }
+}
+
 /// One line of the key table.
 #[derive(Debug)]
 pub struct Binding {
@@ -78,17 +89,39 @@ pub struct Binding {
     pub shown: &'static str,
     /// What it does, for people.
     pub about: &'static str,
+    /// The same on a page, where that is something else.
+    pub about_on_page: Option<&'static str>,
     /// The keys, each with what it does.
     pub keys: &'static [(Key, Command)],
     /// Whether holding the key repeats it.
     pub repeats: bool,
 }
 
-/// A table of lines: how often, the keys as shown, what they do, and each key with its command.
+impl Binding {
+    /// The keys as the help of a page shows them, and what they do there; `None` if all are the browser's.
+    pub fn on_page(&self) -> Option<(String, &'static str)> {
+        let about = self.about_on_page.unwrap_or(self.about);
+        let own = self.keys.iter().map(|(key, _)| key).filter(|key| !key.is_browsers());
+        let own: Vec<String> = own.map(Key::to_string).collect();
+        match own.len() {
+            0 => None,
+            count if count == self.keys.len() => Some((self.shown.to_owned(), about)),
+            _ => Some((own.join(", "), about)),
+        }
+    }
+}
+
+/// A table of lines: how often, the keys as shown, what they do, also on a page where that is something else, and each key with
+/// its command.
 macro_rules! keys {
-    ($($often:ident $shown:literal $about:literal: $($key:ident $(($of:literal))? => $command:expr),+;)+) => {
-        &[$($often($shown, $about, &[$((Key::$key $(($of))?, $command)),+])),+]
+    ($($often:ident $shown:literal $about:literal $(or $page:literal)?: $($key:ident $(($of:literal))? => $command:expr),+;)+) => {
+        &[$(Binding {
+            about_on_page: keys!(@page $($page)?),
+            ..$often($shown, $about, &[$((Key::$key $(($of))?, $command)),+])
+        }),+]
     };
+    (@page) => { None };
+    (@page $page:literal) => { Some($page) };
 }
 
 /// Every key and its command.
@@ -131,7 +164,7 @@ pub static KEYS: &[Binding] = keys! {
     once "N, B" "next, previous scene":
         Sign('n') => Stage(StageCommand::SceneBeside(Step::Next)),
         Sign('b') => Stage(StageCommand::SceneBeside(Step::Previous));
-    once "O" "open a scene file; or drop one onto the window":
+    once "O" "open a scene file; or drop one onto the window" or "open a scene file; or drop one onto the page":
         Sign('o') => View(ViewCommand::AskForPath);
     once "S" "a spring of your own: its numbers, the recommended method, and its code":
         Sign('s') => View(ViewCommand::AskForSpring);
@@ -167,7 +200,7 @@ pub static KEYS: &[Binding] = keys! {
         Sign('p') => Ask(DriverRequest::Screenshot), Function(12) => Ask(DriverRequest::Screenshot);
     once "F5, Ctrl S" "save the run as a scene file; its name is shown":
         Function(5) => Ask(DriverRequest::Record), ControlSign('s') => Ask(DriverRequest::Record);
-    once "Ctrl L" "copy the run as a link, which `regatta play` opens":
+    once "Ctrl L" "copy the run as a link, which `regatta play` opens" or "copy the run as a link; Ctrl V opens one":
         ControlSign('l') => Ask(DriverRequest::CopyLink);
     once "X" "equal cost of all lanes on / off: cheap lanes get more substeps":
         Sign('x') => Run(RunCommand::ToggleEqualCost);
@@ -181,7 +214,8 @@ pub static KEYS: &[Binding] = keys! {
     once "H, F1, ?" "help":
         Sign('h') => View(ViewCommand::ToggleHelp), Function(1) => View(ViewCommand::ToggleHelp),
         Sign('?') => View(ViewCommand::ToggleHelp);
-    once "Esc" "let go of a body, close the overlay, the guide, the instrument, the inspector, leave the loop lab, or quit: twice where something would be lost":
+    once "Esc" "let go of a body, close the overlay, the guide, the instrument, the inspector, leave the loop lab, or quit: twice where something would be lost"
+        or "let go of a body, close the overlay, the guide, the instrument, the inspector, leave the loop lab; with Tab after it, leave the stage":
         Escape => View(ViewCommand::Escape);
 };
 
@@ -191,7 +225,7 @@ const fn once(
     about: &'static str,
     keys: &'static [(Key, Command)],
 ) -> Binding {
-    Binding { shown, about, keys, repeats: false }
+    Binding { shown, about, about_on_page: None, keys, repeats: false }
 }
 
 /// A line whose keys repeat while they are held.
@@ -215,6 +249,24 @@ pub fn command_for(key: Key) -> Option<(Command, &'static Binding)> {
 mod tests {
     use super::*;
     use crate::sim::bodies::BODIES;
+
+    #[test]
+    fn the_help_of_a_page_has_no_key_of_the_browser_and_every_other() {
+        let shown: Vec<_> = KEYS.iter().filter_map(Binding::on_page).collect();
+        for (key, _) in KEYS.iter().flat_map(|binding| binding.keys) {
+            let is_word = |words: &str| words.split(", ").any(|word| word == key.to_string());
+            let is_shown = shown.iter().any(|(keys, _)| is_word(keys));
+            assert!(!(is_shown && key.is_browsers()), "{key}");
+        }
+        let browsers = [Key::Function(5), Key::Function(11), Key::Function(12)];
+        assert!(browsers.into_iter().all(Key::is_browsers));
+        let keys: Vec<&str> = shown.iter().map(|(keys, _)| &**keys).collect();
+        for own in ["1 … 9, 0", "P", "Ctrl S", "Ctrl Z, Ctrl Shift Z", "H, F1, ?", "Esc"] {
+            assert!(keys.contains(&own), "{own}: {keys:?}");
+        }
+        assert_eq!(shown.len() + 2, KEYS.len(), "F11, and the size of type");
+        assert!(shown.iter().all(|(_, about)| !about.contains("quit") && !about.contains('`')));
+    }
 
     #[test]
     fn the_keys_of_an_input_name_the_bodies_that_take_it_and_no_others() {

@@ -59,6 +59,8 @@ pub struct Preferences {
     pub(super) left_at: usize,
     /// Whether the driver keeps a recording of the run, so that the end of the program loses nothing.
     pub is_recorded: bool,
+    /// Whether it is a page in a browser, which keeps some keys and has nothing to quit.
+    pub is_page: bool,
 }
 
 impl Preferences {
@@ -115,6 +117,7 @@ impl Default for Preferences {
             my_spring: MySpring::default(),
             left_at: 0,
             is_recorded: false,
+            is_page: false,
         }
     }
 }

@@ -51,6 +51,11 @@ pub fn instrument_csv(studio: &crate::studio::Studio) -> Option<Vec<String>> {
     panels::csv(studio)
 }
 
+/// The verdict on the method that is flown, and the line under everything, as sentences for a screen reader.
+pub fn spoken(studio: &crate::studio::Studio) -> String {
+    panels::spoken(studio)
+}
+
 /// The plots of the instrument shown, as an SVG file; `None` if it has none.
 pub fn instrument_svg(studio: &crate::studio::Studio) -> Option<String> {
     panels::svg(studio)

@@ -29,8 +29,7 @@ impl Press {
         Self { key: event.key(), code: event.code(), held, is_repeated: event.repeat() }
     }
 
-    /// The program's key, unless the browser has a use for it that a visitor expects of every page: to load it again, to
-    /// look behind it, to fill the screen, and to enlarge it.
+    /// The program's key, unless it is the [browser's](Key::is_browsers).
     pub(crate) fn bound(&self) -> Option<Key> {
         let place = self.code.strip_prefix("Digit").or(self.code.strip_prefix("Numpad"));
         let place = match self.code.as_str() {
@@ -39,12 +38,7 @@ impl Press {
             _ => place.and_then(|digit| digit.chars().next().filter(char::is_ascii_digit)),
         };
         let meaning = named(&self.key).map_or(Meaning::Text(&self.key), Meaning::Named);
-        let key = bound_key(place, meaning, self.held)?;
-        let is_browsers = matches!(
-            key,
-            Key::Function(5 | 11 | 12) | Key::ControlSign('+' | '=' | '-' | '0' | '1'..='9')
-        );
-        (!is_browsers).then_some(key)
+        bound_key(place, meaning, self.held).filter(|key| !key.is_browsers())
     }
 
     /// Whether it is a chord, which writes nothing.
@@ -54,6 +48,11 @@ impl Press {
 
     pub(crate) fn is_tab(&self) -> bool {
         self.key == "Tab"
+    }
+
+    /// Whether it does nothing by itself.
+    pub(crate) fn is_modifier(&self) -> bool {
+        matches!(&*self.key, "Shift" | "Control" | "Alt" | "AltGraph" | "Meta" | "CapsLock")
     }
 
     pub(crate) fn is_escape(&self) -> bool {

@@ -9,6 +9,8 @@ pub(super) const WIDE_PARTS_OF_TOP_BAR: f32 = 360.0;
 pub(super) const INSTRUMENTS: f32 = 420.0;
 pub(super) const TICK_FORWARD: f32 = 480.0;
 pub(super) const KEYS_BESIDE_HINT: f32 = 560.0;
+/// With less, methods have several rows where the window is tall.
+pub(super) const METHODS_IN_ONE_ROW: f32 = 560.0;
 pub(super) const MENUS: f32 = 600.0;
 pub(super) const SPRING: f32 = 660.0;
 pub(super) const MY_SPRING: f32 = 760.0;
@@ -25,7 +27,8 @@ pub(super) const DIALOG_ON_STAGE: f32 = 310.0;
 // Heights of the window.
 pub(super) const TOP_BAR: f32 = 120.0;
 pub(super) const FOOTER: f32 = 200.0;
-pub(super) const LANES: f32 = 260.0;
+/// A frame of 270 on another page has them below a bar of 28.
+pub(super) const LANES: f32 = 240.0;
 pub(super) const TIMELINE: f32 = 420.0;
 pub(super) const TIMES_OF_TIMELINE: f32 = 560.0;
 

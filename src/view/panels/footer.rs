@@ -3,7 +3,7 @@
 use egui::{Align, Layout, Sense, Ui, vec2};
 
 use super::parts::short;
-use super::{breakpoints, keycap, loops};
+use super::{breakpoints, keycap, lanes, loops};
 use crate::loops::loop_lab::LoopCommand;
 use crate::run::race::Mode;
 use crate::stage::number::round;
@@ -56,6 +56,16 @@ fn told(studio: &Studio) -> (Vec<String>, bool) {
         Some(hint) => (vec![hint], true),
         None => (vec![studio.scene().about.clone()], false),
     }
+}
+
+/// The verdict on the method that is flown, and this line, as sentences for whoever does not see them.
+pub(in crate::view) fn spoken(studio: &Studio) -> String {
+    let verdict = lanes::verdict_on(studio, studio.active());
+    let is_known = studio.loop_lab().is_none() && verdict.sign.is_some();
+    let name = studio.lane_name(studio.active());
+    let verdict = is_known.then(|| format!("{name}: {}.", verdict.whole()));
+    let line = keycap::plain(&told(studio).0.join("; "));
+    verdict.into_iter().chain([line]).collect::<Vec<_>>().join(" ")
 }
 
 /// As many of the parts as this width takes, and the first in any case.
@@ -132,6 +142,22 @@ fn show_hint(ui: &mut Ui, hint: KeyHint, commands: &mut Vec<Command>) {
 mod tests {
     use super::*;
     use crate::scene::Scene;
+
+    #[test]
+    fn the_verdict_and_the_hint_are_spoken_as_sentences_that_change_when_they_do() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        assert!(!spoken(&studio).contains("judging"), "{}", spoken(&studio));
+        studio.analyse();
+        let at_first = spoken(&studio);
+        let verdict = studio.viewer.verdict(studio.active()).unwrap().to_string();
+        assert!(at_first.starts_with("Explicit Euler: ") && at_first.ends_with('.'), "{at_first}");
+        assert!(at_first.contains(verdict.split(' ').next().unwrap()), "{at_first}: {verdict}");
+        assert!(at_first.contains("Press 2 ") && !at_first.contains('`'), "{at_first}");
+        (0..20).for_each(|_| studio.tick());
+        assert_eq!(spoken(&studio), at_first);
+        studio.apply(StageCommand::Pick(1));
+        assert_ne!(spoken(&studio), at_first);
+    }
 
     #[test]
     fn the_throttle_is_told_of_a_ship_that_is_looked_at_or_whose_throttle_is_not_full() {

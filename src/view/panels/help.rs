@@ -16,7 +16,7 @@ const AROUND: Vec2 = vec2(48.0, 110.0);
 /// The least height of the list: a scroll bar that is shorter than its handle makes egui panic where it is pressed.
 const MIN_LIST: f32 = 32.0;
 
-pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &Ui, is_page: bool, commands: &mut Vec<Command>) {
     let screen = ui.ctx().content_rect().size();
     let columns = if screen.x >= breakpoints::HELP_IN_TWO_COLUMNS { 2 } else { 1 };
     let width = (COLUMN * columns as f32).min(screen.x - AROUND.x).max(0.0);
@@ -37,13 +37,20 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
             ui.spacing_mut().item_spacing = vec2(10.0, 1.0);
             let own = width / columns as f32 - 20.0;
             ui.horizontal_top(|ui| {
-                let keys = KEYS.iter().map(|binding| (binding.shown, binding.about, true));
-                let mouse = GESTURES.iter().map(|gesture| (gesture.shown, gesture.about, false));
+                let keys = KEYS.iter().filter_map(|binding| match is_page {
+                    true => binding.on_page(),
+                    false => Some((binding.shown.to_owned(), binding.about)),
+                });
+                let keys = keys.map(|(shown, about)| (shown, about, true));
+                let mouse = GESTURES.iter();
+                let mouse = mouse.map(|gesture| (gesture.shown.to_owned(), gesture.about, false));
                 let rows: Vec<_> = keys.chain(mouse).collect();
                 for part in rows.chunks(rows.len().div_ceil(columns)) {
                     ui.vertical(|ui| {
                         ui.set_width(own);
-                        part.iter().for_each(|of| row(ui, *of, own));
+                        part.iter().for_each(|(shown, about, is_key)| {
+                            row(ui, (shown, about, *is_key), own);
+                        });
                     });
                 }
             });

@@ -1,13 +1,17 @@
 //! The methods that digits switch to: each with its digit, its name, and its verdict's sign.
 
-use egui::{FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
 
 use super::verdict::VerdictText;
-use super::{keycap, lanes};
+use super::{breakpoints, keycap, lanes};
 use crate::studio::{Command, StageCommand, Studio};
 use crate::view::theme::{TYPE, palette, strong_font};
 
+/// The height of one row, and what each further one adds, in points.
 pub(super) const HEIGHT: f32 = 40.0;
+const FURTHER: f32 = BUTTON + CLOSE;
+/// The most of a narrow window's height that rows take in which every method has its name.
+const ROWS: f32 = 1.0 / 6.0;
 
 /// The methods that have a digit.
 const DIGITS: usize = 10;
@@ -67,11 +71,52 @@ fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, palette(ui).text).size().x
 }
 
-/// Shows the scene's methods, or else those with a digit: with their names where all have room. Returns the index of the
-/// method that the pointer or the keyboard's focus is on.
+/// The height of the methods in a panel of this width, in a window of this size.
+pub(super) fn height(ui: &Ui, studio: &Studio, room: f32, window: Vec2) -> f32 {
+    let rows = rows(ui, studio, room);
+    let height = HEIGHT + FURTHER * rows.len().saturating_sub(1) as f32;
+    let is_narrow = window.x < breakpoints::METHODS_IN_ONE_ROW;
+    if is_narrow && height <= ROWS * window.y { height } else { HEIGHT }
+}
+
+/// The methods in rows of this width, each with its name.
+fn rows(ui: &Ui, studio: &Studio, room: f32) -> Vec<Vec<usize>> {
+    let (mut rows, mut left) = (Vec::<Vec<usize>>::new(), 0.0);
+    for entry in 0..studio.deck.offered().min(DIGITS) {
+        let wide = width(ui, studio, entry, Naming::OneLine);
+        match rows.last_mut().filter(|_| wide <= left) {
+            Some(row) => row.push(entry),
+            None => {
+                rows.push(vec![entry]);
+                left = room;
+            }
+        }
+        left -= wide + BETWEEN;
+    }
+    rows
+}
+
+/// Shows the scene's methods, or else those with a digit: with their names where all have room, also in several rows or in
+/// two lines each. Returns the index of the method that the pointer or the keyboard's focus is on.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
     let count = studio.deck.offered().min(DIGITS);
     let room = ui.available_width();
+    let mut pointed = None;
+    let mut show = |ui: &mut Ui, entry: usize, naming: Naming| {
+        let response = method(ui, studio, entry, naming, commands);
+        response.context_menu(|ui| lanes::menu(ui, studio, entry, commands));
+        if response.hovered() || response.has_focus() {
+            pointed = Some(entry);
+        }
+    };
+    let rows = rows(ui, studio, room);
+    if rows.len() > 1 && ui.available_height() > HEIGHT {
+        ui.spacing_mut().item_spacing = vec2(BETWEEN, CLOSE);
+        for row in rows {
+            ui.horizontal(|ui| row.into_iter().for_each(|entry| show(ui, entry, Naming::OneLine)));
+        }
+        return pointed;
+    }
     let all = |naming: &Naming| {
         let widths = (0..count).map(|entry| width(ui, studio, entry, *naming) + BETWEEN);
         widths.sum::<f32>() - BETWEEN
@@ -79,18 +124,13 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
     let naming = Naming::ALL.into_iter().find(|naming| all(naming) <= room);
     let between = if naming.is_some() { BETWEEN } else { CLOSE };
     let naming = naming.unwrap_or(Naming::None);
-    let mut pointed = None;
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = between;
         for entry in 0..count {
             if width(ui, studio, entry, naming) > ui.available_width() {
                 break;
             }
-            let response = method(ui, studio, entry, naming, commands);
-            response.context_menu(|ui| lanes::menu(ui, studio, entry, commands));
-            if response.hovered() || response.has_focus() {
-                pointed = Some(entry);
-            }
+            show(ui, entry, naming);
         }
     });
     pointed
@@ -162,10 +202,9 @@ fn paint(
 
 #[cfg(test)]
 mod tests {
-    use egui::vec2;
-
     use super::*;
     use crate::scene::Scene;
+    use crate::view::panels;
     use crate::view::testing::TestWindow;
 
     /// The words in the row on a window this wide, the lines of a name apart by a blank.
@@ -193,5 +232,26 @@ mod tests {
         let narrow = words(&studio, 560.0);
         assert!(narrow.contains(&studio.lane_name(studio.active())), "{narrow:?}");
         assert!((0..DIGITS).all(|entry| narrow.contains(&digit(entry))), "{narrow:?}");
+    }
+
+    #[test]
+    fn a_tall_narrow_window_names_every_method_and_a_low_one_the_chosen() {
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.viewer.preferences.display.measure = false;
+        let names: Vec<String> = (0..5).map(|entry| studio.lane_name(entry)).collect();
+        for (size, count) in [([390.0, 844.0], 5), ([320.0, 640.0], 1), ([480.0, 270.0], 1)] {
+            let mut window = TestWindow::new(size);
+            let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, &studio)).1;
+            drop(frame());
+            let texts = frame().texts;
+            let shown = names.iter().filter(|name| {
+                let is_it = |text: &&crate::view::testing::ShownText| {
+                    text.shape.galley.text() == **name && text.shape.pos.y > size[1] - 200.0
+                };
+                texts.iter().filter(is_it).all(|text| text.clip.contains(text.shape.pos))
+                    && texts.iter().any(|text| is_it(&text))
+            });
+            assert_eq!(shown.count(), count, "{size:?}");
+        }
     }
 }

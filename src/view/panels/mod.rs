@@ -37,6 +37,7 @@ mod verdict;
 
 #[cfg(test)]
 pub(super) use focus::RING;
+pub(super) use footer::spoken;
 pub(super) use inspector::is_under_way;
 pub(super) use instruments::{csv, svg};
 
@@ -92,9 +93,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         && size.y >= breakpoints::LANES
         && !(studio.display().measure && studio.display().enlarged);
     if has_methods {
-        let panel = egui::Panel::bottom("methods")
-            .exact_size(methods::HEIGHT)
-            .frame(parts::frame(palette(ui).panel));
+        let frame = parts::frame(palette(ui).panel);
+        let room = ui.available_width() - frame.inner_margin.sum().x;
+        let height = methods::height(ui, studio, room, size);
+        let panel = egui::Panel::bottom("methods").exact_size(height).frame(frame);
         panel.show(ui, |ui| pointed = methods::show(ui, studio, &mut commands));
     }
     if studio.display().measure {
@@ -125,7 +127,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         }
     }
     if studio.display().help {
-        help::show(ui, &mut commands);
+        help::show(ui, studio.viewer.preferences.is_page, &mut commands);
     }
     if let Some(dialog) = studio.viewer.dialog() {
         // Beside the instruments, whose letters it would cut.
