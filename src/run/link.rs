@@ -369,9 +369,11 @@ pub fn naming(session: &Session) -> Option<String> {
         Mode::Race if flown.len() > 1 && flown == built_in.lanes_of(&methods) => (true, false),
         Mode::Race => return None,
         Mode::Solo => {
-            let list = built_in.clone().with_methods(&methods).method_list();
+            let opened = built_in.clone().with_methods(&methods);
+            let list = opened.method_list();
             let listed = list.into_iter().find(|spec| Some(&spec.method) == methods.first());
-            if listed.is_none() || listed != flown.first().copied() {
+            let is_menu = scene.lanes == lanes_that_race(&opened) || scene.lanes == opened.lanes;
+            if !is_menu || listed.is_none() || listed != flown.first().copied() {
                 return None;
             }
             let is_opening = methods[0] == built_in.opening_lane().method;
@@ -524,6 +526,8 @@ mod tests {
         assert_eq!(naming(&race).unwrap(), "#scene=spring&tick-hz=30&race");
         let short = Scene { seconds: 3.0, ..slow.clone() };
         assert_eq!(naming(&Session::racing(short.into())), None);
+        let two = Scene { lanes: slow.lanes[..2].to_vec(), ..slow.clone() };
+        assert_eq!(naming(&Session::solo(two.into(), 0)), None, "other methods stand beside it");
         let mut heavy = slow;
         heavy.bodies[0].values[0] *= 2.0;
         assert_eq!(naming(&Session::racing(heavy.into())), None);

@@ -200,7 +200,7 @@ pub(super) fn completed(typed: &str) -> String {
 mod tests {
     use super::*;
     use crate::run::link;
-    use crate::studio::Dialog;
+    use crate::studio::{Dialog, RunCommand};
 
     /// Reads scene files without the command line's options.
     fn read() -> ReadScene {
@@ -244,6 +244,7 @@ mod tests {
     fn a_link_that_is_typed_opens_its_run_and_is_no_file() {
         let mut studio = Studio::new(Scene::built_in("ship").unwrap());
         (0..90).for_each(|_| studio.tick());
+        studio.apply(RunCommand::ThrottleDown);
         let link = studio.deck.link().unwrap();
         studio.apply(ViewCommand::AskForPath);
         studio.apply(ViewCommand::TypePath(format!("https://example.org/{link}")));

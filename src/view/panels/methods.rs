@@ -239,7 +239,7 @@ mod tests {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.viewer.preferences.display.measure = false;
         let names: Vec<String> = (0..5).map(|entry| studio.lane_name(entry)).collect();
-        for (size, count) in [([390.0, 844.0], 5), ([320.0, 640.0], 1), ([480.0, 270.0], 1)] {
+        for (size, count) in [([390.0, 844.0], 5), ([375.0, 667.0], 5), ([480.0, 242.0], 1)] {
             let mut window = TestWindow::new(size);
             let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, &studio)).1;
             drop(frame());
