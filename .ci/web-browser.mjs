@@ -35,12 +35,19 @@ async function byPuppeteer(browser, executablePath) {
     const complaints = [];
     return {
         complaints,
-        async open(address, size = SIZE) {
+        /** Lets pages of an address do what a person is else asked for. */
+        allow: (address, permissions) => driven.defaultBrowserContext().overridePermissions(new URL(address).origin, permissions),
+        async open(address, size = SIZE, features = []) {
             const page = await driven.newPage();
             await page.setViewport({ ...SIZE, ...size });
+            features.length && (await page.emulateMediaFeatures(features));
             page.on("pageerror", (error) => complaints.push(`${address}: ${error.message}`));
             page.on("console", (said) => said.type() === "error" && complaints.push(`${address}: ${said.text()}`));
-            page.on("requestfailed", ({ url }) => complaints.push(`${address}: not found: ${url()}`));
+            page.on("requestfailed", (asked) => {
+                // A page that is loaded again asks no more for what it asked for.
+                const isGivenUp = /ERR_ABORTED|NS_BINDING_ABORTED/.test(asked.failure()?.errorText ?? "");
+                isGivenUp || complaints.push(`${address}: not found: ${asked.url()}`);
+            });
             page.on("request", (asked) => {
                 const isOwn = asked.url().startsWith(new URL(address).origin) || /^(data|blob|about):/.test(asked.url());
                 isOwn || complaints.push(`${address}: asks ${asked.url()}`);

@@ -1,4 +1,5 @@
-// What a person does to the page, tried in Chromium: fingers, keys, files, what is remembered, and a canvas that is taken away.
+// What a person does to the page, tried in Chromium at a person's speed: fingers, keys, sharing, files, what is remembered, and a
+// canvas that is taken away.
 
 import { readFileSync } from "node:fs";
 
@@ -8,8 +9,11 @@ const seen = (page) => page.picture();
 export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, server }) {
     await holdFingers();
     await holdSharing();
+    await holdClipboard();
     await holdScrolling();
     await holdKeys();
+    await holdCalm();
+    await holdFolder();
     await holdFiles();
     await holdMemory();
     await holdLostContext();
@@ -30,18 +34,18 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
             await page.puppeteer.keyboard.down("Control");
             await page.puppeteer.keyboard.press("l");
             await page.puppeteer.keyboard.up("Control");
-            await becomes(page, (before) => location.hash.startsWith("#v1.") && location.hash !== before, before);
+            await becomes(page, (before) => location.hash !== before, before);
             return page.evaluate(() => location.hash);
         };
-        const untouched = await link();
-        await touch("touchStart", [270, 108]);
+        const untouched = await link("#tick=0");
+        await touch("touchStart", [270, 144]);
         for (const x of [230, 190, 150]) {
-            await touch("touchMove", [x, 108]);
+            await touch("touchMove", [x, 144]);
         }
         await touch("touchEnd");
         await seconds(0.5);
         const thrown = await link(untouched);
-        hold(`a body is not thrown by a finger: ${untouched} and then ${thrown}`, thrown.length > untouched.length);
+        hold(`a body is not thrown by a finger: ${untouched} and then ${thrown}`, untouched === "#scene=harbour" && thrown.startsWith("#v1."));
 
         const before = await seen(page);
         await touch("touchStart", [150, 400]);
@@ -55,12 +59,101 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
         await page.close();
     }
 
+    /** The share menu of a run that moves, by a finger and by keys alone; and the pause beside it. */
     async function holdSharing() {
-        const page = await opened("#scene=spring&method=rk4&tick=30", { width: 390, height: 844, isMobile: true, hasTouch: true });
-        const isPaused = await becomes(page, () => getComputedStyle(document.getElementById("share")).display === "block");
-        await page.puppeteer.tap("#share");
-        const isShared = await becomes(page, () => location.hash.startsWith("#v1."));
-        hold(`a run is not shared by a button: ${isPaused}, ${isShared}`, isPaused && isShared);
+        const phone = await opened("#scene=spring&method=rk4", { width: 390, height: 844, isMobile: true, hasTouch: true });
+        await phone.puppeteer.tap("#share");
+        await seconds(0.5);
+        const [link, code] = await phone.evaluate(() => ["link", "code"].map((id) => document.getElementById(id).value));
+        hold(`a run that moves is not shared by its name: ${link}`, link === `${server.address}#scene=spring&method=rk4`);
+        hold(`no code for a page of one's own: ${code}`, /^<iframe src="[^"]*&amp;panels=off&amp;play" title="[^"]+"[^>]*><\/iframe>$/.test(code));
+        hold("the run goes on behind the menu", await becomes(phone, async (from) => (await regatta).tick() > from, await tick(phone)));
+        await phone.puppeteer.tap("#stage");
+        await seconds(0.5);
+        hold("a tap beside the menu leaves it open", await phone.evaluate(() => document.getElementById("sharing").hidden));
+        await phone.puppeteer.tap("#pause");
+        await seconds(0.5);
+        const at = await tick(phone);
+        await seconds(1);
+        hold(`a phone does not pause at tick ${at}`, at > 0 && (await tick(phone)) === at);
+        await phone.puppeteer.tap("#share");
+        const still = await phone.evaluate(() => document.getElementById("link").value);
+        hold(`the link of a run that stands still has no tick: ${still}`, still.endsWith(`&tick=${at}`));
+        await phone.close();
+
+        const page = await opened("#scene=spring&method=rk4&tick=30");
+        await page.evaluate(() => {
+            globalThis.written = [];
+            navigator.clipboard.writeText = async (text) => void written.push(text);
+        });
+        const { keyboard } = page.puppeteer;
+        const press = async (key) => {
+            await keyboard.press(key, { delay: 100 });
+            await seconds(0.4);
+        };
+        const focused = () => page.evaluate(() => document.activeElement?.id);
+        for (let tabs = 0; tabs < 6 && (await focused()) !== "share"; tabs++) {
+            await press("Tab");
+        }
+        await press("Enter");
+        const isOpen = await page.evaluate(() => !document.getElementById("sharing").hidden);
+        hold(`Enter on Share does not open its menu, at ${await focused()}`, isOpen && (await focused()) === "copy-link");
+        await press("Space");
+        const [written, said] = await page.evaluate(() => [written.join(), document.getElementById("shared").textContent]);
+        hold(`Space on Copy copies ${written} and says ${said}`, written.endsWith("/#scene=spring&method=rk4&tick=30") && said.startsWith("Copied the link"));
+        await press("Escape");
+        hold(`Escape leads from the menu to ${await focused()}`, (await focused()) === "share");
+        hold("keys of a button moved the run", (await tick(page)) === 30 && !(await page.evaluate(() => document.body.className)).includes("running"));
+        await keyboard.down("Shift");
+        await press("Tab");
+        await keyboard.up("Shift");
+        await press("Space");
+        hold(`Space on Play does not start it, at ${await focused()}`, await becomes(page, async () => (await regatta).tick() > 30));
+        await page.close();
+    }
+
+    /** Chords as a person presses them: the first key is down for half a second before the other. */
+    async function holdClipboard() {
+        const page = await opened("#scene=spring&method=rk4&tick=30");
+        await driven.allow(server.address, ["clipboard-read", "clipboard-sanitized-write"]);
+        const { keyboard } = page.puppeteer;
+        const kept = `${server.address}#scene=pendulum&tick=12`;
+        await page.evaluate((kept) => navigator.clipboard.writeText(kept), `See <${kept}>.`);
+        await page.puppeteer.mouse.click(400, 300);
+        for (const key of ["Control", "Shift", "CapsLock", "ContextMenu", "End"]) {
+            await keyboard.down("Control");
+            await seconds(0.5);
+            key === "Control" || (await keyboard.press(key, { delay: 100 }));
+            await keyboard.up("Control");
+            await seconds(0.3);
+            const found = await page.evaluate(() => navigator.clipboard.readText());
+            hold(`Control and ${key} put on the clipboard: ${found.slice(0, 80)}`, found === `See <${kept}>.`);
+        }
+        const isAt = (hash) => document.title.includes("pendulum") && location.hash === hash;
+        await keyboard.down("Control");
+        await seconds(0.5);
+        await keyboard.press("v", { delay: 100, commands: ["Paste"] });
+        await keyboard.up("Control");
+        const isOpen = await becomes(page, isAt, "#scene=pendulum&tick=12");
+        hold(`a link that is pasted is not open: ${await page.evaluate(() => `${document.title} ${location.hash}`)}`, isOpen);
+        hold("its tick is not shown", await becomes(page, async () => (await regatta).tick() === 12));
+
+        // A run with a throw of its own opens in place.
+        const run = await page.evaluate(async () => {
+            const program = await regatta;
+            dispatchEvent(new KeyboardEvent("keydown", { key: "k", code: "KeyK", bubbles: true }));
+            await new Promise((later) => setTimeout(later, 1000));
+            return program.link();
+        });
+        await page.evaluate((run) => navigator.clipboard.writeText(`${run}).`), run);
+        await page.evaluate(() => history.replaceState(null, "", "#scene=spring"));
+        await page.puppeteer.mouse.click(400, 300);
+        await keyboard.down("Control");
+        await seconds(0.5);
+        await keyboard.press("v", { delay: 100, commands: ["Paste"] });
+        await keyboard.up("Control");
+        const isWhole = await becomes(page, (run) => location.href === run && document.title.includes("a link"), run);
+        hold(`a whole run that is pasted is not in the address: ${await page.evaluate(() => `${document.title} ${location.href}`)}, ${run}`, isWhole && run.includes("#v1."));
         await page.close();
     }
 
@@ -80,23 +173,83 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
 
     async function holdKeys() {
         const page = await opened("#scene=spring&method=rk4&tick=30");
+        const { keyboard } = page.puppeteer;
         const focused = () => page.evaluate(() => document.activeElement?.id);
-        await page.evaluate(() => document.getElementById("stage").focus());
-        await page.puppeteer.keyboard.press("Tab");
+        const press = async (key) => {
+            await keyboard.press(key, { delay: 80 });
+            await seconds(0.3);
+        };
+        const seenTabs = [];
+        for (let tabs = 0; tabs < 5; tabs++) {
+            await press("Tab");
+            seenTabs.push(await focused());
+        }
+        hold(`Tab goes through the page by ${seenTabs}`, seenTabs.slice(0, 4).join() === "what,pause,share,stage" && seenTabs[4] !== "stage");
+        await keyboard.down("Shift");
+        for (let tabs = 0; tabs < 6 && (await focused()) !== "stage"; tabs++) {
+            await press("Tab");
+        }
+        await keyboard.up("Shift");
+        const leave = () => page.evaluate(() => getComputedStyle(document.getElementById("leave")).visibility);
+        const ring = () => page.evaluate(() => getComputedStyle(document.getElementById("stage")).outlineStyle);
+        hold(`the stage that has the focus has no ring: ${await ring()}`, (await ring()) !== "none");
+        const before = await leave();
+        await press(".");
+        await seconds(0.5);
+        hold(`it says how to leave it: ${before} outside, ${await leave()} inside`, before === "hidden" && (await leave()) === "visible");
+        hold("a key goes into the stage", (await tick(page)) === 31);
+        await press("Tab");
         const from = await focused();
-        await page.puppeteer.keyboard.press("Escape");
-        await page.puppeteer.keyboard.press("Tab");
+        await press("Escape");
+        await press("Tab");
         hold(`Escape and Tab do not lead out of the stage: ${from}, ${await focused()}`, from === "stage" && (await focused()) !== "stage");
+        await seconds(0.5);
+        hold("it still says how to leave it", (await leave()) === "hidden");
+        await page.puppeteer.mouse.click(400, 300);
+        await seconds(0.5);
+        hold(`a stage that was clicked has no ring: ${await ring()}`, (await ring()) !== "none" && (await leave()) === "visible");
         await page.close();
     }
 
+    /** Whoever asks for less motion starts it, and a screen reader hears of the run where it changes. */
+    async function holdCalm() {
+        const page = await driven.open(`${server.address}#scene=spring`, {}, [{ name: "prefers-reduced-motion", value: "reduce" }]);
+        await becomes(page, () => document.documentElement.dataset.firstFrameMs !== undefined);
+        await seconds(2);
+        hold(`${await tick(page)} ticks of a run that nobody has started`, (await tick(page)) === 0);
+        await page.puppeteer.click("#pause");
+        hold("it cannot be started", await becomes(page, async () => (await regatta).tick() > 10));
+        const state = () => page.evaluate(() => document.getElementById("state").textContent);
+        await becomes(page, () => document.getElementById("state").textContent.startsWith("Explicit Euler: "));
+        hold(`a screen reader hears no verdict: ${await state()}`, /^Explicit Euler: grows.*Press 2/.test(await state()));
+        const changes = await page.evaluate(async () => {
+            let changes = 0;
+            new MutationObserver((seen) => (changes += seen.length)).observe(document.getElementById("state"), { childList: true });
+            await new Promise((later) => setTimeout(later, 4000));
+            return changes;
+        });
+        hold(`it is interrupted ${changes} times in four seconds`, changes <= 1);
+        await page.close();
+    }
+
+    /** The page as a file of a folder says that it needs a server. */
+    async function holdFolder() {
+        const complaints = driven.complaints.length;
+        const page = await driven.open(`file://${process.cwd()}/target/web/index.html`);
+        const isSaid = await becomes(page, () => getComputedStyle(document.getElementById("alone")).visibility === "visible");
+        hold(`a folder says nothing: ${await page.evaluate(() => document.body.innerText)}`, isSaid);
+        await page.close();
+        // What a browser refuses of it is no fault of the page's.
+        driven.complaints.length = complaints;
+    }
+
     async function holdSweep() {
-        const page = await opened("#scene=spring", { width: 1280, height: 900 });
+        const page = await opened("#scene=spring", { width: 1280, height: 936 });
         await page.puppeteer.keyboard.press("e");
         await seconds(1);
         const still = await seen(page);
         // The button beside the stiffness, which then changes with each frame for eight seconds.
-        await page.puppeteer.mouse.click(965, 392);
+        await page.puppeteer.mouse.click(965, 428);
         await seconds(1);
         const from = await tick(page);
         await seconds(3);
@@ -145,7 +298,7 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
         await becomes(page, () => document.documentElement.dataset.firstFrameMs !== undefined);
         const link = await page.evaluate(() => location.hash);
         const goesOn = await becomes(page, async (from) => (await regatta).tick() > from, from);
-        hold(`a lost canvas does not come back at tick ${from}: ${link}`, /^#v1\..*&tick=\d+&play/.test(link) && goesOn);
+        hold(`a lost canvas does not come back at tick ${from}: ${link}`, /^#scene=spring&method=rk4&tick=\d+&play$/.test(link) && goesOn);
         await page.close();
     }
 }

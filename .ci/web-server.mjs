@@ -5,9 +5,9 @@ import { createServer } from "node:http";
 import { extname, join } from "node:path";
 import { brotliCompressSync, constants } from "node:zlib";
 
-const kinds = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".webp": "image/webp" };
+const kinds = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".webp": "image/webp", ".jpg": "image/jpeg", ".svg": "image/svg+xml" };
 
-export async function serve(folder, quality = 1) {
+export async function serve(folder, { quality = 1, headers: own = {} } = {}) {
     const missing = [];
     const packed = new Map();
     const server = createServer((request, response) => {
@@ -18,7 +18,7 @@ export async function serve(folder, quality = 1) {
             response.writeHead(404).end();
             return;
         }
-        const headers = { "Content-Type": kinds[extname(file)] ?? "application/octet-stream", "Cache-Control": "max-age=60" };
+        const headers = { "Content-Type": kinds[extname(file)] ?? "application/octet-stream", "Cache-Control": "max-age=60", ...own };
         if (/\bbr\b/.test(request.headers["accept-encoding"] ?? "")) {
             const pack = () => brotliCompressSync(readFileSync(file), {
                 params: { [constants.BROTLI_PARAM_QUALITY]: quality, [constants.BROTLI_PARAM_LGWIN]: 24 },

@@ -5,7 +5,8 @@
 // Needs the browser, and npm, which installs the driver under target/tools; WebKit is GTK's MiniBrowser with WebKitWebDriver.
 // These two need a display, as xvfb-run has one. Exits 2 where something is missing.
 
-import { existsSync, readFileSync } from "node:fs";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { dirname, join } from "node:path";
 import { drive } from "./web-browser.mjs";
 import { serve } from "./web-server.mjs";
 
@@ -59,22 +60,23 @@ async function colours(page) {
     }, await page.picture());
 }
 
-/** How far a picture of the page is from a still one, which the program has drawn: the mean difference of a channel as a part of
- * the whole range; and how far that still one is from one of a single colour. */
+/** How far a picture of the page's stage is from a still one, which the program has drawn: the mean difference of a channel as a
+ * part of the whole range; and how far that still one is from one of a single colour. */
 async function differences(page, still) {
     return page.evaluate(async (picture, still) => {
-        const pixels = async (source) => {
+        const pixels = async (source, top = 0) => {
             const image = new Image();
             image.src = source;
             await image.decode();
             const canvas = document.createElement("canvas");
-            [canvas.width, canvas.height] = [image.width, image.height];
+            [canvas.width, canvas.height] = [image.width, image.height - top];
             const context = canvas.getContext("2d");
-            context.drawImage(image, 0, 0);
-            return context.getImageData(0, 0, image.width, image.height).data;
+            context.drawImage(image, 0, -top);
+            return context.getImageData(0, 0, canvas.width, canvas.height).data;
         };
-        // Below the stage the page has its methods.
-        const [drawn, wanted] = [await pixels(`data:image/png;base64,${picture}`), await pixels(still)];
+        // Above the stage the page has a bar, and below it its methods.
+        const { top } = document.getElementById("stage").getBoundingClientRect();
+        const [drawn, wanted] = [await pixels(`data:image/png;base64,${picture}`, top), await pixels(still)];
         const mean = [0, 1, 2, 3].map((channel) => wanted.reduce((sum, it, at) => sum + (at % 4 === channel ? it : 0), 0) / (wanted.length / 4));
         const far = (other) => wanted.reduce((sum, it, at) => sum + Math.abs(it - other(at)), 0) / (wanted.length * 255);
         return [far((at) => drawn[at]), far((at) => mean[at % 4])];
@@ -104,7 +106,7 @@ async function holdTime() {
     console.log(`first frame after ${firstFrameMs} ms, ${seen} colours, ${rate.toFixed(1)} ticks and ${frameRate.toFixed(1)} frames a second`);
     await page.close();
 
-    const stands = await opened("#panels=off&theme=dark");
+    const stands = await opened("#panels=off&theme=dark", { height: 540 + 36 });
     hold("a stage on another's page waits", (await tick(stands)) === 0);
     const [off, blank] = await differences(stands, "still-dark.webp");
     hold(`its picture is off the program's by ${off}, one without a motif by ${blank}`, off < 0.015 && blank > 3 * off);
@@ -169,8 +171,77 @@ async function holdQuestions() {
     }
 }
 
+/** That each page says in its head what it is where a link to it is shared, with a picture that is there. */
+function holdHeads() {
+    const pages = ["", "questions"].flatMap((folder) =>
+        readdirSync(join("target/web", folder)).filter((name) => name.endsWith(".html")).map((name) => join("target/web", folder, name)));
+    hold(`pages: ${pages.length}`, pages.length >= 10);
+    const titles = new Set();
+    for (const page of pages) {
+        const text = readFileSync(page, "utf8");
+        const meta = (name) => text.match(new RegExp(`<meta (?:name|property)="${name}" content="([^"]*)"`))?.[1] ?? "";
+        const there = (path) => existsSync(/^https?:/.test(path) ? join("target/web/previews", path.split("/").at(-1)) : join(dirname(page), path));
+        const [title, said] = [meta("og:title"), meta("og:description")];
+        titles.add(title);
+        hold(`${page}: its title is ${title}`, title.length > 5 && title === meta("twitter:title"));
+        hold(`${page}: it says ${said}`, said.length > 40 && said.length < 200 && said === meta("twitter:description") && meta("description").length > 40);
+        hold(`${page}: its picture is ${meta("og:image")}`, meta("og:image") === meta("twitter:image") && there(meta("og:image")));
+        hold(`${page}: no colour, icon or card`, /^#/.test(meta("theme-color")) && there(text.match(/<link rel="icon" href="([^"]*)"/)?.[1] ?? "none") && meta("twitter:card") === "summary_large_image");
+        hold(`${page}: something is not filled in`, !/\{\{|[{}]/.test(text));
+    }
+    hold(`titles: ${[...titles].join()}`, titles.size === pages.length);
+}
+
+/** That an address which leads nowhere keeps still and says so in the middle, and one that was coded or has an end of a sentence
+ * behind it leads where it should. */
+async function holdAddresses() {
+    const said = (page) => page.evaluate(() => document.getElementById("told").textContent);
+    for (const [address, word] of [["#scen=spring", "scene"], ["#scene=tub", "tub"], ["#scene=spring&method=rk5", "rk4"], ["#v1.AAAA", "copy it whole"]]) {
+        const page = await driven.open(server.address + address);
+        await becomes(page, () => document.documentElement.classList.contains("refused"));
+        hold(`${address}: it says ${await said(page)}`, (await said(page)).includes(word));
+        const [middle, height, links] = await page.evaluate(() => {
+            const { top, bottom } = document.getElementById("told").getBoundingClientRect();
+            const links = [...document.querySelectorAll("#else a")].filter((link) => link.checkVisibility()).length;
+            return [(top + bottom) / 2, innerHeight, links];
+        });
+        hold(`${address}: it says so at ${middle} of ${height}, with ${links} links`, Math.abs(middle / height - 0.5) < 0.12 && links === 3);
+        hold(`${address}: something runs`, await page.evaluate(() => document.documentElement.dataset.firstFrameMs === undefined));
+        if (address.startsWith("#scen=")) {
+            // As when the address is mended in place.
+            await page.evaluate(() => void (location.hash = "#scene=spring"));
+            hold("a mended address does not open", await becomes(page, () => document.title.includes("spring") && document.documentElement.dataset.firstFrameMs !== undefined));
+        }
+        await page.close();
+    }
+    for (const address of ["#scene%3Dspring%26method%3Drk4", "#scene=spring&method=rk4).", "#scene=spring&method=rk4%3E,"]) {
+        const page = await opened(address);
+        const title = await page.evaluate(() => document.title);
+        hold(`${address}: ${title}`, title.includes("spring") && title.includes("Runge-Kutta 4"));
+        hold(`${address}: its question is elsewhere`, await page.evaluate(() => document.getElementById("what").href.endsWith("questions/which-tick-rate.html")));
+        await page.close();
+    }
+}
+
+/** That a server whose policy forbids the program is told what to allow. */
+async function holdPolicy() {
+    const complaints = driven.complaints.length;
+    const strict = await serve("target/web", { headers: { "Content-Security-Policy": "default-src 'self'" } });
+    const page = await driven.open(strict.address);
+    await becomes(page, () => document.documentElement.classList.contains("refused"));
+    const said = await page.evaluate(() => document.getElementById("told").textContent);
+    hold(`under a strict policy it says ${said}`, said.includes("'wasm-unsafe-eval'") && !said.includes("again"));
+    await page.close();
+    strict.close();
+    // The browser complains of the policy.
+    driven.complaints.length = complaints;
+}
+
 try {
+    holdHeads();
     await holdTime();
+    await holdAddresses();
+    await holdPolicy();
     await holdQuestions();
     await holdBitsAndWords();
     if (browser === "chrome") {

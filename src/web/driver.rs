@@ -7,15 +7,15 @@ use regatta::look::palette::Theme;
 use regatta::run::Replay;
 use regatta::scene::Scene;
 use regatta::studio::{
-    Command, DriverRequest, FrameLoop, Motion, SavedPreferences, StageCommand, ViewCommand,
+    Command, DriverRequest, FrameLoop, Motion, SavedPreferences, StageCommand, Studio, ViewCommand,
     open_file,
 };
-use regatta::view::egui;
+use regatta::view::{copied, egui};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::{Closure, JsValue};
 use web_sys::{Storage, Window};
 
-use crate::address::{Address, scene_of};
+use crate::address::Address;
 use crate::canvas::Canvas;
 use crate::pointer::Fingers;
 use crate::work::Workers;
@@ -45,8 +45,13 @@ pub(crate) struct Driver {
     /// What panels are told with the next frame.
     pub(crate) input: egui::RawInput,
     pub(crate) held: egui::Modifiers,
-    /// Whether the last key was Escape.
+    /// Whether a person has gone into the stage, whose panels then have Tab; Escape and Tab lead out.
+    pub(crate) is_entered: bool,
     pub(crate) was_escaped: bool,
+    /// What a screen reader was given last of the run.
+    pub(crate) spoken: String,
+    /// The stage to which the page leads an explanation: how many scenes were opened, the method, and whether it is the loop lab.
+    pub(crate) explained: Option<(u64, usize, bool)>,
     pub(crate) fingers: Fingers,
     /// The frames drawn.
     pub(crate) drawn: u32,
@@ -102,11 +107,12 @@ fn prefers(window: &Window, query: &str) -> bool {
 }
 
 impl Driver {
-    pub(crate) fn new(window: Window, canvas: Canvas, address: Address) -> Self {
-        let opened = address.studio();
-        let refused = opened.as_ref().err().cloned();
-        let mut studio =
-            opened.unwrap_or_else(|_| Address::default().studio().expect("it has one"));
+    pub(crate) fn new(
+        window: Window,
+        canvas: Canvas,
+        address: Address,
+        mut studio: Studio,
+    ) -> Self {
         // At first the stage is alone, as in the window.
         let remembered = storage(&window).and_then(|storage| storage.get_item(STORED).ok()?);
         let remembered = remembered.and_then(|text| SavedPreferences::parse(&text).ok());
@@ -115,10 +121,9 @@ impl Driver {
         let preferences = &mut studio.viewer.preferences;
         preferences.follow_theme(theme_of(&window));
         address.theme.into_iter().for_each(|theme| preferences.choose_theme(theme));
-        preferences.display.motion = match prefers(&window, "(prefers-reduced-motion: reduce)") {
-            true => Motion::Reduced,
-            false => Motion::Live,
-        };
+        preferences.is_page = true;
+        let is_calm = prefers(&window, "(prefers-reduced-motion: reduce)");
+        preferences.display.motion = if is_calm { Motion::Reduced } else { Motion::Live };
         let display = &mut preferences.display;
         display.measure = !address.is_embedded && (display.measure || address.opens_at_work());
         let workers = Workers::new(&studio);
@@ -134,52 +139,88 @@ impl Driver {
             remembers: !address.is_embedded && address.theme.is_none() && !address.opens_at_work(),
             input: egui::RawInput { focused: true, ..egui::RawInput::default() },
             held: egui::Modifiers::default(),
+            is_entered: false,
             was_escaped: false,
+            spoken: String::new(),
+            explained: None,
             fingers: Fingers::default(),
             drawn: 0,
             saves_picture: false,
             frame_is_due: false,
             work_is_due: false,
         };
-        if let Some(refused) = refused {
-            driver.frames.studio.viewer.set_notice(refused);
-        }
-        let runs = address.runs_at_first();
-        if let Some(run) = address.run {
-            driver.open_run(run);
-        }
+        let runs = address.runs_at_first() && !is_calm;
+        driver.open_run(address.run);
         if let Some(instrument) = address.instrument {
             driver.frames.studio.viewer.preferences.display.instrument = instrument;
         }
-        if let Some(tick) = address.tick {
-            // Beyond its end a run has nothing to show that an address could mean.
-            let last = regatta::run::trace::last_tick(driver.frames.studio.scene());
-            driver.frames.go_to(tick.min(last), address.plays);
-        } else if !runs {
-            driver.frames.studio.apply(ViewCommand::TogglePause);
+        match address.tick {
+            Some(tick) => driver.go_to(tick, runs),
+            None if runs => {}
+            None => _ = driver.frames.studio.apply(ViewCommand::TogglePause),
         }
         driver
+    }
+
+    /// Goes to a tick that was asked for, from where time runs or not.
+    fn go_to(&mut self, tick: u64, runs: bool) {
+        // Beyond its end a run has nothing to show that an address could mean.
+        let last = regatta::run::trace::last_tick(self.frames.studio.scene());
+        self.frames.go_to(tick.min(last), runs);
     }
 
     pub(crate) fn now_ns(&self) -> u64 {
         now_ns(&self.window)
     }
 
-    /// Opens the run of a link, or tells why it leads to none.
-    fn open_run(&mut self, run: Result<Scene, String>) {
-        match run {
-            Ok(scene) => {
-                self.arrival = Some(Replay::new(scene.clone().into()));
-                open_file(&mut self.frames.studio, Path::new(LINK), scene);
-            }
-            Err(refused) => self.frames.studio.viewer.set_notice(refused),
+    /// Opens the run that a link holds, if it does.
+    fn open_run(&mut self, run: Option<Scene>) {
+        if let Some(scene) = run {
+            self.arrival = Some(Replay::new(scene.clone().into()));
+            open_file(&mut self.frames.studio, Path::new(LINK), scene);
         }
     }
 
-    /// Opens the run of a link that was pasted.
+    /// Opens a link that was pasted, and puts it into the address; or says why it leads to no run.
     pub(crate) fn open_link(&mut self, written: &str) {
-        self.open_run(scene_of(written));
+        match Address::of(written).and_then(|address| address.studio().map(|_| address)) {
+            Ok(address) if address.run.is_some() => {
+                self.put_fragment(&address.fragment());
+                self.open_run(address.run);
+                if let Some(tick) = address.tick {
+                    self.go_to(tick, address.plays);
+                }
+            }
+            // What an address opens by name, the page opens as its own.
+            Ok(address) => {
+                self.put_fragment(&address.fragment());
+                _ = self.window.location().reload();
+            }
+            Err(refused) => self.frames.studio.viewer.set_notice(refused),
+        }
         self.request_frame();
+    }
+
+    /// Puts a link into the address of the page.
+    fn put_fragment(&self, link: &str) {
+        let history = self.window.history();
+        _ = history.map(|h| h.replace_state_with_url(&JsValue::NULL, "", Some(link)));
+    }
+
+    /// Puts the run into the address of the page, unless that stands on another's, and returns the whole address.
+    ///
+    /// # Errors
+    /// Why no link can hold the run.
+    pub(crate) fn put_into_address(&self) -> Result<String, String> {
+        let copied = copied(&self.frames.studio, DriverRequest::CopyLink);
+        let link = copied.unwrap_or_else(|| Err("there is no run".into()))?.text;
+        let address = self.window.location().href().unwrap_or_default();
+        let page = address.split('#').next().unwrap_or_default();
+        // A stage on another's page is opened again as one.
+        if !self.is_embedded {
+            self.put_fragment(&link);
+        }
+        Ok(format!("{page}{link}"))
     }
 
     /// Has the browser remember how the program is shown.
@@ -193,21 +234,14 @@ impl Driver {
     pub(crate) fn start_again(&self) {
         let plays = if self.frames.studio.running() { "&play" } else { "" };
         let tick = self.frames.studio.race().tick();
-        let link = self.frames.studio.deck.link().map(|link| format!("{link}&tick={tick}{plays}"));
-        let (history, location) = (self.window.history(), self.window.location());
-        if let (Ok(history), Ok(link)) = (history, link) {
-            _ = history.replace_state_with_url(&JsValue::NULL, "", Some(&link));
+        let panels = if self.is_embedded { "&panels=off" } else { "" };
+        if let Ok(link) = self.frames.studio.deck.link() {
+            self.put_fragment(&format!("{link}&tick={tick}{plays}{panels}"));
         }
-        _ = location.reload();
+        _ = self.window.location().reload();
     }
 
-    /// Puts the run into the address, and copies that.
-    pub(crate) fn share(&mut self) {
-        self.frames.ask([Command::Ask(DriverRequest::CopyLink)]);
-        self.request_frame();
-    }
-
-    /// Has time run.
+    /// Has time run, or stand still.
     pub(crate) fn play(&mut self) {
         self.frames.ask([Command::View(ViewCommand::TogglePause)]);
         self.request_frame();

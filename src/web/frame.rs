@@ -1,11 +1,11 @@
 //! A frame: commands → ticks → picture → canvas; and the work between frames.
 
 use regatta::studio::{Command, DriverRequest, ToDo, ViewCommand, picture_file_name};
-use regatta::view::{copied, egui};
-use wasm_bindgen::prelude::JsValue;
+use regatta::view::{copied, egui, spoken};
+use web_sys::Document;
 
 use crate::driver::{Driver, now_ns};
-use crate::{clipboard, files};
+use crate::{clipboard, files, questions};
 
 /// The longest time that work takes of the page before a frame may be drawn, in nanoseconds.
 const SLICE_NS: u64 = 5_000_000;
@@ -76,9 +76,7 @@ impl Driver {
         let mut text = copied.text.clone();
         let is_link = request == DriverRequest::CopyLink;
         if is_link {
-            let history = self.window.history();
-            _ = history.map(|h| h.replace_state_with_url(&JsValue::NULL, "", Some(&text)));
-            text = self.window.location().href().unwrap_or(text);
+            text = self.put_into_address().unwrap_or(text);
         }
         clipboard::write(&self.window, &text, move |driver, taken| {
             let notice = match taken {
@@ -90,23 +88,14 @@ impl Driver {
         });
     }
 
-    /// Has the page show the title and the pointer, and copies what was copied in the panels.
-    fn show(&self, output: &egui::PlatformOutput) {
+    /// Has the page show its title, its state and the pointer, and copies what was copied in the panels.
+    fn show(&mut self, output: &egui::PlatformOutput) {
         if let Some(document) = self.window.document() {
             let title = self.frames.studio.title();
             if document.title() != title {
                 document.set_title(&title);
             }
-            // Without a keyboard and a bar of buttons a stage that stands still has some of the page's own.
-            let is_still = !self.frames.studio.running() && !self.frames.studio.display().measure;
-            let class = match is_still {
-                true if self.is_embedded => "still",
-                true => "still sharing",
-                false => "",
-            };
-            if let Some(body) = document.body().filter(|body| body.class_name() != class) {
-                body.set_class_name(class);
-            }
+            self.show_state(&document);
         }
         for command in &output.commands {
             if let egui::OutputCommand::CopyText(text) = command {
@@ -125,6 +114,40 @@ impl Driver {
             _ => "default",
         };
         _ = self.canvas.element.style().set_property("cursor", pointer);
+    }
+
+    /// Has the page show whether time runs, where the stage is explained, and what a screen reader says of it.
+    fn show_state(&mut self, document: &Document) {
+        let studio = &self.frames.studio;
+        let (is_running, is_alone) = (studio.running(), !studio.display().measure);
+        let classes = [
+            ("running", is_running),
+            // A stage that stands still, without a bar, has a button over it.
+            ("still", !is_running && is_alone),
+            ("entered", self.is_entered),
+        ];
+        let classes: Vec<&str> =
+            classes.into_iter().filter(|(_, is)| *is).map(|(class, _)| class).collect();
+        let class = classes.join(" ");
+        if let Some(body) = document.body().filter(|body| body.class_name() != class) {
+            body.set_class_name(&class);
+            let label = if is_running { "Pause" } else { "Play" };
+            if let Some(button) = document.get_element_by_id("pause") {
+                _ = button.set_attribute("aria-label", label);
+            }
+        }
+        let spoken = spoken(studio);
+        let told = document.get_element_by_id("state").filter(|_| spoken != self.spoken);
+        if let Some(told) = told {
+            told.set_text_content(Some(&spoken));
+            self.spoken = spoken;
+        }
+        let stage = (studio.deck.openings(), studio.active(), studio.loop_lab().is_some());
+        if self.explained.replace(stage) != Some(stage)
+            && let Some(link) = document.get_element_by_id("what")
+        {
+            _ = link.set_attribute("href", &questions::page_of(studio));
+        }
     }
 
     /// Works for a slice of time, and goes on between the next frames.

@@ -6,6 +6,8 @@
 mod address;
 mod canvas;
 mod clipboard;
+#[cfg(test)]
+mod contrast;
 mod driver;
 mod files;
 mod frame;
@@ -46,9 +48,15 @@ async fn open() -> Result<(), String> {
     let window = web_sys::window().ok_or("there is no page")?;
     let element = window.document().and_then(|document| document.get_element_by_id("stage"));
     let element = element.and_then(|element| element.dyn_into().ok()).ok_or("there is no stage")?;
-    let address = Address::of(&window.location().hash().unwrap_or_default());
+    // Nothing runs of an address that leads nowhere.
+    let led = |refused: String| {
+        let end = if refused.ends_with('?') { "" } else { "." };
+        format!("This address leads to no run: {refused}{end}")
+    };
+    let address = Address::of(&window.location().hash().unwrap_or_default()).map_err(led)?;
+    let studio = address.studio().map_err(led)?;
     let canvas = Canvas::new(element).await?;
-    let mut driver = Driver::new(window, canvas, address);
+    let mut driver = Driver::new(window, canvas, address, studio);
     driver.frame();
     driver::set(driver);
     listening::listen();
@@ -61,6 +69,23 @@ pub fn tick() -> f64 {
     let mut tick = 0;
     driver::with(|driver| tick = driver.frames.studio.race().tick());
     tick as f64
+}
+
+/// Puts the run into the address of the page, and returns the whole address.
+///
+/// # Errors
+/// Why no link can hold the run.
+#[wasm_bindgen]
+pub fn link() -> Result<String, JsValue> {
+    let mut link = Err("the page is not ready".into());
+    driver::with(|driver| link = driver.put_into_address());
+    link.map_err(JsValue::from)
+}
+
+/// Has time run, or stand still.
+#[wasm_bindgen]
+pub fn pause() {
+    driver::with(Driver::play);
 }
 
 /// The frames drawn so far.

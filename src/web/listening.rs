@@ -6,7 +6,7 @@ use wasm_bindgen::JsCast;
 use wasm_bindgen::convert::FromWasmAbi;
 use wasm_bindgen::prelude::Closure;
 use web_sys::{
-    ClipboardEvent, DragEvent, Event, EventTarget, KeyboardEvent, PointerEvent, WheelEvent,
+    ClipboardEvent, DragEvent, Element, Event, EventTarget, KeyboardEvent, PointerEvent, WheelEvent,
 };
 
 use crate::driver::{Driver, theme_of, with};
@@ -42,11 +42,8 @@ pub(crate) fn listen() {
         ] {
             on(&canvas, name, move |driver, event| driver.pointer(&event, deed));
         }
-        for (id, does) in [("play", Driver::play as fn(&mut Driver)), ("share", Driver::share)] {
-            if let Some(button) = window.document().and_then(|page| page.get_element_by_id(id)) {
-                on(&button, "click", move |driver, _: Event| does(driver));
-            }
-        }
+        // Whoever leaves the stage has to go into it again.
+        on(&canvas, "blur", |driver, _: Event| driver.enter(false));
         on(&canvas, "contextmenu", |_, event: Event| event.prevent_default());
         on(&canvas, "wheel", |driver: &mut Driver, event: WheelEvent| {
             // A page around a stage is scrolled where nobody has gone into the stage.
@@ -58,8 +55,13 @@ pub(crate) fn listen() {
             }
         });
         on(&canvas, "webglcontextlost", |driver, _: Event| driver.start_again());
-        on(&window, "copy", |driver, _: Event| driver.tell_panels([egui::Event::Copy]));
-        on(&window, "cut", |driver, _: Event| driver.tell_panels([egui::Event::Cut]));
+        for (name, copied) in [("copy", egui::Event::Copy), ("cut", egui::Event::Cut)] {
+            on(&window, name, move |driver: &mut Driver, event: Event| {
+                if driver.is_for_stage(&event) {
+                    driver.tell_panels([copied.clone()]);
+                }
+            });
+        }
         on(&window, "paste", |driver, event| driver.paste(&event));
         on(&window, "dragover", |_, event: Event| event.prevent_default());
         on(&window, "drop", |_, event: DragEvent| {
@@ -70,8 +72,6 @@ pub(crate) fn listen() {
             }
         });
         on(&window, "resize", |driver, _: Event| driver.request_frame());
-        // Another run in the address of the same page.
-        on(&window, "hashchange", |driver, _: Event| _ = driver.window.location().reload());
         if let Some(document) = window.document() {
             // Nothing is simulated of the time in which nobody could see it.
             on(&document, "visibilitychange", |driver, _: Event| {
@@ -91,7 +91,7 @@ pub(crate) fn listen() {
 }
 
 impl Driver {
-    /// Whether keys are for the stage.
+    /// Whether this page has the keys, and not one around it.
     fn has_focus(&self) -> bool {
         self.window.document().is_some_and(|document| document.has_focus().unwrap_or(false))
     }
@@ -109,10 +109,37 @@ impl Driver {
         }
     }
 
+    /// Whether an event is the stage's: another element of the page has its own.
+    fn is_for_stage(&self, event: &Event) -> bool {
+        let target = event.target().and_then(|target| target.dyn_into::<Element>().ok());
+        target.is_none_or(|target| matches!(&*target.tag_name(), "CANVAS" | "BODY" | "HTML"))
+    }
+
+    /// Whether the stage itself has the focus.
+    fn has_stage(&self) -> bool {
+        let focused = self.window.document().and_then(|document| document.active_element());
+        focused.is_some_and(|focused| focused.is_same_node(Some(&self.canvas.element)))
+    }
+
+    /// Notes that a person has gone into the stage, or has left it.
+    fn enter(&mut self, is_entered: bool) {
+        if std::mem::replace(&mut self.is_entered, is_entered) != is_entered {
+            self.request_frame();
+        }
+    }
+
     fn key_down(&mut self, event: KeyboardEvent) {
         let press = Press::of(&event, self.is_mac());
         self.hold(press.modifiers());
+        if !self.is_for_stage(&event) {
+            return;
+        }
         let was_escaped = std::mem::replace(&mut self.was_escaped, press.is_escape());
+        if press.is_tab() && was_escaped {
+            self.enter(false);
+        } else if self.has_stage() && !press.is_tab() && !press.is_modifier() {
+            self.enter(true);
+        }
         let panels = self.canvas.renderer.context();
         if let Some(key) = press.bound()
             && let Some(command) = command_of(key, press.is_repeated, panels)
@@ -122,8 +149,10 @@ impl Driver {
             return self.request_frame();
         }
         // A page that shows the stage only has nothing to go to with it, and the page around it has.
-        // Escape and then Tab lead out of the stage everywhere.
-        let moves_focus = press.is_tab() && !self.is_embedded && !was_escaped;
+        let moves_focus = press.is_tab() && self.is_entered && !self.is_embedded;
+        if press.is_tab() && !moves_focus {
+            return;
+        }
         let is_typed = panels.egui_wants_keyboard_input() && press.edits();
         if moves_focus || is_typed {
             event.prevent_default();
@@ -142,11 +171,11 @@ impl Driver {
     }
 
     fn pointer(&mut self, event: &PointerEvent, deed: Deed) {
-        let canvas = &self.canvas.element;
         if deed == Deed::Down {
             event.prevent_default();
-            _ = canvas.focus();
-            _ = canvas.set_pointer_capture(event.pointer_id());
+            _ = self.canvas.element.focus();
+            _ = self.canvas.element.set_pointer_capture(event.pointer_id());
+            self.enter(true);
         }
         let zoom = self.canvas.renderer.context().zoom_factor();
         let at = egui::pos2(event.offset_x() as f32, event.offset_y() as f32) / zoom;
@@ -156,6 +185,9 @@ impl Driver {
     }
 
     fn paste(&mut self, event: &ClipboardEvent) {
+        if !self.is_for_stage(event) {
+            return;
+        }
         let pasted = event.clipboard_data().and_then(|data| data.get_data("text").ok());
         let Some(text) = pasted else { return };
         event.prevent_default();

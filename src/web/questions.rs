@@ -3,9 +3,10 @@
 use regatta::loops::{LoopRun, RefreshRate, policy, trace_card};
 use regatta::measure::{Adviser, Criterion, Judge};
 use regatta::run::Session;
-use regatta::scene::{LaneSpec, Scene};
+use regatta::scene::{LaneSpec, SCENES, Scene};
 use regatta::sim::integrators::method;
 use regatta::sim::number::significant;
+use regatta::studio::Studio;
 use regatta::tools::port::{Approach, Setup, Wish, port, setups};
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -58,6 +59,54 @@ pub fn number(claim: &str) -> Option<String> {
     NUMBERS.iter().find(|(id, _)| *id == claim)?.1()
 }
 
+/// The pages, as they are made.
+const PAGES: &str = include_str!("../../assets/web/questions/pages.toml");
+
+/// The lines of the pages: each a key and its value.
+fn lines() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let pairs = PAGES.lines().filter_map(|line| line.split_once(" = "));
+    pairs.map(|(key, value)| (key, value.trim_matches('"')))
+}
+
+/// The address of the page that explains a stage: one on whose stage the same method runs in the same scene, else one of the scene,
+/// else the list of all.
+pub(crate) fn page_of(studio: &Studio) -> String {
+    let title = &studio.scene().title;
+    // A run of a link is of the scene by whose title it goes.
+    let is_it = |name: &&str| Scene::built_in(name).is_some_and(|known| known.title == *title);
+    let scene = SCENES.iter().map(|scene| scene.name).find(is_it).unwrap_or_default();
+    let method = studio.entries()[studio.active()].method.id;
+    let (mut name, mut found) = ("", (0, ""));
+    for (key, value) in lines() {
+        let rank = match key {
+            "name" => {
+                name = value;
+                continue;
+            }
+            "stages" => u32::from(value.split(' ').any(|stage| stage == scene)),
+            "shows" => rank(value, studio.loop_lab().is_some(), scene, method),
+            _ => continue,
+        };
+        if rank > found.0 {
+            found = (rank, name);
+        }
+    }
+    match found {
+        (0, _) => "questions/".into(),
+        (_, name) => format!("questions/{name}.html"),
+    }
+}
+
+/// How much of a stage is on a page that shows these settings: nothing, the scene, or the method too.
+fn rank(shows: &str, is_in_loop_lab: bool, scene: &str, method: &str) -> u32 {
+    let has = |key, wanted| shows.split('&').any(|it| it.split_once('=') == Some((key, wanted)));
+    match shows.contains("loop=") {
+        true => 3 * u32::from(is_in_loop_lab),
+        false if !has("scene", scene) => 0,
+        false => 1 + u32::from(has("method", method)),
+    }
+}
+
 fn spring() -> Scene {
     Scene::built_in("spring").expect("a built-in scene")
 }
@@ -101,16 +150,15 @@ fn percent_lower(tick_hz: u32) -> Option<f64> {
 mod tests {
     use super::*;
     use regatta::manual::chapter;
+    use regatta::scene::Action;
+    use regatta::studio::RunCommand;
 
     #[test]
     fn a_page_computes_the_numbers_that_its_section_has() {
-        let pages = include_str!("../../assets/web/questions/pages.toml");
         let manual = chapter("questions").unwrap().text.replace('\n', " ");
         let sections: Vec<&str> = manual.split(" ## ").collect();
         let (mut section, mut claims) = ("", Vec::new());
-        for line in pages.lines() {
-            let (key, value) = line.split_once(" = ").unwrap_or_default();
-            let value = value.trim_matches('"');
+        for (key, value) in lines() {
             match key {
                 "section" => {
                     let is_it = |text: &&&str| text.starts_with(&format!("{value} "));
@@ -118,7 +166,7 @@ mod tests {
                 }
                 "id" => claims.push(value),
                 "says" => {
-                    let said = value.replace("{}", &number(claims[claims.len() - 1]).expect(line));
+                    let said = value.replace("{}", &number(claims[claims.len() - 1]).expect(value));
                     assert!(section.contains(&said), "the manual does not say: {said}");
                 }
                 _ => {}
@@ -126,5 +174,38 @@ mod tests {
         }
         let known: Vec<&str> = NUMBERS.iter().map(|(id, _)| *id).collect();
         assert_eq!(claims, known);
+    }
+
+    #[test]
+    fn a_stage_leads_to_the_page_that_shows_it_and_every_page_is_led_to() {
+        let page = |address: &str| {
+            page_of(&crate::address::Address::of(address).unwrap().studio().unwrap())
+        };
+        let named = |name: &str| format!("questions/{name}.html");
+        for (address, name) in [
+            ("", "why-euler-explodes"),
+            ("#scene=spring", "why-euler-explodes"),
+            ("#scene=spring&method=rk4", "which-tick-rate"),
+            ("#scene=spring&method=engine-box2d", "dies-without-damping"),
+            ("#scene=alike", "same-spring-elsewhere"),
+            ("#scene=held-force", "gains-with-substeps"),
+            ("#scene=lerp", "camera-at-30-fps"),
+            ("#scene=spring&loop=edge", "jitter-at-144-hz"),
+            ("#scene=jump", "jump-at-144-fps"),
+        ] {
+            assert_eq!(page(address), named(name), "{address}");
+        }
+        assert_eq!(page("#scene=quarter-car"), "questions/");
+        let mut jump = crate::address::Address::of("#scene=jump").unwrap().studio().unwrap();
+        jump.apply(RunCommand::Act(Action::Kick(1.0)));
+        let link = jump.deck.link().unwrap();
+        assert!(link.starts_with("#v1."), "{link}");
+        let run = crate::address::Address::of(&link).unwrap().run.unwrap();
+        assert_eq!(page_of(&Studio::new(run)), named("jump-at-144-fps"));
+        for (_, scenes) in lines().filter(|(key, _)| *key == "stages") {
+            assert!(scenes.split(' ').all(|scene| Scene::built_in(scene).is_some()), "{scenes}");
+        }
+        let shown = lines().filter(|(key, _)| *key == "shows").map(|(_, shown)| shown);
+        shown.for_each(|shown| assert_ne!(page(&format!("#{shown}")), "questions/", "{shown}"));
     }
 }
