@@ -96,7 +96,7 @@ fn a_link_that_names_a_scene_opens_it_at_its_tick_and_stands_still() {
     let test = "a_link_that_names_a_scene_opens_it_at_its_tick_and_stands_still";
     let link = "#scene=spring&method=rk4&tick-hz=30&tick=45";
     let Some(desk) = Desk::open(test, &format!("--scene {link}")) else { return };
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 30 Hz");
+    desk.titled("Regatta - spring - Runge-Kutta 4 - 30 Hz (paused)");
     // As long as a person looks at it before sending it on.
     std::thread::sleep(std::time::Duration::from_secs(1));
     desk.press("ctrl+l");
