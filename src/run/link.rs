@@ -211,7 +211,8 @@ impl Link {
         if let Some(hz) = values(TICK_HZ).last() {
             let known = hz.parse().ok().filter(|hz| Clock::TICK_HZ.contains(hz));
             let range = format!("{} to {}", Clock::TICK_HZ.start(), Clock::TICK_HZ.end());
-            scene.tick_hz = known.ok_or_else(|| LinkError::unknown(TICK_HZ, hz, &[&range]))?;
+            let hz = known.ok_or_else(|| LinkError::unknown(TICK_HZ, hz, &[&range]))?;
+            scene = scene.at_tick_hz(hz);
         }
         let races = self.asks_to_race() || methods.len() > 1;
         Ok(Named { scene: scene.with_methods(&methods), methods, races })

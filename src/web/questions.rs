@@ -137,8 +137,8 @@ fn wish(frequency_hz: f64, damping_ratio: f64) -> Wish {
 
 /// By how much of the exact height a jump is lower under semi-implicit Euler at half a second, in percent.
 fn percent_lower(tick_hz: u32) -> Option<f64> {
-    let jump = Scene { tick_hz, ..Scene::built_in("jump")? };
-    let jump = Scene { lanes: vec![lane("semi-implicit-euler")?], ..jump };
+    let mut jump = Scene::built_in("jump")?;
+    (jump.tick_hz, jump.lanes) = (tick_hz, vec![lane("semi-implicit-euler")?]);
     let mut session = Session::racing(jump.into());
     session.run(u64::from(tick_hz / 2));
     let race = session.race();
