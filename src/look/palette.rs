@@ -56,7 +56,8 @@ impl Theme {
 
     /// The colour and the dash pattern of a lane among `lanes`: its method's. Of several lanes of one method the first has
     /// them, and each of the others another colour and another dash. Of the first nine no two share their dash and a colour
-    /// that some people cannot tell apart.
+    /// that some people cannot tell apart, and one whose colour another has gets one of its own while there is one. Explicit
+    /// Euler's colour is no other method's.
     pub fn lane_style(self, lanes: &[LaneSpec], lane: &LaneSpec) -> (Rgba, [f32; 2]) {
         self.drawn(lane_places(lanes, lane))
     }
@@ -193,7 +194,7 @@ static LIGHT: Palette = Palette {
     good: rgb(0x00663F),
     fair: rgb(0x2C7A55),
     methods: [
-        rgb(0x9A3C06),
+        rgb(0xAE3800),
         rgb(0x085A93),
         rgb(0x923570),
         rgb(0x5B6000),
@@ -233,6 +234,9 @@ const CLASSICS: [(&str, usize, usize); 6] = [
     ("adaptive-euler", 5, 0),
 ];
 
+/// The index of the colour of explicit Euler alone.
+const EULER: usize = 0;
+
 /// The indices of the warm colours, which are much alike on the light chart.
 const WARM: [usize; 3] = [0, 3, 5];
 
@@ -247,6 +251,12 @@ fn indices(method: &Method) -> (usize, usize) {
     listed.map_or_else(|| own_style(method), |index| STYLES[index])
 }
 
+/// The indices of the colour and the dash of a method that keeps them in every scene.
+fn classic(method: &Method) -> Option<(usize, usize)> {
+    let found = CLASSICS.iter().find(|(id, ..)| *id == method.id);
+    found.map(|&(_, colour, dash)| (colour, dash))
+}
+
 /// The indices of the colour and the dash of a lane. A lane after the first of its method has a colour unlike that of any
 /// lane before it, as long as there is one, and then at least a pair of its own.
 fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
@@ -256,14 +266,24 @@ fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
         _ => return indices(lane.method),
     };
     let (colours, dashes) = (DARK.methods.len(), DASHES.len());
+    let kept = lanes.iter().take(TOLD_APART).filter_map(|lane| classic(lane.method));
     let mut taken: Vec<(usize, usize)> = Vec::new();
     for (i, next) in lanes[..=end].iter().enumerate() {
         let (colour, dash) = indices(next.method);
         let pairs = (1..colours * dashes).map(|n| ((colour + n) % colours, (dash + n) % dashes));
-        let unlike = |pair: &(usize, usize)| taken.iter().all(|other| !are_alike(other.0, pair.0));
+        let pairs = pairs.filter(|pair| pair.0 != EULER);
+        let others = || taken.iter().copied().chain(kept.clone());
+        let unlike = |pair: &(usize, usize)| others().all(|other| !are_alike(other.0, pair.0));
+        let unshared = |pair: &(usize, usize)| others().all(|other| other.0 != pair.0);
         let unused = |pair: &(usize, usize)| !taken.contains(pair);
-        let other = || pairs.clone().find(unlike).or_else(|| pairs.clone().find(unused));
-        let wanted = if is_first(i) { None } else { other() }.unwrap_or((colour, dash));
+        let own = || pairs.clone().find(unlike).or_else(|| pairs.clone().find(unshared));
+        let is_shared = i < TOLD_APART && !unshared(&(colour, dash));
+        let other = match classic(next.method) {
+            _ if !is_first(i) => own().or_else(|| pairs.clone().find(unused)),
+            None if is_shared => own(),
+            _ => None,
+        };
+        let wanted = other.unwrap_or((colour, dash));
         // With another dash, or else in another colour too.
         let dashed = (0..dashes).map(|n| (wanted.0, (wanted.1 + n) % dashes));
         let is_told = |pair: &(usize, usize)| {
@@ -280,23 +300,22 @@ fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
 /// solid line, which those that people know best have.
 fn own_style(method: &Method) -> (usize, usize) {
     let sum = method.id.bytes().fold(0, |sum: usize, byte| (31 * sum + usize::from(byte)) % 9973);
-    (sum % DARK.methods.len(), 1 + sum % (FIRST_DASHES - 1))
+    (1 + sum % (DARK.methods.len() - 1), 1 + sum % (FIRST_DASHES - 1))
 }
 
 /// The indices of each method's colour and dash. No method has a colour like that of a neighbour in the table.
 static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
-    let classic = |method: &Method| {
-        let found = CLASSICS.iter().find(|(id, ..)| *id == method.id);
-        found.map(|&(_, colour, dash)| (colour, dash))
-    };
     let colours = DARK.methods.len();
     let first = (0..colours * FIRST_DASHES).map(|n| (n % colours, n % FIRST_DASHES));
     let more = (FIRST_DASHES..DASHES.len()).flat_map(|dash| (0..colours).map(move |n| (n, dash)));
     let mut free: Vec<(usize, usize)> = first.chain(more).collect();
     let of_engines = (0..colours * ENGINE_DASHES.len())
         .map(|n| (n % colours, ENGINE_DASHES[n % ENGINE_DASHES.len()]));
+    let of_engines = of_engines.filter(|style| style.0 != EULER);
     let mut of_engines: Vec<(usize, usize)> = of_engines.collect();
-    free.retain(|style| !METHODS.iter().filter_map(classic).any(|taken| taken == *style));
+    free.retain(|style| {
+        style.0 != EULER && !METHODS.iter().filter_map(classic).any(|taken| taken == *style)
+    });
     let mut styles: Vec<(usize, usize)> = Vec::new();
     for (i, method) in METHODS.iter().enumerate() {
         let beside = [styles.last().copied(), METHODS.get(i + 1).and_then(classic)];

@@ -39,8 +39,22 @@ fn text_stands_out_from_what_it_is_written_on_in_both_themes() {
     assert!((contrast(rgb(0xFFFFFF), rgb(0)) - 21.0).abs() < 1e-9);
 }
 
-/// A colour as a deuteranope sees it, by Machado, Oliveira and Fernandes (2009), in CIE L*a*b*.
-fn seen_by_a_deuteranope(colour: Rgba) -> [f64; 3] {
+/// What a deuteranope sees of linear red, green and blue, by Machado, Oliveira and Fernandes (2009); and what most people do.
+const DEUTERANOPE: [[f64; 3]; 3] = [
+    [0.367322, 0.860646, -0.227968],
+    [0.280085, 0.672501, 0.047413],
+    [-0.011820, 0.042940, 0.968881],
+];
+const MOST_PEOPLE: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// The distance of two colours in CIE L*a*b*, as these eyes see them.
+fn distance_seen(a: Rgba, b: Rgba, eyes: [[f64; 3]; 3]) -> f64 {
+    let (a, b) = (seen_by(a, eyes), seen_by(b, eyes));
+    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// A colour as these eyes see it, in CIE L*a*b*.
+fn seen_by(colour: Rgba, eyes: [[f64; 3]; 3]) -> [f64; 3] {
     let linear = |i: usize| {
         let part = f64::from(colour[i]) / 255.0;
         if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
@@ -48,14 +62,7 @@ fn seen_by_a_deuteranope(colour: Rgba) -> [f64; 3] {
     let through = |rows: [[f64; 3]; 3], of: [f64; 3]| {
         rows.map(|row| row.iter().zip(of).map(|(part, of)| part * of).sum::<f64>())
     };
-    let seen = through(
-        [
-            [0.367322, 0.860646, -0.227968],
-            [0.280085, 0.672501, 0.047413],
-            [-0.011820, 0.042940, 0.968881],
-        ],
-        [0, 1, 2].map(linear),
-    );
+    let seen = through(eyes, [0, 1, 2].map(linear));
     let xyz = through(
         [
             [0.433953, 0.376219, 0.189828],
@@ -73,11 +80,8 @@ fn seen_by_a_deuteranope(colour: Rgba) -> [f64; 3] {
 fn a_deuteranope_tells_the_first_nine_lanes_apart_by_hue_or_by_dash() {
     /// Below this distance colours are one to somebody who looks from curve to legend.
     const ALIKE: f64 = 25.5;
-    let distance = |a: Rgba, b: Rgba| {
-        let (a, b) = (seen_by_a_deuteranope(a), seen_by_a_deuteranope(b));
-        (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
-    };
-    let white = seen_by_a_deuteranope([255; 4]);
+    let distance = |a: Rgba, b: Rgba| distance_seen(a, b, DEUTERANOPE);
+    let white = seen_by([255; 4], DEUTERANOPE);
     assert!((white[0] - 100.0).abs() < 0.1 && white[1].hypot(white[2]) < 1.0, "{white:?}");
     let engines = METHODS.iter().filter(|method| method.is_engine());
     let mut lists: Vec<(String, Vec<LaneSpec>)> = vec![
@@ -176,5 +180,51 @@ fn the_wire_of_a_spring_stands_out_from_the_sea_in_both_themes() {
             assert!(most >= 4.5, "{theme:?}: {most:.2}");
         }
         assert!(contrast(edge, light) >= 3.0, "{theme:?}: the turns are told apart");
+    }
+}
+
+#[test]
+fn no_lane_is_in_the_colour_of_explicit_euler_but_explicit_euler() {
+    let (euler, is_euler) = (EULER, |method: &Method| method.id == "explicit-euler");
+    for method in METHODS {
+        assert_eq!(indices(method).0 == euler, is_euler(method), "{}", method.id);
+    }
+    for scene in crate::scene::SCENES {
+        let list = crate::scene::Scene::built_in(scene.name).unwrap().method_list();
+        for theme in [Theme::Dark, Theme::Light] {
+            let orange = theme.palette().methods[euler];
+            for lane in &list {
+                let is_orange = theme.lane_style(&list, lane).0 == orange;
+                assert_eq!(is_orange, is_euler(lane.method), "{}: {}", scene.name, lane.method.id);
+            }
+        }
+    }
+    let custom = |id: String| Method { id: id.leak(), ..*METHODS.last().unwrap() };
+    assert!((0..300).all(|i| own_style(&custom(format!("method-{i}"))).0 != euler));
+}
+
+#[test]
+fn a_method_that_is_recommended_has_a_colour_of_its_own_among_the_lanes_of_my_spring() {
+    let scene = crate::studio::MySpring::default().scene(60).unwrap();
+    for best in scene.methods_for_games() {
+        let mut lanes = scene.lanes.clone();
+        if lanes.iter().all(|lane| lane.method != best) {
+            lanes.insert(1, LaneSpec::plain(best));
+        }
+        let colours = lanes.iter().map(|lane| Theme::Dark.lane_style(&lanes, lane).0);
+        let colours: Vec<_> = colours.collect();
+        let of_best = lanes.iter().position(|lane| lane.method == best).unwrap();
+        let shared = colours.iter().filter(|colour| **colour == colours[of_best]).count();
+        assert_eq!(shared, 1, "{}: {colours:?}", best.id);
+    }
+}
+
+#[test]
+fn euler_and_adaptive_euler_are_far_apart_in_both_themes() {
+    for (theme, least) in [(Theme::Dark, 30.0), (Theme::Light, 40.0)] {
+        let [euler, adaptive] = ["explicit-euler", "adaptive-euler"]
+            .map(|id| theme.style(crate::sim::integrators::method(id).unwrap()).0);
+        let apart = distance_seen(euler, adaptive, MOST_PEOPLE);
+        assert!(apart > least && apart < 100.0, "{theme:?}: {apart}");
     }
 }
