@@ -97,7 +97,7 @@ impl FrameTrace {
     /// What to say of a log that has no times of display; `None` of any other trace.
     pub fn missing_display(&self) -> Option<&'static str> {
         (self.clocks == Clocks::OfFrames)
-            .then_some("the log says nothing of the display: its frames are taken as displayed when they begin")
+            .then_some("the log has no display times; each frame counts as shown when it begins")
     }
     /// Whether it ends.
     pub fn ends(&self) -> bool {

@@ -69,7 +69,7 @@ impl LoopVerdict {
         let late = match latency * f64::from(tick_hz) / 1000.0 {
             late if late < LATE_TICKS => None,
             late if (late - 1.0).abs() < 0.1 => Some("one tick late".into()),
-            _ => Some(format!("shows the past of {} ms ago", round(latency, 2))),
+            _ => Some(format!("{} ms behind", round(latency, 2))),
         };
         if error < SMOOTH_MS {
             let (severity, how) = match report.dropped_ms {

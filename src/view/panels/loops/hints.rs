@@ -44,7 +44,7 @@ pub(in crate::view::panels) fn parts(loops: &LoopLab) -> Vec<String> {
         ];
     }
     vec![
-        "The same motion in different loops".into(),
-        "`D`: the next display, `1` … `9`: a loop, `L`: leave.".into(),
+        "The same motion under different loops".into(),
+        "`D` next display · `1` … `9`, `0` a loop · `L` leave".into(),
     ]
 }

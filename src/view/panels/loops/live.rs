@@ -161,7 +161,7 @@ fn frame_times(
     ];
     let drawing = Drawing { curves, arrows, ..Drawing::default() };
     all.extend(chart::plot(&area, marks, &drawing, palette, room.right()));
-    let names = ["real time, s from the last frame", "frame time, ms"];
+    let names = ["seconds before now", "frame time, ms"];
     all.extend(chart::names(&area, rect.left(), names, palette).map(Into::into));
     all
 }
