@@ -93,7 +93,7 @@ impl LaneSpec {
     fn told(&self, lanes: &[LaneSpec]) -> String {
         let mut alike = lanes.iter().filter(|other| other.method == self.method);
         let told = self.joint.filter(|_| alike.any(|other| other.joint != self.joint));
-        told.map(|it| format!(", told {} Hz", round(it.frequency_hz, 3))).unwrap_or_default()
+        told.map(|it| format!(", set to {} Hz", round(it.frequency_hz, 3))).unwrap_or_default()
     }
 
     /// The method's name with the substeps, which are left out if there is one and no other of `lanes` has the method.
@@ -142,7 +142,7 @@ mod tests {
         ];
         let names = lanes.map(|lane| lane.distinct_name(lane.method.name, &lanes));
         let expected = [
-            "Box2D, told 1 Hz",
+            "Box2D, set to 1 Hz",
             "Held force ×1",
             "Held force ×4",
             "Box2D",
@@ -152,7 +152,7 @@ mod tests {
         ];
         assert_eq!(names, expected);
         let with_substeps = lanes.map(|lane| lane.name_with_substeps(&lanes));
-        let expected = ["Box2D ×4, told 1 Hz", "Held force ×1", "Held force ×4", "Box2D ×4"];
+        let expected = ["Box2D ×4, set to 1 Hz", "Held force ×1", "Held force ×4", "Box2D ×4"];
         assert_eq!(with_substeps[..4], expected);
         assert_eq!(with_substeps[6], "Runge-Kutta 4");
     }
