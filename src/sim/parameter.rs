@@ -22,6 +22,8 @@ pub const MAX_POINTS: usize = 64;
 pub struct Parameter {
     /// The key, unit included.
     pub key: Text,
+    /// Its name in words, if that is not the key without the unit.
+    pub name: Option<&'static str>,
     /// Its letter in the equation of motion, if it has one.
     pub symbol: Option<&'static str>,
     /// What it is.
@@ -40,7 +42,7 @@ impl Parameter {
     /// A parameter without a letter, a unit and a default.
     pub(super) const fn new(key: Text, about: &'static str, range: Range, acts: Acts) -> Self {
         let unit = Cow::Borrowed("");
-        Self { key, symbol: None, about, unit, default: None, range, acts }
+        Self { key, name: None, symbol: None, about, unit, default: None, range, acts }
     }
 
     /// What it is, after its letter: `m, the mass`.
@@ -48,8 +50,11 @@ impl Parameter {
         self.symbol.map_or_else(|| self.about.into(), |symbol| format!("{symbol}, {}", self.about))
     }
 
-    /// Its name in words: the key without the unit.
+    /// Its name in words.
     pub fn quantity(&self) -> String {
+        if let Some(name) = self.name {
+            return name.to_owned();
+        }
         let end = unit(&self.key).0;
         self.key.strip_suffix(end).unwrap_or(&self.key).replace('_', " ")
     }
@@ -191,6 +196,12 @@ impl<B> ParameterOf<B> {
         write: fn(&mut B, &[[f64; 2]]),
     ) -> Self {
         Self::new(key, Range::Curve { x, y }, Acts::AtStart, Slot::Curve(write))
+    }
+
+    /// Sets the name in words.
+    pub const fn named(mut self, name: &'static str) -> Self {
+        self.parameter.name = Some(name);
+        self
     }
 
     /// Sets the letter that stands for it in the equation of motion.

@@ -55,6 +55,7 @@ const PARAMETERS: [Of; 7] = [
         .or(1.0)
         .about("the mass that is held aside at the start, and that a kick hits"),
     Of::start("x0_m", 1.0, |chain| &mut chain.x0)
+        .named("pull at start")
         .about("how far aside it is held; the others are in line between it and the walls"),
     Of::number("kick_n_s", Range::ANY, |chain| &mut chain.kick)
         .or(3.0)

@@ -44,8 +44,10 @@ const PARAMETERS: [Of; 9] = [
         .symbol("f")
         .about("how often the target swings"),
     Of::start("x0_m", 0.0, |follow| &mut follow.x0)
+        .named("place at start")
         .about("where it starts"),
     Of::start("v0_m_per_s", 0.0, |follow| &mut follow.v0)
+        .named("velocity at start")
         .about("its velocity at the start; of order 1 the law gives it"),
     Of::number("kick_m", Range::ANY, |follow| &mut follow.kick)
         .or(0.5)

@@ -40,11 +40,14 @@ const PARAMETERS: [Of; 12] = [
     Of::number("rudder_n_s", Range::NON_NEGATIVE, |helm| &mut helm.rudder_moment)
         .symbol("L")
         .about("the moment of the full rudder per metre per second ahead"),
-    Of::start("x0_m", 0.0, |helm| &mut helm.q0.x).about("x at the start"),
-    Of::start("y0_m", 0.0, |helm| &mut helm.q0.y).about("y at the start"),
+    Of::start("x0_m", 0.0, |helm| &mut helm.q0.x).named("x at start").about("x at the start"),
+    Of::start("y0_m", 0.0, |helm| &mut helm.q0.y).named("y at start").about("y at the start"),
     Of::start("psi0_rad", 0.0, |helm| &mut helm.q0.z)
+        .named("heading at start")
         .about("the heading at the start, counter-clockwise from x"),
-    Of::start("u0_m_per_s", 0.0, |helm| &mut helm.u0).about("the speed ahead at the start"),
+    Of::start("u0_m_per_s", 0.0, |helm| &mut helm.u0)
+        .named("speed at start")
+        .about("the speed ahead at the start"),
     Of::number("kick_n_s", Range::ANY, |helm| &mut helm.kick)
         .or(20_000.0)
         .about("the impulse of one kick, ahead"),

@@ -27,12 +27,17 @@ const PARAMETERS: [Of; 6] = [
     Of::number("mu_m3_per_s2", Range::POSITIVE, |orbit| &mut orbit.mu)
         .symbol("μ")
         .about("the pull of the centre, at the origin, times the distance squared"),
-    Of::number("x0_m", Range::ANY, |orbit| &mut orbit.q0.x).at_start().about("x at the start"),
-    Of::start("y0_m", 0.0, |orbit| &mut orbit.q0.y).about("y at the start"),
+    Of::number("x0_m", Range::ANY, |orbit| &mut orbit.q0.x)
+        .at_start()
+        .named("x at start")
+        .about("x at the start"),
+    Of::start("y0_m", 0.0, |orbit| &mut orbit.q0.y).named("y at start").about("y at the start"),
     Of::start("vx0_m_per_s", 0.0, |orbit| &mut orbit.v0.x)
+        .named("velocity along x at start")
         .about("the velocity along x at the start"),
     Of::number("vy0_m_per_s", Range::ANY, |orbit| &mut orbit.v0.y)
         .at_start()
+        .named("velocity along y at start")
         .about("the velocity along y at the start"),
     Of::number("kick_m_per_s", Range::ANY, |orbit| &mut orbit.kick)
         .or(0.1)

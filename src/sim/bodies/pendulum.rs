@@ -31,8 +31,10 @@ const PARAMETERS: [Of; 7] = [
         .symbol("c")
         .about("the damping coefficient: torque per radian per second"),
     Of::start("theta0_rad", 1.0, |pendulum| &mut pendulum.theta0)
+        .named("angle at start")
         .about("the angle at the start, from hanging down, counter-clockwise"),
     Of::start("omega0_rad_per_s", 0.0, |pendulum| &mut pendulum.omega0)
+        .named("spin at start")
         .about("the angular velocity at the start"),
     Of::number("kick_n_m_s", Range::ANY, |pendulum| &mut pendulum.kick)
         .or(1.0)

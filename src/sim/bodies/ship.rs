@@ -22,8 +22,12 @@ const PARAMETERS: [Of; 6] = [
         .symbol("C")
         .about("the drag coefficient: force per metre per second"),
     Of::number("mass_kg", Range::POSITIVE, |ship| &mut ship.mass).symbol("m").about("the mass"),
-    Of::start("s0_m", 0.0, |ship| &mut ship.s0).about("the distance run at the start"),
-    Of::start("v0_m_per_s", 0.0, |ship| &mut ship.v0).about("the speed at the start"),
+    Of::start("s0_m", 0.0, |ship| &mut ship.s0)
+        .named("distance at start")
+        .about("the distance run at the start"),
+    Of::start("v0_m_per_s", 0.0, |ship| &mut ship.v0)
+        .named("speed at start")
+        .about("the speed at the start"),
     Of::number("kick_n_s", Range::ANY, |ship| &mut ship.kick)
         .or(20_000.0)
         .about("the impulse of one kick"),

@@ -24,8 +24,12 @@ const PARAMETERS: [Of; 6] = [
         .or(0.0)
         .symbol("c")
         .about("the damping coefficient: force per metre per second"),
-    Of::start("x0_m", 1.0, |spring| &mut spring.x0).about("the stretch at the start"),
-    Of::start("v0_m_per_s", 0.0, |spring| &mut spring.v0).about("the velocity at the start"),
+    Of::start("x0_m", 1.0, |spring| &mut spring.x0)
+        .named("stretch at start")
+        .about("the stretch at the start"),
+    Of::start("v0_m_per_s", 0.0, |spring| &mut spring.v0)
+        .named("velocity at start")
+        .about("the velocity at the start"),
     Of::number("kick_n_s", Range::ANY, |spring| &mut spring.kick)
         .or(3.0)
         .about("the impulse of one kick"),

@@ -202,16 +202,20 @@ fn every_parameter_has_the_unit_that_ends_its_key_and_says_what_it_is() {
 }
 
 #[test]
-fn a_parameter_is_called_by_its_key_without_the_unit() {
+fn a_parameter_is_called_by_its_key_or_at_the_start_by_its_quantity() {
     let called = |id: &str| {
         let parameters = kind(id).unwrap().parameters.iter();
         parameters.map(|parameter| parameter.quantity()).collect::<Vec<_>>()
     };
-    let names = ["length", "mass", "gravity", "damping", "theta0", "omega0", "kick"];
+    let names = ["length", "mass", "gravity", "damping", "angle at start", "spin at start", "kick"];
     assert_eq!(called("pendulum"), names);
     assert_eq!(called("chain")[4], "plucked mass");
     assert_eq!(called("helm")[3], "side drag");
     for kind in BODIES.iter() {
+        for parameter in kind.parameters.iter().filter(|it| it.acts == Acts::AtStart) {
+            let quantity = parameter.quantity();
+            assert!(!quantity.contains('0'), "{} of {}", quantity, kind.id);
+        }
         assert!(
             kind.parameter(&kind.leading).is_some_and(|(_, leading)| leading.acts == Acts::AtOnce)
         );
