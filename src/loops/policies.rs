@@ -271,3 +271,17 @@ impl Policy for SemiFixed {
         Box::new(*self)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_usual_or_opens_the_loop_lab_has_a_digit() {
+        let digits = 10;
+        let usual = POLICIES.iter().enumerate().filter(|(_, card)| card.is_usual);
+        let count = usual.clone().filter(|(index, _)| *index < digits).count();
+        assert_eq!(count, usual.count());
+        assert!(POLICIES.len() > digits && count >= 5, "{count}");
+    }
+}

@@ -39,7 +39,7 @@ fn text_stands_out_from_what_it_is_written_on_in_both_themes() {
     assert!((contrast(rgb(0xFFFFFF), rgb(0)) - 21.0).abs() < 1e-9);
 }
 
-/// What a deuteranope sees of linear red, green and blue, by Machado, Oliveira and Fernandes (2009); and what most people do.
+/// Linear red, green and blue in a deuteranope's eyes, by Machado, Oliveira and Fernandes (2009), and in most people's.
 const DEUTERANOPE: [[f64; 3]; 3] = [
     [0.367322, 0.860646, -0.227968],
     [0.280085, 0.672501, 0.047413],
@@ -204,7 +204,7 @@ fn no_lane_is_in_the_colour_of_explicit_euler_but_explicit_euler() {
 }
 
 #[test]
-fn a_method_that_is_recommended_has_a_colour_of_its_own_among_the_lanes_of_my_spring() {
+fn a_recommended_method_has_a_colour_of_its_own_among_the_lanes_of_my_spring() {
     let scene = crate::studio::MySpring::default().scene(60).unwrap();
     for best in scene.methods_for_games() {
         let mut lanes = scene.lanes.clone();

@@ -129,6 +129,6 @@ mod tests {
         let display = RefreshRate::new(60, 1);
         assert!(TRACES.iter().all(|card| about_trace(&card.trace(display)) == card.about));
         let list = trace_file::read("times.txt", "16.7\n16.6\n").unwrap();
-        assert!(about_trace(&list[0]).contains("taken as displayed when they begin"));
+        assert!(about_trace(&list[0]).contains("counts as shown when it begins"));
     }
 }
