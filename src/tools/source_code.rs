@@ -91,13 +91,35 @@ pub fn source_code(
     language: Language,
     precision: Precision,
 ) -> Result<String, NoSourceCode> {
+    let program = program(method, language, precision)?;
+    let header = header::lines(method, &program, language);
+    Ok(printer::print(method.id, &program, language, precision, &header))
+}
+
+/// The same function without the comment above it.
+///
+/// # Errors
+/// As [`source_code`].
+pub fn function_code(
+    method: &Method,
+    language: Language,
+    precision: Precision,
+) -> Result<String, NoSourceCode> {
+    let program = program(method, language, precision)?;
+    Ok(printer::print(method.id, &program, language, precision, &[]))
+}
+
+/// The program of a method that has one, if it can be written so.
+fn program(
+    method: &Method,
+    language: Language,
+    precision: Precision,
+) -> Result<Program<'static>, NoSourceCode> {
     let refused = |reason| NoSourceCode { method: method.id, language, reason };
     let source = MethodSource::of(method);
     let source = source.ok_or(refused("it is a custom method, whose code is where it was made"))?;
-    let program = source.0;
-    if let Some(reason) = program.refusal(language).or(language.refusal(precision)) {
-        return Err(refused(reason));
+    match source.0.refusal(language).or(language.refusal(precision)) {
+        Some(reason) => Err(refused(reason)),
+        None => Ok(source.0),
     }
-    let header = header::lines(method, &program, language);
-    Ok(printer::print(method.id, &program, language, precision, &header))
 }
