@@ -18,7 +18,7 @@ use crate::measure::AnalysisWorker;
 use crate::measure::cloud::CloudWorker;
 use crate::studio::{
     Command, DriverRequest, FrameLoop, SceneList, StageCommand, Studio, ToDo, ViewCommand,
-    cloud_request, list_as_file, loop_request,
+    cloud_request, described_spring, list_as_file, loop_request,
 };
 use crate::view::Modifiers;
 
@@ -275,8 +275,8 @@ impl App {
 
     /// Finds what to recommend for the spring that a person has described, which takes longer than a frame if it is stiff.
     fn advise_on_spring(&self) {
-        let (spring, tick_hz) =
-            (self.frames.studio.viewer.my_spring(), self.frames.studio.clock().tick_hz());
+        let Studio { deck, viewer, .. } = &self.frames.studio;
+        let (spring, tick_hz) = described_spring(deck, viewer);
         let proxy = self.proxy.clone();
         thread::spawn(move || {
             let scene = spring.advised_scene(tick_hz).into();

@@ -85,6 +85,8 @@ pub struct LoopLab {
     slowness: u32,
     /// Whether the run goes on when the loop lab is left.
     pub(crate) run_goes_on: bool,
+    /// Whether the stage was without instruments before.
+    pub(crate) stage_was_alone: bool,
 }
 
 impl LoopLab {
@@ -118,6 +120,7 @@ impl LoopLab {
             end_ns: 0,
             slowness: SLOWNESS_AT_FIRST,
             run_goes_on: true,
+            stage_was_alone: false,
         };
         studio.choose_trace(0);
         studio

@@ -10,7 +10,7 @@ use std::fmt;
 
 use csv::ByteRecord;
 
-use crate::sim::number::counted;
+use crate::sim::number::{counted, significant};
 
 mod clock;
 mod growth;
@@ -107,16 +107,40 @@ pub struct Difference {
     pub relative: Option<f64>,
 }
 
+/// The largest distance that is given in ulps, and not as a number.
+const FEW_ULPS: u64 = 1000;
+
+impl Difference {
+    /// Where it is: the tick, the lane as it is to be named, the body and the coordinate.
+    pub fn place(&self, lane_name: impl Fn(&str) -> String) -> String {
+        let [lane, body, coordinate] = self.row.clone();
+        let lane = lane.map(|lane| lane_name(&lane));
+        let tick = Some(format!("tick {}", self.tick));
+        let parts = [tick, lane, body, coordinate].into_iter().flatten();
+        parts.collect::<Vec<_>>().join(", ")
+    }
+
+    /// How large it is, in a few words.
+    pub fn size(&self) -> String {
+        let column = &self.column;
+        let [a, b] = self.values.each_ref().map(|value| value.as_deref()?.parse::<f64>().ok());
+        let (Some(a), Some(b)) = (a, b) else {
+            return format!("{column} is not a number on both sides");
+        };
+        let size = match self.ulps.filter(|ulps| *ulps <= FEW_ULPS) {
+            Some(ulps) => counted(ulps, "ulp"),
+            None => significant((a - b).abs(), 2),
+        };
+        let part = self.relative.map(|part| format!(", {} % of it", significant(100.0 * part, 2)));
+        format!("size: {size} in {column}{}", part.unwrap_or_default())
+    }
+}
+
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at tick {}", self.tick)?;
-        let [lane, body, coordinate] = &self.row;
-        let lane = lane.as_ref().map(|lane| format!("lane {lane}"));
-        for place in [&lane, body, coordinate].into_iter().flatten() {
-            write!(f, ", {place}")?;
-        }
         let [a, b] = self.values.each_ref().map(|value| value.as_deref().unwrap_or("absent"));
-        write!(f, ": {} is {a} in a and {b} in b", self.column)?;
+        let place = self.place(|lane| format!("lane {lane}"));
+        write!(f, "at {place}: {} is {a} in a and {b} in b", self.column)?;
         if let Some(ulps) = self.ulps {
             write!(f, ", {} apart", counted(ulps, "ulp"))?;
         }

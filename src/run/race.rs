@@ -48,6 +48,13 @@ pub enum Mode {
     Race,
 }
 
+impl Mode {
+    /// The mode in which a scene opens itself.
+    pub fn opening(scene: &Scene) -> Self {
+        if scene.opens_as_race { Mode::Race } else { Mode::Solo }
+    }
+}
+
 /// The last tick of a race.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LastTick {

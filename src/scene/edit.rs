@@ -48,6 +48,33 @@ pub fn edited_values(
     Ok(edited)
 }
 
+/// The least positive number and the largest one that a person may enter: products of several of them stay finite.
+const ENTERED: [f64; 2] = [1e-12, 1e12];
+
+/// Finds whether a person may enter a number in this range. Files may hold numbers of more extreme sizes.
+///
+/// # Errors
+/// The range that the number of this name must be in.
+pub fn check_entered(name: &str, value: f64, range: Range) -> Result<(), String> {
+    let [least, most] = ENTERED;
+    let range = match range {
+        Range::Positive(limit) => Range::Between(least, limit.min(most)),
+        Range::NonNegative(limit) => Range::NonNegative(limit.min(most)),
+        Range::Within(limit) => Range::Within(limit.min(most)),
+        Range::Count(_) | Range::Curve { .. } | Range::Between(..) => range,
+    };
+    let short: f64 = format!("{value:.4e}").parse().unwrap_or(value);
+    let is = match value {
+        _ if value.is_nan() => "would be no number".to_owned(),
+        _ if value.is_infinite() => "would be too large for a number".to_owned(),
+        _ => format!("would be {}", written(short)),
+    };
+    match range.contains(value) {
+        true => Ok(()),
+        false => Err(format!("{name} {is}; it must be {range}")),
+    }
+}
+
 /// A number as a person would type it.
 fn written(value: f64) -> String {
     let exact = format!("{value:?}");
@@ -82,6 +109,32 @@ mod tests {
         };
         let rows = kind.parameters.iter().enumerate().map(row);
         format!("[[{}]]\n{}", kind.id, rows.collect::<String>())
+    }
+
+    #[test]
+    fn what_may_be_entered_is_within_the_range_and_of_a_size_that_stays_finite() {
+        let told = |value, range| check_entered("length", value, range).err();
+        let (count, between) = (Range::Count(1000), Range::Between(1e-4, 3e7));
+        for (range, fine, refused) in [
+            (Range::POSITIVE, [1e-12, 1e12], [0.0, 1e-13]),
+            (Range::NON_NEGATIVE, [0.0, 1e12], [-1e-300, 2e12]),
+            (Range::ANY, [-1e12, 1e12], [-2e12, f64::INFINITY]),
+            (count, [1.0, 1000.0], [2.5, 1001.0]),
+            (between, [1e-4, 3e7], [-1.0, f64::NAN]),
+        ] {
+            assert_eq!(fine.map(|value| told(value, range)), [None, None], "{range}");
+            for value in refused {
+                let words = told(value, range).expect("it is refused");
+                assert!(
+                    words.starts_with("length would be ") && words.contains("must be"),
+                    "{words}"
+                );
+            }
+        }
+        let words = told(2.5, count).unwrap();
+        assert_eq!(words, "length would be 2.5; it must be whole, from 1 to 1000");
+        let words = told(-1.0 / 3.0, between).unwrap();
+        assert_eq!(words, "length would be -0.33333; it must be from 0.0001 to 30000000");
     }
 
     #[test]

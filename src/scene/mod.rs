@@ -46,7 +46,7 @@ pub(crate) use clip::cut;
 pub(crate) use clip::{clip, clip_list};
 pub use cloud_shape::{CloudKind, CloudShape};
 pub use custom::{Options, OptionsError};
-pub use edit::{EditError, edited_values};
+pub use edit::{EditError, check_entered, edited_values};
 pub use errors::{MAX_SHOWN, Mistake, SceneError, SceneErrors};
 pub use known::{SceneKey, scene_tables};
 pub use lane_spec::{LaneId, LaneSpec, Swing};

@@ -28,8 +28,10 @@ const LANES: (f32, f32) = (124.0, 18.0);
 const MAX_FOR_LANES: f32 = 0.28;
 /// How far the name of a lane keeps from the left edge of its column, in points.
 const LANE_INSET: f32 = 8.0;
-/// The width of the word at the ghost, in points.
-const EXACT: f32 = 52.0;
+/// The room of a ghost's name besides its letters, in points.
+const BESIDE_NAME: f32 = 18.0;
+/// How far the lines of an answer are above the foot of a cell, over what halted there, in points.
+const ANSWER: [f32; 2] = [60.0, 44.0];
 /// How far captions keep from the left edge of a wide cell, in points.
 const WIDE_INSET: f32 = 62.0;
 
@@ -211,6 +213,8 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
             let place = significant(held.q[plotted], 4);
             format!("{} = {place} {}", coordinate.name, coordinate.shown_unit())
         }
+        // The promise may answer a stop of the guide.
+        None if studio.viewer.is_asked() => String::new(),
         None => {
             let truth = &studio.race().truth().bodies()[index];
             let (q, v) = shown_truth(&studio.deck, &studio.viewer, index);
@@ -330,12 +334,21 @@ impl Chip {
     }
 }
 
-/// Labels the ghost, `beside` points from its middle.
-pub(super) fn exact(
+/// Writes the answer of a comparison with a recording near the foot of a cell.
+pub(super) fn compared(picture: &mut Picture, rect: Rect, lines: [String; 2], palette: &Palette) {
+    let Some([x, _]) = caption_place(rect) else { return };
+    for (line, up) in lines.into_iter().zip(ANSWER) {
+        let at = [x, rect.max[1] - up];
+        picture.labels.push(text(palette, at, Align::Left, 12.5, palette.accent, line));
+    }
+}
+
+/// Names a ghost in its colour, `beside` points from its middle: at a side below it where no other words are, or else above it.
+pub(super) fn ghost_name(
     picture: &mut Picture,
     camera: &Camera,
-    ghost: DVec2,
-    beside: f32,
+    (ghost, beside): (DVec2, f32),
+    (name, colour): (&str, Rgba),
     palette: &Palette,
 ) {
     let Rect { min, max } = camera.rect;
@@ -343,21 +356,30 @@ pub(super) fn exact(
     if max[1] - min[1] < breakpoints::CHIP || !camera.rect.contains([x, y]) {
         return;
     }
-    let is_left = x + beside + EXACT > max[0];
-    let (way, align) = if is_left { (-1.0, Align::Right) } else { (1.0, Align::Left) };
+    let width = LETTER * name.chars().count() as f32 + BESIDE_NAME;
+    let mut sides = [(1.0, Align::Left), (-1.0, Align::Right)];
+    if x + beside + width > max[0] {
+        sides.reverse();
+    }
     let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - beside - 6.0];
-    let left = x + way * (beside + 8.0);
-    let is_taken =
-        |label: &Label| (label.at[1] - below).abs() < CHIP && (label.at[0] - left).abs() < EXACT;
-    let is_above = picture.labels.iter().any(is_taken);
-    if is_above && above <= min[1] + CHIP {
+    let is_above_free = above > min[1] + CHIP;
+    for ((way, align), at_y) in [(sides[0], below), (sides[0], above), (sides[1], below)] {
+        let at = [x + way * (beside + 8.0), at_y];
+        let label = text(palette, at, align, 12.0, colour, name.to_owned());
+        let [left, right] = span(&label);
+        let is_taken = |other: &Label| {
+            let [from, to] = span(other);
+            (other.at[1] - at_y).abs() < CHIP && from < right && to > left
+        };
+        if picture.labels.iter().any(is_taken) || at_y == above && !is_above_free {
+            continue;
+        }
+        let height = if at_y == above { -0.7 * beside } else { 0.7 * beside };
+        let from = [x + 0.7 * way * beside, y + height];
+        picture.pen(camera.rect).line(from, [at[0] - 3.0 * way, at_y], 1.0, colour);
+        picture.labels.push(label.strong());
         return;
     }
-    let at = [left, if is_above { above } else { below }];
-    let from = [x + 0.7 * way * beside, if is_above { y - 0.7 * beside } else { y + 0.7 * beside }];
-    picture.pen(camera.rect).line(from, [at[0] - 3.0 * way, at[1]], 1.0, palette.exact);
-    let label = text(palette, at, align, 12.0, palette.exact, "exact".into());
-    picture.labels.push(label.strong());
 }
 
 /// The line of the course of a ship `beam` points wide, with distance marks whose numbers are beside the ship.

@@ -9,7 +9,7 @@ use super::ghost::Ghost;
 use super::layout::{bands, grid, mosaic};
 use super::loupe::LoupeLane;
 use super::moment::DrawContext;
-use super::sketch::{Camera, LaneStyle};
+use super::sketch::{Camera, LaneStyle, SOLID};
 use super::{
     Cell, Picture, Rect, Whose, apex, breakpoints, captions, chart, futures, hull, loop_stage,
     loupe, universe,
@@ -19,7 +19,7 @@ use crate::look::{Framing, Look};
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{Mark, Outline};
 use crate::studio::{Arrangement, Studio, ZoomPan};
-use crate::studio::{shown_state, shows_futures};
+use crate::studio::{DIGITS, shown_state, shows_futures};
 
 /// The most lanes of which each body has its number on it.
 const MAX_NUMBERED: usize = 9;
@@ -275,7 +275,10 @@ impl BodyCell<'_> {
             }
             // Flags of many lanes reach over the bodies.
             if self.lanes.len() <= MAX_NUMBERED {
-                shown.number(picture, entry + 1, colour);
+                // Alone, a body has a number only where a key picks its method.
+                if studio.mode() == Mode::Race || entry < DIGITS {
+                    shown.number(picture, entry + 1, colour);
+                }
                 numbered = Some(at);
             }
         }
@@ -313,9 +316,11 @@ impl BodyCell<'_> {
                 });
                 let is_recorded = matches!(framing, Framing::Recorder { .. });
                 let beside = bead.filter(|_| is_recorded).unwrap_or(lift);
-                captions::exact(picture, camera, ghost.outline.at, beside, palette);
+                let exact = ("exact", palette.exact);
+                captions::ghost_name(picture, camera, (ghost.outline.at, beside), exact, palette);
             }
         }
+        self.draw_compared(picture, lift);
         let is_alone = self.lanes.len() == 1;
         let says_beside =
             is_alone && (studio.mode() == Mode::Solo || self.front.lane.bodies().len() == 1);
@@ -393,6 +398,25 @@ impl BodyCell<'_> {
             let seen = OutlineView { outline, camera: &self.camera, palette: self.moment.palette };
             seen.ghost(picture);
         }
+    }
+
+    /// Draws the body of a recording that the run was compared with, hollow and named, and the answer of the comparison.
+    fn draw_compared(&self, picture: &mut Picture, lift: f32) {
+        let Self { moment, index, ref camera, front, .. } = *self;
+        let (deck, palette) = (&moment.studio.deck, moment.palette);
+        let Some(compared) = deck.compared().filter(|_| front.id == deck.selected().id) else {
+            return;
+        };
+        if index == 0 {
+            captions::compared(picture, camera.rect, compared.lines(), palette);
+        }
+        let Some(body) = compared.body(deck.scene(), &front.spec, index) else { return };
+        let (q, _) = shown_state(deck, &moment.studio.viewer, body);
+        let outline = Look::of(body).outline(moment.t, &q);
+        let style = LaneStyle { colour: palette.accent, dash: SOLID, fill: 0.0 };
+        OutlineView { outline: &outline, camera, palette }.behind(picture, style);
+        let named = (compared.name(), palette.accent);
+        captions::ghost_name(picture, camera, (outline.at, lift), named, palette);
     }
 
     /// Draws where a lane's body has been, which is now at `from`; nothing of one that was beyond the cell. Returns what

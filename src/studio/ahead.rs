@@ -7,13 +7,19 @@ use crate::measure;
 use crate::measure::{Future, OneStep};
 use crate::sim::stability::Tick;
 
-/// The anatomy of the next tick of the displayed body in the selected lane. `None` if the body has halted.
+/// The anatomy of the next tick of the displayed body in the selected lane, without its end while a person is
+/// [asked](Viewer::is_asked). `None` if the body has halted.
 pub fn one_step(deck: &Deck, viewer: &Viewer) -> Option<OneStep> {
     let (entrant, race) = (deck.selected(), deck.race());
     let spec = entrant.spec;
     let h = 1.0 / f64::from(race.tick_hz());
     let tick = Tick { t: race.t(), h, substeps: spec.substeps };
-    measure::one_step(&entrant.lane.bodies()[viewer.view.body], spec, race.tick(), tick)
+    let of = &entrant.lane.bodies()[viewer.view.body];
+    let step = measure::one_step(of, spec, race.tick(), tick)?;
+    Some(match viewer.is_asked() {
+        true => OneStep { landing: None, chain: Vec::new(), growth: None, ..step },
+        false => step,
+    })
 }
 
 /// Lines through the states of the displayed body that have the energy of the state `through`, with coordinates in

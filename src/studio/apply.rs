@@ -7,11 +7,12 @@ use super::command::{Command, SCALE_LADDER, USUAL_SCALE_PERCENT, ViewCommand};
 use super::deck::Deck;
 use super::dispatch::{carry_out_on_run, carry_out_on_stage};
 use super::display::DriverRequest;
-use super::guiding::{go_to_stop, go_to_stop_beside, look_at_goal, toggle_guide};
+use super::guiding::{close_guide, go_to_stop, go_to_stop_beside, look_at_goal, toggle_guide};
 use super::joint::joint_code;
 use super::looping::{
     carry_out_in_loop_lab, change_loop_lab, leave_loop_lab, open_loop_lab, refuse_in_loop_lab,
 };
+use super::opening::described_spring;
 use super::restarting::plot_coordinate;
 use super::viewer::{Dialog, Viewer};
 use crate::loops::loop_lab::LoopCommand;
@@ -27,13 +28,13 @@ impl Studio {
         if !self.viewer.pointer_is_down() {
             self.deck.run.close_change();
         }
-        let ran = self.deck.time_runs();
+        let (ran, was_asked) = (self.deck.time_runs(), self.viewer.is_asked());
         self.viewer.measure_for(&command);
         let request = self.carry_out(command);
+        look_at_goal(&mut self.deck, &mut self.viewer, self.loops.is_some(), was_asked);
         if !ran && self.deck.time_runs() {
             self.deck.run_on(self.viewer.display().interpolation);
         }
-        look_at_goal(&self.deck, &mut self.viewer, self.loops.is_some());
         request
     }
 
@@ -71,9 +72,11 @@ impl Studio {
                 display.futures = !display.futures;
                 self.deck.running &= !display.futures;
             }
-            // The loop lab is its instruments.
+            ViewCommand::ToggleMeasure if is_in_loop_lab => {
+                self.viewer.set_notice("the loop lab keeps its instruments: L leaves it");
+            }
             ViewCommand::ToggleMeasure => {
-                display.measure = !display.measure || is_in_loop_lab;
+                display.measure = !display.measure;
                 display.enlarged &= !display.measure;
             }
             ViewCommand::Split(splits) => display.splits = splits.within(),
@@ -116,8 +119,14 @@ impl Studio {
             ViewCommand::AskForPath => self.viewer.dialog = Some(Dialog::path(false)),
             ViewCommand::AskForRun => self.viewer.dialog = Some(Dialog::path(true)),
             ViewCommand::TypePath(path) => self.viewer.type_path(path),
-            ViewCommand::AskForSpring => self.viewer.dialog = Some(Dialog::Spring),
+            ViewCommand::AskForSpring => {
+                let tick_hz = described_spring(&self.deck, &self.viewer).1;
+                self.viewer.dialog = Some(Dialog::Spring { tick_hz });
+            }
             ViewCommand::DescribeSpring(spring) => self.viewer.preferences.my_spring = spring,
+            ViewCommand::SpringTickHz(tick_hz) => {
+                self.viewer.dialog = Some(Dialog::Spring { tick_hz });
+            }
             ViewCommand::CloseDialog => self.viewer.dialog = None,
             ViewCommand::ToggleGuide => toggle_guide(&mut self.deck, &mut self.viewer),
             ViewCommand::GoToStop(index) => go_to_stop(&mut self.deck, &mut self.viewer, index),
@@ -143,10 +152,17 @@ impl Studio {
         self.deck.held.take().is_some()
             || self.viewer.dialog.take().is_some()
             || take(&mut self.viewer.preferences.display.help)
-            || self.viewer.close_guide()
+            || self.close_guide()
             || take(&mut self.viewer.preferences.display.enlarged)
             || take(&mut self.viewer.preferences.display.inspector)
             || leave_loop_lab(self)
+    }
+
+    /// Closes the guide, and the loop lab on the motion of its stop. Returns whether there was anything to close.
+    fn close_guide(&mut self) -> bool {
+        let is_closed = close_guide(&mut self.deck, &mut self.viewer);
+        self.loops.take_if(|_| is_closed);
+        is_closed
     }
 }
 

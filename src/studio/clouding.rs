@@ -20,7 +20,11 @@ pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
     }
     let changes = Interventions::all(deck.run().starts());
     let (tick_hz, choice) = (deck.clock.tick_hz(), viewer.display().cloud);
-    let seconds = (deck.race().t() - changes.starts_at_s()).max(0.0);
+    // The points of later ticks may answer a stop of the guide.
+    let seconds = match viewer.is_asked() {
+        true => 0.0,
+        false => (deck.race().t() - changes.starts_at_s()).max(0.0),
+    };
     Some(CloudRequest {
         scene: Arc::clone(&deck.run.next().scene),
         body: viewer.view.body,

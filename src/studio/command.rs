@@ -145,6 +145,8 @@ pub enum ViewCommand {
     AskForSpring,
     /// Sets those numbers.
     DescribeSpring(MySpring),
+    /// Sets the tick rate at which the spring of the dialog is to run, in Hz.
+    SpringTickHz(u32),
     /// Closes the open dialog.
     CloseDialog,
     /// Puts instruments, table and timeline round the stage, or lets the stage fill the window.

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::compared::Compared;
+use super::display::{Display, View};
 use super::notices::Notices;
 use super::scene_list::SceneList;
 use crate::measure::cloud::MAX_CLOUDS;
@@ -33,6 +35,17 @@ pub struct Deck {
     /// The number of edits, and how many of them a file has.
     pub(super) edits: u64,
     pub(super) saved_edits: u64,
+    /// The recording that the run was compared with, if they differ.
+    pub(super) compared: Option<Box<Compared>>,
+    /// The run that a person left for the guide, while a stop's is on the stage.
+    pub(super) left: Option<Box<LeftRun>>,
+}
+
+/// A run that a person left for the guide, and how it was looked at.
+pub(super) struct LeftRun {
+    pub(super) deck: Deck,
+    pub(super) view: View,
+    pub(super) display: Display,
 }
 
 impl Deck {
@@ -53,6 +66,8 @@ impl Deck {
             openings: 0,
             edits: 0,
             saved_edits: 0,
+            compared: None,
+            left: None,
         }
     }
 
@@ -175,6 +190,19 @@ impl Deck {
         listed.unwrap_or_else(|| self.scene().name.clone())
     }
 
+    /// The recording that the run was [compared](super::show_comparison) with; `None` if none was or both are equal, or if
+    /// another run has begun.
+    pub fn compared(&self) -> Option<&Compared> {
+        self.compared.as_deref()
+    }
+
+    /// Takes a recording that the run is compared with to the tick of the run.
+    pub(super) fn follow_with_compared(&mut self) {
+        if let Some(compared) = &mut self.compared {
+            compared.go_to(self.run.race().tick());
+        }
+    }
+
     /// Whether a person has acted since the start, so that the run from the start is another.
     pub(crate) fn was_changed_on_the_way(&self) -> bool {
         let race = self.race();
@@ -196,9 +224,14 @@ impl Deck {
         (0..lanes.len()).filter(is_shown).map(|index| self.entry(&lanes[index]))
     }
 
-    /// The evaluations in the next tick of the lane with this index among the entrants.
-    pub fn evaluations_of_next_tick(&self, index: usize) -> u64 {
-        let (race, mut lane) = (self.race(), self.race().entrants()[index].lane.clone());
+    /// The evaluations in the next tick under the method with this index on the menu: of its lane, or else of the selected
+    /// one if that is put under it.
+    pub fn evaluations_of_next_tick(&self, entry: usize) -> u64 {
+        let (race, spec) = (self.race(), &self.entries()[entry]);
+        let mut lane = self.flown(entry).unwrap_or(self.selected()).lane.clone();
+        if self.flown(entry).is_none() {
+            lane.switch(spec.solver(), spec.substeps, race.t(), race.truth());
+        }
         let before = lane.evaluations();
         lane.tick(race.tick(), race.t(), 1.0 / f64::from(race.tick_hz()));
         lane.evaluations() - before

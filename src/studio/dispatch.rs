@@ -74,19 +74,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
                 deck.clock.set_speed_percent(percent);
             }
         }
-        StageCommand::ToggleRace => match race.mode() {
-            Mode::Solo => {
-                restart(deck, viewer, Some("the race"), |next| next.mode = Mode::Race);
-                select_best(deck, viewer);
-            }
-            Mode::Race => {
-                let lane = deck.selected().id;
-                act(deck, viewer, Action::Solo { lane });
-                deck.run.next_mut().mode = Mode::Solo;
-                // It may be about a lane that has left the race.
-                viewer.notice = None;
-            }
-        },
+        StageCommand::ToggleRace => toggle_race(deck, viewer),
         StageCommand::Tick(step) => step_by(deck, viewer, step.sign()),
         StageCommand::Second(step) => {
             step_by(deck, viewer, step.sign() * i64::from(race.tick_hz()))
@@ -113,6 +101,27 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
             viewer.view.body = body.min(deck.scene().bodies.len() - 1);
         }
         StageCommand::OpenSpring => open_spring(deck, viewer),
+    }
+}
+
+/// Goes from solo to a race, or back. The mode is a person's choice for the scenes to come, unless a stop of the guide
+/// asks for it.
+fn toggle_race(deck: &mut Deck, viewer: &mut Viewer) {
+    match deck.mode() {
+        Mode::Solo => {
+            restart(deck, viewer, Some("the race"), |next| next.mode = Mode::Race);
+            select_best(deck, viewer);
+        }
+        Mode::Race => {
+            let lane = deck.selected().id;
+            act(deck, viewer, Action::Solo { lane });
+            deck.run.next_mut().mode = Mode::Solo;
+            // It may be about a lane that has left the race.
+            viewer.notice = None;
+        }
+    }
+    if viewer.tour.is_none() {
+        viewer.preferences.choose_mode(deck.mode(), deck.scene());
     }
 }
 

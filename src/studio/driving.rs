@@ -63,6 +63,7 @@ pub(super) fn advance(
 pub(super) fn make_tick(deck: &mut Deck, viewer: &mut Viewer, observer: &mut dyn Observer) {
     viewer.notice.take_if(|notice| notice.is_of_tick());
     let ((), told) = deck.watched(|run, notices| run.tick(&mut (notices, observer)));
+    deck.follow_with_compared();
     viewer.tell(told);
 }
 

@@ -106,7 +106,7 @@ pub(super) fn select_best(deck: &mut Deck, viewer: &mut Viewer) {
     }
     let judged = |lane: &Entrant| {
         let entry = deck.entry(lane);
-        Some((viewer.verdict(entry)?.badness(), (lane.id, entry)))
+        Some((viewer.judged(entry)?.badness(), (lane.id, entry)))
     };
     let Some(judged) = lanes.iter().map(judged).collect::<Option<Vec<_>>>() else { return };
     let best = judged.into_iter().reduce(|best, other| if other.0 < best.0 { other } else { best });

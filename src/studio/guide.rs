@@ -61,7 +61,7 @@ pub enum Goal {
     TickHzTo(u32),
     /// Time runs at this many percent of real time or more.
     SpeedFrom(u32),
-    /// Time stands still.
+    /// Time stands still after the start.
     Paused,
     /// Time stands still at this tick or a later one. Such a stop opens paused, and a person steps to the tick.
     SteppedTo(u64),
@@ -107,7 +107,7 @@ impl Goal {
             Goal::TickHzFrom(hz) => now.race.tick_hz() >= hz,
             Goal::TickHzTo(hz) => now.race.tick_hz() <= hz,
             Goal::SpeedFrom(percent) => now.speed_percent >= percent,
-            Goal::Paused => now.is_paused,
+            Goal::Paused => now.is_paused && now.race.tick() > 0,
             Goal::SteppedTo(tick) => now.is_paused && now.race.tick() >= tick,
             Goal::Instrument(wanted) => now.display.instrument == wanted,
             Goal::LoopLab => now.is_in_loop_lab,
@@ -123,40 +123,12 @@ pub struct Tour {
     stop: usize,
     guess: Option<usize>,
     is_done: bool,
-    before: Chosen,
-}
-
-/// What a person chose to see before the guide, of what its stops set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Chosen {
-    quantity: Option<Quantity>,
-    metric: usize,
-    interpolation: Interpolation,
-}
-
-impl Chosen {
-    pub(super) fn of(display: &Display) -> Self {
-        let &Display { quantity, metric, interpolation, .. } = display;
-        Self { quantity, metric, interpolation }
-    }
-
-    /// Shows this again.
-    pub(super) fn restore(self, display: &mut Display) {
-        display.quantity = self.quantity;
-        display.metric = self.metric;
-        display.interpolation = self.interpolation;
-    }
 }
 
 impl Tour {
     /// At this stop, with nothing done there.
-    pub(super) fn at(stop: usize, before: Chosen) -> Self {
-        Self { stop: stop.min(STOPS.len() - 1), guess: None, is_done: false, before }
-    }
-
-    /// What the person chose to see before the guide was opened.
-    pub(super) fn before(&self) -> Chosen {
-        self.before
+    pub(super) fn at(stop: usize) -> Self {
+        Self { stop: stop.min(STOPS.len() - 1), guess: None, is_done: false }
     }
 
     /// The stop.
@@ -174,6 +146,11 @@ impl Tour {
     /// Whether the task is done.
     pub fn is_done(&self) -> bool {
         self.is_done
+    }
+
+    /// Whether it waits for a prediction.
+    pub fn is_asking(&self) -> bool {
+        self.guess.is_none() && !self.is_done
     }
 
     pub(super) fn predict(&mut self, choice: usize) {

@@ -1,8 +1,10 @@
 //! The guide and the hints of a studio: how a stop is opened, and when its task is done.
 
-use super::deck::Deck;
-use super::guide::{Chosen, Goal, STOPS, Situation, Stop, Tour};
+use super::deck::{Deck, LeftRun};
+use super::display::Display;
+use super::guide::{Goal, STOPS, Situation, Stop, Tour};
 use super::opening::open_with;
+use super::restarting::{Jump, follow};
 use super::resting::rest_hint;
 use super::step::Step;
 use super::viewer::Viewer;
@@ -41,9 +43,43 @@ fn situation<'a>(deck: &'a Deck, viewer: &'a Viewer, is_in_loop_lab: bool) -> Si
 
 /// Opens the guide where it was left, or closes it.
 pub(super) fn toggle_guide(deck: &mut Deck, viewer: &mut Viewer) {
-    if !viewer.close_guide() {
+    if viewer.close_guide() {
+        return_from_guide(deck, viewer);
+    } else {
         go_to_stop(deck, viewer, viewer.preferences.left_at);
     }
+}
+
+/// Closes the guide, and brings back the run that was left for it. Returns whether there was either.
+pub(super) fn close_guide(deck: &mut Deck, viewer: &mut Viewer) -> bool {
+    let was_open = viewer.close_guide();
+    return_from_guide(deck, viewer) || was_open
+}
+
+/// Brings back the run that was left for the guide, as it was looked at. Returns whether there was one.
+pub(super) fn return_from_guide(deck: &mut Deck, viewer: &mut Viewer) -> bool {
+    let Some(left) = deck.left.take() else { return false };
+    let LeftRun { deck: own, view, display: before } = *left;
+    let stop = std::mem::replace(deck, own);
+    // A file may have changed meanwhile.
+    let open = deck.scene_list.open();
+    deck.scene_list = stop.scene_list;
+    deck.scene_list.set_open(open);
+    deck.openings = stop.openings + 1;
+    *viewer = viewer.before_next_scene();
+    (viewer.view, viewer.hints) = (view, viewer.hints_of_left.clone());
+    let display = &mut viewer.preferences.display;
+    *display = Display {
+        measure: before.measure,
+        instrument: before.instrument,
+        enlarged: before.enlarged,
+        quantity: before.quantity,
+        metric: before.metric,
+        interpolation: before.interpolation,
+        ..display.clone()
+    };
+    follow(deck, viewer, Jump::OverAnEdit);
+    true
 }
 
 /// Opens the stop this many further on, if the guide is open and has one.
@@ -56,22 +92,29 @@ pub(super) fn go_to_stop_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step
     }
 }
 
-/// Opens this stop of the guide: its scene from the start under its method and rate, and its instrument. Time runs,
-/// unless a person is to step.
+/// Opens this stop of the guide: its scene at the start under its method and rate, and its instrument. Time stands until
+/// the person predicts.
 pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
-    let display = &viewer.preferences.display;
-    let before = viewer.tour.take().map_or_else(|| Chosen::of(display), |t| t.before());
-    let tour = Tour::at(index, before);
-    let Stop { scene, method, tick_hz, mode, instrument, quantity, goal, .. } = *tour.stop();
+    let (view, display) = (viewer.view.clone(), viewer.preferences.display.clone());
+    let hints = viewer.hints.clone();
+    viewer.tour = None;
+    let tour = Tour::at(index);
+    let Stop { scene, method, tick_hz, mode, instrument, quantity, .. } = *tour.stop();
     let listed = SCENES.iter().position(|built_in| built_in.name == scene);
-    open_with(deck, viewer, listed.expect("a stop names a built-in scene"), |next| {
+    let listed = listed.expect("a stop names a built-in scene");
+    let mut before = open_with(deck, viewer, listed, |next| {
         let method = next.list.iter().position(|spec| spec.method.id == method);
         next.entry = method.expect("a stop names a method");
         next.tick_hz = tick_hz;
         next.mode = mode;
     });
+    deck.left = before.left.take().or_else(|| {
+        viewer.preferences.display.measure = true;
+        viewer.hints_of_left = hints;
+        Some(Box::new(LeftRun { deck: before, view, display }))
+    });
     deck.clock.set_speed_percent(100);
-    deck.running = !matches!(goal, Goal::SteppedTo(_));
+    deck.running = false;
     // A scene of clouds opens with them in the place of the stage.
     viewer.preferences.display.enlarged = false;
     viewer.preferences.display.instrument = instrument;
@@ -81,10 +124,18 @@ pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     viewer.tour = Some(tour);
 }
 
-/// Notes whether the task of the guide's stop is done.
-pub(super) fn look_at_goal(deck: &Deck, viewer: &mut Viewer, is_in_loop_lab: bool) {
+/// Notes whether the task of the guide's stop is done. Time begins once a stop that asked before the command, as `was_asked`
+/// says, asks no more, unless the person is to step.
+pub(super) fn look_at_goal(
+    deck: &mut Deck,
+    viewer: &mut Viewer,
+    is_in_loop_lab: bool,
+    was_asked: bool,
+) {
     let Some(mut tour) = viewer.tour.take() else { return };
     tour.look(&situation(deck, viewer, is_in_loop_lab));
+    let is_stepped = matches!(tour.stop().goal, Goal::SteppedTo(_));
+    deck.running |= was_asked && !tour.is_asking() && !is_stepped && deck.race().tick() == 0;
     viewer.tour = Some(tour);
 }
 
@@ -96,6 +147,9 @@ pub(super) fn hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option
     if let Some(tour) = &viewer.tour {
         let is_last = tour.index() + 1 == STOPS.len();
         let next = match (tour.is_done(), is_last) {
+            _ if tour.is_asking() => {
+                "Time and numbers wait for your prediction. `Page Down` skips it, `Esc` closes the guide."
+            }
             (true, true) => "That was the last stop. Press `Esc` to close the guide.",
             (true, false) => "Press `Page Down` for the next stop, or `Esc` to close the guide.",
             (false, _) => {

@@ -124,6 +124,9 @@ macro_rules! keys {
     (@page $page:literal) => { Some($page) };
 }
 
+/// How many methods a digit picks: 1 to 9, and 0.
+pub const DIGITS: usize = 10;
+
 /// Every key and its command.
 pub static KEYS: &[Binding] = keys! {
     once "1 … 9, 0" "solo: this method takes over at once; race, loop lab: select that lane":
@@ -166,6 +169,8 @@ pub static KEYS: &[Binding] = keys! {
         Sign('b') => Stage(StageCommand::SceneBeside(Step::Previous));
     once "O" "open a scene file; or drop one onto the window" or "open a scene file; or drop one onto the page":
         Sign('o') => View(ViewCommand::AskForPath);
+    once "Shift O" "compare the run with a recording: it runs beside as a ghost, from the first difference on":
+        ShiftSign('o') => View(ViewCommand::AskForRun);
     once "S" "a spring of your own: its numbers, the recommended method, and its code":
         Sign('s') => View(ViewCommand::AskForSpring);
     once "F" "a fan of futures: the next second under each method, a dot a tick":

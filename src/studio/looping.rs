@@ -7,6 +7,7 @@ use super::command::{StageCommand, TICK_LADDER};
 use super::deck::Deck;
 use super::dispatch::carry_out_on_stage;
 use super::guide::Goal;
+use super::guiding::return_from_guide;
 use super::instrument::Instrument;
 use super::step::Step;
 use super::viewer::Viewer;
@@ -35,6 +36,8 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
     }
     let mut loops = LoopLab::new(studio.deck.scene(), body, method);
     loops.run_goes_on = studio.deck.running;
+    loops.stage_was_alone = !studio.viewer.display().measure;
+    studio.viewer.preferences.display.measure = true;
     loops.play_opening();
     studio.loops = Some(loops.into());
     studio.viewer.preferences.display.instrument = Instrument::Loop;
@@ -42,18 +45,24 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
     studio.deck.held = None;
     studio.viewer.notice = None;
     if studio.viewer.tour.as_ref().is_some_and(|tour| tour.stop().goal != Goal::LoopLab) {
-        studio.viewer.leave_guide();
+        studio.viewer.leave_guide(studio.deck.left.as_deref());
+        studio.viewer.set_notice("the guide is closed: F2 opens it again, L leads to your own run");
     }
     studio.deck.running = true;
 }
 
-/// Leaves the loop lab; the run goes on as it did before. Returns whether it was open.
+/// Leaves the loop lab; the run goes on as it did before, or the one that was left for a guide closed since. Returns whether
+/// it was open.
 pub(super) fn leave_loop_lab(studio: &mut Studio) -> bool {
     let Some(loops) = studio.loops.take() else { return false };
     studio.deck.running = loops.run_goes_on;
+    studio.viewer.preferences.display.measure = !loops.stage_was_alone;
     studio.viewer.notice = None;
     if studio.viewer.display().instrument == Instrument::Loop {
         studio.viewer.preferences.display.instrument = Instrument::Motion;
+    }
+    if studio.viewer.tour.is_none() {
+        return_from_guide(&mut studio.deck, &mut studio.viewer);
     }
     true
 }
@@ -114,6 +123,7 @@ pub(super) fn carry_out_in_loop_lab(studio: &mut Studio, command: StageCommand) 
     match command {
         StageCommand::ToggleRace | StageCommand::OpenSpring => {
             leave_loop_lab(studio);
+            studio.viewer.measure_for(&command.clone().into());
             return carry_out_on_stage(&mut studio.deck, &mut studio.viewer, command);
         }
         StageCommand::Pick(index) => loops.select(index),

@@ -23,6 +23,7 @@ mod ahead;
 mod apply;
 mod clouding;
 mod command;
+mod compared;
 mod deck;
 mod dispatch;
 mod display;
@@ -46,6 +47,7 @@ mod restarting;
 mod resting;
 mod saved_preferences;
 mod scene_list;
+mod spring_field;
 mod step;
 mod viewer;
 mod work;
@@ -57,6 +59,7 @@ pub use clouding::{accept_cloud, cloud_refusal, cloud_request, complete_clouds, 
 pub use command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,
 };
+pub use compared::Compared;
 pub use deck::{Deck, HeldBody};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, View};
 pub use driving::{shown_s, shown_state, shown_tick, shown_truth};
@@ -69,20 +72,21 @@ pub use frame_loop::{FrameLoop, ToDo};
 pub use gesture::{GESTURES, Gesture};
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup};
 pub use joint::{SpringJoint, joint_code};
-pub use key::{Binding, KEYS, Key, command_for};
+pub use key::{Binding, DIGITS, KEYS, Key, command_for};
 pub use looping::{
     accept_loop, loop_lab_refusal, loop_request, open_loop_lab_on, open_traces, run_loops,
 };
 pub use my_spring::MySpring;
 pub use notice::Notice;
 pub use opening::{
-    MANY_LANES, file_is_back, file_is_gone, lineup, list_as_file, open_advised_spring, open_file,
-    refuse_typed_path, reload_failed, reload_file, show_clouds_of_scene, show_comparison,
-    show_mistakes,
+    MANY_LANES, described_spring, file_is_back, file_is_gone, lineup, list_as_file,
+    open_advised_spring, open_file, refuse_typed_path, reload_failed, reload_file,
+    show_clouds_of_scene, show_comparison, show_mistakes,
 };
 pub use pace::{LiveFrame, LiveLoop, PaceMeter};
 pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
+pub use spring_field::SpringField;
 pub use step::Step;
 pub use viewer::{Dialog, Preferences, Viewer};
 pub use work::{CurrentRequest, Found, Work};
@@ -117,6 +121,9 @@ impl Studio {
             next.mode = mode;
         }
         let mut studio = Self::starting_with(next);
+        if studio.mode() == Mode::Race {
+            studio.viewer.preferences.choose_mode(Mode::Race, studio.deck.scene());
+        }
         studio.deck.select_entry_of_start();
         studio.deck.is_selected = listed.is_some() && (mode == Mode::Solo || selected.is_some());
         studio

@@ -3,16 +3,14 @@
 use std::f64::consts::TAU;
 
 use crate::measure::{Adviser, Criterion};
-use crate::scene::{LaneSpec, Scene, SceneErrors, USUAL_SECONDS};
+use crate::scene::{LaneSpec, Scene, SceneErrors, USUAL_SECONDS, check_entered};
+use crate::sim::bodies::Range;
 use crate::sim::integrators::method;
 use crate::sim::number::round;
 use crate::tools::port::Wish;
 
 /// The fewest periods in a scene of a slow spring.
 const MIN_PERIODS: f64 = 10.0;
-
-/// The largest number of a spring that is taken.
-const MAX_NUMBER: f64 = 1e12;
 
 /// A damped spring on a mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,28 +91,16 @@ impl MySpring {
     /// # Errors
     /// The first number that it may not have, in words.
     pub fn check(self) -> Result<(), String> {
-        let (least, most) = (f64::MIN_POSITIVE, MAX_NUMBER);
-        let ranges = [
-            ("the mass", self.mass_kg, least),
-            ("the stiffness", self.stiffness_n_per_m, least),
-            ("the damping", self.damping_n_s_per_m, 0.0),
-            ("the stretch at the start", self.x0_m, -most),
-            ("the velocity at the start", self.v0_m_per_s, -most),
-            ("gravity", self.gravity_m_per_s2, -most),
-            ("the stretch at the start beyond that at rest", self.x0_m - self.sag_m(), -most),
-        ];
-        let wrong = ranges.into_iter().find(|(_, value, from)| !(*from..=most).contains(value));
-        if let Some((name, value, from)) = wrong {
-            let wanted = if value > most {
-                "at most 10¹²"
-            } else if from > 0.0 {
-                "positive"
-            } else if from < 0.0 {
-                "at least -10¹²"
-            } else {
-                "0 or more"
-            };
-            return Err(format!("{name} would be {}; it must be {wanted}", round(value, 4)));
+        for (name, value, range) in [
+            ("mass", self.mass_kg, Range::POSITIVE),
+            ("stiffness", self.stiffness_n_per_m, Range::POSITIVE),
+            ("damping", self.damping_n_s_per_m, Range::NON_NEGATIVE),
+            ("stretch at start", self.x0_m, Range::ANY),
+            ("velocity at start", self.v0_m_per_s, Range::ANY),
+            ("gravity", self.gravity_m_per_s2, Range::ANY),
+            ("stretch at start beyond that at rest", self.x0_m - self.sag_m(), Range::ANY),
+        ] {
+            check_entered(name, value, range)?;
         }
         match self.x0_m == self.sag_m() && self.v0_m_per_s == 0.0 {
             true => Err("it would rest: give it another stretch or a velocity first".into()),

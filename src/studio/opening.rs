@@ -4,9 +4,11 @@ use std::path::Path;
 
 use super::Studio;
 use super::command::RunCommand;
+use super::compared::Compared;
 use super::deck::Deck;
 use super::driving::make_tick;
 use super::instrument::Instrument;
+use super::my_spring::MySpring;
 use super::restarting::{Jump, follow, is_by_hand, restart};
 use super::step::Step;
 use super::viewer::{Dialog, Viewer};
@@ -50,7 +52,7 @@ fn is_alike(a: &Scene, b: &Scene) -> bool {
 /// Lists the open scene as the file at `path`.
 pub fn list_as_file(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
     let index = deck.scene_list.put(path, deck.scene().clone());
-    deck.scene_list.set_open(index);
+    deck.scene_list.set_open(Some(index));
     tell_outdated(deck, viewer);
 }
 
@@ -72,11 +74,21 @@ fn tell_outdated(deck: &mut Deck, viewer: &mut Viewer) {
     }
 }
 
-/// Opens the spring that a person has described, alone and running, at the present tick rate, under what is recommended
+/// Opens the spring that a person has described, alone and running, under what is recommended
 /// for it, and advises on it. It is on the list of scenes under a name that is no file's.
 pub(super) fn open_spring(deck: &mut Deck, viewer: &mut Viewer) {
-    let scene = viewer.preferences.my_spring.advised_scene(deck.clock.tick_hz());
-    open_described(deck, viewer, scene);
+    let (spring, tick_hz) = described_spring(deck, viewer);
+    open_described(deck, viewer, spring.advised_scene(tick_hz));
+}
+
+/// The spring that a person has described, and the tick rate at which it is to run: that of its dialog, or else the present
+/// one.
+pub fn described_spring(deck: &Deck, viewer: &Viewer) -> (MySpring, u32) {
+    let tick_hz = match viewer.dialog {
+        Some(Dialog::Spring { tick_hz }) => tick_hz,
+        _ => deck.clock.tick_hz(),
+    };
+    (viewer.preferences.my_spring, tick_hz)
 }
 
 /// Opens the scene that `MySpring::advised_scene` has made of a person's spring, or shows its mistakes.
@@ -94,6 +106,7 @@ fn open_described(deck: &mut Deck, viewer: &mut Viewer, scene: Result<Scene, Sce
             open_with(deck, viewer, index, |next| next.mode = Mode::Solo);
             deck.running = true;
             viewer.preferences.display.instrument = Instrument::Advice;
+            viewer.preferences.display.measure = true;
         }
         Err(errors) => {
             let report = errors.into();
@@ -149,26 +162,28 @@ pub fn refuse_typed_path(deck: &mut Deck, viewer: &mut Viewer, path: &Path, repo
     viewer.dialog = Some(Dialog::Path { compares, refused: Some(report) });
 }
 
-/// Marks where the recording of this name, which is side a, first differs from the run, and goes there.
-pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison) {
+/// Goes to where a recording first differs from the run, and shows it from there on beside the run.
+pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison, recording: Scene) {
     studio.viewer.dialog = None;
-    studio.viewer.parting = None;
+    studio.deck.compared = None;
     let told = match &found.first {
         _ if !found.is_comparable() => {
-            format!("{name} and this run have nothing to compare that moves")
+            vec![format!("{name} and this run have nothing to compare that moves")]
         }
-        None if found.is_same() => format!("{name} is the same in {} rows", found.rows),
+        None if found.is_same() => vec![format!("{name} is the same in {} rows", found.rows)],
         None => {
-            format!("{name} and this run are equal in the {} rows that both have", found.rows)
+            vec![format!("{name} and this run are equal in the {} rows that both have", found.rows)]
         }
         Some(first) => {
-            let told = format!("{name} is a, this run is b; they first differ {first}");
-            studio.viewer.parting = Some((first.tick, told.clone()));
+            let compared = Compared::new(name, recording, first.clone());
+            let lines = compared.lines();
+            studio.deck.compared = Some(compared.into());
             studio.apply(RunCommand::Seek(first.tick));
             // The run may not have come so far yet.
             let ahead = first.tick.saturating_sub(studio.race().tick()).min(MAX_RERUN);
             (0..ahead).for_each(|_| studio.tick());
-            told
+            studio.deck.follow_with_compared();
+            lines.into()
         }
     };
     studio.viewer.set_notice(told);
@@ -239,23 +254,24 @@ pub(super) fn open_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step) {
 }
 
 /// Opens the scene with this index in the list, modulo its length, under the scene's opening method, and closes the
-/// guide, which is about another. The preferences stay, and so does the mode, unless the scene opens as a race.
+/// guide, which is about another. The preferences stay. The scene opens solo or as a race as it says itself, unless a
+/// person has chosen.
 pub(super) fn open(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     open_with(deck, viewer, index, |_| ());
 }
 
-/// Like [`open`], with the settings of its start as `set` sets them.
+/// Like [`open`], with the settings of its start as `set` sets them. Returns the deck before.
 pub(super) fn open_with(
     deck: &mut Deck,
     viewer: &mut Viewer,
     index: usize,
     set: impl FnOnce(&mut StartSettings),
-) {
+) -> Deck {
     let mut scene_list = deck.scene_list.clone();
     let index = index % scene_list.count();
-    scene_list.set_open(index);
+    scene_list.set_open(Some(index));
     let mut next = StartSettings::of(scene_list.scene(index));
-    next.mode = if next.scene.opens_as_race { Mode::Race } else { deck.mode() };
+    next.mode = viewer.preferences.mode.unwrap_or_else(|| Mode::opening(&next.scene));
     set(&mut next);
     let display = &mut viewer.preferences.display;
     if deck.scene().clouds.is_some() && display.enlarged {
@@ -272,7 +288,8 @@ pub(super) fn open_with(
     let file = deck.scene_list.file(index);
     let mistakes = file.and_then(|file| Some((file.name(), file.mistakes.clone()?)));
     viewer.dialog = mistakes.map(|(file, report)| Dialog::Mistakes { file, report });
-    viewer.leave_guide();
+    viewer.leave_guide(before.left.as_deref());
+    before
 }
 
 #[cfg(test)]

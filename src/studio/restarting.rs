@@ -30,8 +30,9 @@ pub(super) fn follow(deck: &mut Deck, viewer: &mut Viewer, jump: Jump) {
         deck.select_entry_of_start();
         deck.clock.restart();
         deck.dropped = 0;
-        (viewer.notice, viewer.parting) = (None, None);
+        (viewer.notice, deck.compared) = (None, None);
     }
+    deck.follow_with_compared();
     deck.run.show_present();
 }
 

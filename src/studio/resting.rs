@@ -153,13 +153,15 @@ mod tests {
     fn a_run_rests_at_its_end_in_every_mode_and_in_the_guide_and_what_opens_then_runs() {
         let race = |studio: &mut Studio| _ = studio.apply(StageCommand::ToggleRace);
         let kick = |studio: &mut Studio| _ = studio.apply(RunCommand::Act(Action::Kick(1.0)));
-        let guide = |studio: &mut Studio| _ = studio.apply(ViewCommand::GoToStop(9));
+        let guide = |studio: &mut Studio| {
+            studio.apply(ViewCommand::GoToStop(9));
+            studio.apply(ViewCommand::Predict(0));
+        };
         let prepared: [fn(&mut Studio); 4] = [|_| {}, race, kick, guide];
         let opened = [
             Command::Stage(StageCommand::Restart),
             Command::Stage(StageCommand::SceneBeside(Step::Next)),
             Command::Stage(StageCommand::OpenSpring),
-            Command::View(ViewCommand::GoToStop(0)),
             Command::Run(RunCommand::Act(Action::Kick(1.0))),
         ];
         for (prepare, open) in
@@ -232,6 +234,7 @@ mod tests {
         let mut studio = watched("spring");
         let stop = STOPS.iter().position(|stop| stop.goal == Goal::Paused).unwrap();
         studio.apply(ViewCommand::GoToStop(stop));
+        studio.apply(ViewCommand::Predict(0));
         let end = studio.scene().seconds;
         watch(&mut studio, end as u32 + 2);
         assert!(!studio.running());

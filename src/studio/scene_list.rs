@@ -103,8 +103,8 @@ impl SceneList {
         self.file(index).map_or_else(built_in, |file| file.scene.clone())
     }
 
-    pub(super) fn set_open(&mut self, index: usize) {
-        self.open = Some(index);
+    pub(super) fn set_open(&mut self, index: Option<usize>) {
+        self.open = index;
     }
 
     /// Puts the scene of a file on the list, or replaces the file's earlier scene. Returns its index.

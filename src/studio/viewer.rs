@@ -3,6 +3,7 @@
 use super::command::{
     Command, RunCommand, SCALE_LADDER, StageCommand, USUAL_SCALE_PERCENT, ViewCommand,
 };
+use super::deck::LeftRun;
 use super::display::{Arrangement, Display, Motion, Pace, Splits, View};
 use super::guide::{Hints, Tour};
 use super::instrument::Instrument;
@@ -10,18 +11,20 @@ use super::my_spring::MySpring;
 use super::notice::Notice;
 use super::pace::LiveLoop;
 use crate::look::palette::Theme;
-use crate::loops::loop_lab::LoopCommand;
 use crate::measure::cloud::{CloudChoice, FoundCloud};
 use crate::measure::{Advice, Findings, StabilityMap, Verdict};
-use crate::run::race::Interpolation;
-use crate::scene::{LaneSpec, Mistake};
+use crate::run::race::{Interpolation, Mode};
+use crate::scene::{LaneSpec, Mistake, Scene};
 use crate::tools::source_code::Language;
 
 /// A dialog over the window.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Dialog {
     /// The numbers of a custom spring.
-    Spring,
+    Spring {
+        /// The tick rate at which it is to run, in Hz.
+        tick_hz: u32,
+    },
     /// A field for the path of a scene file.
     Path {
         /// Whether it is a recording that is to be compared with the run.
@@ -49,6 +52,8 @@ impl Dialog {
 pub struct Preferences {
     /// What is shown, and how.
     pub display: Display,
+    /// The mode that a person chose against that of the scene, for all scenes.
+    pub(super) mode: Option<Mode>,
     /// Whether a person chose the theme: then it no longer follows the system's.
     pub(super) theme_is_chosen: bool,
     /// The language in which the next method is copied.
@@ -82,6 +87,11 @@ impl Preferences {
         self.theme_is_chosen.then_some(self.display.theme)
     }
 
+    /// Opens scenes in this mode, if it is not the one in which this scene opens itself.
+    pub(super) fn choose_mode(&mut self, mode: Mode, scene: &Scene) {
+        self.mode = (mode != Mode::opening(scene)).then_some(mode);
+    }
+
     /// Shows type and panels at this size in percent, within the bounds of [`SCALE_LADDER`].
     pub fn choose_scale(&mut self, percent: u32) {
         let [least, .., most] = SCALE_LADDER;
@@ -111,6 +121,7 @@ impl Default for Preferences {
                 inspector: false,
                 motion: Motion::Recorded,
             },
+            mode: None,
             theme_is_chosen: false,
             language: Language::default(),
             typed_path: String::new(),
@@ -141,14 +152,14 @@ pub struct Viewer {
     /// The last frames of the studio's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
-    /// The tick at which a recording first differs from the run, and in what.
-    pub(super) parting: Option<(u64, String)>,
     /// The clouds that were found last.
     pub(super) cloud: Option<FoundCloud>,
     /// The tick rate at which the pointer's button went down, in Hz, while it is.
     pub(super) hz_at_press: Option<u32>,
     pub(super) dialog: Option<Dialog>,
     pub(super) hints: Hints,
+    /// Those of the run that was left for the guide.
+    pub(super) hints_of_left: Hints,
     /// The open guide.
     pub(super) tour: Option<Tour>,
 }
@@ -160,6 +171,7 @@ impl Viewer {
             preferences: self.preferences.clone(),
             pace: self.pace,
             hints: self.hints.of_next_scene(),
+            hints_of_left: self.hints_of_left.clone(),
             tour: self.tour.take(),
             ..Self::default()
         }
@@ -210,21 +222,25 @@ impl Viewer {
         self.preferences.my_spring
     }
 
+    /// Whether a stop of the guide waits for a prediction: until then nothing on the screen answers its question.
+    pub fn is_asked(&self) -> bool {
+        self.tour.as_ref().is_some_and(Tour::is_asking)
+    }
+
     /// The verdict on the method with this index in the list, of the run that [`Studio::analysis_request`](super::Studio::analysis_request)
-    /// describes; `None` until it has been [found](super::accept_findings).
+    /// describes; `None` until it has been [found](super::accept_findings), and while a person is [asked](Self::is_asked).
     pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
+        self.judged(entry).filter(|_| !self.is_asked())
+    }
+
+    /// The same, also while a person is asked.
+    pub(super) fn judged(&self, entry: usize) -> Option<&Verdict> {
         self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
     }
 
     /// Whether the path that is typed is of a recording to be compared with the run.
     pub fn compares_typed_path(&self) -> bool {
         matches!(self.dialog, Some(Dialog::Path { compares: true, .. }))
-    }
-
-    /// The tick at which the recording that was [compared](super::show_comparison) first differs from the run, and in
-    /// what; `None` if none was, or if the run has begun anew.
-    pub fn parting(&self) -> Option<&(u64, String)> {
-        self.parting.as_ref()
     }
 
     /// The advice on this scene, as far as it has been [found](super::accept_findings); `None` while it is not shown.
@@ -276,19 +292,24 @@ impl Viewer {
         self.hints = Hints::default();
     }
 
-    /// Closes the guide, as what it tells of is no longer shown.
-    pub(super) fn leave_guide(&mut self) {
+    /// Closes the guide, whose scene is no longer shown, and restores the choices made before it. The instrument stays: it
+    /// is in sight.
+    pub(super) fn leave_guide(&mut self, left: Option<&LeftRun>) {
+        if let Some(LeftRun { display: before, .. }) = left {
+            let display = &mut self.preferences.display;
+            display.quantity = before.quantity;
+            display.metric = before.metric;
+            display.interpolation = before.interpolation;
+        }
         if self.close_guide() {
             self.set_notice("the guide is closed: F2 opens it where you left it");
         }
     }
 
-    /// Closes the guide and shows again what the person chose before it. Scene, run and instrument stay: they are in sight.
-    /// Returns whether the guide was open.
+    /// Closes the guide. Returns whether it was open.
     pub(super) fn close_guide(&mut self) -> bool {
         let Some(tour) = self.tour.take() else { return false };
         self.preferences.left_at = tour.index();
-        tour.before().restore(&mut self.preferences.display);
         true
     }
 
@@ -317,12 +338,9 @@ impl Viewer {
                     | StageCommand::InstrumentBeside(_)
                     | StageCommand::OpenSpring
             ),
-            Command::Loop(command) => *command == LoopCommand::ToggleLab,
             Command::Run(command) => *command == RunCommand::ToggleInspector,
-            Command::View(command) => {
-                matches!(command, ViewCommand::ToggleEnlarged | ViewCommand::ToggleGuide)
-            }
-            Command::Ask(_) => false,
+            Command::View(command) => *command == ViewCommand::ToggleEnlarged,
+            Command::Loop(_) | Command::Ask(_) => false,
         };
         self.preferences.display.measure |= is_about;
     }

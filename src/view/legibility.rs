@@ -244,6 +244,8 @@ fn every_text_can_be_read_at_every_stop_of_the_guide_beside_the_inspector() {
             if studio.display().inspector != (i == stop % 2) {
                 studio.apply(RunCommand::ToggleInspector);
             }
+            // Before the prediction, and after it.
+            (0..i).for_each(|_| _ = studio.apply(ViewCommand::Predict(0)));
             let faults = faults(&studio, *size);
             let at = format!("stop {stop}, inspector {}, {size}", studio.display().inspector);
             all.extend(faults.into_iter().map(|fault| format!("{at}: {fault}")));

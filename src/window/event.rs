@@ -74,7 +74,7 @@ impl App {
             }
             Event::SpringAdvised(scene) => {
                 // Whoever has closed the dialog meanwhile wants it no more.
-                if self.frames.studio.viewer.dialog() == Some(&Dialog::Spring) {
+                if matches!(self.frames.studio.viewer.dialog(), Some(Dialog::Spring { .. })) {
                     open_advised_spring(&mut self.frames.studio, *scene);
                     self.stand_still();
                     self.request_redraw();

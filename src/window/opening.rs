@@ -45,9 +45,13 @@ pub(super) struct ReadFile {
 }
 
 enum Held {
-    Scene { scene: Box<Scene>, text: String },
+    Scene {
+        scene: Box<Scene>,
+        text: String,
+    },
     Traces(Vec<FrameTrace>),
-    Compared(Box<Comparison>),
+    /// How it differs from the run, and the recording.
+    Compared(Box<(Comparison, Scene)>),
 }
 
 impl Asked {
@@ -80,8 +84,9 @@ impl Asked {
     /// frame: this is no work for the thread that draws.
     pub(super) fn read(self, read: &ReadScene) -> ReadFile {
         let held = if let Some(run) = &self.compared {
-            read(&self.path)
-                .map(|(scene, _)| Held::Compared(compared(scene, (**run).clone()).into()))
+            read(&self.path).map(|(scene, _)| {
+                Held::Compared((compared(scene.clone(), (**run).clone()), scene).into())
+            })
         } else if is_trace(&self.path) {
             traces_in(&self.path).map(Held::Traces)
         } else {
@@ -119,9 +124,10 @@ impl ReadFile {
                     studio.apply(ViewCommand::CloseDialog);
                 }
             }
-            Ok(Held::Compared(found)) => {
+            Ok(Held::Compared(compared)) => {
+                let (found, recording) = *compared;
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
-                show_comparison(studio, &name, &found);
+                show_comparison(studio, &name, &found, recording);
             }
             Err(report) if is_typed => {
                 refuse_typed_path(&mut studio.deck, &mut studio.viewer, &path, report)
@@ -200,7 +206,7 @@ pub(super) fn completed(typed: &str) -> String {
 mod tests {
     use super::*;
     use crate::run::link;
-    use crate::studio::{Dialog, RunCommand};
+    use crate::studio::{Compared, Dialog, RunCommand};
 
     /// Reads scene files without the command line's options.
     fn read() -> ReadScene {
@@ -229,7 +235,7 @@ mod tests {
             studio.apply(ViewCommand::TypePath(recording.display().to_string()));
             Asked::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
             let notice = studio.viewer.notice.as_deref().unwrap().to_owned();
-            (studio.viewer.parting().map(|(tick, _)| *tick), studio.race().tick(), notice)
+            (studio.deck.compared().map(Compared::tick), studio.race().tick(), notice)
         };
         let same = compare(&recorded);
         assert!(same.0.is_none() && same.1 == 90, "{same:?}");

@@ -15,13 +15,20 @@ use regatta::studio::{
 use regatta::tools::port;
 use regatta::tools::port::{Wish, setups};
 
-fn lab_at(stop: usize) -> Studio {
+pub(crate) fn lab_at(stop: usize) -> Studio {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.apply(ViewCommand::GoToStop(stop));
     studio
 }
 
-fn is_done(studio: &Studio) -> bool {
+/// A studio at a stop whose prediction is given.
+pub(crate) fn lab_after_prediction(stop: usize) -> Studio {
+    let mut studio = lab_at(stop);
+    studio.apply(ViewCommand::Predict(0));
+    studio
+}
+
+pub(crate) fn is_done(studio: &Studio) -> bool {
     studio.viewer.tour().expect("the guide is open").is_done()
 }
 
@@ -42,11 +49,12 @@ fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
             assert_eq!(stop.quantity, Quantity::Velocity, "{}", stop.title);
         }
         let is_stepped = matches!(stop.goal, Goal::SteppedTo(_));
+        assert_eq!((studio.race().tick(), studio.running()), (0, false));
+        studio.apply(ViewCommand::Predict(stop.right));
         assert_eq!((studio.race().tick(), studio.running()), (0, !is_stepped));
         if !is_stepped {
             (0..5).for_each(|_| studio.tick());
         }
-        studio.apply(ViewCommand::Predict(stop.right));
         assert!(!is_done(&studio), "{} is done before it begins", stop.title);
         assert!(!stop.keys.is_empty());
         for key in stop.keys {
@@ -96,7 +104,7 @@ fn the_guide_closes_with_escape_and_opens_where_it_was_left() {
     assert_eq!(studio.viewer.tour().unwrap().index(), STOPS.len() - 1);
 }
 
-fn place_of(goal: Goal) -> usize {
+pub(crate) fn place_of(goal: Goal) -> usize {
     STOPS.iter().position(|stop| stop.goal == goal).expect("a stop of this goal")
 }
 
@@ -149,7 +157,8 @@ fn the_guide_visits_the_instruments_that_explain_and_the_loop_lab() {
 
 #[test]
 fn the_area_of_a_cloud_of_pendulums_becomes_what_the_guide_says() {
-    let mut studio = lab_at(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
+    let mut studio =
+        lab_after_prediction(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
     studio.apply(StageCommand::ToggleRace);
     let kind = CloudKind::default();
     studio.apply(RunCommand::Cloud(CloudChoice { kind, points: 10_000 }));
@@ -293,7 +302,7 @@ fn runge_kutta_on_the_ship_comes_within_rounding_and_then_more_ticks_take_no_err
 
 #[test]
 fn each_step_of_explicit_euler_makes_the_swing_18_percent_wider_at_10_hz() {
-    let mut studio = lab_at(place_of(Goal::SteppedTo(3)));
+    let mut studio = lab_after_prediction(place_of(Goal::SteppedTo(3)));
     let omega = std::f64::consts::TAU;
     let swing = |[q, v]: [f64; 2]| q.hypot(v / omega);
     for _ in 0..4 {
@@ -405,6 +414,10 @@ fn engines_do_to_a_spring_what_the_guide_says() {
     };
     let engine = |id: &str| kept(id, method(id).unwrap().default_substeps, 4, "engines");
     assert!((0.45..0.55).contains(&engine("engine-box2d")));
+    let said = verdict("engines", "engine-box2d", 60).to_string();
+    let stop = STOPS.iter().find(|stop| stop.scene == "engines").unwrap();
+    assert!(said.contains("swing ½ in 4.2 s"), "{said}");
+    assert!(stop.answer.contains("the swing is halved in 4.2 s"), "{}", stop.answer);
     for id in ["engine-jolt", "engine-physx"] {
         assert!(engine(id) < 0.3, "{id}");
     }
@@ -512,7 +525,8 @@ fn the_lanes_that_port_has_told_stay_within_8_percent_of_the_ghost_all_the_way()
 
 #[test]
 fn the_area_of_the_cloud_is_never_less_than_at_its_start_under_explicit_euler() {
-    let mut studio = lab_at(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
+    let mut studio =
+        lab_after_prediction(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
     studio.apply(RunCommand::Cloud(CloudChoice { kind: CloudKind::default(), points: 10_000 }));
     let mut worker = CloudWorker::default();
     let mut areas = Vec::new();

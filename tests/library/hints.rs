@@ -206,8 +206,7 @@ fn after_home_the_next_step_of_the_tour_is_shown_and_what_brings_back_the_run_af
         Command::Stage(StageCommand::TickRate(Step::Next)),
         Command::View(ViewCommand::ToggleGuide),
         Command::View(ViewCommand::Escape),
-        // The hint of the scene that the guide opened.
-        Command::Stage(StageCommand::ToggleRace),
+        // Back in the race that was left for the guide.
         Command::Stage(StageCommand::ToggleRace),
     ] {
         studio.apply(command);
@@ -620,7 +619,7 @@ fn a_recording_has_the_digits_and_lanes_of_the_screen_and_its_verdict_is_not_of_
 
 #[test]
 fn in_a_race_that_has_gone_on_into_the_next_scene_nobody_is_asked_to_race() {
-    let mut studio = open("jump");
+    let mut studio = open("spring");
     studio.apply(StageCommand::ToggleRace);
     studio.viewer.begin_hints();
     for _ in SCENES {

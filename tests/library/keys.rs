@@ -1,7 +1,7 @@
 //! What keys do to a run, as the title tells. That the window knows every key is tested with one.
 
 use regatta::scene::{SCENES, Scene};
-use regatta::studio::{Instrument, KEYS, Key, StageCommand, Studio, TICK_LADDER, ViewCommand};
+use regatta::studio::{Instrument, KEYS, Key, StageCommand, Studio, TICK_LADDER};
 
 /// Does what the table says of a key.
 fn press(studio: &mut Studio, key: Key) {
@@ -103,8 +103,14 @@ fn the_loop_lab_is_not_without_its_instruments() {
     press(&mut studio, Key::Sign('l'));
     for _ in 0..2 {
         assert!(studio.loop_lab().is_some() && studio.display().measure);
-        studio.apply(ViewCommand::ToggleMeasure);
+        studio.viewer.notice = None;
+        press(&mut studio, Key::Sign('t'));
+        let said = studio.viewer.notice.as_deref().expect("why nothing happens");
+        assert!(said.contains("instruments") && said.contains("L leaves"), "{said}");
     }
     press(&mut studio, Key::Sign('l'));
-    assert!(studio.loop_lab().is_none() && studio.display().measure);
+    assert!(studio.loop_lab().is_none() && !studio.display().measure, "it is as it was");
+    press(&mut studio, Key::Sign('l'));
+    studio.apply(StageCommand::ToggleRace);
+    assert!(studio.loop_lab().is_none() && studio.display().measure, "a race has a table");
 }

@@ -27,6 +27,7 @@ mod exact_flows;
 mod formulas;
 mod frame_traces;
 mod guide;
+mod guide_runs;
 mod hints;
 mod histories;
 mod honesty;

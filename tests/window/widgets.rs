@@ -129,16 +129,18 @@ fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
     same(&desk, &mut twin);
     desk.press("F2");
     twin.apply(ViewCommand::ToggleGuide);
+    let choice = twin.studio.viewer.tour().unwrap().stop().choices[1];
+    twin.click(&desk, choice);
+    assert_eq!(twin.studio.viewer.tour().unwrap().guess(), Some(1));
+    assert!(twin.studio.running(), "the prediction begins the run");
     twin.click(&desk, "pause (Space)");
     // In the window time ran, so that there is a run to bring back.
     twin.studio.tick();
     twin.click(&desk, "restart (Home)");
-    let choice = twin.studio.viewer.tour().unwrap().stop().choices[1];
-    twin.click(&desk, choice);
-    assert_eq!(twin.studio.viewer.tour().unwrap().guess(), Some(1));
     same(&desk, &mut twin);
     twin.click(&desk, "Close");
     assert!(twin.studio.viewer.tour().is_none());
+    assert_eq!((twin.studio.scene().name.as_str(), twin.studio.run().end()), ("spring", 120));
     same(&desk, &mut twin);
     desk.quit();
 }
@@ -174,7 +176,7 @@ fn a_spring_of_ones_own_is_typed_advised_on_and_kept_for_the_next_time() {
     twin.enter(&desk, "stiffness", "50");
     twin.enter(&desk, "frequency", "3");
     twin.enter(&desk, "damping ratio", "1");
-    twin.click(&desk, "Advise at");
+    twin.click(&desk, "Run it at");
     assert_eq!(
         (twin.studio.deck.scene_name().as_str(), twin.studio.race().tick()),
         ("my spring", 0)

@@ -66,7 +66,7 @@ fn every_method_lands_where_the_run_goes_to_the_bit_and_does_not_disturb_it() {
             let before: Vec<u64> = studio.race().lane_hashes().collect();
             let evaluations = studio.race().entrants()[0].lane.evaluations();
             let step = one_step(&studio.deck, &studio.viewer).unwrap();
-            let counted = studio.deck.evaluations_of_next_tick(0);
+            let counted = studio.deck.evaluations_of_next_tick(studio.active());
             assert_eq!(studio.race().lane_hashes().collect::<Vec<_>>(), before, "{}", method.id);
             studio.tick();
             let lane = &studio.race().entrants()[0].lane;

@@ -163,7 +163,7 @@ fn is_so(hint: &str, now: &Situation<'_>) -> bool {
         })
         .collect();
     let asks = |is: fn(&StageCommand) -> bool| asked.iter().any(|asked| is(asked));
-    let opens_in = if now.scene.opens_as_race { Mode::Race } else { Mode::Solo };
+    let opens_in = Mode::opening(now.scene);
     let is_of_mode = asks(|asked| {
         matches!(asked, Pick(_) | Method(_) | MethodBeside(_) | ToggleRace | ToggleArrangement)
     });

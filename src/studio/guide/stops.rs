@@ -82,7 +82,7 @@ pub static STOPS: &[Stop] = &[
         task: "Press `]` for the next tick rate, and `Home` to start again.",
         keys: &[Key::Sign(']'), Key::Home],
         goal: Goal::TickHzFrom(5),
-        answer: "About 2.5 times. Each step drops terms of size h², but there are more steps to add up: over a given time the error goes with h. Euler's method has order 1.",
+        answer: "About 2.5 times. Each step drops terms of size h², but there are more steps to add up: over a given time the error is proportional to h. Euler's method has order 1.",
         ..SHIP
     },
     Stop {
@@ -119,7 +119,7 @@ pub static STOPS: &[Stop] = &[
         task: "Press `3` for improved Euler, and `Home` to start again.",
         keys: &[Key::Digit(3), Key::Home],
         goal: Goal::Method("improved-euler"),
-        answer: "About 60 times: 0.03 % of the speed instead of 1.6 %, for twice the work. The error now goes with h²: order 2.",
+        answer: "About 60 times: 0.03 % of the speed instead of 1.6 %, for twice the work. The error is now proportional to h²: order 2.",
         ..SHIP
     },
     Stop {
@@ -131,7 +131,7 @@ pub static STOPS: &[Stop] = &[
         task: "Press `4` for Runge-Kutta, and `Home` to start again.",
         keys: &[Key::Digit(4), Key::Home],
         goal: Goal::Method("rk4"),
-        answer: "About 0.000004 %: thousands of times less than improved Euler, for twice its work. The error goes with h⁴. The usual first choice.",
+        answer: "About 0.000004 %: thousands of times less than improved Euler, for twice its work. The error is proportional to h⁴. The usual first choice.",
         ..SHIP
     },
     Stop {
@@ -204,12 +204,12 @@ pub static STOPS: &[Stop] = &[
         tick_hz: 12,
         instrument: Instrument::Cloud,
         question: "100 000 pendulums start from every point of a cat's head: angle across, velocity up. The true motion, in outline, bends the cat and keeps its area. What does explicit Euler do to the area?",
-        choices: &["it keeps it", "it blows it up", "it shrinks it"],
+        choices: &["it keeps it", "it swells it", "it shrinks it"],
         right: 1,
         task: "Look at it for some seconds. Then press `3` for semi-implicit Euler, and `Home`.",
         keys: &[Key::Digit(3), Key::Home],
         goal: Goal::Method("semi-implicit-euler"),
-        answer: "It blows it up: by half in little more than a second, and to about twice. Only what goes over the top shrinks again. Semi-implicit Euler bends the cat a little wrongly and keeps its area: so it neither gains energy nor loses any for long. Press `2`: implicit Euler shrinks it. `C` shows all four.",
+        answer: "It swells it: by half in a good second, later to twice the area. Only what goes over the top shrinks again. Semi-implicit Euler bends the cat a little wrongly and keeps its area: so it neither gains energy nor loses any for long. Press `2`: implicit Euler shrinks it. `C` shows all four.",
         ..SPRING
     },
     Stop {
@@ -237,7 +237,7 @@ pub static STOPS: &[Stop] = &[
         task: "Press `]` twice, for 50 ticks per second, or drag the cross over the line, and `Home` to start again.",
         keys: &[Key::Sign(']'), Key::Sign(']'), Key::Home],
         goal: Goal::TickHzFrom(50),
-        answer: "2 times: the limit is h ω = 2, and ω goes with the root of the stiffness. Explicit Euler has no line for a spring without damping: it is bounded nowhere.",
+        answer: "2 times: the limit is h ω = 2, and ω is proportional to the root of the stiffness. Explicit Euler has no line for a spring without damping: it is bounded nowhere.",
         ..SPRING
     },
     Stop {
@@ -307,20 +307,20 @@ pub static STOPS: &[Stop] = &[
         task: "Press `C` to race nine engines.",
         keys: &[Key::Sign('c')],
         goal: Goal::Race,
-        answer: "It dies away: after 4 s about half the swing is left. A soft joint is an implicit spring and loses energy, fastest in Jolt and in the default solver of PhysX. Bullet, Chipmunk and MuJoCo keep it, and each treats the ship in a way of its own.",
+        answer: "It dies away: the swing is halved in 4.2 s. A soft joint is an implicit spring and loses energy, fastest in Jolt and in the default solver of PhysX. Bullet, Chipmunk and MuJoCo keep it, and each treats the ship in a way of its own.",
         ..SPRING
     },
     Stop {
         title: "The same swing in every engine",
         scene: "alike",
         method: "engine-jolt",
-        question: "A spring that should lose half its swing in 0.74 s. Jolt adds a damping of its own. So do Box2D and MuJoCo, each another. How do all three swing alike?",
+        question: "A spring that should lose half its swing in 0.74 s. Jolt, Box2D and MuJoCo each add a different damping. How can all three be made to swing alike?",
         choices: &["with the same numbers", "with more substeps", "with other numbers in each"],
         right: 2,
-        task: "Press `C` to race them, each told twice: the spring as it is, and what the command regatta port says.",
+        task: "Press `C` to race them, each set up twice: with the spring's own numbers, and with those of the command regatta port.",
         keys: &[Key::Sign('c')],
         goal: Goal::Race,
-        answer: "Lanes 4 to 6 stay within 8 % of the white ghost. Jolt is told a fifth of the damping, Box2D three fifths and MuJoCo all of it, and each adds the rest. Press `E` for a spring's numbers as in any engine, and copy a lane as lines of code.",
+        answer: "Lanes 4 to 6 stay within 8 % of the white ghost. Jolt is set to a fifth of the damping, Box2D to three fifths and MuJoCo to all of it, and each adds the rest. Press `E` for a spring's numbers as in any engine, and copy a lane as lines of code.",
         ..SPRING
     },
     Stop {

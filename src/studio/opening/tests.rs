@@ -248,9 +248,87 @@ fn a_comparison_that_ends_in_the_loop_lab_marks_the_run_and_leaves_it_where_it_i
         relative: Some(0.2),
     });
     let found = Comparison { rows: 900, moved: 2.0, first, ..Comparison::default() };
-    show_comparison(&mut studio, "clip.toml", &found);
+    show_comparison(&mut studio, "clip.toml", &found, Scene::built_in("spring").unwrap());
     assert!(studio.loop_lab().is_some() && studio.running());
-    assert_eq!(studio.viewer.parting().map(|parting| parting.0), Some(50));
+    assert_eq!(studio.deck.compared().map(Compared::tick), Some(50));
     studio.apply(LoopCommand::ToggleLab);
     assert_eq!((studio.race().tick(), studio.running()), (200, true));
+}
+
+#[test]
+fn a_recording_that_differs_runs_beside_the_run_as_a_ghost_at_every_tick() {
+    use crate::run::diff::{Tolerance, diff};
+    use crate::run::trace::Made;
+    use crate::stage::compose;
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..90).for_each(|_| studio.tick());
+    let text = studio.deck.recording().unwrap() + "\n[[command]]\nat_s = 1.0\nkick = 1.0\n";
+    let recording = Scene::parse("clip.toml", &text).unwrap();
+    let run = studio.run().recording();
+    let [mut a, mut b] = [recording.clone(), run].map(|scene| Made::of_scene(scene, 90));
+    let found = diff::<_, _, crate::run::diff::NotComparable>(&mut a, &mut b, Tolerance::default());
+    show_comparison(&mut studio, "clip.toml", &found.unwrap(), recording.clone());
+    assert_eq!((studio.race().tick(), studio.running()), (61, false));
+    let lines = studio.deck.compared().unwrap().lines();
+    assert!(
+        lines[0].starts_with("first difference: tick 61, exact solution, spring, x"),
+        "{lines:?}"
+    );
+    assert!(lines[1].starts_with("size: ") && lines[1].contains(" in "), "{lines:?}");
+    assert!(lines.iter().all(|line| line.chars().count() < 60), "{lines:?}");
+    let notice = studio.viewer.notice.clone().unwrap();
+    assert_eq!(notice.parts(), lines);
+    // The recording, run again by itself.
+    let alone = |tick: u64| {
+        let mut race = crate::run::Session::racing(recording.clone().into());
+        race.run(tick);
+        race.race().entrants()[0].lane.bodies()[0].stepper.q()[0]
+    };
+    let holds = |studio: &mut Studio, tick: u64| {
+        assert_eq!(studio.race().tick(), tick);
+        let spec = studio.selected().spec;
+        let compared = studio.deck.compared().expect("it stays");
+        let body = compared.body(studio.scene(), &spec, 0).expect("a spring too");
+        assert_eq!(body.stepper.q()[0].to_bits(), alone(tick).to_bits(), "at tick {tick}");
+        let said: Vec<_> =
+            compose(studio, [780.0, 440.0]).labels.into_iter().map(|label| label.text).collect();
+        for words in ["clip.toml", &lines[0], &lines[1]] {
+            assert!(said.iter().any(|said| said == words), "{words}: {said:?}");
+        }
+    };
+    holds(&mut studio, 61);
+    (0..40).for_each(|_| studio.tick());
+    holds(&mut studio, 101);
+    studio.apply(RunCommand::Seek(20));
+    holds(&mut studio, 20);
+    studio.apply(StageCommand::Second(Step::Next));
+    holds(&mut studio, 80);
+    // A scene of other bodies has none to show.
+    let spec = studio.selected().spec;
+    let other = Scene::built_in("ship").unwrap();
+    assert!(studio.deck.compared().unwrap().body(&other, &spec, 0).is_none());
+    studio.apply(StageCommand::Restart);
+    assert!(studio.deck.compared().is_none());
+}
+
+#[test]
+fn my_spring_runs_at_the_tick_rate_of_its_dialog_with_the_advice_beside_it() {
+    let mut studio = Studio::new(Scene::built_in("ship").unwrap());
+    studio.viewer.preferences.display.measure = false;
+    studio.apply(ViewCommand::AskForSpring);
+    let asked = |studio: &Studio| described_spring(&studio.deck, &studio.viewer).1;
+    assert_eq!(asked(&studio), studio.clock().tick_hz(), "the present one at first");
+    let rate = crate::studio::SpringField::tick_rate(asked(&studio));
+    assert!(rate.is_whole && rate.value == f64::from(asked(&studio)));
+    for wrong in [0.0, 2.5, -60.0, 1e6] {
+        assert!((rate.set)(wrong).unwrap_err().contains("tick rate would be"), "{wrong}");
+    }
+    studio.apply((rate.set)(144.0).unwrap());
+    assert_eq!(asked(&studio), 144);
+    let scene = studio.viewer.my_spring().advised_scene(144);
+    open_advised_spring(&mut studio, scene);
+    assert_eq!((studio.race().tick_hz(), studio.scene().tick_hz), (144, 144));
+    assert!(studio.running() && studio.viewer.dialog().is_none());
+    let display = studio.display();
+    assert!(display.measure && display.instrument == Instrument::Advice);
 }

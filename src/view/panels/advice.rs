@@ -1,8 +1,11 @@
 //! Which method to take for the scene at its tick rate: the answer as far as it is known, then what is known of every
 //! method, as a table.
 
+use std::sync::Arc;
+
 use egui::{
-    Align, Color32, ComboBox, FontId, Label, Layout, Rect, Response, RichText, Ui, UiBuilder, vec2,
+    Align, Color32, ComboBox, FontId, Id, Label, Layout, Rect, Response, RichText, ScrollArea, Ui,
+    UiBuilder, vec2,
 };
 
 use super::breakpoints;
@@ -15,7 +18,7 @@ use crate::measure::{
 use crate::scene::LaneSpec;
 use crate::stage::number::{counted, significant};
 use crate::studio::{Command, RunCommand, Studio, ViewCommand};
-use crate::tools::source_code::Language;
+use crate::tools::source_code::{Language, Precision, function_code};
 use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
 /// What is written in a cell, where there is room for it and where there is not.
@@ -29,6 +32,8 @@ const SMALL: f32 = 11.5;
 const LINE: f32 = 20.0;
 const APART: f32 = 6.0;
 const MIN_NAME: f32 = 120.0;
+/// The part of the room below the answer that the code has.
+const CODE_PART: f32 = 0.42;
 /// The width of a criterion's name before its answer, in points.
 const CRITERION: f32 = 76.0;
 
@@ -42,6 +47,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let best: Vec<Option<usize>> = (0..CRITERIA.len()).map(|i| best(advice, i)).collect();
     answer(ui, studio, advice, &best, commands);
     ui.separator();
+    if ui.available_height() >= breakpoints::CODE && !is_picture(ui) {
+        code(ui, studio, commands);
+        ui.separator();
+    }
     let whose = match advice.bodies {
         AdvisedBodies::All if studio.scene().bodies.len() > 1 => ", all bodies",
         _ => "",
@@ -159,7 +168,7 @@ fn taken_line(
         |words: &str| ui.painter().layout_no_wrap(words.to_owned(), font.clone(), colour).size().x;
     let room =
         |substeps: &str| ui.available_width() - width(substeps) - ui.spacing().item_spacing.x;
-    let marks: &[&str] = if met.has_no_reserve() { &[", no reserve", " !"] } else { &[""] };
+    let marks: &[&str] = if met.has_no_reserve() { &[" (only just)", " !"] } else { &[""] };
     let marked = |mark: &&str| format!("×{}{mark}", met.substeps);
     let mut substeps = marks.iter().map(marked);
     let fits = substeps.clone().find(|substeps| width(name) <= room(substeps));
@@ -203,6 +212,35 @@ fn copy_button(ui: &mut Ui, studio: &Studio, spec: LaneSpec, commands: &mut Vec<
         commands.push(Command::View(ViewCommand::CopyMethod { entry, language }));
     }
     response.context_menu(|ui| super::lanes::menu(ui, studio, entry, commands));
+}
+
+/// The method on the stage as a function, and how to call it at this tick rate.
+fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    let (spec, language) = (studio.selected().spec, studio.viewer.language());
+    let id = Id::unique(("code", spec.method.id, language.id()));
+    let known = ui.data(|data| data.get_temp::<Arc<str>>(id));
+    let text = known.unwrap_or_else(|| {
+        let code = function_code(spec.method, language, Precision::Double);
+        let text: Arc<str> = code.unwrap_or_else(|refused| refused.to_string()).into();
+        ui.data_mut(|data| data.insert_temp(id, Arc::clone(&text)));
+        text
+    });
+    ui.horizontal(|ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            copy_button(ui, studio, spec, commands);
+            let hz = u64::from(studio.clock().tick_hz()) * u64::from(spec.substeps);
+            let calls = counted(spec.substeps, "call");
+            let called = format!("{}: {calls} a tick, h = 1/{hz} s", spec.method.name);
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                line(ui, RichText::new(called).color(palette(ui).text));
+            });
+        });
+    });
+    let height = CODE_PART * ui.available_height();
+    let scrolled = ScrollArea::both().id_salt("code").max_height(height).auto_shrink([false, true]);
+    scrolled.show(ui, |ui| {
+        ui.add(Label::new(RichText::new(&*text).monospace().size(SMALL)).extend());
+    });
 }
 
 /// The width of the column of a criterion, in points, as wide as its widest cell, and whether that has room for the
@@ -511,6 +549,27 @@ mod tests {
     }
 
     #[test]
+    fn the_code_of_the_method_on_the_stage_stands_beside_it_with_a_copy_button() {
+        let (mut studio, mut worker) = asked("spring", false);
+        judge(&mut studio, &mut worker, 3);
+        studio.apply(RunCommand::SetLane(LaneSpec { substeps: 2, ..studio.entries()[0] }));
+        let beside = |studio: &Studio| -> Vec<String> {
+            let mut window = TestWindow::new([1280.0, 800.0]);
+            (0..2).for_each(|_| drop(window.panels(studio, Vec::new())));
+            window.panels(studio, Vec::new()).1.words()
+        };
+        let words = beside(&studio);
+        let has = |words: &[String], of: &str| words.iter().any(|text| text.contains(of));
+        assert!(has(&words, "Explicit Euler: 2 calls a tick, h = 1/120 s"), "{words:?}");
+        assert!(has(&words, "pub fn explicit_euler"), "{words:?}");
+        studio.apply(StageCommand::Pick(1));
+        studio.apply(ViewCommand::Language(Language::CSharp));
+        let words = beside(&studio);
+        assert!(has(&words, "Semi-implicit Euler: 1 call a tick, h = 1/60 s"), "{words:?}");
+        assert!(has(&words, "public static void Step") && has(&words, "Copy C#"), "{words:?}");
+    }
+
+    #[test]
     fn what_has_no_reserve_is_marked_in_the_answer_and_in_its_tooltip() {
         for (slowest_hz, factor, marks) in [(20, 1.0, 1), (60, 1.4, 1), (20, 1.4, 0)] {
             let met = CriterionMet {
@@ -531,7 +590,8 @@ mod tests {
                     .1
             };
             drop(frame());
-            let shown = frame().whole().into_iter().filter(|(_, text)| text.contains("no reserve"));
+            let shown =
+                frame().whole().into_iter().filter(|(_, text)| text.contains("(only just)"));
             assert_eq!(shown.count(), marks, "{slowest_hz} Hz, {factor}");
         }
     }

@@ -42,6 +42,8 @@ pub(super) const TITLE_OF_LOOP_LAB: f32 = 340.0;
 /// A number has four figures and not three, and columns are further apart.
 pub(super) const FOUR_FIGURES: f32 = 330.0;
 pub(super) const COPY_CODE: f32 = 240.0;
+/// The height below the answer of the advice from which on it has code above its table.
+pub(super) const CODE: f32 = 230.0;
 /// What a plot has left with values beside it.
 pub(super) const PLOT_BESIDE_VALUES: f32 = 170.0;
 pub(super) const NUMBER_ON_BAR: f32 = 30.0;

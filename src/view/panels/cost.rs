@@ -4,7 +4,7 @@
 use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 
 use super::table::{Column, SortKey, Table, TableRow, show_words};
-use crate::run::race::Entrant;
+use crate::run::race::Mode;
 use crate::scene::LaneSpec;
 use crate::stage::number::significant;
 use crate::studio::{Command, StageCommand, Studio};
@@ -22,8 +22,14 @@ const MEASURED: &str = "Fastest of several timed runs, repeated once per second.
 const NOT_MEASURED: &str = "Time is measured in the window.";
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
-    let lanes = studio.race().entrants().iter().enumerate();
-    let rows: Vec<Row<'_>> = lanes.map(|(index, lane)| Row::new(studio, index, lane)).collect();
+    // Solo, those that a digit switches to, for comparison.
+    let is_shown = |entry: &usize| match studio.mode() {
+        Mode::Solo if studio.viewer.is_asked() => *entry == studio.active(),
+        Mode::Solo => *entry < studio.deck.offered(),
+        Mode::Race => studio.deck.flown(*entry).is_some(),
+    };
+    let entries = (0..studio.entries().len()).filter(is_shown);
+    let rows: Vec<Row<'_>> = entries.map(|entry| Row::new(studio, entry)).collect();
     let most = rows.iter().map(|row| row.evaluations).max().unwrap_or(0).max(1);
     let has_times = rows.iter().any(|row| row.ns.is_some());
     ui.label(RichText::new("Cost of the next tick, all bodies").font(strong_font(13.0)));
@@ -118,15 +124,16 @@ struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    fn new(studio: &'a Studio, index: usize, lane: &Entrant) -> Self {
-        let spec = lane.spec;
+    fn new(studio: &'a Studio, entry: usize) -> Self {
+        let flown = studio.deck.flown(entry);
+        let spec = flown.map_or(studio.entries()[entry], |lane| lane.spec);
         let mut times = studio.viewer.tick_times.iter();
         Self {
             studio,
-            entry: studio.entry(lane),
+            entry,
             spec,
-            evaluations: studio.deck.evaluations_of_next_tick(index),
-            is_halted: lane.lane.halted().is_some(),
+            evaluations: studio.deck.evaluations_of_next_tick(entry),
+            is_halted: flown.is_some_and(|lane| lane.lane.halted().is_some()),
             ns: times.find(|(of, _)| *of == spec).and_then(|(_, ns)| *ns),
         }
     }
@@ -173,6 +180,38 @@ fn share(ns: f64, tick_hz: u32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Scene;
+    use crate::studio::guide::STOPS;
+    use crate::studio::{Instrument, ViewCommand};
+    use crate::view::testing::TestWindow;
+
+    #[test]
+    fn solo_the_costs_of_all_offered_methods_are_compared_after_the_prediction() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let stop = STOPS.iter().position(|stop| stop.instrument == Instrument::Cost).unwrap();
+        studio.apply(ViewCommand::GoToStop(stop));
+        let count = |studio: &Studio, name: &str| {
+            let mut window = TestWindow::new([1280.0, 800.0]);
+            let shown = |window: &mut TestWindow| {
+                window.show(Vec::new(), |ui| show(ui, studio, vec2(480.0, 400.0), &mut vec![])).1
+            };
+            drop(shown(&mut window));
+            shown(&mut window).words().iter().filter(|words| *words == name).count()
+        };
+        let both =
+            |studio: &Studio| ["Explicit Euler", "Adaptive Euler"].map(|name| count(studio, name));
+        assert_eq!(both(&studio), [1, 0], "it would answer");
+        studio.apply(ViewCommand::Predict(0));
+        assert_eq!(both(&studio), [1, 1]);
+        let entry = |id| studio.entries().iter().position(|it| it.method.id == id).unwrap();
+        let [plain, halved] = ["explicit-euler", "adaptive-euler"]
+            .map(|id| studio.deck.evaluations_of_next_tick(entry(id)));
+        assert!(plain == 1 && (3..100).contains(&halved), "{plain} {halved}");
+        // As many as it takes once it flies.
+        studio.apply(StageCommand::Pick(entry("adaptive-euler")));
+        let flown = studio.deck.evaluations_of_next_tick(studio.active());
+        assert_eq!(flown, halved);
+    }
 
     #[test]
     fn the_share_of_a_frame_counts_its_ticks() {

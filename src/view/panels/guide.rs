@@ -91,7 +91,8 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
 fn choices(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     let stop = tour.stop();
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("Your prediction:").color(palette(ui).dim));
+        let colour = if tour.is_asking() { palette(ui).accent } else { palette(ui).dim };
+        ui.label(RichText::new("Your prediction:").color(colour));
         for (index, choice) in stop.choices.iter().enumerate() {
             let is_guess = tour.guess() == Some(index);
             let is_right = tour.is_done() && index == stop.right;

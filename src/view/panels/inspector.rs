@@ -9,7 +9,7 @@ pub(super) use self::number::NumberField;
 use self::rows::{Row, SliderRange, Spacing, Values, rows};
 pub(in crate::view) use self::sweep::is_under_way;
 use super::focus;
-use crate::scene::{Action, edited_values};
+use crate::scene::{Action, check_entered, edited_values};
 use crate::stage::Acts;
 use crate::studio::{Command, RunCommand, Studio};
 use crate::view::theme::palette;
@@ -122,6 +122,7 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
             Acts::AtOnce => studio.race().values(*body),
             Acts::AtStart => &studio.scene().bodies[*body].values,
         };
+        check_entered(&parameter.quantity(), value, parameter.range)?;
         let checked = edited_values(kind, values, *index, value);
         checked.map(drop).map_err(|error| error.to_string())
     };
@@ -143,7 +144,6 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
         let about = format!("back to {} {}", values.opened, parameter.unit);
         restore(ui, values.differ(), &about, &name, || commands.push(set(values.opened)));
     });
-    NumberField::show_fault(field.id, ui);
 }
 
 /// A slider that reaches round the value that the scene has. Returns what it was moved to.

@@ -118,13 +118,14 @@ fn tabs(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) 
     let room = ui.available_width() - indent;
     let usual = ui.spacing().button_padding.x;
     let chosen = studio.display().instrument.card().group;
+    let is_there = |group: &InstrumentGroup| cards(studio, *group).next().is_some();
+    let groups: Vec<_> = InstrumentGroup::ALL.into_iter().filter(is_there).collect();
     let fits = |padding: f32, is_whole: bool| {
-        let groups = InstrumentGroup::ALL.iter();
         let width = |group: &InstrumentGroup| match is_whole || *group == chosen {
             true => tabs_width(ui, cards(studio, *group).map(|card| card.name), padding),
             false => tabs_width(ui, std::iter::once(group.name()), padding),
         };
-        groups.map(width).sum::<f32>() + 2.0 * BETWEEN_GROUPS <= room
+        groups.iter().map(width).sum::<f32>() + 2.0 * BETWEEN_GROUPS <= room
     };
     let ways = [(usual, true), (TIGHT, true), (usual, false), (TIGHT, false)];
     let Some((padding, is_whole)) = ways.into_iter().find(|&(padding, whole)| fits(padding, whole))
@@ -135,7 +136,7 @@ fn tabs(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) 
         ui.add_space(indent);
         ui.spacing_mut().item_spacing.x = BETWEEN_TABS;
         ui.spacing_mut().button_padding.x = padding;
-        for (place, group) in InstrumentGroup::ALL.into_iter().enumerate() {
+        for (place, group) in groups.into_iter().enumerate() {
             if place > 0 {
                 let size = vec2(BETWEEN_GROUPS - BETWEEN_TABS, ui.spacing().interact_size.y);
                 let (gap, _) = ui.allocate_exact_size(size, Sense::hover());

@@ -4,7 +4,7 @@ use egui::{FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, pos2, ve
 
 use super::verdict::VerdictText;
 use super::{breakpoints, keycap, lanes};
-use crate::studio::{Command, StageCommand, Studio};
+use crate::studio::{Command, DIGITS, StageCommand, Studio};
 use crate::view::theme::{TYPE, palette, strong_font};
 
 /// The height of one row, and what each further one adds, in points.
@@ -13,8 +13,6 @@ const FURTHER: f32 = BUTTON + CLOSE;
 /// The most of a narrow window's height that rows take in which every method has its name.
 const ROWS: f32 = 1.0 / 6.0;
 
-/// The methods that have a digit.
-const DIGITS: usize = 10;
 /// The height of a method, the room between two, also where it is scarce, and the room beside its parts, in points.
 const BUTTON: f32 = 30.0;
 const BETWEEN: f32 = 10.0;

@@ -135,7 +135,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         let along = if is_wide { stage } else { whole };
         let over = Rect::from_x_y_ranges(along.x_range(), whole.y_range());
         match dialog {
-            Dialog::Spring => my_spring::show(ui, studio, over, &mut commands),
+            Dialog::Spring { tick_hz } => {
+                my_spring::show(ui, studio, *tick_hz, over, &mut commands)
+            }
             Dialog::Path { refused, .. } => {
                 opening::path(ui, studio, refused.as_deref(), over, &mut commands)
             }

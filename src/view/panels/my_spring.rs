@@ -5,8 +5,8 @@ use egui::{Align2, Button, ComboBox, FontId, Id, Rect, RichText, Sense, Ui, vec2
 use super::inspector::NumberField;
 use super::parts::dialog;
 use super::text_field::select;
-use crate::studio::{Command, MySpring, StageCommand, Studio, ViewCommand};
-use crate::tools::port::{DIALECTS, Dialect, DialectPort, Key, Wish};
+use crate::studio::{Command, MySpring, SpringField, StageCommand, Studio, ViewCommand};
+use crate::tools::port::{DIALECTS, Dialect, DialectPort};
 use crate::tools::source_code::Language;
 use crate::view::theme::{TYPE, palette};
 
@@ -18,115 +18,43 @@ const NAME: f32 = 118.0;
 const NUMBER: f32 = 150.0;
 const LINE: f32 = 22.0;
 
-/// A number of the spring: its name, its unit, its value, and the spring with another value.
-struct Number {
-    name: &'static str,
-    unit: &'static str,
-    value: f64,
-    with: Box<dyn Fn(f64) -> Result<MySpring, String>>,
-}
-
-impl Number {
-    fn new(
-        name: &'static str,
-        unit: &'static str,
-        value: f64,
-        with: impl Fn(f64) -> MySpring + 'static,
-    ) -> Self {
-        Self { name, unit, value, with: Box::new(move |value| Ok(with(value))) }
-    }
-}
-
-/// The three that make a spring.
-fn made_of(spring: MySpring) -> [Number; 3] {
-    let MySpring { mass_kg, stiffness_n_per_m, damping_n_s_per_m, .. } = spring;
-    [
-        Number::new("mass", "kg", mass_kg, move |mass_kg| MySpring { mass_kg, ..spring }),
-        Number::new("stiffness", "N/m", stiffness_n_per_m, move |stiffness_n_per_m| MySpring {
-            stiffness_n_per_m,
-            ..spring
-        }),
-        Number::new("damping", "N s/m", damping_n_s_per_m, move |damping_n_s_per_m| MySpring {
-            damping_n_s_per_m,
-            ..spring
-        }),
-    ]
-}
-
-/// The two that describe it as well, whatever its mass.
-fn seen_as(spring: MySpring) -> [Number; 2] {
-    let [hz, ratio] = [spring.frequency_hz(), spring.damping_ratio()];
-    [
-        Number::new("frequency", "Hz", hz, move |hz| spring.swinging(hz, ratio)),
-        Number::new("damping ratio", "", ratio, move |ratio| spring.swinging(hz, ratio)),
-    ]
-}
-
-/// What a library takes of it. One that knows no mass keeps that of the spring.
-fn told_to(dialect: &'static Dialect, values: &[f64], spring: MySpring) -> Vec<Number> {
-    let number = |(index, key): (usize, &'static Key)| {
-        let (value, values) = (values[index], values.to_vec());
-        let with = move |value| {
-            let mut told = values.clone();
-            told[index] = value;
-            // The line of code turns a switch on where the motion wants it.
-            let switches =
-                dialect.keys.iter().zip(&mut told).filter(|(key, _)| key.switch.is_some());
-            switches.for_each(|(_, told)| *told = 1.0);
-            let wish = dialect.read(&told)?;
-            let mass_kg = if dialect.has_mass() { wish.mass_kg } else { spring.mass_kg };
-            Ok(spring.told(&Wish { mass_kg, ..wish }))
-        };
-        Number { name: key.name, unit: "", value, with: Box::new(with) }
-    };
-    dialect.keys.iter().enumerate().filter(|(_, key)| key.switch.is_none()).map(number).collect()
-}
-
-/// How it starts, and what pulls at it.
-fn let_go(spring: MySpring) -> [Number; 3] {
-    let MySpring { x0_m, v0_m_per_s, gravity_m_per_s2, .. } = spring;
-    [
-        Number::new("stretch at start", "m", x0_m, move |x0_m| MySpring { x0_m, ..spring }),
-        Number::new("velocity at start", "m/s", v0_m_per_s, move |v0_m_per_s| MySpring {
-            v0_m_per_s,
-            ..spring
-        }),
-        Number::new("gravity", "m/s²", gravity_m_per_s2, move |gravity_m_per_s2| MySpring {
-            gravity_m_per_s2,
-            ..spring
-        }),
-    ]
-}
-
-pub(super) fn show(ui: &Ui, studio: &Studio, over: Rect, commands: &mut Vec<Command>) {
+pub(super) fn show(
+    ui: &Ui,
+    studio: &Studio,
+    tick_hz: u32,
+    over: Rect,
+    commands: &mut Vec<Command>,
+) {
     let ctx = ui.ctx();
     dialog(TITLE, over).show(ctx, |ui| {
         ui.set_width(NAME + NUMBER + 8.0);
         ui.spacing_mut().item_spacing.y = 4.0;
-        let (tick_hz, has_focus) = (studio.clock().tick_hz(), ui.memory(|m| m.focused().is_some()));
+        let has_focus = ui.memory(|m| m.focused().is_some());
         let is_new = is_new(ui);
         let spring = studio.viewer.my_spring();
-        for (i, number) in made_of(spring).into_iter().enumerate() {
+        for (i, number) in SpringField::made_of(spring).into_iter().enumerate() {
             line(ui, "", number, is_new && i == 0, commands);
         }
-        ui.label(RichText::new("or by its swing").color(palette(ui).dim));
-        for number in seen_as(spring) {
+        ui.label(RichText::new("or as frequency and damping").color(palette(ui).dim));
+        for number in SpringField::seen_as(spring) {
             line(ui, "", number, false, commands);
         }
         if let Some((dialect, port)) = speaks(ui, spring)
             && dialect.is_read()
         {
-            for number in told_to(dialect, &port.values, spring) {
+            for number in SpringField::of_dialect(dialect, &port.values, spring) {
                 line(ui, dialect.id, number, false, commands);
             }
         }
-        ui.label(RichText::new("let go where, and how").color(palette(ui).dim));
-        for number in let_go(spring) {
+        ui.label(RichText::new("release").color(palette(ui).dim));
+        for number in SpringField::of_release(spring) {
             line(ui, "", number, false, commands);
         }
+        ui.label(RichText::new("run").color(palette(ui).dim));
+        line(ui, "", SpringField::tick_rate(tick_hz), false, commands);
         ui.add_space(6.0);
         ui.horizontal(|ui| {
-            let words = format!("Advise at {tick_hz} Hz");
+            let words = format!("Run it at {tick_hz} Hz");
             let advise = ui.add(Button::new(RichText::new(words).size(TYPE).strong()));
             // A number that was clicked has it just now.
             if !is_new && !has_focus && ui.memory(|m| m.focused().is_none()) {
@@ -142,7 +70,7 @@ pub(super) fn show(ui: &Ui, studio: &Studio, over: Rect, commands: &mut Vec<Comm
         });
         let [others @ .., last] = Language::ALL.map(Language::name);
         let told = format!(
-            "Runs it under the recommended method, with its code to copy in {} or {last}.",
+            "Under the recommended method, whose code stands beside it in {} or {last}.",
             others.join(", ")
         );
         ui.label(RichText::new(told).size(11.5).color(palette(ui).dim));
@@ -191,22 +119,78 @@ fn speaks(ui: &mut Ui, spring: MySpring) -> Option<(&'static Dialect, DialectPor
     told
 }
 
-fn line(ui: &mut Ui, among: &str, number: Number, takes_focus: bool, commands: &mut Vec<Command>) {
-    let Number { name, unit, value, with } = number;
+fn line(
+    ui: &mut Ui,
+    among: &str,
+    field: SpringField,
+    takes_focus: bool,
+    commands: &mut Vec<Command>,
+) {
+    let SpringField { name, unit, value, is_whole, set } = field;
     let id = Id::unique(("my spring", among, name));
     ui.horizontal(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(NAME, LINE), Sense::hover());
         let font = FontId::proportional(TYPE);
         ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, name, font, palette(ui).text);
-        let field = NumberField { id, value, unit, name, is_whole: false };
-        let check = |entered| with(entered)?.check();
-        let (response, entered) = field.show(ui, vec2(NUMBER, LINE), check);
+        let field = NumberField { id, value, unit, name, is_whole };
+        let (response, entered) =
+            field.show(ui, vec2(NUMBER, LINE), |entered| set(entered).map(drop));
         if takes_focus {
             response.request_focus();
             select(ui.ctx(), response.id, 0);
         }
-        let spring = entered.and_then(|entered| with(entered).ok());
-        commands.extend(spring.map(|spring| Command::View(ViewCommand::DescribeSpring(spring))));
+        commands.extend(entered.and_then(|entered| set(entered).ok()).map(Command::View));
     });
-    NumberField::show_fault(id, ui);
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Event, Key, Modifiers};
+
+    use super::*;
+    use crate::scene::Scene;
+    use crate::view::testing::{TestWindow, button};
+
+    #[test]
+    fn what_is_wrong_with_a_number_is_said_and_moves_no_field() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(ViewCommand::AskForSpring);
+        let mut window = TestWindow::new([1280.0, 800.0]);
+        let mut frames = |events: Vec<Event>| {
+            for event in events.into_iter().map(Some).chain(vec![None; 4]) {
+                for command in window.panels(&studio, event.into_iter().collect()).0 {
+                    studio.apply(command);
+                }
+            }
+            window.panels(&studio, Vec::new()).1.all()
+        };
+        let key = |key| Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        let names =
+            ["mass", "stiffness", "damping ratio", "gravity", "tick rate", "Run it at 60 Hz"];
+        let places = |all: &[(Rect, String)]| {
+            names.map(|name| {
+                let found = all.iter().find(|(_, words)| words == name);
+                found.unwrap_or_else(|| panic!("{name}: {all:?}")).0
+            })
+        };
+        let before = places(&frames(Vec::new()));
+        // The first field has the focus.
+        for (typed, sentence) in [
+            ("nan", "`nan` is not a number"),
+            ("-5", "mass would be -5; it must be from 1e-12 to 1e12"),
+        ] {
+            let all = frames(vec![Event::Text(typed.into()), key(Key::Enter)]);
+            assert!(all.iter().any(|(_, words)| words == sentence), "{sentence}: {all:?}");
+            assert_eq!(places(&all), before, "{typed}");
+            assert!(all.iter().any(|(_, words)| words.trim() == "12"), "it keeps its number");
+            let at = before[0].left_center() + vec2(NAME + NUMBER / 2.0, 0.0);
+            frames(vec![Event::PointerMoved(at), button(at, true), button(at, false)]);
+        }
+    }
 }

@@ -65,7 +65,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         start: studio.run().start(),
         times: &times,
         palette: track.palette,
-        parting: studio.viewer.parting(),
+        compared: studio.deck.compared(),
     };
     let in_view = |x: f32| along.expand(1.0).contains(x);
     let end = studio.run().end();
@@ -96,7 +96,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             commands.push(Command::Ask(DriverRequest::CopyLink));
             ui.close();
         }
-        if ui.button("Compare with…").clicked() {
+        if ui.button("Compare with… (Shift O)").clicked() {
             commands.push(Command::View(ViewCommand::AskForRun));
             ui.close();
         }

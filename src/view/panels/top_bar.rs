@@ -89,11 +89,13 @@ fn scene_menu(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Comma
     };
     let response = menu.show_ui(ui, |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-        if ui
-            .selectable_label(false, RichText::new("My spring … (S)").font(strong_font(TYPE)))
-            .clicked()
-        {
-            commands.push(Command::View(ViewCommand::AskForSpring));
+        for (name, command) in [
+            ("My spring … (S)", ViewCommand::AskForSpring),
+            ("Compare with… (Shift O)", ViewCommand::AskForRun),
+        ] {
+            if ui.selectable_label(false, RichText::new(name).font(strong_font(TYPE))).clicked() {
+                commands.push(Command::View(command));
+            }
         }
         let group = |index: usize| SCENES.get(index).map_or("Files", |scene| scene.group.title());
         for (index, name) in studio.deck.scene_list().names().enumerate() {
@@ -261,5 +263,28 @@ fn button(ui: &mut Ui, text: &str, hover: &str, command: Command, commands: &mut
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, hover));
     if response.clicked() {
         commands.push(command);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::testing::TestWindow;
+
+    #[test]
+    fn the_menu_of_scenes_leads_to_a_comparison_too() {
+        let studio = Studio::new(Scene::built_in("spring").unwrap());
+        let mut window = TestWindow::new([1280.0, 800.0]);
+        let place = |window: &mut TestWindow, words: &str| {
+            (0..2).for_each(|_| drop(window.panels(&studio, Vec::new())));
+            let all = window.panels(&studio, Vec::new()).1.all();
+            let found = all.iter().find(|(_, text)| text == words);
+            found.unwrap_or_else(|| panic!("{words}: {all:?}")).0.center()
+        };
+        let at = place(&mut window, "spring");
+        assert_eq!(window.click(&studio, at), []);
+        let at = place(&mut window, "Compare with… (Shift O)");
+        let asked = window.click(&studio, at);
+        assert_eq!(asked, [Command::View(ViewCommand::AskForRun)]);
     }
 }

@@ -3,6 +3,8 @@
 use egui::{CollapsingHeader, ComboBox, RichText, Ui, vec2};
 
 use super::{LINE, NumberField, line};
+use crate::scene::check_entered;
+use crate::stage::Range;
 use crate::stage::number::significant;
 use crate::studio::{Command, RunCommand, Studio};
 use crate::tools::port::Setup;
@@ -40,11 +42,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec
                 name: &format!("{} of {}", setting.name, setup.method.name),
                 is_whole: false,
             };
-            let least = if index == 0 { "above 0" } else { "0 or more" };
-            let check = |value: f64| match value > 0.0 || index == 1 && value == 0.0 {
-                true => Ok(()),
-                false => Err(format!("{} must be {least}", setting.name)),
-            };
+            let range = if index == 0 { Range::POSITIVE } else { Range::NON_NEGATIVE };
+            let check = |value| check_entered(setting.name, value, range);
             line(ui, setting.name, "in the engine's own name and unit", |ui, [room, _]| {
                 let (_, entered) = field.show(ui, vec2(room, LINE), check);
                 let set = |value| {
@@ -52,7 +51,6 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec
                 };
                 commands.extend(entered.map(set).into_iter().flatten());
             });
-            NumberField::show_fault(field.id, ui);
         }
         let lane = studio.entries().iter().find(|spec| spec.method == setup.method);
         let substeps = lane.map_or(setup.substeps, |spec| spec.substeps);

@@ -1,13 +1,18 @@
-//! A number with a unit that can be dragged and typed in. What cannot be is said under it.
+//! A number with a unit that can be dragged and typed in. Its fault is shown over it.
 
 use egui::accesskit::Action;
 use egui::class::HasClasses as _;
 use egui::emath::round_to_decimals;
-use egui::{DragValue, Id, Key, Modifiers, Response, RichText, Ui, Vec2, WidgetInfo};
+use egui::{
+    Align2, Area, DragValue, Frame, Id, Key, Modifiers, Order, Rect, Response, RichText, Ui, Vec2,
+    WidgetInfo,
+};
 
 use crate::view::panels::text_field::{MAX_NUMBER, select, text_field};
 use crate::view::theme::palette;
 
+/// The largest width of a fault's text, in points.
+const FAULT: f32 = 260.0;
 /// What one point of a drag changes, as a part of the number.
 const SPEED: f64 = 0.004;
 /// And what it changes at least, so that a drag gets away from 0.
@@ -66,6 +71,7 @@ impl NumberField<'_> {
             }
         });
         ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(self.name));
+        self.show_fault(ui, response.rect);
         let mut taken = None;
         let entered = entered.and_then(|value| {
             if value != self.value {
@@ -178,7 +184,14 @@ impl NumberField<'_> {
         if text.trim() == plain(self.value) {
             return Ok(self.value);
         }
-        parsed(text, self.unit).ok_or_else(|| format!("`{}` is not a number", text.trim()))
+        let is = match parsed(text, self.unit) {
+            Some(value) if value.is_finite() => return Ok(value),
+            Some(_) if text.contains(|sign: char| sign.is_ascii_digit()) => {
+                "too large for a number"
+            }
+            _ => "not a number",
+        };
+        Err(format!("`{}` is {is}", text.trim()))
     }
 
     /// The width of the number with its unit, in points.
@@ -189,11 +202,21 @@ impl NumberField<'_> {
         size.x + 2.0 * ui.spacing().button_padding.x
     }
 
-    /// Says under the field with this id what was wrong with what was typed last.
-    pub(in crate::view::panels) fn show_fault(id: Id, ui: &mut Ui) {
-        if let Some(fault) = ui.data(|data| data.get_temp::<Fault>(id)) {
-            ui.label(RichText::new(fault.text).size(11.0).color(palette(ui).bad));
+    /// Shows the fault of the last entry over the field. It takes no room, so that no other field moves, and the next one
+    /// stays in sight.
+    fn show_fault(&self, ui: &Ui, field: Rect) {
+        let Some(fault) = ui.data(|data| data.get_temp::<Fault>(self.id)) else { return };
+        if !ui.is_rect_visible(field) {
+            return;
         }
+        let plate = Area::new(self.id.with("fault")).order(Order::Tooltip).interactable(false);
+        let plate = plate.fixed_pos(field.right_top()).pivot(Align2::RIGHT_BOTTOM);
+        plate.show(ui.ctx(), |ui| {
+            Frame::popup(ui.style()).inner_margin(4.0).show(ui, |ui| {
+                ui.set_max_width(FAULT);
+                ui.label(RichText::new(fault.text).size(11.0).color(palette(ui).bad));
+            });
+        });
     }
 
     /// Whether something is wrong in any field.
@@ -280,7 +303,6 @@ mod tests {
             let (entered, shown) = window.show(events, |ui| {
                 let field = NumberField { id, value, unit: "kg", name: "mass", is_whole: false };
                 let (_, entered) = field.show(ui, vec2(150.0, 22.0), |_| Ok(()));
-                NumberField::show_fault(id, ui);
                 entered
             });
             taken.extend(entered);
@@ -318,6 +340,21 @@ mod tests {
         assert_eq!((words[..2].concat(), taken.len()), ("1 kg".into(), 0));
         assert!(words[2].starts_with("`tick,x,v 1,2.5") && words[2].ends_with("is not a number"));
         assert!(words[2].chars().count() < 2 * MAX_NUMBER, "{words:?}");
+    }
+
+    #[test]
+    fn what_is_no_finite_number_gets_a_sentence() {
+        for (text, sentence) in [
+            ("1e400", "`1e400` is too large for a number"),
+            ("-1e400 kg", "`-1e400 kg` is too large for a number"),
+            ("nan", "`nan` is not a number"),
+            ("inf", "`inf` is not a number"),
+            ("x", "`x` is not a number"),
+        ] {
+            let frames = vec![vec![Event::Text(text.into())], vec![pressed(Key::Enter)], vec![]];
+            let (words, taken) = typed(1.0, frames);
+            assert_eq!((words.last().map(|it| &**it), taken.len()), (Some(sentence), 0));
+        }
     }
 
     #[test]

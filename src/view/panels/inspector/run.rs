@@ -1,13 +1,15 @@
 //! What the inspector shows of lanes and time: methods, substeps, tolerances, the tick rate, the scene's length.
 
-use egui::{ComboBox, Id, RichText, Ui, vec2};
+use egui::{ComboBox, RichText, Ui, vec2};
 
 use super::number::NumberField;
 use super::{LINE, RESTORE, line, restore};
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{
     Action, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS, TOLERANCES,
+    check_entered,
 };
+use crate::stage::Range;
 use crate::studio::{Command, RunCommand, StageCommand, Studio};
 use crate::view::theme::palette;
 
@@ -18,18 +20,12 @@ const LANE: f32 = 16.0;
 
 pub(super) fn show_lanes(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     for entrant in studio.race().entrants() {
-        let fields = ui.horizontal(|ui| show_lane(ui, studio, entrant, commands)).inner;
-        fields.iter().for_each(|id| NumberField::show_fault(*id, ui));
+        ui.horizontal(|ui| show_lane(ui, studio, entrant, commands));
     }
 }
 
-/// A lane's line. Returns its fields.
-fn show_lane(
-    ui: &mut Ui,
-    studio: &Studio,
-    entrant: &Entrant,
-    commands: &mut Vec<Command>,
-) -> [Id; 2] {
+/// A lane's line.
+fn show_lane(ui: &mut Ui, studio: &Studio, entrant: &Entrant, commands: &mut Vec<Command>) {
     let lane = entrant.id;
     let spec = entrant.spec;
     let ids = ["substeps", "tolerance"].map(|field| ui.scope_id().with((lane, field)));
@@ -47,8 +43,9 @@ fn show_lane(
         name: &format!("substeps of lane {number}"),
         is_whole: true,
     };
-    let (response, entered) =
-        substeps.show(ui, vec2(SUBSTEPS, LINE), |value| whole("substeps", value, MAX_SUBSTEPS));
+    let (response, entered) = substeps.show(ui, vec2(SUBSTEPS, LINE), |it| {
+        check_entered("substeps", it, Range::Count(MAX_SUBSTEPS))
+    });
     response.on_hover_text("equal steps in a tick");
     let act = |action| Command::Run(RunCommand::Act(action));
     commands.extend(entered.map(|value| act(Action::Substeps { lane, substeps: value as u32 })));
@@ -62,7 +59,7 @@ fn show_lane(
                 is_whole: false,
             };
             let (response, entered) = tolerance.show(ui, vec2(TOLERANCE, LINE), |value| {
-                within("tolerance", value, TOLERANCES, "")
+                check_entered("tolerance", value, Range::Between(TOLERANCES.0, TOLERANCES.1))
             });
             response.on_hover_text("tolerance: the largest error of a substep");
             commands.extend(entered.map(|tolerance| act(Action::Tolerance { lane, tolerance })));
@@ -74,7 +71,6 @@ fn show_lane(
     restore(ui, spec != opened, &about, &format!("lane {number}"), || {
         commands.push(act(Action::Lane { lane, spec: opened }));
     });
-    ids
 }
 
 /// The number that a lane goes by: in solo that of the method's key, which follows every switch.
@@ -139,14 +135,14 @@ pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command
     line(ui, "tick rate", about, |ui, [room, number]| {
         ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
         let size = vec2(number, LINE);
-        let (_, entered) = rate.show(ui, size, |value| whole("tick rate", value, MAX_TICK_HZ));
+        let check = |value| check_entered("tick rate", value, Range::Count(MAX_TICK_HZ));
+        let (_, entered) = rate.show(ui, size, check);
         commands.extend(entered.map(|value| Command::Stage(StageCommand::TickHz(value as u32))));
         let about = format!("back to {} Hz", opened.tick_hz);
         restore(ui, tick_hz != opened.tick_hz, &about, "tick rate", || {
             commands.push(Command::Stage(StageCommand::TickHz(opened.tick_hz)));
         });
     });
-    NumberField::show_fault(rate.id, ui);
     let seconds = studio.scene().seconds;
     let length = NumberField {
         id: ui.scope_id().with("length"),
@@ -162,7 +158,7 @@ pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command
         |ui, [room, number]| {
             ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
             let size = vec2(number, LINE);
-            let check = |value| within("length", value, (MIN_SECONDS, MAX_SECONDS), " s");
+            let check = |it| check_entered("length", it, Range::Between(MIN_SECONDS, MAX_SECONDS));
             let (_, entered) = length.show(ui, size, check);
             commands.extend(entered.map(|it| Command::Run(RunCommand::Seconds(it))));
             let about = format!("back to {} s", opened.seconds);
@@ -171,7 +167,6 @@ pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command
             });
         },
     );
-    NumberField::show_fault(length.id, ui);
 }
 
 /// What makes lanes and time as the scene has them: nothing, where they are so.
@@ -189,17 +184,6 @@ pub(super) fn restoring(studio: &Studio) -> impl Iterator<Item = Command> {
     lanes.chain(rate).chain(length)
 }
 
-fn whole(name: &str, value: f64, most: u32) -> Result<(), String> {
-    let is_possible = value.fract() == 0.0 && (1.0..=f64::from(most)).contains(&value);
-    let wrong = || format!("{name} {value}: write a whole number from 1 to {most}");
-    is_possible.then_some(()).ok_or_else(wrong)
-}
-
-fn within(name: &str, value: f64, (least, most): (f64, f64), unit: &str) -> Result<(), String> {
-    let wrong = || format!("{name} {value}{unit}: write a number from {least:e} to {most:e}");
-    (least..=most).contains(&value).then_some(()).ok_or_else(wrong)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -215,16 +199,5 @@ mod tests {
         studio.apply(StageCommand::ToggleRace);
         let is_of_lane = |entrant: &Entrant| number(&studio, entrant) == entrant.id.0;
         assert!(studio.race().entrants().iter().all(is_of_lane));
-    }
-
-    #[test]
-    fn what_cannot_be_is_refused_with_what_can() {
-        assert_eq!(whole("substeps", 4.0, 1000), Ok(()));
-        let refused = whole("substeps", 2.5, 1000).unwrap_err();
-        assert_eq!(refused, "substeps 2.5: write a whole number from 1 to 1000");
-        assert!(whole("substeps", f64::NAN, 1000).is_err());
-        assert_eq!(within("length", 20.0, (1e-4, 3e7), " s"), Ok(()));
-        let refused = within("length", -1.0, (1e-4, 3e7), " s").unwrap_err();
-        assert_eq!(refused, "length -1 s: write a number from 1e-4 to 3e7");
     }
 }

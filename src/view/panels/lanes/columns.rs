@@ -32,6 +32,9 @@ pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
         columns.push(Column { priority: 1, ..body() });
     }
     columns.push(verdict(studio));
+    if studio.viewer.is_asked() {
+        return columns;
+    }
     columns.push(position());
     if is_solo && has_truth {
         columns.push(exact());
@@ -180,7 +183,8 @@ fn cost<'a>() -> Column<Row<'a>> {
 #[cfg(test)]
 mod tests {
     use crate::scene::Scene;
-    use crate::studio::{StageCommand, Studio};
+    use crate::studio::guide::STOPS;
+    use crate::studio::{StageCommand, Studio, ViewCommand};
     use crate::view::panels::lanes;
     use crate::view::testing::TestWindow;
 
@@ -198,6 +202,31 @@ mod tests {
         let picture = crate::stage::compose(&studio, [780.0, 440.0]);
         let said = picture.labels.iter().filter(|it| it.text.starts_with("Too many springs"));
         assert_eq!(said.count(), 1);
+    }
+
+    #[test]
+    fn before_a_prediction_of_the_guide_the_table_has_no_numbers_and_no_signs() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let names = |studio: &Studio| {
+            let table = lanes::table(studio);
+            let columns = table.fitting(1904.0);
+            columns.iter().map(|it| it.0.name).collect::<Vec<_>>()
+        };
+        for stop in 0..STOPS.len() {
+            studio.apply(ViewCommand::GoToStop(stop));
+            studio.analyse();
+            let said = |studio: &Studio| lanes::verdict_on(studio, studio.active());
+            let has_numbers = |name: &&str| !["line", "Body", "Verdict"].contains(name);
+            let numbers: Vec<_> = names(&studio).into_iter().filter(has_numbers).collect();
+            assert!(numbers.is_empty(), "stop {stop}: {numbers:?}");
+            assert_eq!(said(&studio).whole(), "after your prediction");
+            assert!(
+                (0..studio.entries().len())
+                    .all(|entry| lanes::verdict_on(&studio, entry).sign.is_none())
+            );
+            studio.apply(ViewCommand::Predict(0));
+            assert!(names(&studio).len() > 4 && said(&studio).sign.is_some(), "stop {stop}");
+        }
     }
 
     #[test]

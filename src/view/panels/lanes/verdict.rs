@@ -13,6 +13,10 @@ pub(super) fn text_of(
     flown: Option<&Entrant>,
     (body, named_above): (Option<usize>, Option<usize>),
 ) -> VerdictText {
+    if studio.viewer.is_asked() {
+        let waits = vec!["after your prediction".into()];
+        return VerdictText { sign: None, wordings: waits, rank: None };
+    }
     let halts = flown.into_iter().flat_map(|entrant| entrant.lane.halts());
     let mut halts: Vec<_> = halts.filter(|halt| body.is_none_or(|b| b == halt.body)).collect();
     // The displayed body first: of several, not all may fit.

@@ -5,6 +5,7 @@ use egui::Color32;
 use crate::run::race::{Race, TimeScale};
 use crate::run::{Event, EventKind};
 use crate::scene::{Action, LaneId, LaneSpec, Scene};
+use crate::studio::Compared;
 use crate::view::theme::PanelPalette;
 
 /// The sign of a mark. Of several in one place the last of this list is drawn.
@@ -65,7 +66,7 @@ pub(super) struct Context<'a> {
     pub(super) times: &'a TimeScale,
     pub(super) palette: &'static PanelPalette,
     /// Where a recording differs, and in what.
-    pub(super) parting: Option<&'a (u64, String)>,
+    pub(super) compared: Option<&'a Compared>,
 }
 
 impl Context<'_> {
@@ -121,8 +122,8 @@ impl Context<'_> {
 
     /// The mark of the tick where a recording differs.
     pub(super) fn parting(&self) -> Option<Mark> {
-        let (tick, _) = self.parting?;
-        Some(Mark { tick: *tick, sign: Sign::Parting, colour: self.palette.accent, event: None })
+        let tick = self.compared?.tick();
+        Some(Mark { tick, sign: Sign::Parting, colour: self.palette.accent, event: None })
     }
 
     /// When it happened, what and by whom.
@@ -130,7 +131,7 @@ impl Context<'_> {
         let what = match mark.event {
             Some(event) => self.events[event].kind.words(self.scene),
             None if mark.sign == Sign::End => "the run has not gone further".into(),
-            None => self.parting.map_or(String::new(), |(_, told)| told.clone()),
+            None => self.compared.map_or(String::new(), |it| it.lines().join("; ")),
         };
         format!("{}: {what}", self.times.moment(mark.tick))
     }
@@ -223,7 +224,7 @@ mod tests {
         let (events, start, times) = (&timeline.events(), timeline.start(), &timeline.times());
         let palette = palette_of(studio.display().theme);
         let context =
-            Context { events, scene: studio.scene(), start, times, palette, parting: None };
+            Context { events, scene: studio.scene(), start, times, palette, compared: None };
         context.marks().map(|mark| (mark.sign, context.text(&mark))).collect()
     }
 

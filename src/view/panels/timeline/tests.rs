@@ -126,17 +126,15 @@ fn a_recording_is_compared_in_the_menu_and_its_first_difference_is_marked_and_go
         relative: Some(0.2),
     };
     let found = Comparison { rows: 900, moved: 2.0, first: Some(other), ..Default::default() };
-    show_comparison(&mut studio, "clip.toml", &found);
+    show_comparison(&mut studio, "clip.toml", &found, Scene::built_in("spring").unwrap());
     // The run had not come so far, and goes on from there.
     assert_eq!((studio.race().tick(), studio.run().end()), (250, 250));
-    let (tick, told) = studio.viewer.parting().unwrap().clone();
-    assert!(
-        tick == 250 && told.contains("at tick 250, lane 1, spring, x: q is 1.5 in a"),
-        "{told}"
-    );
+    let compared = studio.deck.compared().unwrap();
+    let lines = ["first difference: tick 250, lane 1, spring, x", "size: 2 ulps in q, 20 % of it"];
+    assert_eq!((compared.tick(), compared.lines()), (250, lines.map(str::to_owned)));
     assert!(studio.viewer.dialog().is_none());
     studio.tick();
-    assert!(studio.viewer.parting().is_some());
+    assert!(studio.deck.compared().is_some());
     studio.apply(StageCommand::Restart);
-    assert!(studio.viewer.parting().is_none());
+    assert!(studio.deck.compared().is_none());
 }

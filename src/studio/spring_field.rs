@@ -1,0 +1,153 @@
+//! The numbers that describe a custom spring, each with the command that sets it.
+
+use super::command::ViewCommand;
+use super::my_spring::MySpring;
+use crate::scene::{MAX_TICK_HZ, check_entered};
+use crate::sim::bodies::Range;
+use crate::tools::port::{Dialect, Key, Wish};
+
+/// A number of a spring, or its tick rate.
+pub struct SpringField {
+    /// Its name.
+    pub name: &'static str,
+    /// Its unit; empty if it has none.
+    pub unit: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Whether it is a count.
+    pub is_whole: bool,
+    /// The command that sets another value, or why it may not be.
+    pub set: Box<dyn Fn(f64) -> Result<ViewCommand, String>>,
+}
+
+/// Describes this spring, if a scene may have its numbers.
+fn describe(spring: MySpring) -> Result<ViewCommand, String> {
+    spring.check().map(|()| ViewCommand::DescribeSpring(spring))
+}
+
+impl SpringField {
+    fn new(
+        name: &'static str,
+        unit: &'static str,
+        value: f64,
+        with: impl Fn(f64) -> MySpring + 'static,
+    ) -> Self {
+        Self { name, unit, value, is_whole: false, set: Box::new(move |it| describe(with(it))) }
+    }
+
+    /// The three that make a spring.
+    pub fn made_of(spring: MySpring) -> [Self; 3] {
+        let MySpring { mass_kg, stiffness_n_per_m, damping_n_s_per_m, .. } = spring;
+        [
+            Self::new("mass", "kg", mass_kg, move |mass_kg| MySpring { mass_kg, ..spring }),
+            Self::new("stiffness", "N/m", stiffness_n_per_m, move |stiffness_n_per_m| MySpring {
+                stiffness_n_per_m,
+                ..spring
+            }),
+            Self::new("damping", "N·s/m", damping_n_s_per_m, move |damping_n_s_per_m| MySpring {
+                damping_n_s_per_m,
+                ..spring
+            }),
+        ]
+    }
+
+    /// The two that describe it as well, whatever its mass.
+    pub fn seen_as(spring: MySpring) -> [Self; 2] {
+        let [hz, ratio] = [spring.frequency_hz(), spring.damping_ratio()];
+        [
+            Self::new("frequency", "Hz", hz, move |hz| spring.swinging(hz, ratio)),
+            Self::new("damping ratio", "", ratio, move |ratio| spring.swinging(hz, ratio)),
+        ]
+    }
+
+    /// The numbers that a library takes. One without a mass keeps that of the spring.
+    pub fn of_dialect(dialect: &'static Dialect, values: &[f64], spring: MySpring) -> Vec<Self> {
+        let number = |(index, key): (usize, &'static Key)| {
+            let (value, values) = (values[index], values.to_vec());
+            let set = move |value| {
+                let mut told = values.clone();
+                told[index] = value;
+                // The line of code turns a switch on where the motion wants it.
+                let switches =
+                    dialect.keys.iter().zip(&mut told).filter(|(key, _)| key.switch.is_some());
+                switches.for_each(|(_, told)| *told = 1.0);
+                let wish = dialect.read(&told)?;
+                let mass_kg = if dialect.has_mass() { wish.mass_kg } else { spring.mass_kg };
+                describe(spring.told(&Wish { mass_kg, ..wish }))
+            };
+            Self { name: key.name, unit: "", value, is_whole: false, set: Box::new(set) }
+        };
+        dialect
+            .keys
+            .iter()
+            .enumerate()
+            .filter(|(_, key)| key.switch.is_none())
+            .map(number)
+            .collect()
+    }
+
+    /// Its release: how it starts, and gravity.
+    pub fn of_release(spring: MySpring) -> [Self; 3] {
+        let MySpring { x0_m, v0_m_per_s, gravity_m_per_s2, .. } = spring;
+        [
+            Self::new("stretch at start", "m", x0_m, move |x0_m| MySpring { x0_m, ..spring }),
+            Self::new("velocity at start", "m/s", v0_m_per_s, move |v0_m_per_s| MySpring {
+                v0_m_per_s,
+                ..spring
+            }),
+            Self::new("gravity", "m/s²", gravity_m_per_s2, move |gravity_m_per_s2| MySpring {
+                gravity_m_per_s2,
+                ..spring
+            }),
+        ]
+    }
+
+    /// The ticks per second at which it is to run.
+    pub fn tick_rate(tick_hz: u32) -> Self {
+        let set = |value: f64| {
+            check_entered("tick rate", value, Range::Count(MAX_TICK_HZ))?;
+            Ok(ViewCommand::SpringTickHz(value as u32))
+        };
+        let (value, set) = (f64::from(tick_hz), Box::new(set));
+        Self { name: "tick rate", unit: "Hz", value, is_whole: true, set }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::bodies::kind;
+
+    #[test]
+    fn a_number_of_my_spring_is_refused_in_the_words_of_the_inspector() {
+        let parameters = &kind("spring").unwrap().parameters;
+        let spring = MySpring::default();
+        let fields =
+            SpringField::made_of(spring).into_iter().chain(SpringField::of_release(spring));
+        let mut shared = 0;
+        for field in fields {
+            let Some(parameter) = parameters.iter().find(|it| it.quantity() == field.name) else {
+                assert_eq!(field.name, "gravity");
+                continue;
+            };
+            assert_eq!(parameter.unit, field.unit, "{}", field.name);
+            for value in [-5.0, 0.0, 1e-300, 1e-13, 1e13, -1e13, 1e308] {
+                let inspected = check_entered(field.name, value, parameter.range);
+                let dialog = (field.set)(value).map(drop);
+                if let Err(words) = &inspected {
+                    assert!(words.starts_with(field.name) && words.contains("must be"), "{words}");
+                    assert_eq!(inspected, dialog, "{} {value}", field.name);
+                    shared += 1;
+                }
+            }
+        }
+        assert!(shared > 20, "{shared}");
+        let told = |value: f64| (SpringField::made_of(spring)[0].set)(value).unwrap_err();
+        assert_eq!(told(-5.0), "mass would be -5; it must be from 1e-12 to 1e12");
+        assert_eq!(told(1e-300), "mass would be 1e-300; it must be from 1e-12 to 1e12");
+        // Derived numbers are named too.
+        let [frequency, _] = SpringField::seen_as(spring);
+        let words = (frequency.set)(1e200).unwrap_err();
+        assert!(words.starts_with("stiffness would be too large for a number; it must"), "{words}");
+    }
+}
