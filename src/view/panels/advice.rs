@@ -33,7 +33,7 @@ const LINE: f32 = 20.0;
 const APART: f32 = 6.0;
 const MIN_NAME: f32 = 120.0;
 /// The part of the room below the answer that the code has.
-const CODE_PART: f32 = 0.42;
+const CODE_PART: f32 = 0.5;
 /// The width of a criterion's name before its answer, in points.
 const CRITERION: f32 = 76.0;
 
@@ -239,7 +239,7 @@ fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let height = CODE_PART * ui.available_height();
     let scrolled = ScrollArea::both().id_salt("code").max_height(height).auto_shrink([false, true]);
     scrolled.show(ui, |ui| {
-        ui.add(Label::new(RichText::new(&*text).monospace().size(SMALL)).extend());
+        ui.add(Label::new(RichText::new(text.trim_start()).monospace().size(SMALL)).extend());
     });
 }
 
