@@ -33,11 +33,11 @@ const PARAMETERS: [Of; 6] = [
         .about("x at the start"),
     Of::start("y0_m", 0.0, |orbit| &mut orbit.q0.y).named("y at start").about("y at the start"),
     Of::start("vx0_m_per_s", 0.0, |orbit| &mut orbit.v0.x)
-        .named("velocity along x at start")
+        .named("vx at start")
         .about("the velocity along x at the start"),
     Of::number("vy0_m_per_s", Range::ANY, |orbit| &mut orbit.v0.y)
         .at_start()
-        .named("velocity along y at start")
+        .named("vy at start")
         .about("the velocity along y at the start"),
     Of::number("kick_m_per_s", Range::ANY, |orbit| &mut orbit.kick)
         .or(0.1)
