@@ -46,8 +46,10 @@ pub struct Past {
     span_s: f64,
     /// The most samples of a history.
     capacity: usize,
-    /// When bodies were last kicked, one was placed or a parameter was set, in seconds; before the start if none was.
+    /// When a body was last placed or a parameter last set, in seconds; before the start if neither was done.
     changed_s: f64,
+    /// When bodies were last kicked or changed so.
+    swings_since_s: f64,
 }
 
 /// The end of the recorded past at some tick, to which it can be [rewound](Past::rewind).
@@ -57,6 +59,7 @@ pub(super) struct PastMark {
     histories: Box<[(LaneId, Box<[HistoryMark]>)]>,
     truth_curves: Box<[TruthMark]>,
     changed_s: f64,
+    swings_since_s: f64,
 }
 
 impl PastMark {
@@ -94,6 +97,7 @@ impl Past {
             span_s,
             capacity,
             changed_s: f64::NEG_INFINITY,
+            swings_since_s: f64::NEG_INFINITY,
         };
         past.sample(race, menu);
         past.note_most(race);
@@ -135,9 +139,14 @@ impl Past {
         (race.truth().bodies()[body].coordinates().at(index), index)
     }
 
-    /// The time (s) of the last kick, placement of a body or change of a parameter; before the start if there was none.
+    /// The time (s) of the last placement of a body or change of a parameter; before the start if there was none.
     pub fn changed_s(&self) -> f64 {
         self.changed_s
+    }
+
+    /// The time (s) from which on bodies swing as they do: the last kick or [change](Self::changed_s).
+    pub fn swings_since_s(&self) -> f64 {
+        self.swings_since_s
     }
 
     /// The time (s) from which on the past tells at `t` how far bodies swing: the last [change](Self::changed_s), or
@@ -214,6 +223,7 @@ impl Past {
             histories: self.histories.iter().map(marks).collect(),
             truth_curves: self.truth_curves.iter().map(TruthCurve::mark).collect(),
             changed_s: self.changed_s,
+            swings_since_s: self.swings_since_s,
         }
     }
 
@@ -232,7 +242,7 @@ impl Past {
 
     /// Goes back to a mark, or forward to one in the recorded future: that of the present of `race`.
     pub(super) fn rewind(&mut self, mark: &PastMark, race: &Race) {
-        self.changed_s = mark.changed_s;
+        (self.changed_s, self.swings_since_s) = (mark.changed_s, mark.swings_since_s);
         self.leave_with(race);
         for (lane, marks) in &mark.histories {
             let index = self.index(*lane).unwrap_or_else(|| {
@@ -302,19 +312,19 @@ impl Past {
         match &done.action {
             Action::Throttle(_) | Action::Rudder(_) | Action::Kick(_) => {
                 if let Action::Kick(_) = done.action {
-                    self.changed_s = race.t();
+                    self.swings_since_s = race.t();
                 }
                 self.keep_corner(race);
                 let input = done.action.input().expect("it is one");
                 self.truth_curves.iter_mut().for_each(|curve| curve.bend(input));
             }
             Action::Set { .. } => {
-                self.changed_s = race.t();
+                (self.changed_s, self.swings_since_s) = (race.t(), race.t());
                 self.keep_corner(race);
                 self.truth_curves.iter_mut().for_each(TruthCurve::change);
             }
             Action::Place { body, .. } => {
-                self.changed_s = race.t();
+                (self.changed_s, self.swings_since_s) = (race.t(), race.t());
                 let (t, truth) = (race.t(), &race.truth().bodies()[*body]);
                 self.truth_curves[*body].jump(t, truth);
                 let coordinate = self.truth_curves[*body].coordinate();

@@ -49,11 +49,12 @@ impl Ghost {
         let reach_m = curve.reach_m(centre_m, since_s);
         let (followed, turns) = (outline.at, turns(body));
         let view = BodyView { framing, followed, reach_m, turns, zoomed_as: index, grown: 1.0 };
-        let changed_s = remembered.changed_s();
-        let has_swung = |from_s: f64| curve.reach_m(DVec2::ZERO, from_s).x;
+        let swings_since_s = remembered.swings_since_s();
+        let has_just_begun = since_s < remembered.changed_s();
+        let has_swung_m = curve.reach_m(DVec2::ZERO, swings_since_s).x;
         let swing_m = match look.swing_m(&q, &v) {
-            Some(now_m) => Some(now_m.max(has_swung(changed_s))),
-            None => (since_s == changed_s).then_some(reach_m.x),
+            Some(now_m) => Some(now_m.max(has_swung_m)),
+            None => (!has_just_begun).then_some(has_swung_m),
         };
         Self { view, q, outline, swing_m }
     }

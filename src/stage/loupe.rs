@@ -144,7 +144,7 @@ mod tests {
             }
             let labels =
                 compose(&studio, [800.0, 440.0]).labels.into_iter().map(|label| label.text);
-            labels.filter(|text| text.starts_with('×')).count()
+            labels.filter(|text| text.starts_with("loupe ×")).count()
         });
         shown.reverse();
         assert_eq!(shown, [0, 1], "at rest, and while it moves");

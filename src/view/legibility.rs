@@ -424,7 +424,7 @@ fn what_one_step_does_to_the_swing_is_seen_whole_under_any_method() {
         for size in [vec2(960.0, 540.0)].into_iter().chain(SIZES) {
             let texts = beside_the_stage(&studio, size);
             let begins = |words: &str| texts.iter().position(|text| text.words.starts_with(words));
-            let said = &texts[begins("This tick").expect("what the tick does")..];
+            let said = &texts[begins("One tick").expect("what the tick does")..];
             let plot = &texts[begins("velocity").expect("the name of an axis")];
             // Where the words stand below the plot, that is high enough to see.
             if size.x < SIZES[2].x {

@@ -152,7 +152,7 @@ mod tests {
         let verdict = studio.viewer.verdict(studio.active()).unwrap().to_string();
         assert!(at_first.starts_with("Explicit Euler: ") && at_first.ends_with('.'), "{at_first}");
         assert!(at_first.contains(verdict.split(' ').next().unwrap()), "{at_first}: {verdict}");
-        assert!(at_first.contains("Press 2 ") && !at_first.contains('`'), "{at_first}");
+        assert!(at_first.contains("Press 2: ") && !at_first.contains('`'), "{at_first}");
         (0..20).for_each(|_| studio.tick());
         assert_eq!(spoken(&studio), at_first);
         studio.apply(StageCommand::Pick(1));

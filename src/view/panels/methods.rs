@@ -227,7 +227,7 @@ mod tests {
             let name = studio.lane_name(entry);
             assert!(shown.contains(&name), "{name}: {shown:?}");
         }
-        let narrow = words(&studio, 560.0);
+        let narrow = words(&studio, 800.0);
         assert!(narrow.contains(&studio.lane_name(studio.active())), "{narrow:?}");
         assert!((0..DIGITS).all(|entry| narrow.contains(&digit(entry))), "{narrow:?}");
     }

@@ -10,6 +10,8 @@ const SMOOTH: &str = "fixed-linear";
 const EDGE: &str = "edge";
 /// A share of frames that is worth a word, in percent.
 const MANY_PERCENT: f64 = 1.0;
+/// Shares of frames are alike that differ by less than this factor.
+const MUCH_MORE: f64 = 2.0;
 
 /// What is to be seen, and what to do next, the most important first. Keys stand between backticks.
 pub(in crate::view::panels) fn parts(loops: &LoopLab) -> Vec<String> {
@@ -28,14 +30,17 @@ pub(in crate::view::panels) fn parts(loops: &LoopLab) -> Vec<String> {
     let many = |percent: Option<f64>| percent.filter(|percent| *percent > MANY_PERCENT);
     let report = loops.lanes()[raw].report().filter(|_| is_new);
     let doubled = report.and_then(|report| many(report.double_percent));
-    if doubled.is_some() && loops.traces()[loops.trace()].name() == EDGE {
+    let repeated = report.and_then(|report| many(report.repeated_percent));
+    // As many frames without a tick as with two: elsewhere most frames have none.
+    let flips = doubled.zip(repeated).is_some_and(|(two, none)| none < MUCH_MORE * two);
+    if flips && loops.traces()[loops.trace()].name() == EDGE {
         let next = hz(next);
         return vec![
             "Raw ticks flip between none and two a frame".into(),
             format!("press `D` for a {next} Hz display."),
         ];
     }
-    if let Some(repeated) = report.and_then(|report| many(report.repeated_percent)) {
+    if let Some(repeated) = repeated {
         let (hz, percent) = (hz(loops.trace()), round(repeated, 2));
         let key = (smooth + 1) % 10;
         return vec![
@@ -47,4 +52,37 @@ pub(in crate::view::panels) fn parts(loops: &LoopLab) -> Vec<String> {
         "The same motion under different loops".into(),
         "`D` next display · `1` … `9`, `0` a loop · `L` leave".into(),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::loops::loop_lab::LoopCommand;
+    use crate::scene::Scene;
+    use crate::studio::{Command, StageCommand, Studio, run_loops};
+
+    #[test]
+    fn what_raw_ticks_are_said_to_do_is_what_their_report_says_at_every_rate() {
+        let mut said = 0;
+        for hz in [2, 10, 30, 60, 120] {
+            let mut studio = Studio::new(Scene::built_in("ship").unwrap());
+            studio.apply(StageCommand::TickHz(hz));
+            studio.apply(Command::Loop(LoopCommand::ToggleLab));
+            run_loops(&mut studio);
+            let loops = studio.loop_lab().expect("it is open");
+            let raw = POLICIES.iter().position(|card| card.id == RAW).unwrap();
+            let Some(report) = loops.lanes()[raw].report() else { continue };
+            let hint = parts(loops).join("; ");
+            let [none, two] = [report.repeated_percent, report.double_percent].map(Option::unwrap);
+            if hint.contains("flip between none and two") {
+                said += 1;
+                assert!(none < 1.5 * two && none > 1.0, "{hz} Hz: {none} % repeat, {two} % double");
+            }
+            if let Some((_, rest)) = hint.split_once(" Hz, ") {
+                let percent: f64 = rest.split(" %").next().unwrap().parse().unwrap();
+                assert!((percent - none).abs() <= 0.05 * none, "{hz} Hz: {hint}, {none}");
+            }
+        }
+        assert!(said > 0, "at the display's own rate they flip");
+    }
 }
