@@ -128,9 +128,11 @@ const MAX_ARGUMENT_BYTES: usize = 4096;
 /// The command before a word that is the name of no command, but of a list or of a chapter.
 fn unnamed_command(cli: &clap::Command, arguments: &[OsString]) -> Option<&'static str> {
     let word = arguments.get(1)?.to_str().filter(|word| cli.find_subcommand(word).is_none())?;
+    // A chapter that is called like a scene waits for the word `help`.
+    let is_scene = SCENES.iter().any(|scene| scene.name == word);
     match list::names().any(|name| name == word) {
         true => Some("list"),
-        false => chapter(word).map(|_| "help"),
+        false => chapter(word).filter(|_| !is_scene).map(|_| "help"),
     }
 }
 

@@ -54,7 +54,7 @@ Examples:
   regatta port --from swiftui:duration=0.5,bounce=0.3 --to compose,css
   regatta port --from react-spring:tension=170,friction=26 --to ui --tick-hz 30";
 
-/// Print the settings that make a spring move the same in every engine
+/// Print settings that make a spring move the same in every engine
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(&about()))]
 #[command(group = ArgGroup::new("wish").required(true))]

@@ -5,8 +5,8 @@ use regatta::run::race::Mode;
 use regatta::scene::{Action, SCENES, Scene};
 use regatta::sim::integrators::{GENERAL_METHODS, METHODS};
 use regatta::studio::{
-    Arrangement, Command, KEYS, Key, RunCommand, StageCommand, Step, Studio, TICK_LADDER,
-    ViewCommand, command_for,
+    Arrangement, Command, KEYS, Key, RunCommand, StageCommand, Step, Studio, ViewCommand,
+    command_for,
 };
 
 const C: Key = Key::Sign('c');
@@ -338,13 +338,13 @@ fn a_jump_is_higher_at_a_higher_rate() {
 }
 
 /// What is told of a key: what stands before it and behind it in the hint, up to the next digit.
-struct Told<'a> {
+pub(crate) struct Told<'a> {
     before: &'a str,
-    after: &'a str,
+    pub(crate) after: &'a str,
 }
 
 /// The keys that a hint names, in order, with what it does.
-fn told_keys(hint: &str) -> Vec<(Command, Told<'_>)> {
+pub(crate) fn told_keys(hint: &str) -> Vec<(Command, Told<'_>)> {
     let parts: Vec<&str> = hint.split('`').collect();
     let named = (1..parts.len()).step_by(2).map(|at| {
         let all = KEYS.iter().flat_map(|binding| binding.keys);
@@ -371,7 +371,7 @@ fn first_named(words: &str) -> Option<(usize, &'static str)> {
 }
 
 /// How often a key is to be pressed, in words that follow it, and the rate that it then leads to.
-fn presses(after: &str) -> (usize, Option<u32>) {
+pub(crate) fn presses(after: &str) -> (usize, Option<u32>) {
     let times = [("twice", 2), ("three times", 3), ("four times", 4)];
     let word = after.trim_start();
     let count = times.iter().find(|(words, _)| word.starts_with(words)).map_or(1, |it| it.1);
@@ -511,110 +511,6 @@ fn in_every_scene_mode_and_pause_under_every_method_each_key_of_each_hint_does_w
         }
     }
     assert!(held > 1000, "{held}");
-}
-
-/// The next rate (Hz) of the ladder.
-fn beside(step: Step, hz: u32) -> u32 {
-    let mut ladder = TICK_LADDER.iter().copied();
-    let found = match step {
-        Step::Next => ladder.find(|&other| other > hz),
-        Step::Previous => ladder.rfind(|&other| other < hz),
-    };
-    found.unwrap_or(hz)
-}
-
-/// Each rate (Hz) that a hint names, with what stands before it.
-fn rates(hint: &str) -> impl Iterator<Item = (&str, u32)> {
-    hint.match_indices(" Hz").map(move |(end, _)| {
-        let before = hint[..end].rsplit(' ').next().unwrap_or_default();
-        let hz = before.parse().unwrap_or_else(|_| panic!("no rate before Hz in {hint}"));
-        (&hint[..end - before.len()], hz)
-    })
-}
-
-#[test]
-fn at_every_rate_each_rate_that_a_hint_names_is_the_present_one_or_where_its_keys_lead() {
-    let mut named = 0;
-    for scene in SCENES {
-        let own = Scene::built_in(scene.name).unwrap();
-        let rates_of_ladder = TICK_LADDER.iter().copied().chain([own.tick_hz]);
-        for (race, hz) in rates_of_ladder.flat_map(|hz| [(false, hz), (true, hz)]) {
-            let mut opened = Studio::new(own.clone().at_tick_hz(hz));
-            let mut changed = Studio::new(own.clone());
-            changed.apply(StageCommand::TickHz(hz));
-            for studio in [&mut opened, &mut changed] {
-                if race {
-                    studio.apply(StageCommand::ToggleRace);
-                }
-                studio.viewer.begin_hints();
-                assert_eq!(studio.clock().tick_hz(), hz, "{}", scene.name);
-                let Some(hint) = studio.hint() else { continue };
-                assert!(hz == own.tick_hz || Some(&hint) != own.hint.as_ref(), "{hz} Hz: {hint}");
-                for (before, rate) in rates(&hint) {
-                    named += 1;
-                    let is_reached = before.ends_with("for ") || before.ends_with("at ");
-                    assert!(is_reached || before.ends_with("needs "), "{hint}");
-                    if !is_reached {
-                        continue;
-                    }
-                    let keys = told_keys(&hint);
-                    let after = keys.iter().map(|(command, told)| (command, presses(told.after)));
-                    let steps = after.filter_map(|(command, (count, _))| match command {
-                        Command::Stage(StageCommand::TickRate(step)) => Some((*step, count)),
-                        _ => None,
-                    });
-                    let mut led =
-                        steps.map(|(step, count)| (0..count).fold(hz, |hz, _| beside(step, hz)));
-                    let is_there = rate == hz || led.any(|led| led == rate);
-                    // Further down than the presses that it counts.
-                    let is_far = hint.contains(&format!("Down at {rate} Hz"));
-                    assert!(is_there || is_far && rate < hz, "{hint}: {rate} at {hz} Hz");
-                }
-            }
-        }
-    }
-    assert!(named > 20, "{named}");
-}
-
-#[test]
-fn the_second_method_of_the_cloth_needs_the_rate_that_its_hint_names() {
-    let scene = Scene::built_in("cloth").unwrap();
-    let hint = scene.hint.clone().unwrap();
-    let (_, wanted) = rates(&hint).find(|(before, _)| before.ends_with("needs ")).unwrap();
-    let below = TICK_LADDER.iter().copied().filter(|hz| *hz < wanted).max().unwrap();
-    for (hz, holds) in [(below, false), (wanted, true)] {
-        let mut studio = Studio::new(scene.clone().at_tick_hz(hz));
-        press(&mut studio, &[Key::Digit(2)]);
-        run_to(&mut studio, 4.0);
-        let is_whole = studio.race().entrants()[0].lane.halted().is_none();
-        assert_eq!(is_whole, holds, "{hz} Hz");
-    }
-}
-
-#[test]
-fn a_recording_has_the_digits_and_lanes_of_the_screen_and_its_verdict_is_not_of_another_run() {
-    for (scene, entry) in [("spring", 1), ("harbour", 1), ("harbour", 11), ("orbit", 3)] {
-        let mut studio = open(scene);
-        let ids = |studio: &Studio| -> Vec<&str> {
-            let offered = studio.entries()[..studio.deck.offered()].iter();
-            offered.map(|spec| spec.method.id).collect()
-        };
-        (0..90).for_each(|_| studio.tick());
-        studio.apply(StageCommand::Pick(entry));
-        (0..90).for_each(|_| studio.tick());
-        let text = studio.deck.recording().unwrap();
-        let mut recorded = Studio::new(Scene::parse("recording.toml", &text).unwrap());
-        (0..180).for_each(|_| recorded.tick());
-        assert_eq!(recorded.race().state_hash(), studio.race().state_hash(), "{scene}");
-        assert_eq!((ids(&recorded), recorded.active()), (ids(&studio), entry), "{scene}");
-        assert!(recorded.deck.is_judged_apart(), "its method was changed on the way");
-        recorded.apply(StageCommand::Pick(0));
-        assert_eq!(ids(&recorded), ids(&studio), "no digit vanishes");
-        recorded.apply(StageCommand::ToggleRace);
-        let (raced, own) = (recorded.race().entrants().len(), studio.scene().lanes.len());
-        assert_eq!(raced, own, "{scene}: as in the run that was recorded");
-        assert!(!recorded.deck.is_judged_apart());
-    }
 }
 
 #[test]

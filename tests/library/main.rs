@@ -28,6 +28,7 @@ mod formulas;
 mod frame_traces;
 mod guide;
 mod guide_runs;
+mod hint_rates;
 mod hints;
 mod histories;
 mod honesty;

@@ -201,7 +201,7 @@ fn a_recording_has_all_actions_and_repeats_the_run_to_the_bit() {
     let scene = parsed(&studio.deck.recording().unwrap());
     assert_eq!(ticks(&scene), (1..=9).map(|n| 25 * n).collect::<Vec<_>>());
     assert_eq!(scene.bodies[0].values, built_in("harbour").bodies[0].values, "as at the start");
-    assert_eq!((scene.lanes.len(), scene.tick_hz), (1, 60));
+    assert_eq!((scene.lanes.len(), scene.tick_hz), (5, 60), "with those that stood beside it");
     assert!((scene.seconds - studio.race().t()).abs() < 1e-12);
     let last = scene.checks.last().unwrap();
     assert_eq!((last.tick, last.lane), (250, LaneId(1)));
@@ -568,5 +568,31 @@ fn a_link_to_a_solo_run_opens_with_the_methods_that_stood_beside_it() {
         studio.apply(StageCommand::Restart);
         let text = link::text(&studio.deck.link().unwrap()).unwrap();
         assert_eq!(parsed(&text).lanes.len(), count);
+    }
+}
+
+#[test]
+fn a_recording_has_the_digits_and_lanes_of_the_screen_and_its_verdict_is_not_of_another_run() {
+    for (scene, entry) in [("spring", 1), ("harbour", 1), ("harbour", 11), ("orbit", 3)] {
+        let mut studio = Studio::new(built_in(scene));
+        let ids = |studio: &Studio| -> Vec<&str> {
+            let offered = studio.entries()[..studio.deck.offered()].iter();
+            offered.map(|spec| spec.method.id).collect()
+        };
+        (0..90).for_each(|_| studio.tick());
+        studio.apply(StageCommand::Pick(entry));
+        (0..90).for_each(|_| studio.tick());
+        let text = studio.deck.recording().unwrap();
+        let mut recorded = Studio::new(Scene::parse("recording.toml", &text).unwrap());
+        (0..180).for_each(|_| recorded.tick());
+        assert_eq!(recorded.race().state_hash(), studio.race().state_hash(), "{scene}");
+        assert_eq!((ids(&recorded), recorded.active()), (ids(&studio), entry), "{scene}");
+        assert!(recorded.deck.is_judged_apart(), "its method was changed on the way");
+        recorded.apply(StageCommand::Pick(0));
+        assert_eq!(ids(&recorded), ids(&studio), "no digit vanishes");
+        recorded.apply(StageCommand::ToggleRace);
+        let (raced, own) = (recorded.race().entrants().len(), studio.scene().lanes.len());
+        assert_eq!(raced, own, "{scene}: as in the run that was recorded");
+        assert!(!recorded.deck.is_judged_apart());
     }
 }

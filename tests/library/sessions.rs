@@ -277,7 +277,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
         studio.apply(RunCommand::Act(Action::Throttle(throttle)));
         assert_eq!(
             (studio.run().end(), studio.run().undoes()),
-            (1000, Some("the kick at tick 700"))
+            (1000, Some("the kick (tick 700)"))
         );
 
         let rows = studio.run().session().journal().rows().len();

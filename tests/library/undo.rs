@@ -202,7 +202,7 @@ fn the_changes_that_can_be_undone_stay_within_the_memory_for_rewinding() {
         }
         assert!(studio.run().bytes() <= 1 << 20, "{}", studio.run().bytes());
     }
-    assert_eq!(studio.run().undoes(), Some("the kick at tick 360"));
+    assert_eq!(studio.run().undoes(), Some("the kick (tick 360)"));
     for (limit, is_kept) in [(64 << 20, true), (1 << 20, false)] {
         studio.deck.set_rewind_bytes(limit);
         studio.apply(RunCommand::Act(Action::Kick(2.0)));

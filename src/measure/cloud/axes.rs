@@ -14,6 +14,8 @@ const NARROWEST: f64 = 0.25;
 const MOMENTS: u64 = 60;
 /// The most ticks of a run through which they are found: a second of work or less.
 const MAX_TICKS: u64 = 3000;
+/// How many widths of its middle half a point of a cloud alone may be away from that.
+const TOGETHER: f64 = 3.0;
 /// How far other clouds stretch the axes, in widths of what the exact one covers.
 const BESIDE: f64 = 0.1;
 
@@ -90,15 +92,18 @@ impl CloudAxes {
         Ok(Self { whole, widest })
     }
 
-    /// The part of the plane that is shown while the exact border and these points of each cloud are there: all of a cloud that
-    /// is alone; of several, the points that the whole has, on axes no wider or higher than that.
+    /// The part of the plane that is shown while the exact border and these points of each cloud are there: of a cloud that is
+    /// alone all that keep together; of several, the points that the whole has, on axes no wider or higher than that.
     pub(super) fn around(&self, border: &[[f64; 2]], clouds: &[Vec<[f64; 2]>]) -> PlaneView {
         let mut view = self.whole;
         let is_alone = clouds.len() == 1;
-        let is_seen = |[q, v]: &[f64; 2]| {
-            is_alone || self.whole.place(*q, *v).iter().all(|part| (0.0..=1.0).contains(part))
+        let is_in_whole = |[q, v]: &[f64; 2]| {
+            self.whole.place(*q, *v).iter().all(|part| (0.0..=1.0).contains(part))
         };
-        let seen: Vec<_> = clouds.concat().into_iter().filter(is_seen).collect();
+        let seen: Vec<_> = match clouds {
+            [cloud] => together(cloud),
+            _ => clouds.concat().into_iter().filter(is_in_whole).collect(),
+        };
         let near = PlaneView::around(border, &seen, f64::INFINITY, false);
         for (i, (range, [low, high])) in
             [(&mut view.q, near.q), (&mut view.v, near.v)].into_iter().enumerate()
@@ -111,4 +116,19 @@ impl CloudAxes {
         }
         view
     }
+}
+
+/// The points of a cloud that keep together: those within some widths of its middle half. The others fly off.
+fn together(cloud: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let ranges = [0, 1].map(|i| {
+        let mut values: Vec<f64> = cloud.iter().map(|point| point[i]).collect();
+        values.retain(|value| value.is_finite());
+        values.sort_by(f64::total_cmp);
+        let at = |part: usize| values.get(part * values.len() / 4).copied().unwrap_or_default();
+        let (low, high) = (at(1), at(3));
+        let wide = TOGETHER * (high - low);
+        low - wide..=high + wide
+    });
+    let keeps = |point: &&[f64; 2]| (0..2).all(|i| ranges[i].contains(&point[i]));
+    cloud.iter().filter(keeps).copied().collect()
 }

@@ -31,7 +31,7 @@ const BLOCKS: [(&str, &str, usize); 18] = [
     ("logs", "console", 1),
     ("questions", "console", 15),
     ("code", "console", 1),
-    ("library", "rust", 1),
+    ("library", "rust", 2),
     ("library", "text", 1),
     ("library", "toml", 1),
     ("ci", "rust", 1),

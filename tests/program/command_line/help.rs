@@ -39,9 +39,10 @@ fn a_list_or_a_chapter_is_printed_without_the_word_before_it() {
     for list in ["keys", "scenes", "methods", "keys --format json"] {
         assert_eq!(stdout_of(list), stdout_of(&format!("list {list}")));
     }
-    for chapter in
-        CHAPTERS.iter().filter(|chapter| !["keys", "scenes", "methods"].contains(&chapter.id))
-    {
+    // A scene of that name comes first, and so does a list.
+    let scenes = SCENES.iter().map(|scene| scene.name);
+    let others: Vec<&str> = scenes.chain(["keys", "scenes", "methods"]).collect();
+    for chapter in CHAPTERS.iter().filter(|chapter| !others.contains(&chapter.id)) {
         assert_eq!(stdout_of(chapter.id), chapter.text);
     }
 }
@@ -53,8 +54,6 @@ fn a_scene_stands_without_its_option_in_every_command_that_takes_one() {
         let read = Cli::read(words.split_whitespace().map(Into::into));
         read.map(|cli| format!("{cli:?}")).map_err(|error| error.to_string())
     };
-    let others = |name: &&str| CHAPTERS.iter().any(|it| it.id == *name);
-    assert_eq!(SCENES.iter().map(|scene| scene.name).find(others), None, "a chapter is a scene");
     for scene in SCENES.iter().map(|scene| scene.name).chain(["run.toml", "../mine/run.toml"]) {
         for (command, rest) in [
             #[cfg(feature = "window")]

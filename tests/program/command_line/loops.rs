@@ -326,7 +326,7 @@ fn a_list_of_frame_times_is_a_trace_and_it_is_said_that_it_knows_no_display() {
     let told = stderr(&output);
     assert_eq!(output.status.code(), Some(0), "{told}");
     assert!(told.contains("mine.csv (59.88"), "{told}");
-    assert!(told.contains("its frames are taken as displayed when they begin"), "{told}");
+    assert!(told.contains("each frame counts as shown when it begins"), "{told}");
     assert!(!told.contains("common origin"), "{told}");
 }
 

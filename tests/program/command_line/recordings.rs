@@ -244,7 +244,7 @@ fn what_is_played_is_recorded_and_a_file_that_is_there_is_kept() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(stderr(&output).contains("recorded 60 ticks in run.toml"), "{}", stderr(&output));
     let (code, data, _) = verify(&folder, "");
-    assert_eq!((code, &*data), (Some(0), "lane 1, rk4: same to the bit: 1 check to tick 60\n"));
+    assert_eq!((code, &*data), (Some(0), "lane 4, rk4: same to the bit: 1 check to tick 60\n"));
 
     let again = run_in(folder.path(), play);
     assert_eq!(again.status.code(), Some(2));
