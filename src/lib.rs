@@ -8,17 +8,18 @@
 //! | room | holds | may name | open first |
 //! |---|---|---|---|
 //! | [`sim`] | mathematics: states, equations, methods, bodies | - | `sim/integrators/rk4.rs` |
+//! | [`table`] | one reader of tables: bytes in, a header, rows and numbers out | - | `table/mod.rs` |
 //! | [`scene`] | a scene as text and as value; actions; custom bodies | `sim` | `scene/mod.rs` |
-//! | [`run`] | a race of methods against the truth: its actions, its drawn past, its text | `sim scene` | `run/mod.rs` |
-//! | [`tools`] | a developer's tools: the method of a log, a spring for an engine, source code | `sim scene` | `tools/port.rs` |
+//! | [`run`] | a race of methods against the truth: its actions, its drawn past, its text | `sim table scene` | `run/mod.rs` |
+//! | [`tools`] | a developer's tools: the method of a log, a spring for an engine, source code | `sim table scene` | `tools/port.rs` |
 //! | [`measure`] | verdicts, advice, stability maps, clouds of starts | `sim scene run tools` | `measure/judge.rs` |
-//! | [`loops`] | game loops, traces of frames, the loop lab | `sim scene run measure` | `loops/loop_run.rs` |
+//! | [`loops`] | game loops, traces of frames, the loop lab | `sim table scene run measure` | `loops/loop_run.rs` |
 //! | [`look`] | how a body looks and is held; colours | `sim scene run measure` | `look/pendulum.rs` |
 //! | [`studio`] | a person at a run: commands, the view, work in the background | `sim scene run tools measure loops look` | `studio/apply.rs` |
 //! | [`stage`] | the picture as plain data: [`compose`](stage::compose()) makes a [`Picture`](stage::Picture) | `sim scene run measure loops look studio` | `stage/compose.rs` |
 //! | `view` | pixels: panels, charts, and `FrameRenderer::draw`, the one way to draw | `scene run tools measure loops look studio stage` | `view/frame.rs` |
 //! | `window` | a screen, real time, a person's files | `scene run measure loops look studio view` | `window.rs` |
-//! | `commands` | the command line: files, captures, threads | `sim scene run tools measure loops look studio view window` | `commands/mod.rs` |
+//! | `commands` | the command line: files, captures, threads | `sim table scene run tools measure loops look studio view window` | `commands/mod.rs` |
 //!
 //! A feature is a row with all above it: without any the package is `sim` without its [`bodies`](sim::bodies) and
 //! [`law`](sim::law)s, what a game's own loop needs; `lab` adds the rooms to `stage`; then come `view` and `window`. `cli` is
@@ -169,6 +170,8 @@ pub mod stage;
 mod stopwatch;
 #[cfg(feature = "lab")]
 pub mod studio;
+#[cfg(feature = "lab")]
+pub mod table;
 #[cfg(feature = "lab")]
 pub mod tools;
 #[cfg(feature = "view")]

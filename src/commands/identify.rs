@@ -141,7 +141,6 @@ impl LogArgs {
         let bytes = regular_file::read(path, MAX_TABLE_BYTES).map_err(|error| {
             Error::mistake(format!("cannot read the log {}: {error}", brief(path)))
         })?;
-        let text = String::from_utf8_lossy(&bytes);
         let columns = ColumnNames {
             tick: self.tick_column.clone(),
             t: self.t_column.clone(),
@@ -149,7 +148,7 @@ impl LogArgs {
             v: self.v_column.clone(),
         };
         let name = brief(path);
-        let parsed = Log::parse(&name, &text, &columns, tick_hz);
+        let parsed = Log::from_bytes(&name, &bytes, &columns, tick_hz);
         parsed.map_err(|error| Error::mistake(format!("{error}{}", remedy(&error))))
     }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::argument::brief;
 use super::error::Error;
+use super::terminal::print_status;
 use crate::loops::{FrameTrace, RefreshRate, TRACES, steady_trace, trace_card, trace_file};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 use crate::scene::nearest;
@@ -59,6 +60,9 @@ fn named(path: &Path, display: Option<RefreshRate>) -> Result<Vec<FrameTrace>, E
     })?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let traces = trace_file::from_bytes(&name, &bytes).map_err(Error::mistake)?;
+    for summary in traces.iter().filter_map(FrameTrace::summary) {
+        print_status(&summary);
+    }
     Ok(match display {
         Some(display) => traces.into_iter().map(|trace| trace.on(display)).collect(),
         None => traces,

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::time_base::RefreshRate;
+use crate::sim::number::{counted, grouped, significant};
 
 /// A frame of a game on a display: when it began and when its picture was displayed, in nanoseconds from the start of its trace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +21,8 @@ pub struct FrameTrace {
     refresh: RefreshRate,
     source: Source,
     clocks: Clocks,
+    /// What wrote it, and in what unit where that had to be found; empty of a pattern.
+    format: String,
 }
 
 /// By what clocks frames begin and are displayed.
@@ -65,6 +68,7 @@ impl FrameTrace {
             refresh,
             source: Source::Recorded(frames.into()),
             clocks: Clocks::Two,
+            format: String::new(),
         }
     }
 
@@ -75,7 +79,7 @@ impl FrameTrace {
         pattern: impl Pattern + 'static,
     ) -> Self {
         let source = Source::Pattern(Box::new(pattern));
-        Self { name: name.into(), refresh, source, clocks: Clocks::One }
+        Self { name: name.into(), refresh, source, clocks: Clocks::One, format: String::new() }
     }
 
     /// Its name.
@@ -85,6 +89,36 @@ impl FrameTrace {
     /// The nominal rate of its display.
     pub fn refresh(&self) -> RefreshRate {
         self.refresh
+    }
+    /// The same frames, which begin and are displayed by one clock.
+    pub(super) fn by_one_clock(self) -> Self {
+        Self { clocks: Clocks::One, ..self }
+    }
+    /// The same frames as written by this tool.
+    pub(super) fn written_by(self, format: String) -> Self {
+        Self { format, ..self }
+    }
+    /// What was read of a log: its frames, how long they last, and what wrote it; `None` of a pattern.
+    pub fn summary(&self) -> Option<String> {
+        let Source::Recorded(frames) = &self.source else { return None };
+        let began: Vec<i64> = frames.iter().map(|frame| frame.began_ns).collect();
+        let seconds = |ns: i64| ns as f64 / 1e9;
+        let lasted_s = seconds(began.last()? - began.first()?);
+        let longest = began.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap_or_default();
+        let never = frames.iter().filter(|frame| frame.displayed_ns.is_none()).count();
+        let never = match never {
+            0 => String::new(),
+            never => format!(", {} never displayed", grouped(never as u64)),
+        };
+        let rate = (frames.len() - 1) as f64 / lasted_s;
+        Some(format!(
+            "read {} in {} s: {} a second, longest {} ms{never} ({})",
+            counted(frames.len(), "frame"),
+            significant(lasted_s, 3),
+            significant(rate, 3),
+            significant(1e3 * seconds(longest), 3),
+            self.format
+        ))
     }
     /// The same frames, of which only the beginnings were logged.
     pub(super) fn without_display(self) -> Self {

@@ -8,20 +8,20 @@
 //! times of display, frames are taken as displayed when they begin, and the trace [says so](FrameTrace::missing_display).
 
 mod columns;
-mod milliseconds;
+mod durations;
 mod stream;
 
 use std::collections::{HashMap, HashSet};
 
-use csv::StringRecord;
+use csv::{ByteRecord, StringRecord};
 
 use super::trace::FrameTrace;
-use columns::Columns;
-use milliseconds::Unreadable;
+use columns::{Cells, Columns};
+use durations::{Unit, Unreadable};
 use stream::Stream;
 
-/// The most rows before the header.
-const MAX_PREAMBLE_ROWS: u32 = 8;
+use crate::sim::number::significant;
+use crate::table::{Reading, TableError, TableFault, TableReader, Utf8};
 
 /// Why a log cannot be read, with its place and a remedy.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -41,20 +41,22 @@ enum Fault {
         "there is nothing here; capture some frames with PresentMon, OCAT, CapFrameX, FrameView or MangoHud"
     )]
     Empty,
-    #[error("the text is in UTF-16, as PowerShell writes it; save it as UTF-8")]
-    Utf16,
+    #[error("{0}")]
+    Unreadable(String),
+    #[error(
+        "a log of MSI Afterburner has a sample a second and no times of frames; let RTSS record frame times, or use PresentMon or CapFrameX"
+    )]
+    Afterburner,
     #[error("there is a header and no frame of a program below it; capture some frames")]
     NoRows,
     #[error(
         "the columns MsBetweenPresents, alone or with MsBetweenDisplayChange, FrameTime and DisplayedTime, or MangoHud's fps and frametime, are needed, and here are {found}; write a row for each frame under a header, or frame times in milliseconds alone, one a line"
     )]
     Columns { found: String },
-    #[error("the row has {cells} of the header's {header} cells; take it out if it was cut off")]
-    FewCells { cells: usize, header: usize },
     #[error(
-        "the row has {cells} cells and the header {header}; if its numbers have decimal commas, write points, or separate the cells with semicolons"
+        "the row has {cells} of the header's first {header} cells; take it out if it was cut off"
     )]
-    ManyCells { cells: usize, header: usize },
+    FewCells { cells: usize, header: usize },
     #[error("column {column}: {fault}")]
     Cell { column: String, fault: Unreadable },
     #[error("column {column}: the time of this frame is missing; take the row out")]
@@ -63,66 +65,132 @@ enum Fault {
         "column {column}: expected 0 or 1, found \"{cell}\"; write 1 for a frame that was not displayed"
     )]
     NotAFlag { column: String, cell: String },
+    #[error(
+        "a row is a sample every {every_ms} ms (log_interval) and no frame, as elapsed says; set log_interval=0 and log again"
+    )]
+    Sampled { every_ms: String },
     #[error("no time passes from here to the last of these {frames} frames; capture them again")]
     NoTimePasses { frames: usize },
     #[error("from here on the frames last more than a year in all; split the log")]
     TooLong,
 }
 
-/// Reads the streams of a log from the bytes of a file, like [`read`]; what is not UTF-8 is read as well as it can be.
+/// Reads the streams of a log from a text, like [`from_bytes`].
 ///
 /// # Errors
-/// As [`read`], and if the bytes are UTF-16.
-pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
-    if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
-        return Err(TraceFileError { name: name.into(), line: 1, fault: Fault::Utf16 });
-    }
-    read(name, &String::from_utf8_lossy(bytes))
+/// As [`from_bytes`].
+pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
+    from_bytes(name, text.as_bytes())
 }
 
-/// Reads the streams of a log in order of their first rows. A lone stream is called `name`, several are called `name`, a
-/// colon and their program, with its process and a number where these are needed to tell them apart.
+/// Reads the streams of a log from the bytes of a file, in order of their first rows. A lone stream is called `name`, several
+/// are called `name`, a colon and their program, with its process and a number where these are needed to tell them apart.
 ///
 /// # Errors
-/// If the text is not such a log; the message calls it `name`.
-pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
-    let at = |line, fault| TraceFileError { name: name.into(), line, fault };
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let (before, table) = split_remarks(text);
-    let is_list = is_list(table);
-    let mut rows = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .delimiter(if is_list { b';' } else { delimiter(table) })
-        .from_reader(table.as_bytes());
-    let mut row = StringRecord::new();
-    let mut next = |row: &mut StringRecord| -> Option<u64> {
-        let is_row = rows.read_record(row).expect("text in memory, and rows of any length");
-        is_row.then(|| before + row.position().expect("just read").line())
-    };
+/// If the bytes are no such log; the message calls it `name`.
+pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
+    let (traces, checks) = read_in(name, bytes, None)?;
+    match checks.unit() {
+        Some(unit) if unit != Unit::Milliseconds => read_in(name, bytes, Some(unit)).map(|it| it.0),
+        _ => Ok(traces),
+    }
+}
 
-    let first_line = next(&mut row).ok_or_else(|| at(1, Fault::Empty))?;
-    let found = if is_list { Ok(Columns::of_list()) } else { Columns::find(&row) };
-    let (mut header_line, mut found) = (first_line, found);
-    // MangoHud writes a few lines about the machine first.
-    let mut preamble = StringRecord::new();
-    for _ in 0..MAX_PREAMBLE_ROWS {
-        if found.is_ok() {
-            break;
+/// What stands beside the times of a log, by which their unit is found.
+#[derive(Default)]
+struct Checks {
+    /// Whether the log says its unit.
+    is_said: bool,
+    /// Each frame in milliseconds, if that is its unit, and where frames a second stand beside it the product of both.
+    frames_ms: Vec<f64>,
+    products: Vec<f64>,
+    /// The nanoseconds that the log's own clock had passed at the first and at the last row.
+    elapsed_ns: Option<[f64; 2]>,
+    last_line: u64,
+}
+
+impl Checks {
+    fn add(&mut self, cells: &Cells<'_>, line: u64) {
+        let Ok(began_ns) = cells.began_ns else { return };
+        let ms = began_ns as f64 / 1e6;
+        self.frames_ms.push(ms);
+        let [fps, elapsed] = cells.beside;
+        self.products.extend(fps.map(|fps| fps * ms));
+        if let Some(now) = elapsed {
+            let first = self.elapsed_ns.map_or(now, |[first, _]| first);
+            self.elapsed_ns = Some([first, now]);
         }
-        let Some(line) = next(&mut preamble) else { break };
-        if let Ok(columns) = Columns::find(&preamble) {
-            (header_line, found) = (line, Ok(columns));
+        self.last_line = line;
+    }
+
+    /// The unit that the times must have; `None` where nothing says that it is another than milliseconds.
+    fn unit(&self) -> Option<Unit> {
+        let near = |unit: Unit, wanted: f64, found: f64| {
+            (wanted / 2.0..wanted * 2.0).contains(&found).then_some(unit)
+        };
+        if let Some(product) = median(&self.products) {
+            let of = |(unit, wanted)| near(unit, wanted, product);
+            let units =
+                [(Unit::Milliseconds, 1e3), (Unit::Microseconds, 1e6), (Unit::Seconds, 1.0)];
+            return units.into_iter().find_map(of);
+        }
+        let median_ms = median(&self.frames_ms).filter(|_| !self.is_said)?;
+        match median_ms {
+            // Five thousand frames a second, and one in two seconds.
+            ..0.2 if median_ms > 0.0 => Some(Unit::Seconds),
+            2000.0.. => Some(Unit::Microseconds),
+            _ => None,
         }
     }
-    let columns = found.map_err(|fault| at(first_line, fault))?;
+
+    /// The time between two samples in milliseconds, where rows are not frames.
+    fn sampled_ms(&self) -> Option<f64> {
+        let [first, last] = self.elapsed_ns?;
+        let passed_ms = (last - first) / 1e6;
+        let rows = self.frames_ms.len() as f64 - 1.0;
+        let frames_ms: f64 = self.frames_ms.iter().skip(1).sum();
+        (rows > 0.0 && passed_ms > 2.0 * frames_ms).then_some(passed_ms / rows)
+    }
+}
+
+fn median(values: &[f64]) -> Option<f64> {
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+/// Reads the streams of a log whose times are in this unit, or else in that of its format.
+fn read_in(
+    name: &str,
+    bytes: &[u8],
+    unit: Option<Unit>,
+) -> Result<(Vec<FrameTrace>, Checks), TraceFileError> {
+    let at = |line, fault| TraceFileError { name: name.into(), line, fault };
+    let broken = |TableError { line, fault }: TableError| match fault {
+        TableFault::Empty => at(line, Fault::Empty),
+        fault => at(line, Fault::Unreadable(fault.to_string())),
+    };
+    let is_header = |row: &ByteRecord| Columns::find(&text_of(row)).is_ok();
+    // OCAT writes what it knows of the machine in the first row alone.
+    let reading = Reading { short_rows: true, lists: true };
+    let mut table = TableReader::begin(Utf8::new(bytes), reading, is_header).map_err(broken)?;
+    let (header_line, is_list) = (table.header_line(), table.is_list());
+    let header = text_of(table.header());
+    let found = if is_list { Ok(Columns::of_list()) } else { Columns::find(&header) };
+    let columns = found.map_err(|fault| match is_of_afterburner(bytes) {
+        true => at(header_line, Fault::Afterburner),
+        false => at(header_line, fault),
+    })?;
+    let mut record = ByteRecord::new();
+    let in_unit = unit.or(columns.unit).unwrap_or(Unit::Milliseconds);
+    let mut checks = Checks { is_said: columns.unit.is_some(), ..Checks::default() };
 
     let (mut streams, mut numbers) = (Vec::<Stream>::new(), HashMap::<String, usize>::new());
     let mut key = String::new();
-    // A list has no header.
-    let mut first = is_list.then_some(first_line);
-    while let Some(line) = first.take().or_else(|| next(&mut row)) {
-        let cells = columns.read(&row).map_err(|fault| at(line, fault))?;
+    while let Some(line) = table.next(&mut record).map_err(broken)? {
+        let row = text_of(&record);
+        let cells = columns.read(&row, in_unit).map_err(|fault| at(line, fault))?;
+        checks.add(&cells, line);
         key.clear();
         key.extend([cells.application, "\n", cells.process, "\n", cells.swap_chain]);
         let number = match numbers.get(&key) {
@@ -142,37 +210,35 @@ pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
     if let Some(still) = streams.iter().find(|stream| stream.stands_still()) {
         return Err(at(still.line(), Fault::NoTimePasses { frames: still.frames() }));
     }
-    let names = names(name, &streams);
-    let has_display = columns.has_display();
-    let trace = |(name, stream): (String, Stream)| match stream.into_trace(name) {
-        trace if has_display => trace,
-        trace => trace.without_display(),
-    };
-    Ok(names.into_iter().zip(streams).map(trace).collect())
-}
-
-/// Whether the table begins with a line that is a number: the times of frames in milliseconds, and nothing else.
-fn is_list(table: &str) -> bool {
-    let first = table.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
-    matches!(milliseconds::nanoseconds(first), Ok(Some(_)))
-}
-
-/// The number of lines before the table, and the table: CapFrameX writes remarks that begin with `//` first.
-fn split_remarks(text: &str) -> (u64, &str) {
-    let (mut lines, mut rest) = (0, text);
-    while rest.starts_with("//") {
-        lines += 1;
-        rest = rest.split_once('\n').map_or("", |(_, after)| after);
+    if let Some(sampled_ms) =
+        checks.sampled_ms().filter(|_| unit.is_some() || checks.unit() == Some(Unit::Milliseconds))
+    {
+        return Err(at(header_line, Fault::Sampled { every_ms: significant(sampled_ms, 3) }));
     }
-    (lines, rest)
+    let names = names(name, &streams);
+    let found = unit.or(columns.unit.filter(|unit| *unit != Unit::Milliseconds));
+    let in_words = found.map(|unit| format!(", in {}", unit.name())).unwrap_or_default();
+    let format = format!("{}{in_words}", columns.format);
+    let trace = |(name, stream): (String, Stream)| {
+        let trace = stream.into_trace(name).written_by(format.clone());
+        match (columns.has_display(), columns.has_one_clock()) {
+            (false, _) => trace.without_display(),
+            (true, true) => trace.by_one_clock(),
+            (true, false) => trace,
+        }
+    };
+    Ok((names.into_iter().zip(streams).map(trace).collect(), checks))
 }
 
-/// What separates the cells: where a comma is the decimal sign, tools write semicolons.
-pub(crate) fn delimiter(table: &str) -> u8 {
-    let header = table.lines().find(|line| !line.is_empty()).unwrap_or_default();
-    let count = |separator: &u8| header.bytes().filter(|byte| byte == separator).count();
-    // Of equal counts the last is taken: the comma.
-    [b'\t', b';', b','].into_iter().max_by_key(count).expect("three")
+/// A row as text; what is no text is read as well as it can be.
+fn text_of(row: &ByteRecord) -> StringRecord {
+    StringRecord::from_byte_record_lossy(row.clone())
+}
+
+/// Whether these are the first bytes of a log of MSI Afterburner: rows whose first cell is their kind, 00 for the head.
+fn is_of_afterburner(bytes: &[u8]) -> bool {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(400)]).into_owned();
+    head.trim_start().starts_with("00,") && head.contains("Hardware monitoring")
 }
 
 /// A name for each stream, none twice.

@@ -7,10 +7,12 @@
 
 use std::collections::{HashMap, VecDeque};
 use std::fmt;
+use std::io::BufRead;
 
 use csv::ByteRecord;
 
 use crate::sim::number::{counted, significant};
+use crate::table::{Reading, TableError, TableReader};
 
 mod clock;
 mod growth;
@@ -50,33 +52,23 @@ pub trait Records {
     fn next(&mut self, row: &mut ByteRecord) -> Result<bool, Self::Error>;
 }
 
-/// The text of a table as CSV.
-#[derive(Debug)]
-pub struct Table<'a> {
-    header: ByteRecord,
-    rows: csv::Reader<&'a [u8]>,
+/// The table in this text.
+///
+/// # Errors
+/// What keeps its header from being read.
+pub fn table(text: &str) -> Result<TableReader<&[u8]>, TableError> {
+    TableReader::begin(text.as_bytes(), Reading::default(), |_| true)
 }
 
-impl<'a> Table<'a> {
-    /// A table that begins with the names of its columns.
-    ///
-    /// # Errors
-    /// What keeps them from being read.
-    pub fn new(text: &'a str) -> csv::Result<Self> {
-        let mut rows = csv::Reader::from_reader(text.as_bytes());
-        Ok(Self { header: rows.byte_headers()?.clone(), rows })
-    }
-}
-
-impl Records for Table<'_> {
-    type Error = csv::Error;
+impl<R: BufRead> Records for TableReader<R> {
+    type Error = TableError;
 
     fn header(&self) -> &ByteRecord {
-        &self.header
+        self.header()
     }
 
-    fn next(&mut self, row: &mut ByteRecord) -> csv::Result<bool> {
-        self.rows.read_byte_record(row)
+    fn next(&mut self, row: &mut ByteRecord) -> Result<bool, TableError> {
+        Ok(self.next(row)?.is_some())
     }
 }
 

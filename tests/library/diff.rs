@@ -4,11 +4,11 @@ use std::error::Error;
 
 use crate::dice::Dice;
 use regatta::run::Session;
-use regatta::run::diff::{Comparison, Table, Tolerance, diff};
+use regatta::run::diff::{Comparison, Tolerance, diff, table};
 use regatta::scene::{Action, Scene};
 
 fn within(a: &str, b: &str, tolerance: Tolerance) -> Result<Comparison, Box<dyn Error>> {
-    diff(&mut Table::new(a)?, &mut Table::new(b)?, tolerance)
+    diff(&mut table(a)?, &mut table(b)?, tolerance)
 }
 
 fn compared(a: &str, b: &str) -> Comparison {

@@ -320,24 +320,24 @@ fn every_fault_is_named_with_its_line_and_a_remedy() {
             "Application,msBetweenDisplayChange\na,1\n".into(),
             "log:1: the columns MsBetweenPresents, alone or with MsBetweenDisplayChange, FrameTime and DisplayedTime, or MangoHud's fps and frametime, are needed, and here are Application, msBetweenDisplayChange; write a row for each frame under a header, or frame times in milliseconds alone, one a line".into(),
         ),
-        (row("1"), "log:3: the row has 1 of the header's 2 cells; take it out if it was cut off".into()),
+        (row("1"), "log:3: the row has 1 of the header's first 2 cells; take it out if it was cut off".into()),
         (
             row("16,683,16,683"),
             "log:3: the row has 4 cells and the header 2; if its numbers have decimal commas, write points, or separate the cells with semicolons".into(),
         ),
         (
             row("1,nan"),
-            "log:3: column MsBetweenDisplayChange: expected milliseconds, found \"nan\"; write a number such as 16.683, or NA".into(),
+            "log:3: column MsBetweenDisplayChange: expected a time, found \"nan\"; write a number such as 16.683, or NA".into(),
         ),
         (
             row("inf,1"),
-            "log:3: column MsBetweenPresents: expected milliseconds, found \"inf\"; write a number such as 16.683, or NA".into(),
+            "log:3: column MsBetweenPresents: expected a time, found \"inf\"; write a number such as 16.683, or NA".into(),
         ),
         (
             row("-1.5,1"),
-            "log:3: column MsBetweenPresents: -1.5 ms is negative; time does not run backwards: take the row out".into(),
+            "log:3: column MsBetweenPresents: -1.5 is negative; time does not run backwards: take the row out".into(),
         ),
-        (row("1,1e12"), "log:3: column MsBetweenDisplayChange: 1e12 ms is more than a day; take the row out".into()),
+        (row("1,1e12"), "log:3: column MsBetweenDisplayChange: 1e12 is more than a day; take the row out".into()),
         (row("NA,1"), "log:3: column MsBetweenPresents: the time of this frame is missing; take the row out".into()),
         (
             "Dropped,MsBetweenPresents,MsBetweenDisplayChange\nyes,1,1\n".into(),
@@ -372,7 +372,7 @@ fn a_list_of_frame_times_and_presents_alone_take_the_times_of_frames_for_those_o
     let both = &traces("log", PLAIN)[0];
     assert!(!both.has_one_clock() && both.missing_display().is_none());
     let error = read("log", "16.7\n16.6\nfast\n").err().unwrap().to_string();
-    assert!(error.starts_with("log:3: column 1: expected milliseconds, found \"fast\""), "{error}");
+    assert!(error.starts_with("log:3: column 1: expected a time, found \"fast\""), "{error}");
 }
 
 #[test]
@@ -406,7 +406,7 @@ fn a_log_of_mangohud_is_read_below_its_lines_about_the_machine() {
     }
     // The names of PresentMon alone are no log of MangoHud.
     assert!(read("log", "FrameTime,CPUBusy\n16,3\n").is_err());
-    let far = format!("{}fps,frametime\n60,16\n", "a remark\n".repeat(9));
+    let far = format!("{}fps,frametime\n60,16\n", "a remark\n".repeat(17));
     assert!(read("log", &far).err().unwrap().to_string().starts_with("log:1: the columns"));
 }
 
@@ -424,4 +424,68 @@ fn generated_frames_let_time_pass_and_are_no_frames_of_the_program() {
     assert_eq!(frames(trace), [at(0, 0), at(16, 17), at(33, 33)]);
     let none = "Application,FrameTime,DisplayedTime,FrameType\na,NA,8,Intel_XEFG\n";
     assert!(read("log", none).err().unwrap().to_string().contains("no frame of a program"));
+}
+
+/// What is read, in a line, and the beginnings of its frames in ms.
+fn summed(text: &str) -> (String, Vec<f64>) {
+    let [trace] = &traces("log", text)[..] else { panic!("one trace") };
+    let began = frames(trace).iter().map(|frame| frame.began_ns as f64 / 1e6).collect();
+    (trace.summary().expect("a log"), began)
+}
+
+#[test]
+fn a_list_of_times_is_read_under_a_heading_and_in_whatever_unit_it_is() {
+    let expected = vec![0.0, 16.6, 50.0];
+    for (text, unit) in [
+        ("# level 3\nframe_ms\n16.7\n16.6\n33.4\n", ""),
+        ("16.7\n16.6\n33.4\n", ""),
+        ("0.0167\n0.0166\n0.0334\n", ", in seconds"),
+        ("delta_s\n0.0167\n0.0166\n0.0334\n", ", in seconds"),
+        ("dt\n0.0167\n0.0166\n0.0334\n", ", in seconds"),
+        ("frametime_us\n16700\n16600\n33400\n", ", in µs"),
+        ("16700\n16600\n33400\n", ", in µs"),
+    ] {
+        let (said, began) = summed(text);
+        assert_eq!(began, expected, "{text}");
+        let wanted =
+            format!("read 3 frames in 0.0500 s: 40.0 a second, longest 33.4 ms (a list{unit})");
+        assert_eq!(said, wanted, "{text}");
+    }
+    assert!(read("log", "temperature\n16.7\n").is_err(), "whatever it is, it is no time");
+}
+
+#[test]
+fn the_unit_of_mangohud_is_found_by_its_frames_a_second_and_a_sample_is_no_frame() {
+    let (said, began) =
+        summed("fps,frametime,cpu_load\n190.114,5260,10\n200,5000,11\n100,10000,9\n");
+    assert_eq!(began, [0.0, 5.0, 15.0]);
+    assert!(said.ends_with("(MangoHud, in µs)"), "{said}");
+    let elapsed = |step_ms: f64| {
+        let row = |n: u32| format!("250,4.0,{}\n", (f64::from(n) * step_ms * 1e6) as u64);
+        format!("fps,frametime,elapsed\n{}", (0..50).map(row).collect::<String>())
+    };
+    assert_eq!(summed(&elapsed(4.0)).1.len(), 50);
+    let error = read("log", &elapsed(100.0)).err().unwrap().to_string();
+    assert!(error.contains("a sample every 100 ms (log_interval)"), "{error}");
+}
+
+#[test]
+fn a_frame_that_says_nothing_of_its_display_was_dropped_and_the_others_have_one_clock() {
+    let text = "TimeInSeconds,MsBetweenPresents,MsBetweenDisplayChange,MsUntilDisplayed\n\
+                0.000,7,14,15\n0.007,7,7,15\n0.014,7,14,NA\n0.021,7,0,15\n";
+    let [trace] = &traces("log", text)[..] else { panic!("one trace") };
+    let ms = |ms: i64| ms * 1_000_000;
+    let displayed: Vec<_> = frames(trace).iter().map(|frame| frame.displayed_ns).collect();
+    assert_eq!(displayed, [Some(ms(15)), Some(ms(22)), None, Some(ms(36))]);
+    assert!(trace.has_one_clock() && trace.missing_display().is_none());
+    assert!(trace.summary().unwrap().contains(", 1 never displayed (PresentMon)"));
+}
+
+#[test]
+fn a_log_of_afterburner_is_refused_by_its_name() {
+    let text = "00, 24-10-2025 15:41:23, Hardware monitoring log v1.6 \n\
+                02, 24-10-2025 15:41:23, Power               ,Framerate           ,Frametime           \n\
+                80, 24-10-2025 15:41:24, 143.1               ,99.691              ,10.031              \n";
+    let error = read("log", text).err().unwrap().to_string();
+    assert!(error.contains("a log of MSI Afterburner has a sample a second"), "{error}");
 }

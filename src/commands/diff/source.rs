@@ -1,6 +1,6 @@
 //! What is compared: the rows of a table, of a run, or of the states in a manifest.
 
-use std::io::{self, BufRead, BufReader, Cursor, Read};
+use std::io::{self, BufReader, Read};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
@@ -10,10 +10,10 @@ use csv::ByteRecord;
 use crate::commands::error::Error;
 use crate::commands::manifest::Mark;
 use crate::commands::{scene_file, verify};
-use crate::loops::trace_file::delimiter;
 use crate::regular_file::{self, Unreadable};
 use crate::run::diff::{NotComparable, Records};
 use crate::run::trace::{Made, row};
+use crate::table::{BUFFER_BYTES, Reading, TableError, TableFault, TableReader, Utf8};
 
 /// The rows that pass from thread to thread at once.
 const BATCH: usize = 1024;
@@ -21,12 +21,6 @@ const BATCH: usize = 1024;
 const BATCH_BYTES: usize = 1 << 20;
 /// A row of more bytes has its room given back.
 const LARGE_ROW_BYTES: usize = 1 << 14;
-/// What is read of a file at once, in bytes.
-const BUFFER_BYTES: usize = 1 << 20;
-/// The most bytes of a row, of the header or of a note above it. A log has none of that length; what has no ends of lines,
-/// such as a device, does.
-const MAX_ROW_BYTES: usize = 1 << 20;
-
 /// The rows of a run.
 pub(super) enum Source {
     Table(Table),
@@ -100,51 +94,6 @@ impl From<NotComparable> for Error {
     }
 }
 
-/// Fails where a row does not end.
-struct BoundedRows<R> {
-    input: R,
-    /// What was read since the row began.
-    in_row: usize,
-}
-
-impl<R: Read> Read for BoundedRows<R> {
-    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        if self.in_row >= MAX_ROW_BYTES {
-            return Err(io::Error::other(TooLong));
-        }
-        let read = self.input.read(bytes)?;
-        self.in_row += read;
-        Ok(read)
-    }
-}
-
-/// A row of more than [`MAX_ROW_BYTES`].
-#[derive(Debug, thiserror::Error)]
-#[error(
-    "a row of more than {MAX_ROW_BYTES} bytes, which no log has; end each row, and close each quotation mark"
-)]
-struct TooLong;
-
-/// Reads past the notes above the header, and lines without anything. Returns how many lines these were, and the first
-/// line of the header.
-fn header_line(input: &mut impl BufRead) -> io::Result<(u64, Vec<u8>)> {
-    for above in 0.. {
-        let mut line = Vec::new();
-        input.take(MAX_ROW_BYTES as u64).read_until(b'\n', &mut line)?;
-        if line.len() == MAX_ROW_BYTES {
-            return Err(io::Error::other(TooLong));
-        }
-        if above == 0 && line.starts_with("\u{feff}".as_bytes()) {
-            line.drain(.."\u{feff}".len());
-        }
-        let is_blank = !line.is_empty() && line.trim_ascii().is_empty();
-        if !is_blank && !line.starts_with(b"#") {
-            return Ok((above, line));
-        }
-    }
-    unreachable!("the numbers have no end")
-}
-
 /// The bytes that a row takes.
 fn footprint(row: &ByteRecord) -> usize {
     row.as_slice().len() + row.len() * size_of::<usize>()
@@ -152,30 +101,19 @@ fn footprint(row: &ByteRecord) -> usize {
 
 impl Table {
     fn begin(name: String, input: Box<dyn Read + Send>) -> Result<Self, Error> {
-        let mut input = BufReader::with_capacity(BUFFER_BYTES, input);
-        let (above, line) = header_line(&mut input).map_err(|error| {
-            let is_ours = error.get_ref().is_some_and(|inner| inner.is::<TooLong>());
-            let remedy = if is_ours { "" } else { "; give a run that you may read" };
-            Error::mistake(format!("cannot read {name}: {error}{remedy}"))
-        })?;
-        let mut reader = csv::ReaderBuilder::new()
-            .buffer_capacity(BUFFER_BYTES)
-            .delimiter(delimiter(&String::from_utf8_lossy(&line)))
-            .from_reader(BoundedRows { input: Cursor::new(line).chain(input), in_row: 0 });
+        let input = Utf8::new(BufReader::with_capacity(BUFFER_BYTES, input));
         let of = name.clone();
-        let fault = move |error: csv::Error, here: u64| {
-            let name = &of;
-            let line = above + error.position().map_or(here, csv::Position::line);
-            let remedy = match error.kind() {
-                csv::ErrorKind::Io(_) => "",
-                _ => "; give each row the header's cells, and notes a place above the header",
+        let fault = move |TableError { line, fault }: TableError| {
+            let remedy = match &fault {
+                TableFault::Input(_) => "; give a table that you may read",
+                TableFault::Empty => "; give a table with a header",
+                TableFault::Cells { .. } => "",
             };
-            Error::mistake(format!("{name}:{line}: {error}{remedy}"))
+            Error::mistake(format!("{of}:{line}: {fault}{remedy}"))
         };
-        let header = reader.byte_headers().map_err(|error| fault(error, 1))?.clone();
-        if header.is_empty() {
-            return Err(Error::mistake(format!("{name} is empty; give a table with a header")));
-        }
+        let begun = TableReader::begin(input, Reading::default(), |_| true);
+        let mut reader = begun.map_err(&fault)?;
+        let header = reader.header().clone();
         let (send, batches) = sync_channel(2);
         let (used, reuse) = sync_channel::<Vec<ByteRecord>>(4);
         thread::spawn(move || {
@@ -185,26 +123,23 @@ impl Table {
                 let large = batch.iter_mut().filter(|row| footprint(row) > LARGE_ROW_BYTES);
                 large.for_each(|row| *row = ByteRecord::new());
                 let (mut filled, mut bytes) = (0, 0);
-                let mut line;
                 let read = loop {
-                    reader.get_mut().in_row = 0;
-                    line = reader.position().line();
-                    match reader.read_byte_record(&mut batch[filled]) {
-                        Ok(true) => {
+                    match reader.next(&mut batch[filled]) {
+                        Ok(Some(_)) => {
                             bytes += footprint(&batch[filled]);
                             filled += 1;
                         }
                         other => break other,
                     }
                     if filled == BATCH || bytes >= BATCH_BYTES {
-                        break Ok(true);
+                        break Ok(Some(0));
                     }
                 };
-                let has_more = matches!(read, Ok(true));
+                let has_more = matches!(read, Ok(Some(_)));
                 // Who no longer listens has found a fault in the other table.
                 let is_heard = send.send(Ok((batch, filled))).is_ok();
                 if let Err(error) = read {
-                    drop(send.send(Err(fault(error, line))));
+                    drop(send.send(Err(fault(error))));
                 }
                 if !has_more || !is_heard {
                     return;

@@ -2,7 +2,8 @@
 
 use csv::StringRecord;
 
-use super::{Fault, milliseconds};
+use super::Fault;
+use super::durations::{self, Unit};
 use crate::scene::{clip, clip_list};
 
 /// Whether a row says how long it took until its frame, or from its frame on.
@@ -14,39 +15,74 @@ pub(super) enum Span {
     After,
 }
 
-/// The names of the column of frames and of one beside it; each also without its `Ms`. The one beside has the times of
-/// display, unless it is MangoHud's: that knows nothing of the display, and nor does a log of the first column alone.
-const TIMES: [(Span, &str, Beside); 4] = [
-    (Span::Before, "MsBetweenPresents", Beside::Display("MsBetweenDisplayChange")),
-    (Span::After, "MsFrameTime", Beside::Display("MsDisplayedTime")),
-    (Span::Before, "frametime", Beside::Other("fps")),
-    (Span::Before, "MsBetweenPresents", Beside::Nothing),
+/// What tool writes a log, what its rows say, the column of frames and one beside it; each also without its `Ms`.
+const FORMATS: [(&str, Span, &str, Beside); 5] = [
+    ("PresentMon", Span::Before, "MsBetweenPresents", Beside::Until("MsUntilDisplayed")),
+    ("PresentMon", Span::Before, "MsBetweenPresents", Beside::Display("MsBetweenDisplayChange")),
+    ("PresentMon", Span::After, "MsFrameTime", Beside::Display("MsDisplayedTime")),
+    ("MangoHud", Span::Before, "frametime", Beside::Other("fps")),
+    ("PresentMon", Span::Before, "MsBetweenPresents", Beside::Nothing),
 ];
 
 /// What is beside a column of frames.
 enum Beside {
-    /// The column of this name, with the times of display.
+    /// The column of this name, with the times from a frame to its own display, where no other says which were dropped.
+    Until(&'static str),
+    /// The column of this name, with the times between displays.
     Display(&'static str),
-    /// The column of this name: another tool's log with the same column of frames lacks the display.
+    /// The column of this name, of a tool that knows nothing of the display.
     Other(&'static str),
     /// Any columns.
     Nothing,
 }
+
+/// Words in the heading of a list of frame times.
+const OF_LIST: [&str; 5] = ["frame", "frametime", "dt", "delta", "deltatime"];
+/// Words that say the unit of such a list.
+const UNITS: [(&str, Unit); 6] = [
+    ("s", Unit::Seconds),
+    ("sec", Unit::Seconds),
+    ("seconds", Unit::Seconds),
+    ("ms", Unit::Milliseconds),
+    ("us", Unit::Microseconds),
+    ("µs", Unit::Microseconds),
+];
 
 /// What PresentMon calls a frame of the program, or one of which it does not know. Any other was generated or repeated.
 const RENDERED: [&str; 4] = ["", "Application", "NotSet", "Unspecified"];
 
 /// Where the columns are.
 pub(super) struct Columns {
+    /// The tool.
+    pub(super) format: &'static str,
+    /// The unit of all times; `None` where the log does not say.
+    pub(super) unit: Option<Unit>,
     span: Span,
     began: Column,
     displayed: Option<Column>,
+    /// Whether the times of display are from a frame's own beginning.
+    is_until: bool,
+    /// MangoHud's frames a second, and nanoseconds since it began.
+    beside: [Option<usize>; 2],
     dropped: Option<Column>,
     frame_type: Option<usize>,
     application: Option<usize>,
     process: Option<usize>,
     swap_chain: Option<usize>,
-    count: usize,
+}
+
+/// The tool whose times are in a unit that depends on its version, and a list that no tool wrote.
+pub(super) const MANGOHUD: &str = "MangoHud";
+const LIST: &str = "a list";
+
+/// The column of a list of frame times under a heading, and its unit where that says so.
+fn of_list(header: &StringRecord) -> Option<(Column, Option<Unit>)> {
+    let name = header.get(0).filter(|_| header.len() == 1)?.trim();
+    let lower = name.to_lowercase();
+    let words: Vec<&str> = lower.split(|c: char| !c.is_alphabetic()).collect();
+    let is_named = words.iter().any(|word| OF_LIST.contains(word));
+    let unit = UNITS.iter().find(|(known, _)| words[1..].contains(known)).map(|(_, unit)| *unit);
+    is_named.then(|| (Column { index: 0, name: name.to_owned() }, unit))
 }
 
 struct Column {
@@ -64,8 +100,12 @@ pub(super) struct Cells<'a> {
     pub(super) span: Span,
     /// From one frame's beginning to the other's, in nanoseconds; the error where it is needed and missing.
     pub(super) began_ns: Result<i64, Fault>,
-    /// From one frame's display to the other's; `None` if it was never displayed.
+    /// From one frame's display to the other's, or from its own beginning; `None` if it was never displayed.
     pub(super) displayed_ns: Option<i64>,
+    /// Whether that is from its own beginning.
+    pub(super) is_until: bool,
+    /// The frames a second and the nanoseconds that stand beside it.
+    pub(super) beside: [Option<f64>; 2],
     /// Whether a column says that it was displayed.
     pub(super) surely_displayed: bool,
     /// Whether a driver generated it, or repeated it, so that the program did not begin a frame.
@@ -80,28 +120,40 @@ impl Columns {
             let index = index(name).or_else(|| index(name.strip_prefix("Ms")?))?;
             Some(Column { index, name: header[index].trim().to_owned() })
         };
-        let times = |(span, began, beside): &(Span, &str, Beside)| {
-            let displayed = match beside {
-                Beside::Display(name) => Some(column(name)?),
-                Beside::Other(name) => index(name).map(|_| None)?,
-                Beside::Nothing => None,
+        let is_dropped_said = index("Dropped").is_some();
+        let times = |(format, span, began, beside): &(&'static str, Span, &str, Beside)| {
+            let (displayed, is_until) = match beside {
+                Beside::Until(_) if is_dropped_said => return None,
+                Beside::Until(name) => (Some(column(name)?), true),
+                Beside::Display(name) => (Some(column(name)?), false),
+                Beside::Other(name) => index(name).map(|_| (None, false))?,
+                Beside::Nothing => (None, false),
             };
-            Some((*span, column(began)?, displayed))
+            let unit = (*format != MANGOHUD).then_some(Unit::Milliseconds);
+            Some((*format, unit, *span, column(began)?, (displayed, is_until)))
         };
-        let Some((span, began, displayed)) = TIMES.iter().find_map(times) else {
+        let found = FORMATS.iter().find_map(times).or_else(|| {
+            let (began, unit) = of_list(header)?;
+            Some((LIST, unit, Span::Before, began, (None, false)))
+        });
+        let Some((format, unit, span, began, (displayed, is_until))) = found else {
             let found = clip_list(header.iter().map(str::trim));
             return Err(Fault::Columns { found });
         };
+        let beside = if format == MANGOHUD { ["fps", "elapsed"].map(index) } else { [None; 2] };
         Ok(Self {
+            format,
+            unit,
             span,
             began,
             displayed,
+            is_until,
+            beside,
             dropped: column("Dropped"),
             frame_type: index("FrameType"),
             application: index("Application"),
             process: index("ProcessID"),
             swap_chain: index("SwapChainAddress"),
-            count: header.len(),
         })
     }
 
@@ -109,16 +161,24 @@ impl Columns {
     pub(super) fn of_list() -> Self {
         let began = Column { index: 0, name: "1".into() };
         Self {
+            format: LIST,
+            unit: None,
             span: Span::Before,
             began,
             displayed: None,
+            is_until: false,
+            beside: [None; 2],
             dropped: None,
             frame_type: None,
             application: None,
             process: None,
             swap_chain: None,
-            count: 1,
         }
+    }
+
+    /// Whether frames begin and are displayed by one clock.
+    pub(super) fn has_one_clock(&self) -> bool {
+        self.is_until
     }
 
     /// Whether the log says when frames are displayed.
@@ -126,19 +186,26 @@ impl Columns {
         self.displayed.is_some()
     }
 
-    /// Reads a row.
-    pub(super) fn read<'a>(&self, row: &'a StringRecord) -> Result<Cells<'a>, Fault> {
-        let (cells, header) = (row.len(), self.count);
+    /// How many cells a row must have at least: up to the last that is read.
+    fn needed(&self) -> usize {
+        let columns = [Some(&self.began), self.displayed.as_ref(), self.dropped.as_ref()];
+        let columns = columns.into_iter().flatten().map(|column| column.index);
+        let texts = [self.frame_type, self.application, self.process, self.swap_chain];
+        let all = columns.chain(texts.into_iter().flatten());
+        all.max().map_or(0, |last| last + 1)
+    }
+
+    /// Reads a row whose times are in this unit.
+    pub(super) fn read<'a>(&self, row: &'a StringRecord, unit: Unit) -> Result<Cells<'a>, Fault> {
+        let (cells, header) = (row.len(), self.needed());
         if cells < header {
             return Err(Fault::FewCells { cells, header });
-        } else if cells > header {
-            return Err(Fault::ManyCells { cells, header });
         }
         let text = |index: Option<usize>| index.map_or("", |index| row[index].trim());
         let dropped = self.dropped.as_ref().map(|column| column.flag(row)).transpose()?;
-        let began_ns = self.began.time(row)?;
+        let began_ns = self.began.time(row, unit)?;
         let displayed_ns = match &self.displayed {
-            Some(column) => column.time(row)?,
+            Some(column) => column.time(row, unit)?,
             None => began_ns,
         };
         let frame_type = text(self.frame_type);
@@ -148,6 +215,8 @@ impl Columns {
             swap_chain: text(self.swap_chain),
             span: self.span,
             began_ns: began_ns.ok_or_else(|| Fault::NoTime { column: self.began.name.clone() }),
+            is_until: self.is_until,
+            beside: self.beside.map(|index| row.get(index?)?.trim().parse().ok()),
             displayed_ns: displayed_ns.filter(|_| dropped != Some(true)),
             surely_displayed: dropped == Some(false) || self.displayed.is_none(),
             is_generated: !RENDERED.iter().any(|known| known.eq_ignore_ascii_case(frame_type)),
@@ -156,8 +225,8 @@ impl Columns {
 }
 
 impl Column {
-    fn time(&self, row: &StringRecord) -> Result<Option<i64>, Fault> {
-        milliseconds::nanoseconds(&row[self.index])
+    fn time(&self, row: &StringRecord, unit: Unit) -> Result<Option<i64>, Fault> {
+        durations::nanoseconds(&row[self.index], unit)
             .map_err(|fault| Fault::Cell { column: self.name.clone(), fault })
     }
 

@@ -114,6 +114,7 @@ impl Stream {
         };
         let displayed_ns = match (cells.displayed_ns, self.last_shown_ns) {
             (None, _) => None,
+            (Some(until), _) if cells.is_until => Some(began_ns + until),
             // What it was displayed after came before the recording.
             (Some(_), None) => Some(began_ns),
             // Logs without NA write 0 instead.

@@ -1,6 +1,9 @@
 //! A log of one coordinate, from text, and the body of which it is.
 
+use csv::ByteRecord;
+
 use crate::scene::{clip, clip_list};
+use crate::table::{Decimal, Reading, TableError, TableReader, Utf8, number};
 
 /// A row of a log.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,24 +93,45 @@ impl From<String> for Fault {
 }
 
 /// Where a log has which column, from 0.
-struct Columns<'a> {
-    header: &'a csv::StringRecord,
+struct Columns {
+    names: Vec<String>,
     time: TimeColumn,
     x: usize,
     v: Option<usize>,
+    decimal: Decimal,
 }
 
 enum TimeColumn {
     Ticks(usize),
-    Seconds(usize),
+    /// With how many of its unit are a second.
+    Time(usize, f64),
 }
 
-impl<'a> Columns<'a> {
-    fn find(header: &'a csv::StringRecord, names: &ColumnNames) -> Result<Self, Fault> {
+/// Other names of the columns of ticks, of seconds and of milliseconds, in whatever case.
+const OF_TICKS: [&str; 3] = ["tick", "frame", "step"];
+const OF_SECONDS: [&str; 6] = ["t", "time", "t_s", "time_s", "seconds", "elapsed"];
+const OF_MILLISECONDS: [&str; 5] = ["t_ms", "time_ms", "ms", "timestamp_ms", "elapsed_ms"];
+const MS: f64 = 1e3;
+/// A log whose second row seems this many ticks after the first has its times in milliseconds.
+const TOO_FAR: f64 = 500.0;
+
+impl Columns {
+    /// Finds the columns; `per_second` is how many of the unit of a column of times are a second, where its name does not say.
+    fn find(
+        header: Vec<String>,
+        decimal: Decimal,
+        names: &ColumnNames,
+        per_second: f64,
+    ) -> Result<Self, Fault> {
         let column = |wanted: &str| header.iter().position(|known| known == wanted);
+        let one_of = |known: &[&str]| {
+            header
+                .iter()
+                .position(|name| known.iter().any(|known| name.eq_ignore_ascii_case(known)))
+        };
         let absent = |what: &str, setting: LogSetting| Fault {
             mistaken: Some(setting),
-            what: format!("no column {what}; here are {}", listed(header)),
+            what: format!("no column {what}; here are {}", listed(&header)),
         };
         let Some(x) = column(&names.x) else {
             return Err(absent(&format!("{:?}", names.x), LogSetting::CoordinateColumn));
@@ -123,40 +147,45 @@ impl<'a> Columns<'a> {
                 return Err(absent(&format!("{wanted:?}"), setting));
             }
         }
-        let time = tick.map(TimeColumn::Ticks).or(t.map(TimeColumn::Seconds)).ok_or_else(|| {
+        // A name that was given leaves no other.
+        let tick = tick.or_else(|| one_of(&OF_TICKS).filter(|_| names.t == usual.t));
+        let seconds = t.or_else(|| one_of(&OF_SECONDS));
+        let milliseconds = one_of(&OF_MILLISECONDS);
+        let t = seconds.map(|at| (at, per_second)).or(milliseconds.map(|at| (at, MS)));
+        let time = tick.map(TimeColumn::Ticks);
+        let time = time.or(t.map(|(at, per_second)| TimeColumn::Time(at, per_second)));
+        let time = time.ok_or_else(|| {
             let both = format!("{:?} and none {:?}", names.tick, names.t);
             absent(&both, LogSetting::TickOrTimeColumn)
         })?;
-        Ok(Self { header, time, x, v })
+        Ok(Self { names: header, time, x, v, decimal })
+    }
+
+    /// Whether its times count as seconds.
+    fn is_in_seconds(&self) -> bool {
+        matches!(self.time, TimeColumn::Time(_, 1.0))
     }
 
     /// How many ticks a row lies after the first, which lies at `first` by the log's own count.
-    fn tick_of(
+    fn ticks_since(
         &self,
-        record: &csv::StringRecord,
+        record: &ByteRecord,
         tick_hz: f64,
         first: &mut Option<f64>,
-    ) -> Result<u64, Fault> {
+    ) -> Result<f64, Fault> {
         let at = match self.time {
             TimeColumn::Ticks(tick) => self.number(record, tick)?,
-            TimeColumn::Seconds(t) => self.number(record, t)? * tick_hz,
+            TimeColumn::Time(t, per_second) => self.number(record, t)? / per_second * tick_hz,
         };
-        let since = at - *first.get_or_insert(at);
-        let tick = since.round();
-        if tick < 0.0 || (since - tick).abs() > OFF_TICK {
-            let what = format!(
-                "the row is {since:.3} ticks of {tick_hz} Hz after the first; rows are at whole ticks"
-            );
-            return Err(Fault { mistaken: Some(LogSetting::TickRate), what });
-        }
-        Ok(tick as u64)
+        Ok(at - *first.get_or_insert(at))
     }
 
-    fn number(&self, record: &csv::StringRecord, column: usize) -> Result<f64, Fault> {
+    fn number(&self, record: &ByteRecord, column: usize) -> Result<f64, Fault> {
         let cell = &record[column];
-        let found = cell.parse::<f64>().ok().filter(|number| number.is_finite());
+        let found = number(cell, self.decimal).filter(|number| number.is_finite());
         found.ok_or_else(|| {
-            let [column, cell] = [&self.header[column], cell].map(clip);
+            let cell = String::from_utf8_lossy(cell);
+            let [column, cell] = [self.names[column].as_str(), cell.trim()].map(clip);
             format!(
                 "column \"{column}\": \"{cell}\" is no number; write one, or cut the log before it"
             )
@@ -165,15 +194,22 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// The columns that there are, for a message.
-fn listed(header: &csv::StringRecord) -> String {
-    let names: Vec<String> = header.iter().map(|name| format!("\"{name}\"")).collect();
-    let listed = clip_list(names.iter().map(String::as_str));
-    match &names[..] {
-        [] => "no columns".to_owned(),
-        [one] if one.contains([';', '\t']) => format!("{listed}, without a comma between columns"),
-        _ => listed,
+/// The tick of a row that lies this far after the first, in ticks.
+fn whole_tick(since: f64, tick_hz: f64) -> Result<u64, Fault> {
+    let tick = since.round();
+    if tick < 0.0 || (since - tick).abs() > OFF_TICK {
+        let what = format!(
+            "the row is {since:.3} ticks of {tick_hz} Hz after the first; rows are at whole ticks"
+        );
+        return Err(Fault { mistaken: Some(LogSetting::TickRate), what });
     }
+    Ok(tick as u64)
+}
+
+/// The columns that there are, for a message.
+fn listed(header: &[String]) -> String {
+    let names: Vec<String> = header.iter().map(|name| format!("\"{name}\"")).collect();
+    clip_list(names.iter().map(String::as_str))
 }
 
 impl Log {
@@ -184,7 +220,7 @@ impl Log {
     /// Rows after this many ticks are not used.
     pub const MAX_TICKS: u64 = 3000;
 
-    /// Reads a log from the text of a CSV file with a header; `name` is the file's, for messages.
+    /// Reads a log from the text of a table with a header; `name` is the file's, for messages.
     ///
     /// # Errors
     /// The first fault of the text.
@@ -194,27 +230,51 @@ impl Log {
         columns: &ColumnNames,
         tick_hz: f64,
     ) -> Result<Log, LogError> {
+        Self::from_bytes(name, text.as_bytes(), columns, tick_hz)
+    }
+
+    /// Like [`Log::parse`], from the bytes of a file in UTF-8 or UTF-16.
+    ///
+    /// # Errors
+    /// As [`Log::parse`].
+    pub fn from_bytes(
+        name: &str,
+        bytes: &[u8],
+        columns: &ColumnNames,
+        tick_hz: f64,
+    ) -> Result<Log, LogError> {
+        Self::read(name, bytes, columns, (tick_hz, 1.0))
+    }
+
+    fn read(
+        name: &str,
+        bytes: &[u8],
+        names: &ColumnNames,
+        (tick_hz, per_second): (f64, f64),
+    ) -> Result<Log, LogError> {
         let at = |line: u64| {
             move |Fault { mistaken, what }: Fault| {
                 let name = name.to_owned();
                 LogError { name, line, mistaken, fault: what }
             }
         };
-        let broken = |e: csv::Error| {
-            let line = e.position().map_or(1, csv::Position::line);
-            let what = format!("the row cannot be read: {e}; give each row the header's cells");
-            at(line)(what.into())
-        };
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut reader =
-            csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
-        let header = reader.headers().map_err(broken)?.clone();
-        let columns = Columns::find(&header, columns).map_err(at(1))?;
+        let broken = |error: TableError| at(error.line)(error.fault.to_string().into());
+        let is_header =
+            |row: &ByteRecord| row.iter().any(|cell| cell.trim_ascii() == names.x.as_bytes());
+        let begun = TableReader::begin(Utf8::new(bytes), Reading::default(), is_header);
+        let mut table = begun.map_err(broken)?;
+        let name_of = |cell: &[u8]| String::from_utf8_lossy(cell).trim().to_owned();
+        let header = table.header().iter().map(name_of).collect();
+        let found = Columns::find(header, table.decimal(), names, per_second);
+        let columns = found.map_err(at(table.header_line()))?;
         let (mut rows, mut first): (Vec<LogRow>, Option<f64>) = (Vec::new(), None);
-        for record in reader.records() {
-            let record = record.map_err(broken)?;
-            let line = record.position().map_or(1, csv::Position::line);
-            let tick = columns.tick_of(&record, tick_hz, &mut first).map_err(at(line))?;
+        let mut record = ByteRecord::new();
+        while let Some(line) = table.next(&mut record).map_err(broken)? {
+            let since = columns.ticks_since(&record, tick_hz, &mut first).map_err(at(line))?;
+            if rows.len() == 1 && since >= TOO_FAR && columns.is_in_seconds() {
+                return Self::read(name, bytes, names, (tick_hz, MS));
+            }
+            let tick = whole_tick(since, tick_hz).map_err(at(line))?;
             if rows.last().is_some_and(|before| before.tick >= tick) {
                 let what = format!("tick {tick} does not follow the row before; put rows in order");
                 return Err(at(line)(what.into()));
@@ -222,12 +282,8 @@ impl Log {
             if tick > Self::MAX_TICKS {
                 break;
             }
-            let number = |column| columns.number(&record, column).map_err(at(line));
-            rows.push(LogRow {
-                tick,
-                x: number(columns.x)?,
-                v: columns.v.map(number).transpose()?,
-            });
+            let value = |column| columns.number(&record, column).map_err(at(line));
+            rows.push(LogRow { tick, x: value(columns.x)?, v: columns.v.map(value).transpose()? });
         }
         let has_velocities = columns.v.is_some();
         let least = if has_velocities { Self::MIN_ROWS } else { Self::MIN_ROWS_WITHOUT_VELOCITY };

@@ -59,16 +59,16 @@ fn times_stand_for_ticks_and_columns_may_have_other_names() {
 fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
     let folder = tempdir().unwrap();
     for (text, told) in [
-        ("", "log.csv:1: no column \"x\"; here are no columns"),
+        ("", "log.csv:1: there is nothing here"),
         (
             "tick,y\n0,1\n",
             "log.csv:1: no column \"x\"; here are \"tick\", \"y\"; name the coordinate's with --x-column",
         ),
-        ("tick;x\n0;1\n", "here are \"tick;x\", without a comma between columns"),
+        ("tick;x\n0;1\n", "log.csv:1: a log of 1 rows says too little"),
         ("x\n1\n", "log.csv:1: no column \"tick\" and none \"t\""),
         ("tick,x\n0,1\n1,abc\n", "log.csv:3: column \"x\": \"abc\" is no number"),
         ("tick,x\n0,1\n1,NaN\n", "log.csv:3: column \"x\": \"NaN\" is no number"),
-        ("tick,x\n0,1\n1\n", "log.csv:3: the row cannot be read"),
+        ("tick,x\n0,1\n1\n", "log.csv:3: the row has 1 of the header's 2 cells"),
         ("t,x\n0,1\n0.02,1\n", "log.csv:3: the row is 1.200 ticks of 60 Hz after the first"),
         ("tick,x\n0,1\n0,2\n", "log.csv:3: tick 0 does not follow the row before"),
         ("tick,x\n0,1\n1,2\n", "log.csv:1: a log of 2 rows says too little; log at least 4"),
@@ -138,4 +138,36 @@ fn an_overdamped_spring_that_is_not_given_is_fitted() {
     let ratio = found["effective_damping_ratio"].as_f64().unwrap_or_else(|| panic!("{found}"));
     assert!((ratio - 2.5).abs() < 0.01, "{ratio}");
     assert!(found["effective_frequency_hz"].is_null());
+}
+
+#[test]
+fn a_log_is_read_the_same_with_tabs_semicolons_and_decimal_commas() {
+    let folder = tempdir().unwrap();
+    let (mut x, mut v, h) = (1.0_f64, 0.0_f64, 1.0 / 60.0);
+    let mut text = "# of a game\ntick,x,v\n".to_owned();
+    for tick in 0..90 {
+        text += &format!("{tick},{x:?},{v:?}\n");
+        v += h * -(40.0 * x + 0.5 * v) / 2.0;
+        x += h * v;
+    }
+    let told = |text: &str| {
+        fs::write(folder.path().join("log.csv"), text).unwrap();
+        let output = run_in(folder.path(), "identify log.csv --tick-hz 60 --k 40 --c 0.5 --mass 2");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let said = told(&text);
+    assert!(said.contains("semi-implicit"), "{said}");
+    assert_eq!(told(&text.replace(',', "\t")), said);
+    assert_eq!(told(&text.replace("tick,", "Frame,")), said);
+    for (name, per_tick) in [("Time", 1.0 / 60.0), ("time_ms", 1e3 / 60.0), ("t", 1e3 / 60.0)] {
+        let timed = text.lines().map(|line| match line.split_once(',') {
+            Some((tick, rest)) => match tick.parse::<f64>() {
+                Ok(tick) => format!("{:?},{rest}\n", tick * per_tick),
+                Err(_) => format!("{name},{rest}\n"),
+            },
+            None => format!("{line}\n"),
+        });
+        assert_eq!(told(&timed.collect::<String>()), said, "{name}");
+    }
+    assert_eq!(told(&text.replace(',', ";").replace('.', ",")), said);
 }

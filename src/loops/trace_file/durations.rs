@@ -1,23 +1,51 @@
-//! Milliseconds as logs write them, read into whole nanoseconds.
+//! Times as logs write them, read into whole nanoseconds.
 
 use crate::scene::clip;
 
 const DAY_NS: i64 = 86_400_000_000_000;
 
+/// The unit of a column of times.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unit {
+    Seconds,
+    Milliseconds,
+    Microseconds,
+}
+
+impl Unit {
+    /// The decimal of the unit that is a nanosecond.
+    fn places(self) -> i64 {
+        match self {
+            Self::Seconds => 9,
+            Self::Milliseconds => 6,
+            Self::Microseconds => 3,
+        }
+    }
+
+    /// Its name for people.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Seconds => "seconds",
+            Self::Milliseconds => "ms",
+            Self::Microseconds => "µs",
+        }
+    }
+}
+
 /// Why a cell is no time.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum Unreadable {
-    #[error("expected milliseconds, found \"{0}\"; write a number such as 16.683, or NA")]
+    #[error("expected a time, found \"{0}\"; write a number such as 16.683, or NA")]
     NotANumber(String),
-    #[error("{0} ms is negative; time does not run backwards: take the row out")]
+    #[error("{0} is negative; time does not run backwards: take the row out")]
     Negative(String),
-    #[error("{0} ms is more than a day; take the row out")]
+    #[error("{0} is more than a day; take the row out")]
     TooLong(String),
 }
 
-/// The nanoseconds of a decimal number of milliseconds, rounded once, from its digits; `None` where the log says that it
+/// The nanoseconds of a decimal number in a unit, rounded once, from its digits; `None` where the log says that it
 /// has none. The decimal sign may be a comma.
-pub(super) fn nanoseconds(cell: &str) -> Result<Option<i64>, Unreadable> {
+pub(super) fn nanoseconds(cell: &str, unit: Unit) -> Result<Option<i64>, Unreadable> {
     let cell = cell.trim();
     if ["", "na", "n/a"].iter().any(|none| cell.eq_ignore_ascii_case(none)) {
         return Ok(None);
@@ -26,7 +54,7 @@ pub(super) fn nanoseconds(cell: &str) -> Result<Option<i64>, Unreadable> {
         Some(number) => (true, number),
         None => (false, cell.strip_prefix('+').unwrap_or(cell)),
     };
-    let ns = unsigned(number).ok_or_else(|| Unreadable::NotANumber(clip(cell)))?;
+    let ns = unsigned(number, unit.places()).ok_or_else(|| Unreadable::NotANumber(clip(cell)))?;
     match ns {
         1.. if negative => Err(Unreadable::Negative(clip(cell))),
         DAY_NS.. => Err(Unreadable::TooLong(clip(cell))),
@@ -35,7 +63,7 @@ pub(super) fn nanoseconds(cell: &str) -> Result<Option<i64>, Unreadable> {
 }
 
 /// At most a day; `None` if this is no number.
-fn unsigned(number: &str) -> Option<i64> {
+fn unsigned(number: &str, unit_places: i64) -> Option<i64> {
     let (decimal, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
     // A longer exponent than any tool writes would only take time to follow.
     let exponent = exponent.parse::<i64>().ok().filter(|e| (-99..=99).contains(e))?;
@@ -44,8 +72,7 @@ fn unsigned(number: &str) -> Option<i64> {
     if digits().next().is_none() || !digits().all(|byte| byte.is_ascii_digit()) {
         return None;
     }
-    // A nanosecond is the sixth decimal of a millisecond.
-    let places = i64::try_from(whole.len()).ok()? + exponent + 6;
+    let places = i64::try_from(whole.len()).ok()? + exponent + unit_places;
     let mut rest = digits().map(|byte| i64::from(byte - b'0'));
     let mut ns = 0;
     for _ in 0..places {
@@ -79,10 +106,21 @@ mod tests {
             ("-0.0", 0),
             ("86399999.999999", DAY_NS - 1),
         ] {
-            assert_eq!(nanoseconds(cell), Ok(Some(ns)), "{cell}");
+            assert_eq!(nanoseconds(cell, Unit::Milliseconds), Ok(Some(ns)), "{cell}");
         }
         for cell in ["NA", "na", "", "  ", "N/A"] {
-            assert_eq!(nanoseconds(cell), Ok(None), "{cell}");
+            assert_eq!(nanoseconds(cell, Unit::Milliseconds), Ok(None), "{cell}");
+        }
+    }
+
+    #[test]
+    fn a_time_is_the_same_in_every_unit() {
+        for (cell, unit) in [
+            ("0.0166667", Unit::Seconds),
+            ("16.6667", Unit::Milliseconds),
+            ("16666.7", Unit::Microseconds),
+        ] {
+            assert_eq!(nanoseconds(cell, unit), Ok(Some(16_666_700)), "{cell}");
         }
     }
 
@@ -91,11 +129,22 @@ mod tests {
         for cell in
             ["nan", "inf", "-inf", ".", "-", "1.2.3", "1,234.5", "16 ms", "0x10", "1e", "1e999"]
         {
-            assert_eq!(nanoseconds(cell), Err(Unreadable::NotANumber(cell.into())), "{cell}");
+            assert_eq!(
+                nanoseconds(cell, Unit::Milliseconds),
+                Err(Unreadable::NotANumber(cell.into())),
+                "{cell}"
+            );
         }
-        assert_eq!(nanoseconds("-16.7"), Err(Unreadable::Negative("-16.7".into())));
+        assert_eq!(
+            nanoseconds("-16.7", Unit::Milliseconds),
+            Err(Unreadable::Negative("-16.7".into()))
+        );
         for cell in ["86400000", "1e99", "99999999999999999999999999"] {
-            assert_eq!(nanoseconds(cell), Err(Unreadable::TooLong(cell.into())), "{cell}");
+            assert_eq!(
+                nanoseconds(cell, Unit::Milliseconds),
+                Err(Unreadable::TooLong(cell.into())),
+                "{cell}"
+            );
         }
     }
 }

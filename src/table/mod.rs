@@ -1,0 +1,319 @@
+//! One reader of tables, for logs of any tool: bytes come in, and a header, rows of cells and numbers come out.
+//!
+//! A [`TableReader`] passes the byte order mark, blank lines, remarks that begin with `#` or `//`, and up to
+//! [`MAX_ABOVE`] lines above the header that its reader does not know. The header says what separates the cells: commas,
+//! semicolons or tabs. A [decoder](Utf8) turns UTF-16 into UTF-8 on the way. Where cells are not separated by commas, a
+//! number may have a decimal one.
+
+use std::io::{self, BufRead, Read};
+
+use csv::ByteRecord;
+
+mod encoding;
+mod number;
+
+pub use encoding::Utf8;
+pub use number::{Decimal, number};
+
+/// The most lines above a header, beside remarks and blank lines.
+pub const MAX_ABOVE: u64 = 16;
+/// The most bytes of a row, of the header or of a line above it. A log has none of that length; what has no ends of lines,
+/// such as a device, does.
+pub const MAX_ROW_BYTES: usize = 1 << 20;
+/// What is read of an input at once, in bytes.
+pub(crate) const BUFFER_BYTES: usize = 1 << 20;
+
+/// What is told of a table to read it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reading {
+    /// Whether a row may have fewer cells than the header, of which its reader then sees to those that it needs.
+    pub short_rows: bool,
+    /// Whether the first line may be a row already, if it is a number alone: a list without a header.
+    pub lists: bool,
+}
+
+/// Why a table cannot be read, with its line.
+#[derive(Debug, thiserror::Error)]
+#[error("{fault}")]
+pub struct TableError {
+    /// The line, from 1.
+    pub line: u64,
+    /// What is wrong there.
+    pub fault: TableFault,
+}
+
+/// What can be wrong with a table.
+#[derive(Debug, thiserror::Error)]
+pub enum TableFault {
+    /// There is no line but blank ones and remarks.
+    #[error("there is nothing here")]
+    Empty,
+    /// The input cannot be read.
+    #[error("{0}")]
+    Input(io::Error),
+    /// A row has more or fewer cells than the header.
+    #[error("{}", cells_in_words(*cells, *header))]
+    Cells {
+        /// The row's.
+        cells: usize,
+        /// The header's.
+        header: usize,
+    },
+}
+
+fn cells_in_words(cells: usize, header: usize) -> String {
+    match cells < header {
+        true => format!(
+            "the row has {cells} of the header's {header} cells; take it out if it was cut off"
+        ),
+        false => format!(
+            "the row has {cells} cells and the header {header}; if its numbers have decimal commas, write points, or separate \
+             the cells with semicolons"
+        ),
+    }
+}
+
+/// A table, read row by row.
+pub struct TableReader<R> {
+    rows: csv::Reader<Bounded<io::Chain<io::Cursor<Vec<u8>>, R>>>,
+    header: ByteRecord,
+    /// The first row of a list, which has no header.
+    first: Option<ByteRecord>,
+    /// The lines above the row that is read first.
+    above: u64,
+    header_line: u64,
+    is_list: bool,
+    separator: u8,
+    reading: Reading,
+}
+
+impl<R: BufRead> TableReader<R> {
+    /// Reads as far as the header, which is the first line that `is_header` takes for one; where it takes none, the first
+    /// line that is neither blank nor a remark.
+    ///
+    /// # Errors
+    /// What keeps it from being read, and if there is nothing.
+    pub fn begin(
+        mut input: R,
+        reading: Reading,
+        is_header: impl Fn(&ByteRecord) -> bool,
+    ) -> Result<Self, TableError> {
+        let (mut head, mut starts) = (Vec::new(), Vec::<usize>::new());
+        let mut candidates = 0;
+        let mut found = None;
+        while candidates <= MAX_ABOVE {
+            let start = head.len();
+            let read = (&mut input).take(MAX_ROW_BYTES as u64).read_until(b'\n', &mut head);
+            let line = starts.len() as u64 + 1;
+            read.map_err(|error| TableError { line, fault: TableFault::Input(error) })?;
+            if head.len() - start == MAX_ROW_BYTES {
+                return Err(TableError {
+                    line,
+                    fault: TableFault::Input(io::Error::other(TooLong)),
+                });
+            }
+            if head.len() == start {
+                break;
+            }
+            starts.push(start);
+            let text = head[start..].trim_ascii();
+            if text.is_empty() || is_remark(text) {
+                continue;
+            }
+            let is_list = reading.lists && candidates == 0 && is_number(text);
+            if is_list || is_header(&cells(text)) {
+                found = Some(starts.len() - 1);
+                break;
+            }
+            candidates += 1;
+            found = None;
+        }
+        let is_first = |start: &usize| -> bool {
+            let end = head[*start..].iter().position(|byte| *byte == b'\n');
+            let text = head[*start..end.map_or(head.len(), |end| start + end)].trim_ascii();
+            !text.is_empty() && !is_remark(text)
+        };
+        let at = found.or_else(|| starts.iter().position(|start| is_first(start)));
+        let Some(at) = at else { return Err(TableError { line: 1, fault: TableFault::Empty }) };
+        let rest = head.split_off(starts[at]);
+        let end = rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
+        let line = rest[..end].trim_ascii().to_vec();
+        let is_list = reading.lists && is_number(&line);
+        let separator = if is_list { b';' } else { separator(&line) };
+        let mut rows = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .delimiter(separator)
+            .buffer_capacity(BUFFER_BYTES)
+            .from_reader(Bounded { input: io::Cursor::new(rest).chain(input), in_row: 0 });
+        let mut first = ByteRecord::new();
+        let above = at as u64;
+        rows.read_byte_record(&mut first).map_err(|error| TableError {
+            line: above + 1,
+            fault: TableFault::Input(error.into()),
+        })?;
+        let (header, first) =
+            if is_list { (ByteRecord::from(vec![""]), Some(first)) } else { (first, None) };
+        Ok(Self { rows, header, first, above, header_line: above + 1, is_list, separator, reading })
+    }
+
+    /// The names of the columns; of a list one that is empty.
+    pub fn header(&self) -> &ByteRecord {
+        &self.header
+    }
+
+    /// Whether it is a list, which has no header.
+    pub fn is_list(&self) -> bool {
+        self.is_list
+    }
+
+    /// The line of the header, or of the first row of a list.
+    pub fn header_line(&self) -> u64 {
+        self.header_line
+    }
+
+    /// What its numbers may have before their decimals.
+    pub fn decimal(&self) -> Decimal {
+        if self.separator == b',' { Decimal::Point } else { Decimal::PointOrComma }
+    }
+
+    /// Reads the next row, and returns its line; `None` after the last. Blank lines and remarks are passed.
+    ///
+    /// # Errors
+    /// What keeps it from being read, and if it has other cells than the header.
+    pub fn next(&mut self, row: &mut ByteRecord) -> Result<Option<u64>, TableError> {
+        if let Some(first) = self.first.take() {
+            *row = first;
+            return Ok(Some(self.header_line));
+        }
+        loop {
+            self.rows.get_mut().in_row = 0;
+            let line = self.above + self.rows.position().line();
+            let read = self.rows.read_byte_record(row);
+            let is_there = read.map_err(|error| TableError {
+                line: self.above + error.position().map_or(line, csv::Position::line),
+                fault: TableFault::Input(error.into()),
+            })?;
+            if !is_there {
+                return Ok(None);
+            }
+            let line = self.above + row.position().map_or(line, csv::Position::line);
+            let (cells, header) = (row.len(), self.header.len());
+            let first = row.get(0).unwrap_or_default().trim_ascii_start();
+            // With the cells of a row, or some of them, it is one: of an object that is called so.
+            let is_said = cells == 1 || first.starts_with(b"# ") || first.starts_with(b"//");
+            if cells != header && is_remark(first) && is_said {
+                continue;
+            }
+            if cells > header || cells < header && !self.reading.short_rows {
+                return Err(TableError { line, fault: TableFault::Cells { cells, header } });
+            }
+            return Ok(Some(line));
+        }
+    }
+}
+
+/// Whether a line is a remark.
+fn is_remark(line: &[u8]) -> bool {
+    line.starts_with(b"#") || line.starts_with(b"//")
+}
+
+/// Whether a line is a number alone.
+fn is_number(line: &[u8]) -> bool {
+    number(line, Decimal::PointOrComma).is_some()
+}
+
+/// The cells of a line.
+fn cells(line: &[u8]) -> ByteRecord {
+    let mut row = ByteRecord::new();
+    let mut builder = csv::ReaderBuilder::new();
+    let mut reader = builder.has_headers(false).delimiter(separator(line)).from_reader(line);
+    drop(reader.read_byte_record(&mut row));
+    row
+}
+
+/// What separates the cells of a header: of equal counts the comma.
+fn separator(header: &[u8]) -> u8 {
+    let count = |separator: &u8| header.iter().filter(|byte| *byte == separator).count();
+    [b'\t', b';', b','].into_iter().max_by_key(count).expect("three")
+}
+
+/// Fails where a row does not end.
+struct Bounded<R> {
+    input: R,
+    /// What was read since the row began.
+    in_row: usize,
+}
+
+impl<R: Read> Read for Bounded<R> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        if self.in_row >= MAX_ROW_BYTES {
+            return Err(io::Error::other(TooLong));
+        }
+        let read = self.input.read(bytes)?;
+        self.in_row += read;
+        Ok(read)
+    }
+}
+
+/// A row of more than [`MAX_ROW_BYTES`].
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "a row of more than {MAX_ROW_BYTES} bytes, which no log has; end each row, and close each quotation mark"
+)]
+struct TooLong;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The header, its line, and the rows with their lines.
+    fn read(text: &str, reading: Reading, known: &str) -> (Vec<String>, u64, Vec<(u64, String)>) {
+        let of = |record: &ByteRecord| -> Vec<String> {
+            record.iter().map(|cell| String::from_utf8_lossy(cell).into_owned()).collect()
+        };
+        let is_header = |row: &ByteRecord| row.iter().any(|cell| cell == known.as_bytes());
+        let mut table = TableReader::begin(text.as_bytes(), reading, is_header).unwrap();
+        let (header, line) = (of(table.header()), table.header_line());
+        let (mut rows, mut row) = (Vec::new(), ByteRecord::new());
+        while let Some(line) = table.next(&mut row).unwrap() {
+            rows.push((line, of(&row).join("|")));
+        }
+        (header, line, rows)
+    }
+
+    #[test]
+    fn a_header_is_found_below_remarks_headings_and_blank_lines_whatever_separates_the_cells() {
+        for separator in [",", ";", "\t"] {
+            let text = "# made by x\n\n// and y\nMachine:A\nos,cpu\nt,x\n0,1.5\n# later\n1,2\n"
+                .replace(',', separator);
+            let (header, line, rows) = read(&text, Reading::default(), "x");
+            assert_eq!((header.join("|").as_str(), line), ("t|x", 6), "{separator:?}");
+            assert_eq!(rows, [(7, "0|1.5".to_owned()), (9, "1|2".to_owned())]);
+        }
+    }
+
+    #[test]
+    fn quotes_short_rows_and_lists_are_read_where_they_are_wanted() {
+        let short = Reading { short_rows: true, ..Reading::default() };
+        let (.., rows) = read("x,name\n1,\"a, b\"\n2\n", short, "x");
+        assert_eq!(rows, [(2, "1|a, b".to_owned()), (3, "2".to_owned())]);
+        let lists = Reading { lists: true, ..Reading::default() };
+        let (header, line, rows) = read("# times\n16,7\n16.6\n", lists, "x");
+        assert_eq!((header, line), (vec![String::new()], 2));
+        assert_eq!(rows, [(2, "16,7".to_owned()), (3, "16.6".to_owned())]);
+        let begun = TableReader::begin("a,b\n1\n".as_bytes(), Reading::default(), |_| true);
+        let error = begun.unwrap().next(&mut ByteRecord::new()).unwrap_err();
+        assert!(error.line == 2 && error.to_string().contains("1 of the header's 2"), "{error}");
+    }
+
+    #[test]
+    fn nothing_is_a_fault_and_a_header_that_nobody_knows_is_the_first_line() {
+        for text in ["", "\n\n", "# only a remark\n"] {
+            let begun = TableReader::begin(text.as_bytes(), Reading::default(), |_| true);
+            assert!(matches!(begun.map(|_| ()).unwrap_err().fault, TableFault::Empty), "{text:?}");
+        }
+        let (header, line, rows) = read("a,b\n1,2\n", Reading::default(), "x");
+        assert_eq!((header.join("|").as_str(), line, rows.len()), ("a|b", 1, 1));
+    }
+}
