@@ -62,6 +62,7 @@ fn every_key_of_the_table_does_what_the_table_says() {
             Command::Ask(DriverRequest::ExportInstrument),
             Command::Ask(DriverRequest::ToggleFullScreen),
             Command::View(ViewCommand::AskForPath),
+            Command::View(ViewCommand::AskForRun),
             Command::View(ViewCommand::AskForSpring),
             // It opens a scene, and lets time run.
             Command::View(ViewCommand::ToggleGuide),
@@ -173,14 +174,14 @@ fn a_chord_with_control_or_alt_is_not_ours() {
 }
 
 #[test]
-fn the_guide_opens_its_first_stop_and_escape_closes_it() {
-    let test = "the_guide_opens_its_first_stop_and_escape_closes_it";
+fn the_guide_opens_a_stop_that_waits_and_escape_leads_back_to_ones_own_run() {
+    let test = "the_guide_opens_a_stop_that_waits_and_escape_leads_back_to_ones_own_run";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("F2");
-    desk.titled("Regatta - ship - Runge-Kutta 4 - 10 Hz");
-    desk.press("space");
-    desk.press_and_see("Escape");
+    // Time waits for the prediction.
     desk.titled("Regatta - ship - Runge-Kutta 4 - 10 Hz (paused)");
+    desk.press_and_see("Escape");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     desk.quit();
 }
 

