@@ -36,8 +36,9 @@ fn panels_are_worked_by_the_mouse_at_every_scale() {
         desk.press("space");
         desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz (paused)");
         open_scene_menu(&desk, scale);
-        // The third scene, below one's own spring and the name of its group: so long a list begins at the top of so low a window.
-        click(50, 116);
+        // The third scene, below one's own spring, the comparison and the name of its group: so long a list begins at the top of
+        // so low a window.
+        click(50, 137);
         desk.titled("Regatta - ship - Explicit Euler - 2 Hz (paused)");
         desk.quit();
     }

@@ -124,7 +124,7 @@ fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
     assert!((1..119).contains(&tick), "{tick}");
     desk.at_tick(tick);
     twin.click(&desk, "2 Semi-implicit Euler");
-    twin.click(&desk, "undo ");
+    twin.click(&desk, "undo: ");
     assert_eq!((twin.studio.run().end(), twin.studio.active()), (120, 0));
     same(&desk, &mut twin);
     desk.press("F2");
