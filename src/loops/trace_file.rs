@@ -172,7 +172,7 @@ fn read_in(
     };
     let is_header = |row: &ByteRecord| Columns::find(&text_of(row)).is_ok();
     // OCAT writes what it knows of the machine in the first row alone.
-    let reading = Reading { short_rows: true, lists: true };
+    let reading = Reading { short_rows: true, remarks: true, lists: true };
     let mut table = TableReader::begin(Utf8::new(bytes), reading, is_header).map_err(broken)?;
     let (header_line, is_list) = (table.header_line(), table.is_list());
     let header = text_of(table.header());

@@ -28,6 +28,8 @@ pub(crate) const BUFFER_BYTES: usize = 1 << 20;
 pub struct Reading {
     /// Whether a row may have fewer cells than the header, of which its reader then sees to those that it needs.
     pub short_rows: bool,
+    /// Whether remarks may stand between rows, too.
+    pub remarks: bool,
     /// Whether the first line may be a row already, if it is a number alone: a list without a header.
     pub lists: bool,
 }
@@ -202,7 +204,7 @@ impl<R: BufRead> TableReader<R> {
             let first = row.get(0).unwrap_or_default().trim_ascii_start();
             // With the cells of a row, or some of them, it is one: of an object that is called so.
             let is_said = cells == 1 || first.starts_with(b"# ") || first.starts_with(b"//");
-            if cells != header && is_remark(first) && is_said {
+            if self.reading.remarks && cells != header && is_remark(first) && is_said {
                 continue;
             }
             if cells > header || cells < header && !self.reading.short_rows {
@@ -287,7 +289,8 @@ mod tests {
         for separator in [",", ";", "\t"] {
             let text = "# made by x\n\n// and y\nMachine:A\nos,cpu\nt,x\n0,1.5\n# later\n1,2\n"
                 .replace(',', separator);
-            let (header, line, rows) = read(&text, Reading::default(), "x");
+            let remarks = Reading { remarks: true, ..Reading::default() };
+            let (header, line, rows) = read(&text, remarks, "x");
             assert_eq!((header.join("|").as_str(), line), ("t|x", 6), "{separator:?}");
             assert_eq!(rows, [(7, "0|1.5".to_owned()), (9, "1|2".to_owned())]);
         }

@@ -303,7 +303,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
         studio.apply(RunCommand::Seek(1000));
         let found = shown(studio.run());
         assert!(found == end, "scene {n}: {}", difference(&found, &end));
-        assert_eq!(studio.run().redoes(), Some("the kick at tick 400"));
+        assert_eq!(studio.run().redoes(), Some("the kick (tick 400)"));
     }
 }
 

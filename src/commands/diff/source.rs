@@ -104,12 +104,15 @@ impl Table {
         let input = Utf8::new(BufReader::with_capacity(BUFFER_BYTES, input));
         let of = name.clone();
         let fault = move |TableError { line, fault }: TableError| {
-            let remedy = match &fault {
-                TableFault::Input(_) => "; give a table that you may read",
-                TableFault::Empty => "; give a table with a header",
-                TableFault::Cells { .. } => "",
-            };
-            Error::mistake(format!("{of}:{line}: {fault}{remedy}"))
+            Error::mistake(match &fault {
+                TableFault::Empty => format!("{of} is empty; give a table with a header"),
+                TableFault::Input(_) => {
+                    format!("{of}:{line}: {fault}; give a table that you may read")
+                }
+                TableFault::Cells { .. } => format!(
+                    "{of}:{line}: {fault}; give each row the header's cells, and notes a place above the header"
+                ),
+            })
         };
         let begun = TableReader::begin(input, Reading::default(), |_| true);
         let mut reader = begun.map_err(&fault)?;

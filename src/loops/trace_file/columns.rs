@@ -80,7 +80,8 @@ fn of_list(header: &StringRecord) -> Option<(Column, Option<Unit>)> {
     let name = header.get(0).filter(|_| header.len() == 1)?.trim();
     let lower = name.to_lowercase();
     let words: Vec<&str> = lower.split(|c: char| !c.is_alphabetic()).collect();
-    let is_named = words.iter().any(|word| OF_LIST.contains(word));
+    let is_plain = |sign: char| sign.is_alphanumeric() || "_ ()[].".contains(sign);
+    let is_named = words.iter().any(|word| OF_LIST.contains(word)) && name.chars().all(is_plain);
     let unit = UNITS.iter().find(|(known, _)| words[1..].contains(known)).map(|(_, unit)| *unit);
     is_named.then(|| (Column { index: 0, name: name.to_owned() }, unit))
 }

@@ -261,7 +261,8 @@ impl Log {
         let broken = |error: TableError| at(error.line)(error.fault.to_string().into());
         let is_header =
             |row: &ByteRecord| row.iter().any(|cell| cell.trim_ascii() == names.x.as_bytes());
-        let begun = TableReader::begin(Utf8::new(bytes), Reading::default(), is_header);
+        let reading = Reading { remarks: true, ..Reading::default() };
+        let begun = TableReader::begin(Utf8::new(bytes), reading, is_header);
         let mut table = begun.map_err(broken)?;
         let name_of = |cell: &[u8]| String::from_utf8_lossy(cell).trim().to_owned();
         let header = table.header().iter().map(name_of).collect();

@@ -17,7 +17,7 @@ const RIGHT_OF_PARTS: f32 = 156.0;
 const GAP: f32 = 5.0;
 /// The least height of a plot, in points, and to what it shrinks where all fit then. Else there are fewer plots.
 const MIN_HEIGHT: f32 = 70.0;
-const SHRUNK: f32 = 54.0;
+const SHRUNK: f32 = 44.0;
 /// How many times higher the plot of the chosen body is than the others.
 const CHOSEN: f32 = 2.0;
 

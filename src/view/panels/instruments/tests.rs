@@ -330,7 +330,7 @@ fn where_the_scale_leaves_little_room_nothing_vanishes_in_silence() {
     (0..60).for_each(|_| studio.tick());
     // A window of 1280 × 720 at 125 and 175 %, one of 2560 × 1440 at 175 %, and a small one.
     for (size, all, spring) in [
-        ([1024.0, 576.0], false, "My spring"),
+        ([1024.0, 576.0], true, "My spring"),
         ([731.0, 411.0], false, "Spring"),
         ([1462.0, 822.0], true, "My spring"),
         ([800.0, 600.0], true, "My spring"),

@@ -53,36 +53,3 @@ pub(in crate::view::panels) fn parts(loops: &LoopLab) -> Vec<String> {
         "`D` next display · `1` … `9`, `0` a loop · `L` leave".into(),
     ]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::loops::loop_lab::LoopCommand;
-    use crate::scene::Scene;
-    use crate::studio::{Command, StageCommand, Studio, run_loops};
-
-    #[test]
-    fn what_raw_ticks_are_said_to_do_is_what_their_report_says_at_every_rate() {
-        let mut said = 0;
-        for hz in [2, 10, 30, 60, 120] {
-            let mut studio = Studio::new(Scene::built_in("ship").unwrap());
-            studio.apply(StageCommand::TickHz(hz));
-            studio.apply(Command::Loop(LoopCommand::ToggleLab));
-            run_loops(&mut studio);
-            let loops = studio.loop_lab().expect("it is open");
-            let raw = POLICIES.iter().position(|card| card.id == RAW).unwrap();
-            let Some(report) = loops.lanes()[raw].report() else { continue };
-            let hint = parts(loops).join("; ");
-            let [none, two] = [report.repeated_percent, report.double_percent].map(Option::unwrap);
-            if hint.contains("flip between none and two") {
-                said += 1;
-                assert!(none < 1.5 * two && none > 1.0, "{hz} Hz: {none} % repeat, {two} % double");
-            }
-            if let Some((_, rest)) = hint.split_once(" Hz, ") {
-                let percent: f64 = rest.split(" %").next().unwrap().parse().unwrap();
-                assert!((percent - none).abs() <= 0.05 * none, "{hz} Hz: {hint}, {none}");
-            }
-        }
-        assert!(said > 0, "at the display's own rate they flip");
-    }
-}
