@@ -20,6 +20,8 @@ pub const MAX_ABOVE: u64 = 16;
 /// The most bytes of a row, of the header or of a line above it. A log has none of that length; what has no ends of lines,
 /// such as a device, does.
 pub const MAX_ROW_BYTES: usize = 1 << 20;
+/// The most bytes above a header, and of it.
+const MAX_HEAD_BYTES: usize = 1 << 22;
 /// What is read of an input at once, in bytes.
 pub(crate) const BUFFER_BYTES: usize = 1 << 20;
 
@@ -100,19 +102,18 @@ impl<R: BufRead> TableReader<R> {
         reading: Reading,
         is_header: impl Fn(&ByteRecord) -> bool,
     ) -> Result<Self, TableError> {
+        let too_long =
+            |line| TableError { line, fault: TableFault::Input(io::Error::other(TooLong)) };
         let (mut head, mut starts) = (Vec::new(), Vec::<usize>::new());
+        let (mut first, mut found) = (None, None);
         let mut candidates = 0;
-        let mut found = None;
-        while candidates <= MAX_ABOVE {
+        while candidates <= MAX_ABOVE && found.is_none() {
             let start = head.len();
             let read = (&mut input).take(MAX_ROW_BYTES as u64).read_until(b'\n', &mut head);
             let line = starts.len() as u64 + 1;
             read.map_err(|error| TableError { line, fault: TableFault::Input(error) })?;
-            if head.len() - start == MAX_ROW_BYTES {
-                return Err(TableError {
-                    line,
-                    fault: TableFault::Input(io::Error::other(TooLong)),
-                });
+            if head.len() - start == MAX_ROW_BYTES || head.len() > MAX_HEAD_BYTES {
+                return Err(too_long(line));
             }
             if head.len() == start {
                 break;
@@ -122,21 +123,13 @@ impl<R: BufRead> TableReader<R> {
             if text.is_empty() || is_remark(text) {
                 continue;
             }
-            let is_list = reading.lists && candidates == 0 && is_number(text);
-            if is_list || is_header(&cells(text)) {
-                found = Some(starts.len() - 1);
-                break;
-            }
+            let here = starts.len() - 1;
+            let is_list = reading.lists && first.is_none() && is_number(text);
+            found = (is_list || is_header(&cells(text))).then_some(here);
+            first.get_or_insert(here);
             candidates += 1;
-            found = None;
         }
-        let is_first = |start: &usize| -> bool {
-            let end = head[*start..].iter().position(|byte| *byte == b'\n');
-            let text = head[*start..end.map_or(head.len(), |end| start + end)].trim_ascii();
-            !text.is_empty() && !is_remark(text)
-        };
-        let at = found.or_else(|| starts.iter().position(|start| is_first(start)));
-        let Some(at) = at else { return Err(TableError { line: 1, fault: TableFault::Empty }) };
+        let at = found.or(first).ok_or(TableError { line: 1, fault: TableFault::Empty })?;
         let rest = head.split_off(starts[at]);
         let end = rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
         let line = rest[..end].trim_ascii().to_vec();
