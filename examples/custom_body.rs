@@ -32,7 +32,7 @@ fn main() {
     let methods = ["explicit-euler", "semi-implicit-euler", "velocity-verlet", "rk4"];
     let options = || Options {
         name: "hover craft",
-        tick_hz: 60,
+        tick_hz: 60.into(),
         seconds: 5.0,
         methods: methods.map(|id| method(id).expect("a built-in method")).into(),
         // All that follows is optional: here two sliders in the window.

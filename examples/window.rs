@@ -18,7 +18,7 @@ impl System for Buoy {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let options = Options { name: "buoy", tick_hz: 20, ..Options::default() };
+    let options = Options { name: "buoy", tick_hz: 20.into(), ..Options::default() };
     let scene = Scene::of(&Buoy { drag_per_s: 0.3 }, State { q: 0.8, v: 0.0 }, options)?;
     let closed = Window::run(Session::racing(scene.into()))?;
     println!("closed at {} s", closed.studio.race().t());

@@ -204,11 +204,11 @@ fn script() -> Vec<(u64, Action)> {
         of(7, Action::Throttle(0.3)),
         switch(60, "semi-implicit-euler"),
         of(61, Action::Kick(-1.0)),
-        of(200, Action::TickHz(49)),
+        of(200, Action::TickHz(49.into())),
         switch(300, "adaptive-euler"),
         of(301, Action::Throttle(0.2)),
         of(301, Action::Throttle(0.1)),
-        of(800, Action::TickHz(240)),
+        of(800, Action::TickHz(240.into())),
         switch(1000, "rk4"),
         of(1001, Action::Throttle(-1.0)),
         of(1001, Action::Rudder(0.7)),
@@ -299,7 +299,8 @@ fn ragged_frames_lose_ticks_to_the_cap_and_the_loss_is_counted() {
     }
     assert!(dropped > 0);
     assert_eq!((studio.race().tick(), studio.deck.dropped()), (ticks, dropped));
-    let owed = real_ns.unsigned_abs() * u64::from(studio.clock().tick_hz()) / SECOND.unsigned_abs();
+    let owed = real_ns.unsigned_abs() * u64::from(studio.clock().tick_hz().whole_hz().unwrap())
+        / SECOND.unsigned_abs();
     assert_eq!(ticks + dropped, owed, "every nanosecond is a tick stepped, dropped, or owed");
 }
 

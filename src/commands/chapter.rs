@@ -18,8 +18,8 @@ use super::output::print;
 use super::terminal::{print_status, report_left_alone};
 use crate::run::{Follow, Lane};
 use crate::scene::Scene;
-use crate::sim::Solver;
 use crate::sim::integrators::{Method, method};
+use crate::sim::{Solver, TickRate};
 use crate::view::{OffscreenRenderer, png};
 
 mod adaptive;
@@ -116,22 +116,22 @@ fn method_of(id: &str) -> &'static Method {
 
 /// The scene's first body at every tick up to `seconds`, the start included, at the scene's tick rate.
 fn by_method(scene: &Scene, id: &str, seconds: f64) -> Vec<Moment> {
-    moments(scene, Solver::Method(method_of(id)), seconds, f64::from(scene.tick_hz))
+    moments(scene, Solver::Method(method_of(id)), seconds, scene.tick_hz)
 }
 
 /// The exact motion of the scene's first body, with `per_second` states per second.
-fn exactly(scene: &Scene, seconds: f64, per_second: f64) -> Vec<Moment> {
-    moments(scene, Solver::Truth, seconds, per_second)
+fn exactly(scene: &Scene, seconds: f64, per_second: impl Into<TickRate>) -> Vec<Moment> {
+    moments(scene, Solver::Truth, seconds, per_second.into())
 }
 
-fn moments(scene: &Scene, solver: Solver, seconds: f64, hz: f64) -> Vec<Moment> {
+fn moments(scene: &Scene, solver: Solver, seconds: f64, rate: TickRate) -> Vec<Moment> {
     let at = |lane: &Lane, tick: u64| {
         let stepper = &lane.bodies()[0].stepper;
-        Moment { t: tick as f64 / hz, q: stepper.q()[0], v: stepper.v()[0] }
+        Moment { t: rate.seconds(tick), q: stepper.q()[0], v: stepper.v()[0] }
     };
-    let mut follow = Follow::new(Lane::new(scene, solver, 1), hz);
+    let mut follow = Follow::new(Lane::new(scene, solver, 1), rate);
     let mut moments = vec![at(&follow.body, 0)];
-    follow.run((seconds * hz).round() as u64, |lane, tick| {
+    follow.run((seconds * rate.hz()).round() as u64, |lane, tick| {
         moments.push(at(lane, tick));
         ControlFlow::Continue(())
     });

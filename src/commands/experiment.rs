@@ -11,11 +11,11 @@ use super::id::{METHOD, TRACE};
 use super::output::Input;
 use super::scene_file;
 use super::spring::SpringArgs;
+use super::tick_rate::TickRateArgs;
 use crate::look::palette::Theme;
 use crate::loops::{TRACES, TraceCard};
 use crate::run::race::{Mode, lanes_that_race};
 use crate::scene::{LaneSpec, MAX_SECONDS, SCENES, Scene, SceneGroup};
-use crate::sim::Clock;
 use crate::sim::integrators::Method;
 use crate::studio::{Studio, lineup, open_loop_lab_on};
 
@@ -38,12 +38,8 @@ pub(super) struct ExperimentArgs {
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 
-    /// Ticks per second [default: the scene's]
-    ///
-    /// From 1 to 10000.
-    #[arg(long, value_name = "N")]
-    #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
-    tick_hz: Option<u32>,
+    #[command(flatten)]
+    tick_rate: TickRateArgs,
 }
 
 /// A scene with the command line's options applied, and the methods that run it.
@@ -84,7 +80,7 @@ impl ExperimentArgs {
 
     /// A scene with the other options.
     fn applied_to(&self, scene: Scene) -> Result<Scene, Error> {
-        let tick_hz = self.tick_hz.unwrap_or(scene.tick_hz);
+        let tick_hz = self.tick_rate.given().unwrap_or(scene.tick_hz);
         let scene = scene.at_tick_hz(tick_hz);
         self.methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
         Ok(scene.with_methods(&self.methods))
@@ -102,7 +98,8 @@ impl ExperimentArgs {
 
     /// The same options with this scene, unless they choose the scene, its methods or its tick rate.
     pub(super) fn or_scene(&self, scene: &Path) -> Self {
-        let is_chosen = self.names_a_scene() || !self.methods.is_empty() || self.tick_hz.is_some();
+        let is_chosen =
+            self.names_a_scene() || !self.methods.is_empty() || self.tick_rate.given().is_some();
         let scene = if is_chosen { self.scene.clone() } else { Some(scene.to_owned()) };
         Self { scene, ..self.clone() }
     }
@@ -195,11 +192,6 @@ pub(super) fn some_seconds(written: &str) -> Result<f64, String> {
         0.0 => Err("give more than 0 seconds".into()),
         seconds => Ok(seconds),
     }
-}
-
-/// A range of whole numbers, for the command line's parser.
-pub(super) fn range_of(range: std::ops::RangeInclusive<u32>) -> std::ops::RangeInclusive<i64> {
-    i64::from(*range.start())..=i64::from(*range.end())
 }
 
 /// Takes any path; offers these names to the shell's completion.

@@ -235,7 +235,7 @@ fn written(
     language
         .template
         .replace("@ABOUT@", &about.join("\n"))
-        .replace("@HZ@", &scene.tick_hz.to_string())
+        .replace("@HZ@", &json!(scene.tick_hz).to_string())
         .replace("@LEAST@", &format!("{least:e}"))
         .replace("@REAL@", real)
         .replace("@STATES@", &table)

@@ -10,7 +10,7 @@ use super::argument::number_that;
 #[cfg(feature = "view")]
 use super::drawing::Plot;
 use super::error::Error;
-use super::experiment::{PathOrName, range_of, scene_names, some_seconds, trace_names};
+use super::experiment::{PathOrName, scene_names, some_seconds, trace_names};
 use super::file_names::{check_picture_name, row_format};
 use super::help::flowing;
 use super::id::{METHOD, POLICY};
@@ -18,6 +18,7 @@ use super::interrupt::watch_for_interrupt;
 use super::output::table::{RowFormat, RowWriter};
 use super::output::{Destination, Input, Output, STDOUT, same_file_path};
 use super::scene_file;
+use super::tick_rate::TickRateArgs;
 use super::trace_source::traces;
 use crate::atomic_file::IfExists;
 use crate::loops::{
@@ -26,7 +27,6 @@ use crate::loops::{
 };
 use crate::run::Unit;
 use crate::scene::{LaneSpec, Scene};
-use crate::sim::Clock;
 use crate::sim::integrators::Method;
 use crate::sim::number::counted;
 
@@ -83,12 +83,8 @@ pub(super) struct LoopArgs {
     #[arg(hide_possible_values = true)]
     traces: Vec<PathBuf>,
 
-    /// Ticks per second [default: the scene's]
-    ///
-    /// From 1 to 10000.
-    #[arg(long, value_name = "N")]
-    #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
-    tick_hz: Option<u32>,
+    #[command(flatten)]
+    tick_rate: TickRateArgs,
 
     /// The refresh rate [default: the trace's]
     ///
@@ -154,7 +150,7 @@ pub(super) struct LoopArgs {
 pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let (scene, _) = scene_file::load(&args.scene)?;
     scene_file::check_method(&scene, args.method)?;
-    let scene = Scene { tick_hz: args.tick_hz.unwrap_or(scene.tick_hz), ..scene };
+    let scene = Scene { tick_hz: args.tick_rate.given().unwrap_or(scene.tick_hz), ..scene };
     let traces = traces(&args.traces, args.display_hz)?;
     let format = row_format(&args.out, args.format)?;
     if let Some(plot) = args.plot() {

@@ -8,6 +8,7 @@ use super::argument::{brief, number, number_that, positive};
 use super::error::Error;
 use super::help::flowing;
 use super::output::table::TableFormat;
+use super::tick_rate::{rate_of_a_log, rate_of_a_step};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 use crate::tools::identify::{ColumnNames, Log, LogError, LogSetting, LoggedBody, identify};
 
@@ -56,8 +57,14 @@ pub(super) struct IdentifyArgs {
     log: PathBuf,
 
     /// Ticks per second of the game that wrote it
-    #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true)]
-    tick_hz: f64,
+    #[arg(long, value_name = "N", value_parser = rate_of_a_log, allow_negative_numbers = true)]
+    #[arg(required_unless_present = "step")]
+    tick_hz: Option<f64>,
+
+    /// The length of a tick in seconds, in place of --tick-hz
+    #[arg(long, value_name = "s", value_parser = rate_of_a_step, conflicts_with = "tick_hz")]
+    #[arg(allow_negative_numbers = true)]
+    step: Option<f64>,
 
     /// The mass in kg
     #[arg(long, value_name = "kg", default_value = "1", value_parser = positive)]
@@ -110,14 +117,6 @@ pub(super) struct LogArgs {
     v_column: String,
 }
 
-pub(super) fn rate(written: &str) -> Result<f64, String> {
-    number_that(
-        written,
-        |hz| hz > 0.0 && hz <= 1e6,
-        "a rate above 0 and up to 1000000 Hz, such as 60",
-    )
-}
-
 fn signed(written: &str) -> Result<f64, String> {
     number_that(written, |_| true, "a number")
 }
@@ -165,8 +164,9 @@ impl LogArgs {
 }
 
 pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
-    let log = args.read.read(&args.log, args.tick_hz)?;
-    let found = identify(&log, &args.read.body(args.mass), args.tick_hz);
+    let tick_hz = args.tick_hz.or(args.step).expect("the parser requires one");
+    let log = args.read.read(&args.log, tick_hz)?;
+    let found = identify(&log, &args.read.body(args.mass), tick_hz);
     let text = match (args.format, &found) {
         (TableFormat::Text, Some(found)) => words(found, &log, args.mass),
         (TableFormat::Text, None) => NOTHING_RUNS.to_owned(),

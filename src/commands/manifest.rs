@@ -11,7 +11,8 @@
 //!     the scene gives one, its `tolerance`, and `joint`, what its engine is told of springs.
 //!   - `race`: whether all of them race. If not, the `selected` method is shown solo; `null` stands for the scene's opening
 //!     method, and among many lanes for the best.
-//!   - `tick_hz` at the start, `frames` asked for, `fps`, `size` in pixels, `scale` in pixels a point,
+//!   - `tick_hz` at the start, a number if it is a decimal, else a ratio such as `"60000/1001"`, `frames` asked for, `fps`,
+//!     `size` in pixels, `scale` in pixels a point,
 //!     whether there are `panels`, the `instrument` among
 //!     them and what the `cloud` is where they were asked for, whether there is `motion`, the `theme` where it is `light`, the trace of the `loop` lab where that is shown, and `mark_every`, in ticks.
 //! - `settings_hash`: the hash of `settings` as JSON without spaces.
@@ -35,6 +36,7 @@ use serde_json::{Map, Value};
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::run::diff::is_same_number;
+use crate::sim::TickRate;
 
 /// The number of the description above. A manifest of another one cannot be judged.
 pub const SCHEMA: u32 = 1;
@@ -73,7 +75,8 @@ pub struct Settings {
     #[serde(default, rename = "loop", skip_serializing_if = "Option::is_none")]
     pub loop_trace: Option<String>,
     pub selected: Option<String>,
-    pub tick_hz: u32,
+    #[serde(with = "exact")]
+    pub tick_hz: TickRate,
     pub frames: u32,
     pub fps: u32,
     pub size: [u32; 2],
@@ -87,6 +90,37 @@ pub struct Settings {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub theme: Option<String>,
     pub mark_every: u64,
+}
+
+/// A tick rate as JSON that is read back as the same: a number if it is a decimal, else text such as `1/0.015`.
+mod exact {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+    use crate::sim::TickRate;
+
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Written {
+        Whole(u32),
+        Decimal(f64),
+        Ratio(String),
+    }
+
+    pub(super) fn serialize<S: Serializer>(rate: &TickRate, to: S) -> Result<S::Ok, S::Error> {
+        match rate.decimal_hz() {
+            Some(_) => rate.serialize(to),
+            None => to.collect_str(rate),
+        }
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<TickRate, D::Error> {
+        let rate = match Written::deserialize(from)? {
+            Written::Whole(hz) => Ok(hz.into()),
+            Written::Decimal(hz) => hz.try_into(),
+            Written::Ratio(text) => text.parse(),
+        };
+        rate.map_err(de::Error::custom)
+    }
 }
 
 impl Settings {
@@ -291,6 +325,27 @@ mod tests {
         let mut other = mark.clone();
         other.q[0][6] = 1.0;
         assert!(!other.is_same(&mark));
+    }
+
+    #[test]
+    fn a_tick_rate_is_a_number_or_text_that_is_read_back_as_the_same() {
+        #[derive(Debug, PartialEq, Deserialize, Serialize)]
+        struct Rate(#[serde(with = "exact")] TickRate);
+        for (rate, json) in [
+            ("60", "60"),
+            ("66.667", "66.667"),
+            ("9999.999999999", "9999.999999999"),
+            ("1/0.015", "\"1/0.015\""),
+            ("60000/1001", "\"60000/1001\""),
+        ] {
+            let rate = Rate(rate.parse().unwrap());
+            assert_eq!(serde_json::to_string(&rate).unwrap(), json);
+            assert_eq!(serde_json::from_str::<Rate>(json).unwrap(), rate);
+        }
+        for bad in ["1e9", "-1", "\"fast\"", "59.94005994006"] {
+            let error = serde_json::from_str::<Rate>(bad).unwrap_err().to_string();
+            assert!(error.contains("give a rate from 0.01 to 10000 Hz"), "{bad}: {error}");
+        }
     }
 
     #[test]

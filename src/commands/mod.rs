@@ -80,6 +80,7 @@ mod interrupt;
 mod jobs;
 mod output;
 mod terminal;
+mod tick_rate;
 mod visible;
 
 pub use error::Error;

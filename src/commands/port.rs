@@ -7,8 +7,9 @@ use super::argument::{brief, frequency, number, positive};
 use super::error::Error;
 use super::help::flowing;
 use super::id::Id;
-use super::identify::{LogArgs, rate};
+use super::identify::LogArgs;
 use super::output::table::TableFormat;
+use super::tick_rate::{rate_of_a_log, rate_of_a_step};
 use crate::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{METHODS, Method};
 use crate::tools::port::{
@@ -83,9 +84,14 @@ pub(super) struct PortArgs {
     mass: f64,
 
     /// Ticks per second of the engines and of a log, frames per second of user interfaces
-    #[arg(long, value_name = "N", default_value = "60", value_parser = rate)]
+    #[arg(long, value_name = "N", default_value = "60", value_parser = rate_of_a_log)]
     #[arg(allow_negative_numbers = true)]
     tick_hz: f64,
+
+    /// The length of a tick in seconds, in place of --tick-hz
+    #[arg(long, value_name = "s", value_parser = rate_of_a_step, conflicts_with = "tick_hz")]
+    #[arg(allow_negative_numbers = true)]
+    step: Option<f64>,
 
     /// Substeps per tick, 1 to 1000 [default: each engine's own]
     #[arg(long, value_name = "N")]
@@ -149,6 +155,13 @@ const TARGET: Id<Target> = Id {
     spellings: Vec::new,
 };
 
+impl PortArgs {
+    /// The tick rate in Hz.
+    fn tick_hz(&self) -> f64 {
+        self.step.unwrap_or(self.tick_hz)
+    }
+}
+
 fn about() -> String {
     let with_version = |dialect: &Dialect| match dialect.version {
         "" => dialect.id.to_owned(),
@@ -172,7 +185,7 @@ struct Drive {
 
 pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     let from = args.from.as_deref().map(|written| {
-        From::parse(written, args.tick_hz, args.mass)
+        From::parse(written, args.tick_hz(), args.mass)
             .map_err(|fault| Error::mistake(format!("--from {}: {fault}", brief(written.as_ref()))))
     });
     let from = from.transpose()?;
@@ -192,8 +205,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         }
         Some(From::Engine(wish) | From::Dialect(wish)) => wish,
         Some(From::Log(path)) => {
-            let log = args.read.read(&path, args.tick_hz)?;
-            let found = identify(&log, &args.read.body(args.mass), args.tick_hz);
+            let log = args.read.read(&path, args.tick_hz())?;
+            let found = identify(&log, &args.read.body(args.mass), args.tick_hz());
             let seen = found.and_then(|found| found.effective).filter(|seen| seen.omega > 0.0);
             let none = || {
                 Error::mistake(format!(
@@ -219,7 +232,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         asked.iter().any(asks)
     };
     let methods: Vec<&Method> = engines().filter(is_asked).collect();
-    let setups = setups(Some(&methods), args.tick_hz, args.substeps);
+    let setups = setups(Some(&methods), args.tick_hz(), args.substeps);
     let asked = asked.iter().flat_map(|asked| match asked {
         Target::Dialects => DIALECTS,
         Target::Dialect(dialect) => std::slice::from_ref(*dialect),
@@ -239,8 +252,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         }
     }
     match setups.is_empty() {
-        true => wish.check_numbers(args.tick_hz).map_err(Error::mistake)?,
-        false => wish.check(args.tick_hz).map_err(Error::mistake)?,
+        true => wish.check_numbers(args.tick_hz()).map_err(Error::mistake)?,
+        false => wish.check(args.tick_hz()).map_err(Error::mistake)?,
     }
     let text = if args.drive {
         let limits = |setup: Setup| {
@@ -251,11 +264,11 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             Drive { setup, limits: [of(None)].into_iter().chain(own_force).collect() }
         };
         let drives: Vec<Drive> = setups.into_iter().map(limits).collect();
-        report::drives(&wish, args.tick_hz, &drives, args.format)
+        report::drives(&wish, args.tick_hz(), &drives, args.format)
     } else {
         let of = |setup| PortedEngine { setup, ported: port(&wish, setup) };
         let all: Vec<PortedEngine> = setups.into_iter().map(of).collect();
-        report::springs(&wish, args.tick_hz, &all, &dialects, args.format)
+        report::springs(&wish, args.tick_hz(), &all, &dialects, args.format)
     };
     args.format.print(&text)
 }

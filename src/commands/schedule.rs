@@ -66,11 +66,7 @@ fn until_rate_changes(studio: &Studio) -> u64 {
     let (tick, clock) = (studio.race().tick(), studio.clock());
     let mut rates = studio.race().rates_to_come();
     let Some((next, _)) = rates.find(|(at, _)| *at > tick) else { return u64::MAX };
-    // The clock counts in nanoseconds × hertz × percent.
-    let (owed, whole) = clock.alpha_fraction();
-    let due = u128::from(next - tick) * u128::from(whole) - u128::from(owed);
-    let pace = u64::from(clock.tick_hz()) * u64::from(clock.speed_percent());
-    u64::try_from(due.div_ceil(pace.into())).unwrap_or(u64::MAX)
+    clock.ns_until(next - tick)
 }
 
 #[cfg(test)]
@@ -119,10 +115,10 @@ mod tests {
     #[test]
     fn each_frame_has_just_the_ticks_that_are_due() {
         for (tick_hz, fps) in
-            [(60, 30), (60, 60), (49, 30), (60, 24), (7, 1), (10_000, 3), (1, 1000)]
+            [(60_u32, 30_u32), (60, 60), (49, 30), (60, 24), (7, 1), (10_000, 3), (1, 1000)]
         {
             let mut scene = Scene::built_in("spring").unwrap();
-            scene.tick_hz = tick_hz;
+            scene.tick_hz = tick_hz.into();
             let mut studio = Studio::new(scene);
             let schedule = Schedule { frames: 2 * fps, fps };
             let mut seen = Ticks(0);

@@ -9,7 +9,6 @@ use crate::look::palette::Theme;
 use crate::measure::cloud::{CloudChoice, CloudKind};
 use crate::run::race::Mode;
 use crate::scene::{LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, Swing, TOLERANCES};
-use crate::sim::Clock;
 use crate::sim::integrators::method;
 use crate::studio::{Instrument, Motion, RunCommand, Studio};
 
@@ -103,7 +102,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings),
     let swing = |[frequency_hz, damping_ratio]: [f64; 2]| Swing { frequency_hz, damping_ratio };
     let joint = |lane: &LaneEntry| lane.joint.map(swing).is_none_or(Swing::is_in_range);
     for (key, is_in_range) in [
-        ("tick_hz", Clock::TICK_HZ.contains(&settings.tick_hz)),
+        ("tick_hz", settings.tick_hz.is_in_range()),
         ("frames", (1..=MAX_FRAMES).contains(&settings.frames)),
         ("fps", (1..=MAX_FPS).contains(&settings.fps)),
         ("scale", (0.5..=4.0).contains(&settings.scale)),
@@ -185,7 +184,7 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), String> {
         return Ok(());
     }
     match drawn_at_hz(manifest) {
-        Some(hz) if hz != u64::from(settings.tick_hz) => Err(format!(
+        Some(hz) if hz != settings.tick_hz.hz().round() as u64 => Err(format!(
             "it says {} Hz, but at {} frames per second its frames are those of {hz} Hz: another tick rate \
              is another run; capture again",
             settings.tick_hz, settings.fps

@@ -8,7 +8,7 @@ use serde_json::json;
 #[cfg(feature = "view")]
 use super::drawing::Plot;
 use super::error::Error;
-use super::experiment::{PathOrName, range_of, scene_names, some_seconds};
+use super::experiment::{PathOrName, scene_names, some_seconds};
 use super::file_names::{check_picture_name, row_format};
 use super::help::flowing;
 use super::id::METHOD;
@@ -17,9 +17,9 @@ use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, STDOUT};
 use super::scene_file;
 use super::spring::SpringArgs;
+use super::tick_rate::TickRatesArgs;
 use crate::atomic_file::IfExists;
 use crate::scene::{SCENES, Scene, SceneBody};
-use crate::sim::Clock;
 use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{METHODS, Method};
 
@@ -75,12 +75,8 @@ pub(super) struct SweepArgs {
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 
-    /// Tick rates in Hz, separated by commas
-    ///
-    /// From 1 to 10000; by default octaves about the scene's own.
-    #[arg(long, value_name = "N", value_delimiter = ',')]
-    #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
-    tick_hz: Vec<u32>,
+    #[command(flatten)]
+    tick_rates: TickRatesArgs,
 
     /// Values of a parameter: a row for each
     ///
@@ -193,9 +189,7 @@ impl SweepArgs {
             [] => method.is_for_games(),
             named => named.contains(method),
         };
-        let mut rates = self.tick_hz.clone();
-        rates.sort_unstable();
-        rates.dedup();
+        let rates = self.tick_rates.given();
         let methods = METHODS.iter().filter(asked).collect();
         for method in &self.methods {
             // A method runs on the bodies that it steps; one that steps none would leave no row.

@@ -5,6 +5,7 @@ use super::policy::PolicyCard;
 use super::verdict::LoopVerdict;
 use crate::measure::Severity;
 use crate::run::race::Interpolation;
+use crate::sim::TickRate;
 use crate::sim::number::round;
 
 /// Animation errors that differ by less are alike, in milliseconds: no display shows the difference.
@@ -60,7 +61,7 @@ impl NoLoop {
 /// Loops that were measured on one trace.
 pub struct MeasuredLoops<'a> {
     loops: Vec<(&'static PolicyCard, &'a PacingReport)>,
-    tick_hz: u32,
+    tick_hz: TickRate,
     origin_ms: f64,
 }
 
@@ -69,13 +70,13 @@ impl<'a> MeasuredLoops<'a> {
     /// origin. By two only differences of latencies have a meaning, so that they count from the least.
     pub fn new(
         loops: impl IntoIterator<Item = (&'static PolicyCard, &'a PacingReport)>,
-        tick_hz: u32,
+        tick_hz: impl Into<TickRate>,
         has_one_clock: bool,
     ) -> Self {
         let loops: Vec<_> = loops.into_iter().collect();
         let latencies = loops.iter().filter_map(|(_, report)| report.latency_mean_ms());
         let least = latencies.reduce(f64::min).filter(|_| !has_one_clock);
-        Self { loops, tick_hz, origin_ms: least.unwrap_or(0.0) }
+        Self { loops, tick_hz: tick_hz.into(), origin_ms: least.unwrap_or(0.0) }
     }
 
     /// The mean latency of the loop with this index, in milliseconds.

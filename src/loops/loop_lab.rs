@@ -10,9 +10,9 @@ use super::{
     TRACES, TraceCard, USUAL_LATENCY_MS,
 };
 use crate::run::race::LaneBody;
-use crate::scene::{MAX_TICK_HZ, Scene};
-use crate::sim::Solver;
+use crate::scene::Scene;
 use crate::sim::integrators::Method;
+use crate::sim::{Solver, TickRate};
 
 mod lane;
 mod running;
@@ -336,9 +336,9 @@ impl LoopLab {
         self.choose_trace(index);
     }
 
-    /// Chooses the tick rate in Hz, clamped to 1 to [`MAX_TICK_HZ`].
-    pub fn set_tick_hz(&mut self, tick_hz: u32) {
-        Arc::make_mut(&mut self.scene).tick_hz = tick_hz.clamp(1, MAX_TICK_HZ);
+    /// Chooses the tick rate, clamped to [`Clock::TICK_HZ`](crate::sim::Clock::TICK_HZ).
+    pub fn set_tick_hz(&mut self, tick_hz: impl Into<TickRate>) {
+        Arc::make_mut(&mut self.scene).tick_hz = tick_hz.into().clamp(TickRate::MIN, TickRate::MAX);
         self.ask();
     }
 

@@ -3,6 +3,11 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::sim::TickRate;
+
+/// The longest time in any unit: sums of a few have room.
+const LONGEST: i128 = i128::MAX / 4;
+
 /// Nanoseconds in a second.
 const SECOND_NS: i128 = 1_000_000_000;
 
@@ -77,47 +82,54 @@ fn greatest_common_divisor(mut a: u32, mut b: u32) -> u32 {
     a
 }
 
-/// The unit of time of one loop: a nanosecond divided by the tick rate and by the numerator of the refresh rate.
+/// The unit of time of one loop: a nanosecond divided by the numerators of the tick rate and of the refresh rate.
 ///
 /// In it a nanosecond, a tick and a refresh are whole, so that days of frames add up without a rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TimeBase {
-    tick_hz: u32,
+    tick_hz: TickRate,
     refresh: RefreshRate,
 }
 
 impl TimeBase {
-    /// The unit for a tick rate in Hz and a display.
+    /// The unit for a tick rate and a display.
     ///
     /// # Panics
     /// If the tick rate is 0.
-    pub fn new(tick_hz: u32, refresh: RefreshRate) -> Self {
+    pub fn new(tick_hz: impl Into<TickRate>, refresh: RefreshRate) -> Self {
+        let tick_hz = tick_hz.into();
         assert!(tick_hz > 0, "the caller checks the tick rate");
         Self { tick_hz, refresh }
     }
 
-    /// The tick rate in Hz.
-    pub fn tick_hz(&self) -> u32 {
+    /// The tick rate.
+    pub fn tick_hz(&self) -> TickRate {
         self.tick_hz
     }
     /// The length of a tick.
     pub fn tick(&self) -> i128 {
-        SECOND_NS * i128::from(self.refresh.numerator)
+        SECOND_NS * self.tick_terms()[1] * i128::from(self.refresh.numerator)
     }
     /// The time between two refreshes of the display.
     pub fn refresh(&self) -> i128 {
-        SECOND_NS * i128::from(self.refresh.denominator) * i128::from(self.tick_hz)
+        SECOND_NS * i128::from(self.refresh.denominator) * self.tick_terms()[0]
     }
-    /// A time in nanoseconds.
+    /// A time in nanoseconds. At tick rates of nine digits after the point it is 49 days at most.
     pub fn nanoseconds(&self, ns: i64) -> i128 {
-        i128::from(ns) * i128::from(self.tick_hz) * i128::from(self.refresh.numerator)
+        let ticks = i128::from(ns) * self.tick_terms()[0];
+        ticks.saturating_mul(self.refresh.numerator.into()).clamp(-LONGEST, LONGEST)
+    }
+
+    /// The ticks in a whole number of seconds, and that number.
+    fn tick_terms(&self) -> [i128; 2] {
+        self.tick_hz.ratio().map(i128::from)
     }
 
     /// A time in seconds: of n whole ticks to the bit n divided by the tick rate.
     pub fn seconds(&self, time: i128) -> f64 {
         let tick = self.tick();
         let part = time.rem_euclid(tick) as f64 / tick as f64;
-        (time.div_euclid(tick) as f64 + part) / f64::from(self.tick_hz)
+        self.tick_hz.seconds_of(time.div_euclid(tick) as f64 + part)
     }
 
     /// A time in milliseconds.
@@ -138,10 +150,14 @@ mod tests {
                 refresh.to_string().parse::<f64>().unwrap(),
                 (refresh.hz() * 100.0).round() / 100.0
             );
-            for tick_hz in [1, 7, 60, 10_000] {
+            for tick_hz in ["1", "7", "60", "10000", "59.94", "66.667", "1/0.015", "9999.999999999"]
+            {
+                let tick_hz: TickRate = tick_hz.parse().unwrap();
                 let base = TimeBase::new(tick_hz, refresh);
-                assert_eq!(base.tick() * i128::from(tick_hz), base.nanoseconds(1_000_000_000));
-                let day = 86_400_i128 * i128::from(tick_hz) * base.tick();
+                let [ticks, seconds] = tick_hz.ratio();
+                let second = base.nanoseconds(1_000_000_000);
+                assert_eq!(base.tick() * i128::from(ticks), second * i128::from(seconds));
+                let day = 86_400 * second;
                 assert_eq!(day, base.nanoseconds(86_400_000_000_000));
                 assert_eq!(base.seconds(day), 86_400.0);
                 assert_eq!(base.milliseconds(day), 86_400_000.0);
@@ -158,6 +174,16 @@ mod tests {
             assert_eq!(base.seconds(n * base.tick()), n as f64 / 49.0);
         }
         assert_eq!(base.seconds(base.tick()), 1.0 / 49.0);
+    }
+
+    #[test]
+    fn a_time_of_centuries_is_cut_where_a_rate_leaves_no_room() {
+        let refresh = RefreshRate::of_period(16_683_333);
+        let whole = TimeBase::new(10_000, refresh);
+        assert_eq!(whole.nanoseconds(i64::MAX) / whole.nanoseconds(1), i64::MAX.into());
+        let fine = TimeBase::new("9999.999999999".parse::<TickRate>().unwrap(), refresh);
+        let days = fine.nanoseconds(i64::MAX) / fine.nanoseconds(86_400_000_000_000);
+        assert_eq!(days, 49);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::fmt;
 use super::metrics::PacingReport;
 use super::policy::PolicyCard;
 use crate::measure::Severity;
+use crate::sim::TickRate;
 use crate::sim::number::round;
 
 /// An animation error that nobody sees, in milliseconds.
@@ -25,8 +26,8 @@ pub struct LoopVerdict {
 
 impl LoopVerdict {
     /// The verdict on a loop by its report at this tick rate in Hz.
-    pub fn of(card: &PolicyCard, report: &PacingReport, tick_hz: u32) -> Self {
-        let mut verdict = Self::seen(report, tick_hz);
+    pub fn of(card: &PolicyCard, report: &PacingReport, tick_hz: impl Into<TickRate>) -> Self {
+        let mut verdict = Self::seen(report, tick_hz.into());
         let differs = report.keeps_speed() != Some(false) && report.other_motion().is_some();
         if differs && !card.has_fixed_tick {
             verdict.parts.push("physics varies with the rate".into());
@@ -52,7 +53,7 @@ impl LoopVerdict {
     }
 
     /// The verdict on what a viewer sees.
-    fn seen(report: &PacingReport, tick_hz: u32) -> Self {
+    fn seen(report: &PacingReport, tick_hz: TickRate) -> Self {
         let said = |severity, words: &str| Self::new(severity, [Some(words.into())]);
         if report.keeps_speed() == Some(false) && report.animation_error_rms_ms.is_some() {
             return said(Severity::Bad, "speed depends on the frame rate");

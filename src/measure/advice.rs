@@ -15,6 +15,7 @@ use super::searches::{
 use super::slices::{Meter, Once, block_on};
 use super::verdict::{Finding, NotJudged, Verdict};
 use crate::scene::{LaneSpec, Scene, SceneBody, edited_values};
+use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 use crate::sim::stability::RateSearch;
 
@@ -88,19 +89,19 @@ impl CriterionResult {
 pub struct Adviser {
     scene: Scene,
     judge: Judge,
-    tick_hz: u32,
+    tick_hz: TickRate,
     /// Judges of the scene made stiffer, by the index of their [factor](fine_factor); `None` if no scene can be so stiff.
     stiffer: [Once<Option<Judge>>; FINE_FACTORS],
 }
 
 impl Adviser {
     /// An adviser for `scene` under full throttle at this rate.
-    pub fn new(scene: &Scene, tick_hz: u32) -> Self {
-        Self::within(u64::MAX, scene, tick_hz)
+    pub fn new(scene: &Scene, tick_hz: impl Into<TickRate>) -> Self {
+        Self::within(u64::MAX, scene, tick_hz.into())
     }
 
     /// As [`Self::new`], and with this work in all, in the unit of [`MAX_WORK`]: what it does not reach is not known.
-    pub(super) fn within(max_work: u64, scene: &Scene, tick_hz: u32) -> Self {
+    pub(super) fn within(max_work: u64, scene: &Scene, tick_hz: TickRate) -> Self {
         let meter = Meter::within(max_work).into();
         block_on(Self::find(scene.clone(), FULL_THROTTLE, tick_hz, meter))
     }
@@ -111,7 +112,12 @@ impl Adviser {
     }
 
     /// As [`Self::new`], with its work counted by `meter`.
-    pub(super) async fn find(scene: Scene, throttle: f64, tick_hz: u32, meter: Arc<Meter>) -> Self {
+    pub(super) async fn find(
+        scene: Scene,
+        throttle: f64,
+        tick_hz: TickRate,
+        meter: Arc<Meter>,
+    ) -> Self {
         let judge = Judge::find(&scene, throttle, horizon_s(&scene), meter).await;
         let stiffer = std::array::from_fn(|_| Once::default());
         Self { scene, judge, tick_hz, stiffer }
@@ -127,7 +133,7 @@ impl Adviser {
     }
 
     /// The requested rate in Hz.
-    pub fn tick_hz(&self) -> u32 {
+    pub fn tick_hz(&self) -> TickRate {
         self.tick_hz
     }
 
@@ -318,10 +324,10 @@ impl Adviser {
     /// The lowest rate in Hz of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion; `None` if
     /// it meets it at no rate.
     pub fn slowest(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
-        RateSearch::run(|hz| block_on(self.judge.meets(criterion, spec, hz)).holds())
+        RateSearch::run(|hz| block_on(self.judge.meets(criterion, spec, hz.into())).holds())
     }
 
-    /// The lowest rate, going down from the requested one, at which the lane still meets the criterion: one hertz lower
+    /// The lowest whole rate, going down from the requested one, at which the lane still meets the criterion: one hertz lower
     /// it does not, or no tick fits into the horizon. `None` if that is not known.
     async fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
         // The runs of a net are dear, and so are the modes of a method with memory.
@@ -330,11 +336,12 @@ impl Adviser {
         let strides = if is_dear { 6 } else { 60 };
         // The last miss of the search is that next to its result.
         let mut is_known = true;
-        let mut search = RatesDown::from(self.tick_hz, strides);
+        let mut search = RatesDown::from(self.tick_hz.hz().ceil() as u32, strides);
         while let Some(hz) = search.next() {
-            let miss = self.judge.misses(criterion, spec, hz).await;
+            let miss = self.judge.misses(criterion, spec, hz.into()).await;
             if miss.is_some() {
-                is_known = miss != Some(CriterionFinding::Unknown) || !self.judge.has_ticks(hz);
+                is_known =
+                    miss != Some(CriterionFinding::Unknown) || !self.judge.has_ticks(hz.into());
             }
             search.note(hz, miss.is_none());
         }

@@ -11,6 +11,7 @@ use super::truth::{BodyTruth, FollowedBody, ticks};
 use super::verdict::RunFailure;
 use crate::run::race::StopReason;
 use crate::scene::LaneSpec;
+use crate::sim::TickRate;
 use crate::sim::stability::{PowerIteration, Tick};
 
 /// The part of the work of a run that the spectral radius may take too.
@@ -37,20 +38,20 @@ impl EnergyRun {
 pub(super) async fn follow_energy(
     truth: &BodyTruth,
     spec: LaneSpec,
-    tick_hz: u32,
+    tick_hz: TickRate,
     max_work: u64,
 ) -> EnergyRun {
     let max_work = max_work.min(truth.meter.budget_left());
-    let (hz, horizon) = (f64::from(tick_hz), ticks(truth.horizon_s, tick_hz));
+    let horizon = ticks(truth.horizon_s, tick_hz);
     let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
     let is_conserved = followed.body.stepper.energy().is_some();
-    let spectral_radius = spectral_radius(truth, &mut followed.body, spec, hz, max_work).await;
+    let spectral_radius = spectral_radius(truth, &mut followed.body, spec, tick_hz, max_work).await;
     let (mut seconds, mut evaluations) = (0.0, 0);
     let mut means = Means::over(horizon);
     // The largest kinetic energy, and the most that was lost and gained, in joules.
     let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);
     let see = |body: &FollowedBody, tick: u64| {
-        (seconds, evaluations) = (tick as f64 / hz, body.stepper.evaluations());
+        (seconds, evaluations) = (tick_hz.seconds(tick), body.stepper.evaluations());
         let gain = body.energy() - body.base_j;
         let [kinetic, _] = body.energies();
         (fastest, lost, gained) = (fastest.max(kinetic), lost.max(-gain), gained.max(gain));
@@ -93,11 +94,11 @@ async fn spectral_radius(
     truth: &BodyTruth,
     body: &mut FollowedBody,
     spec: LaneSpec,
-    hz: f64,
+    tick_hz: TickRate,
     max_work: u64,
 ) -> Option<f64> {
     let n = body.stepper.q().len() as u64;
-    let tick = Tick { t: 0.0, h: 1.0 / hz, substeps: spec.substeps };
+    let tick = Tick { t: 0.0, h: tick_hz.step_s(), substeps: spec.substeps };
     let most = max_work / n / WORK_OF_RADIUS;
     let mut iteration = PowerIteration::new(&*body.stepper, spec.solver(), tick, most).ok()??;
     let evaluations = spec.method.evaluations_per_tick(spec.substeps).map_or(n, u64::from);

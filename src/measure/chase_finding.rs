@@ -5,9 +5,9 @@ use std::fmt;
 use super::truth::BodyTruth;
 use crate::run::race::Chase;
 use crate::scene::LaneSpec;
-use crate::sim::Solver;
 use crate::sim::number::{round, significant};
 use crate::sim::numerics::bisect;
+use crate::sim::{Solver, TickRate};
 
 /// How a body closes on a target that stays, under a method and in truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,7 @@ impl ChaseFinding {
     pub(super) fn of(
         truth: &BodyTruth,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
         chase: Option<&Chase>,
     ) -> Option<Self> {
         let chase = chase?;

@@ -7,7 +7,7 @@ use crate::sim::batch::{Batch, InstructionSet, OneCoordinate, Ticks};
 use crate::sim::bodies::Kind;
 use crate::sim::integrators::Family;
 use crate::sim::number::significant;
-use crate::sim::{State, Stepper};
+use crate::sim::{State, Stepper, TickRate};
 
 mod axes;
 mod border;
@@ -129,7 +129,7 @@ impl CloudStart {
         State { q: self.middle[0] + self.reach[0] * x, v: self.middle[1] + self.reach[1] * y }
     }
 
-    fn ticks(&self, tick_hz: u32, substeps: u32) -> Ticks {
+    fn ticks(&self, tick_hz: TickRate, substeps: u32) -> Ticks {
         Ticks { origin: self.t, ..Ticks::from_start(tick_hz, substeps, 0) }
     }
 }
@@ -207,11 +207,11 @@ impl Cloud {
         spec: &LaneSpec,
         start: CloudStart,
         points: usize,
-        tick_hz: u32,
+        tick_hz: impl Into<TickRate>,
     ) -> Result<Self, NoCloud> {
         let copies = copies_of(of);
         let subject = Subject::new(of.name, &copies);
-        Self::of_subject(subject, of.body.is_linear(), spec, start, points, tick_hz)
+        Self::of_subject(subject, of.body.is_linear(), spec, start, points, tick_hz.into())
     }
 
     /// A cloud of `points` starts of a custom body about a start, a quarter of its swing wide.
@@ -247,7 +247,7 @@ impl Cloud {
         shape: CloudShape,
         points: usize,
         spec: &LaneSpec,
-        tick_hz: u32,
+        tick_hz: impl Into<TickRate>,
     ) -> Result<Self, NoCloud> {
         let force = |q: f64| {
             let mut a = 0.0;
@@ -259,7 +259,7 @@ impl Cloud {
             Some(Batch::on(InstructionSet::widest(), system, solver, starts.into_iter()))
         };
         let subject = Subject::new("body", &copies);
-        Self::of_subject(subject, false, spec, around, points, tick_hz)
+        Self::of_subject(subject, false, spec, around, points, tick_hz.into())
     }
 
     fn of_subject(
@@ -268,7 +268,7 @@ impl Cloud {
         spec: &LaneSpec,
         start: CloudStart,
         points: usize,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> Result<Self, NoCloud> {
         let is_adaptive = spec.method.family == Family::Adaptive;
         let is_linear = is_linear && !is_adaptive;

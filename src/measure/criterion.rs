@@ -1,5 +1,6 @@
 //! What a developer may require of a method, the errors that count as visible, and by how much a method meets it.
 
+use crate::sim::TickRate;
 use crate::sim::number::round;
 
 /// A requirement that a developer may have of a method.
@@ -66,7 +67,7 @@ pub(super) const MAX_STIFFER: f64 = 10.0;
 #[non_exhaustive]
 pub struct CriterionMet {
     /// The requested tick rate in Hz, at which it meets it.
-    pub tick_hz: u32,
+    pub tick_hz: TickRate,
     /// Steps per tick.
     pub substeps: u32,
     /// Evaluations of all bodies' accelerations per simulated second, of a method of equal steps in the long run.
@@ -76,9 +77,9 @@ pub struct CriterionMet {
     /// Whether the margins have been searched. Where that is dear, they are for methods of about the least cost only.
     #[cfg_attr(feature = "serde", serde(rename = "margins_searched"))]
     pub are_margins_searched: bool,
-    /// The lowest tick rate in Hz, going down from the requested one, at which the criterion still holds with as many
-    /// substeps, as it does at all rates between that were tried; `None` if one hertz lower it is not known, for want of
-    /// a truth or for too much work.
+    /// The lowest whole tick rate in Hz, going down from the requested one rounded up, at which the criterion still holds
+    /// with as many substeps, as it does at all rates between that were tried; `None` if one hertz lower it is not known,
+    /// for want of a truth or for too much work.
     pub slowest_hz: Option<u32>,
     /// The largest factor by which the bodies may be stiffer, 1 to 10, to two digits: the criterion holds with every
     /// factor up to it that is tried, each at most a tenth above the one before. `None` if it is not known whether it
@@ -109,11 +110,16 @@ impl CriterionMet {
         }
     }
 
+    /// The rate down to which it holds; `None` if it is not known.
+    pub fn slowest(&self) -> Option<TickRate> {
+        self.slowest_hz.map(|hz| TickRate::whole(hz).min(self.tick_hz))
+    }
+
     /// The rate down to which it holds, in words; `None` if it is not known.
     pub fn slower(&self) -> Option<String> {
-        let hz = self.slowest_hz?;
+        let hz = self.slowest()?;
         let mark = if self.has_no_slower() { format!(" {NO_RESERVE}") } else { String::new() };
-        Some(format!("{hz} Hz{mark}"))
+        Some(format!("{hz:.3} Hz{mark}"))
     }
 
     /// The factor and the parameter up to which it holds, in words; `None` if they are not known.
@@ -130,8 +136,8 @@ impl CriterionMet {
     /// Both are factors of stiffness: a spring of f times the stiffness takes steps of the same angle at √f times the rate,
     /// so that a rate counts by its square. At 1 Hz, below which none is searched, the stiffness decides alone.
     pub fn reserve(&self) -> Option<f64> {
-        let of_rate = self.slowest_hz.filter(|_| self.tick_hz > 1).map(|hz| {
-            let ratio = f64::from(self.tick_hz) / f64::from(hz);
+        let of_rate = self.slowest().filter(|_| self.tick_hz > 1).map(|slowest| {
+            let ratio = self.tick_hz.hz() / slowest.hz();
             // To one digit after the point, as factors are tried.
             libm::floor(10.0 * ratio * ratio) / 10.0
         });
@@ -146,7 +152,7 @@ impl CriterionMet {
 
     /// Whether the next lower rate fails. Below 1 Hz none is searched.
     fn has_no_slower(&self) -> bool {
-        self.tick_hz > 1 && self.slowest_hz.is_some_and(|hz| hz >= self.tick_hz)
+        self.tick_hz > 1 && self.slowest().is_some_and(|slowest| slowest >= self.tick_hz)
     }
 }
 

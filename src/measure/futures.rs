@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use crate::run::race::LaneBody;
 use crate::scene::LaneSpec;
-use crate::sim::{Solver, Stepper};
+use crate::sim::{Solver, Stepper, TickRate};
 
 /// How long it is, in seconds, and the most ticks that it has.
 const LENGTH_S: f64 = 1.0;
@@ -42,7 +42,7 @@ pub struct Future {
 pub(crate) fn futures(
     of: &LaneBody,
     t: f64,
-    tick_hz: u32,
+    tick_hz: TickRate,
     held: Option<(&[f64], &[f64])>,
     plotted: usize,
     methods: &[LaneSpec],
@@ -77,12 +77,12 @@ pub(crate) fn futures(
         }
         moments
     };
-    let h = 1.0 / f64::from(tick_hz);
+    let h = tick_hz.step_s();
     let of_methods = methods.iter().take(MAX_METHODS).enumerate().map(|(entry, spec)| Future {
         entry: Some(entry),
         moments: follow(spec.solver(), h, spec.substeps),
     });
-    let finer = h / f64::from(EXACT_STEPS.div_ceil(tick_hz));
+    let finer = h / (f64::from(EXACT_STEPS) / tick_hz.hz()).ceil();
     let exact = Future { entry: None, moments: follow(Solver::Truth, finer, 1) };
     of_methods.chain([exact]).collect()
 }

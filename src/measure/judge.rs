@@ -18,6 +18,7 @@ use super::slices::{Meter, Once, block_on};
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
 use crate::scene::{LaneSpec, Scene, Scripted};
+use crate::sim::TickRate;
 
 mod criteria;
 
@@ -100,7 +101,7 @@ impl Judge {
     }
 
     /// Whether a tick at this rate fits into the horizon.
-    pub(super) fn has_ticks(&self, tick_hz: u32) -> bool {
+    pub(super) fn has_ticks(&self, tick_hz: TickRate) -> bool {
         ticks(self.horizon_s, tick_hz) > 0
     }
 
@@ -115,8 +116,8 @@ impl Judge {
     }
 
     /// The verdict on a lane at this tick rate: that of its worst body.
-    pub fn verdict(&self, spec: LaneSpec, tick_hz: u32) -> Verdict {
-        block_on(self.verdict_within(self.max_work, spec, tick_hz))
+    pub fn verdict(&self, spec: LaneSpec, tick_hz: impl Into<TickRate>) -> Verdict {
+        block_on(self.verdict_within(self.max_work, spec, tick_hz.into()))
     }
 
     /// What counts its work.
@@ -129,7 +130,7 @@ impl Judge {
         &self,
         max_work: u64,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> Verdict {
         let mut verdicts = Vec::with_capacity(self.truths.len());
         for body in 0..self.truths.len() {
@@ -158,7 +159,7 @@ impl Judge {
         body: usize,
         max_work: u64,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> Verdict {
         let truth = &self.truths[body];
         if truth.is_too_dear() {
@@ -188,7 +189,7 @@ impl Judge {
         &self,
         body: usize,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
         run: &JudgedRun,
         by_modes: Option<MotionChange>,
     ) -> Verdict {
@@ -244,7 +245,7 @@ impl Judge {
     }
 
     /// The verdict on a body that has no reference solution.
-    fn by_energy(&self, body: usize, tick_hz: u32, run: EnergyRun) -> Verdict {
+    fn by_energy(&self, body: usize, tick_hz: TickRate, run: EnergyRun) -> Verdict {
         let found = run.finding;
         let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {
             (Some(failure), _) => Finding::Failed { failure, by_energy: Some(found) },
@@ -259,7 +260,7 @@ impl Judge {
     }
 
     /// Why a run at this rate is not judged, if it is not.
-    fn not_judged(&self, tick_hz: u32, is_cut_short: bool) -> Option<NotJudged> {
+    fn not_judged(&self, tick_hz: TickRate, is_cut_short: bool) -> Option<NotJudged> {
         match self.has_ticks(tick_hz) {
             false => Some(NotJudged::ShorterThanATick),
             true => is_cut_short.then_some(NotJudged::TooMuchWork),

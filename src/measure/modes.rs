@@ -8,10 +8,10 @@ use super::swing_curve::SwingCurve;
 use super::truth::{BodyTruth, MovedMode, work_of};
 use super::verdict::LongTerm;
 use crate::scene::LaneSpec;
-use crate::sim::Stepper;
 use crate::sim::integrators::{Family, StepFailure};
 use crate::sim::numerics::bisect;
 use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, unforced};
+use crate::sim::{Stepper, TickRate};
 
 /// Finding the modes would take more work than a run may.
 pub(super) struct TooMuch;
@@ -114,7 +114,7 @@ impl<'a> Modes<'a> {
     pub(super) async fn of(
         truth: &'a BodyTruth,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> Result<Option<Self>, TooMuch> {
         let Some(modes) = Self::modes_of(truth, spec) else { return Ok(None) };
         let n = modes.len() as u64;
@@ -126,7 +126,7 @@ impl<'a> Modes<'a> {
             return Err(TooMuch);
         }
         let free = unforced(&*truth.with_last_parameters());
-        let tick = Tick { t: 0.0, h: 1.0 / f64::from(tick_hz), substeps: spec.substeps };
+        let tick = Tick { t: 0.0, h: tick_hz.step_s(), substeps: spec.substeps };
         let mut found = Vec::with_capacity(modes.len());
         let (step, _) = tick.repeated(Some(spec.method));
         for moved in modes {

@@ -10,7 +10,7 @@ use super::{
 use crate::scene::Scene;
 use crate::scene::custom::{Options, OptionsError};
 use crate::sim::number::round;
-use crate::sim::{State, System, Vector};
+use crate::sim::{State, System, TickRate, Vector};
 
 /// One value for each [`Criterion`].
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +48,7 @@ pub struct Report {
     /// The body's name.
     pub name: String,
     /// The tick rate in Hz.
-    pub tick_hz: u32,
+    pub tick_hz: TickRate,
     /// The simulated seconds over which the methods were judged.
     pub horizon_s: f64,
     /// Every method, in the order of the table or as they were given.
@@ -255,7 +255,7 @@ impl fmt::Display for Report {
         }
         writeln!(f)?;
         for criterion in CRITERIA {
-            write!(f, "{} at {} Hz: {}: ", self.name, self.tick_hz, criterion.id())?;
+            write!(f, "{} at {:.3} Hz: {}: ", self.name, self.tick_hz, criterion.id())?;
             match self.recommended.get(criterion) {
                 Some(recommendation) => writeln!(f, "{recommendation}")?,
                 None if self.not_known.get(criterion).is_empty() => {

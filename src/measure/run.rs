@@ -10,8 +10,8 @@ use super::verdict::RunFailure;
 use crate::run::race::{Chase, StopReason};
 use crate::scene::LaneSpec;
 pub use crate::scene::custom::MAX_WORK;
-use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
+use crate::sim::{Stepper, TickRate};
 
 /// A swing of this many true amplitudes has grown, and a swing below the inverse has died away.
 const TWICE: f64 = 2.0;
@@ -90,11 +90,10 @@ pub(super) struct JudgedRun {
 pub(super) async fn follow(
     truth: &BodyTruth,
     spec: LaneSpec,
-    tick_hz: u32,
+    tick_hz: TickRate,
     until: Until,
     max_work: u64,
 ) -> JudgedRun {
-    let hz = f64::from(tick_hz);
     let horizon = ticks(truth.horizon_s, tick_hz);
     let end = match until {
         Until::Error(_) | Until::Horizon | Until::Swings => horizon,
@@ -107,7 +106,7 @@ pub(super) async fn follow(
         _ => Some(truth.series(tick_hz).await),
     };
     if series.as_ref().is_some_and(|series| series.is_too_much) {
-        return JudgedRun { is_too_much: true, ..JudgedRun::new(horizon as f64 / hz) };
+        return JudgedRun { is_too_much: true, ..JudgedRun::new(tick_hz.seconds(horizon)) };
     }
     let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
     let stepper = &*followed.body.stepper;
@@ -118,11 +117,14 @@ pub(super) async fn follow(
     let mut measured = Measured {
         chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.at_s),
         energy: Energy::of(stepper, truth, horizon, end),
-        run: JudgedRun { chase: Chase::new(stepper, 0.0), ..JudgedRun::new(horizon as f64 / hz) },
+        run: JudgedRun {
+            chase: Chase::new(stepper, 0.0),
+            ..JudgedRun::new(tick_hz.seconds(horizon))
+        },
         series,
         until,
         horizon,
-        hz,
+        tick_hz,
     };
     followed.body.swings = swings;
     let see = |body: &FollowedBody, tick| measured.take_in(truth, body, tick);
@@ -147,7 +149,7 @@ struct Measured {
     series: Option<Arc<TruthSeries>>,
     until: Until,
     horizon: u64,
-    hz: f64,
+    tick_hz: TickRate,
     /// How long it is followed as it closes on a target, in seconds.
     chased_s: f64,
 }
@@ -156,7 +158,7 @@ impl Measured {
     /// Measures the body after `tick` ticks, and breaks off where the rest is not needed.
     fn take_in(&mut self, truth: &BodyTruth, body: &FollowedBody, tick: u64) -> ControlFlow<()> {
         let (stepper, horizon) = (&*body.stepper, self.horizon);
-        let t = tick as f64 / self.hz;
+        let t = self.tick_hz.seconds(tick);
         let run = &mut self.run;
         run.followed_s = t;
         if tick <= horizon {

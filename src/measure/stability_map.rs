@@ -19,7 +19,7 @@ use crate::sim::bodies::{Follow, Kind, Ship, Spring};
 use crate::sim::stability::{
     CoupledMotion, NoSmallMotion, NormalMode, SmallMotion, Stability, Tick,
 };
-use crate::sim::{EngineSettings, Solver, Stepper, stepper};
+use crate::sim::{EngineSettings, Solver, Stepper, TickRate, stepper};
 
 mod contour;
 mod seen;
@@ -52,7 +52,7 @@ pub struct MapRequest {
     /// The methods, with their indices on the list.
     pub specs: Vec<(usize, LaneSpec)>,
     /// The present tick rate.
-    pub tick_hz: u32,
+    pub tick_hz: TickRate,
     /// The present parameters of the body.
     pub(super) values: Vec<f64>,
     /// The rates at the left and at the right end, in Hz.
@@ -66,9 +66,10 @@ impl MapRequest {
         (body, parameter): (usize, usize),
         opened: &SceneBody,
         values: &[f64],
-        tick_hz: u32,
+        tick_hz: impl Into<TickRate>,
         specs: Vec<(usize, LaneSpec)>,
     ) -> Self {
+        let tick_hz = tick_hz.into();
         let [slowest, fastest] = RATES_HZ;
         Self {
             body,
@@ -90,7 +91,7 @@ impl MapRequest {
     fn has_regions_of(&self, other: &Self) -> bool {
         let fixed = |request: &Self| {
             let mut fixed = request.clone();
-            fixed.tick_hz = 0;
+            fixed.tick_hz = TickRate::MIN;
             fixed.values[fixed.parameter] = 0.0;
             fixed
         };

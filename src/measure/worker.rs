@@ -11,6 +11,7 @@ use super::stability_map::{MapRequest, MapWork, StabilityMap};
 use super::verdict::Verdict;
 use crate::run::race::Interventions;
 use crate::scene::{LaneSpec, Scene};
+use crate::sim::TickRate;
 
 /// The bodies of a scene that advice is about.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,7 +42,7 @@ pub struct AnalysisRequest {
     pub(crate) entries: Vec<LaneSpec>,
     /// How many of them, from the first, share all the work that a bounded worker may do; the others have what is left.
     pub(crate) first: usize,
-    pub(crate) tick_hz: u32,
+    pub(crate) tick_hz: TickRate,
     /// What has changed in the run that is judged.
     pub(crate) by_hand: Interventions,
     /// The bodies that advice is wanted on, if it is wanted.
@@ -99,7 +100,7 @@ pub struct Advice {
     /// The bodies that it is about.
     pub bodies: AdvisedBodies,
     /// The requested rate in Hz.
-    pub tick_hz: u32,
+    pub tick_hz: TickRate,
     /// The number of methods to judge.
     pub wanted: usize,
     /// The advice on the methods judged so far.

@@ -89,7 +89,7 @@ fn what_was_done(action: &Action, solo: Option<LaneId>, scene: &Scene) -> String
             let value = format!("{} {}", round(value, 5), parameter.unit);
             format!("{} of {} = {}", parameter.quantity(), body.name, value.trim_end())
         }
-        Action::TickHz(tick_hz) => format!("{tick_hz} Hz"),
+        Action::TickHz(tick_hz) => format!("{tick_hz:.3} Hz"),
         Action::Throttle(part) => format!("throttle {}", percent(part)),
         Action::Rudder(part) => format!("rudder {}", percent(part)),
         Action::Kick(1.0) => "kick".into(),

@@ -12,7 +12,7 @@ use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_zlib_with_limit};
 use super::Session;
 use super::race::{Author, Mode, lanes_that_race};
 use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, SCENES, Scene, nearest};
-use crate::sim::Clock;
+use crate::sim::TickRate;
 use crate::sim::integrators::{METHODS, Method, method};
 
 /// What begins a link.
@@ -209,10 +209,10 @@ impl Link {
             return Err(LinkError::Refused { reason: refusal.to_string() });
         }
         if let Some(hz) = values(TICK_HZ).last() {
-            let known = hz.parse().ok().filter(|hz| Clock::TICK_HZ.contains(hz));
-            let range = format!("{} to {}", Clock::TICK_HZ.start(), Clock::TICK_HZ.end());
-            let hz = known.ok_or_else(|| LinkError::unknown(TICK_HZ, hz, &[&range]))?;
-            scene = scene.at_tick_hz(hz);
+            let range = format!("{} to {}", TickRate::MIN, TickRate::MAX);
+            let known = hz.parse::<TickRate>();
+            scene =
+                scene.at_tick_hz(known.map_err(|_| LinkError::unknown(TICK_HZ, hz, &[&range]))?);
         }
         let races = self.asks_to_race() || methods.len() > 1;
         Ok(Named { scene: scene.with_methods(&methods), methods, races })
@@ -522,7 +522,7 @@ mod tests {
             run.act(Action::Method(rk4));
         };
         assert_eq!(named(&late), None);
-        let slow = Scene { tick_hz: 30, ..Scene::built_in("spring").unwrap() };
+        let slow = Scene { tick_hz: 30.into(), ..Scene::built_in("spring").unwrap() };
         let race = Session::racing(slow.clone().into());
         assert_eq!(naming(&race).unwrap(), "#scene=spring&tick-hz=30&race");
         let short = Scene { seconds: 3.0, ..slow.clone() };
@@ -541,7 +541,7 @@ mod tests {
             ("#scene=Spring", "scene \"Spring\"", "did you mean \"spring\"?"),
             ("#scene=spring&method=rk5", "method \"rk5\"", "did you mean \"rk4\"?"),
             ("#scene=xyzzy", "scene \"xyzzy\"", "newer release"),
-            ("#scene=spring&tick-hz=0", "tick-hz \"0\"", "write 1 to 10000"),
+            ("#scene=spring&tick-hz=0", "tick-hz \"0\"", "write 0.01 to 10000"),
             ("#scene=spring&xyzzy", "setting \"xyzzy\"", "write scene, method,"),
             ("#v1.AAAA&scene=spring", "setting \"scene\"", "write tick, play"),
         ] {

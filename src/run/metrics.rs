@@ -420,7 +420,7 @@ mod tests {
         lost.run(400);
         assert!(comparing.iter().all(|id| measured(id, &lost).is_some()));
         while lost.entrants()[0].lane.halted().is_none() {
-            lost.perform(&Action::TickHz(1), &mut ());
+            lost.perform(&Action::TickHz(1.into()), &mut ());
             lost.step(&mut ());
         }
         assert!(comparing.iter().all(|id| measured(id, &lost).is_none()), "the lane halted");

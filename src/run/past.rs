@@ -380,6 +380,7 @@ mod tests {
     use crate::sim::integrators::method;
 
     fn race(seconds: f64, tick_hz: u32) -> (Race, Observations) {
+        let tick_hz = tick_hz.into();
         let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
         let race = Race::new(&scene, [LaneSpec::plain(method("rk4").unwrap())]);
         let seen = Observations::new(&race, seconds);
@@ -411,7 +412,7 @@ mod tests {
         }
         let mut race = race(20.0, 10);
         assert_eq!(sampled(&mut race, 10.0).len(), 101);
-        race.0.perform(&Action::TickHz(1000), &mut race.1);
+        race.0.perform(&Action::TickHz(1000.into()), &mut race.1);
         let times = sampled(&mut race, 10.0);
         // 20 s at 1000 Hz are ten times the capacity.
         assert!((times[times.len() - 1] - times[times.len() - 2] - 0.01).abs() < 1e-9);

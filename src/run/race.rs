@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::scene::custom::{self, Options};
 use crate::scene::{LaneId, LaneSpec, Piece, Scene, Scripted};
-use crate::sim::{Solver, State, Stepper, System, Vector};
+use crate::sim::{Solver, State, Stepper, System, TickRate, Vector};
 
 pub use crate::scene::TimeScale;
 pub use chase::Chase;
@@ -207,7 +207,7 @@ impl Race {
     }
 
     /// The same race at its start, without its script, at this tick rate.
-    pub(crate) fn at_rate(self, tick_hz: u32) -> Self {
+    pub(crate) fn at_rate(self, tick_hz: TickRate) -> Self {
         Self { piece: Piece::first(tick_hz), journal: Journal::default(), ..self }
     }
 
@@ -220,7 +220,7 @@ impl Race {
         self.tick
     }
     /// The tick rate in Hz.
-    pub fn tick_hz(&self) -> u32 {
+    pub fn tick_hz(&self) -> TickRate {
         self.piece.tick_hz
     }
     /// The time reached, in seconds.
@@ -284,7 +284,7 @@ impl Race {
     }
 
     /// The changes of the tick rate that are still to come: each with its tick, and the new rate in Hz.
-    pub fn rates_to_come(&self) -> impl Iterator<Item = (u64, u32)> {
+    pub fn rates_to_come(&self) -> impl Iterator<Item = (u64, TickRate)> {
         let pending = self.journal.rows()[self.done..].iter();
         pending.filter_map(|row| Some((row.tick, row.action.tick_hz()?)))
     }
@@ -314,7 +314,7 @@ impl Race {
     /// observer. Allocates for actions only.
     pub fn step(&mut self, observer: &mut dyn Observer) {
         self.catch_up(observer);
-        let (t, h) = (self.t(), 1.0 / f64::from(self.tick_hz()));
+        let (t, h) = (self.t(), self.tick_hz().step_s());
         self.truth.tick(self.tick, t, h);
         for entrant in &mut self.entrants {
             entrant.lane.tick(self.tick, t, h);
@@ -404,6 +404,7 @@ mod tests {
     use crate::sim::integrators::method;
 
     fn race(seconds: f64, tick_hz: u32) -> Race {
+        let tick_hz = tick_hz.into();
         let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
         Race::new(&scene, [LaneSpec::plain(method("rk4").unwrap())])
     }
@@ -412,8 +413,8 @@ mod tests {
     fn time_is_counted_from_the_last_of_several_changes_of_rate() {
         let mut race = race(20.0, 60);
         let mut t = 0.0;
-        for (tick_hz, ticks) in [(60, 11), (49, 7), (120, 5), (1, 3), (1000, 1)] {
-            race.perform(&Action::TickHz(tick_hz), &mut ());
+        for (tick_hz, ticks) in [(60_u32, 11), (49, 7), (120, 5), (1, 3), (1000, 1)] {
+            race.perform(&Action::TickHz(tick_hz.into()), &mut ());
             for tick in 1..=ticks {
                 race.step(&mut ());
                 let now = t + f64::from(tick) / f64::from(tick_hz);

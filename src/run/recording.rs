@@ -214,7 +214,7 @@ mod tests {
             for step in 0..60 {
                 match below(8) {
                     0 => _ = run.act(Action::Kick(below(5) as f64 - 2.0)),
-                    1 => _ = run.act(Action::TickHz(20 + below(80) as u32)),
+                    1 => _ = run.act(Action::TickHz((20 + below(80) as u32).into())),
                     2 => _ = run.act(Action::Throttle(below(3) as f64 / 2.0)),
                     3 => _ = run.undo(),
                     4 => _ = run.redo(),

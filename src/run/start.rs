@@ -7,6 +7,7 @@ use super::{Menu, Session};
 use crate::scene::{
     Action, LaneId, LaneSpec, MAX_SECONDS, MIN_SECONDS, Scene, SceneBody, edited_values,
 };
+use crate::sim::TickRate;
 
 /// The settings of the next restart. They include a person's choices, and no effects of a script.
 #[derive(Clone, Debug)]
@@ -22,7 +23,7 @@ pub(crate) struct StartSettings {
     lanes: Vec<usize>,
     /// The method in solo mode, which is in a race too, by its index on the list.
     pub(crate) entry: usize,
-    pub(crate) tick_hz: u32,
+    pub(crate) tick_hz: TickRate,
     /// The lanes before equal cost was switched on; `None` while it is off.
     pub(crate) before_equal_cost: Option<Vec<(LaneId, LaneSpec)>>,
 }

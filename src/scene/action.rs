@@ -2,10 +2,10 @@
 
 use super::Scene;
 use super::lane_spec::{LaneId, LaneSpec};
-use crate::sim::Stepper;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::Method;
 use crate::sim::number::round;
+use crate::sim::{Stepper, TickRate};
 
 /// An action on a run at a tick. It states the new value rather than a change: except for a kick, performing it twice
 /// has the same effect as once.
@@ -36,8 +36,8 @@ pub enum Action {
         /// Within [`TOLERANCES`](super::TOLERANCES).
         tolerance: f64,
     },
-    /// Sets the tick rate in Hz.
-    TickHz(u32),
+    /// Sets the tick rate.
+    TickHz(TickRate),
     /// Sets the throttle of every body that has one, -1 to 1.
     Throttle(f64),
     /// Sets the rudder of every body that has one, from -1, hard right, to 1, hard left.
@@ -70,8 +70,8 @@ pub enum Action {
 }
 
 impl Action {
-    /// The tick rate in Hz that it sets, if it sets one.
-    pub(crate) fn tick_hz(&self) -> Option<u32> {
+    /// The tick rate that it sets, if it sets one.
+    pub(crate) fn tick_hz(&self) -> Option<TickRate> {
         match *self {
             Action::TickHz(tick_hz) => Some(tick_hz),
             _ => None,

@@ -6,12 +6,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::lane_spec::LaneSpec;
 use super::{
-    Appearance, Drawing, MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Mark,
-    Scene, SceneBody, claim_horizon,
+    Appearance, Drawing, MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, MIN_SECONDS, Mark, Scene,
+    SceneBody, claim_horizon,
 };
 use crate::sim::bodies::{CustomFault, Extras, custom_kind, incompatibility};
 use crate::sim::integrators::{METHODS, Method};
-use crate::sim::{State, System, Vector};
+use crate::sim::{State, System, TickRate, Vector};
 
 /// Draws a system whose coordinates are these, in metres, x right and y up.
 pub type Draw<S> = fn(&S, &<S as System>::Vector) -> Vec<Mark>;
@@ -24,8 +24,8 @@ pub const MAX_WORK: u64 = 100_000_000;
 pub struct Options<S: System> {
     /// The name of the body, for people: at most [`MAX_NAME_CHARS`] characters. The default is `body`.
     pub name: &'static str,
-    /// Ticks per second, 1 to [`MAX_TICK_HZ`]. The default is 60.
-    pub tick_hz: u32,
+    /// Ticks per second, in [`Clock::TICK_HZ`](crate::sim::Clock::TICK_HZ). The default is 60.
+    pub tick_hz: TickRate,
     /// How long it runs, in seconds, from [`MIN_SECONDS`] to [`MAX_SECONDS`]. The default is 20. Verdicts are
     /// on the first minute.
     pub seconds: f64,
@@ -45,7 +45,7 @@ impl<S: System> Default for Options<S> {
     fn default() -> Self {
         Self {
             name: "body",
-            tick_hz: 60,
+            tick_hz: TickRate::whole(60),
             seconds: 20.0,
             methods: Vec::new(),
             max_work: MAX_WORK,
@@ -104,8 +104,8 @@ impl Scene {
             let what = format!("{name:?} has {} characters", name.chars().count());
             return Err(error("name", what, format!("give it 1 to {MAX_NAME_CHARS}")));
         }
-        if !(1..=MAX_TICK_HZ).contains(&tick_hz) {
-            let remedy = format!("give a rate from 1 to {MAX_TICK_HZ} Hz");
+        if !tick_hz.is_in_range() {
+            let remedy = format!("give a rate from {} to {} Hz", TickRate::MIN, TickRate::MAX);
             return Err(error("tick_hz", tick_hz.to_string(), remedy));
         }
         if !(MIN_SECONDS..=MAX_SECONDS).contains(&seconds) {

@@ -9,15 +9,18 @@ use super::described::{
 };
 use super::errors::{SceneError, position};
 use super::fault::{FaultKind, SceneFault};
-use super::keys::{Key, METHOD, keep, list, number, quoted, read_lane_spec};
+use super::keys::{
+    Key, METHOD, STEP_S, TICK_HZ, keep, list, number, quoted, read_lane_spec, step_s, tick_hz,
+};
 use super::nearest::{listed, nearest, offer};
 use super::script::{self, SceneContext};
 use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{
-    CloudKind, LaneSpec, MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Scene, USUAL_SECONDS,
-    claim_horizon, syntax,
+    CloudKind, LaneSpec, MAX_LANES, MAX_SECONDS, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon,
+    syntax,
 };
+use crate::sim::TickRate;
 use crate::sim::bodies::{BODIES, Range};
 use crate::sim::integrators::Method;
 
@@ -53,7 +56,7 @@ pub(super) struct Draft {
 }
 
 /// The keys above the first table.
-pub(super) static TOP: [Key<Draft, Scene>; 8] = [
+pub(super) static TOP: [Key<Draft, Scene>; 9] = [
     Key {
         field: Field::required(
             "title",
@@ -78,13 +81,24 @@ pub(super) static TOP: [Key<Draft, Scene>; 8] = [
         write: |scene| scene.hint.as_deref().map(quoted),
     },
     Key {
-        field: Field::required(
-            "tick_hz",
-            "ticks per second",
-            Wanted::Whole(1..=MAX_TICK_HZ as u64),
-        ),
-        read: |draft, top, field| keep(&mut draft.scene.tick_hz, top.whole(field)),
-        write: |scene| Some(scene.tick_hz.to_string()),
+        field: TICK_HZ,
+        read: |draft, top, field| {
+            if top.has(field.key) || !top.has(STEP_S.key) {
+                keep(&mut draft.scene.tick_hz, top.tick_rate(field));
+            }
+        },
+        write: |scene| tick_hz(scene.tick_hz),
+    },
+    Key {
+        field: STEP_S,
+        read: |draft, top, field| {
+            keep(&mut draft.scene.tick_hz, top.tick_rate(field));
+            if top.has(field.key) && top.has(TICK_HZ.key) {
+                let what = format!("`{}` and `{}` both give the tick rate", TICK_HZ.key, field.key);
+                top.complain(top.span(field.key), what, "keep one of them");
+            }
+        },
+        write: |scene| step_s(scene.tick_hz),
     },
     Key {
         field: Field::optional(
@@ -179,7 +193,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         about: String::new(),
         hint: None,
         // One without a rate is refused, whatever its laws claim.
-        tick_hz: 1,
+        tick_hz: TickRate::whole(1),
         seconds: USUAL_SECONDS,
         lanes: Vec::new(),
         opening_method: None,

@@ -2,6 +2,7 @@
 
 use super::fault::{FaultKind, SceneFault};
 use super::wanted::Wanted;
+use crate::sim::TickRate;
 use crate::sim::bodies::{Fault, Kind, Parameter, Range};
 
 /// Why a parameter of a body cannot be set, and what to do about it, in one line.
@@ -73,6 +74,16 @@ pub fn check_entered(name: &str, value: f64, range: Range) -> Result<(), String>
         true => Ok(()),
         false => Err(format!("{name} {is}; it must be {range}")),
     }
+}
+
+/// The tick rate that a person enters in Hz, to nine digits after the point.
+///
+/// # Errors
+/// The range that it must be in.
+pub fn entered_tick_rate(hz: f64) -> Result<TickRate, String> {
+    let [least, most] = [TickRate::MIN, TickRate::MAX].map(TickRate::hz);
+    check_entered("tick rate", hz, Range::Between(least, most))?;
+    format!("{hz:.9}").parse()
 }
 
 /// A number as a person would type it.

@@ -5,6 +5,7 @@ use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{MAX_SUBSTEPS, TOLERANCES};
 use crate::scene::{LaneSpec, Swing};
+use crate::sim::TickRate;
 use crate::sim::bodies::Range;
 use crate::sim::integrators::{METHODS, Method};
 
@@ -75,6 +76,34 @@ const JOINT_DAMPING_RATIO: Field = Field::optional(
     "the damping ratio that it is told beside that; 0 if left out",
     Wanted::Number(Swing::RANGES[1]),
 );
+
+pub(super) const TICK_HZ: Field =
+    Field::required("tick_hz", "ticks per second, unless `step_s` says them", Wanted::TickRate);
+pub(super) const STEP_S: Field = Field::optional(
+    "step_s",
+    "the length of a tick in seconds, in place of `tick_hz`",
+    Wanted::Step,
+);
+
+/// A tick rate in Hz as TOML; `None` if [`step_s`] writes it.
+pub(super) fn tick_hz(rate: TickRate) -> Option<String> {
+    let is_step = rate.decimal_step_s().is_some();
+    rate.decimal_hz().or_else(|| (!is_step).then(|| quoted(&rate.to_string())))
+}
+
+/// The length of a tick as TOML, of a rate that only this says as a decimal.
+pub(super) fn step_s(rate: TickRate) -> Option<String> {
+    rate.decimal_step_s().filter(|_| rate.decimal_hz().is_none())
+}
+
+/// The line at the top of a scene that says its tick rate.
+pub(crate) fn tick_rate_line(rate: TickRate) -> String {
+    let line = |key: &str, value| Some(format!("{key} = {}\n", value?));
+    [line(TICK_HZ.key, tick_hz(rate)), line(STEP_S.key, step_s(rate))]
+        .into_iter()
+        .flatten()
+        .collect()
+}
 
 /// A lane as far as it has been read.
 #[derive(Default)]

@@ -7,6 +7,7 @@
 use std::path::Path;
 use std::sync::{Arc, LazyLock, OnceLock};
 
+use crate::sim::TickRate;
 use crate::sim::bodies::{ClaimHorizon, Kind, Origin};
 use crate::sim::integrators::Method;
 
@@ -46,8 +47,9 @@ pub(crate) use clip::cut;
 pub(crate) use clip::{clip, clip_list};
 pub use cloud_shape::{CloudKind, CloudShape};
 pub use custom::{Options, OptionsError};
-pub use edit::{EditError, check_entered, edited_values};
+pub use edit::{EditError, check_entered, edited_values, entered_tick_rate};
 pub use errors::{MAX_SHOWN, Mistake, SceneError, SceneErrors};
+pub(crate) use keys::tick_rate_line;
 pub use known::{SceneKey, scene_tables};
 pub use lane_spec::{LaneId, LaneSpec, Swing};
 pub use nearest::nearest;
@@ -65,8 +67,8 @@ pub const MAX_FILE_BYTES: usize = 1 << 20;
 pub const MAX_TICK_HZ: u32 = 10_000;
 
 /// The ticks of a scene of this length (s) and rate, at which the claims of its bodies are held against their motion.
-pub(crate) fn claim_horizon(seconds: f64, tick_hz: u32) -> ClaimHorizon {
-    ClaimHorizon { tick_hz, ticks: (seconds * f64::from(tick_hz)).round() as u64 }
+pub(crate) fn claim_horizon(seconds: f64, tick_hz: TickRate) -> ClaimHorizon {
+    ClaimHorizon { tick_hz, ticks: (seconds * tick_hz.hz()).round() as u64 }
 }
 
 /// The longest a scene may run, in seconds: a year. At [`MAX_TICK_HZ`] its last tick is far below
@@ -116,8 +118,8 @@ pub struct Scene {
     pub about: String,
     /// What to try, for the line under the stage.
     pub hint: Option<String>,
-    /// Ticks per second, 1 to [`MAX_TICK_HZ`].
-    pub tick_hz: u32,
+    /// Ticks per second, in [`Clock::TICK_HZ`](crate::sim::Clock::TICK_HZ).
+    pub tick_hz: TickRate,
     /// How long it runs, from [`MIN_SECONDS`] to [`MAX_SECONDS`].
     pub seconds: f64,
     /// The methods that race, 1 to [`MAX_LANES`], no two alike.
@@ -176,7 +178,10 @@ pub struct Scripted {
 impl Scripted {
     /// A script that is told in ticks, as a recording tells it: at this rate in Hz, and from a change of the rate on at the
     /// new one. The ticks are in order.
-    pub fn of_ticks(tick_hz: u32, rows: impl IntoIterator<Item = (u64, Action)>) -> Vec<Self> {
+    pub fn of_ticks(
+        tick_hz: impl Into<TickRate>,
+        rows: impl IntoIterator<Item = (u64, Action)>,
+    ) -> Vec<Self> {
         let mut piece = Piece::first(tick_hz);
         let scripted = |(tick, action): (u64, Action)| {
             let at_s = piece.t(tick);

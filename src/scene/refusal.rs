@@ -2,6 +2,7 @@
 
 use super::{Scene, SceneBody};
 use crate::scene::{Action, LaneSpec};
+use crate::sim::TickRate;
 use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{Family, METHODS, Method};
 
@@ -56,7 +57,8 @@ impl Scene {
     }
 
     /// The scene at this tick rate. Its hint, which is of the rate of its file, goes with another.
-    pub fn at_tick_hz(self, tick_hz: u32) -> Self {
+    pub fn at_tick_hz(self, tick_hz: impl Into<TickRate>) -> Self {
+        let tick_hz = tick_hz.into();
         let hint = self.hint.filter(|_| tick_hz == self.tick_hz);
         Self { tick_hz, hint, ..self }
     }

@@ -1,6 +1,6 @@
 //! Which actions a scene file can say: what a run takes, so that every recording of it can be read back.
 
-use super::{MAX_COORDINATE, MAX_SUBSTEPS, MAX_TICK_HZ, TOLERANCES};
+use super::{MAX_COORDINATE, MAX_SUBSTEPS, TOLERANCES};
 use crate::scene::{Action, LaneSpec, Swing};
 use crate::sim::bodies::MAX_VALUE;
 
@@ -19,7 +19,7 @@ impl Action {
             Action::Tolerance { tolerance, .. } => {
                 (TOLERANCES.0..=TOLERANCES.1).contains(tolerance)
             }
-            Action::TickHz(tick_hz) => (1..=MAX_TICK_HZ).contains(tick_hz),
+            Action::TickHz(tick_hz) => tick_hz.is_in_range(),
             Action::Kick(value) | Action::Set { value, .. } => value.abs() <= MAX_VALUE,
             Action::Place { q, v, .. } => q.iter().chain(&v[..]).all(|x| x.abs() <= MAX_COORDINATE),
         };

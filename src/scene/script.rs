@@ -7,17 +7,18 @@ use super::described::{BodyDraft, check_method};
 use super::errors::SceneError;
 use super::fault::{FaultKind, SceneFault};
 use super::keys::{
-    JOINT_HZ, Key, METHOD, SPEC, SUBSTEPS, TOLERANCE, adaptive_methods, keep, number, numbers,
-    quoted, read_lane_spec, read_tolerance,
+    JOINT_HZ, Key, METHOD, SPEC, STEP_S, SUBSTEPS, TICK_HZ, TOLERANCE, adaptive_methods, keep,
+    number, numbers, quoted, read_lane_spec, read_tolerance, step_s, tick_hz,
 };
 use super::nearest::{listed, nearest, offer};
 use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{
-    Action, Check, LAST_TICK, LaneId, LaneSpec, MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS,
-    MAX_TICK_HZ, Scene, Scripted,
+    Action, Check, LAST_TICK, LaneId, LaneSpec, MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, Scene,
+    Scripted,
 };
 use crate::scene::edit::edited_values;
+use crate::sim::TickRate;
 use crate::sim::bodies::{Acts, BODIES, MAX_VALUE, Parameter, Range};
 use crate::sim::integrators::Method;
 
@@ -80,7 +81,7 @@ pub(super) struct SceneContext<'d> {
     /// Each with a name.
     pub(super) bodies: &'d [BodyDraft],
     pub(super) lanes: &'d [LaneSpec],
-    pub(super) tick_hz: u32,
+    pub(super) tick_hz: TickRate,
 }
 
 type Read = fn(&SceneContext<'_>, &mut Table<'_>, &Field) -> Option<Action>;
@@ -114,7 +115,7 @@ const fn input(
 /// The keys that change a lane; `lane` says which.
 const OF_A_LANE: [&str; 3] = [METHOD.key, SUBSTEPS.key, TOLERANCE.key];
 
-pub(super) static COMMAND_KEYS: [CommandKey; 10] = [
+pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
     command_key(
         Field::optional("method", "the method, for a lane with what else it has", Wanted::Method),
         |context, row, _| read_method(context, row),
@@ -142,9 +143,14 @@ pub(super) static COMMAND_KEYS: [CommandKey; 10] = [
         |_, action| if let Action::Kick(times) = action { Some(number(*times)) } else { None },
     ),
     command_key(
-        Field::optional("tick_hz", "ticks per second", Wanted::Whole(1..=MAX_TICK_HZ as u64)),
-        |_, row, field| row.whole(field).map(Action::TickHz),
-        |_, action| action.tick_hz().map(|tick_hz| tick_hz.to_string()),
+        Field::optional(TICK_HZ.key, "ticks per second", Wanted::TickRate),
+        |_, row, field| row.tick_rate(field).map(Action::TickHz),
+        |_, action| action.tick_hz().and_then(tick_hz),
+    ),
+    command_key(
+        STEP_S,
+        |_, row, field| row.tick_rate(field).map(Action::TickHz),
+        |_, action| action.tick_hz().and_then(step_s),
     ),
     command_key(
         SUBSTEPS,

@@ -11,6 +11,7 @@ use super::errors::SceneError;
 use super::fault::{FaultKind, SceneFault};
 use super::nearest::{nearest, offer};
 use super::wanted::{Field, Place, Wanted};
+use crate::sim::TickRate;
 use crate::sim::integrators::{METHODS, Method};
 
 mod lists;
@@ -120,6 +121,30 @@ impl<'t> Table<'t> {
         let whole = integer(value).and_then(|whole| u64::try_from(whole).ok());
         let whole = whole.filter(|whole| field.wanted.takes_whole(*whole));
         self.within(field, value, whole.and_then(|whole| T::try_from(whole).ok()))
+    }
+
+    /// A tick rate of [`Wanted::TickRate`], or that of a [`Wanted::Step`]. A ratio of numbers is a string.
+    pub(super) fn tick_rate(&mut self, field: &Field) -> Option<TickRate> {
+        let value = self.value(field)?;
+        let ratio = value.get_ref().as_str().filter(|text| text.contains('/')).map(str::to_owned);
+        // The shortest decimal of a number is what was written: no rate has as many digits as an `f64`.
+        let Some(written) = ratio.or_else(|| number(value).map(|number| number.to_string())) else {
+            return self.wrong_type(field, value);
+        };
+        let rate = match field.wanted {
+            Wanted::Step => TickRate::of_step(&written),
+            _ => written.parse(),
+        };
+        let is_in_range = number(value).is_some_and(|hz| match field.wanted {
+            Wanted::Step => (TickRate::MAX.step_s()..=TickRate::MIN.step_s()).contains(&hz),
+            _ => (TickRate::MIN.hz()..=TickRate::MAX.hz()).contains(&hz),
+        });
+        if rate.is_err() && is_in_range {
+            let what = format!("`{}` has more than nine digits after the point", field.key);
+            self.complain(value.span(), what, field.wanted.remedy());
+            return None;
+        }
+        self.within(field, value, rate.ok())
     }
 
     pub(super) fn method(&mut self, field: &Field) -> Option<&'static Method> {

@@ -1,6 +1,7 @@
 //! The times of ticks whose rate changes, and the ticks of what is told in seconds.
 
 use super::action::Action;
+use crate::sim::TickRate;
 
 /// The tolerance, in ticks, by which a tie between two ticks goes to the later one: a time may be off by its last bit.
 const TIE: f64 = 1e-6;
@@ -17,23 +18,23 @@ pub struct TimeScale {
 pub(crate) struct Piece {
     pub(crate) tick: u64,
     pub(crate) t: f64,
-    pub(crate) tick_hz: u32,
+    pub(crate) tick_hz: TickRate,
 }
 
 impl Piece {
     /// From tick 0 on at this rate.
-    pub(crate) fn first(tick_hz: u32) -> Self {
-        Self { tick: 0, t: 0.0, tick_hz }
+    pub(crate) fn first(tick_hz: impl Into<TickRate>) -> Self {
+        Self { tick: 0, t: 0.0, tick_hz: tick_hz.into() }
     }
 
     /// From this tick on at another rate.
-    pub(crate) fn then(self, tick: u64, tick_hz: u32) -> Self {
+    pub(crate) fn then(self, tick: u64, tick_hz: TickRate) -> Self {
         Self { tick, t: self.t(tick), tick_hz }
     }
 
     /// The time of a tick, in seconds.
     pub(crate) fn t(self, tick: u64) -> f64 {
-        self.t + (tick - self.tick) as f64 / f64::from(self.tick_hz)
+        self.t + self.tick_hz.seconds(tick - self.tick)
     }
 
     /// The fractional tick at a time in seconds; the first for all times before it.
@@ -43,7 +44,7 @@ impl Piece {
 
     /// The tick nearest to a time in seconds; the first for all times before it.
     pub(crate) fn nearest_tick(self, t: f64) -> u64 {
-        self.tick + nearest_tick(t - self.t, self.tick_hz.into())
+        self.tick + nearest_tick(t - self.t, self.tick_hz)
     }
 
     /// For each of these actions, which are told in seconds and in order, the tick before which it is done and the time of
@@ -63,9 +64,9 @@ impl Piece {
     }
 }
 
-/// The tick nearest to `seconds` after the first, at a rate in Hz; the first for all times before it.
-pub(crate) fn nearest_tick(seconds: f64, tick_hz: f64) -> u64 {
-    (seconds * tick_hz + TIE).max(0.0).round() as u64
+/// The tick nearest to `seconds` after the first; the first for all times before it.
+pub(crate) fn nearest_tick(seconds: f64, tick_hz: TickRate) -> u64 {
+    (seconds * tick_hz.hz() + TIE).max(0.0).round() as u64
 }
 
 impl TimeScale {
@@ -73,8 +74,8 @@ impl TimeScale {
     /// beside it.
     pub(crate) fn new(
         (tick, t): (u64, f64),
-        tick_hz: u32,
-        changes: impl IntoIterator<Item = (u64, u32)>,
+        tick_hz: TickRate,
+        changes: impl IntoIterator<Item = (u64, TickRate)>,
     ) -> Self {
         let mut last = Piece { tick, t, tick_hz };
         let mut pieces = vec![last];
@@ -120,7 +121,11 @@ mod tests {
 
     #[test]
     fn time_goes_on_at_each_rate_from_where_the_rate_was_set() {
-        let scale = TimeScale::new((0, 0.0), 60, [(60, 10), (70, 100), (70, 1000)]);
+        let scale = TimeScale::new(
+            (0, 0.0),
+            60.into(),
+            [(60, 10), (70, 100), (70, 1000)].map(|(tick, hz)| (tick, TickRate::whole(hz))),
+        );
         for (tick, t) in [(0, 0.0), (30, 0.5), (60, 1.0), (65, 1.5), (70, 2.0), (570, 2.5)] {
             assert!((scale.t(tick) - t).abs() < 1e-12, "tick {tick}: {}", scale.t(tick));
             assert_eq!(scale.nearest_tick(t), tick);
@@ -142,7 +147,7 @@ mod tests {
     fn the_actions_of_a_script_come_at_their_times_at_the_rates_that_it_sets() {
         let scene = scene();
         let script = || scene.script.iter().map(|row| (row.at_s, &row.action));
-        let put = |tick_hz| Piece::first(tick_hz).put_on_ticks(script()).collect::<Vec<_>>();
+        let put = |tick_hz: u32| Piece::first(tick_hz).put_on_ticks(script()).collect::<Vec<_>>();
         assert_eq!(put(1), [(5, 5.0), (45, 5.4), (46, 5.9)]);
         // At another rate before the script sets its own, the actions come at the same times.
         assert_eq!(put(3), [(15, 5.0), (55, 5.4), (56, 5.9)]);

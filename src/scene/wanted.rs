@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 
 use super::nearest::listed;
 use crate::scene::CloudKind;
+use crate::sim::TickRate;
 use crate::sim::bodies::{self, Pin};
 use crate::sim::law::Layout;
 
@@ -49,6 +50,10 @@ pub(super) enum Wanted {
     Text(usize),
     /// A number, whole or not.
     Number(bodies::Range),
+    /// A tick rate in Hz.
+    TickRate,
+    /// The length of a tick in seconds.
+    Step,
     /// A whole number.
     Whole(RangeInclusive<u64>),
     /// A list of points.
@@ -152,7 +157,7 @@ impl Wanted {
             | Wanted::Pin
             | Wanted::Clouds
             | Wanted::Layout => "a string",
-            Wanted::Number(_) => "a number",
+            Wanted::Number(_) | Wanted::TickRate | Wanted::Step => "a number",
             Wanted::Whole(_) => "an integer",
             Wanted::Methods | Wanted::Curve(_) | Wanted::Plane | Wanted::At => "a list",
             Wanted::Places => "a list of pairs",
@@ -174,6 +179,18 @@ impl fmt::Display for Wanted {
         match self {
             Wanted::Text(most) => write!(f, "1 to {most} characters in double quotes"),
             Wanted::Number(range) => write!(f, "a number {range}"),
+            Wanted::TickRate => write!(
+                f,
+                "a number from {} to {} with at most nine digits after the point, such as 60 or 66.667",
+                TickRate::MIN,
+                TickRate::MAX
+            ),
+            Wanted::Step => write!(
+                f,
+                "a number from {} to {} with at most nine digits after the point, such as 0.015",
+                TickRate::MAX.step_s(),
+                TickRate::MIN.step_s()
+            ),
             Wanted::Whole(range) => {
                 write!(f, "a whole number from {} to {}", range.start(), range.end())
             }

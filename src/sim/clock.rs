@@ -1,26 +1,30 @@
 //! Frame durations in, whole ticks out, exactly: the heart of every loop with a fixed timestep.
 //!
-//! Owed time is an integer in nanoseconds × hertz × percent, so that any whole tick rate at any whole
-//! percentage of real time divides it without a remainder being rounded away: a day at 60 Hz is
-//! 5 184 000 ticks however the day is cut into frames.
+//! Owed time is an integer in nanoseconds × ticks × percent, where the rate is a ratio of ticks to seconds, so that any
+//! [`TickRate`] at any whole percentage of real time divides it without a remainder being rounded away: a day at 60 Hz is
+//! 5 184 000 ticks however the day is cut into frames, and a day at 59.94 Hz is 5 178 816.
 
 use std::fmt;
 
-/// One tick in nanoseconds × hertz × percent.
-const TICK: i128 = 1_000_000_000 * 100;
+use super::tick_rate::TickRate;
+
+/// A second in nanoseconds × percent.
+const SECOND: i128 = 1_000_000_000 * 100;
+/// The largest `f64` below 1.
+const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
 
 /// Turns real time into ticks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clock {
-    tick_hz: u32,
+    tick_hz: TickRate,
     speed_percent: u32,
-    /// It holds less than one [`TICK`].
+    /// It holds less than one tick.
     accumulator: Accumulator,
 }
 
 /// A tick rate in Hz that no clock runs at: it is not in [`Clock::TICK_HZ`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TickRateError(pub u32);
+pub struct TickRateError(pub TickRate);
 
 impl fmt::Display for TickRateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -40,7 +44,7 @@ impl Default for Clock {
 
 impl Clock {
     /// The tick rates a clock can run at, in Hz.
-    pub const TICK_HZ: std::ops::RangeInclusive<u32> = 1..=10_000;
+    pub const TICK_HZ: std::ops::RangeInclusive<TickRate> = TickRate::MIN..=TickRate::MAX;
     /// The speeds a clock can run at, in percent of real time.
     pub const SPEED_PERCENT: std::ops::RangeInclusive<u32> = 1..=10_000;
 
@@ -49,7 +53,7 @@ impl Clock {
     /// # Panics
     /// If the rate is not in [`Clock::TICK_HZ`]; [`Clock::try_new`] returns an error instead.
     #[track_caller]
-    pub fn new(tick_hz: u32) -> Self {
+    pub fn new(tick_hz: impl Into<TickRate>) -> Self {
         // A closure would panic at its own line, and not at the caller's.
         match Self::try_new(tick_hz) {
             Ok(clock) => clock,
@@ -61,21 +65,32 @@ impl Clock {
     ///
     /// # Errors
     /// If the rate is not in [`Clock::TICK_HZ`].
-    pub fn try_new(tick_hz: u32) -> Result<Self, TickRateError> {
-        if !Self::TICK_HZ.contains(&tick_hz) {
+    pub fn try_new(tick_hz: impl Into<TickRate>) -> Result<Self, TickRateError> {
+        let tick_hz = tick_hz.into();
+        if !tick_hz.is_in_range() {
             return Err(TickRateError(tick_hz));
         }
         Ok(Self { tick_hz, speed_percent: 100, accumulator: Accumulator::default() })
     }
 
-    /// The tick rate in Hz.
-    pub fn tick_hz(&self) -> u32 {
+    /// The tick rate.
+    pub fn tick_hz(&self) -> TickRate {
         self.tick_hz
     }
 
     /// The length of a tick, in seconds.
     pub fn dt_s(&self) -> f64 {
-        1.0 / f64::from(self.tick_hz)
+        self.tick_hz.step_s()
+    }
+
+    /// The length of a tick in nanoseconds × ticks × percent.
+    fn tick(&self) -> i128 {
+        SECOND * i128::from(self.tick_hz.ratio()[1])
+    }
+
+    /// What a nanosecond adds to the owed time.
+    fn pace(&self) -> i128 {
+        i128::from(self.tick_hz.ratio()[0]) * i128::from(self.speed_percent)
     }
 
     /// The speed in percent of real time.
@@ -88,8 +103,10 @@ impl Clock {
     /// # Panics
     /// As [`Clock::new`].
     #[track_caller]
-    pub fn set_tick_hz(&mut self, tick_hz: u32) {
+    pub fn set_tick_hz(&mut self, tick_hz: impl Into<TickRate>) {
+        let before = self.tick_hz.ratio()[1].into();
         self.tick_hz = Self::new(tick_hz).tick_hz;
+        self.accumulator.scale(self.tick_hz.ratio()[1].into(), before);
     }
 
     /// Changes the speed, clamped to [`Clock::SPEED_PERCENT`].
@@ -100,28 +117,37 @@ impl Clock {
 
     /// The most ticks per frame: those of 250 ms, and at least one.
     pub fn max_ticks(&self) -> u32 {
-        max_ticks(u64::from(self.tick_hz) * u64::from(self.speed_percent), MAX_FRAME_MS)
+        max_ticks(self.tick_hz, self.speed_percent, MAX_FRAME_MS)
     }
 
     /// Adds a frame of `frame_ns` nanoseconds and returns the ticks that are due. A negative duration counts as 0.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
-        let rate = i128::from(self.tick_hz) * i128::from(self.speed_percent);
-        self.accumulator.advance(i128::from(frame_ns.max(0)) * rate, TICK, self.max_ticks())
+        let time = i128::from(frame_ns.max(0)) * self.pace();
+        self.accumulator.advance(time, self.tick(), self.max_ticks())
     }
 
     /// How far real time is into the next tick, in [0, 1).
     pub fn alpha(&self) -> f64 {
-        self.accumulator.owed() as f64 / TICK as f64
+        (self.accumulator.owed() as f64 / self.tick() as f64).min(BELOW_ONE)
     }
 
-    /// [`Clock::alpha`] as an exact fraction: numerator and denominator, the latter always the same.
+    /// [`Clock::alpha`] as a fraction: numerator and denominator, the latter the same for all whole rates. It is exact at
+    /// rates of seven digits after the point at most, and else off by less than 2⁻⁶².
     pub fn alpha_fraction(&self) -> (u64, u64) {
-        (self.accumulator.owed() as u64, TICK as u64)
+        let unit = (self.tick() >> 63) + 1;
+        ((self.accumulator.owed() / unit) as u64, (self.tick() / unit) as u64)
+    }
+
+    /// The shortest frame in nanoseconds after which `ticks` ticks are due.
+    #[cfg(feature = "cli")]
+    pub(crate) fn ns_until(&self, ticks: u64) -> u64 {
+        let due = i128::from(ticks) * self.tick() - self.accumulator.owed();
+        u64::try_from(due.unsigned_abs().div_ceil(self.pace().unsigned_abs())).unwrap_or(u64::MAX)
     }
 
     /// Sets the owed time to just below a tick, so that the next frame makes one.
     pub fn fill(&mut self) {
-        self.accumulator.fill(TICK);
+        self.accumulator.fill(self.tick());
     }
 
     /// Sets the owed time to 0.
@@ -172,16 +198,22 @@ impl Accumulator {
         self.owed = tick - 1;
     }
 
+    /// Changes the unit: `parts` of the present one are `whole` of the next. What is less than a unit is dropped.
+    fn scale(&mut self, whole: i128, parts: i128) {
+        self.owed = self.owed / parts * whole + self.owed % parts * whole / parts;
+    }
+
     /// Forgets the time owed.
     pub fn clear(&mut self) {
         self.owed = 0;
     }
 }
 
-/// The most ticks in a frame: those of `longest_ms`, and at least one. `tick_hz_percent` is the tick rate in Hz times the
-/// speed in percent.
-pub(crate) fn max_ticks(tick_hz_percent: u64, longest_ms: u32) -> u32 {
-    let most = (tick_hz_percent * u64::from(longest_ms)).div_ceil(100 * 1000);
+/// The most ticks in a frame: those of `longest_ms`, and at least one.
+pub(crate) fn max_ticks(tick_hz: TickRate, speed_percent: u32, longest_ms: u32) -> u32 {
+    let [ticks, seconds] = tick_hz.ratio().map(u128::from);
+    let ticks = ticks * u128::from(speed_percent) * u128::from(longest_ms);
+    let most = ticks.div_ceil(seconds * 100 * 1000);
     u32::try_from(most.max(1)).expect("at most 10 000 Hz at a hundredfold speed")
 }
 
@@ -208,6 +240,57 @@ mod tests {
             let total = run(&mut clock, (0..frames).map(|i| at(i + 1) - at(i)));
             assert_eq!(total, (5_184_000, 0), "at {fps} frames a second");
             assert_eq!(clock.alpha(), 0.0);
+        }
+    }
+
+    #[test]
+    fn a_day_at_a_rate_that_is_not_whole_has_every_tick_and_no_other() {
+        let steps = ["0.015", "0.003", "1.7"].map(|step| TickRate::of_step(step).unwrap());
+        let rates = ["59.94", "66.667", "60000/1001", "0.123456789"].map(|hz| hz.parse().unwrap());
+        for rate in rates.into_iter().chain(steps) {
+            let [ticks, seconds] = rate.ratio();
+            let due =
+                |ns: i64| ns as u128 * u128::from(ticks) / (u128::from(seconds) * 1_000_000_000);
+            let mut clock = Clock::new(rate);
+            let (mut passed, mut made) = (0, 0);
+            // Frames of 100 to 160 ms.
+            for frame in (0..).map(|i| 100_000_007 + i % 7 * 10_000_019) {
+                let frame = DAY_NS.min(passed + frame) - passed;
+                passed += frame;
+                let Due { ticks, dropped } = clock.advance(frame);
+                made += u128::from(ticks);
+                assert_eq!((made, dropped), (due(passed), 0), "{rate} Hz after {passed} ns");
+                if passed == DAY_NS {
+                    break;
+                }
+            }
+        }
+        for (hz, ticks) in [("59.94", 5_178_816), ("66.667", 5_760_028)] {
+            let mut clock = Clock::new(hz.parse::<TickRate>().unwrap());
+            let frames = std::iter::repeat_n(100_000_000, 864_000);
+            assert_eq!(run(&mut clock, frames), (ticks, 0), "{hz} Hz");
+            assert!(clock.alpha() < 0.9, "{hz} Hz");
+        }
+    }
+
+    #[test]
+    fn the_highest_rate_at_the_highest_speed_takes_the_longest_frame() {
+        let mut clock = Clock::new("9999.999999999".parse::<TickRate>().unwrap());
+        clock.set_speed_percent(10_000);
+        clock.fill();
+        let due = clock.advance(i64::MAX);
+        // 9.2 · 10⁹ s at a million ticks a second.
+        let wanted = i64::MAX as u128 * 9_999_999_999_999 / 10_u128.pow(16);
+        assert!((u128::from(due.dropped) + 250_000).abs_diff(wanted) <= 1, "{due:?}, {wanted}");
+    }
+
+    #[test]
+    fn a_change_between_rates_that_are_not_whole_keeps_the_part_that_is_owed() {
+        let mut clock = Clock::new(TickRate::of_step("0.015").unwrap());
+        clock.advance(10_000_000);
+        for rate in ["59.94", "0.123456789", "333.333333333", "1/0.015"] {
+            clock.set_tick_hz(rate.parse::<TickRate>().unwrap());
+            assert!((clock.alpha() - 2.0 / 3.0).abs() < 1e-11, "{rate} Hz: {}", clock.alpha());
         }
     }
 
@@ -286,7 +369,7 @@ mod tests {
         clock.advance(1_099_000_000);
         assert!(clock.alpha() > 0.9);
         clock.restart();
-        assert_eq!((clock.alpha(), clock.tick_hz(), clock.speed_percent()), (0.0, 20, 50));
+        assert_eq!((clock.alpha(), clock.tick_hz(), clock.speed_percent()), (0.0, 20.into(), 50));
         assert_eq!(clock.advance(99_999_999).ticks, 0);
         assert_eq!(clock.advance(1).ticks, 1);
     }

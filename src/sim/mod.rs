@@ -34,6 +34,7 @@ pub mod stability;
 mod state;
 mod stepper;
 mod system;
+mod tick_rate;
 mod vec_system;
 
 pub use body::{Body, Distances, Input, MAX_SWITCHES, NO_BOUNDARIES, Piece};
@@ -50,3 +51,4 @@ pub use stepper::{Change, PlacedBody, RecordedTick, Solver, Stepper};
 pub use system::{
     BodyClass, Counted, Coupling, EngineSettings, Evaluation, Pursuit, Query, StateOf, System,
 };
+pub use tick_rate::TickRate;

@@ -522,7 +522,7 @@ mod tests {
         ] {
             let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
             (0..ticks).for_each(|_| studio.tick());
-            studio.apply(StageCommand::TickHz(49));
+            studio.apply(StageCommand::TickHz(49.into()));
             studio.analyse();
             (0..20).for_each(|_| studio.tick());
             assert_eq!(words(&studio, [960.0, 560.0]), [wide], "changed at {ticks}");

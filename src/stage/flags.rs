@@ -360,7 +360,7 @@ mod tests {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.apply(StageCommand::ToggleRace);
         studio.viewer.preferences.display.arrangement = crate::studio::Arrangement::SideBySide;
-        (0..10 * studio.race().tick_hz()).for_each(|_| studio.tick());
+        (0..10 * studio.race().tick_hz().hz() as u32).for_each(|_| studio.tick());
         for width in [780.0, 490.0] {
             let picture = compose(&studio, [width, 440.0]);
             let told = picture.labels.iter().filter(|label| label.text.starts_with('±'));

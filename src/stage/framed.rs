@@ -242,7 +242,7 @@ mod tests {
             if is_race {
                 studio.apply(StageCommand::ToggleRace);
             }
-            (0..9 * studio.race().tick_hz()).for_each(|_| studio.tick());
+            (0..9 * studio.race().tick_hz().hz() as u32).for_each(|_| studio.tick());
             let picture = compose(&studio, [800.0, 440.0]);
             let camera = &picture.cells[0].camera;
             let place = studio.race().entrants()[0].lane.bodies()[0].stepper.place();

@@ -115,7 +115,7 @@ mod tests {
         scene.lanes = all.into_iter().filter(|spec| methods.contains(&spec.method.id)).collect();
         let mut studio = Studio::new(scene);
         studio.apply(StageCommand::ToggleRace);
-        (0..seconds * studio.race().tick_hz()).for_each(|_| studio.tick());
+        (0..seconds * studio.race().tick_hz().hz() as u32).for_each(|_| studio.tick());
         let picture = compose(&studio, [800.0, 440.0]);
         let texts = picture.labels.into_iter().map(|label| label.text);
         texts.filter(|text| text.starts_with("loupe ×")).collect()

@@ -64,7 +64,7 @@ mod tests {
 
     /// A spring and a ship under RK4 at a rate at which a tick can be seen.
     fn studio() -> Studio {
-        let scene = Scene { tick_hz: 5, ..Scene::built_in("harbour").unwrap() };
+        let scene = Scene { tick_hz: 5.into(), ..Scene::built_in("harbour").unwrap() };
         let mut studio = Studio::new(scene);
         let rk4 = studio.entries().iter().position(|spec| spec.method.id == "rk4");
         studio.apply(StageCommand::Pick(rk4.unwrap()));

@@ -275,7 +275,7 @@ mod tests {
     #[test]
     fn at_the_halt_it_says_how_long_the_spring_has_become() {
         let mut studio = watched("stiff", Motion::Live);
-        studio.apply(crate::studio::StageCommand::TickHz(30));
+        studio.apply(crate::studio::StageCommand::TickHz(30.into()));
         studio.apply(crate::studio::StageCommand::Restart);
         (0..60).for_each(|_| studio.tick());
         let said = said(&studio);

@@ -12,7 +12,7 @@ use crate::sim::stability::Tick;
 pub fn one_step(deck: &Deck, viewer: &Viewer) -> Option<OneStep> {
     let (entrant, race) = (deck.selected(), deck.race());
     let spec = entrant.spec;
-    let h = 1.0 / f64::from(race.tick_hz());
+    let h = race.tick_hz().step_s();
     let tick = Tick { t: race.t(), h, substeps: spec.substeps };
     let of = &entrant.lane.bodies()[viewer.view.body];
     let step = measure::one_step(of, spec, race.tick(), tick)?;

@@ -12,6 +12,7 @@ use crate::loops::loop_lab::LoopCommand;
 use crate::measure::cloud::CloudChoice;
 use crate::run::past::Quantity;
 use crate::scene::{Action, LaneSpec};
+use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 use crate::tools::source_code::Language;
 
@@ -105,7 +106,7 @@ pub enum StageCommand {
     /// rate that a person chose stay; a script's do not.
     Restart,
     /// Sets the tick rate in Hz.
-    TickHz(u32),
+    TickHz(TickRate),
     /// The next higher or lower rate of [`TICK_LADDER`].
     TickRate(Step),
     /// The next higher or lower speed of [`SPEED_LADDER`].
@@ -146,7 +147,7 @@ pub enum ViewCommand {
     /// Sets those numbers.
     DescribeSpring(MySpring),
     /// Sets the tick rate at which the spring of the dialog is to run, in Hz.
-    SpringTickHz(u32),
+    SpringTickHz(TickRate),
     /// Closes the open dialog.
     CloseDialog,
     /// Puts instruments, table and timeline round the stage, or lets the stage fill the window.

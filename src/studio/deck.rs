@@ -166,7 +166,7 @@ impl Deck {
     /// The simulated time in seconds with the owed part of a tick. It advances evenly with real time, while the race
     /// advances by ticks.
     pub fn time_with_owed_s(&self) -> f64 {
-        self.race().t() + self.clock.alpha() / f64::from(self.clock.tick_hz())
+        self.race().t() + self.clock.tick_hz().seconds_of(self.clock.alpha())
     }
 
     /// Ticks dropped since the scene was opened or restarted.
@@ -233,7 +233,7 @@ impl Deck {
             lane.switch(spec.solver(), spec.substeps, race.t(), race.truth());
         }
         let before = lane.evaluations();
-        lane.tick(race.tick(), race.t(), 1.0 / f64::from(race.tick_hz()));
+        lane.tick(race.tick(), race.t(), race.tick_hz().step_s());
         lane.evaluations() - before
     }
 

@@ -66,7 +66,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
         StageCommand::TickHz(tick_hz) => act(deck, viewer, Action::TickHz(tick_hz)),
         StageCommand::TickRate(step) => {
             if let Some(hz) = step.along(&TICK_LADDER, race.tick_hz()) {
-                act(deck, viewer, Action::TickHz(hz));
+                act(deck, viewer, Action::TickHz(hz.into()));
             }
         }
         StageCommand::Speed(step) => {
@@ -77,7 +77,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
         StageCommand::ToggleRace => toggle_race(deck, viewer),
         StageCommand::Tick(step) => step_by(deck, viewer, step.sign()),
         StageCommand::Second(step) => {
-            step_by(deck, viewer, step.sign() * i64::from(race.tick_hz()))
+            step_by(deck, viewer, step.sign() * race.tick_hz().hz().round().max(1.0) as i64)
         }
         StageCommand::Restart => {
             viewer.view.zoom_pans.clear();

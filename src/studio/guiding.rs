@@ -105,7 +105,7 @@ pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     let mut before = open_with(deck, viewer, listed, |next| {
         let method = next.list.iter().position(|spec| spec.method.id == method);
         next.entry = method.expect("a stop names a method");
-        next.tick_hz = tick_hz;
+        next.tick_hz = tick_hz.into();
         next.mode = mode;
     });
     deck.left = before.left.take().or_else(|| {

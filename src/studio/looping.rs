@@ -228,7 +228,7 @@ pub(super) fn title_of_loops(deck: &Deck, loops: &LoopLab) -> String {
     let trace = loops.traces()[loops.trace()].name();
     let paused = if deck.running { "" } else { " (paused)" };
     format!(
-        "Regatta - {} - loop lab: {} - {trace} - {} Hz{paused}",
+        "Regatta - {} - loop lab: {} - {trace} - {:.3} Hz{paused}",
         deck.scene_name(),
         loops.selected_card().name,
         loops.scene().tick_hz,

@@ -217,7 +217,7 @@ impl Studio {
         let tick = self.race().tick();
         let paused = if self.running() { String::new() } else { format!(" (paused, tick {tick})") };
         format!(
-            "Regatta - {} - {race}{} - {} Hz{paused}",
+            "Regatta - {} - {race}{} - {:.3} Hz{paused}",
             self.deck.scene_name(),
             self.lane_name(self.active()),
             self.clock().tick_hz(),

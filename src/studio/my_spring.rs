@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use crate::measure::{Adviser, Criterion};
-use crate::scene::{LaneSpec, Scene, SceneErrors, USUAL_SECONDS, check_entered};
+use crate::scene::{LaneSpec, Scene, SceneErrors, USUAL_SECONDS, check_entered, tick_rate_line};
+use crate::sim::TickRate;
 use crate::sim::bodies::Range;
 use crate::sim::integrators::method;
 use crate::sim::number::round;
@@ -110,7 +111,7 @@ impl MySpring {
 
     /// The text of a scene of the spring alone, at this tick rate in Hz. Its stretch is counted from where the mass rests:
     /// about that it swings alike with gravity and without.
-    pub fn scene_text(self, tick_hz: u32) -> String {
+    pub fn scene_text(self, tick_hz: impl Into<TickRate>) -> String {
         let Self { mass_kg, stiffness_n_per_m, damping_n_s_per_m, v0_m_per_s, .. } = self;
         let (sag_m, x0_m) = (self.sag_m(), self.x0_m - self.sag_m());
         let hung = match sag_m {
@@ -133,7 +134,7 @@ impl MySpring {
         format!(
             "title = \"My spring\"\n\
              about = \"{} Hz, {damped}, pulled out by {} m{pushed}.{hung}\"\n\
-             tick_hz = {tick_hz}\n\
+             {}\
              seconds = {seconds:?}\n\
              methods = [\"explicit-euler\", \"semi-implicit-euler\", \"velocity-verlet\", \"rk4\", \"implicit-euler\"]\n\n\
              [[spring]]\n\
@@ -145,6 +146,7 @@ impl MySpring {
              v0_m_per_s = {v0_m_per_s:?}\n",
             round(frequency, 3),
             round(x0_m, 4),
+            tick_rate_line(tick_hz.into()),
         )
     }
 
@@ -152,7 +154,8 @@ impl MySpring {
     ///
     /// # Errors
     /// If a scene may not have these numbers.
-    pub(crate) fn advised_scene(self, tick_hz: u32) -> Result<Scene, SceneErrors> {
+    pub(crate) fn advised_scene(self, tick_hz: impl Into<TickRate>) -> Result<Scene, SceneErrors> {
+        let tick_hz = tick_hz.into();
         let mut scene = self.scene(tick_hz)?;
         let adviser = Adviser::new(&scene, tick_hz);
         let methods = scene.methods_for_games();
@@ -173,7 +176,7 @@ impl MySpring {
     ///
     /// # Errors
     /// If a scene may not have these numbers.
-    pub fn scene(self, tick_hz: u32) -> Result<Scene, SceneErrors> {
+    pub fn scene(self, tick_hz: impl Into<TickRate>) -> Result<Scene, SceneErrors> {
         Scene::parse("my-spring", &self.scene_text(tick_hz))
     }
 }
@@ -207,7 +210,7 @@ mod tests {
         let slow = MySpring::of_frequency(2.0, 0.1, 0.25);
         for (spring, seconds) in [(slow, 100.0), (MySpring::of_frequency(1e-3, 40.0, 0.0), 20.0)] {
             let scene = spring.scene(50).unwrap();
-            assert_eq!((scene.name.as_str(), scene.tick_hz), ("my-spring", 50));
+            assert_eq!((scene.name.as_str(), scene.tick_hz), ("my-spring", 50.into()));
             assert!((scene.seconds - seconds).abs() < 1e-9, "{} s", scene.seconds);
             let [body] = &scene.bodies[..] else { panic!("one body") };
             let value = |key| body.values[body.kind.parameter(key).unwrap().0];

@@ -124,7 +124,7 @@ mod tests {
         studio.apply(StageCommand::Method(
             crate::sim::integrators::method("explicit-euler").unwrap(),
         ));
-        studio.apply(StageCommand::TickHz(10));
+        studio.apply(StageCommand::TickHz(10.into()));
         while studio.selected().lane.halted().is_none() {
             studio.tick();
         }
@@ -143,7 +143,7 @@ mod tests {
         let mut studio = Studio::new(Scene::built_in("bridge").unwrap());
         let method = crate::sim::integrators::method("explicit-euler").unwrap();
         studio.apply(StageCommand::Method(method));
-        studio.apply(StageCommand::TickHz(20));
+        studio.apply(StageCommand::TickHz(20.into()));
         for _ in 0..2000 {
             studio.tick();
             if let Some(halt) = studio.selected().lane.halted() {

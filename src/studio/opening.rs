@@ -16,6 +16,7 @@ use crate::run::diff::Comparison;
 use crate::run::race::Mode;
 use crate::run::{Run, StartSettings};
 use crate::scene::{Mistake, Scene, SceneErrors};
+use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 
 /// The name of a custom spring on the list of scenes.
@@ -83,7 +84,7 @@ pub(super) fn open_spring(deck: &mut Deck, viewer: &mut Viewer) {
 
 /// The spring that a person has described, and the tick rate at which it is to run: that of its dialog, or else the present
 /// one.
-pub fn described_spring(deck: &Deck, viewer: &Viewer) -> (MySpring, u32) {
+pub fn described_spring(deck: &Deck, viewer: &Viewer) -> (MySpring, TickRate) {
     let tick_hz = match viewer.dialog {
         Some(Dialog::Spring { tick_hz }) => tick_hz,
         _ => deck.clock.tick_hz(),

@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use super::{Pace, Studio};
+use crate::sim::TickRate;
 
 /// The shortest span to measure over, in nanoseconds: long enough for a steady figure, short enough to follow a change.
 const SPAN_NS: u64 = 1_000_000_000;
@@ -14,14 +15,14 @@ pub struct PaceMeter {
     /// is owed: counted in whole ticks the figure would jump at low rates.
     frames: VecDeque<(u64, f64)>,
     /// The tick rate and the speed of those frames.
-    under: (u32, u32),
+    under: Option<(TickRate, u32)>,
 }
 
 impl PaceMeter {
     /// Adds a frame that began at `now_ns`, in nanoseconds of real time. A pause, a jump in time or a change of rate starts
     /// the measurement again.
     pub fn frame(&mut self, now_ns: u64, studio: &Studio) {
-        let under = (studio.clock().tick_hz(), studio.clock().speed_percent());
+        let under = Some((studio.clock().tick_hz(), studio.clock().speed_percent()));
         let t = studio.deck.time_with_owed_s();
         let went_back = self.frames.back().is_some_and(|&(_, last)| t < last);
         if !studio.deck.time_runs() || went_back || under != self.under {
@@ -123,7 +124,7 @@ mod tests {
     impl Run {
         fn at(tick_hz: u32) -> Self {
             let mut studio = Studio::new(Scene::built_in("ship").unwrap());
-            studio.apply(StageCommand::TickHz(tick_hz));
+            studio.apply(StageCommand::TickHz(tick_hz.into()));
             Self(studio, PaceMeter::default(), 0)
         }
 
@@ -166,7 +167,7 @@ mod tests {
         for command in [
             Command::View(ViewCommand::TogglePause),
             Command::Stage(StageCommand::Speed(Step::Next)),
-            Command::Stage(StageCommand::TickHz(2)),
+            Command::Stage(StageCommand::TickHz(2.into())),
             Command::Stage(StageCommand::Restart),
         ] {
             assert!(is_real_time(run.frames(60).last().unwrap()));

@@ -206,7 +206,7 @@ mod tests {
         assert_eq!(escape(&mut studio), None, "the question has left");
         studio.deck.note_saved();
         assert_eq!(escape(&mut studio), quits, "it is saved");
-        studio.apply(StageCommand::TickHz(30));
+        studio.apply(StageCommand::TickHz(30.into()));
         studio.viewer.notice = None;
         assert_eq!(escape(&mut studio), None, "it has changed since");
         studio.viewer.preferences.is_recorded = true;

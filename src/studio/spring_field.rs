@@ -2,8 +2,8 @@
 
 use super::command::ViewCommand;
 use super::my_spring::MySpring;
-use crate::scene::{MAX_TICK_HZ, check_entered};
-use crate::sim::bodies::Range;
+use crate::scene::entered_tick_rate;
+use crate::sim::TickRate;
 use crate::tools::port::{Dialect, Key, Wish};
 
 /// A number of a spring, or its tick rate.
@@ -14,7 +14,7 @@ pub struct SpringField {
     pub unit: &'static str,
     /// Its value.
     pub value: f64,
-    /// Whether it is a count.
+    /// Whether a drag goes by whole numbers.
     pub is_whole: bool,
     /// The command that sets another value, or why it may not be.
     pub set: Box<dyn Fn(f64) -> Result<ViewCommand, String>>,
@@ -103,12 +103,9 @@ impl SpringField {
     }
 
     /// The ticks per second at which it is to run.
-    pub fn tick_rate(tick_hz: u32) -> Self {
-        let set = |value: f64| {
-            check_entered("tick rate", value, Range::Count(MAX_TICK_HZ))?;
-            Ok(ViewCommand::SpringTickHz(value as u32))
-        };
-        let (value, set) = (f64::from(tick_hz), Box::new(set));
+    pub fn tick_rate(tick_hz: impl Into<TickRate>) -> Self {
+        let set = |value: f64| entered_tick_rate(value).map(ViewCommand::SpringTickHz);
+        let (value, set) = (tick_hz.into().hz(), Box::new(set));
         Self { name: "tick rate", unit: "Hz", value, is_whole: true, set }
     }
 }
@@ -116,6 +113,7 @@ impl SpringField {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::check_entered;
     use crate::sim::bodies::kind;
 
     #[test]

@@ -35,10 +35,31 @@ impl Step {
     }
 
     /// The rung that it leads to; `None` at the end of the ladder.
-    pub(super) fn along(self, ladder: &[u32], rung: u32) -> Option<u32> {
+    pub(super) fn along(self, ladder: &[u32], rung: impl PartialOrd<u32>) -> Option<u32> {
         match self {
-            Self::Next => ladder.iter().copied().find(|&other| other > rung),
-            Self::Previous => ladder.iter().copied().rfind(|&other| other < rung),
+            Self::Next => ladder.iter().copied().find(|other| rung < *other),
+            Self::Previous => ladder.iter().copied().rfind(|other| rung > *other),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::TickRate;
+
+    #[test]
+    fn a_rate_between_two_rungs_steps_to_the_next_on_either_side() {
+        let ladder = [2, 60, 100];
+        let from = |step: Step, hz: &str| step.along(&ladder, hz.parse::<TickRate>().unwrap());
+        assert_eq!(
+            ["66.667", "59.94", "60"].map(|hz| from(Step::Next, hz)),
+            [100, 60, 100].map(Some)
+        );
+        assert_eq!(
+            ["66.667", "59.94", "60"].map(|hz| from(Step::Previous, hz)),
+            [60, 2, 2].map(Some)
+        );
+        assert_eq!((from(Step::Next, "100.5"), from(Step::Previous, "0.5")), (None, None));
     }
 }

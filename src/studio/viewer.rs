@@ -15,6 +15,7 @@ use crate::measure::cloud::{CloudChoice, FoundCloud};
 use crate::measure::{Advice, Findings, StabilityMap, Verdict};
 use crate::run::race::{Interpolation, Mode};
 use crate::scene::{LaneSpec, Mistake, Scene};
+use crate::sim::TickRate;
 use crate::tools::source_code::Language;
 
 /// A dialog over the window.
@@ -23,7 +24,7 @@ pub enum Dialog {
     /// The numbers of a custom spring.
     Spring {
         /// The tick rate at which it is to run, in Hz.
-        tick_hz: u32,
+        tick_hz: TickRate,
     },
     /// A field for the path of a scene file.
     Path {
@@ -155,7 +156,7 @@ pub struct Viewer {
     /// The clouds that were found last.
     pub(super) cloud: Option<FoundCloud>,
     /// The tick rate at which the pointer's button went down, in Hz, while it is.
-    pub(super) hz_at_press: Option<u32>,
+    pub(super) hz_at_press: Option<TickRate>,
     pub(super) dialog: Option<Dialog>,
     pub(super) hints: Hints,
     /// Those of the run that was left for the guide.

@@ -12,6 +12,7 @@ use crate::look::palette::Theme;
 use crate::loops::loop_lab::LoopCommand;
 use crate::measure::cloud::{CloudChoice, CloudKind, CloudWorker};
 use crate::scene::{SCENES, Scene};
+use crate::sim::TickRate;
 use crate::stage::compose;
 use crate::studio::guide::STOPS;
 use crate::studio::{
@@ -159,7 +160,7 @@ fn has_net(scene: &Scene) -> bool {
 
 fn move_on(studio: &mut Studio) {
     let seconds = if has_net(studio.scene()) { 1 } else { 4 };
-    let ticks = seconds * studio.race().tick_hz();
+    let ticks = seconds * studio.race().tick_hz().hz() as u32;
     (0..ticks).for_each(|_| studio.tick());
 }
 
@@ -223,7 +224,7 @@ fn every_text_can_be_read_beside_clouds_and_sections() {
         if race {
             studio.apply(StageCommand::ToggleRace);
         }
-        (0..studio.race().tick_hz()).for_each(|_| studio.tick());
+        (0..studio.race().tick_hz().hz() as u32).for_each(|_| studio.tick());
         studio.apply(StageCommand::Instrument(Instrument::Cloud));
         studio.apply(RunCommand::Cloud(CloudChoice { kind, points: 1000 }));
         complete_clouds(&mut studio, &mut CloudWorker::default(), || false);
@@ -338,6 +339,22 @@ fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
             assert_legible(&studio, &format!("loops over each other on {name}, {theme:?}"));
         }
     }
+}
+
+#[test]
+fn every_text_can_be_read_at_a_rate_of_many_digits() {
+    let scene = Scene::built_in("spring").expect("a built-in scene");
+    let mut studio = started(scene.at_tick_hz("1234.567".parse::<TickRate>().unwrap()), true);
+    assert_legible(&studio, "a race at 1234.567 Hz");
+    studio.apply(RunCommand::ToggleInspector);
+    for instrument in [Instrument::Advice, Instrument::StabilityMap, Instrument::Cost] {
+        studio.apply(StageCommand::Instrument(instrument));
+        studio.analyse();
+        assert_legible(&studio, &format!("{} at 1234.567 Hz", instrument.name()));
+    }
+    studio.apply(Command::Loop(LoopCommand::ToggleLab));
+    run_loops(&mut studio);
+    assert_legible(&studio, "the loop lab at 1234.567 Hz");
 }
 
 #[test]

@@ -131,7 +131,7 @@ mod tests {
     fn an_address_opens_a_scene_as_the_options_of_the_program_do() {
         let opened = |written: &str| Address::of(written).unwrap().studio().unwrap();
         let studio = opened("#scene=spring&method=rk4&tick-hz=30");
-        assert_eq!((studio.scene().name.as_str(), studio.race().tick_hz()), ("spring", 30));
+        assert_eq!((studio.scene().name.as_str(), studio.race().tick_hz()), ("spring", 30.into()));
         assert_eq!((studio.mode(), studio.race().entrants().len()), (Mode::Solo, 1));
         assert_eq!(studio.entries()[studio.active()].method.id, "rk4");
         let studio = opened("#scene=spring&method=rk4,midpoint");

@@ -138,7 +138,7 @@ fn wish(frequency_hz: f64, damping_ratio: f64) -> Wish {
 /// By how much of the exact height a jump is lower under semi-implicit Euler at half a second, in percent.
 fn percent_lower(tick_hz: u32) -> Option<f64> {
     let mut jump = Scene::built_in("jump")?;
-    (jump.tick_hz, jump.lanes) = (tick_hz, vec![lane("semi-implicit-euler")?]);
+    (jump.tick_hz, jump.lanes) = (tick_hz.into(), vec![lane("semi-implicit-euler")?]);
     let mut session = Session::racing(jump.into());
     session.run(u64::from(tick_hz / 2));
     let race = session.race();

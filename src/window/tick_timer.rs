@@ -11,6 +11,7 @@ use winit::event_loop::EventLoopProxy;
 use super::Event;
 use crate::run::{Follow, Lane};
 use crate::scene::LaneSpec;
+use crate::sim::TickRate;
 use crate::stopwatch;
 use crate::studio::{Instrument, Studio};
 
@@ -25,7 +26,7 @@ const EFFORT: Duration = Duration::from_micros(200);
 struct Lanes {
     lanes: Vec<(LaneSpec, Lane)>,
     t: f64,
-    tick_hz: u32,
+    tick_hz: TickRate,
 }
 
 /// A handle to the thread that times. The thread ends when this is dropped.
@@ -108,7 +109,7 @@ mod tests {
         studio.apply(StageCommand::ToggleRace);
         let lanes = studio.race().entrants().iter();
         let lanes = lanes.map(|lane| (lane.spec, lane.lane.clone())).collect();
-        let timed = timed(&Lanes { lanes, t: 0.0, tick_hz: 60 });
+        let timed = timed(&Lanes { lanes, t: 0.0, tick_hz: 60.into() });
         assert_eq!(timed.len(), 5);
         for (spec, ns) in timed {
             assert!(ns.is_some_and(|ns| ns > 1.0 && ns < 1e8), "{}: {ns:?} ns", spec.method.id);

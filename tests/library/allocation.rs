@@ -200,7 +200,8 @@ fn a_lab_allocates_in_no_tick_but_those_at_which_it_takes_a_snapshot_or_a_second
         let mut snapshots = 0;
         for _ in 0..500 {
             if allocations_in(|| studio.tick()) > 0 {
-                let (tick, hz) = (studio.race().tick(), u64::from(studio.race().tick_hz()));
+                let (tick, hz) =
+                    (studio.race().tick(), u64::from(studio.race().tick_hz().whole_hz().unwrap()));
                 let is_due = tick.is_multiple_of(32) || tick.is_multiple_of(hz);
                 assert!(is_due, "{} at tick {tick}", studio.scene().name);
                 snapshots += u32::from(tick.is_multiple_of(32));

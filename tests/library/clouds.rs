@@ -323,7 +323,7 @@ fn clouds_start_anew_under_another_rate_method_or_parameter_and_tell_until_then_
     picture(&mut studio, &mut worker);
     let set = Action::Set { body: 0, parameter: 0, value: 2.0 };
     for command in [
-        Command::Stage(StageCommand::TickHz(24)),
+        Command::Stage(StageCommand::TickHz(24.into())),
         Command::Stage(StageCommand::Pick(1)),
         Command::Run(RunCommand::Act(set)),
     ] {

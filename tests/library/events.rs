@@ -11,7 +11,7 @@ use crate::scenes::edited;
 
 /// The first coordinates and velocities of the truth after each tick of the scene's own rate, run at `times` that rate.
 fn truth(scene: &Scene, times: u32, ticks: u64) -> Vec<Vec<f64>> {
-    let tick_hz = times * scene.tick_hz;
+    let tick_hz = scene.tick_hz.scaled(times, 1);
     let mut race = Race::of_scene(&edited(scene, |scene| {
         scene.tick_hz = tick_hz;
         scene.lanes.clear();
@@ -65,9 +65,9 @@ fn run_to(studio: &mut Studio, seconds: f64) {
 fn a_change_of_the_rate_in_flight_leaves_what_is_to_come_at_its_time() {
     let mut studio = Studio::new(Scene::built_in("lerp").unwrap());
     run_to(&mut studio, 1.0);
-    studio.apply(StageCommand::TickHz(240));
+    studio.apply(StageCommand::TickHz(240.into()));
     run_to(&mut studio, 3.0);
-    studio.apply(StageCommand::TickHz(7));
+    studio.apply(StageCommand::TickHz(7.into()));
     run_to(&mut studio, 5.0);
     let [first, second] = done(&studio)[..] else { panic!("{:?}", done(&studio)) };
     assert!((first - 2.0).abs() < 1e-9, "{first}");
@@ -76,15 +76,15 @@ fn a_change_of_the_rate_in_flight_leaves_what_is_to_come_at_its_time() {
     studio.apply(RunCommand::Seek(10));
     studio.apply(RunCommand::Act(Action::Kick(0.5)));
     run_to(&mut studio, 5.0);
-    assert_eq!((done(&studio), studio.race().tick_hz()), (vec![2.0, 4.0], 30));
+    assert_eq!((done(&studio), studio.race().tick_hz()), (vec![2.0, 4.0], 30.into()));
     studio.apply(RunCommand::Undo);
     run_to(&mut studio, 5.0);
-    assert_eq!((done(&studio), studio.race().tick_hz()), (vec![first, second], 7));
+    assert_eq!((done(&studio), studio.race().tick_hz()), (vec![first, second], 7.into()));
     // After a restart, at the rate that was chosen.
-    studio.apply(StageCommand::TickHz(240));
+    studio.apply(StageCommand::TickHz(240.into()));
     studio.apply(StageCommand::Restart);
     run_to(&mut studio, 5.0);
-    assert_eq!((done(&studio), studio.race().tick_hz()), (vec![2.0, 4.0], 240));
+    assert_eq!((done(&studio), studio.race().tick_hz()), (vec![2.0, 4.0], 240.into()));
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn a_run_judged_from_a_hand_has_the_rest_of_the_script_at_its_times() {
     // At 30 Hz, after 1.5 s, 2 s are half a second on, however the rate was before.
     let mut studio = Studio::new(Scene::built_in("lerp").unwrap());
     run_to(&mut studio, 1.5);
-    studio.apply(StageCommand::TickHz(60));
+    studio.apply(StageCommand::TickHz(60.into()));
     studio.apply(RunCommand::Act(Action::Place { body: 0, q: [0.3].into(), v: [0.0].into() }));
     let mut rest = Scene::built_in("lerp").unwrap();
     rest.script.iter_mut().for_each(|row| row.at_s -= 1.5);
@@ -147,7 +147,7 @@ fn ticks_of_a_scene_are_read_with_a_warning_and_saved_as_seconds() {
     // At another rate, at the same times.
     let journal = Journal::of_script(&scene.script, 20);
     assert_eq!(journal.rows().iter().map(|row| row.tick).collect::<Vec<_>>(), [30, 40, 45]);
-    let faster = edited(&scene, |scene| scene.tick_hz = 120);
+    let faster = edited(&scene, |scene| scene.tick_hz = 120.into());
     for text in [faster.to_toml(), faster.to_saved_toml()] {
         let again = Scene::parse("new.toml", &text).unwrap();
         assert!(again.outdated.is_none() && text.contains("at_s = 2.5"), "{text}");
@@ -159,7 +159,7 @@ fn ticks_of_a_scene_are_read_with_a_warning_and_saved_as_seconds() {
 fn a_recording_speaks_of_ticks_and_is_read_without_a_warning() {
     let mut studio = Studio::new(Scene::built_in("helm").unwrap());
     (0..12).for_each(|_| studio.tick());
-    studio.apply(StageCommand::TickHz(60));
+    studio.apply(StageCommand::TickHz(60.into()));
     (0..260).for_each(|_| studio.tick());
     let text = studio.deck.recording().unwrap();
     assert!(!text.contains("at_s"), "{text}");

@@ -11,7 +11,7 @@ use regatta::studio::{RunCommand, StageCommand, Studio, shown_s};
 
 fn open(scene: &str, tick_hz: u32) -> Studio {
     let mut studio = Studio::new(Scene::built_in(scene).unwrap());
-    studio.apply(StageCommand::TickHz(tick_hz));
+    studio.apply(StageCommand::TickHz(tick_hz.into()));
     studio.apply(StageCommand::Restart);
     studio
 }

@@ -40,7 +40,7 @@ fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
         assert_eq!((tour.index(), tour.guess(), tour.is_done()), (index, None, false));
         assert_eq!(studio.scene().name, stop.scene, "{}", stop.title);
         assert_eq!(studio.entries()[studio.active()].method.id, stop.method, "{}", stop.title);
-        assert_eq!((studio.clock().tick_hz(), studio.mode()), (stop.tick_hz, stop.mode));
+        assert_eq!((studio.clock().tick_hz(), studio.mode()), (stop.tick_hz.into(), stop.mode));
         assert_eq!(studio.display().instrument, stop.instrument, "{}", stop.title);
         assert_eq!(studio.display().quantity, Some(stop.quantity), "{}", stop.title);
         let shown = METRICS[studio.display().metric].name;
@@ -180,7 +180,7 @@ fn verdict(scene: &str, id: &str, tick_hz: u32) -> Verdict {
 /// The ship's speed after 8.5 s under this method, its exact speed, and the evaluations made.
 fn ship(id: &str, tick_hz: u32) -> (f64, f64, u64) {
     let mut scene = Scene::built_in("ship").unwrap();
-    scene.tick_hz = tick_hz;
+    scene.tick_hz = tick_hz.into();
     let lane = LaneSpec::plain(method(id).unwrap());
     let mut race = Race::new(&scene, [lane]);
     race.run(u64::from(tick_hz) * 17 / 2);
@@ -216,7 +216,7 @@ fn the_errors_on_the_ship_are_those_that_the_guide_names() {
     assert!((0.025..0.035).contains(&improved), "{improved}");
     assert!((50.0..70.0).contains(&(euler / improved)), "{}", euler / improved);
     let mut scene = Scene::built_in("ship").unwrap();
-    scene.tick_hz = 2;
+    scene.tick_hz = 2.into();
     let mut race = Race::new(&scene, [LaneSpec::plain(method("explicit-euler").unwrap())]);
     race.run(17);
     let position = |lane: &regatta::run::Lane| lane.bodies()[0].stepper.q()[0];
@@ -247,7 +247,7 @@ fn improved_euler_is_the_cheapest_within_a_hundredth_on_the_ship() {
 fn the_ships_settle_at_half_the_step_only() {
     let run = |tick_hz: u32, seconds: u64| -> Vec<f64> {
         let mut scene = Scene::built_in("surge").unwrap();
-        scene.tick_hz = tick_hz;
+        scene.tick_hz = tick_hz.into();
         let mut race = Race::of_scene(&scene);
         race.run(u64::from(tick_hz) * seconds);
         let bodies = race.entrants()[0].lane.bodies().iter();
@@ -499,7 +499,7 @@ fn the_pendulum_of_the_phase_portrait_winds_out_for_three_half_swings_and_goes_o
     }
     assert!(ends.len() == 3 && ends.is_sorted() && ends[0] > 2.8, "{ends:?}");
     assert!((9.2..9.8).contains(&studio.race().t()), "{} s", studio.race().t());
-    studio.apply(StageCommand::TickHz(60));
+    studio.apply(StageCommand::TickHz(60.into()));
     studio.apply(StageCommand::Restart);
     while state(&studio).0.abs() < std::f64::consts::PI && studio.race().t() < 3.0 {
         studio.tick();

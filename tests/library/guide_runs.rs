@@ -73,7 +73,7 @@ fn own_run(race: bool) -> Studio {
         studio.apply(StageCommand::ToggleRace);
         studio.apply(StageCommand::Pick(2));
     }
-    studio.apply(StageCommand::TickHz(30));
+    studio.apply(StageCommand::TickHz(30.into()));
     (0..70).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Kick(1.0)));
     (0..20).for_each(|_| studio.tick());

@@ -29,11 +29,11 @@ fn at_every_rate_each_rate_that_a_hint_names_is_the_present_one_or_where_its_key
     let mut named = 0;
     for scene in SCENES {
         let own = Scene::built_in(scene.name).unwrap();
-        let rates_of_ladder = TICK_LADDER.iter().copied().chain([own.tick_hz]);
+        let rates_of_ladder = TICK_LADDER.iter().copied().chain(own.tick_hz.whole_hz());
         for (race, hz) in rates_of_ladder.flat_map(|hz| [(false, hz), (true, hz)]) {
             let mut opened = Studio::new(own.clone().at_tick_hz(hz));
             let mut changed = Studio::new(own.clone());
-            changed.apply(StageCommand::TickHz(hz));
+            changed.apply(StageCommand::TickHz(hz.into()));
             for studio in [&mut opened, &mut changed] {
                 if race {
                     studio.apply(StageCommand::ToggleRace);
@@ -41,7 +41,7 @@ fn at_every_rate_each_rate_that_a_hint_names_is_the_present_one_or_where_its_key
                 studio.viewer.begin_hints();
                 assert_eq!(studio.clock().tick_hz(), hz, "{}", scene.name);
                 let Some(hint) = studio.hint() else { continue };
-                assert!(hz == own.tick_hz || Some(&hint) != own.hint.as_ref(), "{hz} Hz: {hint}");
+                assert!(own.tick_hz == hz || Some(&hint) != own.hint.as_ref(), "{hz} Hz: {hint}");
                 for (before, rate) in rates(&hint) {
                     named += 1;
                     let is_reached = before.ends_with("for ") || before.ends_with("at ");

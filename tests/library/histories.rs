@@ -9,7 +9,7 @@ use crate::scenes::edited;
 
 fn studio(seconds: f64, tick_hz: u32) -> Studio {
     let scene = edited(&Scene::built_in("spring").unwrap(), |scene| {
-        (scene.seconds, scene.tick_hz) = (seconds, tick_hz);
+        (scene.seconds, scene.tick_hz) = (seconds, tick_hz.into());
     });
     Studio::new(scene)
 }

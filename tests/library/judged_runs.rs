@@ -177,7 +177,7 @@ fn a_run_judged_from_a_placement_keeps_its_throttle_and_the_rest_of_the_script()
         let script = times.iter().map(row).collect();
         edited(&Scene::built_in("ship").unwrap(), |scene| scene.script = script)
     };
-    let hz = u64::from(scripted(&[]).tick_hz);
+    let hz = u64::from(scripted(&[]).tick_hz.whole_hz().unwrap());
     let mut studio = opened(&scripted(&[(1.0, 0.5), (9.0, -0.25)]));
     (0..2 * hz).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Place { body: 0, q: [10.0].into(), v: [3.0].into() }));

@@ -33,7 +33,7 @@ fn a_race_is_titled_by_its_selected_lane() {
 #[test]
 fn brackets_walk_the_tick_rates_and_n_and_b_the_scenes() {
     let mut studio = studio("spring");
-    studio.apply(StageCommand::TickHz(2));
+    studio.apply(StageCommand::TickHz(2.into()));
     let start = "Regatta - spring - Explicit Euler - 2 Hz";
     let up = TICK_LADDER.into_iter().map(|hz| (hz, ']'));
     let down = TICK_LADDER.into_iter().rev().map(|hz| (hz, '['));

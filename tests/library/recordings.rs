@@ -171,7 +171,7 @@ fn flown() -> Studio {
         Action::Set { body: 0, parameter: 1, value: 90.0 },
         Action::Kick(0.5),
         Action::Lane { lane: LaneId(1), spec: rk4 },
-        Action::TickHz(50),
+        Action::TickHz(50.into()),
         Action::Place { body: 1, q: [0.25].into(), v: [-1.5].into() },
         Action::Throttle(-0.5),
         Action::Substeps { lane: LaneId(1), substeps: 2 },
@@ -201,7 +201,11 @@ fn a_recording_has_all_actions_and_repeats_the_run_to_the_bit() {
     let scene = parsed(&studio.deck.recording().unwrap());
     assert_eq!(ticks(&scene), (1..=9).map(|n| 25 * n).collect::<Vec<_>>());
     assert_eq!(scene.bodies[0].values, built_in("harbour").bodies[0].values, "as at the start");
-    assert_eq!((scene.lanes.len(), scene.tick_hz), (5, 60), "with those that stood beside it");
+    assert_eq!(
+        (scene.lanes.len(), scene.tick_hz),
+        (5, 60.into()),
+        "with those that stood beside it"
+    );
     assert!((scene.seconds - studio.race().t()).abs() < 1e-12);
     let last = scene.checks.last().unwrap();
     assert_eq!((last.tick, last.lane), (250, LaneId(1)));
@@ -453,8 +457,8 @@ fn what_no_file_could_say_is_refused_where_it_enters() {
     let set = |value| Action::Set { body: 0, parameter: 1, value };
     let place = |q: f64| Action::Place { body: 0, q: [q].into(), v: [0.0].into() };
     for action in [
-        Action::TickHz(0),
-        Action::TickHz(10_897),
+        Action::TickHz(0.into()),
+        Action::TickHz(10_897.into()),
         Action::Substeps { lane, substeps: 0 },
         Action::Substeps { lane, substeps: 1001 },
         Action::Tolerance { lane, tolerance: 0.0 },

@@ -11,31 +11,31 @@ fn scripted() -> Studio {
     Studio::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap())
 }
 
-fn settings(studio: &Studio) -> (u32, u32, &'static str) {
+fn settings(studio: &Studio) -> (f64, f64, &'static str) {
     let method = studio.entries()[studio.active()].method.id;
-    (studio.clock().tick_hz(), studio.race().tick_hz(), method)
+    (studio.clock().tick_hz().hz(), studio.race().tick_hz().hz(), method)
 }
 
 #[test]
 fn a_restart_takes_back_what_the_script_did() {
     let mut studio = scripted();
     (0..10).for_each(|_| studio.tick());
-    assert_eq!(settings(&studio), (100, 100, "rk4"));
+    assert_eq!(settings(&studio), (100.0, 100.0, "rk4"));
     studio.apply(StageCommand::Restart);
-    assert_eq!(settings(&studio), (2, 2, "explicit-euler"));
+    assert_eq!(settings(&studio), (2.0, 2.0, "explicit-euler"));
     assert_eq!((studio.race().tick(), studio.race().t()), (0, 0.0));
     (0..10).for_each(|_| studio.tick());
-    assert_eq!(settings(&studio), (100, 100, "rk4"), "the script plays again");
+    assert_eq!(settings(&studio), (100.0, 100.0, "rk4"), "the script plays again");
 }
 
 #[test]
 fn a_restart_keeps_the_rate_and_the_method_that_a_person_chose() {
     let mut studio = scripted();
     (0..10).for_each(|_| studio.tick());
-    studio.apply(StageCommand::TickHz(7));
+    studio.apply(StageCommand::TickHz(7.into()));
     studio.apply(StageCommand::Pick(2));
     studio.apply(StageCommand::Restart);
-    assert_eq!(settings(&studio), (7, 7, "improved-euler"));
+    assert_eq!(settings(&studio), (7.0, 7.0, "improved-euler"));
 }
 
 #[test]

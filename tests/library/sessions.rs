@@ -55,7 +55,7 @@ fn scene(dice: &mut Dice, n: usize) -> Scene {
     }
     edited(&all[0], |scene| {
         (scene.bodies, scene.lanes, scene.opening_method) = (bodies, lanes, None);
-        (scene.tick_hz, scene.seconds) = (60, 20.0);
+        (scene.tick_hz, scene.seconds) = (60.into(), 20.0);
     })
 }
 
@@ -68,7 +68,7 @@ fn action(dice: &mut Dice, session: &Session) -> Action {
         0..5 => Action::Lane { lane, spec: dice.spec() },
         5 => Action::Substeps { lane, substeps: 1 + dice.below(4) as u32 },
         6 => Action::Tolerance { lane, tolerance: 10.0_f64.powf(dice.between(-8.0, -3.0)) },
-        7..9 => Action::TickHz([30, 49, 60, 120, 240][dice.below(5)]),
+        7..9 => Action::TickHz([30, 49, 60, 120, 240][dice.below(5)].into()),
         9..11 => Action::Throttle(dice.between(-1.0, 1.0)),
         11..13 => Action::Rudder(dice.between(-1.0, 1.0)),
         13..15 => Action::Kick(dice.between(-1.0, 1.0)),
@@ -310,7 +310,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
 #[test]
 fn snapshots_of_ten_hours_stay_within_their_memory_limit() {
     // Of a million ticks, more than of ten hours at the scene's rate.
-    let scene = edited(&Scene::built_in("spring").unwrap(), |scene| scene.tick_hz = 30);
+    let scene = edited(&Scene::built_in("spring").unwrap(), |scene| scene.tick_hz = 30.into());
     let limit = 1 << 20;
     let mut timeline = Run::with_limit(Session::racing(scene.into()), limit);
     let mut most = 0;
@@ -385,7 +385,7 @@ fn undo_also_restores_the_settings_of_the_next_start() {
         (studio.race().values(0)[0], substeps(&studio), studio.analysis_request());
     for command in [
         Command::Run(RunCommand::Act(Action::Set { body: 0, parameter: 0, value: 2.5 })),
-        Command::Stage(StageCommand::TickHz(50)),
+        Command::Stage(StageCommand::TickHz(50.into())),
         Command::Run(RunCommand::ToggleEqualCost),
     ] {
         studio.apply(RunCommand::Seek(100));
@@ -398,7 +398,7 @@ fn undo_also_restores_the_settings_of_the_next_start() {
     assert_ne!(substeps(&studio), plain, "what was undone is not taken back, but done");
     studio.apply(RunCommand::Undo);
     studio.apply(StageCommand::Restart);
-    assert_eq!((studio.race().tick_hz(), substeps(&studio)), (60, plain));
+    assert_eq!((studio.race().tick_hz(), substeps(&studio)), (60.into(), plain));
 }
 
 #[test]

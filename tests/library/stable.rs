@@ -117,7 +117,7 @@ fn a_report_has_the_fields_that_are_promised() {
     let report = regatta::advise(&Sprung, State { q: 1.0, v: 0.0 }, options);
 
     let Report { name, tick_hz, horizon_s, methods, recommended, not_known, .. } = report;
-    assert_eq!((name.as_str(), tick_hz, horizon_s), ("body", 60, 3.0));
+    assert_eq!((name.as_str(), tick_hz, horizon_s), ("body", 60.into(), 3.0));
     let Criteria { bounded, looks_right, accurate } = recommended;
     for recommendation in [bounded, looks_right, accurate] {
         let Recommendation { method, with, instead_of, .. } =
@@ -136,7 +136,7 @@ fn a_report_has_the_fields_that_are_promised() {
             ..
         } = with;
         assert!(are_margins_searched);
-        assert_eq!((tick_hz, cost_per_s), (60, evaluations_per_s));
+        assert_eq!((tick_hz, cost_per_s), (60.into(), evaluations_per_s));
         assert_eq!(evaluations_per_s % f64::from(60 * substeps), 0.0);
         assert!(slowest_hz.is_some_and(|hz| (1..=60).contains(&hz)));
         assert!(stiffness_factor.is_some_and(|factor| (1.0..=10.0).contains(&factor)));

@@ -293,7 +293,7 @@ impl System for Row {
 #[test]
 fn a_custom_row_of_256_masses_costs_a_band_of_its_jacobian_where_it_says_so() {
     let start = State { q: (0..256).map(|i| f64::from(i % 7)).collect(), v: vec![0.0; 256] };
-    let horizon = ClaimHorizon { tick_hz: 60, ticks: 1 };
+    let horizon = ClaimHorizon { tick_hz: 60.into(), ticks: 1 };
     let of = |coupling| {
         let kind =
             custom_kind(&Row(coupling), &start, &Extras::default(), horizon).expect("a body");

@@ -121,8 +121,8 @@ fn after_a_kick_every_method_goes_on_as_if_started_there() {
 #[test]
 fn after_a_change_of_tick_rate_every_method_goes_on_as_if_started_there() {
     for method in GENERAL_METHODS {
-        goes_on_as_if_started_there(method, method, |race| act(race, Action::TickHz(100)));
-        goes_on_as_if_started_there(method, method, |race| act(race, Action::TickHz(49)));
+        goes_on_as_if_started_there(method, method, |race| act(race, Action::TickHz(100.into())));
+        goes_on_as_if_started_there(method, method, |race| act(race, Action::TickHz(49.into())));
     }
 }
 
@@ -141,7 +141,7 @@ fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
         |race| act(race, Action::Throttle(0.5)),
         |race| act(race, Action::Rudder(-0.25)),
         |race| act(race, Action::Kick(0.0)),
-        |race| act(race, Action::TickHz(7)),
+        |race| act(race, Action::TickHz(7.into())),
         |race| {
             let spec = LaneSpec::plain(race.entrants()[0].lane.solver().method().unwrap());
             assert!(switch(race, spec).is_empty());
@@ -152,7 +152,7 @@ fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
             let mut race = solo(&mixed(), method.id);
             act(&mut race, Action::Throttle(0.5));
             act(&mut race, Action::Rudder(-0.25));
-            act(&mut race, Action::TickHz(7));
+            act(&mut race, Action::TickHz(7.into()));
             run(&mut race, 40);
             race
         };
@@ -269,7 +269,7 @@ fn a_change_of_tick_rate_keeps_the_time_and_the_truth() {
     let mut race = solo(&scene, "rk4");
     run(&mut race, 60);
     let t = race.t();
-    act(&mut race, Action::TickHz(100));
+    act(&mut race, Action::TickHz(100.into()));
     assert_eq!(race.t(), t);
     run(&mut race, 50);
     let wanted = t + 0.5;
@@ -284,7 +284,7 @@ fn a_change_of_tick_rate_keeps_the_time_and_the_truth() {
 /// the limits at this damping are 0.4 and 2.9.
 fn ship_and_lively_spring() -> Scene {
     let mut scene = scene("harbour");
-    scene.tick_hz = 10;
+    scene.tick_hz = 10.into();
     let lively = vec![1.0, 400.0, 8.0, 1.0, 0.0, 3.0];
     scene.bodies = ["ship", "spring"].map(scene_body).into();
     scene.bodies[1].values = lively;

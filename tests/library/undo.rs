@@ -1,6 +1,7 @@
 //! Whatever a person changes can be undone and done again, in one order.
 
 use regatta::scene::{Action, Scene};
+use regatta::sim::TickRate;
 use regatta::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
 
 use crate::dice::Dice;
@@ -19,7 +20,7 @@ struct Whole {
     rows: usize,
     end: u64,
     state: u64,
-    tick_hz: u32,
+    tick_hz: TickRate,
     methods: Vec<(&'static str, u32)>,
     scene: String,
 }
@@ -67,7 +68,7 @@ fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one
         Command::Run(RunCommand::Act(Action::Set { body: 0, parameter: 3, value: 0.25 })),
         Command::Run(RunCommand::Act(place)),
         Command::Run(RunCommand::Act(Action::Kick(1.0))),
-        Command::Stage(StageCommand::TickHz(30)),
+        Command::Stage(StageCommand::TickHz(30.into())),
         Command::Stage(StageCommand::ToggleRace),
         Command::Run(RunCommand::ToggleEqualCost),
         Command::Run(RunCommand::Seconds(12.0)),
@@ -112,7 +113,7 @@ fn a_drag_of_a_slider_is_one_change_and_the_next_drag_another() {
             let value = to * (1.0 + f64::from(part) / 10.0);
             studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value }));
             // The cross of the stability map sets the rate too.
-            studio.apply(StageCommand::TickHz(60 + part));
+            studio.apply(StageCommand::TickHz((60 + part).into()));
             (0..3).for_each(|_| studio.tick());
         }
         studio.apply(ViewCommand::PointerDown(false));
@@ -126,12 +127,12 @@ fn a_drag_of_a_slider_is_one_change_and_the_next_drag_another() {
     studio.apply(RunCommand::Undo);
     assert_eq!(
         (stiffness(&studio), studio.race().tick(), studio.race().tick_hz()),
-        (second, 80, 70)
+        (second, 80, 70.into())
     );
     studio.apply(RunCommand::Undo);
     assert_eq!(
         (stiffness(&studio), studio.race().tick(), studio.race().tick_hz()),
-        (first, 50, 60)
+        (first, 50, 60.into())
     );
     assert_eq!((studio.run().undoes(), studio.scene().bodies[0].values[1]), (None, first));
     studio.apply(RunCommand::Redo);
@@ -156,7 +157,7 @@ fn random_changes_are_undone_and_done_again_to_the_bit() {
             let command = match below(6) {
                 0 => Command::Run(RunCommand::Act(Action::Kick(0.5))),
                 1 => Command::Stage(StageCommand::Pick(below(5) as usize)),
-                2 => Command::Stage(StageCommand::TickHz(20 + below(60) as u32)),
+                2 => Command::Stage(StageCommand::TickHz((20 + below(60) as u32).into())),
                 3 => Command::Stage(StageCommand::ToggleRace),
                 4 => Command::Stage(StageCommand::Restart),
                 _ => {

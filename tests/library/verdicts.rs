@@ -3,6 +3,7 @@
 use regatta::measure::{Adviser, CRITERIA, Judge, Outcome, Verdict};
 use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::Solver;
+use regatta::sim::TickRate;
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn scene(seconds: f64, body: &str) -> Scene {
@@ -14,7 +15,7 @@ fn spec(id: &str) -> LaneSpec {
     LaneSpec::plain(method(id).unwrap())
 }
 
-fn verdict(scene: &Scene, id: &str, tick_hz: u32) -> Verdict {
+fn verdict(scene: &Scene, id: &str, tick_hz: impl Into<TickRate>) -> Verdict {
     Judge::over(scene, scene.seconds).verdict(spec(id), tick_hz)
 }
 

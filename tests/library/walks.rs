@@ -29,7 +29,7 @@ fn action(dice: &mut Dice, studio: &Studio) -> Action {
         0 => Action::Kick(dice.between(-1.0, 1.0)),
         1 => Action::Throttle(dice.between(-1.0, 1.0)),
         2 => Action::Rudder(dice.between(-1.0, 1.0)),
-        3 => Action::TickHz([30, 49, 60, 120][dice.below(4)]),
+        3 => Action::TickHz([30, 49, 60, 120][dice.below(4)].into()),
         4 => {
             let parameter = dice.below(race.truth().bodies()[body].kind.parameters.len());
             let value = race.values(body)[parameter] * dice.between(0.8, 1.25);

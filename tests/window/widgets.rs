@@ -74,7 +74,7 @@ fn the_menus_and_buttons_above_and_below_and_the_table_are_worked_by_the_mouse()
     let studio = &twin.studio;
     assert_eq!(
         (studio.clock().speed_percent(), studio.clock().tick_hz(), studio.active()),
-        (200, 120, 3)
+        (200, 120.into(), 3)
     );
     assert!(!studio.display().help);
     same(&desk, &mut twin);

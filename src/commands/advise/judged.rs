@@ -11,6 +11,7 @@ use crate::commands::terminal::{print_status, progress};
 use crate::measure::{Adviser, CRITERIA, MethodAdvice, Recommendation, ranked, recommended};
 use crate::run::{Follow, Lane};
 use crate::scene::{LaneSpec, Scene};
+use crate::sim::TickRate;
 use crate::sim::number::significant;
 use crate::stopwatch;
 
@@ -25,7 +26,7 @@ struct Timing {
 
 impl Timing {
     /// Of runs in nanoseconds per tick, from least to most, at this many ticks per second; `None` if there are none.
-    fn of(runs: &[f64], tick_hz: u32) -> Option<Self> {
+    fn of(runs: &[f64], tick_hz: TickRate) -> Option<Self> {
         let least = *runs.first()?;
         let spread = runs[runs.len() / 2] / least - 1.0;
         Some(Self { ns_per_s: least * f64::from(tick_hz), spread })

@@ -93,7 +93,7 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
         return text;
     }
     for (i, criterion) in CRITERIA.iter().enumerate() {
-        text += &format!("at {} Hz: {}: ", adviser.tick_hz(), criterion.id());
+        text += &format!("at {:.3} Hz: {}: ", adviser.tick_hz(), criterion.id());
         text += &match recommended_row(rows, i) {
             Some((_, recommendation)) => recommendation.to_string(),
             None => why_none(scene, rows, i),
@@ -110,9 +110,10 @@ fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
     let (row, Recommendation { with: met, .. }) =
         wanted.into_iter().find_map(|criterion| recommended_row(rows, index(criterion)?))?;
     let code = source_code(row.advised.spec.method, language, Precision::Double).ok()?;
-    let (steps, hz) = (met.substeps, u64::from(adviser.tick_hz()) * u64::from(met.substeps));
+    let steps = met.substeps;
+    let hz = adviser.tick_hz().scaled(steps, 1);
     let times = if steps == 1 { "once".into() } else { format!("{steps} times") };
-    Some(format!("Call this {times} a tick with h = 1/{hz} s:\n\n{code}"))
+    Some(format!("Call this {times} a tick with h = 1/{hz:.6} s:\n\n{code}"))
 }
 
 /// Why no method is recommended for a criterion.

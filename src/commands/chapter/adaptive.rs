@@ -15,10 +15,10 @@ const TICKS: u32 = 17;
 /// Both listings side by side.
 pub(super) fn listings() -> String {
     let scene = scene("ship");
-    let h = 1.0 / f64::from(scene.tick_hz);
+    let h = scene.tick_hz.step_s();
     let asked = h * f64::from(TICKS);
     let ship = Ship::BLANK.with_parameters(&scene.bodies[0].values);
-    let truth = exactly(&scene, asked, f64::from(scene.tick_hz)).last().map_or(0.0, |end| end.v);
+    let truth = exactly(&scene, asked, scene.tick_hz).last().map_or(0.0, |end| end.v);
     let mut text = format!(
         "Adaptive Euler, {TICKS} ticks of {h} s: {asked} s are asked for, the speed is then {truth:.6} m/s\n\n\
          {:>9}  {:^32}  {:^50}\n\

@@ -104,7 +104,7 @@ pub(super) fn csv(figure: &Figure) -> io::Result<Vec<u8>> {
 }
 
 /// Points per second of an exact curve: closer than can be seen.
-const SMOOTH_HZ: f64 = 100.0;
+const SMOOTH_HZ: u32 = 100;
 
 fn exact(ship: &Scene, seconds: f64) -> FigureCurve {
     truth(exactly(ship, seconds, SMOOTH_HZ).iter().map(|m| [m.t, m.v]).collect())
@@ -151,7 +151,7 @@ fn ship_note(scene: &Scene) -> String {
     format!(
         "The chapter's ship from rest: {}. Step {} s.",
         parameters(scene),
-        1.0 / f64::from(scene.tick_hz),
+        scene.tick_hz.step_s(),
     )
 }
 

@@ -23,7 +23,7 @@ const DISTANCES: [&str; 6] = [
 pub(super) fn table_7_1() -> String {
     let scene = scene("ship");
     let hz = f64::from(scene.tick_hz);
-    let truth = exactly(&scene, END_S, hz);
+    let truth = exactly(&scene, END_S, scene.tick_hz);
     let euler = by_method(&scene, "explicit-euler", END_S);
     let mut text = format!(
         "Table 7-1: speed of the ship by Euler's method, dt = {} s (✓ as printed)\n\n\
@@ -65,7 +65,7 @@ pub(super) fn displacements() -> String {
     let scene = scene("ship");
     let hz = f64::from(scene.tick_hz);
     let last = |moments: Vec<Moment>| moments.last().expect("the start at least").q;
-    let truth = last(exactly(&scene, END_S, hz));
+    let truth = last(exactly(&scene, END_S, scene.tick_hz));
     let mut text = format!(
         "Distance run after {END_S} s, dt = {} s: exactly {truth:.7} m\n\n  {:<28}  {:>10}  {:>10}  {:>12}\n",
         1.0 / hz,

@@ -180,7 +180,7 @@ fn of_scene(path: &Path) -> Result<Made, Error> {
 fn of_capture(dir: &Path) -> Result<Made, Error> {
     let (manifest, experiment) = verify::manifest_of(dir)?;
     let studio = experiment.studio();
-    let tick_s = 1.0 / f64::from(manifest.settings.tick_hz);
+    let tick_s = manifest.settings.tick_hz.step_s();
     let mut marks = manifest.marks.into_iter();
     Ok(Made::new(move || {
         let Mark { tick, lanes } = marks.next()?;

@@ -9,7 +9,7 @@ use crate::sim::number::round;
 pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     let Some(first) = rows.first() else { return };
     let trace =
-        format!("{} ({} Hz display, {} Hz ticks)", first.trace, first.refresh, first.tick_hz);
+        format!("{} ({} Hz display, {:.3} Hz ticks)", first.trace, first.refresh, first.tick_hz);
     let measured = rows.iter().map(|row| (row.card, &row.report));
     let loops = MeasuredLoops::new(measured, first.tick_hz, first.has_one_clock);
     // The window advises among all.

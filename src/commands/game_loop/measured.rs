@@ -8,6 +8,7 @@ use crate::commands::output::Output;
 use crate::commands::output::table::RowWriter;
 use crate::loops::{FrameRecord, FrameTrace, LoopRun, PacingReport, PolicyCard, RefreshRate};
 use crate::scene::{LaneSpec, Scene};
+use crate::sim::TickRate;
 
 /// How many frames the picture of a run shows, and how many of them are before a long one.
 const DRAWN: usize = 30;
@@ -22,7 +23,7 @@ pub(super) struct Measured {
     pub(super) card: &'static PolicyCard,
     pub(super) trace: String,
     pub(super) refresh: RefreshRate,
-    pub(super) tick_hz: u32,
+    pub(super) tick_hz: TickRate,
     /// Whether frames begin and are displayed by one clock. In the logs of tools they do not.
     pub(super) has_one_clock: bool,
     /// What to say of a log that has no times of display.

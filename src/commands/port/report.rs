@@ -46,6 +46,7 @@ fn name(setup: &Setup) -> String {
 
 fn want(wish: &Wish, tick_hz: f64) -> String {
     let [hz, ratio] = [wish.frequency_hz, wish.damping_ratio].map(|x| significant(x, 4));
+    let tick_hz = round(tick_hz, 6);
     format!("{hz} Hz, damping ratio {ratio}, {} kg, at {tick_hz} ticks per second\n", wish.mass_kg)
 }
 
@@ -182,7 +183,7 @@ fn block(wish: &Wish, PortedEngine { setup, ported }: &PortedEngine) -> String {
 fn missed(wish: &Wish, ported: &Ported) -> Option<String> {
     let Setup { method, substeps, tick_hz, .. } = ported.setup;
     let three = |ratio: f64| significant(ratio, 3);
-    let hz = round(wish.frequency_hz, 4);
+    let [hz, tick_hz] = [round(wish.frequency_hz, 4), round(tick_hz, 6)];
     match (ported.reach, ported.floor) {
         (Reach::Reached, _) => None,
         (Reach::Unreachable, Some(floor)) => {
@@ -193,7 +194,7 @@ fn missed(wish: &Wish, ported: &Ported) -> Option<String> {
             );
             if let Some(relief) = ported.relief {
                 let way = match relief.setup.substeps == substeps {
-                    true => format!("at {} Hz", relief.setup.tick_hz),
+                    true => format!("at {} Hz", round(relief.setup.tick_hz, 6)),
                     false => format!("×{}", relief.setup.substeps),
                 };
                 said += &format!("; {way} can go to {}", three(relief.damping_ratio));

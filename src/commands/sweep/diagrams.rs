@@ -142,7 +142,13 @@ mod tests {
     fn swept(scene: &str, id: &str, rates: &[u32]) -> (Swept, Vec<Row>) {
         let scenes = vec![(scene.to_owned(), Scene::built_in(scene).unwrap())];
         let methods = vec![method(id).unwrap()];
-        let swept = Swept { scenes, methods, rates: rates.to_vec(), seconds: None, varied: None };
+        let swept = Swept {
+            scenes,
+            methods,
+            rates: rates.iter().map(|&hz| hz.into()).collect(),
+            seconds: None,
+            varied: None,
+        };
         let rows = Grid::new(&swept).run(Some(1), &AtomicBool::new(false)).unwrap();
         (swept, rows)
     }

@@ -11,7 +11,7 @@ use crate::commands::terminal::progress;
 use crate::measure::{Judge, MAX_HORIZON_S, Verdict};
 use crate::run::{Follow, Lane};
 use crate::scene::{LaneSpec, Scene, SceneBody};
-use crate::sim::Clock;
+use crate::sim::TickRate;
 use crate::sim::bodies::Text;
 use crate::sim::integrators::Method;
 use crate::stopwatch;
@@ -23,7 +23,7 @@ pub(super) struct Swept {
     /// In the order of the table.
     pub(super) methods: Vec<&'static Method>,
     /// In Hz, ascending. If empty, each scene runs at octaves of its own rate.
-    pub(super) rates: Vec<u32>,
+    pub(super) rates: Vec<TickRate>,
     /// The length of every run; `None` for each scene's own.
     pub(super) seconds: Option<f64>,
     /// The parameter that takes several values; `None` for each body as its scene has it.
@@ -52,7 +52,7 @@ impl Subject {
 struct PlannedRun {
     subject: usize,
     spec: LaneSpec,
-    tick_hz: u32,
+    tick_hz: TickRate,
 }
 
 /// All runs.
@@ -67,7 +67,7 @@ pub(super) struct Row {
     pub(super) scene: String,
     pub(super) body: String,
     pub(super) method: &'static Method,
-    pub(super) tick_hz: u32,
+    pub(super) tick_hz: TickRate,
     pub(super) verdict: Verdict,
     pub(super) ns_per_s: Option<f64>,
     pub(super) varied: Option<(Text, f64)>,
@@ -206,13 +206,14 @@ fn judge_all(
     whole.ok_or_else(Error::nothing_written)
 }
 
-/// Whole rates from a quarter of this rate to eight times, each double the one before, within the clock's
-/// range: the region in which the methods differ.
-fn octaves(tick_hz: u32) -> Vec<u32> {
-    let slower = [tick_hz / 4, tick_hz / 2];
-    let faster = [1, 2, 4, 8].map(|times| tick_hz.saturating_mul(times));
-    let all = slower.into_iter().chain(faster);
-    all.filter(|hz| Clock::TICK_HZ.contains(hz)).collect()
+/// Rates from a quarter of this rate to eight times, each double the one before, within the clock's range: the region in
+/// which the methods differ. Those of a whole rate are whole.
+fn octaves(tick_hz: TickRate) -> Vec<TickRate> {
+    let rates = [(1, 4), (1, 2), (1, 1), (2, 1), (4, 1), (8, 1)].map(|(times, parts)| {
+        let rate = tick_hz.scaled(times, parts);
+        if tick_hz.whole_hz().is_some() { TickRate::whole(rate.hz() as u32) } else { rate }
+    });
+    rates.into_iter().filter(|rate| rate.is_in_range()).collect()
 }
 
 #[cfg(test)]
@@ -226,10 +227,10 @@ mod tests {
     }
 
     #[test]
-    fn octaves_are_whole_rates_about_the_scenes_own() {
-        assert_eq!(octaves(60), [15, 30, 60, 120, 240, 480]);
-        assert_eq!(octaves(5), [1, 2, 5, 10, 20, 40]);
-        assert_eq!(octaves(1), [1, 2, 4, 8]);
-        assert_eq!(octaves(10_000), [2500, 5000, 10_000]);
+    fn octaves_of_a_whole_rate_are_whole() {
+        assert_eq!(octaves(60.into()), [15, 30, 60, 120, 240, 480]);
+        assert_eq!(octaves(5.into()), [1, 2, 5, 10, 20, 40]);
+        assert_eq!(octaves(1.into()), [1, 2, 4, 8]);
+        assert_eq!(octaves(10_000.into()), [2500, 5000, 10_000]);
     }
 }

@@ -2,6 +2,7 @@ use super::*;
 use crate::loops::{policy, trace_file};
 use crate::measure::Severity;
 use crate::scene::Action;
+use crate::sim::TickRate;
 use crate::sim::integrators::method;
 use crate::studio::{
     Command, RunCommand, StageCommand, Step, Studio, accept_loop, loop_request, run_loops,
@@ -71,7 +72,7 @@ fn what_is_recommended_is_green_with_a_fixed_tick_and_compared_on_the_stage() {
     for (name, tick_hz) in
         [("spring", 60), ("spring", 30), ("stiff", 30), ("ship", 2), ("orbit", 7)]
     {
-        let scene = Scene { tick_hz, ..Scene::built_in(name).unwrap() };
+        let scene = Scene { tick_hz: TickRate::whole(tick_hz), ..Scene::built_in(name).unwrap() };
         let mut studio = lab_of(&scene);
         studio.add_traces(trace_file::read("own.txt", &"7.1\n".repeat(600)).unwrap());
         for trace in 0..studio.traces().len() {
@@ -124,7 +125,7 @@ fn what_is_recommended_is_green_with_a_fixed_tick_and_compared_on_the_stage() {
 
 #[test]
 fn a_motion_that_is_lost_is_never_green() {
-    let scene = Scene { tick_hz: 30, ..Scene::built_in("stiff").unwrap() };
+    let scene = Scene { tick_hz: 30.into(), ..Scene::built_in("stiff").unwrap() };
     let studio = lab_of(&scene);
     let linear = index_of("fixed-linear");
     let verdict = studio.verdict(linear);
@@ -165,7 +166,7 @@ fn a_script_acts_on_the_body_at_its_times_under_any_tick_rate() {
     let at_own_rate = ends(&studio);
     let bare = Scene { script: Vec::new(), ..scene.clone() };
     assert_ne!(at_own_rate, ends(&lab_of(&bare)));
-    studio.set_tick_hz(3 * scene.tick_hz);
+    studio.set_tick_hz(scene.tick_hz.scaled(3, 1));
     run(&mut studio);
     let relative = (ends(&studio) / at_own_rate - 1.0).abs();
     assert!(relative < 1e-12, "{relative}");

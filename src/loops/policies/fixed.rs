@@ -16,7 +16,7 @@ pub(super) struct Fixed {
 impl Fixed {
     /// At most the ticks of [`MAX_FRAME_MS`] in a frame.
     pub(super) fn new(base: TimeBase) -> Self {
-        let most = max_ticks(100 * u64::from(base.tick_hz()), MAX_FRAME_MS);
+        let most = max_ticks(base.tick_hz(), 100, MAX_FRAME_MS);
         Self::with_max_ticks(base, most)
     }
 

@@ -5,7 +5,7 @@ use crate::sim::integrators::method;
 fn met(slowest_hz: Option<u32>, stiffness_factor: Option<f64>) -> CriterionMet {
     let limited_by = stiffness_factor.map(|_| "stiffness".into());
     CriterionMet {
-        tick_hz: 60,
+        tick_hz: 60.into(),
         substeps: 1,
         evaluations_per_s: 60.0,
         cost_per_s: 60.0,

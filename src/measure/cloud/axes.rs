@@ -2,6 +2,7 @@
 
 use super::{Cloud, CloudBody, CloudBorder, CloudStart, NoCloud, PlaneView};
 use crate::scene::LaneSpec;
+use crate::sim::TickRate;
 
 /// The points of each method that run ahead, and those of the exact border.
 const SCOUTS: usize = 100;
@@ -61,7 +62,7 @@ impl CloudAxes {
         of: CloudBody<'_>,
         start: CloudStart,
         specs: &[LaneSpec],
-        tick_hz: u32,
+        tick_hz: TickRate,
         shown: ShownTicks,
     ) -> Result<Self, NoCloud> {
         let mut border = CloudBorder::exact_of_points(BORDER_SCOUTS, of, start, tick_hz)?;

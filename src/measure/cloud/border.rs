@@ -2,9 +2,9 @@
 
 use super::course::{Course, Memory, Subject, copies_of};
 use super::{CloudBody, CloudStart, NoCloud};
-use crate::sim::Solver;
 use crate::sim::batch::Ticks;
 use crate::sim::integrators::{Override, method};
+use crate::sim::{Solver, TickRate};
 
 /// Points of a border, and the fewest of one of a cloud of few points.
 const POINTS: usize = 1200;
@@ -33,15 +33,19 @@ impl CloudBorder {
     ///
     /// # Errors
     /// As [`Cloud::new`](super::Cloud::new).
-    pub fn exact(of: CloudBody<'_>, start: CloudStart, tick_hz: u32) -> Result<Self, NoCloud> {
-        Self::exact_of_points(POINTS, of, start, tick_hz)
+    pub fn exact(
+        of: CloudBody<'_>,
+        start: CloudStart,
+        tick_hz: impl Into<TickRate>,
+    ) -> Result<Self, NoCloud> {
+        Self::exact_of_points(POINTS, of, start, tick_hz.into())
     }
 
     pub(super) fn exact_of_points(
         points: usize,
         of: CloudBody<'_>,
         start: CloudStart,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> Result<Self, NoCloud> {
         let method = method("dormand-prince-54").expect("a method of the table");
         let solver = (Solver::With(method, Override::tolerance(TOLERANCE)), Memory::Dropped);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::{CloudBody, CloudKind, CloudShape, Density, NoCloud, PlaneView, USUAL_POINTS};
 use crate::run::race::Interventions;
 use crate::scene::{LaneSpec, Scene};
+use crate::sim::TickRate;
 use crate::sim::integrators::steps_in_blocks;
 
 /// The points of a cloud that a person can choose.
@@ -50,7 +51,7 @@ pub struct CloudRequest {
     pub(crate) body: usize,
     /// The lanes, by their indices on the list.
     pub(crate) lanes: Vec<(usize, LaneSpec)>,
-    pub(crate) tick_hz: u32,
+    pub(crate) tick_hz: TickRate,
     pub(crate) choice: CloudChoice,
     /// Ticks since the clouds started.
     pub(crate) tick: u64,
@@ -64,7 +65,7 @@ pub(super) struct Request<'a> {
     /// At the start.
     pub(super) of: CloudBody<'a>,
     pub(super) lanes: &'a [(usize, LaneSpec)],
-    pub(super) tick_hz: u32,
+    pub(super) tick_hz: TickRate,
     /// The length of the run, in seconds.
     pub(super) seconds: f64,
     /// The time of the start, in seconds.
@@ -94,12 +95,12 @@ impl CloudRequest {
 
     /// The time of a picture in the run, in seconds.
     pub fn t_s(&self, picture: &CloudPicture) -> f64 {
-        self.changes.starts_at_s() + picture.tick as f64 / f64::from(self.tick_hz)
+        self.changes.starts_at_s() + self.tick_hz.seconds(picture.tick)
     }
 
     /// How many seconds of the run there are between the request and a picture.
     pub fn behind_s(&self, picture: &CloudPicture) -> f64 {
-        (self.tick as f64 - picture.tick as f64).abs() / f64::from(self.tick_hz)
+        self.tick_hz.seconds(self.tick.abs_diff(picture.tick))
     }
 }
 

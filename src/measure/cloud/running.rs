@@ -13,6 +13,7 @@ use super::{
 };
 use crate::run::race::Race;
 use crate::scene::LaneSpec;
+use crate::sim::TickRate;
 
 /// The samples of an area over the length of a run.
 const SAMPLES: u64 = 200;
@@ -190,7 +191,7 @@ struct CloudRun {
     axes: CloudAxes,
     start: CloudStart,
     points: usize,
-    tick_hz: u32,
+    tick_hz: TickRate,
     tick: u64,
     /// Ticks between two samples.
     sampled_every: u64,
@@ -254,7 +255,7 @@ impl CloudRun {
     }
 
     fn t(&self, tick: u64) -> f64 {
-        self.start.t + tick as f64 / f64::from(self.tick_hz)
+        self.start.t + self.tick_hz.seconds(tick)
     }
 
     fn picture(&self) -> CloudPicture {

@@ -4,8 +4,8 @@ use super::request::{GRID, Request, cost};
 use super::{
     Cloud, CloudAxes, CloudPicture, CloudShape, CloudStart, Density, LaneCloud, NoCloud, ShownTicks,
 };
-use crate::sim::Stepper;
 use crate::sim::number::significant;
+use crate::sim::{Stepper, TickRate};
 
 /// The starts of a section: each leaves a point at each crossing.
 const STARTS: usize = 400;
@@ -131,8 +131,8 @@ impl SectionRun {
 
 /// The period of the force on a body at rest in a state, in seconds; `None` if the force does not depend on time, or does
 /// not come back within so many seconds.
-fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: u32) -> Option<f64> {
-    let (h, seconds) = (1.0 / f64::from(tick_hz), seconds.min(MAX_PERIOD_S));
+fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: TickRate) -> Option<f64> {
+    let (h, seconds) = (tick_hz.step_s(), seconds.min(MAX_PERIOD_S));
     let apart = (h / 2.0).max(seconds / MAX_TRIED);
     let force = |t: f64| {
         let mut a = [0.0];

@@ -8,6 +8,7 @@ use crate::measure::modes::{Modes, TooMuch};
 use crate::measure::run::{JudgedRun, Until, follow};
 use crate::measure::truth::BodyTruth;
 use crate::scene::LaneSpec;
+use crate::sim::TickRate;
 
 /// Whether a lane meets a [`Criterion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +48,7 @@ impl Judge {
         &self,
         criterion: Criterion,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> CriterionFinding {
         if !self.has_ticks(tick_hz) {
             return CriterionFinding::Unknown;
@@ -81,7 +82,7 @@ impl Judge {
         &self,
         criterion: Criterion,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> Option<CriterionFinding> {
         if self.is_met_by_modes(criterion, spec, tick_hz).await {
             return None;
@@ -91,7 +92,12 @@ impl Judge {
     }
 
     /// Whether the modes of every body tell that it meets a criterion.
-    async fn is_met_by_modes(&self, criterion: Criterion, spec: LaneSpec, tick_hz: u32) -> bool {
+    async fn is_met_by_modes(
+        &self,
+        criterion: Criterion,
+        spec: LaneSpec,
+        tick_hz: TickRate,
+    ) -> bool {
         if criterion == Criterion::Accurate || !self.has_ticks(tick_hz) {
             return false;
         }
@@ -121,7 +127,7 @@ impl Judge {
         &self,
         truth: &BodyTruth,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> Result<f64, CriterionMiss> {
         if truth.is_too_dear() {
             let run = follow_energy(truth, spec, tick_hz, self.max_work).await;
@@ -150,7 +156,7 @@ impl Judge {
         &self,
         truth: &BodyTruth,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
         until: Until,
     ) -> Result<JudgedRun, CriterionMiss> {
         if truth.is_too_dear() {
@@ -166,7 +172,7 @@ impl Judge {
         &self,
         truth: &BodyTruth,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> Result<f64, CriterionMiss> {
         let run = self.beside_truth(truth, spec, tick_hz, Until::Error(TOLERANCE)).await?;
         cost_if(run.error <= TOLERANCE, &run)
@@ -178,7 +184,7 @@ impl Judge {
         &self,
         spare: f64,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> bool {
         for truth in &self.truths {
             let spare = if truth.modes.is_none() { spare } else { 0.0 };
@@ -199,7 +205,7 @@ impl Judge {
         &self,
         body: usize,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
         known: Option<&JudgedRun>,
     ) -> Result<f64, CriterionMiss> {
         let truth = &self.truths[body];
@@ -237,7 +243,7 @@ impl Judge {
         &self,
         truth: &BodyTruth,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> Result<JudgedRun, CriterionMiss> {
         let until = match Modes::tell_the_width(truth, spec) {
             true => Until::Horizon,
@@ -252,7 +258,7 @@ impl Judge {
         truth: &BodyTruth,
         run: &JudgedRun,
         spec: LaneSpec,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> Result<bool, CriterionMiss> {
         // The range is twice the amplitude.
         let is_near = run.error <= 2.0 * VISIBLE;

@@ -1,10 +1,11 @@
 use super::*;
+use crate::sim::TickRate;
 use crate::sim::integrators::method;
 
 /// How a method meets a criterion at this cost, in one step a tick; its margins, if they are searched.
 fn met(cost_per_s: f64, reserve: Option<f64>) -> CriterionMet {
     CriterionMet {
-        tick_hz: 60,
+        tick_hz: 60.into(),
         substeps: 1,
         evaluations_per_s: cost_per_s,
         cost_per_s,
@@ -86,7 +87,8 @@ fn margins_are_searched_until_the_first_is_known_and_no_further() {
 
 #[test]
 fn a_reserve_is_the_lesser_margin_and_a_rate_counts_by_its_square() {
-    let of = |tick_hz, slowest_hz, stiffness_factor| {
+    let of = |tick_hz: u32, slowest_hz, stiffness_factor| {
+        let tick_hz = tick_hz.into();
         CriterionMet { tick_hz, slowest_hz, stiffness_factor, ..met(60.0, None) }.reserve()
     };
     // 60 / 48, 14 / 14 and 4 / 3, squared.
@@ -99,4 +101,11 @@ fn a_reserve_is_the_lesser_margin_and_a_rate_counts_by_its_square() {
     assert_eq!(of(60, Some(1), None), Some(10.0));
     assert_eq!(of(60, None, Some(2.0)), Some(2.0));
     assert_eq!(of(60, None, None), None);
+    // Down from a rate that is not whole the search begins at the next that is.
+    let tick_hz: TickRate = "66.667".parse().unwrap();
+    let found = CriterionMet { tick_hz, slowest_hz: Some(67), ..met(60.0, None) };
+    assert_eq!(
+        (found.reserve(), found.slower()),
+        (Some(1.0), Some("66.667 Hz (no reserve)".into()))
+    );
 }

@@ -9,7 +9,7 @@ use crate::scene::Action;
 use crate::sim::bodies::Coordinates;
 use crate::sim::integrators::{Family, StepFailure};
 use crate::sim::stability::Tick;
-use crate::sim::{Solver, Stepper};
+use crate::sim::{Solver, Stepper, TickRate};
 
 /// The work of a tick beside its evaluations, for each coordinate: comparing it with the truth, and its energy.
 const WORK_OF_TICK: u64 = 4;
@@ -54,7 +54,7 @@ impl BodyTruth {
         &self,
         solver: Solver,
         substeps: u32,
-        tick_hz: u32,
+        tick_hz: TickRate,
     ) -> FollowedRun {
         let mut body = FollowedBody {
             stepper: self.start(solver),
@@ -158,6 +158,6 @@ impl Ticked for FollowedBody {
 const ON_TIME: f64 = 1e-6;
 
 /// The number of whole ticks of this rate in `seconds`.
-pub(in crate::measure) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
+pub(in crate::measure) fn ticks(seconds: f64, tick_hz: TickRate) -> u64 {
     (seconds * f64::from(tick_hz) + ON_TIME).floor() as u64
 }

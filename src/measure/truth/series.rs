@@ -7,8 +7,8 @@ use std::sync::{Arc, Mutex};
 use super::{BodyTruth, FollowedBody, ticks};
 use crate::measure::slices::Once;
 use crate::run::race::StopReason;
-use crate::sim::Solver;
 use crate::sim::integrators::StepFailure;
+use crate::sim::{Solver, TickRate};
 
 /// The most products of the exact flow for one series: less than a second of work.
 const MAX_SERIES_PRODUCTS: u64 = 500_000_000;
@@ -18,7 +18,8 @@ const MAX_SERIES_PRODUCTS: u64 = 500_000_000;
 const MAX_KEPT: usize = 1 << 22;
 
 /// The cached series by tick rate in Hz. Of several threads that ask for one, the first computes it.
-pub(in crate::measure) type TruthSeriesByRate = Mutex<HashMap<u32, Arc<Once<Arc<TruthSeries>>>>>;
+pub(in crate::measure) type TruthSeriesByRate =
+    Mutex<HashMap<TickRate, Arc<Once<Arc<TruthSeries>>>>>;
 
 /// The true states at the ticks of one rate.
 pub(in crate::measure) struct TruthSeries {
@@ -47,12 +48,12 @@ impl TruthSeries {
 
 impl BodyTruth {
     /// The largest error of the truth up to this moment, in amplitudes, at the ticks of this rate.
-    pub(in crate::measure) async fn gap(&self, seconds: f64, tick_hz: u32) -> f64 {
+    pub(in crate::measure) async fn gap(&self, seconds: f64, tick_hz: TickRate) -> f64 {
         self.series(tick_hz).await.gap(ticks(seconds, tick_hz).max(1))
     }
 
     /// The true states at the ticks of this rate, up to the horizon.
-    pub(in crate::measure) async fn series(&self, tick_hz: u32) -> Arc<TruthSeries> {
+    pub(in crate::measure) async fn series(&self, tick_hz: TickRate) -> Arc<TruthSeries> {
         let once = {
             let mut series_by_rate = self.series_by_rate.lock().expect("no thread panics with it");
             let known = series_by_rate.values().filter_map(|once| once.found());
@@ -65,7 +66,7 @@ impl BodyTruth {
         Arc::clone(once.get(async { Arc::new(self.compute_series(tick_hz).await) }).await)
     }
 
-    async fn compute_series(&self, tick_hz: u32) -> TruthSeries {
+    async fn compute_series(&self, tick_hz: TickRate) -> TruthSeries {
         let n = self.coordinates().len();
         let mut series = TruthSeries {
             values: Vec::new(),

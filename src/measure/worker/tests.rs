@@ -18,7 +18,7 @@ fn request(name: &str) -> AnalysisRequest {
         scene,
         first: entries.len(),
         entries,
-        tick_hz: 60,
+        tick_hz: 60.into(),
         by_hand: Interventions::default(),
         advice: None,
         map: None,
@@ -49,14 +49,15 @@ fn each_verdict_is_found_once_until_the_rate_the_run_or_the_scene_changes() {
     let few = AnalysisRequest { entries: first.entries[..3].to_vec(), ..first.clone() };
     assert_eq!(answer(&mut worker, &few), (0, fine[..3].to_vec()));
     assert_eq!(answer(&mut worker, &first), (GENERAL_METHODS.len() - 3, fine.clone()));
-    let (count, coarse) = answer(&mut worker, &AnalysisRequest { tick_hz: 20, ..first.clone() });
+    let (count, coarse) =
+        answer(&mut worker, &AnalysisRequest { tick_hz: 20.into(), ..first.clone() });
     assert_eq!(count, GENERAL_METHODS.len());
     assert!(coarse != fine);
     let mut race = Race::of_scene(&first.scene);
     let mut starts = Starts::default();
     race.act(Action::Throttle(0.5), &mut starts);
     let by_hand = Interventions::in_race(&race, &starts);
-    let slower = AnalysisRequest { tick_hz: 20, by_hand, ..first.clone() };
+    let slower = AnalysisRequest { tick_hz: 20.into(), by_hand, ..first.clone() };
     assert_eq!(answer(&mut worker, &slower).0, GENERAL_METHODS.len());
     assert_eq!(answer(&mut worker, &first), (GENERAL_METHODS.len(), fine));
     assert_eq!(answer(&mut worker, &request("spring")).0, GENERAL_METHODS.len());
@@ -83,7 +84,7 @@ fn a_verdict_at_another_rate_stands_until_it_is_computed_again() {
     let first = request("spring");
     let mut worker = AnalysisWorker::new(first.clone());
     answer(&mut worker, &first);
-    worker.set_request(AnalysisRequest { tick_hz: 20, ..first });
+    worker.set_request(AnalysisRequest { tick_hz: 20.into(), ..first });
     assert!(worker.findings().verdicts.iter().all(Option::is_some));
     assert!(!worker.findings().complete);
 }
@@ -102,7 +103,7 @@ fn a_map_keeps_its_regions_while_its_cross_is_moved() {
         parameters.iter().position(|parameter| parameter.key.starts_with(name)).unwrap()
     });
     let mut moved = |parameter: usize, value: f64| {
-        studio.apply(StageCommand::TickHz(24));
+        studio.apply(StageCommand::TickHz(24.into()));
         studio.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
         worker.set_request(studio.analysis_request());
         worker.findings().map.map(|map| (map.regions, map.here.len()))
@@ -154,7 +155,7 @@ fn a_body_can_be_asked_about_alone() {
 
 #[test]
 fn a_bounded_worker_counts_its_work_and_leaves_the_rest_unjudged() {
-    let fast = AnalysisRequest { tick_hz: 1000, ..request("orbit") };
+    let fast = AnalysisRequest { tick_hz: 1000.into(), ..request("orbit") };
     let judged = |max_work: u64| {
         let worker = AnalysisWorker { max_work, ..AnalysisWorker::new(fast.clone()) };
         let findings = worker.finish();
@@ -215,10 +216,10 @@ fn no_step_does_twice_its_work_and_a_new_request_drops_the_part_in_progress() {
     }
     assert!(steps.len() > 10 && steps.iter().all(|&work| work < 2 * WORK_OF_STEP), "{steps:?}");
     assert_eq!(worker.findings().verdicts, [Some(whole(60))]);
-    worker.set_request(AnalysisRequest { tick_hz: 30, ..fine.clone() });
+    worker.set_request(AnalysisRequest { tick_hz: 30.into(), ..fine.clone() });
     worker.work();
     assert!(worker.is_within_a_part());
-    let coarse = AnalysisRequest { tick_hz: 20, ..fine };
+    let coarse = AnalysisRequest { tick_hz: 20.into(), ..fine };
     worker.set_request(coarse.clone());
     assert!(!worker.is_within_a_part());
     answer(&mut worker, &coarse);
@@ -227,6 +228,7 @@ fn no_step_does_twice_its_work_and_a_new_request_drops_the_part_in_progress() {
 
 /// All that is found of a method on a scene: the truths, a verdict and, unless it takes long, advice with its margins.
 async fn all_of(scene: Scene, spec: LaneSpec, tick_hz: u32, meter: Arc<Meter>) -> String {
+    let tick_hz = tick_hz.into();
     let adviser = Adviser::find(scene, 1.0, tick_hz, meter).await;
     let verdict = adviser.judge().verdict_within(300_000, spec, tick_hz).await;
     // As text, because NaN is found too.

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::follow::{Follow, StopReason};
 use super::lane::Lane;
 use crate::scene::{LaneSpec, MAX_SUBSTEPS, Scene, nearest_tick};
+use crate::sim::TickRate;
 
 /// The fewest ticks over which a cost is counted, and how many are counted after the script's last action: a second of
 /// most scenes, and enough for step sizes to settle.
@@ -19,7 +20,12 @@ const MAX_COUNTED_TICKS: u64 = 600;
 /// settled, 60 to 600 ticks.
 ///
 /// The substeps of an engine are its own, and stay. A lane whose bodies halt costs what it did until then.
-pub fn equal_cost(scene: &Scene, lanes: &[LaneSpec], tick_hz: u32) -> Vec<LaneSpec> {
+pub fn equal_cost(
+    scene: &Scene,
+    lanes: &[LaneSpec],
+    tick_hz: impl Into<TickRate>,
+) -> Vec<LaneSpec> {
+    let tick_hz = tick_hz.into();
     let cost = |spec: &LaneSpec, most| evaluations_per_tick(scene, spec, tick_hz, most);
     let dearest = lanes.iter().map(|spec| cost(spec, f64::INFINITY)).fold(0.0, f64::max);
     let equal = |spec: &LaneSpec| match spec.method.is_engine() {
@@ -57,8 +63,8 @@ fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec, f64) -> f64) ->
 }
 
 /// The mean cost of a tick; infinite where it is more than `most`.
-fn evaluations_per_tick(scene: &Scene, spec: &LaneSpec, tick_hz: u32, most: f64) -> f64 {
-    let over = scene.script.last().map_or(0, |last| nearest_tick(last.at_s, tick_hz.into()));
+fn evaluations_per_tick(scene: &Scene, spec: &LaneSpec, tick_hz: TickRate, most: f64) -> f64 {
+    let over = scene.script.last().map_or(0, |last| nearest_tick(last.at_s, tick_hz));
     let end = over.saturating_add(SETTLING_TICKS).min(MAX_COUNTED_TICKS);
     let lane = Lane::new(scene, spec.solver(), spec.substeps);
     let mut follow =

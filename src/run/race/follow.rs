@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 use crate::scene::{Action, Scripted, nearest_tick};
+use crate::sim::TickRate;
 use crate::sim::integrators::StepFailure;
 
 /// What a [`Follow`] ticks.
@@ -48,7 +49,7 @@ pub struct Follow<'a, B> {
     /// The rows of the script that are done.
     done: usize,
     start_s: f64,
-    tick_hz: f64,
+    tick_hz: TickRate,
     ticks: u64,
     max_work: u64,
 }
@@ -67,8 +68,8 @@ pub enum StopReason {
 }
 
 impl<'a, B: Ticked> Follow<'a, B> {
-    /// `body` at its start, at a tick rate in Hz, without a script.
-    pub fn new(body: B, tick_hz: impl Into<f64>) -> Self {
+    /// `body` at its start, at a tick rate, without a script.
+    pub fn new(body: B, tick_hz: impl Into<TickRate>) -> Self {
         Self {
             body,
             script: Cow::Borrowed(&[]),
@@ -102,7 +103,7 @@ impl<'a, B: Ticked> Follow<'a, B> {
 
     /// The time reached, in seconds.
     pub fn t(&self) -> f64 {
-        self.start_s + self.ticks as f64 / self.tick_hz
+        self.start_s + self.tick_hz.seconds(self.ticks)
     }
 
     /// Goes on until `end` ticks are made. Passes what is ticked to `see` after each tick, with the number of ticks made.
@@ -133,7 +134,7 @@ impl<'a, B: Ticked> Follow<'a, B> {
             self.body.act(tick, t, &row.action);
             self.done += 1;
         }
-        self.body.tick(tick, t, 1.0 / self.tick_hz)?;
+        self.body.tick(tick, t, self.tick_hz.step_s())?;
         self.ticks += 1;
         Ok(())
     }

@@ -54,7 +54,7 @@ impl Interventions {
         if let Some(start) = &self.start {
             scene.tick_hz = start.tick_hz;
             scene.script.iter_mut().for_each(|scripted| scripted.at_s -= start.t);
-            scene.script.retain(|to_come| nearest_tick(to_come.at_s, start.tick_hz.into()) > 0);
+            scene.script.retain(|to_come| nearest_tick(to_come.at_s, start.tick_hz) > 0);
             at_start.push(Action::Throttle(start.throttle));
             at_start.push(Action::Rudder(start.rudder));
             for (body, BodyStart { values, q, v }) in start.bodies.iter().enumerate() {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::scene::{Action, Control, Piece, Scripted};
+use crate::sim::TickRate;
 
 /// Who performs an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +41,7 @@ pub struct Journal {
 
 impl Journal {
     /// The journal of a script, with all actions pending, for a run at this rate in Hz.
-    pub fn of_script(script: &[Scripted], tick_hz: u32) -> Self {
+    pub fn of_script(script: &[Scripted], tick_hz: impl Into<TickRate>) -> Self {
         let row = |&Scripted { at_s, ref action }: &Scripted| JournalRow {
             tick: 0,
             at_s,

@@ -7,6 +7,7 @@ use super::journal::{Author, JournalRow};
 use super::observer::{Done, Observer};
 use super::{Mode, Race};
 use crate::scene::Action;
+use crate::sim::TickRate;
 
 /// The true state of a race right after an action on its bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +15,7 @@ pub(super) struct RunStart {
     pub(super) tick: u64,
     /// The time of the tick in seconds.
     pub(super) t: f64,
-    pub(super) tick_hz: u32,
+    pub(super) tick_hz: TickRate,
     pub(super) throttle: f64,
     pub(super) rudder: f64,
     /// In scene order.

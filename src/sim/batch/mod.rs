@@ -24,6 +24,7 @@ use super::integrators::{Method, Problem, problem, steps_in_blocks};
 use super::state::State;
 use super::stepper::Solver;
 use super::system::System;
+use super::tick_rate::TickRate;
 
 /// Consecutive ticks of one rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +36,7 @@ pub struct Ticks {
     /// How many ticks.
     pub count: u64,
     /// Ticks per second.
-    pub hz: u32,
+    pub hz: TickRate,
     /// Steps in a tick.
     pub substeps: u32,
 }
@@ -46,8 +47,8 @@ impl Ticks {
     /// # Panics
     /// If the rate or the substeps are 0.
     #[track_caller]
-    pub fn from_start(hz: u32, substeps: u32, count: u64) -> Self {
-        Self { origin: 0.0, first: 0, count, hz, substeps }.checked()
+    pub fn from_start(hz: impl Into<TickRate>, substeps: u32, count: u64) -> Self {
+        Self { origin: 0.0, first: 0, count, hz: hz.into(), substeps }.checked()
     }
 
     #[track_caller]
@@ -68,13 +69,13 @@ impl Ticks {
     /// The time of a tick, in seconds.
     #[inline]
     pub fn t(self, tick: u64) -> f64 {
-        self.origin + tick as f64 / f64::from(self.hz)
+        self.origin + self.hz.seconds(tick)
     }
 
     /// The length of a tick, in seconds.
     #[inline]
     pub fn h(self) -> f64 {
-        1.0 / f64::from(self.hz)
+        self.hz.step_s()
     }
 
     /// The length of a step, in seconds.

@@ -7,6 +7,7 @@
 use std::cell::OnceCell;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::sim::TickRate;
 use crate::sim::body::Body;
 use crate::sim::numerics::XorShift;
 use crate::sim::reference::Reference;
@@ -45,7 +46,7 @@ const MAX_EVALUATIONS: u64 = 300_000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClaimHorizon {
     /// Ticks per second.
-    pub tick_hz: u32,
+    pub tick_hz: TickRate,
     /// The number of ticks.
     pub ticks: u64,
 }
@@ -237,9 +238,9 @@ fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<ClaimF
     }
     let mut evaluations = MAX_EVALUATIONS;
     let mut largest = vec![[0.0_f64; 2]; from.q.len()];
-    let h = 1.0 / f64::from(horizon.tick_hz);
+    let h = horizon.tick_hz.step_s();
     for tick in 1..=horizon.ticks {
-        let [before, t] = [tick - 1, tick].map(|tick| tick as f64 / f64::from(horizon.tick_hz));
+        let [before, t] = [tick - 1, tick].map(|tick| horizon.tick_hz.seconds(tick));
         // From the solution itself, so that the error of an unstable motion does not grow.
         let mut reference = Reference::within(&from, evaluations);
         reference.solve(&body, before, h, &mut from).ok()?;
@@ -295,9 +296,9 @@ fn find_later_energy_defect<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Opt
     let first = body.claimed_energy(&there)?;
     let mut reference = Reference::within(&there, MAX_EVALUATIONS);
     let (mut before, mut largest, mut exchanged) = (first, first.abs(), 0.0_f64);
-    let h = 1.0 / f64::from(horizon.tick_hz);
+    let h = horizon.tick_hz.step_s();
     for tick in 0..horizon.ticks {
-        let t = tick as f64 / f64::from(horizon.tick_hz);
+        let t = horizon.tick_hz.seconds(tick);
         match find_power(&body, t, &there, LATER_STATES) {
             Ok(power) => exchanged += h * power,
             Err(leak) => return Some(leak),
@@ -308,7 +309,7 @@ fn find_later_energy_defect<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Opt
         let is_kept = is_near(now, before, TICK_TOLERANCE * largest)
             && is_near(now, first, RUN_TOLERANCE * largest);
         if !is_kept {
-            let t = (tick + 1) as f64 / f64::from(horizon.tick_hz);
+            let t = horizon.tick_hz.seconds(tick + 1);
             let what = format!(
                 "the energy is not conserved: it is {first:.9} J at the start and {now:.9} J at t = {t:.2}"
             );

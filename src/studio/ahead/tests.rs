@@ -105,7 +105,7 @@ fn a_halted_body_has_no_next_step() {
 fn runge_kutta_4_loses_the_same_part_of_the_swing_in_every_tick_and_a_32nd_of_it_in_half_ticks() {
     for ticks in [0, 1, 5] {
         let mut studio = studio("spring", "rk4", 0);
-        studio.apply(StageCommand::TickHz(5));
+        studio.apply(StageCommand::TickHz(5.into()));
         studio.apply(StageCommand::Restart);
         (0..ticks).for_each(|_| studio.tick());
         let [whole, halves] = one_step(&studio.deck, &studio.viewer).unwrap().growth.unwrap();
@@ -141,7 +141,7 @@ fn an_orbit_has_the_energy_of_its_state_and_turns_where_it_has_no_speed() {
 fn each_future_is_what_the_run_comes_to_under_its_method() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..7).for_each(|_| studio.tick());
-    studio.apply(StageCommand::TickHz(12));
+    studio.apply(StageCommand::TickHz(12.into()));
     let futures = futures(&studio.deck, 0);
     assert_eq!(futures.len(), studio.scene().lanes.len() + 1);
     for Future { entry, moments } in futures {
@@ -159,7 +159,7 @@ fn each_future_is_what_the_run_comes_to_under_its_method() {
         assert_eq!(moments.len(), 13, "a dot a tick, and the present");
         let mut run = Studio::new(Scene::built_in("spring").unwrap());
         (0..7).for_each(|_| run.tick());
-        run.apply(StageCommand::TickHz(12));
+        run.apply(StageCommand::TickHz(12.into()));
         run.apply(StageCommand::Pick(entry));
         for FutureMoment { state, .. } in &moments[1..] {
             run.tick();
@@ -175,7 +175,7 @@ fn futures_are_shown_at_rest_if_asked_for_and_while_the_rate_is_dragged() {
     assert!(!shows_futures(&studio));
     studio.apply(ViewCommand::PointerDown(true));
     assert!(!shows_futures(&studio));
-    studio.apply(StageCommand::TickHz(12));
+    studio.apply(StageCommand::TickHz(12.into()));
     assert!(shows_futures(&studio), "it is dragged");
     studio.apply(ViewCommand::PointerDown(false));
     assert!(!shows_futures(&studio));

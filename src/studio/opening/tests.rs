@@ -3,6 +3,7 @@ use crate::loops::loop_lab::LoopCommand;
 use crate::run::diff::Difference;
 use crate::run::race::Mode;
 use crate::scene::{Action, SCENES};
+use crate::sim::TickRate;
 use crate::studio::{Command, DriverRequest, RunCommand, StageCommand, Step, View, ViewCommand};
 use crate::tools::source_code::Language;
 
@@ -119,10 +120,10 @@ fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
     let before = text("spring");
     let after = before.replacen("tick_hz = 60", "tick_hz = 50", 1);
     assert_ne!(before, after);
-    for (chosen, rate) in [(None, 50), (Some(120), 120)] {
+    for (chosen, rate) in [(None, 50_u32), (Some(120_u32), 120)] {
         let mut studio = studio(before);
         if let Some(hz) = chosen {
-            studio.apply(StageCommand::TickHz(hz));
+            studio.apply(StageCommand::TickHz(hz.into()));
         }
         reload_file(&mut studio, Path::new(PATH), scene(&after));
         assert_eq!(studio.race().tick_hz(), rate);
@@ -320,14 +321,16 @@ fn my_spring_runs_at_the_tick_rate_of_its_dialog_with_the_advice_beside_it() {
     assert_eq!(asked(&studio), studio.clock().tick_hz(), "the present one at first");
     let rate = crate::studio::SpringField::tick_rate(asked(&studio));
     assert!(rate.is_whole && rate.value == f64::from(asked(&studio)));
-    for wrong in [0.0, 2.5, -60.0, 1e6] {
+    for wrong in [0.0, 0.005, -60.0, 1e6] {
         assert!((rate.set)(wrong).unwrap_err().contains("tick rate would be"), "{wrong}");
     }
+    studio.apply((rate.set)(59.94).unwrap());
+    assert_eq!(asked(&studio), "59.94".parse::<TickRate>().unwrap());
     studio.apply((rate.set)(144.0).unwrap());
     assert_eq!(asked(&studio), 144);
     let scene = studio.viewer.my_spring().advised_scene(144);
     open_advised_spring(&mut studio, scene);
-    assert_eq!((studio.race().tick_hz(), studio.scene().tick_hz), (144, 144));
+    assert_eq!((studio.race().tick_hz(), studio.scene().tick_hz), (144.into(), 144.into()));
     assert!(studio.running() && studio.viewer.dialog().is_none());
     let display = studio.display();
     assert!(display.measure && display.instrument == Instrument::Advice);

@@ -109,8 +109,10 @@ fn answer(
 ) {
     let (done, wanted) = (advice.advised.len(), advice.wanted);
     let told = match done < wanted {
-        true => format!("At {} Hz, the best of {done} of {wanted} methods judged:", advice.tick_hz),
-        false => format!("At {} Hz, take:", advice.tick_hz),
+        true => {
+            format!("At {:.3} Hz, the best of {done} of {wanted} methods judged:", advice.tick_hz)
+        }
+        false => format!("At {:.3} Hz, take:", advice.tick_hz),
     };
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -228,9 +230,9 @@ fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             copy_button(ui, studio, spec, commands);
-            let hz = u64::from(studio.clock().tick_hz()) * u64::from(spec.substeps);
+            let hz = studio.clock().tick_hz().scaled(spec.substeps, 1);
             let calls = counted(spec.substeps, "call");
-            let called = format!("{}: {calls} a tick, h = 1/{hz} s", spec.method.name);
+            let called = format!("{}: {calls} a tick, h = 1/{hz:.3} s", spec.method.name);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 line(ui, RichText::new(called).color(palette(ui).text));
             });
@@ -573,7 +575,7 @@ mod tests {
     fn what_has_no_reserve_is_marked_in_the_answer_and_in_its_tooltip() {
         for (slowest_hz, factor, marks) in [(20, 1.0, 1), (60, 1.4, 1), (20, 1.4, 0)] {
             let met = CriterionMet {
-                tick_hz: 60,
+                tick_hz: 60.into(),
                 substeps: 1,
                 evaluations_per_s: 60.0,
                 cost_per_s: 60.0,

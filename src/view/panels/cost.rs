@@ -6,6 +6,7 @@ use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 use super::table::{Column, SortKey, Table, TableRow, show_words};
 use crate::run::race::Mode;
 use crate::scene::LaneSpec;
+use crate::sim::TickRate;
 use crate::stage::number::significant;
 use crate::studio::{Command, StageCommand, Studio};
 use crate::view::theme::{PanelPalette, palette, strong_font};
@@ -171,7 +172,7 @@ fn time(ns: f64) -> String {
 }
 
 /// The part of a frame that ticks at this rate take, if each frame is 1/60 s.
-fn share(ns: f64, tick_hz: u32) -> String {
+fn share(ns: f64, tick_hz: TickRate) -> String {
     let ticks = f64::from(tick_hz) / 60.0;
     let percent = 100.0 * ns * ticks / FRAME_NS;
     if percent < 0.01 { "< 0.01 %".into() } else { format!("{} %", significant(percent, 2)) }
@@ -215,9 +216,9 @@ mod tests {
 
     #[test]
     fn the_share_of_a_frame_counts_its_ticks() {
-        assert_eq!(share(FRAME_NS / 100.0, 60), "1.0 %");
-        assert_eq!(share(FRAME_NS / 100.0, 120), "2.0 %");
-        assert_eq!(share(50.0, 60), "< 0.01 %");
+        assert_eq!(share(FRAME_NS / 100.0, 60.into()), "1.0 %");
+        assert_eq!(share(FRAME_NS / 100.0, 120.into()), "2.0 %");
+        assert_eq!(share(50.0, 60.into()), "< 0.01 %");
         assert_eq!([time(12.34), time(4321.0), time(2.5e6)], ["12.3 ns", "4.32 µs", "2.50 ms"]);
     }
 }

@@ -307,7 +307,7 @@ mod tests {
             studio.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
         }
         studio.apply(RunCommand::Act(Action::Substeps { lane: LaneId(1), substeps: 7 }));
-        studio.apply(StageCommand::TickHz(20));
+        studio.apply(StageCommand::TickHz(20.into()));
         studio.apply(RunCommand::Seconds(3.0));
         studio.tick();
         assert_ne!(studio.scene().bodies[0].values[masses], most);

@@ -140,7 +140,7 @@ impl TableRow for Row<'_> {
         for line in method.formula {
             ui.label(formula(line, 16.0, palette(ui).text));
         }
-        ui.label(format!("At {} Hz: {}.", self.studio.clock().tick_hz(), self.said().whole()));
+        ui.label(format!("At {:.3} Hz: {}.", self.studio.clock().tick_hz(), self.said().whole()));
         for detail in self.details() {
             ui.label(RichText::new(detail).color(palette(ui).dim));
         }

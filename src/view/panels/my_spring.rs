@@ -5,6 +5,7 @@ use egui::{Align2, Button, ComboBox, FontId, Id, Rect, RichText, Sense, Ui, vec2
 use super::inspector::NumberField;
 use super::parts::dialog;
 use super::text_field::select;
+use crate::sim::TickRate;
 use crate::studio::{Command, MySpring, SpringField, StageCommand, Studio, ViewCommand};
 use crate::tools::port::{DIALECTS, Dialect, DialectPort};
 use crate::tools::source_code::Language;
@@ -21,7 +22,7 @@ const LINE: f32 = 22.0;
 pub(super) fn show(
     ui: &Ui,
     studio: &Studio,
-    tick_hz: u32,
+    tick_hz: TickRate,
     over: Rect,
     commands: &mut Vec<Command>,
 ) {
@@ -54,7 +55,7 @@ pub(super) fn show(
         line(ui, "", SpringField::tick_rate(tick_hz), false, commands);
         ui.add_space(6.0);
         ui.horizontal(|ui| {
-            let words = format!("Run it at {tick_hz} Hz");
+            let words = format!("Run it at {tick_hz:.3} Hz");
             let advise = ui.add(Button::new(RichText::new(words).size(TYPE).strong()));
             // A number that was clicked has it just now.
             if !is_new && !has_focus && ui.memory(|m| m.focused().is_none()) {

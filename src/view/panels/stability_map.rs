@@ -13,6 +13,7 @@ use super::breakpoints;
 use super::parts::{is_picture, numbered};
 use crate::measure::{Coverage, MapRequest, SeenLine, StabilityMap};
 use crate::scene::{Action, edited_values};
+use crate::sim::TickRate;
 use crate::stage::Parameter;
 use crate::stage::number::round;
 use crate::studio::{
@@ -446,7 +447,8 @@ fn step(ui: &Ui, studio: &Studio, map: &StabilityMap, commands: &mut Vec<Command
 
 /// Sets the tick rate and the parameter to a point of the map.
 fn go_to(studio: &Studio, map: &StabilityMap, [x, y]: [f64; 2], commands: &mut Vec<Command>) {
-    let tick_hz = libm::pow(10.0, x).round().max(1.0) as u32;
+    // A pixel is coarser than a hertz.
+    let tick_hz = TickRate::whole(libm::pow(10.0, x).round().max(1.0) as u32);
     if tick_hz != studio.clock().tick_hz() {
         commands.push(Command::Stage(StageCommand::TickHz(tick_hz)));
     }

@@ -237,12 +237,12 @@ fn multiple(percent: u32) -> String {
 
 fn tick_rate_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let tick_hz = studio.loop_lab().map_or(studio.clock().tick_hz(), |loops| loops.scene().tick_hz);
-    let text = RichText::new(format!("{tick_hz} Hz"));
+    let text = RichText::new(format!("{tick_hz:.3} Hz"));
     let menu = ComboBox::from_id_salt("tick rate").selected_text(text).width(72.0).height(480.0);
     let response = menu.show_ui(ui, |ui| {
         for rung in TICK_LADDER {
-            if ui.selectable_label(rung == tick_hz, format!("{rung} Hz")).clicked() {
-                commands.push(Command::Stage(StageCommand::TickHz(rung)));
+            if ui.selectable_label(tick_hz == rung, format!("{rung} Hz")).clicked() {
+                commands.push(Command::Stage(StageCommand::TickHz(rung.into())));
             }
         }
     });

@@ -114,7 +114,7 @@ fn every_scenes_reference_agrees_with_runge_kutta_at_a_fine_step() {
             );
             let rk4 = |rate_hz: u32| {
                 let solver = Solver::Method(method("rk4").unwrap());
-                sail(&scene, body, solver, (rate_hz / scene.tick_hz).min(1000))
+                sail(&scene, body, solver, (rate_hz / scene.tick_hz.whole_hz().unwrap()).min(1000))
             };
             let gap = |one: &[Vec<f64>; 3], other: &[Vec<f64>; 3]| {
                 let from = |part: usize| {

@@ -27,8 +27,8 @@ fn each_option_out_of_its_range_is_named() {
     let mine = Some(custom_integrator::<Rk4<Vec<f64>>> as fn(usize) -> _);
     for (field, says, options) in [
         ("name", "0 characters", Options { name: "", ..plain() }),
-        ("tick_hz", "0", Options { tick_hz: 0, ..plain() }),
-        ("tick_hz", "10001", Options { tick_hz: 10_001, ..plain() }),
+        ("tick_hz", "0", Options { tick_hz: 0.into(), ..plain() }),
+        ("tick_hz", "10001", Options { tick_hz: 10_001.into(), ..plain() }),
         ("seconds", "NaN", Options { seconds: f64::NAN, ..plain() }),
         ("seconds", "-1", Options { seconds: -1.0, ..plain() }),
         ("methods", "two have", Options { methods: vec![rk4, rk4], ..plain() }),
@@ -142,8 +142,8 @@ fn a_start_without_a_finite_force_is_refused() {
 }
 
 #[test]
-#[should_panic(expected = "`tick_hz`: 0; give a rate from 1 to 10000 Hz")]
+#[should_panic(expected = "`tick_hz`: 0; give a rate from 0.01 to 10000 Hz")]
 fn the_short_ways_panic_with_the_same_words() {
-    let options = Options { tick_hz: 0, ..Options::default() };
+    let options = Options { tick_hz: 0.into(), ..Options::default() };
     regatta::advise(&SPRING, State { q: 1.0, v: 0.0 }, options);
 }

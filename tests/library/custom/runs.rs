@@ -18,7 +18,7 @@ const SPRING: Spring = Spring { mass: 1.0, stiffness: 40.0, damping: 0.4 };
 fn scene() -> Scene {
     let ids = ["explicit-euler", "semi-implicit-euler", "rk4"];
     let methods = ids.map(|id| method(id).unwrap()).into();
-    let options = Options { methods, tick_hz: 30, ..Options::default() };
+    let options = Options { methods, tick_hz: 30.into(), ..Options::default() };
     Scene::of(&SPRING, State { q: 1.0, v: 0.0 }, options).unwrap()
 }
 
@@ -27,7 +27,7 @@ fn a_report_says_what_the_adviser_finds() {
     let scene = scene();
     let report = Report::of_scene(&scene);
     let adviser = Adviser::new(&scene, 30);
-    assert_eq!((report.tick_hz, report.horizon_s, report.methods.len()), (30, 20.0, 3));
+    assert_eq!((report.tick_hz, report.horizon_s, report.methods.len()), (30.into(), 20.0, 3));
     for (lane, row) in scene.lanes.iter().zip(&report.methods) {
         assert_eq!(row.method, lane.method.id);
         assert_eq!(row.verdict, adviser.verdict(*lane));

@@ -239,7 +239,7 @@ fn a_law_of_any_text_has_one_kind_and_the_table_of_bodies_has_none() {
 #[test]
 fn the_drone_is_lost_or_hovers_as_its_hint_says() {
     let scene = Scene::built_in("lift").unwrap();
-    let place = TICK_LADDER.iter().position(|hz| *hz == scene.tick_hz).unwrap();
+    let place = TICK_LADDER.iter().position(|hz| scene.tick_hz == *hz).unwrap();
     assert_eq!(scene.tick_hz, 30);
     // How far the altitude still moves in the last three seconds.
     let moves = |id: &str, hz: u32| {

@@ -59,7 +59,7 @@ fn a_kick_of_the_script_reaches_the_net() {
 
 /// Whether a method gets through a built-in scene at a rate, without a coordinate running away.
 fn holds(name: &str, id: &str, tick_hz: u32) -> bool {
-    let scene = edited(&Scene::built_in(name).unwrap(), |scene| scene.tick_hz = tick_hz);
+    let scene = edited(&Scene::built_in(name).unwrap(), |scene| scene.tick_hz = tick_hz.into());
     let mut race = Race::new(&scene, [LaneSpec::plain(method(id).unwrap())]);
     race.run(u64::from(tick_hz) * 4);
     let body = &race.entrants()[0].lane.bodies()[0];

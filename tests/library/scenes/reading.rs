@@ -5,6 +5,7 @@ use regatta::scene::{
     Action, LaneId, LaneSpec, MAX_BODIES, MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, Scene, SceneBody,
     SceneKey, scene_tables,
 };
+use regatta::sim::TickRate;
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 use regatta::studio::{StageCommand, Studio};
 
@@ -49,7 +50,7 @@ fn a_scene_without_lanes_races_every_method_for_games_and_optional_keys_have_def
     let scene = parse_body(SPRING);
     assert_eq!((scene.name.as_str(), scene.title.as_str()), ("mine", "Mine"));
     assert_eq!((scene.about.as_str(), scene.hint), ("", None));
-    assert_eq!((scene.tick_hz, scene.seconds), (60, 10.0));
+    assert_eq!((scene.tick_hz, scene.seconds), (60.into(), 10.0));
     assert_eq!(scene.lanes.len(), for_games());
     let spring = &scene.bodies[0];
     let defaults = spring.kind.parameters[2..].iter().map(|parameter| parameter.default.unwrap());
@@ -74,7 +75,7 @@ fn a_lane_sails_within_the_tolerance_that_it_is_given() {
     let mut scene = parse_body(&format!("{lanes}{SPRING}"));
     let given: Vec<_> = scene.lanes.iter().map(|lane| lane.tolerance).collect();
     assert_eq!(given, [None, Some(1.0), Some(1e-12), None]);
-    scene.tick_hz = 2;
+    scene.tick_hz = 2.into();
 
     let mut race = Race::new(&scene, scene.lanes.iter().copied());
     // The last one comes into its tolerance on the way.
@@ -119,12 +120,36 @@ fn a_script_is_sorted_by_time_and_keeps_the_order_of_the_file_within_one() {
     let scene = parse_body(&format!("{script}{ship}"));
     let script: Vec<_> = scene.script.iter().map(|each| (each.at_s, each.action.clone())).collect();
     let expected = [
-        (0.0, Action::TickHz(10_000)),
+        (0.0, Action::TickHz(10_000.into())),
         (0.75, Action::Kick(-2.0)),
         (120.0, Action::Method(method("rk4").unwrap())),
         (120.0, Action::Throttle(-1.0)),
     ];
     assert_eq!(script, expected);
+}
+
+#[test]
+fn a_tick_rate_is_a_decimal_a_ratio_or_a_step_and_is_written_back() {
+    for (line, rate, written) in [
+        ("tick_hz = 66.667", "66.667", "tick_hz = 66.667"),
+        ("tick_hz = 60.0", "60", "tick_hz = 60"),
+        ("tick_hz = 6e1", "60", "tick_hz = 60"),
+        ("tick_hz = 0.5", "0.5", "tick_hz = 0.5"),
+        ("tick_hz = '60000/1001'", "60000/1001", "tick_hz = \"60000/1001\""),
+        ("tick_hz = '1/0.015'", "200/3", "step_s = 0.015"),
+        ("step_s = 0.015", "200/3", "step_s = 0.015"),
+        ("step_s = 2", "0.5", "tick_hz = 0.5"),
+        ("step_s = '1/66.667'", "66.667", "tick_hz = 66.667"),
+    ] {
+        let command = format!("[[command]]\nat_s = 1\n{line}\n");
+        let scene = parse(&format!("title = 'Mine'\n{line}\nseconds = 10\n{SPRING}{command}"));
+        let rate: TickRate = rate.parse().unwrap();
+        assert_eq!((scene.tick_hz, &scene.script[0].action), (rate, &Action::TickHz(rate)));
+        let text = scene.to_toml();
+        assert_eq!(text.matches(&format!("\n{written}\n")).count(), 2, "{line}:\n{text}");
+        assert!(text.matches("tick_hz").count() + text.matches("step_s").count() == 2, "{text}");
+        assert_eq!((parse(&text).tick_hz, parse(&text).script), (rate, scene.script));
+    }
 }
 
 #[test]
@@ -147,7 +172,7 @@ fn each_limit_itself_is_allowed() {
         SPRING.repeat(MAX_BODIES),
     ));
     assert_eq!((scene.lanes.len(), scene.bodies.len()), (MAX_LANES, MAX_BODIES));
-    assert_eq!((scene.tick_hz, scene.seconds), (MAX_TICK_HZ, MAX_SECONDS));
+    assert_eq!((scene.tick_hz, scene.seconds), (TickRate::MAX, MAX_SECONDS));
     assert_eq!(scene.script[0].at_s, MAX_SECONDS);
 }
 

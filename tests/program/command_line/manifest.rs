@@ -168,7 +168,7 @@ fn frames_and_marks_are_those_of_the_run() {
     assert_eq!(ticks, [0, 10, 20, 30, 40, 50, 56]);
 
     let mut scene = Scene::built_in("harbour").unwrap();
-    scene.tick_hz = 49;
+    scene.tick_hz = 49.into();
     let mut studio = Studio::new(scene);
     studio.apply(StageCommand::ToggleRace);
     for mark in &manifest.marks {

@@ -28,6 +28,7 @@ mod show;
 mod signals;
 mod sweep;
 mod sweep_plots;
+mod tick_rates;
 mod trace;
 mod verify;
 mod verify_reports;

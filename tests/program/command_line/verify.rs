@@ -213,7 +213,7 @@ fn what_cannot_be_judged_says_why() {
         assert!(stderr.contains(said), "{stderr}");
     };
     refused(
-        &|manifest| manifest.settings.tick_hz = 50,
+        &|manifest| manifest.settings.tick_hz = 50.into(),
         "it says 50 Hz, but at 30 frames per second its frames are those of 60 Hz",
     );
     refused(&|manifest| manifest.settings.scene.text.push(' '), "the scene's text was altered");

@@ -6,8 +6,8 @@ use super::number::NumberField;
 use super::{LINE, RESTORE, line, restore};
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{
-    Action, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS, TOLERANCES,
-    check_entered,
+    Action, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, MIN_SECONDS, TOLERANCES, check_entered,
+    entered_tick_rate,
 };
 use crate::stage::Range;
 use crate::studio::{Command, RunCommand, StageCommand, Studio};
@@ -135,10 +135,10 @@ pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command
     line(ui, "tick rate", about, |ui, [room, number]| {
         ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
         let size = vec2(number, LINE);
-        let check = |value| check_entered("tick rate", value, Range::Count(MAX_TICK_HZ));
-        let (_, entered) = rate.show(ui, size, check);
-        commands.extend(entered.map(|value| Command::Stage(StageCommand::TickHz(value as u32))));
-        let about = format!("back to {} Hz", opened.tick_hz);
+        let (_, entered) = rate.show(ui, size, |value| entered_tick_rate(value).map(drop));
+        let entered = entered.and_then(|value| entered_tick_rate(value).ok());
+        commands.extend(entered.map(|tick_hz| Command::Stage(StageCommand::TickHz(tick_hz))));
+        let about = format!("back to {:.3} Hz", opened.tick_hz);
         restore(ui, tick_hz != opened.tick_hz, &about, "tick rate", || {
             commands.push(Command::Stage(StageCommand::TickHz(opened.tick_hz)));
         });

@@ -103,7 +103,7 @@ fn a_method_is_being_judged_until_it_is() {
 fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
     let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
     studio.apply(StageCommand::ToggleRace);
-    studio.apply(StageCommand::TickHz(49));
+    studio.apply(StageCommand::TickHz(49.into()));
     studio.analyse();
     let euler = studio.entries().iter().position(|spec| spec.method.id == "semi-implicit-euler");
     let euler = euler.unwrap();
@@ -136,7 +136,7 @@ fn the_body_that_every_verdict_is_about_is_named_once() {
     );
     assert_eq!(names(&studio), 0, "{:?}", said(&studio));
     // At a low rate the stiffest body of some lanes is another.
-    studio.apply(StageCommand::TickHz(2));
+    studio.apply(StageCommand::TickHz(2.into()));
     studio.analyse();
     assert_eq!(row::judged_body(&studio), None, "{:?}", said(&studio));
     assert!(names(&studio) > 0, "{:?}", said(&studio));

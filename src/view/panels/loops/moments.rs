@@ -94,7 +94,7 @@ pub(super) fn layout(
         tail: Some(marks),
         ..Text::new(at, anchor, name, NUMBER, palette.dim)
     };
-    let ticks = (format!("{} Hz ticks", loops.scene().tick_hz), palette.accent);
+    let ticks = (format!("{:.3} Hz ticks", loops.scene().tick_hz), palette.accent);
     let above = pos2(rect.left(), room.top());
     all.push(name(above, Align2::LEFT_TOP, "moment shown, ms from now", ticks).into());
     let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);

@@ -84,7 +84,7 @@ fn columns<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         |ui, row: &Row<'a>, rect, _| row.verdict.show(ui, rect, row.text(ui)),
         |row| row.verdict.rank.into(),
     );
-    let head = format!("Verdict at {} Hz, trace {display}", loops.scene().tick_hz);
+    let head = format!("Verdict at {:.3} Hz, trace {display}", loops.scene().tick_hz);
     let marks = [key, on_stage.headed(""), line, name, verdict.headed(head)];
     marks.into_iter().chain(METRICS.into_iter().filter_map(metric)).collect()
 }

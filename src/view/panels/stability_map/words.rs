@@ -6,6 +6,7 @@ use egui::text::LayoutJob;
 use egui::{Color32, FontId, Galley, TextFormat, Ui};
 
 use crate::measure::{Here, MapRequest, StabilityMap};
+use crate::sim::TickRate;
 use crate::stage::Parameter;
 use crate::stage::number::round;
 use crate::studio::Studio;
@@ -23,10 +24,15 @@ pub(super) fn full_name(parameter: &Parameter) -> String {
 }
 
 /// A point of the map: `20 Hz, k = 90 N/m`.
-pub(super) fn point_in_words(studio: &Studio, index: usize, tick_hz: u32, value: f64) -> String {
+pub(super) fn point_in_words(
+    studio: &Studio,
+    index: usize,
+    tick_hz: TickRate,
+    value: f64,
+) -> String {
     let parameter = super::parameter(studio, index);
     let text =
-        format!("{tick_hz} Hz, {} = {} {}", letter(parameter), round(value, 3), parameter.unit);
+        format!("{tick_hz:.3} Hz, {} = {} {}", letter(parameter), round(value, 3), parameter.unit);
     text.trim_end().to_owned()
 }
 
@@ -90,16 +96,17 @@ fn job(ui: &Ui, [here, does]: &[String; 2], size: f32) -> LayoutJob {
 
 /// The longest that the words about a point of this map become.
 fn longest(studio: &Studio, map: &StabilityMap) -> [String; 2] {
-    let MapRequest { parameter, rates_hz, range, specs, .. } = &map.request;
+    let MapRequest { parameter, tick_hz, rates_hz, range, specs, .. } = &map.request;
     let names = map.method_names();
-    let here = range.map(|value| point_in_words(studio, *parameter, rates_hz[1] as u32, value));
+    let rates = [*tick_hz, TickRate::whole(rates_hz[1] as u32)];
+    let here = rates.map(|hz| range.map(|value| point_in_words(studio, *parameter, hz, value)));
     let name = names.into_iter().max_by_key(|name| name.chars().count()).unwrap_or_default();
     let all = specs.len();
     let does = format!(
         "{all} of {all} methods are bounded, {all} pick their own steps. {name} {}.",
         Here::Doubles(0.001_23)
     );
-    [here.into_iter().max_by_key(|here| here.chars().count()).unwrap_or_default(), does]
+    [here.into_iter().flatten().max_by_key(|here| here.chars().count()).unwrap_or_default(), does]
 }
 
 fn append(job: &mut LayoutJob, text: &str, font_id: FontId, color: Color32) {

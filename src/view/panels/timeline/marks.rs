@@ -250,7 +250,7 @@ mod tests {
         run(&mut studio, 30);
         studio.apply(RunCommand::Act(Action::Kick(1.0)));
         studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
-        studio.apply(StageCommand::TickHz(20));
+        studio.apply(StageCommand::TickHz(20.into()));
         run(&mut studio, 10);
         studio.apply(RunCommand::Act(Action::Substeps { lane: LaneId(1), substeps: 4 }));
         studio.apply(RunCommand::Act(Action::Kick(-2.5)));

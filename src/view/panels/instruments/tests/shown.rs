@@ -9,7 +9,7 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
     let mut studio = Studio::new(Scene::built_in("ship").unwrap());
     let euler = studio.entries().iter().position(|spec| spec.method.id == "explicit-euler");
     studio.apply(StageCommand::Pick(euler.unwrap()));
-    studio.apply(StageCommand::TickHz(2));
+    studio.apply(StageCommand::TickHz(2.into()));
     studio.apply(StageCommand::Restart);
     (0..17).for_each(|_| studio.tick());
     let at_the_end = |studio: &Studio| {
@@ -196,7 +196,7 @@ fn motion_shows_all_of_the_selected_lane_however_far_it_goes_and_the_truth() {
         }
         let mut widest = 0.0_f64;
         for seconds in [0, 3, 9, 12] {
-            (0..seconds * studio.race().tick_hz()).for_each(|_| studio.tick());
+            (0..seconds * studio.race().tick_hz().hz() as u32).for_each(|_| studio.tick());
             let lanes = if is_race { studio.race().entrants().len() } else { 1 };
             for lane in 0..lanes {
                 studio.apply(StageCommand::Pick(lane));
@@ -296,7 +296,7 @@ fn the_selected_lane_stays_in_every_plot_however_far_it_goes() {
                 studio.apply(StageCommand::Pick(0));
             }
             assert_eq!(studio.entries()[studio.active()].method.id, "explicit-euler");
-            (0..seconds * studio.race().tick_hz()).for_each(|_| studio.tick());
+            (0..seconds * studio.race().tick_hz().hz() as u32).for_each(|_| studio.tick());
             for instrument in [Instrument::Motion, Instrument::Phase, Instrument::Energy] {
                 studio.apply(StageCommand::Instrument(instrument));
                 let set = plot_set_of(&studio, Detail::Samples).unwrap();
