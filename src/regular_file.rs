@@ -56,6 +56,29 @@ pub(crate) fn read(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable>
     Ok(bytes)
 }
 
+/// The bytes of a table: of a regular file, or of standard input where the path is `-`.
+#[cfg(feature = "cli")]
+pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, Unreadable> {
+    if path.as_os_str() != "-" {
+        return read(path, MAX_TABLE_BYTES);
+    }
+    let mut bytes = Vec::new();
+    io::stdin().lock().take(MAX_TABLE_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    match bytes.len() > MAX_TABLE_BYTES {
+        true => Err(Unreadable::TooLarge { max_bytes: MAX_TABLE_BYTES }),
+        false => Ok(bytes),
+    }
+}
+
+/// What a table at this path is called.
+#[cfg(feature = "cli")]
+pub(crate) fn table_name(path: &Path) -> String {
+    match path.as_os_str() == "-" {
+        true => "standard input".into(),
+        false => path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+    }
+}
+
 /// The first bytes of a regular file, at most `max_bytes`.
 pub(crate) fn read_start(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable> {
     let mut bytes = Vec::new();

@@ -11,7 +11,8 @@ use super::help::flowing;
 use super::output::table::TableFormat;
 use super::scene_file::shown;
 use super::visible::visible_in_a_line;
-use crate::run::diff::{Comparison, Difference, LEVELS, MAX_WAITING, Tolerance, diff};
+use crate::run::diff::{Chosen, Comparison, Difference, LEVELS, MAX_WAITING, Tolerance, diff};
+use crate::scene::clip_list;
 use crate::sim::number::counted;
 
 mod source;
@@ -23,14 +24,18 @@ A run is a table, of `regatta trace` or with a column for each number, split by 
 tabs; the run of a scene or of a recording, which is made again; the states in the manifest of a
 capture; or - for a table on standard input. Rows belong together by tick, lane, body and coordinate,
 or by those of them that the tables have. A table without tick is matched by t, and without t by the
-place of the row. All columns but these, t and method are compared. A row on one side alone is counted
-under the side that lacks it. Lines that begin with # are notes above the header, and rows below it.
+place of the row; --key names other columns by which rows belong together, such as frame,object, of
+which a frame or step counts ticks. All columns but these, t and method are compared, or those of
+--columns, and not those of --ignore. A column is of numbers, or of text as a whole where one cell is
+no number: hashes are. A row on one side alone is counted under the side that lacks it. Lines that begin with # are notes above the header, and rows below it.
 A file must be a regular one, and a row has at most 1 MiB.
 
 The last bit counts, unless --ulps or --relative says what is equal. NaN is the same as NaN, and -0 as 0.
 A difference reaches 1e-12 at the first tick where it is that part of the largest value that this column of
 this coordinate had until then. The column that differs most is found by the same part. If the difference
 grows exponentially through three decades, its rate is told, by the times of a column t.
+
+In JSON, columns are those that differ, with their first tick and their rows, and equal the others.
 
 Exit code 0: the same. 1: different. 2: cannot be compared, as where nothing moves: a column that is called
 like a clock and never goes back does not, nor does one of several that grows by the same amount in each row,
@@ -39,6 +44,7 @@ unless it is called like a coordinate, such as x or position.
 Examples:
   regatta diff before.csv after.csv
   regatta trace --method rk4 | regatta diff before.csv -
+  regatta diff a.csv b.csv --key frame,object --ignore wall_ms
   regatta diff clip clip-of-yesterday --format json";
 
 /// Say where two runs first differ
@@ -64,6 +70,22 @@ pub(super) struct DiffArgs {
     #[arg(allow_negative_numbers = true)]
     relative: f64,
 
+    /// The columns by which rows belong together [default: tick,lane,body,coordinate]
+    #[arg(long, value_name = "COLUMN,…", value_delimiter = ',')]
+    key: Vec<String>,
+
+    /// The column that counts ticks [default: tick]
+    #[arg(long, value_name = "COLUMN")]
+    tick_column: Option<String>,
+
+    /// Compare these columns only
+    #[arg(long, value_name = "COLUMN,…", value_delimiter = ',')]
+    columns: Vec<String>,
+
+    /// Do not compare these columns
+    #[arg(long, value_name = "COLUMN,…", value_delimiter = ',', conflicts_with = "columns")]
+    ignore: Vec<String>,
+
     /// The format: text or json
     #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
     format: TableFormat,
@@ -81,7 +103,13 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Error> {
     let mut a = Source::open(&args.a)?;
     let mut b = Source::open(&args.b)?;
     let tolerance = Tolerance { ulps: args.ulps, relative: args.relative };
-    let found = diff(&mut a, &mut b, tolerance).map_err(|error: Error| {
+    let chosen = Chosen {
+        key: args.key.clone(),
+        tick: args.tick_column.clone(),
+        columns: args.columns.clone(),
+        ignored: args.ignore.clone(),
+    };
+    let found = diff(&mut a, &mut b, tolerance, &chosen).map_err(|error: Error| {
         error.and(format!("a is {}, b is {}", shown(&args.a), shown(&args.b)))
     })?;
     let text = match args.format {
@@ -115,6 +143,9 @@ fn words(found: &Comparison, a: &Path, b: &Path) -> String {
         None => lines.push("equal wherever both have a value".into()),
         Some(first) => {
             lines.push(format!("first {first}"));
+            if found.columns.len() + found.equal.len() > 1 && !found.columns.is_empty() {
+                lines.push(by_column(found, first.tick_name.as_deref()));
+            }
             let reached = LEVELS.iter().zip(found.reaches);
             let reached =
                 reached.filter_map(|(level, tick)| Some(format!("{level:e} at tick {}", tick?)));
@@ -145,6 +176,9 @@ fn words(found: &Comparison, a: &Path, b: &Path) -> String {
             lines.push(format!("only {name} has the columns {}", found.alone[side].join(", ")));
         }
     }
+    if found.is_by_place && !found.is_same() {
+        lines.push("rows belong together by their place; --key joins them by columns".into());
+    }
     for (count, what) in [
         (found.displaced, "rows that stand elsewhere"),
         (found.zeros_of_two_signs, "zeros of two signs, taken as equal"),
@@ -158,17 +192,37 @@ fn words(found: &Comparison, a: &Path, b: &Path) -> String {
     lines.iter().map(|line| visible_in_a_line(line) + "\n").collect()
 }
 
+/// From where on each column differs, and which do not.
+fn by_column(found: &Comparison, tick_name: Option<&str>) -> String {
+    let from = |tick: u64| tick_name.map_or(String::new(), |name| format!(" from {name} {tick}"));
+    let differ = found
+        .columns
+        .iter()
+        .map(|it| format!("{}{} in {}", it.column, from(it.first_tick), counted(it.rows, "row")));
+    let differ: Vec<String> = differ.collect();
+    let differ = clip_list(differ.iter().map(String::as_str));
+    match found.equal.len() {
+        0 => format!("by column: {differ}"),
+        _ => {
+            let equal = clip_list(found.equal.iter().map(String::as_str));
+            format!("by column: {differ}; equal in {equal}")
+        }
+    }
+}
+
 /// As JSON, with the numbers as they are written in the tables.
 fn object(found: &Comparison) -> String {
     const WRITTEN: [&str; 2] = ["\u{1}a", "\u{1}b"];
     let finite = |part: f64| part.is_finite().then_some(part);
     let first = found.first.as_ref().map(|first| {
-        let Difference { tick, row: [lane, body, coordinate], column, values, ulps, relative } =
-            first;
-        let lane = lane.as_ref().map(|lane| lane.parse::<u64>().map_or(json!(lane), Value::from));
+        let Difference { tick, column, values, ulps, relative, .. } = first;
+        let [lane, body, coordinate] = ["lane", "body", "coordinate"].map(|name| first.cell(name));
+        let lane = lane.map(|lane| lane.parse::<u64>().map_or(json!(lane), Value::from));
+        let key: serde_json::Map<String, Value> =
+            first.key.iter().map(|(name, cell)| (name.clone(), json!(cell))).collect();
         let [a, b] = [0, 1].map(|side| values[side].as_ref().map(|_| WRITTEN[side]));
         json!({
-            "tick": tick, "lane": lane, "body": body, "coordinate": coordinate, "column": column,
+            "tick": tick, "lane": lane, "body": body, "coordinate": coordinate, "key": key, "column": column,
             "a": a, "b": b, "ulps": ulps, "relative": relative,
         })
     });
@@ -181,6 +235,10 @@ fn object(found: &Comparison) -> String {
         "rows": found.rows,
         "moved": found.moved,
         "first": first,
+        "columns": found.columns.iter().map(|it| {
+            json!({ "column": it.column, "first_tick": it.first_tick, "rows": it.rows })
+        }).collect::<Vec<_>>(),
+        "equal": found.equal,
         "reaches": reaches.collect::<Vec<_>>(),
         "per_second": found.per_second,
         "missing": { "a": found.missing[0], "b": found.missing[1] },

@@ -22,8 +22,8 @@ use super::tick_rate::TickRateArgs;
 use super::trace_source::traces;
 use crate::atomic_file::IfExists;
 use crate::loops::{
-    FrameTrace, MIN_RUN_S, PACING_METRICS, POLICIES, PacingMetric, PolicyCard, RefreshRate,
-    USUAL_LATENCY_MS, trace_card,
+    FrameLimits, FrameTrace, MIN_RUN_S, PACING_METRICS, POLICIES, PacingMetric, PolicyCard,
+    RefreshRate, USUAL_LATENCY_MS, trace_card,
 };
 use crate::run::Unit;
 use crate::scene::{LaneSpec, Scene};
@@ -59,7 +59,8 @@ error, or why there is none. `regatta help loops` says more.
 Examples:
   regatta loop > loops.csv
   regatta loop --trace steady-144 --policy fixed --policy fixed-linear
-  regatta loop --trace capture.csv --tick-hz 50";
+  regatta loop --trace capture.csv --tick-hz 50
+  regatta loop --fps 200 --display-hz 144 --max-ticks 2";
 
 /// Measure what game loops do to motion on a display
 #[derive(Debug, Args)]
@@ -77,8 +78,8 @@ pub(super) struct LoopArgs {
 
     /// A trace, or several [default: all built-in ones]
     ///
-    /// `regatta list traces` has the names. What is no name is a CSV file of PresentMon, OCAT, CapFrameX, FrameView or
-    /// MangoHud, or a list of frame times in milliseconds, one a line. Give the option again for each.
+    /// `regatta list traces` has the names. What is no name is a CSV file of PresentMon, OCAT, CapFrameX, FrameView,
+    /// MangoHud, Unreal or FRAPS, or a list of frame times in milliseconds, one a line. Give the option again for each.
     #[arg(long = "trace", value_name = "ID|FILE", value_parser = PathOrName(trace_names))]
     #[arg(hide_possible_values = true)]
     traces: Vec<PathBuf>,
@@ -91,6 +92,24 @@ pub(super) struct LoopArgs {
     /// In Hz, 1 to 1000. Without --trace there is an even display of this rate.
     #[arg(long, value_name = "N")]
     display_hz: Option<RefreshRate>,
+
+    /// Frames per second of a game with even frames [default: the display's]
+    ///
+    /// In Hz, 1 to 1000. Without --display-hz the display shows each frame when it begins, as one of a variable rate.
+    #[arg(long, value_name = "N", conflicts_with = "traces")]
+    fps: Option<RefreshRate>,
+
+    /// The most ticks in a frame [default: each loop's own]
+    ///
+    /// As Unity's maximumDeltaTime, Godot's max steps and the like: what a frame is longer is given up.
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    max_ticks: Option<u32>,
+
+    /// The longest frame that is simulated [default: each loop's own]
+    #[arg(long, value_name = "ms")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=60_000))]
+    max_frame_ms: Option<u32>,
 
     /// A scene or the file of one
     ///
@@ -151,7 +170,8 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let (scene, _) = scene_file::load(&args.scene)?;
     scene_file::check_method(&scene, args.method)?;
     let scene = Scene { tick_hz: args.tick_rate.given().unwrap_or(scene.tick_hz), ..scene };
-    let traces = traces(&args.traces, args.display_hz)?;
+    let limits = args.limits()?;
+    let traces = traces(&args.traces, args.display_hz, args.fps)?;
     let format = row_format(&args.out, args.format)?;
     if let Some(plot) = args.plot() {
         check_picture_name(plot, &args.out)?;
@@ -189,12 +209,20 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         let stretch = Stretch { until_ns, drawn_from_ns };
         for card in args.policies() {
             let spec = LaneSpec::plain(args.method);
-            rows.push(measure(&scene, spec, card, trace, stretch, &stop, frames.as_mut())?);
+            rows.push(measure(
+                &scene,
+                spec,
+                (card, limits),
+                trace,
+                stretch,
+                &stop,
+                frames.as_mut(),
+            )?);
             if stop() {
                 return Err(Error::nothing_written());
             }
         }
-        advice::tell_of(&rows[from..], args.latency_ms);
+        advice::tell_of(&rows[from..], args.latency_ms, limits);
     }
     write_measured(out, format, &rows)?;
     if let Some(frames) = frames {
@@ -208,6 +236,21 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
 }
 
 impl LoopArgs {
+    /// What is simulated of a frame at most.
+    fn limits(&self) -> Result<FrameLimits, Error> {
+        let free =
+            self.policies.iter().find(|card| self.max_ticks.is_some() && !card.has_max_ticks);
+        if let Some(card) = free {
+            let limited = POLICIES.iter().filter(|card| card.has_max_ticks).map(|card| card.id);
+            return Err(Error::mistake(format!(
+                "--max-ticks does nothing under {}, which has no most ticks in a frame; leave it out, or take {}",
+                card.id,
+                limited.collect::<Vec<_>>().join(", ")
+            )));
+        }
+        Ok(FrameLimits { max_ticks: self.max_ticks, max_frame_ms: self.max_frame_ms })
+    }
+
     /// The files that are read.
     fn inputs(&self) -> Vec<Input<'_>> {
         let files = self.traces.iter().filter(|path| path.to_str().and_then(trace_card).is_none());

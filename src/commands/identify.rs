@@ -8,8 +8,9 @@ use super::argument::{brief, number, number_that, positive};
 use super::error::Error;
 use super::help::flowing;
 use super::output::table::TableFormat;
+use super::terminal::print_status;
 use super::tick_rate::{rate_of_a_log, rate_of_a_step};
-use crate::regular_file::{self, MAX_TABLE_BYTES};
+use crate::regular_file;
 use crate::tools::identify::{ColumnNames, Log, LogError, LogSetting, LoggedBody, identify};
 
 mod findings;
@@ -19,18 +20,22 @@ use findings::{object, words};
 const ABOUT: &str = "\
 LOG.csv has a header and a row for each tick, or for some of them: t in seconds, x in metres and,
 if it was logged, v. Where rows are skipped, a column tick counts them; else the tick is read off t.
+Rows at uneven times, as of a video, show the motion but not the method. Without v, a body that could
+be anyone's is supposed to start at rest, if that tells. A line on standard error says what was read.
 The body is one of:
 
-  a spring      --k, and --c and --mass if they are not 0 and 1, x from where it rests
+  a spring      --k, and --c and --mass if they are not 0 and 1
   a body that coasts or is driven    --drag, the damping setting in 1/s, and --thrust in newtons
   neither given: a spring whose stiffness and damping are fitted too, which leaves more open
+
+A spring that rests elsewhere than at 0 is found, or given with --rest.
 
 A residual is the root mean square of the difference from the log, in units of the largest x and v.
 The word is
 
   identified    one method explains the log to its noise, with those that do the same on this body
   cannot tell   methods that differ explain it equally well, or the log is too short to tell
-  unknown       none explains it
+  unknown       none explains it; a damped swing is fitted, with its standard errors
 
 In JSON, also are methods that do the same on this body, unusual such as would too but are rare, and
 held says that the game applies the spring's force itself.
@@ -50,7 +55,7 @@ three ticks in a row\n";
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(ABOUT))]
 pub(super) struct IdentifyArgs {
-    /// The log: a CSV file with columns t, x, v and tick
+    /// The log: a CSV file with columns t, x, v and tick, or - for standard input
     ///
     /// It needs t and x.
     #[arg(value_name = "LOG.csv")]
@@ -96,6 +101,14 @@ pub(super) struct LogArgs {
     #[arg(long, value_name = "1/s", value_parser = number, allow_negative_numbers = true)]
     drag: Option<f64>,
 
+    /// Where the spring rests, in metres [default: 0, or fitted]
+    #[arg(long, value_name = "m", value_parser = signed, allow_negative_numbers = true)]
+    rest: Option<f64>,
+
+    /// The velocity of the first row, where v was not logged [default: fitted]
+    #[arg(long, value_name = "m/s", value_parser = signed, allow_negative_numbers = true)]
+    v0: Option<f64>,
+
     /// A constant force in newtons
     #[arg(long, value_name = "N", value_parser = signed, allow_negative_numbers = true)]
     thrust: Option<f64>,
@@ -137,7 +150,7 @@ fn remedy(error: &LogError) -> &'static str {
 impl LogArgs {
     /// Reads the log at `path`, of a game with this tick rate in hertz.
     pub(super) fn read(&self, path: &Path, tick_hz: f64) -> Result<Log, Error> {
-        let bytes = regular_file::read(path, MAX_TABLE_BYTES).map_err(|error| {
+        let bytes = regular_file::read_table(path).map_err(|error| {
             Error::mistake(format!("cannot read the log {}: {error}", brief(path)))
         })?;
         let columns = ColumnNames {
@@ -146,9 +159,12 @@ impl LogArgs {
             x: self.x_column.clone(),
             v: self.v_column.clone(),
         };
-        let name = brief(path);
+        let is_standard = path.as_os_str() == "-";
+        let name = if is_standard { "standard input".into() } else { brief(path) };
         let parsed = Log::from_bytes(&name, &bytes, &columns, tick_hz);
-        parsed.map_err(|error| Error::mistake(format!("{error}{}", remedy(&error))))
+        let log = parsed.map_err(|error| Error::mistake(format!("{error}{}", remedy(&error))))?;
+        print_status(&log.summary());
+        Ok(log)
     }
 
     /// The body of the log, which has this mass in kg.
@@ -159,7 +175,7 @@ impl LogArgs {
             (None, ..) => Some([0.0; 2]),
         };
         let (drag, thrust) = (self.drag.unwrap_or(0.0), self.thrust.unwrap_or(0.0));
-        LoggedBody { spring, drag, push: thrust / mass }
+        LoggedBody { spring, drag, push: thrust / mass, rest: self.rest, v0: self.v0 }
     }
 }
 

@@ -10,6 +10,7 @@ use super::id::Id;
 use super::identify::LogArgs;
 use super::output::table::TableFormat;
 use super::tick_rate::{rate_of_a_log, rate_of_a_step};
+use crate::regular_file;
 use crate::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{METHODS, Method};
 use crate::tools::port::{
@@ -29,8 +30,11 @@ For each engine, the settings are sought under which its tick shows what is wish
   --from engine-X:KEY=VALUE,…      what engine X shows with its own settings; substeps, tick_hz and
                                    mode may be given as keys too
   --from LOG.csv                   what is seen in a log, which is read as by `regatta identify`
-  --from lerp:0.1@60fps            a value that chases a target: also smooth-damp:SECONDS and
-                                   half-life:SECONDS
+  --from lerp:0.1@60fps            a value that chases a target: also lerp-dt:20@30fps,
+                                   smooth-damp:SECONDS and half-life:SECONDS
+  --from friction:0.9@60fps        a velocity of which a frame keeps that part
+  --from per-frame-decay:stiffness=0.2,decay=0.85
+                                   v = (v + (target - x) * stiffness) * decay; x += v in a frame
   --from swiftui:KEY=VALUE,…       a spring of a user interface; what is left out is the library's own
 
 Springs of user interfaces, with the version that each is held against: {dialects}.
@@ -45,7 +49,8 @@ it swings √(1 - d²) times as fast. The word is
 
 Where an engine has no substeps, as Chipmunk and Godot, N of them are N ticks of dt / N that the
 game makes; in PhysX they are position iterations. With --drive the wish is the gains of a drive, of
-the engine's own and of a force of user code that is held through --decimation ticks.
+the engine's own and of a force of user code that is held through --decimation ticks; those that --from
+names are judged as they are given.
 
 Examples:
   regatta port --frequency 2.5Hz --damping-ratio 0.3 --mass 80
@@ -194,7 +199,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         _ => Target::Engines,
     };
     let wish = match from {
-        Some(From::Approach(_, _)) if args.drive => {
+        Some(From::Approach(..) | From::Friction(_)) if args.drive => {
             return Err(Error::mistake(
                 "--drive is for a spring; give --frequency, or settings of an engine in --from",
             ));
@@ -203,7 +208,15 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             let ports = followers(approach, fps);
             return args.format.print(&report::followers(approach, &ports, args.format));
         }
-        Some(From::Engine(wish) | From::Dialect(wish)) => wish,
+        Some(From::Friction(friction)) => {
+            return args.format.print(&report::friction(&friction, args.format));
+        }
+        Some(From::Engine(settings)) if args.drive => settings.as_given(),
+        Some(From::Engine(settings)) => settings.shown().map_err(|fault| {
+            let written = args.from.as_deref().unwrap_or_default();
+            Error::mistake(format!("--from {}: {fault}", brief(written.as_ref())))
+        })?,
+        Some(From::Dialect(wish)) => wish,
         Some(From::Log(path)) => {
             let log = args.read.read(&path, args.tick_hz())?;
             let found = identify(&log, &args.read.body(args.mass), args.tick_hz());
@@ -211,7 +224,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             let none = || {
                 Error::mistake(format!(
                     "{}: no spring can be seen in it; give --k, log v too, or log for longer",
-                    brief(&path)
+                    regular_file::table_name(&path)
                 ))
             };
             Wish::of(seen.ok_or_else(none)?, args.mass)
@@ -251,7 +264,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             )));
         }
     }
-    match setups.is_empty() {
+    // Whether a drive is stable is the question, however fast it is.
+    match setups.is_empty() || args.drive {
         true => wish.check_numbers(args.tick_hz()).map_err(Error::mistake)?,
         false => wish.check(args.tick_hz()).map_err(Error::mistake)?,
     }

@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use super::argument::brief;
 use super::error::Error;
 use super::terminal::print_status;
-use crate::loops::{FrameTrace, RefreshRate, TRACES, steady_trace, trace_card, trace_file};
-use crate::regular_file::{self, MAX_TABLE_BYTES};
+use crate::loops::{
+    FrameTrace, RefreshRate, TRACES, frames_on_display, steady_trace, trace_card, trace_file,
+};
+use crate::regular_file;
 use crate::scene::nearest;
 
 /// The refresh rate of a trace that any display will do for.
@@ -16,20 +18,25 @@ fn remedy(path: &Path) -> String {
     let ids = TRACES.iter().map(|card| (card.id, card.id));
     match path.to_str().and_then(|id| nearest(id, ids)) {
         Some(id) => format!("did you mean {id}? `regatta list traces` names all"),
-        None => "`regatta list traces` names all; a file is a CSV of PresentMon, OCAT, CapFrameX, FrameView or MangoHud, or a list of frame times".into(),
+        None => "`regatta list traces` names all; a file is a CSV of PresentMon, OCAT, CapFrameX, FrameView, MangoHud, Unreal or FRAPS, or a list of frame times".into(),
     }
 }
 
-/// The traces that these names stand for, on a display of this rate where they have none of their own. Without a name, an
-/// even display of that rate, or else all built-in traces.
+/// The traces that these names stand for, on a display of this rate where they have none of their own. Without a name, frames
+/// at a rate of their own, or an even display of that rate, or else all built-in traces. A display without a rate shows each
+/// frame when it begins.
 pub(super) fn traces(
     names: &[PathBuf],
     display: Option<RefreshRate>,
+    fps: Option<RefreshRate>,
 ) -> Result<Vec<FrameTrace>, Error> {
-    match (names, display) {
-        ([], Some(display)) => Ok(vec![steady_trace(display)]),
+    match (names, display.or(fps)) {
+        ([], Some(display)) => Ok(vec![match fps.filter(|fps| *fps != display) {
+            Some(fps) => frames_on_display(fps, display),
+            None => steady_trace(display),
+        }]),
         ([], None) => Ok(TRACES.iter().map(|card| card.trace(USUAL)).collect()),
-        (names, display) => {
+        (names, _) => {
             let found = names.iter().map(|name| named(name, display));
             Ok(found.collect::<Result<Vec<_>, _>>()?.concat())
         }
@@ -48,7 +55,7 @@ fn named(path: &Path, display: Option<RefreshRate>) -> Result<Vec<FrameTrace>, E
             _ => Ok(vec![card.trace(display.unwrap_or(USUAL))]),
         };
     }
-    let bytes = regular_file::read(path, MAX_TABLE_BYTES).map_err(|error| {
+    let bytes = regular_file::read_table(path).map_err(|error| {
         Error::mistake(match error.is_missing() {
             true => format!(
                 "no file and no built-in trace is called {:?}; {}",
@@ -58,7 +65,7 @@ fn named(path: &Path, display: Option<RefreshRate>) -> Result<Vec<FrameTrace>, E
             false => format!("cannot read the trace {}: {error}", brief(path)),
         })
     })?;
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let name = regular_file::table_name(path);
     let traces = trace_file::from_bytes(&name, &bytes).map_err(Error::mistake)?;
     for summary in traces.iter().filter_map(FrameTrace::summary) {
         print_status(&summary);

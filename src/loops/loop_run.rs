@@ -3,7 +3,7 @@
 use super::metrics::{FrameRecord, PacingMeter, PacingReport};
 use super::paced_lane::PacedLane;
 use super::pacer::Pacer;
-use super::policy::{PolicyCard, Steps};
+use super::policy::{FrameLimits, PolicyCard, Steps};
 use super::scripted_truth::{Furthest, ScriptedTruth, TimedScript};
 use super::time_base::TimeBase;
 use super::trace::{Frame, FrameTrace, Frames};
@@ -51,10 +51,21 @@ impl LoopRun {
         card: &'static PolicyCard,
         trace: &FrameTrace,
     ) -> Self {
+        Self::limited(scene, spec, card, trace, FrameLimits::default())
+    }
+
+    /// The same run with a loop that simulates at most so much in a frame.
+    pub fn limited(
+        scene: &Scene,
+        spec: LaneSpec,
+        card: &'static PolicyCard,
+        trace: &FrameTrace,
+        limits: FrameLimits,
+    ) -> Self {
         let base = TimeBase::new(scene.tick_hz, trace.refresh());
         let lane = Lane::new(scene, spec.solver(), spec.substeps);
         Self {
-            lane: PacedLane::new(Pacer::new(card, base), lane),
+            lane: PacedLane::new(Pacer::limited(card, base, limits), lane),
             truth: ScriptedTruth::new(scene),
             frames: trace.frames(),
             meter: PacingMeter::default(),

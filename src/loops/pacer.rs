@@ -1,6 +1,6 @@
 //! A loop at work: a rule with the time that it has simulated.
 
-use super::policy::{Policy, PolicyCard, Steps};
+use super::policy::{FrameLimits, Policy, PolicyCard, Steps};
 use super::time_base::TimeBase;
 use crate::run::race::Interpolation;
 
@@ -10,6 +10,8 @@ pub struct Pacer {
     card: &'static PolicyCard,
     base: TimeBase,
     policy: Box<dyn Policy>,
+    /// The longest frame, if one is set.
+    longest: Option<i128>,
     passed: i128,
     simulated: i128,
     dropped: i128,
@@ -18,8 +20,14 @@ pub struct Pacer {
 impl Pacer {
     /// The loop before its first frame.
     pub fn new(card: &'static PolicyCard, base: TimeBase) -> Self {
-        let policy = (card.build)(base);
-        Self { card, base, policy, passed: 0, simulated: 0, dropped: 0 }
+        Self::limited(card, base, FrameLimits::default())
+    }
+
+    /// The same loop, which simulates at most so much in a frame.
+    pub fn limited(card: &'static PolicyCard, base: TimeBase, limits: FrameLimits) -> Self {
+        let policy = (card.build)(base, limits);
+        let longest = limits.max_frame_ms.map(|ms| base.nanoseconds(i64::from(ms) * 1_000_000));
+        Self { card, base, policy, longest, passed: 0, simulated: 0, dropped: 0 }
     }
 
     /// What is known of its rule.
@@ -46,7 +54,9 @@ impl Pacer {
     /// Decides what a frame simulates. `duration_ns` is that of the last frame, in nanoseconds; a negative one counts as 0.
     pub fn frame(&mut self, duration_ns: i64) -> Steps {
         let duration = self.base.nanoseconds(duration_ns.max(0));
-        let steps = self.policy.frame(duration);
+        let kept = self.longest.map_or(duration, |longest| duration.min(longest));
+        let mut steps = self.policy.frame(kept);
+        steps.dropped += duration - kept;
         self.passed += duration;
         self.simulated += steps.span;
         self.dropped += steps.dropped;

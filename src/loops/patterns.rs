@@ -104,6 +104,46 @@ pub fn steady_trace(refresh: RefreshRate) -> FrameTrace {
     FrameTrace::of_pattern(format!("steady-{hz}"), refresh, Steady::new(refresh))
 }
 
+/// A game that begins even frames at one rate, on an even display of another, by the name `fps-`, the rate, `-on-` and the
+/// display's. A frame is displayed at the first refresh after its beginning, unless the next one is too.
+pub fn frames_on_display(fps: RefreshRate, refresh: RefreshRate) -> FrameTrace {
+    let name = format!("fps-{fps}-on-{refresh}");
+    FrameTrace::of_pattern(name, refresh, OtherRate { fps, refresh, next: 0, shown_at: 0 })
+}
+
+/// Even frames on an even display of another rate.
+#[derive(Clone, Copy)]
+struct OtherRate {
+    fps: RefreshRate,
+    refresh: RefreshRate,
+    next: u64,
+    /// The first refresh at which the last frame could be shown.
+    shown_at: u64,
+}
+
+impl OtherRate {
+    /// The first refresh at or after the beginning of this frame, from one that is before it.
+    fn refresh_of(&self, frame: u64, from: u64) -> u64 {
+        let began_ns = self.fps.refresh_ns(frame);
+        (from..).find(|n| self.refresh.refresh_ns(*n) >= began_ns).expect("refreshes have no end")
+    }
+}
+
+impl Pattern for OtherRate {
+    fn next(&mut self, _steps: u32) -> Frame {
+        self.shown_at = self.refresh_of(self.next, self.shown_at);
+        let following = self.refresh_of(self.next + 1, self.shown_at);
+        let began_ns = self.fps.refresh_ns(self.next);
+        self.next += 1;
+        let is_shown = following != self.shown_at;
+        Frame { began_ns, displayed_ns: is_shown.then(|| self.refresh.refresh_ns(self.shown_at)) }
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Pattern> {
+        Box::new(*self)
+    }
+}
+
 /// An even display, and a game that is ready for every refresh: every frame begins and is displayed at one.
 #[derive(Clone, Copy)]
 struct Steady {

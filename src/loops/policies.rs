@@ -36,9 +36,10 @@ const FIXED: PolicyCard = PolicyCard {
     drawing: Interpolation::Raw,
     has_render_tick: false,
     has_fixed_tick: true,
+    has_max_ticks: true,
     is_usual: false,
     snippets: snippets!("fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
-    build: |base| Box::new(Fixed::new(base)),
+    build: |base, limits| Box::new(Fixed::new(base, limits)),
 };
 
 /// Every rule of a game loop, from the simplest on.
@@ -54,9 +55,10 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Raw,
         has_render_tick: false,
         has_fixed_tick: false,
+        has_max_ticks: false,
         is_usual: true,
         snippets: snippets!("variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
-        build: |_| Box::new(Variable { longest: None }),
+        build: |_, _| Box::new(Variable { longest: None }),
     },
     PolicyCard {
         id: "lockstep",
@@ -69,9 +71,10 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Raw,
         has_render_tick: false,
         has_fixed_tick: true,
+        has_max_ticks: false,
         is_usual: false,
         snippets: snippets!("lockstep": "rust" "rs"),
-        build: |base| Box::new(Lockstep { tick: base.tick() }),
+        build: |base, _| Box::new(Lockstep { tick: base.tick() }),
     },
     PolicyCard {
         id: "clamped-variable",
@@ -84,9 +87,10 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Raw,
         has_render_tick: false,
         has_fixed_tick: false,
+        has_max_ticks: false,
         is_usual: false,
         snippets: snippets!("clamped-variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
-        build: |base| Box::new(Variable { longest: Some(base.nanoseconds(1_000_000_000) / 30) }),
+        build: |base, _| Box::new(Variable { longest: Some(base.nanoseconds(1_000_000_000) / 30) }),
     },
     PolicyCard {
         id: "semi-fixed",
@@ -99,9 +103,13 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Raw,
         has_render_tick: false,
         has_fixed_tick: false,
+        has_max_ticks: true,
         is_usual: false,
         snippets: snippets!("semi-fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
-        build: |base| Box::new(SemiFixed { tick: base.tick() }),
+        build: |base, limits| {
+            let max_steps = limits.max_ticks.unwrap_or(MAX_STEPS);
+            Box::new(SemiFixed { tick: base.tick(), max_steps })
+        },
     },
     PolicyCard { is_usual: true, ..FIXED },
     PolicyCard {
@@ -156,7 +164,7 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Linear,
         is_usual: true,
         snippets: snippets!("whole-refresh": "rust" "rs", "c++" "hpp", "c#" "cs"),
-        build: |base| Box::new(WholeRefresh::new(base)),
+        build: |base, limits| Box::new(WholeRefresh::new(base, limits)),
         ..FIXED
     },
     PolicyCard {
@@ -169,7 +177,7 @@ pub static POLICIES: &[PolicyCard] = &[
         source: "T. Glaiel, \"How to make your game run at 60fps\", 2019",
         drawing: Interpolation::Linear,
         snippets: snippets!("snapped": "rust" "rs"),
-        build: |base| Box::new(Snapped::new(base)),
+        build: |base, limits| Box::new(Snapped::new(base, limits)),
         ..FIXED
     },
     PolicyCard {
@@ -181,7 +189,7 @@ pub static POLICIES: &[PolicyCard] = &[
         users: "Godot (physics_jitter_fix = 0.5)",
         source: "Godot's MainTimerSync",
         snippets: snippets!("hysteresis": "rust" "rs"),
-        build: |base| Box::new(Hysteresis::new(base)),
+        build: |base, limits| Box::new(Hysteresis::new(base, limits)),
         ..FIXED
     },
     PolicyCard {
@@ -195,9 +203,10 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Raw,
         has_render_tick: false,
         has_fixed_tick: false,
+        has_max_ticks: false,
         is_usual: false,
         snippets: snippets!("median": "rust" "rs"),
-        build: |base| Box::new(Median::new(base)),
+        build: |base, _| Box::new(Median::new(base)),
     },
     PolicyCard {
         id: "slow-down",
@@ -208,7 +217,7 @@ pub static POLICIES: &[PolicyCard] = &[
         users: "Factorio (60 updates a second)",
         source: "Factorio Friday Facts",
         snippets: snippets!("slow-down": "rust" "rs", "c++" "hpp"),
-        build: |base| Box::new(SlowDown::new(base.tick())),
+        build: |base, limits| Box::new(SlowDown::new(base.tick(), limits)),
         ..FIXED
     },
 ];
@@ -253,18 +262,19 @@ impl Policy for Lockstep {
 }
 
 /// The most steps in a frame; those of a longer one are longer than a tick.
-const MAX_STEPS: i128 = 6;
+const MAX_STEPS: u32 = 6;
 
 /// The fewest equal steps of at most a tick.
 #[derive(Clone, Copy)]
 struct SemiFixed {
     tick: i128,
+    max_steps: u32,
 }
 
 impl Policy for SemiFixed {
     fn frame(&mut self, duration: i128) -> Steps {
         let fewest = -(-duration).div_euclid(self.tick);
-        Steps { count: fewest.min(MAX_STEPS) as u32, span: duration, dropped: 0 }
+        Steps { count: fewest.min(self.max_steps.into()) as u32, span: duration, dropped: 0 }
     }
 
     fn boxed_clone(&self) -> Box<dyn Policy> {

@@ -21,6 +21,15 @@ impl Steps {
     }
 }
 
+/// The most that a loop simulates in a frame, where that is set and not the rule's own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FrameLimits {
+    /// Ticks, or steps of a rule that [has a most](PolicyCard::has_max_ticks).
+    pub max_ticks: Option<u32>,
+    /// The longest frame in milliseconds; what a frame is longer is given up.
+    pub max_frame_ms: Option<u32>,
+}
+
 /// The rule of a game loop, with its memory. Times are in the unit of a [`TimeBase`].
 pub trait Policy: Send {
     /// Decides what a frame simulates. It sees what a game sees: the duration of the last frame, never negative.
@@ -76,11 +85,13 @@ pub struct PolicyCard {
     pub has_render_tick: bool,
     /// Whether every step is a whole tick, so that the physics is the same to the bit at any frame rate.
     pub has_fixed_tick: bool,
+    /// Whether its ticks in a frame have a most, which can be set.
+    pub has_max_ticks: bool,
     /// Whether `regatta loop` compares it where none is named.
     pub is_usual: bool,
     /// The loop, to be taken into a game.
     pub snippets: &'static [Snippet],
-    pub(super) build: fn(TimeBase) -> Box<dyn Policy>,
+    pub(super) build: fn(TimeBase, FrameLimits) -> Box<dyn Policy>,
 }
 
 impl PolicyCard {

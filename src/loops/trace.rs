@@ -34,6 +34,8 @@ enum Clocks {
     Two,
     /// Only when they begin is known, and taken as when they are displayed.
     OfFrames,
+    /// The same, since the times of display do not go with those of the frames.
+    Parted,
 }
 
 /// Where frames come from.
@@ -128,10 +130,21 @@ impl FrameTrace {
     pub fn has_one_clock(&self) -> bool {
         self.clocks != Clocks::Two
     }
-    /// What to say of a log that has no times of display; `None` of any other trace.
+    /// The same frames, whose times of display were taken for those of their beginnings, as the two clocks parted.
+    pub(super) fn with_parted_clocks(self) -> Self {
+        Self { clocks: Clocks::Parted, ..self }
+    }
+    /// What to say of a log whose times of display are missing or not used; `None` of any other trace.
     pub fn missing_display(&self) -> Option<&'static str> {
-        (self.clocks == Clocks::OfFrames)
-            .then_some("the log has no display times; each frame counts as shown when it begins")
+        match self.clocks {
+            Clocks::One | Clocks::Two => None,
+            Clocks::OfFrames => {
+                Some("the log has no display times; each frame counts as shown when it begins")
+            }
+            Clocks::Parted => Some(
+                "the log's clocks of frames and of display part by more than 1 %, so that its display times are not used; each frame counts as shown when it begins",
+            ),
+        }
     }
     /// Whether it ends.
     pub fn ends(&self) -> bool {

@@ -1,4 +1,4 @@
-//! Traces from the logs of frame-time tools: PresentMon, OCAT, CapFrameX, FrameView and MangoHud write a row for each
+//! Traces from the logs of frame-time tools: PresentMon, OCAT, CapFrameX, FrameView, MangoHud, Unreal and FRAPS write a row for each
 //! frame, and a person a list of frame times in milliseconds, one a line.
 //!
 //! A log can hold several streams of frames, from several programs and windows; each is a trace of its own. The first row
@@ -7,6 +7,8 @@
 //! frame's display may lie before its beginning: differences within each clock count, not their offset. Where a log has no
 //! times of display, frames are taken as displayed when they begin, and the trace [says so](FrameTrace::missing_display).
 
+#[cfg(feature = "serde")]
+mod capture_json;
 mod columns;
 mod durations;
 mod stream;
@@ -38,7 +40,7 @@ pub struct TraceFileError {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 enum Fault {
     #[error(
-        "there is nothing here; capture some frames with PresentMon, OCAT, CapFrameX, FrameView or MangoHud"
+        "there is nothing here; capture some frames with PresentMon, OCAT, CapFrameX, FrameView, MangoHud, Unreal or FRAPS"
     )]
     Empty,
     #[error("{0}")]
@@ -47,10 +49,19 @@ enum Fault {
         "a log of MSI Afterburner has a sample a second and no times of frames; let RTSS record frame times, or use PresentMon or CapFrameX"
     )]
     Afterburner,
+    #[cfg(not(feature = "serde"))]
+    #[error("JSON of CapFrameX is not read here; export the capture as CSV")]
+    Json,
+    #[cfg(feature = "serde")]
+    #[error("this is no capture of CapFrameX: {0}; capture again, or export it as CSV")]
+    Json(String),
+    #[cfg(feature = "serde")]
+    #[error("frame {number}: {fault}")]
+    Frame { number: u64, fault: Box<Fault> },
     #[error("there is a header and no frame of a program below it; capture some frames")]
     NoRows,
     #[error(
-        "the columns MsBetweenPresents, alone or with MsBetweenDisplayChange, FrameTime and DisplayedTime, or MangoHud's fps and frametime, are needed, and here are {found}; write a row for each frame under a header, or frame times in milliseconds alone, one a line"
+        "the columns MsBetweenPresents, alone or with MsBetweenDisplayChange, FrameTime and DisplayedTime, MangoHud's fps and frametime, Unreal's FrameTime, or FRAPS's Time (ms) are needed, and here are {found}; write a row for each frame under a header, or frame times in milliseconds alone, one a line"
     )]
     Columns { found: String },
     #[error(
@@ -69,6 +80,8 @@ enum Fault {
         "a row is a sample every {every_ms} ms (log_interval) and no frame, as elapsed says; set log_interval=0 and log again"
     )]
     Sampled { every_ms: String },
+    #[error("the frame begins before the one above it; put rows in order")]
+    TimeRunsBack,
     #[error("no time passes from here to the last of these {frames} frames; capture them again")]
     NoTimePasses { frames: usize },
     #[error("from here on the frames last more than a year in all; split the log")]
@@ -89,6 +102,32 @@ pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
 /// # Errors
 /// If the bytes are no such log; the message calls it `name`.
 pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
+    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    if start.trim_ascii_start().starts_with(b"{") {
+        return of_json(name, start);
+    }
+    of_table(name, bytes)
+}
+
+/// Reads the runs of a capture in JSON, whose lines say nothing.
+#[cfg(feature = "serde")]
+fn of_json(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
+    let at = |fault| TraceFileError { name: name.into(), line: 1, fault };
+    let table = capture_json::table(bytes).map_err(|what| at(Fault::Json(what)))?;
+    let traces = of_table(name, table.as_bytes()).map_err(|error| match error.line {
+        1 => at(error.fault),
+        line => at(Fault::Frame { number: line - 1, fault: Box::new(error.fault) }),
+    })?;
+    Ok(traces.into_iter().map(|trace| trace.written_by("CapFrameX".into())).collect())
+}
+
+#[cfg(not(feature = "serde"))]
+fn of_json(name: &str, _bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
+    Err(TraceFileError { name: name.into(), line: 1, fault: Fault::Json })
+}
+
+/// Reads the streams of a table.
+fn of_table(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
     let (traces, checks) = read_in(name, bytes, None)?;
     match checks.unit() {
         Some(unit) if unit != Unit::Milliseconds => read_in(name, bytes, Some(unit)).map(|it| it.0),
@@ -187,9 +226,22 @@ fn read_in(
 
     let (mut streams, mut numbers) = (Vec::<Stream>::new(), HashMap::<String, usize>::new());
     let mut key = String::new();
-    while let Some(line) = table.next(&mut record).map_err(broken)? {
+    let mut last_ns = None;
+    loop {
+        let next = table.next(&mut record);
+        if columns.end_before(&text_of(&record)) {
+            break;
+        }
+        let Some(line) = next.map_err(broken)? else { break };
         let row = text_of(&record);
-        let cells = columns.read(&row, in_unit).map_err(|fault| at(line, fault))?;
+        let mut cells = columns.read(&row, in_unit).map_err(|fault| at(line, fault))?;
+        if let (true, Ok(now_ns)) = (columns.is_since_start(), &mut cells.began_ns) {
+            let before_ns = last_ns.replace(*now_ns).unwrap_or(*now_ns);
+            *now_ns -= before_ns;
+            if *now_ns < 0 {
+                return Err(at(line, Fault::TimeRunsBack));
+            }
+        }
         checks.add(&cells, line);
         key.clear();
         key.extend([cells.application, "\n", cells.process, "\n", cells.swap_chain]);

@@ -1,12 +1,15 @@
 //! Where two runs first differ, and how the difference grows.
 //!
 //! A run is a table: columns that say which row it is (`tick`, or else `t`, or else its place, with `lane`, `body` and
-//! `coordinate` where they are there), `t` and `method`, which are told but not compared, and columns of values. Rows of one
-//! name are compared wherever they stand, up to [`MAX_WAITING`] rows apart, so that memory does not grow with the rows. It
+//! `coordinate` where they are there; or those that are [chosen](Chosen)), `t` and `method`, which are not compared, and columns
+//! of values. A column is of numbers or, once a cell of it is none, of text as a whole. Rows of one name are compared wherever
+//! they stand, up to [`MAX_WAITING`] rows apart, so that memory does not grow with the rows. It
 //! grows with their names, up to a bound.
 
+use std::collections::hash_map::DefaultHasher;
 use std::collections::{HashMap, VecDeque};
 use std::fmt;
+use std::hash::{Hash, Hasher};
 use std::io::BufRead;
 
 use csv::ByteRecord;
@@ -21,10 +24,10 @@ mod number;
 
 use clock::{Course, Moves};
 use growth::Growth;
-use layout::Layout;
-pub use layout::NotComparable;
+pub use layout::{Chosen, NotComparable};
+use layout::{Layout, ValueColumn};
 pub use number::{distance_ulps, is_same_number};
-use number::{hide_a_difference, parsed, relative};
+use number::{hide_a_difference, is_text, parsed, relative};
 
 /// The relative differences whose first ticks are told.
 pub const LEVELS: [f64; 5] = [1e-12, 1e-9, 1e-6, 1e-3, 1.0];
@@ -87,8 +90,10 @@ pub struct Tolerance {
 pub struct Difference {
     /// The tick; the row's place from 0 in a table without ticks.
     pub tick: u64,
-    /// The cells `lane`, `body` and `coordinate` of the row, where there are such columns.
-    pub row: [Option<String>; 3],
+    /// What the tick is called: the name of its column, or `tick` for the place of a row; `None` where rows have no order.
+    pub tick_name: Option<String>,
+    /// The columns by which the row is told apart at its tick, such as `lane`, `body` and `coordinate`, each with its cell.
+    pub key: Vec<(String, String)>,
     /// The column of the values.
     pub column: String,
     /// The values as they are written; `None` where the column is not there.
@@ -103,13 +108,20 @@ pub struct Difference {
 const FEW_ULPS: u64 = 1000;
 
 impl Difference {
-    /// Where it is: the tick, the lane as it is to be named, the body and the coordinate.
+    /// The row's cell in a column of its key.
+    pub fn cell(&self, column: &str) -> Option<&str> {
+        self.key.iter().find(|(name, _)| name == column).map(|(_, cell)| &**cell)
+    }
+
+    /// Where it is: the tick, the lane as it is to be named, the body and the coordinate, or the cells of another key.
     pub fn place(&self, lane_name: impl Fn(&str) -> String) -> String {
-        let [lane, body, coordinate] = self.row.clone();
-        let lane = lane.map(|lane| lane_name(&lane));
-        let tick = Some(format!("tick {}", self.tick));
-        let parts = [tick, lane, body, coordinate].into_iter().flatten();
-        parts.collect::<Vec<_>>().join(", ")
+        let tick = self.tick_name.as_ref().map(|name| format!("{name} {}", self.tick));
+        let cells = self.key.iter().map(|(name, cell)| match name.as_str() {
+            "lane" => lane_name(cell),
+            name if layout::NAMES.contains(&name) => cell.clone(),
+            name => format!("{name} {cell}"),
+        });
+        tick.into_iter().chain(cells).collect::<Vec<_>>().join(", ")
     }
 
     /// How large it is, in a few words.
@@ -140,6 +152,17 @@ impl fmt::Display for Difference {
     }
 }
 
+/// A column whose values differ somewhere.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ColumnDifference {
+    /// The column.
+    pub column: String,
+    /// The first tick at which it differs by more than the [`Tolerance`].
+    pub first_tick: u64,
+    /// In how many rows it does.
+    pub rows: u64,
+}
+
 /// What two runs have in common, and where they part.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Comparison {
@@ -152,8 +175,16 @@ pub struct Comparison {
     /// For each of [`LEVELS`], the tick at which a value first differs by it, as a part of the largest that this column of
     /// this coordinate had until then.
     pub reaches: [Option<u64>; LEVELS.len()],
+    /// The columns of both that differ, in the order of the first table.
+    pub columns: Vec<ColumnDifference>,
+    /// The columns of both that do not.
+    pub equal: Vec<String>,
     /// The rate of its growth in 1/s, if it grows exponentially through three decades and more.
     pub per_second: Option<f64>,
+    /// Whether rows belong together by their place alone.
+    pub is_by_place: bool,
+    /// Whether there is a motion: a column of numbers moves, or one of text changes, or rows have no order to move in.
+    pub changes: bool,
     /// How many rows each side lacks.
     pub missing: [u64; 2],
     /// The tick of the first row that a side lacks.
@@ -175,7 +206,7 @@ pub struct Comparison {
 impl Comparison {
     /// Whether there is something to compare: two common rows, and a motion.
     pub fn is_comparable(&self) -> bool {
-        self.rows >= 2 && self.moved > 0.0 && !self.is_cut_off
+        self.rows >= 2 && self.changes && !self.is_cut_off
     }
 
     /// Whether both have the same rows with equal values.
@@ -193,6 +224,31 @@ struct Stream {
     values: Vec<[f64; 2]>,
     /// Of each value column that may be a clock's: how it goes.
     courses: Vec<Course>,
+    /// Of each value column of text: the hash of the first cell.
+    texts: Vec<Option<u64>>,
+}
+
+/// What is known of a value column.
+#[derive(Clone, Debug, Default)]
+struct ColumnState {
+    /// The largest relative difference.
+    worst: f64,
+    /// How far it went from its first value.
+    moved: f64,
+    /// The first tick of each of [`LEVELS`].
+    reaches: [Option<u64>; LEVELS.len()],
+    /// Its place in the courses of a stream, as long as it may be a clock's.
+    course: Option<usize>,
+    /// Whether a cell of it was no number.
+    is_text: bool,
+    /// Whether its text changes in the rows of one name.
+    changes: bool,
+    /// Where it first differs, and in how many rows.
+    first: Option<(u64, u64)>,
+    rows: u64,
+    /// The same for cells that are written differently and are equal as numbers, which differ if they are text.
+    hidden: Option<((u64, u64), Difference)>,
+    hidden_rows: u64,
 }
 
 /// A row, where it belongs.
@@ -265,13 +321,18 @@ impl Side {
 ///
 /// # Errors
 /// The first row that cannot be read, or the reason why these are not two tables of a kind.
-pub fn diff<A, B, E>(a: &mut A, b: &mut B, tolerance: Tolerance) -> Result<Comparison, E>
+pub fn diff<A, B, E>(
+    a: &mut A,
+    b: &mut B,
+    tolerance: Tolerance,
+    chosen: &Chosen,
+) -> Result<Comparison, E>
 where
     A: Records,
     B: Records,
     E: From<A::Error> + From<B::Error> + From<NotComparable>,
 {
-    let layout = Layout::of([a.header(), b.header()])?;
+    let layout = Layout::of([a.header(), b.header()], chosen)?;
     let mut work = Work::new(layout, tolerance);
     let mut rows = [ByteRecord::new(), ByteRecord::new()];
     let mut places: [Option<(Place, u64)>; 2] = [None; 2];
@@ -321,12 +382,7 @@ struct Work {
     is_out_of_order: bool,
     /// Where the first difference is.
     first: Option<(u64, u64)>,
-    /// The largest relative difference of each value column.
-    worst: Vec<f64>,
-    /// How far each value column went from its first value.
-    moved: Vec<f64>,
-    /// The place of each value column in the courses of a stream, as long as it may be a clock's.
-    courses: Vec<Option<usize>>,
+    columns: Vec<ColumnState>,
     /// How many columns have a course, and the bytes of the names.
     course_count: usize,
     name_bytes: usize,
@@ -335,15 +391,16 @@ struct Work {
 
 impl Work {
     fn new(layout: Layout, tolerance: Tolerance) -> Self {
-        let worst = vec![0.0; layout.values.len()];
         let mut course_count = 0;
-        let course = |moves: Moves| {
-            let is_watched = matches!(moves, Moves::Back | Moves::Unevenly);
+        let state = |column: &ValueColumn| {
+            let is_watched = matches!(column.moves, Moves::Back | Moves::Unevenly);
             course_count += usize::from(is_watched);
-            is_watched.then(|| course_count - 1)
+            let course = is_watched.then(|| course_count - 1);
+            ColumnState { course, ..ColumnState::default() }
         };
-        let courses = layout.values.iter().map(|column| column.moves).map(course).collect();
-        let found = Comparison { alone: layout.alone.clone(), ..Comparison::default() };
+        let columns = layout.values.iter().map(state).collect();
+        let (alone, is_by_place) = (layout.alone.clone(), layout.is_by_place());
+        let found = Comparison { alone, is_by_place, ..Comparison::default() };
         Self {
             layout,
             tolerance,
@@ -354,9 +411,7 @@ impl Work {
             found,
             is_out_of_order: false,
             first: None,
-            moved: worst.clone(),
-            worst,
-            courses,
+            columns,
             course_count,
             name_bytes: 0,
             growth: Growth::default(),
@@ -366,8 +421,8 @@ impl Work {
     /// Where a row of a side belongs, and its number there.
     fn place(&mut self, side: usize, row: &ByteRecord) -> Result<(Place, u64), NotComparable> {
         self.key.clear();
-        for columns in &self.layout.keys {
-            self.key.extend_from_slice(&row[columns[side]]);
+        for key in &self.layout.keys {
+            self.key.extend_from_slice(&row[key.at[side]]);
             self.key.push(0);
         }
         let own = &mut self.sides[side];
@@ -380,7 +435,7 @@ impl Work {
                 Some(stream) => *stream,
                 None => {
                     let (stream, columns) = (self.streams.len(), self.layout.values.len());
-                    let values = columns * size_of::<[f64; 2]>();
+                    let values = columns * size_of::<([f64; 2], Option<u64>)>();
                     let courses = self.course_count * size_of::<Course>();
                     self.name_bytes += NAME_BYTES + 2 * self.key.len() + values + courses;
                     if self.name_bytes > MAX_NAME_BYTES && stream > 0 {
@@ -391,6 +446,7 @@ impl Work {
                         key: self.key.clone(),
                         values: vec![[f64::NAN, 0.0]; columns],
                         courses: vec![Course::default(); self.course_count],
+                        texts: vec![None; columns],
                     });
                     stream
                 }
@@ -439,30 +495,46 @@ impl Work {
         self.found.rows += 1;
         let tick = self.layout.tick(place.order, number);
         if let Some((side, column)) = self.layout.first_alone {
-            let mut values = [None, None];
-            values[side] = Some(&rows[side][column]);
-            self.differs(place, number, (rows[0], None), values, (None, None));
+            let at = (place.order, number);
+            if self.first.is_none_or(|first| at < first) {
+                let mut cells = [None, None];
+                cells[side] = Some(&rows[side][column]);
+                let name = self.found.alone[side][0].clone();
+                let found = self.difference(at, rows[0], (name, cells), (None, None));
+                (self.first, self.found.first) = (Some(at), Some(found));
+            }
         }
         for column in 0..self.layout.values.len() {
             let [a, b] = self.layout.values[column].at;
-            let cells = [&rows[0][a], &rows[1][b]];
-            let is_text_same = cells[0] == cells[1];
+            let cells = [&rows[0][a], &rows[1][b]].map(<[u8]>::trim_ascii);
+            let is_written_alike = cells[0] == cells[1];
+            if !self.columns[column].is_text && cells.into_iter().any(is_text) {
+                self.turn_into_text(column);
+            }
+            if self.columns[column].is_text {
+                self.note_text(place, column, cells);
+                if !is_written_alike {
+                    self.differs(place, number, (rows[0], column), cells, (None, None));
+                }
+                continue;
+            }
             let first = parsed(cells[0]);
-            let second = if is_text_same { first } else { parsed(cells[1]) };
+            let second = if is_written_alike { first } else { parsed(cells[1]) };
             let numbers = [first, second];
             let scale = self.note(place, number, column, cells, numbers);
-            if is_text_same {
+            if is_written_alike {
                 self.found.nans += u64::from(first.is_some_and(f64::is_nan));
                 continue;
             }
-            let values = cells.map(Some);
             let [Some(a), Some(b)] = numbers else {
-                self.differs(place, number, (rows[0], Some(column)), values, (None, None));
+                self.differs(place, number, (rows[0], column), cells, (None, None));
                 continue;
             };
             if is_same_number(a, b) {
                 if hide_a_difference(cells, a) {
-                    self.differs(place, number, (rows[0], Some(column)), values, (None, None));
+                    self.differs(place, number, (rows[0], column), cells, (None, None));
+                } else {
+                    self.hide(place, number, (rows[0], column), cells);
                 }
                 self.found.zeros_of_two_signs +=
                     u64::from(a == 0.0 && a.is_sign_negative() != b.is_sign_negative());
@@ -470,8 +542,9 @@ impl Work {
                 continue;
             }
             let of_scale = if (a - b).is_finite() { (a - b).abs() / scale } else { f64::INFINITY };
-            self.worst[column] = self.worst[column].max(of_scale);
-            for (level, reached) in LEVELS.iter().zip(&mut self.found.reaches) {
+            let state = &mut self.columns[column];
+            state.worst = state.worst.max(of_scale);
+            for (level, reached) in LEVELS.iter().zip(&mut state.reaches) {
                 if of_scale >= *level && reached.is_none_or(|reached| tick < reached) {
                     *reached = Some(tick);
                 }
@@ -481,9 +554,37 @@ impl Work {
             let of_larger = relative(a, b);
             let is_equal = ulps.is_some_and(|ulps| ulps <= self.tolerance.ulps)
                 || of_larger.is_some_and(|part| part <= self.tolerance.relative);
-            if !is_equal {
-                self.differs(place, number, (rows[0], Some(column)), values, (ulps, of_larger));
+            match is_equal {
+                true => self.hide(place, number, (rows[0], column), cells),
+                false => self.differs(place, number, (rows[0], column), cells, (ulps, of_larger)),
             }
+        }
+    }
+
+    /// Takes a column for text from its first row on: what counted as the same number is another text.
+    fn turn_into_text(&mut self, column: usize) {
+        let state = &mut self.columns[column];
+        state.is_text = true;
+        (state.worst, state.moved, state.reaches) = (0.0, 0.0, Default::default());
+        state.rows += std::mem::take(&mut state.hidden_rows);
+        let Some((at, difference)) = state.hidden.take() else { return };
+        state.first = Some(state.first.map_or(at, |first| first.min(at)));
+        if self.first.is_none_or(|first| at < first) {
+            (self.first, self.found.first) = (Some(at), Some(difference));
+        }
+    }
+
+    /// Notes whether the text of a column changes in the rows of one name.
+    fn note_text(&mut self, place: Place, column: usize, cells: [&[u8]; 2]) {
+        let moves = self.layout.values[column].moves;
+        if matches!(moves, Moves::Never | Moves::Back) {
+            return;
+        }
+        for cell in cells {
+            let mut hasher = DefaultHasher::new();
+            cell.hash(&mut hasher);
+            let (text, first) = (hasher.finish(), &mut self.streams[place.stream].texts[column]);
+            self.columns[column].changes |= *first.get_or_insert(text) != text;
         }
     }
 
@@ -507,45 +608,73 @@ impl Work {
             }
             *largest = largest.max(value.abs());
             let way = (value - *from).abs();
-            if way > self.moved[column] && way.is_finite() {
-                self.moved[column] = way;
+            let moved = &mut self.columns[column].moved;
+            if way > *moved && way.is_finite() {
+                *moved = way;
             }
         }
-        if let Some(course) = self.courses[column] {
+        if let Some(course) = self.columns[column].course {
             let moves = self.layout.values[column].moves;
             let at = self.layout.place(place.order, number);
             if !stream.courses[course].add(moves, at, values, cells) {
-                self.courses[column] = None;
+                self.columns[column].course = None;
             }
         }
         stream.values[column][1]
     }
 
-    /// Takes in the values of a column that differ by more than the tolerance; `None` is the first column that only one side
-    /// has; `far` is how far, in doubles and as a part.
+    /// Notes cells of a column that differ by more than the tolerance; `far` is how far, in doubles and as a part.
     fn differs(
         &mut self,
         place: Place,
         number: u64,
-        (row, column): (&ByteRecord, Option<usize>),
-        values: [Option<&[u8]>; 2],
+        (row, column): (&ByteRecord, usize),
+        cells: [&[u8]; 2],
         far: (Option<u64>, Option<f64>),
     ) {
         let at = (place.order, number);
-        if self.first.is_some_and(|first| first <= at) {
-            return;
+        let state = &mut self.columns[column];
+        state.rows += 1;
+        state.first = Some(state.first.map_or(at, |first| first.min(at)));
+        if self.first.is_none_or(|first| at < first) {
+            let name = self.layout.values[column].name.clone();
+            let found = self.difference(at, row, (name, cells.map(Some)), far);
+            (self.first, self.found.first) = (Some(at), Some(found));
         }
-        self.first = Some(at);
-        let alone = || self.found.alone.concat()[0].clone();
+    }
+
+    /// Keeps cells that are written differently and equal as numbers, for the case that their column is text.
+    fn hide(&mut self, place: Place, number: u64, row: (&ByteRecord, usize), cells: [&[u8]; 2]) {
+        let at = (place.order, number);
+        let (row, column) = row;
+        let state = &mut self.columns[column];
+        state.hidden_rows += 1;
+        if state.hidden.as_ref().is_none_or(|(first, _)| at < *first) {
+            let name = self.layout.values[column].name.clone();
+            let found = self.difference(at, row, (name, cells.map(Some)), (None, None));
+            self.columns[column].hidden = Some((at, found));
+        }
+    }
+
+    /// The difference of two cells at a place; a cell is `None` where its side has no such column.
+    fn difference(
+        &self,
+        (order, number): (u64, u64),
+        row: &ByteRecord,
+        (column, cells): (String, [Option<&[u8]>; 2]),
+        (ulps, relative): (Option<u64>, Option<f64>),
+    ) -> Difference {
         let text = |cell: &[u8]| String::from_utf8_lossy(cell).trim().to_owned();
-        self.found.first = Some(Difference {
-            tick: self.layout.tick(place.order, number),
-            row: self.layout.named.map(|key| key.map(|key| text(&row[key]))),
-            column: column.map_or_else(alone, |column| self.layout.values[column].name.clone()),
-            values: values.map(|value| value.map(text)),
-            ulps: far.0,
-            relative: far.1,
-        });
+        let keys = self.layout.keys.iter();
+        Difference {
+            tick: self.layout.tick(order, number),
+            tick_name: self.layout.tick_name().map(str::to_owned),
+            key: keys.map(|key| (key.name.clone(), text(&row[key.at[0]]))).collect(),
+            column,
+            values: cells.map(|cell| cell.map(text)),
+            ulps,
+            relative,
+        }
     }
 
     fn close(mut self) -> Comparison {
@@ -553,12 +682,28 @@ impl Work {
             let left: Vec<_> = self.sides[side].waiting.drain().collect();
             left.into_iter().for_each(|(place, row)| self.lack(1 - side, place, row.number));
         }
-        let most = self.worst.iter().enumerate().filter(|(_, part)| **part > 0.0);
-        let most = most.max_by(|(_, one), (_, other)| one.total_cmp(other));
-        self.found.worst =
-            most.map(|(column, part)| (self.layout.values[column].name.clone(), *part));
-        let moved = (0..self.moved.len()).filter(|column| self.is_motion(*column));
-        self.found.moved = moved.map(|column| self.moved[column]).fold(0.0, f64::max);
+        let columns = || self.columns.iter().zip(&self.layout.values);
+        let most = columns().filter(|(state, _)| state.worst > 0.0);
+        let most = most.max_by(|(one, _), (other, _)| one.worst.total_cmp(&other.worst));
+        self.found.worst = most.map(|(state, column)| (column.name.clone(), state.worst));
+        for (level, reached) in self.found.reaches.iter_mut().enumerate() {
+            *reached = columns().filter_map(|(state, _)| state.reaches[level]).min();
+        }
+        for (state, column) in columns() {
+            let name = column.name.clone();
+            match state.first {
+                Some((order, number)) => self.found.columns.push(ColumnDifference {
+                    column: name,
+                    first_tick: self.layout.tick(order, number),
+                    rows: state.rows,
+                }),
+                None => self.found.equal.push(name),
+            }
+        }
+        let moving = (0..self.columns.len()).filter(|column| self.is_motion(*column));
+        self.found.moved = moving.map(|column| self.columns[column].moved).fold(0.0, f64::max);
+        let is_text_changing = self.columns.iter().any(|state| state.changes);
+        self.found.changes = self.found.moved > 0.0 || is_text_changing || !self.layout.has_order();
         self.found.per_second = self.growth.per_second();
         self.found.is_cut_off &= self.is_out_of_order;
         self.found
@@ -567,7 +712,7 @@ impl Work {
     /// Whether the changes of a value column are a motion, and not a clock's.
     fn is_motion(&self, column: usize) -> bool {
         let moves = self.layout.values[column].moves;
-        let goes_as_a_clock = self.courses[column].is_some_and(|course| {
+        let goes_as_a_clock = self.columns[column].course.is_some_and(|course| {
             self.streams.iter().all(|stream| stream.courses[course].is_of_a_clock(moves))
         });
         moves != Moves::Never && !goes_as_a_clock

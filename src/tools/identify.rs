@@ -11,6 +11,7 @@ mod effective;
 mod fit;
 mod logged;
 mod motion;
+mod swing;
 
 use candidates::candidates;
 pub use candidates::{Candidate, SpringAs};
@@ -20,6 +21,8 @@ pub(crate) use effective::SLOW;
 use fit::{Fit, fit};
 pub use logged::{ColumnNames, Log, LogError, LogRow, LogSetting, LoggedBody};
 pub(crate) use motion::run;
+pub use swing::FittedSwing;
+use swing::fitted_swing;
 
 /// A candidate, and how far the log is from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,8 +60,8 @@ impl Conclusion {
 pub struct Identification {
     /// What is said.
     pub conclusion: Conclusion,
-    /// The candidate that fits best.
-    pub best: Fitted,
+    /// The candidate that fits best; `None` if no method can be run beside the log, as where its rows are uneven.
+    pub best: Option<Fitted>,
     /// Others that do the same on this body.
     pub also: Vec<Candidate>,
     /// Others that do something else and explain the log as well, but are set aside because they are rare.
@@ -67,6 +70,17 @@ pub struct Identification {
     pub runner_up: Option<Fitted>,
     /// Whether its spring was fitted.
     pub is_spring_fitted: bool,
+    /// Where its spring rests, in metres.
+    pub rest: f64,
+    /// Whether that was fitted.
+    pub is_rest_fitted: bool,
+    /// Whether it can be told only if the body starts at rest, which is supposed then.
+    pub supposes_start_at_rest: bool,
+    /// How far the last row is from the exact motion of the same start, in metres, and its time in seconds; `None` if the method
+    /// is not told.
+    pub from_exact: Option<(f64, f64)>,
+    /// The damped swing that is nearest, where the method is not known.
+    pub swing: Option<FittedSwing>,
     /// What a player sees; `None` if it is nothing like a damped spring or a body that comes to its
     /// last speed, or if the log is too short to tell.
     pub effective: Option<Effective>,
@@ -80,11 +94,45 @@ pub struct Identification {
 /// The most methods that are recommended.
 const MAX_RECOMMENDED: usize = 3;
 
-/// Finds out which method made `log`, a motion of `body` at `tick_hz`. What is not known of the body is fitted too.
+/// A swing with a larger residual, as a part of its amplitude, is not that of the log.
+const NO_SWING: f64 = 0.2;
+
+/// Finds out which method made `log`, a motion of `body` at `tick_hz`. What is not known of the body is fitted too: its rest,
+/// where no method explains the log with the rest at 0. Where methods cannot be told apart by x alone, the body is supposed to
+/// start at rest, if that tells them.
 ///
-/// Returns `None` if no method can be run on the body.
+/// Returns `None` if no method can be run on the body, and no swing is near.
 pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identification> {
-    let fits = search(log, body, tick_hz);
+    let swing = fitted_swing(log, body).filter(|swing| swing.residual <= NO_SWING);
+    if log.is_uneven() {
+        return Some(Identification::of_swing(swing?, body, tick_hz));
+    }
+    let resting = |rest: f64| LoggedBody { rest: Some(rest), ..body.clone() };
+    let usual = resting(body.rest.unwrap_or(0.0));
+    let mut found = identify_with(log, &usual, (tick_hz, None), swing);
+    let is_unknown = found.as_ref().is_none_or(|found| found.conclusion == Conclusion::Unknown);
+    if let Some(swing) = swing.filter(|_| is_unknown && body.rest.is_none()) {
+        let fitted = identify_with(log, body, (tick_hz, Some(swing.rest)), Some(swing));
+        found = fitted.filter(|it| it.conclusion != Conclusion::Unknown).or(found);
+    }
+    let is_open = found.as_ref().is_some_and(|it| it.conclusion == Conclusion::CannotTell);
+    if is_open && !log.has_velocities() && body.v0.is_none() {
+        let still = LoggedBody { v0: Some(0.0), ..usual };
+        let told = identify_with(log, &still, (tick_hz, None), swing);
+        let told = told.filter(|it| it.conclusion == Conclusion::Identified);
+        found = told.map(|it| Identification { supposes_start_at_rest: true, ..it }).or(found);
+    }
+    found.or_else(|| Some(Identification::of_swing(swing?, body, tick_hz)))
+}
+
+/// Finds it out with what is known, from a rest that is guessed where it is to be fitted.
+fn identify_with(
+    log: &Log,
+    body: &LoggedBody,
+    (tick_hz, first_rest): (f64, Option<f64>),
+    swing: Option<FittedSwing>,
+) -> Option<Identification> {
+    let fits = search(log, body, (tick_hz, first_rest));
     let Decision { conclusion, same, unusual, rival } = decide(&fits, body, log.is_double())?;
     let (best, best_fit) = same.first()?;
     let fitted = |(candidate, fit): &(Candidate, Fit)| Fitted {
@@ -92,27 +140,69 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
         residual: fit.residual(),
     };
     let of = |fits: &[&(Candidate, Fit)]| fits.iter().map(|(candidate, _)| *candidate).collect();
-    let is_spring_fitted = body.spring.is_none();
+    let (is_spring_fitted, is_rest_fitted) = (body.spring.is_none(), body.rest.is_none());
     let body = best_fit.body.clone();
     let tick_s = 1.0 / tick_hz;
+    let swing = swing.filter(|_| conclusion == Conclusion::Unknown);
     let effective = match conclusion {
-        Conclusion::Unknown => nearest(log, &body, tick_hz),
+        Conclusion::Unknown => {
+            swing.map(|swing| swing.seen).or_else(|| nearest(log, &body, tick_hz))
+        }
         Conclusion::CannotTell if best_fit.is_short() => None,
         _ => Effective::of(*best, &body, tick_s),
     };
     let exact = Effective::exact(&body);
     let recommended = recommended(&body, tick_s, exact);
+    let is_identified = conclusion == Conclusion::Identified;
     Some(Identification {
         conclusion,
-        best: Fitted { candidate: *best, residual: best_fit.residual() },
+        best: Some(Fitted { candidate: *best, residual: best_fit.residual() }),
         also: of(&same[1..]),
         unusual: of(&unusual),
         runner_up: rival.map(fitted),
         is_spring_fitted,
+        rest: body.rest.unwrap_or(0.0),
+        is_rest_fitted,
+        supposes_start_at_rest: false,
+        from_exact: is_identified.then(|| from_exact(log, best_fit, tick_s)).flatten(),
+        swing,
         effective,
         exact,
         recommended,
     })
+}
+
+/// How far the last row of a log is from the exact motion of the start that was fitted, and its time.
+fn from_exact(log: &Log, fit: &Fit, tick_s: f64) -> Option<(f64, f64)> {
+    let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringAs::Acceleration };
+    let last = log.rows().last()?;
+    let states = run(exact, &fit.body, fit.start, tick_s, [0, last.tick].into_iter())?;
+    Some((last.x - states.last()?[0], last.t_s))
+}
+
+impl Identification {
+    /// Of a log of which only what a player sees can be said.
+    fn of_swing(swing: FittedSwing, body: &LoggedBody, tick_hz: f64) -> Self {
+        let spring = swing.seen.spring();
+        let fitted = LoggedBody { spring: body.spring.or(spring), ..body.clone() };
+        let exact = Effective::exact(&fitted);
+        Self {
+            conclusion: Conclusion::Unknown,
+            best: None,
+            also: Vec::new(),
+            unusual: Vec::new(),
+            runner_up: None,
+            is_spring_fitted: body.spring.is_none(),
+            rest: swing.rest,
+            is_rest_fitted: body.rest.is_none(),
+            supposes_start_at_rest: false,
+            from_exact: None,
+            swing: Some(swing),
+            effective: Some(swing.seen),
+            exact,
+            recommended: recommended(&fitted, 1.0 / tick_hz, exact),
+        }
+    }
 }
 
 /// The cheapest methods under which the motion is what the equation says.
@@ -145,10 +235,14 @@ const APART: f64 = 4.0;
 ///
 /// The residual on the head of a log is a lower bound for that on the whole log. So candidates are taken in that order,
 /// until the bound of the next is too large.
-fn search(log: &Log, body: &LoggedBody, tick_hz: f64) -> Vec<(Candidate, Fit)> {
+fn search(
+    log: &Log,
+    body: &LoggedBody,
+    (tick_hz, first_rest): (f64, Option<f64>),
+) -> Vec<(Candidate, Fit)> {
     let head = if body.spring.is_some() { log.head(HEAD_TICKS) } else { log.clone() };
     let is_whole = head.rows().len() == log.rows().len();
-    let fit_to = |log: &Log, candidate| fit(log, body, candidate, tick_hz);
+    let fit_to = |log: &Log, candidate| fit(log, body, candidate, (tick_hz, first_rest));
     let mut queue: Vec<(Candidate, Fit)> = candidates(body)
         .into_iter()
         .filter_map(|candidate| Some((candidate, fit_to(&head, candidate)?)))
@@ -189,7 +283,7 @@ fn nearest(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Effective> {
         None => free.drag = seen.decay,
     }
     let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringAs::Acceleration };
-    let fit = fit(log, &free, exact, tick_hz)?;
+    let fit = fit(log, &free, exact, (tick_hz, None))?;
     let is_near = fit.residual() <= NO_FIT;
     is_near.then(|| Effective::exact(&fit.body))?
 }

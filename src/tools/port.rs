@@ -11,12 +11,14 @@ use crate::sim::integrators::{METHODS, Method};
 mod dialect;
 mod drive;
 mod follow;
+mod friction;
 mod inverse;
 mod seen;
 
 pub use dialect::{DIALECTS, Departure, Dialect, DialectPort, Key, Switch};
-pub use drive::{DriveLimits, drive_limits};
+pub use drive::{DriveLimits, GainRange, drive_limits};
 pub use follow::{Approach, FollowerPort, followers};
+pub use friction::Friction;
 use inverse::{Found, invert, min_damping};
 pub use seen::Setup;
 
@@ -143,6 +145,35 @@ impl Wish {
     pub fn joint(&self) -> [f64; 2] {
         let &Self { frequency_hz, damping_ratio, .. } = self;
         Swing { frequency_hz, damping_ratio }.per_mass()
+    }
+
+    /// The wish whose spring has this stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation of motion.
+    pub fn of_joint([stiffness, damping]: [f64; 2], mass_kg: f64) -> Self {
+        let omega = stiffness.sqrt();
+        Self::of(Effective { omega, decay: damping / 2.0 }, mass_kg)
+    }
+
+    /// What is seen of `v = (v + (target - x) * stiffness) * kept; x += v` once a frame, on this mass in kg.
+    ///
+    /// # Errors
+    /// If it is no swing that dies away: how the rule moves.
+    pub fn of_decay_per_frame(
+        [stiffness, kept]: [f64; 2],
+        fps: f64,
+        mass_kg: f64,
+    ) -> Result<Self, String> {
+        // x and v times a frame go by [[1 - dk, d], [-dk, d]].
+        let [trace, determinant] = [1.0 + kept - kept * stiffness, kept];
+        if !seen::is_stable(trace, determinant) {
+            return Err(format!(
+                "so set it grows; the stiffness is below {}",
+                2.0 * (1.0 + kept) / kept
+            ));
+        }
+        let seen = seen::seen(trace, determinant, 1.0 / fps);
+        let seen =
+            seen.ok_or("so set it jumps to the other side in each frame, as no spring does")?;
+        Ok(Self::of(seen, mass_kg))
     }
 
     /// What a player is to see.

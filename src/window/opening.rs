@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::loops::{FrameTrace, trace_file};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
-use crate::run::diff::{Comparison, NotComparable, Tolerance, diff};
+use crate::run::diff::{Chosen, Comparison, NotComparable, Tolerance, diff};
 use crate::run::trace::{Made, last_tick};
 use crate::scene::{Mistake, SCENES, Scene};
 use crate::studio::{
@@ -141,7 +141,7 @@ impl ReadFile {
 fn compared(recording: Scene, run: Scene) -> Comparison {
     let last = last_tick(&recording).max(last_tick(&run));
     let [mut a, mut b] = [recording, run].map(|scene| Made::of_scene(scene, last));
-    let found = diff(&mut a, &mut b, Tolerance::default());
+    let found = diff(&mut a, &mut b, Tolerance::default(), &Chosen::default());
     found.unwrap_or_else(|_: NotComparable| unreachable!("two traces have the same columns"))
 }
 

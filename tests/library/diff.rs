@@ -4,11 +4,11 @@ use std::error::Error;
 
 use crate::dice::Dice;
 use regatta::run::Session;
-use regatta::run::diff::{Comparison, Tolerance, diff, table};
+use regatta::run::diff::{Chosen, Comparison, Tolerance, diff, table};
 use regatta::scene::{Action, Scene};
 
 fn within(a: &str, b: &str, tolerance: Tolerance) -> Result<Comparison, Box<dyn Error>> {
-    diff(&mut table(a)?, &mut table(b)?, tolerance)
+    diff(&mut table(a)?, &mut table(b)?, tolerance, &Chosen::default())
 }
 
 fn compared(a: &str, b: &str) -> Comparison {
@@ -57,7 +57,7 @@ fn each_of_ten_thousand_changes_of_a_log_is_named() {
         let is_named = |found: &Comparison| {
             let first = found.first.as_ref().unwrap();
             assert_eq!(first.tick.to_string(), cells[0], "change {n}");
-            let row = first.row.clone().map(Option::unwrap);
+            let row = ["lane", "body", "coordinate"].map(|name| first.cell(name).unwrap());
             assert_eq!(row, [cells[2], cells[4], cells[5]], "change {n}");
         };
         match n % 4 {
@@ -261,4 +261,82 @@ fn more_names_of_rows_than_memory_has_room_for_are_refused() {
     let rows: String = (0..300_000).map(|i| format!("{},{},{}\n", i / 3, i % 3, i % 7)).collect();
     let text = format!("tick,body,q\n{rows}");
     assert!(compared(&text, &text).is_same());
+}
+
+/// Two tables, with these columns chosen.
+fn choosing(a: &str, b: &str, chosen: Chosen) -> Result<Comparison, Box<dyn Error>> {
+    diff(&mut table(a)?, &mut table(b)?, Tolerance::default(), &chosen)
+}
+
+fn names(list: &str) -> Vec<String> {
+    list.split(',').map(str::to_owned).collect()
+}
+
+#[test]
+fn rows_belong_together_by_a_key_in_whatever_order_and_a_frame_counts_ticks() {
+    let a = "frame,object,crc\n1,10,A1\n1,11,00\n2,10,A2\n2,11,01\n3,10,1234\n3,11,02\n";
+    let b = "frame,object,crc\n1,10,A1\n1,11,00\n2,11,01\n2,10,A2\n3,11,02\n3,10,1235\n";
+    let chosen = Chosen { key: names("frame,object"), ..Chosen::default() };
+    let found = choosing(a, b, chosen.clone()).unwrap();
+    let first = found.first.unwrap();
+    let words = "at frame 3, object 10: crc is 1234 in a and 1235 in b";
+    assert_eq!(first.to_string(), words);
+    assert_eq!((found.rows, found.missing), (6, [0, 0]));
+    // Two logs of the same numbers are the same, and one that lacks a frame lacks that alone.
+    assert!(choosing(a, a, chosen.clone()).unwrap().is_same());
+    let without = b.replace("2,11,01\n2,10,A2\n", "").replace("1235", "1234");
+    let found = choosing(a, &without, chosen).unwrap();
+    assert_eq!((found.first, found.missing, found.first_missing), (None, [0, 2], [None, Some(2)]));
+    // Without a frame rows have no order, and nothing has to move.
+    let chosen = Chosen { key: names("name"), ..Chosen::default() };
+    let found = choosing("name,x\nl,1\nr,2\n", "name,x\nr,2\nl,3\n", chosen).unwrap();
+    assert_eq!(found.first.unwrap().place(str::to_owned), "name l");
+}
+
+#[test]
+fn a_column_is_text_as_a_whole_from_its_first_row_on() {
+    // Both begin with cells that are the same number, 0.
+    let [a, b] = ["0000E012", "0000E013"].map(|hash| format!("tick,h\n0,{hash}\n1,FF\n2,AB\n"));
+    assert_eq!(compared(&a, &b).first.unwrap().tick, 0);
+    let [a, b] = ["0e1", "0e2"].map(|hash| format!("tick,h,x\n0,{hash},1\n1,1,2\n2,AB,3\n"));
+    let found = compared(&a, &b);
+    assert_eq!(found.first.unwrap().values, [Some("0e1".into()), Some("0e2".into())]);
+    assert_eq!((found.columns[0].first_tick, found.columns[0].rows), (0, 1));
+    assert!(compared(&a, &a).is_same());
+    // A number that is missing makes no text of the others.
+    let [a, b] = ["1.50", "1.5"].map(|x| format!("tick,x\n0,{x}\n1,NA\n2,\n3,2\n"));
+    assert!(compared(&a, &b).is_same());
+    // A hash that changes is a motion, and one that stays or a date is none.
+    assert!(compared("tick,h\n0,A\n1,B\n", "tick,h\n0,A\n1,B\n").is_same());
+    for still in ["tick,h\n0,A\n1,A\n", "tick,time\n0,12:30\n1,12:31\n"] {
+        assert!(!compared(still, still).is_comparable(), "{still}");
+    }
+}
+
+#[test]
+fn each_column_says_where_it_differs_and_some_can_be_left_out() {
+    let a = "tick,x,v,wall_ms,src_ms\n0,1,0,2362,8300\n1,0.9,-0.6,2378,8316\n2,0.7,-1,2395,8333\n";
+    let b = "tick,x,v,wall_ms,src_ms\n0,1,0,2380,8290\n1,0.9,-0.6,2397,8316\n2,0.7,-1,2414,8333\n";
+    let found = compared(a, b);
+    let columns: Vec<_> =
+        found.columns.iter().map(|it| (&*it.column, it.first_tick, it.rows)).collect();
+    assert_eq!(columns, [("wall_ms", 0, 3), ("src_ms", 0, 1)]);
+    assert_eq!(found.equal, ["x", "v"]);
+    for chosen in [
+        Chosen { columns: names("x,v"), ..Chosen::default() },
+        Chosen { ignored: names("wall_ms,src_ms"), ..Chosen::default() },
+    ] {
+        assert!(choosing(a, b, chosen).unwrap().is_same());
+    }
+    let ticks = Chosen { tick: Some("wall_ms".into()), ..Chosen::default() };
+    assert!(choosing(a, a, ticks).unwrap().is_same());
+    for wrong in [
+        Chosen { columns: names("x,w"), ..Chosen::default() },
+        Chosen { ignored: names("w"), ..Chosen::default() },
+        Chosen { key: names("w"), ..Chosen::default() },
+        Chosen { tick: Some("w".into()), ..Chosen::default() },
+    ] {
+        let error = choosing(a, b, wrong).unwrap_err().to_string();
+        assert_eq!(error, "a has no column \"w\"; it has tick, x, v, wall_ms, src_ms");
+    }
 }

@@ -489,3 +489,57 @@ fn a_log_of_afterburner_is_refused_by_its_name() {
     let error = read("log", text).err().unwrap().to_string();
     assert!(error.contains("a log of MSI Afterburner has a sample a second"), "{error}");
 }
+
+/// Small logs of ten frames as each tool writes them, one of which was never displayed in two.
+const OF_TOOLS: [(&str, &str, &str); 11] = [
+    ("presentmon-1.csv", include_str!("../data/frame-traces/tools/presentmon-1.csv"), "PresentMon"),
+    ("presentmon-2.csv", include_str!("../data/frame-traces/tools/presentmon-2.csv"), "PresentMon"),
+    ("ocat.csv", include_str!("../data/frame-traces/tools/ocat.csv"), "PresentMon"),
+    ("capframex.csv", include_str!("../data/frame-traces/tools/capframex.csv"), "PresentMon"),
+    ("capframex.json", include_str!("../data/frame-traces/tools/capframex.json"), "CapFrameX"),
+    ("frameview.csv", include_str!("../data/frame-traces/tools/frameview.csv"), "PresentMon"),
+    ("mangohud.csv", include_str!("../data/frame-traces/tools/mangohud.csv"), "MangoHud"),
+    (
+        "mangohud-0.6.csv",
+        include_str!("../data/frame-traces/tools/mangohud-0.6.csv"),
+        "MangoHud, in µs",
+    ),
+    ("unreal.csv", include_str!("../data/frame-traces/tools/unreal.csv"), "Unreal"),
+    ("fraps.csv", include_str!("../data/frame-traces/tools/fraps.csv"), "FRAPS"),
+    ("times.txt", include_str!("../data/frame-traces/tools/times.txt"), "a list"),
+];
+
+#[test]
+fn each_tool_that_the_manual_names_has_a_log_of_the_same_ten_frames() {
+    for (name, text, tool) in OF_TOOLS {
+        let read = traces(name, text);
+        assert_eq!(read.len(), 1, "{name}");
+        let never = if name.starts_with("presentmon") { ", 1 never displayed" } else { "" };
+        let summary =
+            format!("read 10 frames in 0.167 s: 54.0 a second, longest 33.4 ms{never} ({tool})");
+        assert_eq!(read[0].summary(), Some(summary), "{name}");
+        // In each unit the frames begin at the same nanosecond, to the digits that the tool writes.
+        let began: Vec<i64> = frames(&read[0]).iter().map(|frame| frame.began_ns).collect();
+        let wanted: Vec<i64> = frames(&traces(OF_TOOLS[0].0, OF_TOOLS[0].1)[0])
+            .iter()
+            .map(|frame| frame.began_ns)
+            .collect();
+        for (began, wanted) in began.iter().zip(&wanted) {
+            assert!((began - wanted).abs() <= 1000, "{name}: {began} and {wanted}");
+        }
+    }
+}
+
+#[test]
+fn what_unreal_writes_below_its_frames_is_no_frame_and_fraps_counts_from_its_start() {
+    let rows = "EVENTS,FrameTime,GameThreadTime\n,16,9\n,17,9\n";
+    let of_build = "[Platform],Windows,[Config],Test,[HasHeaderRowAtEnd],0\n";
+    assert_eq!(frames(&traces("a", &format!("{rows}{of_build}"))[0]).len(), 2);
+    let began: Vec<i64> = frames(&traces("a", "Frame, Time (ms)\n1, 5.0\n2, 21.5\n")[0])
+        .iter()
+        .map(|it| it.began_ns)
+        .collect();
+    assert_eq!(began, [0, 16_500_000]);
+    let error = read("a", "Frame, Time (ms)\n1, 5.0\n2, 4.0\n").err().unwrap().to_string();
+    assert_eq!(error, "a:3: the frame begins before the one above it; put rows in order");
+}

@@ -244,14 +244,14 @@ fn a_drive_is_stable_up_to_its_limits_and_not_beyond() {
     // h² K < 4 - 2 h c, and h c < 2 - h² K / 2.
     let (h, [stiffness, damping]) = (1.0 / 500.0, joint);
     let most = (4.0 - 2.0 * h * damping) / (h * h);
-    assert!((limits.max_stiffness.unwrap() / most - 1.0).abs() < 1e-6, "{limits:?}");
+    assert!((limits.stiffness.most.unwrap() / most - 1.0).abs() < 1e-6, "{limits:?}");
     let most = (2.0 - h * h * stiffness / 2.0) / h;
-    assert!((limits.max_damping.unwrap() / most - 1.0).abs() < 1e-6, "{limits:?}");
+    assert!((limits.damping.most.unwrap() / most - 1.0).abs() < 1e-6, "{limits:?}");
     assert_eq!(limits.fewest_substeps, Some(1));
     // An implicit drive has no limit; a force that is held through eight ticks has one that is far lower.
     let jolt = setups(Some(&[method("engine-jolt").unwrap()]), 60.0, None)[0];
-    assert_eq!(drive_limits(jolt, joint, None).max_stiffness, None);
-    let held = |ticks| drive_limits(setup, joint, Some(ticks)).max_damping.unwrap();
+    assert_eq!(drive_limits(jolt, joint, None).stiffness.most, None);
+    let held = |ticks| drive_limits(setup, joint, Some(ticks)).damping.most.unwrap();
     assert!((held(1) / most - 1.0).abs() < 1e-6 && held(8) < 0.2 * held(1), "{}", held(8));
     // Through two ticks: by hand.
     let by_hand = |[k, c]: [f64; 2]| {

@@ -2,11 +2,11 @@
 
 use super::measured::Measured;
 use crate::commands::terminal::print_status;
-use crate::loops::{MeasuredLoops, NoLoop, POLICIES};
-use crate::sim::number::round;
+use crate::loops::{FrameLimits, MeasuredLoops, NoLoop, POLICIES};
+use crate::sim::number::{counted, round};
 
 /// Tells which of the policies measured on one trace to take.
-pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
+pub(super) fn tell_of(rows: &[Measured], latency_ms: f64, limits: FrameLimits) {
     let Some(first) = rows.first() else { return };
     let trace =
         format!("{} ({} Hz display, {:.3} Hz ticks)", first.trace, first.refresh, first.tick_hz);
@@ -18,7 +18,10 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
         Ok(advised) => {
             let among = if are_all { "take" } else { "of these take" };
             let latency_ms = loops.latency_ms(advised.index);
-            print_status(&format!("{trace}: {among} {}", words(&rows[advised.index], latency_ms)));
+            print_status(&format!(
+                "{trace}: {among} {}",
+                words(&rows[advised.index], latency_ms, limits)
+            ));
             if let Some(why) = advised.why {
                 print_status(&format!("  {why}"));
             }
@@ -61,8 +64,8 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     }
 }
 
-/// A policy with what was measured and its constants.
-fn words(row: &Measured, latency_ms: Option<f64>) -> String {
+/// A policy with what was measured and its constants, or what was set in place of them.
+fn words(row: &Measured, latency_ms: Option<f64>, limits: FrameLimits) -> String {
     // Traces are counted in whole nanoseconds: what is less than a microsecond is their rounding.
     let to_microseconds = |ms: f64| (1000.0 * ms).round() / 1000.0;
     let ms = |value: Option<f64>| {
@@ -70,9 +73,16 @@ fn words(row: &Measured, latency_ms: Option<f64>) -> String {
     };
     let error = ms(row.report.animation_error_rms_ms);
     let latency = ms(latency_ms);
-    let constants = match row.card.constants {
-        "" => String::new(),
-        constants => format!("; {constants}"),
+    let ticks = limits.max_ticks.filter(|_| row.card.has_max_ticks);
+    let set = [
+        ticks.map(|n| format!("at most {}", counted(n, "tick"))),
+        limits.max_frame_ms.map(|ms| format!("at most {ms} ms")),
+    ];
+    let set: Vec<String> = set.into_iter().flatten().collect();
+    let constants = match (set.is_empty(), row.card.constants) {
+        (true, "") => String::new(),
+        (true, constants) => format!("; {constants}"),
+        (false, _) => format!("; {} a frame, as set; the rest is dropped", set.join(" and ")),
     };
     format!("{}: animation error {error} RMS, mean latency {latency}{constants}", row.card.id)
 }

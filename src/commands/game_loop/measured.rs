@@ -6,7 +6,9 @@ use serde_json::{Value, json};
 
 use crate::commands::output::Output;
 use crate::commands::output::table::RowWriter;
-use crate::loops::{FrameRecord, FrameTrace, LoopRun, PacingReport, PolicyCard, RefreshRate};
+use crate::loops::{
+    FrameLimits, FrameRecord, FrameTrace, LoopRun, PacingReport, PolicyCard, RefreshRate,
+};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::TickRate;
 
@@ -46,7 +48,7 @@ pub(super) struct Stretch {
 pub(super) fn measure(
     scene: &Scene,
     spec: LaneSpec,
-    card: &'static PolicyCard,
+    (card, limits): (&'static PolicyCard, FrameLimits),
     trace: &FrameTrace,
     Stretch { until_ns, drawn_from_ns }: Stretch,
     stop: &dyn Fn() -> bool,
@@ -54,7 +56,8 @@ pub(super) fn measure(
 ) -> io::Result<Measured> {
     let (mut drawn, mut written) = (Vec::new(), Ok(()));
     let name = trace.name();
-    let report = LoopRun::new(scene, spec, card, trace).measure(until_ns, stop, |run, record| {
+    let run = LoopRun::limited(scene, spec, card, trace, limits);
+    let report = run.measure(until_ns, stop, |run, record| {
         if let Some(displayed_ns) = record.frame.displayed_ns
             && drawn_from_ns.is_some_and(|from_ns| displayed_ns >= from_ns)
             && drawn.len() <= DRAWN

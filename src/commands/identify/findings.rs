@@ -10,13 +10,15 @@ use crate::tools::identify::{
 
 /// A residual beyond which no method is named as the nearest.
 const FAR: f64 = 0.1;
+/// A rest nearer to 0, as a part of the largest x, is 0 to rounding.
+const NO_REST: f64 = 1e-5;
 /// What to look at where no method explains a log.
 const HINT: &str = "give --k, --c, --drag and --mass to their last digit, with the drag that an engine has by default \
 (Jolt 0.05, Godot 0.1)";
 
 /// What was found, as JSON; `None` if no method can be run.
 pub(super) fn object(found: Option<&Identification>, mass: f64) -> Value {
-    let best = found.map(|found| found.best);
+    let best = found.and_then(|found| found.best);
     let rival = found.and_then(|found| found.runner_up);
     let effective = found.and_then(|found| found.effective);
     let exact = found.and_then(|found| found.exact);
@@ -48,6 +50,17 @@ pub(super) fn object(found: Option<&Identification>, mass: f64) -> Value {
         "runner_up": rival.map(|other| other.candidate.method.id),
         "runner_up_substeps": rival.map(|other| other.candidate.substeps),
         "runner_up_residual": rival.map(|other| other.residual),
+        "rest_m": found.map(|found| found.rest),
+        "supposes_start_at_rest": found.map(|found| found.supposes_start_at_rest),
+        "from_exact_m": found.and_then(|found| found.from_exact).map(|(far, _)| far),
+        "swing": found.and_then(|found| found.swing).map(|swing| json!({
+            "frequency_hz": swing.seen.frequency_hz(),
+            "undamped_hz": swing.seen.undamped_hz(),
+            "undamped_hz_error": swing.errors[0],
+            "damping_ratio": swing.seen.damping_ratio(),
+            "damping_ratio_error": swing.errors[1],
+            "residual": swing.residual,
+        })),
         "effective_stiffness_n_per_m":
             effective.and_then(|seen| seen.spring_stiffness()).map(|k| k * mass),
         "effective_frequency_hz": effective.and_then(|seen| seen.frequency_hz()),
@@ -102,6 +115,11 @@ fn names(candidates: &[Candidate]) -> String {
     named.collect::<Vec<_>>().join("; ")
 }
 
+/// A length with its sign.
+fn signed(number: f64) -> String {
+    format!("{}{}", if number < 0.0 { "" } else { "+" }, significant(number, 4))
+}
+
 /// A motion in words.
 fn seen(effective: &Effective) -> String {
     let ratio = effective.damping_ratio().map(|ratio| {
@@ -109,6 +127,10 @@ fn seen(effective: &Effective) -> String {
         format!("damping ratio {}", significant(ratio, 3))
     });
     let swing = match effective.frequency_hz() {
+        Some(hz) if (hz / effective.undamped_hz() - 1.0).abs() > 0.01 => {
+            let undamped = significant(effective.undamped_hz(), 4);
+            Some(format!("{} Hz ({undamped} Hz undamped)", significant(hz, 4)))
+        }
         Some(hz) => Some(format!("{} Hz", significant(hz, 4))),
         None => ratio.is_some().then(|| "no swing".to_owned()),
     };
@@ -156,14 +178,23 @@ fn listed(all: &[&Candidate]) -> String {
     }
 }
 
-pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
-    let Identification { conclusion, best, runner_up, effective, exact, recommended, .. } = found;
+/// The first line: which method it was, and by how much.
+fn verdict(found: &Identification, log: &Log) -> String {
     let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);
-    let rival = runner_up.as_ref();
-    let makers = makers(&best.candidate, &found.also);
-    let mut lines = vec![match (conclusion, rival) {
+    let Some(best) = &found.best else {
+        return match log.is_uneven() {
+            true => "unknown: the rows are at uneven times, and a method makes even ticks".into(),
+            false => "unknown: no method comes near".into(),
+        };
+    };
+    match (found.conclusion, &found.runner_up) {
         (Conclusion::Identified, _) => {
-            format!("made by {}, {}", listed(&makers), residual(best))
+            let supposed = match found.supposes_start_at_rest {
+                true => ", if it starts at rest (--v0 0)",
+                false => "",
+            };
+            let makers = listed(&makers(&best.candidate, &found.also));
+            format!("made by {makers}, {}{supposed}", residual(best))
         }
         (Conclusion::CannotTell, Some(rival)) => format!(
             "cannot tell {} from {}: {} and {:.1e}; {}",
@@ -173,15 +204,37 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
             rival.residual,
             match (log.has_velocities(), found.is_spring_fitted) {
                 (_, true) => "give the spring with --k",
-                (false, false) => "log v too, or for longer",
+                (false, false) => "log v too, give it at the start with --v0, or log for longer",
                 (true, false) => "log for longer",
             }
         ),
         _ if best.residual > FAR => "unknown: no method comes near".to_owned(),
         _ => format!("unknown: the nearest is {}, {}", best.candidate, residual(best)),
-    }];
-    if *conclusion == Conclusion::Unknown {
+    }
+}
+
+pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
+    let Identification { conclusion, runner_up, effective, exact, recommended, .. } = found;
+    let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);
+    let rival = runner_up.as_ref();
+    let best = found.best.as_ref().map(|best| &best.candidate);
+    let makers = best.map(|best| makers(best, &found.also)).unwrap_or_default();
+    let mut lines = vec![verdict(found, log)];
+    if *conclusion == Conclusion::Unknown && !log.is_uneven() {
         lines.push(HINT.to_owned());
+    }
+    if let Some(swing) = &found.swing {
+        let [hz, ratio] = swing.errors.map(|error| significant(error, 1));
+        lines.push(format!(
+            "the best fit of a damped swing: {} Hz ± {hz} undamped, damping ratio {} ± {ratio}, off by {} % of its amplitude",
+            significant(swing.seen.undamped_hz(), 4),
+            significant(swing.seen.damping_ratio().unwrap_or(0.0), 3),
+            significant(100.0 * swing.residual, 2),
+        ));
+    }
+    let size = log.rows().iter().map(|row| row.x.abs()).fold(0.0, f64::max);
+    if found.is_rest_fitted && found.rest.abs() > NO_REST * size {
+        lines.push(format!("it rests at {} m", significant(found.rest, 5)));
     }
     let told = *conclusion != Conclusion::Unknown;
     if told && !found.also.is_empty() {
@@ -192,6 +245,13 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
     }
     if let (Conclusion::Identified, Some(rival)) = (conclusion, rival) {
         lines.push(format!("runner-up: {}, {}", rival.candidate, residual(rival)));
+    }
+    if let Some((far, t_s)) = found.from_exact.filter(|(far, _)| far.abs() > 0.0) {
+        lines.push(format!(
+            "after {} s it is {} m from the exact motion",
+            significant(t_s, 4),
+            signed(far)
+        ));
     }
     if let Some(effective) = effective {
         lines.push(format!("a player sees: {}", seen(effective)));
@@ -209,8 +269,10 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
     }
     let named: Vec<&Candidate> = match (conclusion, rival) {
         (Conclusion::Identified, _) => makers.into_iter().take(MAX_MAKERS).collect(),
-        (Conclusion::CannotTell, Some(rival)) => vec![&best.candidate, &rival.candidate],
-        _ => vec![&best.candidate],
+        (Conclusion::CannotTell, Some(rival)) => {
+            best.into_iter().chain([&rival.candidate]).collect()
+        }
+        _ => best.into_iter().collect(),
     };
     let mut engines: Vec<&Method> = named.iter().map(|candidate| candidate.method).collect();
     engines.dedup();

@@ -5,14 +5,16 @@ use std::path::PathBuf;
 use super::{TARGET, Target};
 use crate::scene::{MAX_SUBSTEPS, clip};
 use crate::sim::integrators::{JointMode, Method, Setting};
-use crate::tools::port::{Approach, Dialect, Key, Setup, Wish};
+use crate::tools::port::{Approach, Dialect, Friction, Key, Setup, Wish};
 
 /// Where a wish comes from.
 pub(super) enum From {
-    /// From what an engine shows.
-    Engine(Wish),
+    /// From the settings of an engine.
+    Engine(EngineSettings),
     /// From what a user interface is told.
     Dialect(Wish),
+    /// From a velocity that keeps a part of itself in each frame.
+    Friction(Friction),
     /// From a chase, and its rate of frames if it has one.
     Approach(Approach, Option<f64>),
     /// From a log.
@@ -59,6 +61,31 @@ impl From {
                     Some(fps),
                 ))
             }
+            "lerp-dt" => {
+                let (rate, fps) =
+                    rest.split_once('@').ok_or("give the frames too: lerp-dt:20@30fps")?;
+                let fps = above_0(fps, "fps", "the rate of frames")?;
+                let rate = above_0(rate, "", "the rate")?;
+                let part = rate / fps;
+                if part >= 1.0 {
+                    let end = if part > 2.0 { "grows" } else { "overshoots" };
+                    let end = if part == 1.0 { "is there in one frame" } else { end };
+                    return Err(format!(
+                        "{rate} at {fps} frames per second {end}; give a rate below the frames"
+                    ));
+                }
+                Ok(From::Approach(Approach::of_lerp(part, fps), Some(fps)))
+            }
+            "friction" => {
+                let (kept, fps) =
+                    rest.split_once('@').ok_or("give the frames too: friction:0.9@60fps")?;
+                let fps = above_0(fps, "fps", "the rate of frames")?;
+                let kept = with_unit(kept, "")?;
+                let fits = kept > 0.0 && kept < 1.0;
+                let wrong = || format!("{kept} is kept; it must be between 0 and 1");
+                Ok(From::Friction(Friction { kept: fits.then_some(kept).ok_or_else(wrong)?, fps }))
+            }
+            "per-frame-decay" => of_decay(rest, tick_hz, mass_kg).map(From::Dialect),
             "smooth-damp" => {
                 let seconds = above_0(rest, "s", "the smoothing time")?;
                 Ok(From::Approach(Approach::of_smooth_time(seconds), None))
@@ -78,6 +105,22 @@ impl From {
             },
         }
     }
+}
+
+/// The motion of `v = (v + (target - x) * stiffness) * decay; x += v` once a frame.
+fn of_decay(written: &str, fps: f64, mass_kg: f64) -> Result<Wish, String> {
+    let how = "write per-frame-decay:stiffness=0.2,decay=0.85, where decay is what is left of v";
+    let mut values = [None; 2];
+    for pair in written.split(',') {
+        let (key, value) = pair.split_once('=').ok_or(how)?;
+        let index = ["stiffness", "decay"].iter().position(|known| *known == key.trim());
+        let index = index.ok_or(how)?;
+        if values[index].replace(above_0(value.trim(), "", key)?).is_some() {
+            return Err(format!("{key} is given twice"));
+        }
+    }
+    let [Some(stiffness), Some(decay)] = values else { return Err(how.into()) };
+    Wish::of_decay_per_frame([stiffness, decay], fps, mass_kg)
 }
 
 /// How the settings of an engine are written.
@@ -117,13 +160,45 @@ fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<Wish, St
     Ok(if dialect.has_mass() { wish } else { Wish { mass_kg, ..wish } })
 }
 
-/// What an engine shows with settings that are written as `key=value,…`.
+/// The settings of a spring in an engine.
+pub(super) struct EngineSettings {
+    setup: Setup,
+    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass.
+    joint: [f64; 2],
+    mass_kg: f64,
+}
+
+impl EngineSettings {
+    /// The spring by the equation of motion.
+    pub(super) fn as_given(&self) -> Wish {
+        Wish::of_joint(self.joint, self.mass_kg)
+    }
+
+    /// What the engine shows with them.
+    pub(super) fn shown(&self) -> Result<Wish, String> {
+        let Setup { method, tick_hz, substeps, .. } = self.setup;
+        let seen = self.setup.sees(self.joint).ok_or_else(|| {
+            format!("nothing swings so in {} ×{substeps} at {tick_hz} Hz; tick faster", method.id)
+        })?;
+        let wish = Wish::of(seen, self.mass_kg);
+        if wish.damping_ratio < -1e-9 {
+            let ratio = wish.damping_ratio;
+            return Err(format!(
+                "so set, {} ×{substeps} at {tick_hz} Hz gains energy: its damping ratio is {ratio:.4}; damp more, or tick faster",
+                method.id
+            ));
+        }
+        Ok(Wish { damping_ratio: wish.damping_ratio.max(0.0), ..wish })
+    }
+}
+
+/// The settings of an engine that are written as `key=value,…`.
 fn of_engine(
     method: &'static Method,
     written: &str,
     tick_hz: f64,
     mass_kg: f64,
-) -> Result<Wish, String> {
+) -> Result<EngineSettings, String> {
     let modes = method.engine.map_or(&[][..], |engine| engine.modes);
     let (mut mode, mut tick_hz, mut substeps) = (None, tick_hz, method.default_substeps);
     let mut values: Vec<(&str, &str)> = Vec::new();
@@ -177,17 +252,5 @@ fn of_engine(
         return Err(format!("{name} is {value}; it must be {wanted}"));
     }
     let setup = Setup { method, mode, tick_hz, substeps };
-    let seen = setup.sees(mode.joint([first, second], mass_kg));
-    let seen = seen.ok_or_else(|| {
-        format!("nothing swings so in {} ×{substeps} at {tick_hz} Hz; tick faster", method.id)
-    })?;
-    let wish = Wish::of(seen, mass_kg);
-    if wish.damping_ratio < -1e-9 {
-        let ratio = wish.damping_ratio;
-        return Err(format!(
-            "so set, {} ×{substeps} at {tick_hz} Hz gains energy: its damping ratio is {ratio:.4}; damp more, or tick faster",
-            method.id
-        ));
-    }
-    Ok(Wish { damping_ratio: wish.damping_ratio.max(0.0), ..wish })
+    Ok(EngineSettings { setup, joint: mode.joint([first, second], mass_kg), mass_kg })
 }

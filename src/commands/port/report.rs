@@ -7,23 +7,23 @@ use crate::commands::output::table::TableFormat;
 use crate::sim::number::{round, significant};
 use crate::tools::identify::Effective;
 use crate::tools::port::{
-    Approach, Departure, Dialect, DialectPort, DriveLimits, FollowerPort, Ported, Reach, Setup,
-    Wish,
+    Approach, Departure, Dialect, DialectPort, DriveLimits, FollowerPort, Friction, GainRange,
+    Ported, Reach, Setup, Wish,
 };
 
 /// A frequency, a damping ratio and how long the energy lasts.
 fn sees(seen: &Effective) -> String {
     let ratio = seen.damping_ratio().unwrap_or(0.0);
     let ratio = if ratio.abs() < 5e-7 { 0.0 } else { ratio };
-    let hz = seen.undamped_hz();
-    let mut said = format!("{} Hz, damping ratio {}", significant(hz, 4), significant(ratio, 3));
-    match seen.frequency_hz() {
-        Some(swings) if (swings / hz - 1.0).abs() > 1e-3 => {
-            said += &format!(", swings at {} Hz", significant(swings, 4));
+    let undamped = format!("{} Hz undamped", significant(seen.undamped_hz(), 4));
+    let swing = match seen.frequency_hz() {
+        Some(hz) if (hz / seen.undamped_hz() - 1.0).abs() > 0.01 => {
+            format!("{} Hz ({undamped})", significant(hz, 4))
         }
-        Some(_) => {}
-        None => said += ", does not swing",
-    }
+        Some(hz) => format!("{} Hz", significant(hz, 4)),
+        None => format!("no swing ({undamped})"),
+    };
+    let said = format!("{swing}, damping ratio {}", significant(ratio, 3));
     match seen.energy_halves_s().filter(|seconds| seconds.abs() < 1e5) {
         Some(s) if s > 0.0 => said + &format!(", the energy halves in {} s", significant(s, 3)),
         Some(s) => said + &format!(", the energy doubles in {} s", significant(-s, 3)),
@@ -224,8 +224,11 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
                     "substeps": drive.setup.substeps,
                     "decimation": limits.held_ticks,
                     "gains": { "kp_n_per_m": kp, "kv_n_s_per_m": kv },
-                    "max_kp_n_per_m": limits.max_stiffness.map(|k| k * mass),
-                    "max_kv_n_s_per_m": limits.max_damping.map(|c| c * mass),
+                    "min_kp_n_per_m": limits.stiffness.least * mass,
+                    "max_kp_n_per_m": limits.stiffness.most.map(|k| k * mass),
+                    "min_kv_n_s_per_m": limits.damping.least * mass,
+                    "max_kv_n_s_per_m": limits.damping.most.map(|c| c * mass),
+                    "spectral_radius": limits.spectral_radius,
                     "fewest_substeps": limits.fewest_substeps,
                     "sees": limits.sees.as_ref().map(seen_object),
                 })
@@ -236,11 +239,21 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
         TableFormat::Text => {
             let gains = format!("kp {} N/m, kv {} N s/m\n", round(kp, 6), round(kv, 6));
             let said = |drive: &Drive, limits: &DriveLimits| {
-                let gain = |most: Option<f64>, unit: &str| match most {
-                    Some(0.0) => "none".into(),
-                    Some(most) => format!("up to {} {unit}", round(most * mass, 4)),
-                    None => "any".into(),
+                let gain = |range: GainRange, unit: &str| {
+                    let [least, most] = [Some(range.least), range.most]
+                        .map(|gain| gain.map(|gain| round(gain * mass, 4)));
+                    match (range.least > 0.0, most, least) {
+                        (_, Some(_), _) if range.most == Some(0.0) => "none".into(),
+                        (true, Some(most), Some(least)) => format!("{least} to {most} {unit}"),
+                        (true, None, Some(least)) => format!("from {least} {unit}"),
+                        (_, Some(most), _) => format!("up to {most} {unit}"),
+                        _ => "any".into(),
+                    }
                 };
+                let kept = limits.spectral_radius.map_or("unstable".into(), |radius| {
+                    let word = if radius <= 1.0 + 1e-9 { "stable" } else { "unstable" };
+                    format!("{word}, a tick leaves {}", significant(radius, 3))
+                });
                 let substeps = match limits.fewest_substeps {
                     Some(n) => format!("stable from ×{n}"),
                     None => "stable with no number of substeps up to 64".into(),
@@ -252,15 +265,52 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
                 };
                 let seen = limits.sees.as_ref().map_or("no swing".into(), sees);
                 format!(
-                    "\n{}: {who}\n  kp {} with this kv, kv {} with this kp, {substeps}\n  a player sees: {seen}\n",
+                    "\n{}: {who}\n  {kept}; kp {} with this kv, kv {} with this kp, {substeps}\n  a player sees: {seen}\n",
                     name(&drive.setup),
-                    gain(limits.max_stiffness, "N/m"),
-                    gain(limits.max_damping, "N s/m"),
+                    gain(limits.stiffness, "N/m"),
+                    gain(limits.damping, "N s/m"),
                 )
             };
             let blocks =
                 all.iter().flat_map(|d| d.limits.iter().map(move |limits| said(d, limits)));
             want(wish, tick_hz) + &gains + &blocks.collect::<String>()
+        }
+    }
+}
+
+/// A friction at other rates of frames, and as a drag.
+pub(super) fn friction(friction: &Friction, format: TableFormat) -> String {
+    let [half_life_s, rate] = [friction.half_life_s(), friction.rate()];
+    let ([explicit, implicit], [exact, after, before]) = (friction.drags(), friction.coasts_m());
+    match format {
+        TableFormat::Json => {
+            let kept = friction.kept_at().into_iter();
+            let kept = kept.map(|(fps, kept)| json!({ "fps": fps, "kept": kept }));
+            let object = json!({
+                "want": { "kept": friction.kept, "fps": friction.fps },
+                "half_life_s": half_life_s,
+                "rate_per_s": rate,
+                "factors": kept.collect::<Vec<_>>(),
+                "drag_explicit_per_s": explicit,
+                "drag_implicit_per_s": implicit,
+                "coasts_m_per_m_s": exact,
+                "coasts_after_m_per_m_s": after,
+                "coasts_before_m_per_m_s": before,
+            });
+            format!("{object:#}\n")
+        }
+        TableFormat::Text => {
+            let [half, rate, explicit, implicit] =
+                [half_life_s, rate, explicit, implicit].map(|x| significant(x, 5));
+            let [exact, after, before] = [exact, after, before].map(|x| significant(x, 4));
+            let fps = friction.fps;
+            let factor = |(fps, kept)| format!("  {fps:>4} fps  v *= {}\n", significant(kept, 6));
+            let factors: String = friction.kept_at().into_iter().map(factor).collect();
+            format!(
+                "halves in {half} s: v *= exp(-{rate} * dt) moves the same at every rate\n\n{factors}\n\
+                 as drag: {rate} 1/s where it is exact; at {fps} fps {explicit} 1/s in v -= C * v * dt, and {implicit} 1/s in v /= 1 + C * dt\n\
+                 a body of 1 m/s coasts {exact} m; at {fps} fps {after} m if it moves after the friction, {before} m if before\n"
+            )
         }
     }
 }

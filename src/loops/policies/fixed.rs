@@ -1,7 +1,7 @@
 //! Whole ticks from an accumulator: the loop of "Fix Your Timestep!", and of Regatta's own window; and its form that never
 //! catches up.
 
-use crate::loops::policy::{Policy, Steps};
+use crate::loops::policy::{FrameLimits, Policy, Steps};
 use crate::loops::time_base::TimeBase;
 use crate::sim::{Accumulator, MAX_FRAME_MS, max_ticks};
 
@@ -14,10 +14,11 @@ pub(super) struct Fixed {
 }
 
 impl Fixed {
-    /// At most the ticks of [`MAX_FRAME_MS`] in a frame.
-    pub(super) fn new(base: TimeBase) -> Self {
-        let most = max_ticks(base.tick_hz(), 100, MAX_FRAME_MS);
-        Self::with_max_ticks(base, most)
+    /// At most the ticks of the longest frame, of [`MAX_FRAME_MS`] where none is set.
+    pub(super) fn new(base: TimeBase, limits: FrameLimits) -> Self {
+        let longest_ms = limits.max_frame_ms.unwrap_or(MAX_FRAME_MS);
+        let most = max_ticks(base.tick_hz(), 100, longest_ms);
+        Self::with_max_ticks(base, limits.max_ticks.unwrap_or(most))
     }
 
     /// At most this many ticks in a frame.
@@ -52,27 +53,29 @@ impl Policy for Fixed {
     }
 }
 
-/// A fixed tick, at most one a frame, and at most one more is kept: where frames are too long, the game is slower.
+/// A fixed tick, at most one a frame or as many as are set, and at most one more is kept: where frames are too long, the game is slower.
 #[derive(Clone, Copy)]
 pub(super) struct SlowDown {
     tick: i128,
+    max_ticks: u32,
     owed: i128,
 }
 
 impl SlowDown {
-    pub(super) fn new(tick: i128) -> Self {
-        Self { tick, owed: 0 }
+    pub(super) fn new(tick: i128, limits: FrameLimits) -> Self {
+        Self { tick, max_ticks: limits.max_ticks.unwrap_or(1), owed: 0 }
     }
 }
 
 impl Policy for SlowDown {
     fn frame(&mut self, duration: i128) -> Steps {
         self.owed += duration;
-        let span = if self.owed >= self.tick { self.tick } else { 0 };
+        let count = self.owed.div_euclid(self.tick).min(self.max_ticks.into());
+        let span = count * self.tick;
         let left = self.owed - span;
         // Without the tick that is kept, each frame that timer noise makes long would lose one.
         self.owed = left.min(self.tick);
-        Steps { dropped: left - self.owed, ..Steps::one(span) }
+        Steps { count: count as u32, span, dropped: left - self.owed }
     }
 
     fn owed(&self) -> i128 {

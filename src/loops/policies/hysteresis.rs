@@ -1,12 +1,12 @@
 //! A count of ticks that stays what it was while it nearly fits.
 
-use crate::loops::policy::{Policy, Steps};
+use crate::loops::policy::{FrameLimits, Policy, Steps};
 use crate::loops::time_base::TimeBase;
 
 /// The frames whose counts are compared.
 const FRAMES: usize = 12;
 /// The most ticks in a frame; the others are dropped.
-const MAX_TICKS: i128 = 8;
+const MAX_TICKS: u32 = 8;
 
 /// Whole ticks, the same number each frame as far as that is off by at most half a tick.
 ///
@@ -15,6 +15,7 @@ const MAX_TICKS: i128 = 8;
 #[derive(Clone, Copy)]
 pub(super) struct Hysteresis {
     tick: i128,
+    max_ticks: u32,
     /// The time since the last tick: from -H/2 to 3H/2, for a tick may come early or late by half.
     owed: i128,
     /// At k, the ticks that the last k frames made.
@@ -25,9 +26,10 @@ pub(super) struct Hysteresis {
 
 impl Hysteresis {
     /// Typical at the start is one tick a frame, and none in one of twelve.
-    pub(super) fn new(base: TimeBase) -> Self {
+    pub(super) fn new(base: TimeBase, limits: FrameLimits) -> Self {
         let counts = std::array::from_fn(|k| k as i128);
-        Self { tick: base.tick(), owed: 0, made: counts, typical: counts }
+        let max_ticks = limits.max_ticks.unwrap_or(MAX_TICKS);
+        Self { tick: base.tick(), max_ticks, owed: 0, made: counts, typical: counts }
     }
 
     /// The ticks to make for the time owed.
@@ -59,7 +61,7 @@ impl Policy for Hysteresis {
         self.owed += duration;
         let due = self.due();
         self.owed -= due * self.tick;
-        let ticks = due.min(MAX_TICKS);
+        let ticks = due.min(self.max_ticks.into());
         self.remember(ticks);
         Steps { count: ticks as u32, span: ticks * self.tick, dropped: (due - ticks) * self.tick }
     }
@@ -80,7 +82,8 @@ mod tests {
 
     /// The ticks of frames of these hundredths of a tick. Checks that no tick comes too early or late.
     fn ticks(hundredths: impl IntoIterator<Item = i128>) -> Vec<u32> {
-        let mut policy = Hysteresis::new(TimeBase::new(60, RefreshRate::new(60, 1)));
+        let mut policy =
+            Hysteresis::new(TimeBase::new(60, RefreshRate::new(60, 1)), FrameLimits::default());
         let each = |hundredths| {
             let steps = policy.frame(policy.tick * hundredths / 100);
             let owed = 2 * policy.owed;

@@ -1,7 +1,7 @@
 //! Durations near a whole number of refreshes made whole, and averaged.
 
 use super::fixed::Fixed;
-use crate::loops::policy::{Policy, Steps};
+use crate::loops::policy::{FrameLimits, Policy, Steps};
 use crate::loops::time_base::TimeBase;
 
 /// How near a duration has to be to be made whole: more than a timer's noise, and less than the 0.5 ms between refreshes of
@@ -18,6 +18,7 @@ const MAX_TICKS: u32 = 8;
 #[derive(Clone, Copy)]
 pub(super) struct Snapped {
     tick: i128,
+    max_ticks: u32,
     refresh: i128,
     near: i128,
     last: [i128; AVERAGED],
@@ -28,14 +29,16 @@ pub(super) struct Snapped {
 
 impl Snapped {
     /// The mean begins with frames of one refresh.
-    pub(super) fn new(base: TimeBase) -> Self {
+    pub(super) fn new(base: TimeBase, limits: FrameLimits) -> Self {
+        let max_ticks = limits.max_ticks.unwrap_or(MAX_TICKS);
         Self {
             tick: base.tick(),
+            max_ticks,
             refresh: base.refresh(),
             near: base.nanoseconds(NEAR_NS),
             last: [base.refresh(); AVERAGED],
             remainder: 0,
-            fixed: Fixed::with_max_ticks(base, MAX_TICKS),
+            fixed: Fixed::with_max_ticks(base, max_ticks),
         }
     }
 
@@ -57,7 +60,7 @@ impl Snapped {
 
 impl Policy for Snapped {
     fn frame(&mut self, duration: i128) -> Steps {
-        let longest = i128::from(MAX_TICKS) * self.tick;
+        let longest = i128::from(self.max_ticks) * self.tick;
         let counted = if duration > longest { self.tick } else { duration };
         let snapped = self.snapped(counted);
         let mean = self.mean(snapped);
@@ -90,7 +93,9 @@ mod tests {
     #[test]
     fn a_duration_is_made_whole_near_one_to_eight_refreshes() {
         let base = TimeBase::new(60, RefreshRate::new(100, 1));
-        let snapped = |milliseconds| Snapped::new(base).snapped(ms(base, milliseconds));
+        let snapped = |milliseconds| {
+            Snapped::new(base, FrameLimits::default()).snapped(ms(base, milliseconds))
+        };
         for (given, made) in [
             (9.81, 10.0),
             (10.19, 10.0),
@@ -110,7 +115,8 @@ mod tests {
 
     #[test]
     fn the_mean_loses_no_time() {
-        let mut policy = Snapped::new(TimeBase::new(60, RefreshRate::new(60, 1)));
+        let mut policy =
+            Snapped::new(TimeBase::new(60, RefreshRate::new(60, 1)), FrameLimits::default());
         let durations = (0..1000).map(|i| i * i % 777);
         let (mut given, mut meant) = (0, 0);
         for duration in durations.chain([0; AVERAGED - 1]) {
@@ -125,7 +131,7 @@ mod tests {
     #[test]
     fn more_than_eight_ticks_owed_are_dropped_with_all_that_is_owed() {
         let base = TimeBase::new(60, RefreshRate::new(60, 1));
-        let mut policy = Snapped::new(base);
+        let mut policy = Snapped::new(base, FrameLimits::default());
         let mut total = Steps::default();
         let longest = 8 * base.tick();
         policy.frame(base.tick() + base.tick() / 4);

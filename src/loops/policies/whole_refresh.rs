@@ -1,7 +1,7 @@
 //! Every frame counted as a whole number of refreshes of the display.
 
 use super::fixed::Fixed;
-use crate::loops::policy::{Policy, Steps};
+use crate::loops::policy::{FrameLimits, Policy, Steps};
 use crate::loops::time_base::TimeBase;
 
 /// A fixed tick whose time comes in whole refreshes.
@@ -14,8 +14,8 @@ pub(super) struct WholeRefresh {
 }
 
 impl WholeRefresh {
-    pub(super) fn new(base: TimeBase) -> Self {
-        Self { refresh: base.refresh(), debt: 0, fixed: Fixed::new(base) }
+    pub(super) fn new(base: TimeBase, limits: FrameLimits) -> Self {
+        Self { refresh: base.refresh(), debt: 0, fixed: Fixed::new(base, limits) }
     }
 
     /// The refreshes to count for a frame after `time` not counted yet.
@@ -51,7 +51,8 @@ mod tests {
 
     /// The refreshes counted for frames of these hundredths of a refresh.
     fn counted(hundredths: impl IntoIterator<Item = i128>) -> Vec<i128> {
-        let mut policy = WholeRefresh::new(TimeBase::new(60, RefreshRate::new(60, 1)));
+        let mut policy =
+            WholeRefresh::new(TimeBase::new(60, RefreshRate::new(60, 1)), FrameLimits::default());
         let each = |hundredths| {
             let time = policy.debt + policy.refresh * hundredths / 100;
             policy.frame(policy.refresh * hundredths / 100);

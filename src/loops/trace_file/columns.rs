@@ -16,10 +16,12 @@ pub(super) enum Span {
 }
 
 /// What tool writes a log, what its rows say, the column of frames and one beside it; each also without its `Ms`.
-const FORMATS: [(&str, Span, &str, Beside); 5] = [
+const FORMATS: [(&str, Span, &str, Beside); 7] = [
     ("PresentMon", Span::Before, "MsBetweenPresents", Beside::Until("MsUntilDisplayed")),
     ("PresentMon", Span::Before, "MsBetweenPresents", Beside::Display("MsBetweenDisplayChange")),
     ("PresentMon", Span::After, "MsFrameTime", Beside::Display("MsDisplayedTime")),
+    ("Unreal", Span::Before, "FrameTime", Beside::Other("GameThreadTime")),
+    (FRAPS, Span::Before, "Time (ms)", Beside::Other("Frame")),
     ("MangoHud", Span::Before, "frametime", Beside::Other("fps")),
     ("PresentMon", Span::Before, "MsBetweenPresents", Beside::Nothing),
 ];
@@ -74,6 +76,8 @@ pub(super) struct Columns {
 /// The tool whose times are in a unit that depends on its version, and a list that no tool wrote.
 pub(super) const MANGOHUD: &str = "MangoHud";
 const LIST: &str = "a list";
+/// The tool whose rows say when a frame began, and not how long after the one before.
+const FRAPS: &str = "FRAPS";
 
 /// The column of a list of frame times under a heading, and its unit where that says so.
 fn of_list(header: &StringRecord) -> Option<(Column, Option<Unit>)> {
@@ -180,6 +184,17 @@ impl Columns {
     /// Whether frames begin and are displayed by one clock.
     pub(super) fn has_one_clock(&self) -> bool {
         self.is_until
+    }
+
+    /// Whether a row says when its frame began, and not how long after the one before.
+    pub(super) fn is_since_start(&self) -> bool {
+        self.format == FRAPS
+    }
+
+    /// Whether the frames end before this row: Unreal writes the header again, and what it knows of the build.
+    pub(super) fn end_before(&self, row: &StringRecord) -> bool {
+        let is_of_build = row.get(0).is_some_and(|cell| cell.trim_start().starts_with('['));
+        is_of_build || row.get(self.began.index).is_some_and(|cell| cell.trim() == self.began.name)
     }
 
     /// Whether the log says when frames are displayed.

@@ -137,10 +137,32 @@ impl Stream {
         Ok(Frame { began_ns, displayed_ns })
     }
 
-    /// The trace of all its frames.
-    pub(super) fn into_trace(self, name: String) -> FrameTrace {
-        FrameTrace::recorded(name, nominal_refresh(&self.frames), self.frames)
+    /// The trace of all its frames, which are counted as shown when they begin where the times of display go otherwise.
+    pub(super) fn into_trace(mut self, name: String) -> FrameTrace {
+        let are_parted = are_parted(&self.frames);
+        if are_parted {
+            for frame in &mut self.frames {
+                frame.displayed_ns = frame.displayed_ns.map(|_| frame.began_ns);
+            }
+        }
+        let trace = FrameTrace::recorded(name, nominal_refresh(&self.frames), self.frames);
+        if are_parted { trace.with_parted_clocks() } else { trace }
     }
+}
+
+/// The part of its length by which a log's two clocks may differ, and the refreshes that a queue before the display may hold.
+const PARTED: f64 = 0.01;
+const MAX_QUEUE: f64 = 4.0;
+
+/// Whether the times between the displays of frames add up to another length than those between their beginnings.
+fn are_parted(frames: &[Frame]) -> bool {
+    let mut shown = frames.iter().filter(|frame| frame.displayed_ns.is_some());
+    let (Some(first), Some(last)) = (shown.next(), shown.next_back()) else { return false };
+    let span = |of: fn(&Frame) -> i64| (of(last) - of(first)) as f64;
+    let began_ns = span(|frame| frame.began_ns);
+    let apart_ns = (span(|frame| frame.displayed_ns.unwrap_or_default()) - began_ns).abs();
+    let queue_ns = MAX_QUEUE * 1e9 / nominal_refresh(frames).hz();
+    apart_ns > PARTED * began_ns && apart_ns > queue_ns
 }
 
 /// The rate whose refresh is the median time between two displayed frames: most span one refresh. 60 Hz where there are

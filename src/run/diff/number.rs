@@ -5,6 +5,24 @@ pub(super) fn parsed(cell: &[u8]) -> Option<f64> {
     std::str::from_utf8(cell).ok()?.trim().parse().ok()
 }
 
+/// What loggers write where they have no number, in whatever case.
+const NO_NUMBER: [&str; 8] = ["", "-", "na", "n/a", "null", "none", "nil", "--"];
+
+/// Whether this cell makes a text of its column: it is no number and does not stand for a missing one. A hash may look like a
+/// number with an exponent, but nobody writes zeros before a mantissa.
+pub(super) fn is_text(cell: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(cell) else { return true };
+    let text = text.trim();
+    if parsed(cell).is_some() {
+        let has_zeros =
+            text.starts_with('0') && text[1..].starts_with(|c: char| c.is_ascii_digit());
+        return has_zeros && text.contains(['e', 'E']);
+    }
+    // Older C libraries write -nan(ind) and 1.#QNAN.
+    let is_nan = text.contains('#') || text.contains("nan(");
+    !is_nan && !NO_NUMBER.iter().any(|known| text.eq_ignore_ascii_case(known))
+}
+
 /// Whether cells that are read as the same number may be written of two: whole numbers of more digits than a double has, and
 /// finite ones beyond it.
 pub(super) fn hide_a_difference(cells: [&[u8]; 2], number: f64) -> bool {
@@ -55,6 +73,18 @@ mod tests {
         ] {
             assert_eq!(distance_ulps(a, b), ulps, "{a} {b}");
             assert_eq!(distance_ulps(b, a), ulps, "{b} {a}");
+        }
+    }
+
+    #[test]
+    fn a_hash_that_looks_like_a_number_with_an_exponent_is_text() {
+        for text in ["0000E012", "A1B2", "00e1", "left", "12:30", "2026-11-26"] {
+            assert!(is_text(text.as_bytes()), "{text}");
+        }
+        for number in
+            ["0", "007", "0e5", "1E+12", "-0.5", "nan", "inf", "", "NA", "-1.#IND", "-nan(ind)"]
+        {
+            assert!(!is_text(number.as_bytes()), "{number}");
         }
     }
 

@@ -242,13 +242,16 @@ fn a_comparison_that_ends_in_the_loop_lab_marks_the_run_and_leaves_it_where_it_i
     studio.apply(LoopCommand::ToggleLab);
     let first = Some(Difference {
         tick: 50,
-        row: [Some("1".into()), Some("spring".into()), Some("x".into())],
+        tick_name: Some("tick".into()),
+        key: [("lane", "1"), ("body", "spring"), ("coordinate", "x")]
+            .map(|(name, cell)| (name.into(), cell.into()))
+            .into(),
         column: "q".into(),
         values: [Some("1.5".into()), Some("1.25".into())],
         ulps: None,
         relative: Some(0.2),
     });
-    let found = Comparison { rows: 900, moved: 2.0, first, ..Comparison::default() };
+    let found = Comparison { rows: 900, changes: true, first, ..Comparison::default() };
     show_comparison(&mut studio, "clip.toml", &found, Scene::built_in("spring").unwrap());
     assert!(studio.loop_lab().is_some() && studio.running());
     assert_eq!(studio.deck.compared().map(Compared::tick), Some(50));
@@ -267,7 +270,12 @@ fn a_recording_that_differs_runs_beside_the_run_as_a_ghost_at_every_tick() {
     let recording = Scene::parse("clip.toml", &text).unwrap();
     let run = studio.run().recording();
     let [mut a, mut b] = [recording.clone(), run].map(|scene| Made::of_scene(scene, 90));
-    let found = diff::<_, _, crate::run::diff::NotComparable>(&mut a, &mut b, Tolerance::default());
+    let found = diff::<_, _, crate::run::diff::NotComparable>(
+        &mut a,
+        &mut b,
+        Tolerance::default(),
+        &crate::run::diff::Chosen::default(),
+    );
     show_comparison(&mut studio, "clip.toml", &found.unwrap(), recording.clone());
     assert_eq!((studio.race().tick(), studio.running()), (61, false));
     let lines = studio.deck.compared().unwrap().lines();

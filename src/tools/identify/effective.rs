@@ -92,7 +92,7 @@ impl Effective {
 
     /// What is seen of a body under a candidate, where it is slow enough for all engines.
     pub(super) fn of(candidate: Candidate, body: &LoggedBody, tick_s: f64) -> Option<Self> {
-        let body = LoggedBody { push: 0.0, ..body.clone() };
+        let body = LoggedBody { push: 0.0, rest: None, ..body.clone() };
         let states = run(candidate, &body, [SLOW; 2], tick_s, 0..TICKS)?;
         let is_slow = |state: &[f64; 2]| state.iter().all(|x| x.abs() < FAST);
         let slow = states.iter().take_while(|state| is_slow(state)).count();

@@ -40,6 +40,8 @@ const LAGS: usize = 3;
 pub(super) struct Fit {
     /// The body with what was fitted.
     pub(super) body: LoggedBody,
+    /// The coordinate and the velocity of the first row, as fitted.
+    pub(super) start: [f64; 2],
     /// The run at the rows of the log, in units of the scale.
     run: Vec<[f64; 2]>,
     /// A residual up to this may be rounding alone.
@@ -55,28 +57,37 @@ fn first_velocity(log: &Log, tick_s: f64) -> f64 {
     first.v.unwrap_or(slope)
 }
 
-/// Fits `candidate`; `None` if it cannot be run on the body or its run leaves all scales.
-pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f64) -> Option<Fit> {
+/// Fits `candidate` to a log at this tick rate, from a rest that may be guessed where it is to be fitted; `None` if it cannot be run on the body or its run leaves all scales.
+pub(super) fn fit(
+    log: &Log,
+    body: &LoggedBody,
+    candidate: Candidate,
+    (tick_hz, first_rest): (f64, Option<f64>),
+) -> Option<Fit> {
     let tick_s = 1.0 / tick_hz;
     let scale = log.scale();
     let mut body = body.clone();
     let is_spring_known = body.spring.is_some();
+    let is_rest_known = body.rest.is_some();
+    let rest = *body.rest.get_or_insert_with(|| first_rest.unwrap_or(0.0));
     if !is_spring_known {
-        body.spring = Some(Effective::of_log(log, &body, tick_s)?.spring()?);
+        let there = log.resting_at_zero(rest);
+        body.spring = Some(Effective::of_log(&there, &body, tick_s)?.spring()?);
     }
-    let mut start = [log.rows()[0].x, first_velocity(log, tick_s)];
+    let mut start = [log.rows()[0].x, body.v0.unwrap_or(first_velocity(log, tick_s))];
     let is_runaway = log.has_velocities()
         && start.iter().zip(scale).all(|(start, scale)| start.abs() < NOTHING * scale);
     let displacement = if is_runaway { DISPLACEMENT_FROM_NOTHING } else { DISPLACEMENT };
     if is_runaway {
         start = [0.0; 2];
     }
-    // Coordinate and velocity at the start; then stiffness and damping.
-    let (fitted, iterations) = match (is_spring_known, log.has_velocities()) {
-        (true, true) => (2, ITERATIONS),
-        (true, false) => (2, ITERATIONS_WITHOUT_VELOCITY),
-        (false, _) => (4, ITERATIONS_WITH_SPRING),
+    let iterations = match (is_spring_known, log.has_velocities()) {
+        (true, true) => ITERATIONS,
+        (true, false) => ITERATIONS_WITHOUT_VELOCITY,
+        (false, _) => ITERATIONS_WITH_SPRING,
     };
+    let is_fitted = [true, body.v0.is_none(), !is_spring_known, !is_spring_known, !is_rest_known];
+    let fitted: Vec<usize> = (0..PARAMETERS).filter(|index| is_fitted[*index]).collect();
     let go = |body: &LoggedBody, start: [f64; 2]| {
         let ticks = log.rows().iter().map(|row| row.tick);
         run(candidate, body, start, tick_s, ticks).map(|states| in_units(&states, scale))
@@ -85,9 +96,9 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
     for _ in 0..iterations {
         let unit = start_unit(scale, &body, tick_s);
         let mut columns = Vec::new();
-        for (index, unit) in unit.iter().enumerate().take(fitted) {
+        for index in &fitted {
             let (mut there, mut other) = (start, body.clone());
-            displace(index, displacement * unit, &mut there, &mut other);
+            displace(*index, displacement * unit[*index], &mut there, &mut other);
             columns.push(go(&other, there)?);
         }
         let residual = residuals(log, &now, scale).concat();
@@ -104,8 +115,8 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         let nearer = (0..=halvings).find_map(|halving| {
             let part = libm::scalbn(1.0, -(halving as i32));
             let (mut there, mut other) = (start, body.clone());
-            for (index, change) in change.iter().enumerate() {
-                displace(index, part * change * unit[index], &mut there, &mut other);
+            for (index, change) in fitted.iter().zip(&change) {
+                displace(*index, part * change * unit[*index], &mut there, &mut other);
             }
             let reached = go(&other, there)?;
             (worth(&reached) < before).then_some((there, other, reached))
@@ -120,24 +131,28 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         (true, true) => PRECISE_OF_ENGINE,
         (true, false) => PRECISE_IN_DOUBLE,
     };
-    is_finite.then_some(Fit { body, run: now, precise, residuals })
+    is_finite.then_some(Fit { body, start, run: now, precise, residuals })
 }
 
-/// Adds `by` to the fitted number with this index: coordinate, velocity, stiffness and damping.
+/// How many numbers can be fitted: coordinate and velocity at the start, stiffness, damping and the rest.
+const PARAMETERS: usize = 5;
+
+/// Adds `by` to the number with this index.
 fn displace(index: usize, by: f64, start: &mut [f64; 2], body: &mut LoggedBody) {
     match (index, &mut body.spring) {
         (0 | 1, _) => start[index] += by,
+        (4, _) => body.rest = body.rest.map(|rest| rest + by),
         (_, Some(spring)) => spring[index - 2] += by,
         (_, None) => {}
     }
 }
 
-/// The units of what is fitted: coordinate, velocity, stiffness and damping.
-fn start_unit(scale: [f64; 2], body: &LoggedBody, tick_s: f64) -> [f64; 4] {
+/// The units of what is fitted.
+fn start_unit(scale: [f64; 2], body: &LoggedBody, tick_s: f64) -> [f64; PARAMETERS] {
     let [stiffness, _] = body.spring.unwrap_or_default();
     let stiffness = stiffness.abs().max(1e-6);
     let v = if scale[1] == 1.0 { scale[0] / tick_s } else { scale[1] };
-    [scale[0], v, stiffness, stiffness.sqrt()]
+    [scale[0], v, stiffness, stiffness.sqrt(), scale[0]]
 }
 
 fn in_units(states: &[[f64; 2]], scale: [f64; 2]) -> Vec<[f64; 2]> {

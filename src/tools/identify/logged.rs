@@ -3,13 +3,16 @@
 use csv::ByteRecord;
 
 use crate::scene::{clip, clip_list};
+use crate::sim::number::{counted, significant};
 use crate::table::{Decimal, Reading, TableError, TableReader, Utf8, number};
 
 /// A row of a log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogRow {
-    /// The number of its tick.
+    /// The number of its tick; in an uneven log that of its row.
     pub tick: u64,
+    /// The time after the first row, in seconds.
+    pub t_s: f64,
     /// The coordinate, in metres.
     pub x: f64,
     /// The velocity in metres per second, if it was logged.
@@ -20,8 +23,11 @@ pub struct LogRow {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Log {
     rows: Vec<LogRow>,
+    /// The columns that were read, with what was found out about the time.
+    columns: String,
     /// The largest coordinate and velocity; a velocity that was not logged has the scale 1.
     scale: [f64; 2],
+    is_uneven: bool,
 }
 
 /// The names of a log's columns.
@@ -161,6 +167,18 @@ impl Columns {
         Ok(Self { names: header, time, x, v, decimal })
     }
 
+    /// The columns that are read, for people.
+    fn read_names(&self) -> String {
+        let (time, unit) = match self.time {
+            TimeColumn::Ticks(at) => (at, ""),
+            TimeColumn::Time(at, MS) => (at, " (in ms)"),
+            TimeColumn::Time(at, _) => (at, ""),
+        };
+        let named = |at: usize| clip(&self.names[at]);
+        let x = [Some(self.x), self.v].into_iter().flatten().map(named);
+        [format!("{}{unit}", named(time))].into_iter().chain(x).collect::<Vec<_>>().join(", ")
+    }
+
     /// Whether its times count as seconds.
     fn is_in_seconds(&self) -> bool {
         matches!(self.time, TimeColumn::Time(_, 1.0))
@@ -194,16 +212,26 @@ impl Columns {
     }
 }
 
-/// The tick of a row that lies this far after the first, in ticks.
-fn whole_tick(since: f64, tick_hz: f64) -> Result<u64, Fault> {
-    let tick = since.round();
-    if tick < 0.0 || (since - tick).abs() > OFF_TICK {
-        let what = format!(
-            "the row is {since:.3} ticks of {tick_hz} Hz after the first; rows are at whole ticks"
-        );
-        return Err(Fault { mistaken: Some(LogSetting::TickRate), what });
-    }
-    Ok(tick as u64)
+/// Whether a row that lies this far after the first, in ticks, is at a whole tick.
+fn is_at_a_tick(since: f64) -> bool {
+    (since - since.round()).abs() <= OFF_TICK
+}
+
+/// What is wrong with rows that lie this far after the first, in ticks, where the first of them that is off its tick does: the
+/// rate, if they are even by another. `None` if they are uneven.
+fn off_ticks(since: &[f64], tick_hz: f64) -> Option<Fault> {
+    let off = since.iter().find(|since| !is_at_a_tick(**since))?;
+    let steps = since.len() as f64 - 1.0;
+    let step = since[since.len() - 1] / steps;
+    let is_even =
+        since.iter().zip(0..).all(|(since, row)| (since / step - f64::from(row)).abs() <= OFF_TICK);
+    let rate = significant(tick_hz / step, 4);
+    is_even.then(|| Fault {
+        mistaken: Some(LogSetting::TickRate),
+        what: format!(
+            "the row is {off:.3} ticks of {tick_hz} Hz after the first; there are {rate} rows a second"
+        ),
+    })
 }
 
 /// The columns that there are, for a message.
@@ -269,22 +297,47 @@ impl Log {
         let found = Columns::find(header, table.decimal(), names, per_second);
         let columns = found.map_err(at(table.header_line()))?;
         let (mut rows, mut first): (Vec<LogRow>, Option<f64>) = (Vec::new(), None);
+        let (mut ticks, mut off) = (Vec::<f64>::new(), None);
         let mut record = ByteRecord::new();
         while let Some(line) = table.next(&mut record).map_err(broken)? {
             let since = columns.ticks_since(&record, tick_hz, &mut first).map_err(at(line))?;
             if rows.len() == 1 && since >= TOO_FAR && columns.is_in_seconds() {
                 return Self::read(name, bytes, names, (tick_hz, MS));
             }
-            let tick = whole_tick(since, tick_hz).map_err(at(line))?;
-            if rows.last().is_some_and(|before| before.tick >= tick) {
-                let what = format!("tick {tick} does not follow the row before; put rows in order");
+            if !is_at_a_tick(since) {
+                if matches!(columns.time, TimeColumn::Ticks(_)) {
+                    let what =
+                        format!("tick {since} after the first is no whole number; write one");
+                    return Err(at(line)(what.into()));
+                }
+                off = off.or(Some(line));
+            }
+            // Rows at the same tick may be at two uneven times.
+            let follows = ticks.last().is_none_or(|before| match off {
+                Some(_) => since > *before,
+                None => since.round() > before.round(),
+            });
+            if !follows || since < 0.0 {
+                let place = match off {
+                    Some(_) => "the time".to_owned(),
+                    None => format!("tick {}", since.round()),
+                };
+                let what = format!("{place} does not follow the row before; put rows in order");
                 return Err(at(line)(what.into()));
             }
-            if tick > Self::MAX_TICKS {
+            let is_over = if off.is_some() { rows.len() as f64 } else { since.round() };
+            if is_over > Self::MAX_TICKS as f64 {
                 break;
             }
             let value = |column| columns.number(&record, column).map_err(at(line));
-            rows.push(LogRow { tick, x: value(columns.x)?, v: columns.v.map(value).transpose()? });
+            let (x, v) = (value(columns.x)?, columns.v.map(value).transpose()?);
+            rows.push(LogRow { tick: since.round() as u64, t_s: since / tick_hz, x, v });
+            ticks.push(since);
+        }
+        let is_uneven = off.is_some();
+        if let Some(line) = off {
+            off_ticks(&ticks, tick_hz).map_or(Ok(()), |fault| Err(at(line)(fault)))?;
+            (0..).zip(&mut rows).for_each(|(number, row)| row.tick = number);
         }
         let has_velocities = columns.v.is_some();
         let least = if has_velocities { Self::MIN_ROWS } else { Self::MIN_ROWS_WITHOUT_VELOCITY };
@@ -302,14 +355,35 @@ impl Log {
         };
         let x = largest(&mut rows.iter().map(|row| row.x));
         let v = largest(&mut rows.iter().filter_map(|row| row.v));
-        Ok(Log { rows, scale: [x, v] })
+        Ok(Log { rows, columns: columns.read_names(), scale: [x, v], is_uneven })
+    }
+
+    /// The same log with its rest at 0.
+    pub(super) fn resting_at_zero(&self, rest: f64) -> Log {
+        let rows = self.rows.iter().map(|row| LogRow { x: row.x - rest, ..*row });
+        Log { rows: rows.collect(), ..self.clone() }
+    }
+
+    /// What was read, for people: its rows, their rate and its columns.
+    pub fn summary(&self) -> String {
+        let last = self.rows[self.rows.len() - 1];
+        let rate = significant((self.rows.len() - 1) as f64 / last.t_s, 4);
+        let rows = counted(self.rows.len(), "row");
+        let even = if self.is_uneven { "uneven, about " } else { "" };
+        let seconds = significant(last.t_s, 3);
+        format!("read {rows} in {seconds} s: {even}{rate} a second, columns {}", self.columns)
+    }
+
+    /// Whether its rows are at uneven times, at which no method makes ticks.
+    pub fn is_uneven(&self) -> bool {
+        self.is_uneven
     }
 
     /// The part up to this tick, and as many rows as a log has at least. Its scale is that of the whole.
     pub(super) fn head(&self, last_tick: u64) -> Log {
         let least = Self::MIN_ROWS_WITHOUT_VELOCITY.min(self.rows.len());
         let count = self.rows.partition_point(|row| row.tick <= last_tick).max(least);
-        Log { rows: self.rows[..count].to_vec(), scale: self.scale }
+        Log { rows: self.rows[..count].to_vec(), ..self.clone() }
     }
 
     /// The largest coordinate and velocity; a velocity that was not logged has the scale 1.
@@ -340,8 +414,9 @@ impl Log {
     }
 }
 
-/// A body on a line: a spring, drag and a constant push, any of which may be 0.
-#[derive(Clone, Debug, PartialEq)]
+/// A body on a line: a spring, drag and a constant push, any of which may be 0. By default it is a spring of which nothing is
+/// known.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoggedBody {
     /// k/m in 1/s² and c/m in 1/s of the spring; `None` if they are to be fitted.
     pub spring: Option<[f64; 2]>,
@@ -349,6 +424,10 @@ pub struct LoggedBody {
     pub drag: f64,
     /// The constant force for each kilogram, in m/s².
     pub push: f64,
+    /// Where the spring rests, in metres; `None` if it is 0, or to be fitted where nothing fits so.
+    pub rest: Option<f64>,
+    /// The velocity of the first row in m/s, where it was not logged; `None` if it is to be fitted.
+    pub v0: Option<f64>,
 }
 
 impl LoggedBody {

@@ -56,7 +56,8 @@ pub(crate) fn run(
     };
     let (step_s, substeps) = (tick_s / f64::from(parts), candidate.substeps / parts);
     let known = problem(Known { spring: body.spring?, drag: body.drag, push: body.push, is_held });
-    let mut state = State { q: start[0], v: start[1] };
+    let rest = body.rest.unwrap_or(0.0);
+    let mut state = State { q: start[0] - rest, v: start[1] };
     let mut stepper = fresh(candidate.method);
     let (mut now, mut states, mut first) = (0, Vec::new(), None);
     for tick in ticks {
@@ -68,7 +69,7 @@ pub(crate) fn run(
             let is_there = state.q.abs() < LOST && state.v.abs() < LOST;
             is_there.then_some(())?;
         }
-        states.push([state.q, state.v]);
+        states.push([state.q + rest, state.v]);
     }
     Some(states)
 }

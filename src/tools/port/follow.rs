@@ -34,7 +34,7 @@ pub struct FollowerPort {
 /// ω times the time in which a critically damped spring gets half the way from rest: (1 + z) exp(-z) is a half.
 const CRITICAL_HALF: f64 = 1.678_346_990_016_660_8;
 /// The rates of frames.
-const FRAME_RATES: [f64; 5] = [30.0, 60.0, 120.0, 144.0, 240.0];
+pub(super) const FRAME_RATES: [f64; 5] = [30.0, 60.0, 120.0, 144.0, 240.0];
 /// The rates per second between which a follower's is sought, and how often the interval of their logarithms is halved.
 const RATES: [f64; 2] = [1e-6, 1e9];
 const HALVINGS: u32 = 60;

@@ -63,7 +63,7 @@ impl Setup {
     /// The maps of 1 to `ticks` ticks, from a start without memory.
     fn maps(&self, spring: [f64; 2], ticks: u64) -> Option<Vec<Map>> {
         let &Self { method, mode, tick_hz, substeps } = self;
-        let body = LoggedBody { spring: Some(spring), drag: 0.0, push: 0.0 };
+        let body = LoggedBody { spring: Some(spring), ..LoggedBody::default() };
         let candidate = Candidate { method, substeps, spring: SpringAs::Joint(mode) };
         let from = |start| run(candidate, &body, start, 1.0 / tick_hz, 0..=ticks);
         columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)
@@ -74,7 +74,7 @@ impl Setup {
         let &Self { method, tick_hz, substeps, .. } = self;
         let candidate = Candidate { method, substeps, spring: SpringAs::Acceleration };
         let after = |start, push| {
-            let body = LoggedBody { spring: Some([0.0; 2]), drag: 0.0, push };
+            let body = LoggedBody { spring: Some([0.0; 2]), push, ..LoggedBody::default() };
             run(candidate, &body, start, 1.0 / tick_hz, [0, u64::from(ticks)].into_iter())
         };
         let free = columns(&after([SLOW, 0.0], 0.0)?, &after([0.0, SLOW], 0.0)?)?;
@@ -99,7 +99,7 @@ impl Setup {
 /// The map of a step in seconds of a method that is told a spring, per unit of mass, as a part of the acceleration.
 pub(super) fn map_of_step(method: &'static Method, joint: [f64; 2], step_s: f64) -> Option<Map> {
     let candidate = Candidate { method, substeps: 1, spring: SpringAs::Acceleration };
-    let body = LoggedBody { spring: Some(joint), drag: 0.0, push: 0.0 };
+    let body = LoggedBody { spring: Some(joint), ..LoggedBody::default() };
     let from = |start| run(candidate, &body, start, step_s, 0..=1);
     columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)?.pop()
 }

@@ -20,14 +20,18 @@ fn identified(log: &Log, rows: &[Row], has_velocity: bool) -> Identification {
     }
     let tick_hz = (1.0 / log.tick_s).round();
     let text = Text::parse(&log.file, &text, &ColumnNames::default(), tick_hz).unwrap();
-    let body =
-        LoggedBody { spring: Some(log.body.spring), drag: log.body.drag, push: log.body.push };
+    let body = LoggedBody {
+        spring: Some(log.body.spring),
+        drag: log.body.drag,
+        push: log.body.push,
+        ..LoggedBody::default()
+    };
     identify(&text, &body, tick_hz).unwrap_or_else(|| panic!("{}: nothing runs", log.file))
 }
 
 /// Whether the log's engine with its substeps is named, or is among those that do the same.
 fn names(found: &Identification, log: &Log) -> bool {
-    let all = [found.best.candidate].into_iter().chain(found.also.iter().copied());
+    let all = [found.best.unwrap().candidate].into_iter().chain(found.also.iter().copied());
     let mut all = all.filter(|candidate| candidate.substeps == log.substeps);
     match &*log.engine {
         "mujoco-Euler-actuator" => all.any(|candidate| candidate.told() == Some("actuator-euler")),
@@ -55,7 +59,7 @@ fn a_log_of_every_mode_of_every_engine_is_identified_at_three_settings() {
             let rows: String = rows.map(|(tick, [x, v])| format!("{tick},{x:e},{v:e}\n")).collect();
             let columns = ColumnNames::default();
             let text = Text::parse("log", &format!("tick,x,v\n{rows}"), &columns, tick_hz);
-            let body = LoggedBody { spring: Some(spring), drag: 0.0, push: 0.0 };
+            let body = LoggedBody { spring: Some(spring), ..LoggedBody::default() };
             let found = identify(&text.unwrap(), &body, tick_hz).unwrap();
             let Setup { method, mode, substeps, .. } = setup;
             let is_it = |candidate: &Candidate| {
@@ -66,14 +70,15 @@ fn a_log_of_every_mode_of_every_engine_is_identified_at_three_settings() {
                 };
                 is_told && candidate.method == method && candidate.substeps == substeps
             };
-            let is_named = [&found.best.candidate].into_iter().chain(&found.also).any(is_it);
+            let is_named =
+                [&found.best.unwrap().candidate].into_iter().chain(&found.also).any(is_it);
             assert!(
                 is_named && found.conclusion == Conclusion::Identified,
                 "{} ×{substeps}, {} at {tick_hz} Hz: {} {}",
                 method.id,
                 mode.id,
                 found.conclusion.id(),
-                found.best.candidate,
+                found.best.unwrap().candidate,
             );
         }
     }
@@ -97,8 +102,8 @@ fn every_log_of_a_spring_and_of_a_coasting_body_is_identified() {
                 "{}: {}: {} {:.1e}, {rival:?}",
                 log.file,
                 found.conclusion.id(),
-                found.best.candidate,
-                found.best.residual,
+                found.best.unwrap().candidate,
+                found.best.unwrap().residual,
             ));
         }
     }
@@ -131,11 +136,16 @@ fn noise_of_a_ten_thousandth_leaves_nearly_all_logs_identified_and_none_wrong() 
             match (found.conclusion, names(&found, &log)) {
                 (Conclusion::Identified, true) => right += 1,
                 (Conclusion::Identified, false) => {
-                    wrong.push(format!("{}, run {again}: {}", log.file, found.best.candidate));
+                    wrong.push(format!(
+                        "{}, run {again}: {}",
+                        log.file,
+                        found.best.unwrap().candidate
+                    ));
                 }
                 (word, _) => {
                     let rival = found.runner_up.map(|other| other.candidate.to_string());
-                    let [word, best] = [word.id().to_owned(), found.best.candidate.to_string()];
+                    let [word, best] =
+                        [word.id().to_owned(), found.best.unwrap().candidate.to_string()];
                     missed.push(format!("{word}: {best}, {}", rival.unwrap_or_default()));
                 }
             }
@@ -159,9 +169,9 @@ fn a_spring_that_is_not_known_is_fitted_and_the_engine_cannot_be_told() {
         text += &format!("{tick},{x:e},{v:e}\n");
     }
     let text = Text::parse("log", &text, &ColumnNames::default(), 60.0).unwrap();
-    let body = LoggedBody { spring: None, drag: 0.0, push: 0.0 };
+    let body = LoggedBody::default();
     let found = identify(&text, &body, 60.0).unwrap();
-    assert_eq!(found.conclusion, Conclusion::CannotTell, "{}", found.best.candidate);
+    assert_eq!(found.conclusion, Conclusion::CannotTell, "{}", found.best.unwrap().candidate);
     let seen = found.effective.unwrap();
     assert!((seen.frequency_hz().unwrap() - 0.9565).abs() < 1e-3, "{seen:?}");
     assert!((seen.damping_ratio().unwrap() - 0.249).abs() < 1e-3, "{seen:?}");
@@ -196,16 +206,26 @@ fn a_log_in_double_precision_is_not_explained_by_a_method_that_is_off_by_more_th
             text += &format!("{tick},{x:e},{v:e}\n");
         }
         let text = Text::parse("log", &text, &ColumnNames::default(), 60.0).unwrap();
-        let body = LoggedBody { spring: Some([40.0, c]), drag: 0.0, push: 0.0 };
+        let body = LoggedBody { spring: Some([40.0, c]), ..LoggedBody::default() };
         identify(&text, &body, 60.0).unwrap()
     };
     for c in [0.5, 1.0, 2.0] {
         let quarter = c / 60.0 / 4.0;
         let implicit = motion(c, (1.0 - quarter) / (1.0 + quarter));
-        assert_eq!(implicit.conclusion, Conclusion::Unknown, "{c}: {}", implicit.best.candidate);
+        assert_eq!(
+            implicit.conclusion,
+            Conclusion::Unknown,
+            "{c}: {}",
+            implicit.best.unwrap().candidate
+        );
         let exact = motion(c, libm::exp(-2.0 * quarter));
-        assert_eq!(exact.conclusion, Conclusion::Identified, "{c}: {}", exact.best.candidate);
-        assert_eq!(exact.best.candidate.method.id, "verlet-exact-drag", "{c}");
+        assert_eq!(
+            exact.conclusion,
+            Conclusion::Identified,
+            "{c}: {}",
+            exact.best.unwrap().candidate
+        );
+        assert_eq!(exact.best.unwrap().candidate.method.id, "verlet-exact-drag", "{c}");
     }
 }
 
@@ -215,9 +235,9 @@ fn positions_alone_do_not_tell_a_kick_before_the_drift_from_one_after_it() {
     let log = logs.iter().find(|log| log.file == "chipmunk__spring_1hz_z0_60hz.csv").unwrap();
     let with_velocities = identified(log, &log.rows, true);
     assert_eq!(with_velocities.conclusion, Conclusion::Identified);
-    assert_eq!(with_velocities.best.candidate.method.id, "engine-chipmunk");
+    assert_eq!(with_velocities.best.unwrap().candidate.method.id, "engine-chipmunk");
     let found = identified(log, &log.rows, false);
-    let ids: Vec<&str> = [found.best.candidate]
+    let ids: Vec<&str> = [found.best.unwrap().candidate]
         .into_iter()
         .chain(found.also)
         .map(|candidate| candidate.method.id)
@@ -237,8 +257,13 @@ fn an_unusual_count_of_substeps_is_found_in_a_log_without_noise() {
         (log.substeps, log.tick_s) = (substeps, 1.0 / 60.0);
         log.rows = log.run().unwrap();
         let found = identified(&log, &log.rows, true);
-        assert_eq!(found.conclusion, Conclusion::Identified, "{file}: {}", found.best.candidate);
-        assert!(names(&found, &log), "{file}: {}", found.best.candidate);
+        assert_eq!(
+            found.conclusion,
+            Conclusion::Identified,
+            "{file}: {}",
+            found.best.unwrap().candidate
+        );
+        assert!(names(&found, &log), "{file}: {}", found.best.unwrap().candidate);
     }
 }
 
@@ -264,7 +289,7 @@ fn noise_above_the_start_of_a_runaway_does_not_name_another_engine() {
     for _ in 0..30 {
         let found = identified(&log, &with_noise(&log, 1e-4, &mut dice), true);
         let is_right = found.conclusion != Conclusion::Identified || names(&found, &log);
-        assert!(is_right, "{}", found.best.candidate);
+        assert!(is_right, "{}", found.best.unwrap().candidate);
     }
 }
 
@@ -278,7 +303,7 @@ fn a_leftover_that_follows_from_row_to_row_is_no_fit_however_small() {
     }
     log.rows = log.run().unwrap();
     let found = identified(&log, &log.rows, true);
-    assert_ne!(found.conclusion, Conclusion::Identified, "{}", found.best.candidate);
+    assert_ne!(found.conclusion, Conclusion::Identified, "{}", found.best.unwrap().candidate);
 }
 
 #[test]
@@ -290,7 +315,11 @@ fn what_a_player_sees_is_read_where_no_limit_of_speed_is_reached() {
     log.rows = log.run().unwrap();
     let found = identified(&log, &log.rows, true);
     assert_eq!(found.conclusion, Conclusion::Identified);
-    assert!(names(&found, &log) && found.best.candidate.is_held(), "{}", found.best.candidate);
+    assert!(
+        names(&found, &log) && found.best.unwrap().candidate.is_held(),
+        "{}",
+        found.best.unwrap().candidate
+    );
     let doubles = -found.effective.unwrap().energy_halves_s().unwrap();
     assert!((doubles - 0.118).abs() < 1e-3, "{doubles}");
 }
@@ -301,5 +330,5 @@ fn a_coasting_too_short_to_tell_methods_apart_says_nothing() {
     log.rows.truncate(8);
     let rows = with_noise(&log, 1e-4, &mut Dice::new(2));
     let found = identified(&log, &rows, true);
-    assert_ne!(found.conclusion, Conclusion::Identified, "{}", found.best.candidate);
+    assert_ne!(found.conclusion, Conclusion::Identified, "{}", found.best.unwrap().candidate);
 }

@@ -252,3 +252,39 @@ fn control_characters_of_a_table_are_signs_in_text_and_escapes_in_json() {
     let json: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(json["first"]["body"], body);
 }
+
+#[test]
+fn columns_can_be_chosen_and_each_says_from_where_on_it_differs() {
+    let folder = tempfile::tempdir().unwrap();
+    let a = "frame,object,x,wall_ms\n1,10,0.5,2362\n1,11,2,2363\n2,11,3,2380\n2,10,0.25,2381\n";
+    let b = "frame,object,x,wall_ms\n1,10,0.5,9362\n1,11,2,9363\n2,10,0.125,9380\n2,11,3,9381\n";
+    fs::write(folder.path().join("a.csv"), a).unwrap();
+    fs::write(folder.path().join("b.csv"), b).unwrap();
+    let diff = |options: &str| {
+        let output = run_in(folder.path(), &format!("diff a.csv b.csv {options}"));
+        let told = stderr(&output);
+        (output.status.code(), String::from_utf8(output.stdout).unwrap(), told)
+    };
+    let (code, text, _) = diff("--key frame,object --ignore wall_ms");
+    assert_eq!(code, Some(1));
+    assert!(text.contains("first at frame 2, object 10: x is 0.25 in a and 0.125 in b"), "{text}");
+    let (_, text, _) = diff("--key frame,object");
+    let by_column = "by column: x from frame 2 in 1 row, wall_ms from frame 1 in 4 rows";
+    assert!(text.contains(by_column), "{text}");
+    let (_, json, _) = diff("--key frame,object --columns x --format json");
+    let found: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(found["first"]["key"]["object"], "10");
+    assert_eq!(found["columns"][0]["first_tick"], 2);
+    let (code, text, told) = diff("");
+    assert_eq!(code, Some(1));
+    assert!(text.contains("rows belong together by their place; --key"), "{text}{told}");
+    let (code, _, told) = diff("--key nothing");
+    assert_eq!(code, Some(2));
+    assert!(
+        told.contains("a has no column \"nothing\"; it has frame, object, x, wall_ms"),
+        "{told}"
+    );
+    // The same numbers are the same by their key.
+    fs::write(folder.path().join("b.csv"), a).unwrap();
+    assert_eq!(diff("--key frame,object --ignore wall_ms").0, Some(0));
+}

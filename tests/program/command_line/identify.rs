@@ -171,3 +171,122 @@ fn a_log_is_read_the_same_with_tabs_semicolons_and_decimal_commas() {
     }
     assert_eq!(told(&text.replace(',', ";").replace('.', ",")), said);
 }
+
+/// A log in a folder of its own, with what `identify` says of it and the JSON.
+fn identified(log: &str, options: &str) -> (String, Value) {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("log.csv"), log).unwrap();
+    let of = |format: &str| {
+        let output =
+            run_in(folder.path(), &format!("identify log.csv {options} --format {format}"));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    (of("text"), serde_json::from_str(&of("json")).unwrap())
+}
+
+/// Rows of semi-implicit Euler at 60 Hz about a place of rest, with their velocities.
+fn swinging_about(rest: f64, [k, c]: [f64; 2]) -> String {
+    let (mut x, mut v, mut log) = (1.0, 0.0, "t,x,v\n".to_owned());
+    for tick in 0..300 {
+        log += &format!("{:.9},{:?},{v:?}\n", f64::from(tick) / 60.0, x + rest);
+        v += (-k * x - c * v) / 60.0;
+        x += v / 60.0;
+    }
+    log
+}
+
+#[test]
+fn a_spring_that_rests_elsewhere_is_identified_and_its_rest_is_found_or_given() {
+    let log = swinging_about(3.2, [20.0, 0.25]);
+    for options in [
+        "--tick-hz 60 --k 40 --c 0.5 --mass 2",
+        "--tick-hz 60",
+        "--tick-hz 60 --k 40 --c 0.5 --mass 2 --rest 3.2",
+    ] {
+        let (text, found) = identified(&log, options);
+        let candidates = found["also"].as_array().unwrap().iter().map(|it| &it["method"]);
+        let has_it =
+            [&found["best"]].into_iter().chain(candidates).any(|id| id == "semi-implicit-euler");
+        assert!(has_it, "{options}: {text}");
+        assert!((found["rest_m"].as_f64().unwrap() - 3.2).abs() < 1e-6, "{options}: {found}");
+        assert!((found["effective_frequency_hz"].as_f64().unwrap() - 0.7124).abs() < 1e-4);
+        assert_eq!(text.contains("it rests at 3.2000 m"), !options.contains("--rest"), "{text}");
+    }
+    // A rest that is wrong is not mended.
+    let (_, found) = identified(&log, "--tick-hz 60 --k 40 --c 0.5 --mass 2 --rest 3");
+    assert_eq!(found["word"], "unknown", "{found}");
+}
+
+#[test]
+fn a_fall_from_rest_names_its_method_and_how_far_it_is_from_the_exact_one() {
+    let h = 1.0 / 60.0;
+    let falling = |is_semi_implicit: bool| {
+        let (mut x, mut v, mut log) = (0.0, 0.0, "tick,x\n".to_owned());
+        for tick in 0..=60 {
+            log += &format!("{tick},{x:?}\n");
+            let before = v;
+            v -= 9.81 * h;
+            x += h * if is_semi_implicit { v } else { before };
+        }
+        log
+    };
+    let options = "--tick-hz 60 --drag 0 --thrust -9.81";
+    for (is_semi_implicit, id, off) in
+        [(true, "semi-implicit-euler", -1.0), (false, "explicit-euler", 1.0)]
+    {
+        for v0 in ["", " --v0 0"] {
+            let (text, found) = identified(&falling(is_semi_implicit), &format!("{options}{v0}"));
+            assert_eq!(found["word"], "identified", "{text}");
+            assert_eq!(text.contains("if it starts at rest"), v0.is_empty(), "{text}");
+            assert!(text.contains(id), "{text}");
+            // g h t / 2 after a second.
+            let far = found["from_exact_m"].as_f64().unwrap();
+            assert!((far - off * 9.81 * h / 2.0).abs() < 1e-9, "{far}");
+        }
+    }
+}
+
+#[test]
+fn a_log_at_uneven_times_shows_its_motion_and_goes_to_other_engines() {
+    let (mut t, mut log) = (0.0_f64, "time,x\n".to_owned());
+    for row in 0..240 {
+        let x = (-0.125 * t).exp() * (4.470_388_10 * t).cos();
+        log += &format!("{t:.6},{x:.9}\n");
+        t += 0.012 + 0.001 * f64::from(row * 7 % 11);
+    }
+    let (text, found) = identified(&log, "--tick-hz 60");
+    assert!(text.starts_with("unknown: the rows are at uneven times"), "{text}");
+    let swing = |key: &str| found["swing"][key].as_f64().unwrap();
+    assert!((swing("frequency_hz") / 0.711_49 - 1.0).abs() < 1e-3, "{found}");
+    assert!((swing("damping_ratio") - 0.027_951).abs() < 1e-4, "{found}");
+    assert!(swing("residual") < 1e-4 && swing("undamped_hz_error") < 1e-4, "{found}");
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("log.csv"), &log).unwrap();
+    let output = run_in(folder.path(), "port --from log.csv --tick-hz 60 --to engine-box2d");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stderr(&output).starts_with("read 240 rows in "), "{}", stderr(&output));
+    // Even rows at another rate are not uneven.
+    let even: String = (0..50).map(|n| format!("{:.6},{n}\n", f64::from(n) / 50.0)).collect();
+    fs::write(folder.path().join("even.csv"), format!("t,x\n{even}")).unwrap();
+    let output = run_in(folder.path(), "identify even.csv --tick-hz 60");
+    assert!(stderr(&output).contains("50.00 rows a second: give the rate"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_motion_that_no_method_makes_has_its_best_swing_with_errors() {
+    // A spring that stiffens is none of ours, and nearly a swing.
+    let (mut x, mut v, mut log) = (1.0_f64, 0.0, "tick,x\n".to_owned());
+    for tick in 0..400 {
+        log += &format!("{tick},{x:?}\n");
+        for _ in 0..100 {
+            v -= (20.0 * x + 2.0 * x * x * x) / 6000.0;
+            x += v / 6000.0;
+        }
+    }
+    let (text, found) = identified(&log, "--tick-hz 60 --k 20");
+    assert_eq!(found["word"], "unknown", "{text}");
+    assert!(text.contains("the best fit of a damped swing: 0.73"), "{text}");
+    let hz = found["swing"]["undamped_hz"].as_f64().unwrap();
+    assert!((0.72..0.75).contains(&hz) && found["swing"]["residual"].as_f64().unwrap() < 0.05);
+}

@@ -409,3 +409,103 @@ fn mistakes_are_told_with_a_remedy() {
         assert!(refused.contains("drop the file on the window"), "{refused}");
     }
 }
+
+#[test]
+fn the_most_ticks_and_the_longest_frame_can_be_set_and_what_is_longer_is_given_up() {
+    let row =
+        |options: &str| rows(&format!("--fps 20 --tick-hz 60 --seconds 10 {options}")).remove(0);
+    // Two of the three ticks of a frame: two thirds of the speed.
+    let two = row("--policy fixed --max-ticks 2");
+    near(&two, "dropped_ms", 200.0 * 1000.0 / 60.0);
+    near(&two, "ticks", 400.0);
+    assert!(number(&two, "owed_max_ms") < 17.0, "{two}");
+    for policy in ["semi-fixed", "slow-down", "whole-refresh", "hysteresis"] {
+        let limited = row(&format!("--policy {policy} --max-ticks 2"));
+        assert!((number(&limited, "ticks") - 400.0).abs() <= 3.0, "{policy}: {limited}");
+    }
+    // 40 ms of each 50 are simulated, under every loop that has a most or none.
+    for policy in ["fixed", "variable", "whole-refresh"] {
+        let short = row(&format!("--policy {policy} --max-frame-ms 40"));
+        near(&short, "dropped_ms", 2000.0);
+    }
+    // More than the loop's own quarter of a second.
+    let hitch = |options: &str| {
+        let trace = "--trace alt-tab-5s --policy fixed --seconds 12";
+        number(&rows(&format!("{trace} {options}"))[0], "dropped_ms")
+    };
+    let [own, more] = [hitch(""), hitch("--max-frame-ms 1000")];
+    assert!(own - more > 700.0, "{own} and {more}");
+    let told = refusal("loop --policy variable --max-ticks 2", 2);
+    assert!(told.contains("--max-ticks does nothing under variable"), "{told}");
+}
+
+#[test]
+fn frames_and_the_display_may_have_two_rates() {
+    // A picture that the next one replaces before the refresh is never displayed.
+    let fast = &rows("--fps 200 --display-hz 100 --policy variable --seconds 10")[0];
+    assert_eq!(fast["trace"], "fps-200-on-100");
+    assert!(number(fast, "frames") > 1999.0, "{fast}");
+    near(fast, "animation_error_rms_ms", 0.0);
+    // At 48 frames on 60 Hz one refresh in five shows the same picture again.
+    let slow = &rows("--fps 48 --display-hz 60 --policy variable --seconds 10")[0];
+    assert!(number(slow, "animation_error_rms_ms") > 1.0, "{slow}");
+    // A display of a variable rate shows each when it begins.
+    let variable = &rows("--fps 100 --policy variable --seconds 2")[0];
+    assert_eq!(variable["trace"], "steady-100");
+    assert!(refusal("loop --fps 100 --trace edge", 2).contains("--trace"));
+}
+
+#[test]
+fn a_capture_of_capframex_in_json_is_read_as_the_same_frames_in_a_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let runs = |count: usize| {
+        let run = r#"{"CaptureData": {"MsBetweenPresents": [9.7, 12.2, 9.9, 10.1],
+            "MsBetweenDisplayChange": [10.0, 10.0, 10.0, 10.0], "Dropped": [false, false, true, false],
+            "MsInPresentAPI": []}}"#;
+        let runs = vec![run; count].join(",");
+        format!(r#"{{"Info": {{"ProcessName": "game.exe"}}, "Runs": [{runs}]}}"#)
+    };
+    let table = "MsBetweenPresents,MsBetweenDisplayChange,Dropped\n\
+                 9.7,10,0\n12.2,10,0\n9.9,10,1\n10.1,10,0\n";
+    let written = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    written("a.json", &runs(1));
+    written("a.csv", table);
+    written("two.json", &runs(2));
+    let rows = |name: &str| {
+        let output = run_in(folder.path(), &format!("loop --trace {name} --policy fixed"));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert_eq!(rows("a.json").replace("a.json", "a.csv"), rows("a.csv"));
+    let two = rows("two.json");
+    assert!(two.contains("two.json:game.exe-1,") && two.contains("two.json:game.exe-2,"), "{two}");
+    for (text, told) in [
+        ("{", "no capture of CapFrameX"),
+        ("{\"Runs\": []}", "there is no run in it"),
+        ("{\"Runs\": [{\"CaptureData\": {\"MsBetweenPresents\": [\"x\"]}}]}", "frame 1: column"),
+    ] {
+        written("bad.json", text);
+        let output = run_in(folder.path(), "loop --trace bad.json");
+        assert_eq!(output.status.code(), Some(2), "{text}");
+        assert!(stderr(&output).contains(told), "{text}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_log_whose_clocks_part_is_shown_when_its_frames_begin_and_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = |change: f64| {
+        let row = format!("7,{change}\n");
+        format!("MsBetweenPresents,MsBetweenDisplayChange\n{}", row.repeat(300))
+    };
+    for (change, is_parted) in [(9.0, true), (5.0, true), (7.02, false)] {
+        fs::write(folder.path().join("log.csv"), log(change)).unwrap();
+        let output = run_in(folder.path(), "loop --trace log.csv --policy variable --format json");
+        let told = stderr(&output).contains("part by more than 1 %");
+        assert_eq!(told, is_parted, "{change}: {}", stderr(&output));
+        let rows: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
+        if is_parted {
+            near(&rows[0], "latency_mean_ms", 0.0);
+        }
+    }
+}

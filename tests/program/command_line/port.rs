@@ -232,3 +232,81 @@ fn what_cannot_be_asked_is_one_error_with_a_remedy() {
         assert!(output.stdout.is_empty(), "{arguments}");
     }
 }
+
+#[test]
+fn a_drive_is_judged_by_the_gains_that_are_given_and_both_ends_of_what_is_stable_are_named() {
+    let engine = "--from engine-mujoco:mode=actuator,kp=2000,kv=100 --mass 0.002 --tick-hz 500";
+    let interface = "--from core-animation:mass=0.002,stiffness=2000,damping=100 --tick-hz 500";
+    for from in [engine, interface] {
+        let found = json(&format!("{from} --drive --to engine-mujoco"));
+        let drives = rows(&found, "drives");
+        let of = |mode: &str| drives.iter().find(|row| row["mode"] == mode).unwrap();
+        let number = |row: &Value, key: &str| row[key].as_f64().unwrap();
+        let [implicit, explicit] = ["actuator", "actuator-euler"].map(of);
+        let gains = &implicit["gains"];
+        assert!((number(gains, "kp_n_per_m") / 2000.0 - 1.0).abs() < 1e-9, "{gains}");
+        assert!((number(gains, "kv_n_s_per_m") / 100.0 - 1.0).abs() < 1e-9, "{gains}");
+        assert!((number(implicit, "spectral_radius") - 0.960).abs() < 1e-3, "{implicit}");
+        // m / h² (4 + 2 h kv / m).
+        assert!((number(implicit, "max_kp_n_per_m") / 102_000.0 - 1.0).abs() < 1e-6, "{implicit}");
+        assert!(number(explicit, "spectral_radius") > 90.0, "{explicit}");
+        assert_eq!(number(explicit, "max_kp_n_per_m"), 0.0);
+        // Semi-implicit Euler holds from kv = 0 up to 2 m/h - kp h/2 only, and that is below 0 here.
+        assert_eq!(number(explicit, "max_kv_n_s_per_m"), 0.0);
+    }
+    // A force that is held for a tick gains energy without damping.
+    let drives = rows(
+        &json("--frequency 8Hz --damping-ratio 0.3 --drive --decimation 4 --to engine-jolt"),
+        "drives",
+    );
+    let held = drives.iter().find(|row| row["mode"] == "own-force").unwrap();
+    let [least, most] =
+        ["min_kv_n_s_per_m", "max_kv_n_s_per_m"].map(|key| held[key].as_f64().unwrap());
+    assert!(0.0 < least && least < most, "{held}");
+    let text = stdout_of(
+        "port --frequency 8Hz --damping-ratio 0.3 --drive --decimation 4 --to engine-jolt",
+    );
+    assert!(text.contains(" to ") && text.contains("N s/m with this kp"), "{text}");
+}
+
+#[test]
+fn what_games_write_once_a_frame_is_taken_as_it_stands() {
+    let chase = stdout_of("port --from lerp-dt:20@30fps");
+    assert!(chase.starts_with("halves in 0.02103 s: 1 - exp(-32.96 dt)\n"), "{chase}");
+    assert_eq!(chase, stdout_of("port --from lerp:0.6666666666666666@30fps"));
+    let friction = json("--from friction:0.9@60fps");
+    let number = |key: &str| friction[key].as_f64().unwrap();
+    assert!(
+        (number("half_life_s") - 0.1096).abs() < 1e-4
+            && (number("rate_per_s") - 6.3216).abs() < 1e-4
+    );
+    let factors: Vec<f64> =
+        rows(&friction, "factors").iter().map(|row| row["kept"].as_f64().unwrap()).collect();
+    for (factor, wanted) in factors.iter().zip([0.81, 0.9, 0.948_683, 0.957_049, 0.974_004]) {
+        assert!((factor - wanted).abs() < 1e-6, "{factors:?}");
+    }
+    let text = stdout_of("port --from friction:0.9@60fps");
+    for told in ["6.3216", "6.0000", "6.6667", "0.1582 m", "0.1500 m", "0.1667 m"] {
+        assert!(text.contains(told), "{told}: {text}");
+    }
+    let spring =
+        json("--from per-frame-decay:stiffness=0.2,decay=0.85 --to core-animation,per-frame");
+    assert!((spring["want"]["frequency_hz"].as_f64().unwrap() - 4.130).abs() < 1e-3, "{spring}");
+    assert!((spring["want"]["damping_ratio"].as_f64().unwrap() - 0.1879).abs() < 1e-4);
+    let own = &rows(&spring, "dialects")[1]["settings"];
+    assert!((own["stiffness"].as_f64().unwrap() / 612.0 - 1.0).abs() < 1e-6, "{own}");
+    assert!((own["damping"].as_f64().unwrap() / 9.0 - 1.0).abs() < 1e-6, "{own}");
+    for (wrong, told) in [
+        ("lerp-dt:20@8fps", "grows"),
+        ("lerp-dt:20@20fps", "is there in one frame"),
+        ("friction:1.1@60fps", "must be between 0 and 1"),
+        ("friction:0.9", "give the frames too"),
+        ("per-frame-decay:stiffness=0.2", "write per-frame-decay:"),
+        ("per-frame-decay:stiffness=5,decay=0.85", "so set it grows"),
+        ("per-frame-decay:stiffness=0.2,decay=1.05", "so set it grows"),
+    ] {
+        let output = run(&format!("port --from {wrong}"));
+        assert_eq!(output.status.code(), Some(2), "{wrong}");
+        assert!(stderr(&output).contains(told), "{wrong}: {}", stderr(&output));
+    }
+}

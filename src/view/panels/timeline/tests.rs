@@ -119,13 +119,16 @@ fn a_recording_is_compared_in_the_menu_and_its_first_difference_is_marked_and_go
     assert!(studio.viewer.compares_typed_path());
     let other = Difference {
         tick: 250,
-        row: [Some("1".into()), Some("spring".into()), Some("x".into())],
+        tick_name: Some("tick".into()),
+        key: [("lane", "1"), ("body", "spring"), ("coordinate", "x")]
+            .map(|(name, cell)| (name.into(), cell.into()))
+            .into(),
         column: "q".into(),
         values: [Some("1.5".into()), Some("1.25".into())],
         ulps: Some(2),
         relative: Some(0.2),
     };
-    let found = Comparison { rows: 900, moved: 2.0, first: Some(other), ..Default::default() };
+    let found = Comparison { rows: 900, changes: true, first: Some(other), ..Default::default() };
     show_comparison(&mut studio, "clip.toml", &found, Scene::built_in("spring").unwrap());
     // The run had not come so far, and goes on from there.
     assert_eq!((studio.race().tick(), studio.run().end()), (250, 250));
