@@ -37,6 +37,7 @@ chapters! {
     logs: "which engine or method made a log"
     questions: "why a spring dies, a camera lags, a jump is lower: each with a command and a number"
     code: "a method as source code for a game"
+    step: "your own lines: what they do at every frame rate"
     library: "custom bodies and methods, in a game or its tests"
     ci: "frames and hashes in continuous integration"
     methods: "every method: order, cost, stability limit"

@@ -38,6 +38,7 @@ mod list;
 #[cfg(feature = "window")]
 mod play;
 mod port;
+mod rule;
 mod show;
 mod sweep;
 mod trace;
@@ -101,6 +102,7 @@ Examples:
   regatta advise --scene stiff
   regatta sweep --scene spring --plot spring.png > spring.csv
   regatta port --frequency 2.5Hz       the settings of every engine for a spring
+  regatta rule 'v *= 0.9; x += v * dt' your own lines at every frame rate
   regatta show rk4 --as csharp         the method's code, for your game
   regatta fixture --as pytest          exact states, to test your engine by
   regatta diff before.csv after.csv    where two runs first differ
@@ -266,6 +268,7 @@ subcommands! {
     Loop(game_loop::LoopArgs) => game_loop::run,
     Identify(identify::IdentifyArgs) => identify::run,
     Port(port::PortArgs) => port::run,
+    Rule(rule::RuleArgs) => rule::run,
     Show(show::ShowArgs) => show::run,
     Fixture(fixture::FixtureArgs) => fixture::run,
     Diff(diff::DiffArgs) => diff::run,

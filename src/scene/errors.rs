@@ -1,10 +1,12 @@
-//! The faults of a scene file, with their places.
+//! The faults of a scene file, or of the lines of a step, with their places.
 
 use std::fmt;
 use std::ops::Range;
 
 use super::MAX_FILE_BYTES;
 use super::fault::SceneFault;
+use super::nearest::words;
+use crate::sim::law::ExpressionFault;
 
 /// How many errors of one file are shown: as many as a person mends before trying again.
 pub const MAX_SHOWN: usize = 10;
@@ -91,6 +93,13 @@ impl SceneErrors {
         let what = format!("the file holds more than {MAX_FILE_BYTES} bytes");
         let fault = SceneFault::new(what, "give a scene file, with a shorter script");
         Self::new(file, "", vec![SceneError { span: 0..0, fault }])
+    }
+
+    /// The fault of the lines of a step, in the file or the argument of this name.
+    pub fn of_step(file: &str, text: &str, fault: ExpressionFault) -> Self {
+        let ExpressionFault { span, what, remedy } = fault;
+        let fault = SceneFault::new(what, words(remedy));
+        Self::new(file, text, vec![SceneError { span, fault }])
     }
 
     pub(super) fn not_utf8(file: &str, bytes: &[u8], byte: usize) -> Self {

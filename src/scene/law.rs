@@ -10,7 +10,7 @@ use super::table::{Named, Table, Written};
 use super::wanted::{Field, Wanted};
 use crate::sim::bodies::{ClaimHorizon, Kind, Range, check_law, law_kind};
 use crate::sim::law::{
-    CoordinateText, LawFault, LawText, Layout, MAX_CONSTANTS, MAX_COORDINATES, Part, Remedy, UNITS,
+    CoordinateText, LawFault, LawText, Layout, MAX_CONSTANTS, MAX_COORDINATES, Part, UNITS,
 };
 
 /// The name of the table array.
@@ -399,12 +399,6 @@ impl WrittenLaw {
             }
             Part::Energy => within(&self.energy),
         };
-        let remedy = match remedy {
-            Remedy::Words(words) => words,
-            Remedy::Name { written, known } => {
-                offer(&written, &known.iter().map(String::as_str).collect::<Vec<_>>())
-            }
-        };
-        row.complain(at, what, remedy);
+        row.complain(at, what, nearest::words(remedy));
     }
 }

@@ -1,5 +1,7 @@
 //! Finds the known name that a misspelt one probably stands for.
 
+use crate::sim::law::Remedy;
+
 /// How alike two spellings must be, from 0 to 1 after Jaro and Winkler, for one to be offered for the
 /// other: the tests below show what that lets through.
 const ALIKE: f64 = 0.8;
@@ -43,6 +45,16 @@ pub(super) fn offer(nearest: Option<&str>, known: &[impl AsRef<str>], quote: cha
     match nearest {
         Some(name) => format!("did you mean {}?", listed(&[name], quote, "")),
         None => format!("write one of {}", listed(known, quote, ", ")),
+    }
+}
+
+/// The words of a remedy for an expression.
+pub(super) fn words(remedy: Remedy) -> String {
+    match remedy {
+        Remedy::Words(words) => words,
+        Remedy::Name { written, known } => {
+            offer(nearest(&written, known.iter().map(|name| (&**name, &**name))), &known, '`')
+        }
     }
 }
 

@@ -8,7 +8,7 @@
 
 use super::body::Distances;
 use compile::{Compiled, Compiler, check_names};
-use fault::{ExpressionFault, quoted};
+use fault::quoted;
 use form::{is_angle, is_linear};
 use jet::Jet;
 use op::Op;
@@ -22,15 +22,17 @@ mod function;
 mod jet;
 mod op;
 mod registers;
+mod step_text;
 mod switch;
 mod tape;
 mod text;
 mod token;
 
 pub use expression::{MAX_BYTES, MAX_DEPTH};
-pub use fault::{LawFault, Part, Remedy};
+pub use fault::{ExpressionFault, LawFault, Part, Remedy};
 pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
+pub use step_text::{Carried, MAX_STEP_BYTES, StepCode, StepMap, StepRegisters, StepText};
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText, Layout};
 

@@ -13,7 +13,8 @@ mod drive;
 mod follow;
 mod friction;
 mod inverse;
-mod seen;
+pub(super) mod powers;
+pub(super) mod seen;
 
 pub use dialect::{DIALECTS, Departure, Dialect, DialectPort, Key, Switch};
 pub use drive::{DriveLimits, GainRange, drive_limits};

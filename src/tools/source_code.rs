@@ -109,6 +109,16 @@ pub fn function_code(
     Ok(printer::print(method.id, &program, language, precision, &[]))
 }
 
+/// The function `rule` of a text in the language of the sources, below a comment of these paragraphs.
+///
+/// # Panics
+/// If the text is malformed.
+pub(super) fn rule_code(text: &str, about: &[String], language: Language) -> String {
+    let program = Program::read(text);
+    let header = header::of_rule(about, &program, language);
+    printer::print("rule", &program, language, Precision::Double, &header)
+}
+
 /// The program of a method that has one, if it can be written so.
 fn program(
     method: &Method,

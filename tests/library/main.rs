@@ -56,6 +56,7 @@ mod recordings;
 mod restart;
 mod robot;
 mod rollback;
+mod rules;
 mod scenes;
 mod sessions;
 mod source_code;

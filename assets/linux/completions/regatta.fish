@@ -127,6 +127,7 @@ complete -c regatta -n "__fish_regatta_needs_command" -f -a "cloud" -d 'Step a c
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "loop" -d 'Measure what game loops do to motion on a display'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "identify" -d 'Say which engine or method made a log of a motion'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "port" -d 'Print settings that make a spring move the same in every engine'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "rule" -d 'What your own lines do at every frame rate, and code that does not depend on it'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "show" -d 'Print a method or a game loop as code for your game'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "fixture" -d 'Write exact states as a test for your own engine'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "diff" -d 'Say where two runs first differ'
@@ -906,6 +907,14 @@ complete -c regatta -n "__fish_regatta_using_subcommand port" -l format -d 'The 
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l drive -d 'The limits of a drive with these gains'
 complete -c regatta -n "__fish_regatta_using_subcommand port" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand rule" -l fps -d 'The frames per second for which they were written' -r
+complete -c regatta -n "__fish_regatta_using_subcommand rule" -l as -d 'The language of the code: rust, c, csharp or gdscript' -r -f -a "rust\t''
+c\t''
+csharp\t''
+gdscript\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand rule" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
+json\t'An array of objects, for programs'"
+complete -c regatta -n "__fish_regatta_using_subcommand rule" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand show" -l as -d 'The language: rust, c, cpp, csharp or gdscript' -r -f -a "rust\t''
 c\t''
 csharp\t''

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use super::fault::{ExpressionFault, Parsed, Remedy, fault, quoted};
-use super::function::{FUNCTIONS, Function};
+use super::function::{FUNCTIONS, Function, STEP_FUNCTIONS};
 use super::op::{INFIXES, Infix, Level, Op, is_word};
 use super::token::{Token, tokens};
 use crate::sim::curve::Curve;
@@ -35,8 +35,32 @@ pub(super) struct Node {
 }
 
 impl Node {
+    /// The operation on these nodes.
+    pub(super) fn new(op: Op, arguments: &[usize]) -> Self {
+        let mut operands = [0; 3];
+        operands[..arguments.len()].copy_from_slice(arguments);
+        Self { op, operands, count: arguments.len(), number: 0.0, index: 0 }
+    }
+
     fn leaf(op: Op) -> Self {
-        Self { op, operands: [0; 3], count: 0, number: 0.0, index: 0 }
+        Self::new(op, &[])
+    }
+
+    /// The value of the input with this index.
+    pub(super) fn input(index: usize) -> Self {
+        Self { index, ..Self::leaf(Op::Input) }
+    }
+
+    /// The same operation among nodes that follow `before` others.
+    pub(super) fn after(self, before: usize) -> Self {
+        self.reading(|operand| operand + before)
+    }
+
+    /// The same operation on other nodes.
+    pub(super) fn reading(self, other: impl Fn(usize) -> usize) -> Self {
+        let mut operands = self.operands;
+        operands[..self.count].iter_mut().for_each(|operand| *operand = other(*operand));
+        Self { operands, ..self }
     }
 
     /// The nodes that it reads.
@@ -62,10 +86,27 @@ pub(super) trait Scope {
     fn names(&self) -> Vec<String>;
     /// Why a name that other expressions may use cannot be used here.
     fn why_not(&self, name: &str) -> Option<String>;
+    /// The function with this name.
+    fn function(&self, name: &str) -> Option<&'static Function> {
+        Function::named(name)
+    }
 }
 
 /// Reads an expression. Its last node is its value.
 pub(super) fn parse(text: &str, scope: &dyn Scope) -> Parsed<Expression> {
+    parse_as(text, scope, |parser, value| parser.want_number(value))
+}
+
+/// Reads a condition. Its last node is its value.
+pub(super) fn parse_condition(text: &str, scope: &dyn Scope) -> Parsed<Expression> {
+    parse_as(text, scope, |parser, value| parser.want_truth(value))
+}
+
+fn parse_as(
+    text: &str,
+    scope: &dyn Scope,
+    want: fn(&Parser<'_>, usize) -> Parsed<usize>,
+) -> Parsed<Expression> {
     if text.len() > MAX_BYTES {
         let what = format!("the expression has {} bytes", text.len());
         let end = text.floor_char_boundary(MAX_BYTES);
@@ -86,7 +127,7 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Parsed<Expression> {
         }
         _ => return Err(parser.juxtaposed()),
     }
-    parser.want_number(value)?;
+    want(&parser, value)?;
     let mut expression = parser.expression;
     // The value of a name alone, or of a repeated part, need not be the last node.
     if value + 1 != expression.nodes.len() {
@@ -301,7 +342,7 @@ impl Parser<'_> {
     fn named(&mut self) -> Parsed<usize> {
         let (span, name) = (self.span(), self.written().to_owned());
         self.next += 1;
-        if let Some(function) = Function::named(&name) {
+        if let Some(function) = self.scope.function(&name) {
             if self.peek() != Token::Symbol("(") {
                 let what = format!("`{name}` is a function");
                 return fault(span, what, format!("write `{}`", function.usage()));
@@ -313,7 +354,7 @@ impl Parser<'_> {
                 let what = format!("`{name}` is no function");
                 return fault(span, what, format!("write `{name}*(…)` for a product"));
             }
-            return Ok(self.node(Node { index: input, ..Node::leaf(Op::Input) }, span));
+            return Ok(self.node(Node::input(input), span));
         }
         if name == "pi" {
             return Ok(self.number(PI, span));
@@ -326,9 +367,10 @@ impl Parser<'_> {
             return fault(span, what, "write one before it");
         }
         let is_call = self.peek() == Token::Symbol("(");
-        let functions = FUNCTIONS.iter().map(|function| function.name.to_owned());
+        let functions = FUNCTIONS.iter().chain(&STEP_FUNCTIONS).map(|function| function.name);
+        let functions = functions.filter(|name| self.scope.function(name).is_some());
         let known: Vec<String> = if is_call {
-            functions.collect()
+            functions.map(str::to_owned).collect()
         } else {
             self.scope.names().into_iter().chain(["pi".to_owned()]).collect()
         };
@@ -340,9 +382,7 @@ impl Parser<'_> {
 
 impl Parser<'_> {
     fn push(&mut self, op: Op, arguments: &[usize], span: Range<usize>) -> usize {
-        let mut operands = [0; 3];
-        operands[..arguments.len()].copy_from_slice(arguments);
-        self.node(Node { op, operands, count: arguments.len(), number: 0.0, index: 0 }, span)
+        self.node(Node::new(op, arguments), span)
     }
 
     fn node(&mut self, node: Node, span: Range<usize>) -> usize {

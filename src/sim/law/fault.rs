@@ -46,12 +46,15 @@ pub enum Remedy {
     },
 }
 
-/// A fault of one expression.
+/// A fault of one expression, or of the lines of a step. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct ExpressionFault {
-    pub(super) span: Range<usize>,
-    pub(super) what: String,
-    pub(super) remedy: Remedy,
+pub struct ExpressionFault {
+    /// The bytes at fault.
+    pub span: Range<usize>,
+    /// What is wrong.
+    pub what: String,
+    /// How to fix it.
+    pub remedy: Remedy,
 }
 
 impl ExpressionFault {

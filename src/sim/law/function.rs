@@ -25,6 +25,10 @@ pub(super) enum Meaning {
     If,
     /// `table(x, [[x0, y0], …])`.
     Table,
+    /// `a + (b - a) * part`.
+    Between,
+    /// `base ^ exponent`, without products for whole exponents.
+    Power,
 }
 
 /// A function of one or two arguments that is smooth wherever it is defined. Two are equal if they are the same row.
@@ -119,6 +123,32 @@ pub(super) static FUNCTIONS: [Function; 21] = [
     function("table", &["x", "[[x0, y0], [x1, y1]]"], Meaning::Table),
 ];
 
+/// The functions that the lines of a step have beside those of laws.
+pub(super) static STEP_FUNCTIONS: [Function; 2] = [
+    function("lerp", &["a", "b", "part"], Meaning::Between),
+    function("pow", &["base", "exponent"], Meaning::Power),
+];
+
+/// Names in other languages of what is called otherwise here.
+const ALIASES: [(&str, &str); 16] = [
+    ("mix", "lerp"),
+    ("lerpf", "lerp"),
+    ("powf", "pow"),
+    ("log", "ln"),
+    ("fabs", "abs"),
+    ("fabsf", "abs"),
+    ("absf", "abs"),
+    ("fmin", "min"),
+    ("fminf", "min"),
+    ("minf", "min"),
+    ("fmax", "max"),
+    ("fmaxf", "max"),
+    ("maxf", "max"),
+    ("clampf", "clamp"),
+    ("expf", "exp"),
+    ("sqrtf", "sqrt"),
+];
+
 const fn function(
     name: &'static str,
     arguments: &'static [&'static str],
@@ -158,9 +188,16 @@ impl Function {
         format!("{}({})", self.name, self.arguments.join(", "))
     }
 
-    /// The function with this name.
+    /// The function of laws with this name.
     pub(super) fn named(name: &str) -> Option<&'static Self> {
         FUNCTIONS.iter().find(|function| function.name == name)
+    }
+
+    /// The function of the lines of a step with this name, or with this name in another language.
+    pub(super) fn named_in_steps(name: &str) -> Option<&'static Self> {
+        let alias = ALIASES.iter().find(|(alias, _)| *alias == name);
+        let name = alias.map_or(name, |(_, name)| name);
+        FUNCTIONS.iter().chain(&STEP_FUNCTIONS).find(|function| function.name == name)
     }
 }
 

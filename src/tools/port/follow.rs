@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
+use super::powers::Powers;
 use crate::sim::State;
 use crate::sim::bodies::Follow;
 use crate::sim::integrators::{
@@ -41,8 +42,6 @@ const HALVINGS: u32 = 60;
 /// Frames after which half of the way is looked for first, and how often they are doubled: to a year at 240 a second.
 const FIRST_SPAN: f64 = 1.0 / 64.0;
 const DOUBLINGS: u32 = 40;
-/// Logarithms of eigenvalues that are closer than this are those of a double one: their difference is rounding.
-const SAME: f64 = 1e-7;
 
 impl Approach {
     /// Of a value that goes this part of the way in each of `fps` frames per second.
@@ -87,28 +86,10 @@ fn half_life(method: &Method, rate: f64, fps: f64) -> Option<f64> {
 /// the map changes sides, or does not decay.
 fn frames_to_half(map: &Matrix2<f64>) -> Option<f64> {
     let (half, determinant) = (map.trace() / 2.0, map.determinant());
-    let square = half * half - determinant;
-    if determinant <= 0.0 || square >= 0.0 && half <= 0.0 {
-        return None;
-    }
-    // The map is exp(log_scale) times a map of determinant 1, whose eigenvalues are exp(±apart) or exp(±i apart).
-    let (log_scale, root) = (libm::log(determinant) / 2.0, libm::sqrt(square.abs()));
-    let swings = square < 0.0;
-    let apart = if swings { libm::atan2(root, half) } else { libm::atanh(root / half) };
+    let powers = Powers::of(map.trace(), determinant)?;
     let beside = (map.m11 - half) / libm::sqrt(determinant);
     let left = |frames: f64| {
-        let of = |log: f64| libm::exp(frames * log);
-        let [even, odd] = match apart {
-            apart if apart < SAME => [of(log_scale), of(log_scale) * frames],
-            apart if swings => {
-                let [even, odd] = [libm::cos(frames * apart), libm::sin(frames * apart)];
-                [of(log_scale) * even, of(log_scale) * odd / libm::sin(apart)]
-            }
-            apart => {
-                let [slow, fast] = [of(log_scale + apart), of(log_scale - apart)];
-                [(slow + fast) / 2.0, (slow - fast) / 2.0 / libm::sinh(apart)]
-            }
-        };
+        let [even, odd] = powers.at(frames);
         even + beside * odd
     };
     let spans = (0..DOUBLINGS).map(|i| FIRST_SPAN * libm::exp2(f64::from(i)));

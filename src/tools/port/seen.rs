@@ -112,7 +112,7 @@ fn columns(first: &[[f64; 2]], second: &[[f64; 2]]) -> Option<Vec<Map>> {
 }
 
 /// A motion that grows by no more than this in a step does not grow.
-pub(super) const NO_GROWTH: f64 = 1.0 + 1e-9;
+pub(in crate::tools) const NO_GROWTH: f64 = 1.0 + 1e-9;
 
 /// Whether no motion of a map with these invariants grows.
 pub(super) fn is_stable(trace: f64, determinant: f64) -> bool {
@@ -120,7 +120,7 @@ pub(super) fn is_stable(trace: f64, determinant: f64) -> bool {
 }
 
 /// The largest modulus of an eigenvalue.
-fn spectral_radius(trace: f64, determinant: f64) -> f64 {
+pub(in crate::tools) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
     let half = trace / 2.0;
     match half * half - determinant {
         square if square < 0.0 => libm::sqrt(determinant),
@@ -129,7 +129,7 @@ fn spectral_radius(trace: f64, determinant: f64) -> f64 {
 }
 
 /// The damped spring whose map over `tick_s` has these invariants.
-pub(super) fn seen(trace: f64, determinant: f64, tick_s: f64) -> Option<Effective> {
+pub(in crate::tools) fn seen(trace: f64, determinant: f64, tick_s: f64) -> Option<Effective> {
     let half = trace / 2.0;
     let square = half * half - determinant;
     if determinant <= 0.0 || square >= 0.0 && half <= 0.0 {

@@ -61,6 +61,19 @@ pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) 
     paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
 }
 
+/// The lines of the comment above the function of a rule.
+pub(super) fn of_rule(about: &[String], program: &Program<'_>, language: Language) -> Vec<String> {
+    let mut paragraphs = about.to_vec();
+    paragraphs.push(String::new());
+    paragraphs.push("h: the time since the last call, in seconds.".into());
+    paragraphs.extend(program.inputs.iter().map(input));
+    if !program.memory.is_empty() {
+        paragraphs.push("Memory: one for each value; make a new one after a jump.".into());
+    }
+    paragraphs.push(answer(language, program));
+    paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
+}
+
 fn order(method: &Method) -> String {
     let Method { order, order_with_drag, .. } = *method;
     match (order, method.family) {

@@ -142,13 +142,16 @@ impl Printer<'_> {
     /// The function of the step itself.
     fn step(&mut self, snake: &str, pascal: &str) {
         let program = self.program;
-        // What is not read is marked, or compilers warn of it.
-        let mark = |name| if program.reads(name) { "" } else { "_" };
-        let (v, h, number) = (mark("v"), mark("h"), self.number_type());
+        // What is not used is marked, or compilers warn of it.
+        let v = if program.reads("v") || !program.replaces("v") { "" } else { "_" };
+        let h = if program.reads("h") { "" } else { "_" };
+        let number = self.number_type();
         let (open, memory, state, close) = match self.language {
             Language::Rust => {
-                let v = if v.is_empty() { "mut v" } else { "_v" };
-                let state = ["mut x", v, &format!("{h}h")].map(|name| format!("{name}: {number}"));
+                let changed = |name: &str| if program.assigns(name) { "mut " } else { "" };
+                let v = if v.is_empty() { format!("{}v", changed("v")) } else { "_v".into() };
+                let state = [format!("{}x", changed("x")), v, format!("{h}h")]
+                    .map(|name| format!("{name}: {number}"));
                 let memory = format!("memory: &mut {pascal}Memory");
                 let close = format!(") -> ({number}, {number}) {{");
                 (format!("pub fn {snake}("), memory, state, close)

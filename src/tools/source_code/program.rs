@@ -65,6 +65,13 @@ pub(super) enum Line<'a> {
     Stay,
 }
 
+impl Line<'_> {
+    /// Whether it changes `name`.
+    fn assigns(&self, name: &str) -> bool {
+        matches!(self, Line::Assignment(text) if text.split(' ').next() == Some(name))
+    }
+}
+
 /// The source of a method, read.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Program<'a> {
@@ -173,6 +180,24 @@ impl<'a> Program<'a> {
                 | Line::Stay => "",
             };
             text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == name)
+        })
+    }
+
+    /// Whether a statement changes `name`.
+    pub(super) fn assigns(&self, name: &str) -> bool {
+        self.body.iter().any(|line| line.assigns(name))
+    }
+
+    /// Whether every step gives `name` a new value.
+    pub(super) fn replaces(&self, name: &str) -> bool {
+        let mut depth = 0;
+        self.body.iter().any(|line| {
+            match line {
+                Line::If(_) | Line::While(_) => depth += 1,
+                Line::End => depth -= 1,
+                _ => {}
+            }
+            depth == 0 && line.assigns(name)
         })
     }
 

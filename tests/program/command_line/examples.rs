@@ -22,7 +22,7 @@ use crate::printed::texts;
 /// - `sh` and `yaml`: options are compared with the help of their commands, below; the table above the command of `loops` with
 ///   its rows, in `loops.rs`; the pipe to ffmpeg is run in `formats.rs`.
 /// - `toml`: scenes are read, below; dependencies are resolved in `tests/library/ci_recipe.rs`.
-const BLOCKS: [(&str, &str, usize); 18] = [
+const BLOCKS: [(&str, &str, usize); 19] = [
     ("scenes", "toml", 3),
     ("commands", "console", 6),
     ("commands", "sh", 2),
@@ -31,6 +31,7 @@ const BLOCKS: [(&str, &str, usize); 18] = [
     ("logs", "console", 1),
     ("questions", "console", 15),
     ("code", "console", 1),
+    ("step", "console", 2),
     ("library", "rust", 2),
     ("library", "text", 1),
     ("library", "toml", 1),
@@ -105,8 +106,14 @@ fn every_example_with_an_answer_prints_that_answer() {
         compared.extend((count > 0).then_some((text.name, count)));
     }
     let of_commands = if own.contains(&"clip") { 4 } else { 3 };
-    let expected =
-        [("commands", of_commands), ("logs", 1), ("questions", 19), ("code", 1), ("README", 1)];
+    let expected = [
+        ("commands", of_commands),
+        ("logs", 1),
+        ("questions", 19),
+        ("code", 1),
+        ("step", 2),
+        ("README", 1),
+    ];
     assert_eq!(compared, expected);
 }
 

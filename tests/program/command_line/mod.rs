@@ -24,6 +24,7 @@ mod mishaps;
 mod mistakes;
 mod port;
 mod recordings;
+mod rule;
 mod show;
 mod signals;
 mod sweep;

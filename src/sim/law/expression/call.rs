@@ -58,6 +58,13 @@ impl Parser<'_> {
                 let raised = self.push(max, &arguments[..2], span.clone());
                 self.push(min, &[raised, arguments[2]], span)
             }
+            Meaning::Between => {
+                let [a, b, part] = arguments[..] else { unreachable!("their number is checked") };
+                let way = self.push(Op::Subtract, &[b, a], span.clone());
+                let gone = self.push(Op::Multiply, &[way, part], span.clone());
+                self.push(Op::Add, &[a, gone], span)
+            }
+            Meaning::Power => self.push(Op::Power, &arguments, span),
             Meaning::Table => {
                 let node = self.push(Op::Switch(Switch::TABLE), &arguments, span);
                 self.expression.nodes[node].index = self.expression.tables.len();

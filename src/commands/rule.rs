@@ -1,0 +1,206 @@
+//! `regatta rule`: what the lines with which a game moves a value once a frame do at every frame rate.
+
+use std::io::{self, Read};
+use std::path::Path;
+
+use clap::Args;
+use serde_json::{Map, Value, json};
+
+use super::argument::brief;
+use super::error::Error;
+use super::help::flowing;
+use super::id::LANGUAGE;
+use super::tick_rate::rate_of_a_log;
+use super::output::table::{Column, TableFormat, text};
+use crate::regular_file;
+use crate::scene::SceneErrors;
+use crate::sim::law::MAX_STEP_BYTES;
+use crate::sim::number::significant;
+use crate::tools::Rule;
+use crate::tools::port::{DIALECTS, Reach, Wish, followers};
+use crate::tools::rule::SeenRule;
+use crate::tools::source_code::Language;
+
+const ABOUT: &str = "\
+RULE is the lines that a game runs once a frame, or a file of them, or - for standard input. They
+assign x, what moves, and v, its velocity; they may read target, where it goes, and dt (or h), the
+length of a frame. `regatta help step` has the grammar.
+
+Answered are the frequency, the damping ratio, the overshoot and the time to the last hundredth of
+the way, at the author's frame rate and at others; the rates below which it rings and grows; the
+spring that it is, in the words of user interfaces; and code that moves the same at any frame rate.
+
+In JSON, hz is the frequency that is seen, null where nothing swings, and spring.hz the one without
+damping; code has all languages.
+
+Examples:
+  regatta rule 'v = (v + (target - x) * 0.2) * 0.85; x += v'
+  regatta rule 'x += (target - x) * 20 * dt' --fps 30 --as csharp
+  regatta rule 'v *= 0.9; x += v * dt' --format json
+  regatta rule camera.step";
+
+/// Say what your own lines do at every frame rate
+///
+/// And print code that does not depend on it.
+#[derive(Debug, Args)]
+#[command(after_long_help = flowing(ABOUT))]
+pub(super) struct RuleArgs {
+    /// The lines, a file of them, or - for standard input
+    #[arg(value_name = "RULE|FILE|-", allow_hyphen_values = true)]
+    rule: String,
+
+    /// The frames per second for which they were written
+    #[arg(long, value_name = "N", default_value = "60", value_parser = rate_of_a_log)]
+    #[arg(allow_negative_numbers = true)]
+    fps: f64,
+
+    /// The language of the code: rust, c, csharp or gdscript
+    #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
+    #[arg(value_parser = LANGUAGE, hide_possible_values = true)]
+    language: Language,
+
+    /// The format: text or json
+    #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
+    format: TableFormat,
+}
+
+/// The name of the rule in messages, and its text.
+fn read(written: &str) -> Result<(String, String), Error> {
+    let path = Path::new(written);
+    let (name, bytes) = if written == "-" {
+        let mut bytes = Vec::new();
+        let most = MAX_STEP_BYTES as u64 + 1;
+        io::stdin().take(most).read_to_end(&mut bytes).map_err(|error| {
+            Error::mistake(format!("cannot read standard input: {error}; give a file"))
+        })?;
+        ("standard input".to_owned(), bytes)
+    } else if written.contains('=') && !path.exists() {
+        return Ok(("rule".into(), written.to_owned()));
+    } else {
+        let name = brief(path);
+        let bytes = regular_file::read(path, MAX_STEP_BYTES).map_err(|error| match error {
+            error if error.is_missing() => Error::mistake(format!(
+                "\"{name}\" is no rule and no file; write an assignment, such as 'x += v * dt'"
+            )),
+            error => Error::mistake(format!("cannot read {name}: {error}")),
+        })?;
+        (name, bytes)
+    };
+    let text = String::from_utf8(bytes)
+        .map_err(|_| Error::mistake(format!("{name} is not text; save it as UTF-8")))?;
+    Ok((name, text))
+}
+
+pub(super) fn run(args: &RuleArgs) -> Result<(), Error> {
+    let (name, written) = read(&args.rule)?;
+    let rule = Rule::read(&written, args.fps)
+        .map_err(|fault| Error::from(SceneErrors::of_step(&name, &written, fault)))?;
+    args.format.print(&match args.format {
+        TableFormat::Json => format!("{:#}\n", object(&rule, &written)),
+        TableFormat::Text => words(&rule, &written, args.language),
+    })
+}
+
+fn object(rule: &Rule, written: &str) -> Value {
+    let seen = |seen: SeenRule| {
+        json!({
+            "fps": seen.fps,
+            "hz": seen.hz,
+            "damping_ratio": seen.spring.and_then(|spring| spring.damping_ratio()),
+            "settles_s": seen.settles_s,
+            "grows": seen.grows,
+        })
+    };
+    let spring =
+        |spring: Wish| json!({ "hz": spring.frequency_hz, "damping_ratio": spring.damping_ratio });
+    let code = Language::ALL.into_iter().map(|language| {
+        let code = rule.code(written, language).ok();
+        (language.id().to_owned(), Value::from(code.map(|code| code.text)))
+    });
+    json!({
+        "rule": written,
+        "fps": rule.fps(),
+        "linear": rule.is_linear(),
+        "seen": rule.seen().into_iter().map(seen).collect::<Vec<_>>(),
+        "rings_below_fps": rule.rings_below_fps(),
+        "explodes_below_fps": rule.explodes_below_fps(),
+        "spring": rule.spring().map(spring),
+        "code": code.collect::<Map<_, _>>(),
+    })
+}
+
+/// A number to so many digits; nothing where there is none.
+fn digits(value: Option<f64>, digits: usize) -> Value {
+    value.map(|value| significant(value, digits)).into()
+}
+
+/// The undamped frequency, where it differs from the one that is seen by more than a hundredth.
+fn undamped(seen: &SeenRule) -> Option<f64> {
+    let undamped = seen.spring?.undamped_hz();
+    seen.hz.is_none_or(|hz| (hz / undamped - 1.0).abs() > 0.01).then_some(undamped)
+}
+
+const COLUMNS: &[Column<SeenRule>] = &[
+    Column::shown("fps", "FPS", |seen| seen.fps.to_string().into()),
+    Column::shown("hz", "SWINGS Hz", |seen| digits(seen.hz, 4)),
+    Column::shown("undamped", "UNDAMPED Hz", |seen| digits(undamped(seen), 4)),
+    Column::shown("ratio", "DAMPING RATIO", |seen| {
+        digits(seen.spring.and_then(|spring| spring.damping_ratio()), 4)
+    }),
+    Column::shown("overshoot", "OVERSHOOT %", |seen| digits(seen.overshoot.map(|x| 100.0 * x), 3)),
+    Column::shown("halves", "HALVES s", |seen| digits(seen.halves_s, 4)),
+    Column::shown("settles", "1 % AFTER s", |seen| digits(seen.settles_s, 4)),
+    Column::shown("grows", "GROWS", |seen| seen.grows.into()),
+];
+
+fn words(rule: &Rule, written: &str, language: Language) -> String {
+    let fps = rule.fps();
+    let kind = match rule.is_linear() {
+        true => "linear",
+        false => "not linear: below are small motions about a rest at 0, where it has one",
+    };
+    let mut said = format!("{kind}; of {}\n\n", rule.state().collect::<Vec<_>>().join(" and "));
+    said += &text(COLUMNS, &rule.seen(), "  ");
+    said += "\n";
+    if !rule.takes_step() {
+        said += "without dt: a frame does the same at every rate, so that it is twice as fast at twice the rate\n";
+    }
+    for (what, below) in [("rings", rule.rings_below_fps()), ("grows", rule.explodes_below_fps())] {
+        let line = |below| format!("{what} below {} frames per second\n", significant(below, 4));
+        said += &below.map(line).unwrap_or_default();
+    }
+    if let Some(coasts) = rule.coasts_s() {
+        let seconds: Vec<String> = coasts.iter().map(|seconds| significant(*seconds, 4)).collect();
+        said += &match &seconds[..] {
+            [after, before] => format!(
+                "coasts {after} s times its speed where it moves after the friction, {before} s where before\n"
+            ),
+            seconds => format!("coasts {} s times its speed\n", seconds.concat()),
+        };
+    }
+    if let Some(wish) = rule.spring() {
+        let [hz, ratio] = [wish.frequency_hz, wish.damping_ratio].map(|x| significant(x, 4));
+        said += &format!(
+            "\nat {fps} frames per second it is a spring of {hz} Hz, damping ratio {ratio}:\n"
+        );
+        let ports = DIALECTS.iter().map(|dialect| (dialect.id, dialect.port(&wish, fps)));
+        let told =
+            ports.filter(|(_, port)| port.reach != Reach::Unreachable && wish.damping_ratio >= 0.0);
+        for (id, port) in told.filter(|(_, port)| port.error.is_none()) {
+            said += &format!("  {id:18}  {}\n", port.code);
+        }
+    }
+    if let Some(approach) = rule.approach() {
+        let [half, rate] = [approach.half_life_s, approach.rate()].map(|x| significant(x, 4));
+        said +=
+            &format!("\nat {fps} frames per second it halves in {half} s: 1 - exp(-{rate} dt)\n");
+        for port in followers(approach, Some(fps)).iter().filter(|port| port.fps == fps) {
+            said += &format!("  {:26}  {}\n", port.method.id, port.code);
+        }
+    }
+    said += &match rule.code(written, language) {
+        Ok(code) => format!("\n{}", code.text),
+        Err(reason) => format!("\nno code for other frame rates: {reason}\n"),
+    };
+    said
+}

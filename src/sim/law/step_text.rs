@@ -1,0 +1,376 @@
+//! The lines of a step, as a game has them: `v += (target - x) * 40 * dt; x += v * dt`.
+//!
+//! Expressions are those of laws. All lines become one tape, so that a step has the same bits everywhere and allocates
+//! nothing: of an `if`, both blocks are evaluated, and the values of one are taken. A name that is read before the lines
+//! assign it is carried from step to step, as `x` and `v` are.
+
+use super::expression::Expression;
+use super::fault::{ExpressionFault, fault};
+use super::form::is_linear;
+use super::jet::Jet;
+use super::tape::Tape;
+pub use code::StepCode;
+use plain::plain;
+use reader::Reader;
+use statements::statements;
+
+mod code;
+mod plain;
+mod reader;
+mod statements;
+
+/// The most bytes of a text: a few screens of lines.
+pub const MAX_STEP_BYTES: usize = 1 << 14;
+
+/// The inputs of the tape; then come the names that the lines assign.
+const X: usize = 0;
+const V: usize = 1;
+const H: usize = 2;
+const TARGET: usize = 3;
+const BUILT_IN: [&str; 4] = ["x", "v", "h", "target"];
+
+/// A line, with its names as indices among the inputs.
+#[derive(Debug)]
+enum Line {
+    Assign { name: usize, joins: &'static str, value: Expression },
+    If(Expression),
+    Else,
+    End,
+}
+
+/// A number that a step leaves to the next.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Carried {
+    /// `x`, `v`, or a name of the text.
+    pub name: String,
+    /// Its value before the first step.
+    pub start: f64,
+    input: usize,
+}
+
+/// The lines of a step, read.
+#[derive(Debug)]
+pub struct StepText {
+    names: Vec<String>,
+    lines: Vec<Line>,
+    carried: Vec<Carried>,
+    /// Its values are the carried numbers after a step, in their order.
+    tape: Tape,
+}
+
+/// The carried numbers of one body, and where its steps are evaluated.
+#[derive(Clone, Debug)]
+pub struct StepRegisters {
+    slots: Vec<f64>,
+    next: Vec<f64>,
+}
+
+/// The carried numbers after a step and their derivatives, by each carried number and then by the target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepMap {
+    /// The carried numbers, in their order.
+    pub values: Vec<f64>,
+    /// A column for each number that changes.
+    pub columns: Vec<Vec<f64>>,
+}
+
+impl StepText {
+    /// Reads a text.
+    ///
+    /// # Errors
+    /// The first fault, with its bytes in the text.
+    pub fn read(text: &str) -> Result<Self, ExpressionFault> {
+        if text.len() > MAX_STEP_BYTES {
+            let end = text.floor_char_boundary(MAX_STEP_BYTES);
+            let what = format!("the text has {} bytes", text.len());
+            return fault(end..text.len(), what, format!("keep at most {MAX_STEP_BYTES}"));
+        }
+        let text = plain(text);
+        let mut reader = Reader::new(&text)?;
+        for statement in statements(&text)? {
+            reader.take(statement)?;
+        }
+        reader.finish()
+    }
+
+    /// The carried numbers: `x`, `v`, then those of the text.
+    pub fn carried(&self) -> &[Carried] {
+        &self.carried
+    }
+
+    /// Whether the motion depends on the target.
+    pub fn takes_target(&self) -> bool {
+        self.tape.reads(TARGET)
+    }
+
+    /// Whether the motion depends on the length of a step.
+    pub fn takes_step(&self) -> bool {
+        self.tape.reads(H)
+    }
+
+    /// Whether a step is an affine function of the carried numbers and the target.
+    pub fn is_linear(&self) -> bool {
+        // No input is a time of its own.
+        is_linear(&self.tape, self.names.len(), usize::MAX, |input| input != H)
+    }
+
+    /// For each carried number, the indices of those that its next value depends on.
+    pub fn reads(&self) -> Vec<Vec<usize>> {
+        let mut sets = vec![0_u64; self.tape.slots];
+        (0..self.names.len()).for_each(|input| sets[input] = 1 << input);
+        for (_, operands, to, _) in self.tape.operations() {
+            sets[to as usize] = operands.iter().fold(0, |set, slot| set | sets[*slot as usize]);
+        }
+        let of = |slot: &u16| {
+            let set = sets[*slot as usize];
+            let inputs = self.carried.iter().map(|carried| carried.input).enumerate();
+            inputs.filter(|(_, input)| set >> input & 1 == 1).map(|(index, _)| index).collect()
+        };
+        self.tape.outputs.iter().map(of).collect()
+    }
+
+    /// Whether a step leaves this carried number as it is.
+    pub fn keeps(&self, index: usize) -> bool {
+        usize::from(self.tape.outputs[index]) == self.carried[index].input
+    }
+
+    /// A body before its first step, at 0 and at rest.
+    pub fn registers(&self) -> StepRegisters {
+        let mut registers = StepRegisters {
+            slots: vec![0.0; self.tape.slots],
+            next: vec![0.0; self.carried.len()],
+        };
+        for carried in &self.carried {
+            registers.slots[carried.input] = carried.start;
+        }
+        registers
+    }
+
+    /// Steps a body by `h` seconds. Never allocates.
+    pub fn step(&self, registers: &mut StepRegisters, h: f64, target: f64) {
+        let StepRegisters { slots, next } = registers;
+        if slots[H].to_bits() != h.to_bits() || h == 0.0 {
+            slots[H] = h;
+            self.tape.prepare::<1>(slots.as_chunks_mut().0);
+        }
+        slots[TARGET] = target;
+        self.tape.evaluate(slots);
+        for (next, output) in next.iter_mut().zip(&self.tape.outputs) {
+            *next = slots[*output as usize];
+        }
+        for (next, carried) in next.iter().zip(&self.carried) {
+            slots[carried.input] = *next;
+        }
+    }
+
+    /// A carried number of a body.
+    pub fn value(&self, registers: &StepRegisters, index: usize) -> f64 {
+        registers.slots[self.carried[index].input]
+    }
+
+    /// Puts a carried number of a body.
+    pub fn set(&self, registers: &mut StepRegisters, index: usize, value: f64) {
+        registers.slots[self.carried[index].input] = value;
+    }
+
+    /// The map of a step of `h` seconds at these carried numbers and this target, with its exact derivatives.
+    pub fn map(&self, h: f64, at: &[f64], target: f64) -> StepMap {
+        let inputs = self.carried.iter().map(|carried| carried.input).chain([TARGET]);
+        let mut slots: Vec<Jet> = vec![[0.0; 3]; self.tape.slots];
+        let mut values = Vec::new();
+        let mut column = |input: usize| {
+            slots[H] = [h, 0.0, 0.0];
+            slots[TARGET] = [target, 0.0, 0.0];
+            for (carried, value) in self.carried.iter().zip(at) {
+                slots[carried.input] = [*value, 0.0, 0.0];
+            }
+            slots[input][1] = 1.0;
+            self.tape.evaluate_jets(&mut slots);
+            let outputs = self.tape.outputs.iter().map(|slot| slots[*slot as usize]);
+            values = outputs.clone().map(|[value, ..]| value).collect();
+            outputs.map(|[_, slope, _]| slope).collect()
+        };
+        let columns = inputs.map(&mut column).collect();
+        StepMap { values, columns }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::Range;
+
+    use super::*;
+
+    fn read(text: &str) -> StepText {
+        StepText::read(text).unwrap_or_else(|fault| panic!("{text}: {fault:?}"))
+    }
+
+    /// x and v after some steps of 1/60 s from 0.25 and 0.5, the target at 1.
+    fn run(text: &str, steps: u32) -> [f64; 2] {
+        let text = read(text);
+        let mut registers = text.registers();
+        text.set(&mut registers, 0, 0.25);
+        text.set(&mut registers, 1, 0.5);
+        (0..steps).for_each(|_| text.step(&mut registers, 1.0 / 60.0, 1.0));
+        [0, 1].map(|index| text.value(&registers, index))
+    }
+
+    fn fault_of(text: &str) -> (Range<usize>, String) {
+        let fault = StepText::read(text).expect_err(text);
+        (fault.span, fault.what)
+    }
+
+    #[test]
+    fn lines_are_stepped_in_the_order_written_to_the_bit() {
+        let (mut x, mut v, h) = (0.25_f64, 0.5_f64, 1.0 / 60.0);
+        for _ in 0..50 {
+            v = (v + (1.0 - x) * 0.2) * 0.85;
+            x += v * h;
+        }
+        let text = "v = (v + (target - x) * 0.2) * 0.85; x += v * dt";
+        assert_eq!(run(text, 50), [x, v]);
+        let other = "x += v * dt\nv = (v + (target - x) * 0.2f) * 0.85F // the other order";
+        assert_ne!(run(other, 50), [x, v]);
+    }
+
+    #[test]
+    fn a_block_changes_numbers_only_where_its_condition_holds() {
+        let text = "x += v\nif x > 1 {\n  let over = x - 1\n  x = 1 - over; v = -v\n} else if x < 0.5 { v *= 2 } else { v *= 3 }";
+        assert_eq!(run(text, 1), [0.75, 1.5]);
+        assert_eq!(run(text, 2), [2.0 - 2.25, -1.5]);
+        assert_eq!(run("if x < 0 { x = 1/0 } else { x = 2 }", 1), [2.0, 0.5]);
+    }
+
+    #[test]
+    fn what_is_read_before_it_is_assigned_is_carried() {
+        let text = read(
+            "memory prev = 2*3; temp = x; x += (x - prev) * 0.5; prev = temp; count = count + 1",
+        );
+        let names: Vec<&str> = text.carried().iter().map(|carried| &*carried.name).collect();
+        assert_eq!(names, ["x", "v", "prev", "count"]);
+        assert_eq!(text.carried()[2].start, 6.0);
+        assert_eq!(text.reads()[0], [0, 2]);
+        assert!(text.keeps(1) && !text.keeps(0));
+        let mut registers = text.registers();
+        (0..2).for_each(|_| text.step(&mut registers, 1.0, 0.0));
+        assert_eq!([0, 2, 3].map(|index| text.value(&registers, index)), [-4.5, -3.0, 2.0]);
+    }
+
+    #[test]
+    fn linearity_is_read_off_the_form() {
+        for (text, is_linear) in [
+            ("v = (v + (target - x) * 0.2) * 0.85; x += v", true),
+            ("let k = 1 - exp(-20 * dt); x = lerp(x, target, min(k, 1))", true),
+            ("x += 3", true),
+            ("v -= v * abs(v) * dt", false),
+            ("v = clamp(v, -1, 1)", false),
+            ("if x < 0 { x = 0 }", false),
+        ] {
+            assert_eq!(read(text).is_linear(), is_linear, "{text}");
+        }
+        let map = read("v = (v + (target - x) * 0.25) * 0.5; x += v * dt").map(0.5, &[0.0; 2], 0.0);
+        assert_eq!(map.columns, [[0.9375, -0.125], [0.25, 0.5], [0.0625, 0.125]]);
+    }
+
+    #[test]
+    fn a_fault_names_its_bytes() {
+        for (text, at, what) in [
+            ("x += k", 5..6, "unknown name `k`"),
+            ("v = 1\nx += lrep(x, 1, 2)", 11..15, "unknown function `lrep`"),
+            ("x += (1", 6..7, "the text ends where `)` is missing"),
+            ("let k = 2", 0..9, "no line assigns `x` or `v`"),
+            ("target = 1", 0..6, "`target` is where `x` goes, which no line changes"),
+            ("let step = 1; x = step", 4..8, "`step` has a meaning of its own in expressions"),
+            ("x = k; let k = 1", 4..5, "unknown name `k`"),
+            ("let k += 1; x = k", 4..5, "`k` has no value yet"),
+            ("if x > 0 { x = 1", 15..16, "a block is not closed"),
+            ("x = 1 }", 6..7, "`}` closes nothing"),
+            ("if x > 0 { let y = 1 }; x = y", 28..29, "unknown name `y`"),
+            ("if x { x = 1 }", 3..4, "`x` is a number, not a condition"),
+            ("memory k = x; x = k", 10..12, "a memory starts as a finite number"),
+            ("x +=", 4..4, "the expression is empty"),
+        ] {
+            assert_eq!(fault_of(text), (at, what.to_owned()), "{text}");
+        }
+    }
+
+    #[test]
+    fn no_text_panics() {
+        let mut seed = 1_u64;
+        let mut next = || {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 33) as usize
+        };
+        let pieces = [
+            "x",
+            "v",
+            "dt",
+            "target",
+            "k",
+            " ",
+            "=",
+            "+=",
+            "-",
+            "*",
+            "/",
+            "^",
+            "(",
+            ")",
+            "{",
+            "}",
+            ";",
+            "\n",
+            "if ",
+            "else ",
+            "let ",
+            "memory ",
+            "0.5f",
+            "1e999",
+            "9",
+            "lerp(",
+            "min(",
+            ",",
+            "<",
+            "and ",
+            "é",
+            "\u{feff}",
+            "//",
+            "/*",
+            "#",
+            "\"",
+            "Mathf.",
+            "[",
+            "table(x, [[0, 1], [1, 2]])",
+            "x = ",
+            "x += v;",
+        ];
+        for _ in 0..20_000 {
+            let text: String = (0..next() % 24).map(|_| pieces[next() % pieces.len()]).collect();
+            match StepText::read(&text) {
+                Ok(text) => {
+                    let mut registers = text.registers();
+                    (0..3).for_each(|_| text.step(&mut registers, 0.1, 1.0));
+                    let _ = (text.map(0.1, &vec![0.5; text.carried().len()], 1.0), text.code());
+                }
+                Err(fault) => assert!(text.get(fault.span).is_some(), "{text}"),
+            }
+        }
+        for text in [
+            "x = ".to_owned() + &"(".repeat(3000),
+            "if x > 0 {".repeat(1000),
+            "x = x^16; ".repeat(600),
+            "x += 1;".repeat(2000),
+            "x = -".to_owned() + &"9".repeat(500),
+            "if x > 0 { x = 1 } else ".repeat(300) + "{ x = 2 }",
+            "x = 0".to_owned() + &" + x".repeat(1000),
+            "é".repeat(9000),
+            (0..100).map(|i| format!("y{i} = {i};")).collect(),
+        ] {
+            if let Err(fault) = StepText::read(&text) {
+                assert!(text.get(fault.span.clone()).is_some(), "{fault:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! The lines in the language of `assets/methods`, which has a printer for other languages.
+
+use super::{BUILT_IN, Carried, H, Line, StepText};
+use crate::sim::law::expression::Expression;
+use crate::sim::law::function::{FUNCTIONS, Meaning};
+use crate::sim::law::op::{INFIXES, Level, Op};
+
+/// The lines of a step as code.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct StepCode {
+    /// The functions that the lines call and not every language has.
+    pub functions: Vec<&'static str>,
+    /// The lines. Carried numbers of the text are fields of `memory`, the length of a step is called [`STEP`](Self::STEP).
+    pub lines: Vec<String>,
+}
+
+impl StepCode {
+    /// The name of the length of a step.
+    pub const STEP: &str = "step_s";
+}
+
+/// The most bytes of an expression.
+const MAX_CODE_BYTES: usize = 4096;
+
+/// The functions that not every language has.
+const WRITTEN_OUT: [(&str, &str); 3] = [
+    (
+        "sign",
+        "fn sign(x) {\n    if 0.0 < x {\n        return 1.0\n    }\n    if x < 0.0 {\n        return -1.0\n    }\n    return 0.0\n}\n",
+    ),
+    ("step", "fn step(x) {\n    if x < 0.0 {\n        return 0.0\n    }\n    return 1.0\n}\n"),
+    ("hypot", "fn hypot(x, y) {\n    return sqrt(x * x + y * y)\n}\n"),
+];
+
+/// Names that a language, or the code around the lines, has for something else.
+const TAKEN: [&str; 44] = [
+    "memory",
+    "before",
+    "unspent",
+    "shown",
+    "position",
+    "velocity",
+    "user",
+    "fail",
+    "stay",
+    "count",
+    "takes",
+    "use",
+    "nan",
+    "in",
+    "is",
+    "as",
+    "fn",
+    "type",
+    "struct",
+    "class",
+    "public",
+    "new",
+    "ref",
+    "out",
+    "signal",
+    "extends",
+    "int",
+    "long",
+    "short",
+    "char",
+    "bool",
+    "string",
+    "object",
+    "base",
+    "match",
+    "loop",
+    "mod",
+    "move",
+    "where",
+    "enum",
+    "self",
+    "this",
+    "params",
+    StepCode::STEP,
+];
+
+/// Code and how tightly its outermost operator binds; `None` for a name, a number or a call.
+type Written = (String, Option<Level>);
+
+impl Carried {
+    /// Its name in code: a field of `memory` unless it is `x` or `v`.
+    pub fn field(&self) -> String {
+        own(&self.name)
+    }
+}
+
+impl StepText {
+    /// The lines as code.
+    ///
+    /// # Errors
+    /// What other languages cannot be told, in a clause.
+    pub fn code(&self) -> Result<StepCode, String> {
+        let mut code = StepCode::default();
+        let mut is_known: Vec<bool> =
+            (0..self.names.len()).map(|name| self.is_state(name)).collect();
+        let mut depth = 0;
+        let mut body = Vec::new();
+        for line in &self.lines {
+            body.push(match line {
+                Line::If(condition) => {
+                    depth += 1;
+                    format!("if {} {{", self.expression(condition, &mut code)?)
+                }
+                Line::Else => "} else {".into(),
+                Line::End => {
+                    depth -= 1;
+                    "}".into()
+                }
+                Line::Assign { name, joins, value } => {
+                    let (value, written) = (self.expression(value, &mut code)?, self.name(*name));
+                    if is_known[*name] {
+                        format!("{written} {joins}= {value}")
+                    } else {
+                        is_known[*name] = true;
+                        let assigns = |line: &&Line| {
+                            matches!(line, Line::Assign { name: other, .. } if other == name)
+                        };
+                        match (depth, self.lines.iter().filter(assigns).count()) {
+                            (0, 1) => format!("let {written} = {value}"),
+                            (0, _) => format!("var {written} = {value}"),
+                            _ => {
+                                code.lines.push(format!("var {written} = 0.0"));
+                                format!("{written} = {value}")
+                            }
+                        }
+                    }
+                }
+            });
+        }
+        code.lines.extend(body);
+        Ok(code)
+    }
+
+    /// Whether a name has a number before the first line.
+    fn is_state(&self, name: usize) -> bool {
+        name < BUILT_IN.len() || self.carried.iter().any(|carried| carried.input == name)
+    }
+
+    fn name(&self, index: usize) -> String {
+        let name = &self.names[index];
+        match index {
+            H => StepCode::STEP.into(),
+            _ if index < BUILT_IN.len() => name.clone(),
+            _ if self.is_state(index) => format!("memory.{}", own(name)),
+            _ => own(name),
+        }
+    }
+
+    fn expression(&self, expression: &Expression, code: &mut StepCode) -> Result<String, String> {
+        let mut written: Vec<Written> = Vec::new();
+        for node in &expression.nodes {
+            let operand = |n: usize| &written[node.arguments()[n]];
+            let call = |name: &str| {
+                let all: Vec<&str> = node.arguments().iter().map(|n| &*written[*n].0).collect();
+                (format!("{name}({})", all.join(", ")), None)
+            };
+            let infix = INFIXES.iter().find(|infix| infix.op == node.op && !infix.is_swapped);
+            let new: Written = match (node.op, infix) {
+                (Op::Number, _) => (format!("{:?}", node.number), None),
+                (Op::Input, _) => (self.name(node.index), None),
+                (Op::Power, _) => call("pow"),
+                (Op::Negate, _) => {
+                    (format!("-{}", within(operand(0), Some(Level::Product))), Some(Level::Sum))
+                }
+                (Op::Not, _) => (format!("not {}", within(operand(0), Some(Level::Power))), None),
+                (_, Some(infix)) => {
+                    let left = match operand(0) {
+                        (text, Some(level)) if *level < infix.level => format!("({text})"),
+                        (text, _) => text.clone(),
+                    };
+                    let right = within(operand(1), Some(infix.level));
+                    (format!("{left} {} {right}", infix.sign), Some(infix.level))
+                }
+                (op, None) => {
+                    let name = name_of(op).ok_or_else(|| {
+                        "`if(…)` and `table(…)` have no words there; write blocks of `if`"
+                            .to_owned()
+                    })?;
+                    let own = WRITTEN_OUT.iter().find(|(function, _)| *function == name);
+                    let own = own.map(|(_, text)| *text);
+                    let own = own.filter(|text| !code.functions.contains(text));
+                    code.functions.extend(own);
+                    call(name)
+                }
+            };
+            if new.0.len() > MAX_CODE_BYTES {
+                return Err("an expression is too long once its powers are written out".into());
+            }
+            written.push(new);
+        }
+        Ok(written.pop().unwrap_or_default().0)
+    }
+}
+
+/// Code within an operator that binds as tightly as `outside`.
+fn within((text, level): &Written, outside: Option<Level>) -> String {
+    match level {
+        Some(level) if Some(*level) <= outside => format!("({text})"),
+        _ => text.clone(),
+    }
+}
+
+/// The function that an operation is a call of.
+fn name_of(op: Op) -> Option<&'static str> {
+    let is_it = |meaning: &Meaning| match (op, meaning) {
+        (Op::Smooth(called), Meaning::Smooth(smooth)) => called == smooth,
+        (Op::Switch(called), Meaning::Switch(switch)) => called == *switch,
+        _ => false,
+    };
+    FUNCTIONS.iter().find(|function| is_it(&function.meaning)).map(|function| function.name)
+}
+
+/// A name of the text that no language takes for something else.
+fn own(name: &str) -> String {
+    if TAKEN.contains(&name) { format!("{name}_own") } else { name.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::sim::law::StepText;
+
+    fn code(text: &str) -> Vec<String> {
+        StepText::read(text).unwrap().code().unwrap().lines
+    }
+
+    #[test]
+    fn lines_are_written_with_the_brackets_that_keep_their_order() {
+        let text = "v = (v + (target - x) * 0.2) * -0.85; x += v * dt - (1 - (x - 3)) / (2 * 3)";
+        let lines = [
+            "v = (v + (target - x) * 0.2) * (-0.85)",
+            "x += v * step_s - (1.0 - (x - 3.0)) / (2.0 * 3.0)",
+        ];
+        assert_eq!(code(text), lines);
+        let text = "old = x; in = x - prev; if in > 1 or not in == 0 { in = 1; y = 2 } else { y = 3 }; x += in * y^2; prev = old";
+        let lines = [
+            "var y = 0.0",
+            "let old = x",
+            "var in_own = x - memory.prev",
+            "if 1.0 < in_own or not (in_own == 0.0) {",
+            "in_own = 1.0",
+            "y = 2.0",
+            "} else {",
+            "y = 3.0",
+            "}",
+            "x += in_own * (y * y)",
+            "memory.prev = old",
+        ];
+        assert_eq!(code(text), lines);
+        assert_eq!(
+            code("x = lerp(x, clamp(target, 0, 1), 0.1)"),
+            ["x = x + (min(max(target, 0.0), 1.0) - x) * 0.1"]
+        );
+        let found =
+            StepText::read("v -= sign(v) * hypot(v, sin(x)); v = -v").unwrap().code().unwrap();
+        assert_eq!(found.functions.len(), 2);
+        assert!(StepText::read("x = if(x < 1, 0, v)").unwrap().code().is_err());
+        assert!(StepText::read("x = ((((x^9)^9)^9)^9)^9").unwrap().code().is_err());
+    }
+}

@@ -1,0 +1,114 @@
+//! The text without what only its language wants: remarks, the `f` of `0.2f`, the `Mathf.` of `Mathf.Exp`.
+
+/// What stands before a name in other languages and has no meaning here.
+const PREFIXES: [&str; 10] =
+    ["Mathf.", "MathF.", "Math.", "math.", "Time.", "std::", "f32::", "f64::", "self.", "this."];
+
+/// What may end a number in other languages.
+const SUFFIXES: [&str; 8] = ["_f64", "_f32", "f64", "f32", "f", "F", "d", "D"];
+
+/// Whether this can stand within a name.
+pub(super) fn is_name_part(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_'
+}
+
+/// The text with blanks in the place of what has no meaning here, so that every byte stays where it is.
+pub(super) fn plain(text: &str) -> String {
+    let mut plain = text.as_bytes().to_vec();
+    if text.starts_with('\u{feff}') {
+        plain[..'\u{feff}'.len_utf8()].fill(b' ');
+    }
+    let mut at = 0;
+    while at < text.len() {
+        let rest = &text.as_bytes()[at..];
+        let blank = |plain: &mut Vec<u8>, length: usize| {
+            let blanks = plain[at..at + length].iter_mut();
+            blanks.filter(|byte| **byte != b'\n').for_each(|byte| *byte = b' ');
+            length
+        };
+        at += match rest[0] {
+            b'#' => blank(&mut plain, line_length(rest)),
+            b'/' if rest.starts_with(b"//") => blank(&mut plain, line_length(rest)),
+            b'/' if rest.starts_with(b"/*") => {
+                let end = rest.windows(2).skip(2).position(|two| two == b"*/");
+                blank(&mut plain, end.map_or(rest.len(), |end| end + 4))
+            }
+            b'\r' => blank(&mut plain, 1),
+            b'0'..=b'9' | b'.' => {
+                let (number, suffix) = number_length(rest);
+                plain[at + number..at + number + suffix].fill(b' ');
+                number + suffix
+            }
+            byte if is_name_part(byte) => {
+                match PREFIXES.iter().find(|prefix| rest.starts_with(prefix.as_bytes())) {
+                    Some(prefix) => {
+                        let length = blank(&mut plain, prefix.len());
+                        lower_name(&mut plain[at + length..]);
+                        length
+                    }
+                    None => rest.iter().take_while(|byte| is_name_part(**byte)).count(),
+                }
+            }
+            _ => 1,
+        };
+    }
+    // Whole characters are blanked, or none of their bytes.
+    String::from_utf8(plain).unwrap_or_default()
+}
+
+fn line_length(rest: &[u8]) -> usize {
+    rest.iter().take_while(|byte| **byte != b'\n').count()
+}
+
+/// The lengths of a number and of its suffix.
+fn number_length(rest: &[u8]) -> (usize, usize) {
+    let digits = |from: usize| {
+        rest[from..].iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.').count()
+    };
+    let mut length = digits(0);
+    if matches!(rest.get(length), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(rest.get(length + 1), Some(b'+' | b'-')));
+        let exponent = rest.get(length + 1 + sign..).map_or(0, |_| digits(length + 1 + sign));
+        length += if exponent > 0 { 1 + sign + exponent } else { 0 };
+    }
+    let after = &rest[length..];
+    let ends = |suffix: &&&str| {
+        after.starts_with(suffix.as_bytes())
+            && !after.get(suffix.len()).copied().is_some_and(is_name_part)
+    };
+    let suffix = SUFFIXES.iter().find(ends).filter(|_| rest[0] != b'.' || length > 1);
+    (length.max(1), suffix.map_or(0, |suffix| suffix.len()))
+}
+
+/// Writes the name at the start as functions are called here: `Lerp` as `lerp`, `PI` as `pi`.
+fn lower_name(plain: &mut [u8]) {
+    let length = plain.iter().take_while(|byte| is_name_part(**byte)).count();
+    let name = &mut plain[..length];
+    let is_shouted = name.iter().all(|byte| !byte.is_ascii_lowercase());
+    let count = if is_shouted { length } else { length.min(1) };
+    name[..count].make_ascii_lowercase();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn what_only_another_language_wants_is_blank_and_no_byte_moves() {
+        for (written, read) in [
+            ("x += 0.2f * v; // drag", "x += 0.2  * v;        "),
+            ("x = 1e-3F # £", "x = 1e-3      "),
+            ("v *= Mathf.Exp(-k)", "v *=       exp(-k)"),
+            ("a = Math.PI / 2.0_f32", "a =      pi / 2.0    "),
+            ("x /* a\nb */ = x0f", "x     \n     = x0f"),
+            ("\u{feff}x = 1.f;\r\n", "   x = 1. ; \n"),
+            ("h = Time.deltaTime", "h =      deltaTime"),
+            (".", "."),
+            ("1e", "1e"),
+            ("/*", "  "),
+        ] {
+            assert_eq!(plain(written), read, "{written}");
+            assert_eq!(plain(written).len(), written.len());
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! The statements of a step, and where each stands in the text.
+
+use std::ops::Range;
+
+use super::plain::is_name_part;
+use crate::sim::law::fault::{Parsed, fault, quoted};
+use crate::sim::law::token::is_name_start;
+
+/// A statement with the bytes of its parts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Statement {
+    /// `name = value`, with the operator that joins the value to the number before: empty in `=`.
+    Assign { name: Range<usize>, joins: &'static str, value: Range<usize>, is_declared: bool },
+    /// `memory name = value`.
+    Memory { name: Range<usize>, value: Range<usize> },
+    /// `if condition {`.
+    If(Range<usize>),
+    /// `} else {`, and the condition in `} else if condition {`.
+    Else(Option<Range<usize>>, Range<usize>),
+    /// `}`.
+    End(Range<usize>),
+}
+
+/// The words that declare a number in some language.
+const DECLARERS: [&str; 10] =
+    ["let", "var", "const", "float", "double", "auto", "local", "mut", "final", "static"];
+
+/// The words that begin what no step can have.
+const REFUSED: [(&str, &str); 8] = [
+    ("while", "write the lines of one step; `--fps` says how often they run"),
+    ("for", "write the lines of one step; `--fps` says how often they run"),
+    ("return", "assign `x` and `v` in its place"),
+    ("fn", "write the lines inside the function"),
+    ("func", "write the lines inside the function"),
+    ("def", "write the lines inside the function"),
+    ("void", "write the lines inside the function"),
+    ("function", "write the lines inside the function"),
+];
+
+/// The operators of an assignment, each with the one that joins the value to the number before.
+const ASSIGNMENTS: [(&str, &str); 6] =
+    [("+=", "+"), ("-=", "-"), ("*=", "*"), ("/=", "/"), (":=", ""), ("=", "")];
+
+/// The statements of a text without remarks.
+pub(super) fn statements(text: &str) -> Parsed<Vec<Statement>> {
+    let mut reader = Reader { text, at: 0 };
+    let mut statements = Vec::new();
+    while let Some(statement) = reader.next()? {
+        statements.push(statement);
+    }
+    Ok(statements)
+}
+
+struct Reader<'t> {
+    text: &'t str,
+    at: usize,
+}
+
+impl Reader<'_> {
+    fn rest(&self) -> &str {
+        &self.text[self.at..]
+    }
+
+    fn skip(&mut self, blank: impl Fn(char) -> bool) {
+        self.at += self.rest().len() - self.rest().trim_start_matches(blank).len();
+    }
+
+    /// The bytes of the name that comes next; none if none does.
+    fn name(&self) -> Range<usize> {
+        let is_name = self.rest().starts_with(is_name_start);
+        let length = self.rest().bytes().take_while(|byte| is_name && is_name_part(*byte)).count();
+        self.at..self.at + length
+    }
+
+    fn next(&mut self) -> Parsed<Option<Statement>> {
+        self.skip(|c| c.is_ascii_whitespace() || c == ';');
+        let start = self.at;
+        match (self.rest().chars().next(), &self.text[self.name()]) {
+            (None, _) => Ok(None),
+            (Some('}'), _) => {
+                self.at += 1;
+                let brace = start..self.at;
+                self.skip(|c| c.is_ascii_whitespace());
+                if &self.text[self.name()] != "else" {
+                    return Ok(Some(Statement::End(brace)));
+                }
+                self.at = self.name().end;
+                self.skip(|c| c.is_ascii_whitespace());
+                let condition = match &self.text[self.name()] {
+                    "if" => Some(self.condition()?),
+                    _ => {
+                        let between = self.at..self.at;
+                        self.opened(between)?;
+                        None
+                    }
+                };
+                Ok(Some(Statement::Else(condition, brace)))
+            }
+            (_, "if") => Ok(Some(Statement::If(self.condition()?))),
+            (_, "else") => fault(
+                self.name(),
+                "`else` follows no block",
+                "write `if condition { … } else { … }`",
+            ),
+            _ => self.assignment().map(Some),
+        }
+    }
+
+    /// The condition after the `if` that comes next, up to the brace that it opens.
+    fn condition(&mut self) -> Parsed<Range<usize>> {
+        let word = self.name();
+        self.at = word.end;
+        let length = self.rest().find(['{', ';', '}']).unwrap_or(self.rest().len());
+        let condition = self.at..self.at + length;
+        self.at = condition.end;
+        self.opened(word)?;
+        Ok(condition)
+    }
+
+    /// Takes the brace that opens a block.
+    fn opened(&mut self, word: Range<usize>) -> Parsed<()> {
+        if !self.rest().starts_with('{') {
+            return fault(word, "no `{` opens the block", "write `if condition { … }`");
+        }
+        self.at += 1;
+        Ok(())
+    }
+
+    /// Where the statement ends: at `;`, at a brace, or at the end of a line that does not go on.
+    fn end(&self) -> usize {
+        let mut depth = 0_i32;
+        for (at, sign) in self.rest().char_indices() {
+            match sign {
+                '(' | '[' => depth += 1,
+                ')' | ']' => depth -= 1,
+                ';' | '{' | '}' => return self.at + at,
+                '\n' if depth <= 0 && !goes_on(&self.rest()[..at], &self.rest()[at..]) => {
+                    return self.at + at;
+                }
+                _ => {}
+            }
+        }
+        self.text.len()
+    }
+
+    fn assignment(&mut self) -> Parsed<Statement> {
+        let (start, end) = (self.at, self.end());
+        let whole = |reader: &Self| start..end.max(reader.at).max(start + 1).min(reader.text.len());
+        let mut is_declared = false;
+        let mut name = self.name();
+        if let Some((word, remedy)) =
+            REFUSED.iter().find(|(word, _)| *word == &self.text[name.clone()])
+        {
+            return fault(name, format!("`{word}` cannot stand in a step"), *remedy);
+        }
+        let is_memory = &self.text[name.clone()] == "memory";
+        while is_memory && !is_declared || DECLARERS.contains(&&self.text[name.clone()]) {
+            self.at = name.end;
+            self.skip(|c| c == ' ' || c == '\t');
+            if self.name().is_empty() {
+                break;
+            }
+            is_declared = true;
+            name = self.name();
+        }
+        if name.is_empty() {
+            let span = start..self.text.ceil_char_boundary(start + 1);
+            let what = format!("`{}` begins no statement", quoted(&self.text[span.clone()]));
+            return fault(span, what, "write an assignment, such as `x += v * dt`");
+        }
+        self.at = name.end;
+        self.skip(|c| c == ' ' || c == '\t');
+        if is_declared && self.rest().starts_with(':') && !self.rest().starts_with(":=") {
+            self.at += 1;
+            self.skip(|c| c == ' ' || c == '\t');
+            self.at = self.name().end;
+            self.skip(|c| c == ' ' || c == '\t');
+        }
+        let written = quoted(&self.text[name.clone()]);
+        let operator = ASSIGNMENTS.iter().find(|(sign, _)| self.rest().starts_with(sign));
+        let Some((sign, joins)) = operator.filter(|_| !self.rest().starts_with("==")) else {
+            let (what, remedy) = match self.rest().chars().next() {
+                Some('.' | '[') => (
+                    format!("`{}` is a part of something", quoted(self.text[whole(self)].trim())),
+                    "a step moves one number: write `x` for where it is and `v` for how fast it moves",
+                ),
+                Some('(') => (
+                    format!("`{written}(…)` is a call"),
+                    "write an assignment, such as `x += v * dt`",
+                ),
+                _ => (
+                    format!("`{written}` is not assigned"),
+                    "write `=`, `+=`, `-=`, `*=` or `/=` after it",
+                ),
+            };
+            return fault(whole(self), what, remedy);
+        };
+        let value = self.at + sign.len()..end.max(self.at + sign.len());
+        self.at = value.end;
+        if self.rest().starts_with('{') {
+            let brace = self.at..self.at + 1;
+            return fault(brace, "`{` opens no block here", "write `if condition {`, or remove it");
+        }
+        Ok(match is_memory && is_declared {
+            true if joins.is_empty() => Statement::Memory { name, value },
+            _ => Statement::Assign { name, joins, value, is_declared },
+        })
+    }
+}
+
+/// Whether a statement goes on after the end of a line.
+fn goes_on(before: &str, after: &str) -> bool {
+    let is_operator = |sign: char| "+-*/^=<>".contains(sign);
+    let (before, after) = (before.trim_end(), after.trim_start());
+    let is_word = |word: &str| {
+        let rest = after.strip_prefix(word);
+        rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_'))
+    };
+    before.ends_with(|sign| is_operator(sign) || sign == ',')
+        || after.starts_with(is_operator)
+        || is_word("and")
+        || is_word("or")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Vec<String> {
+        let of = |span: Range<usize>| text[span].trim().to_owned();
+        let shown = |statement| match statement {
+            Statement::Assign { name, joins, value, is_declared } => {
+                let declared = if is_declared { "let " } else { "" };
+                format!("{declared}{} {joins}= {}", of(name), of(value))
+            }
+            Statement::Memory { name, value } => format!("memory {} = {}", of(name), of(value)),
+            Statement::If(condition) => format!("if {}", of(condition)),
+            Statement::Else(condition, _) => format!("else {}", condition.map_or("".into(), of)),
+            Statement::End(_) => "end".into(),
+        };
+        statements(text).unwrap().into_iter().map(shown).collect()
+    }
+
+    #[test]
+    fn statements_end_at_semicolons_braces_and_lines_that_do_not_go_on() {
+        let text = "let k: f32 = 3; v = (v + (1 - x)\n * 0.2) * k\n  - 1\nx += v;\n";
+        assert_eq!(read(text), ["let k = 3", "v = (v + (1 - x)\n * 0.2) * k\n  - 1", "x += v"]);
+        let text = "memory old = 0\nif (x > 1) { x = 1; v = 0 } else if x < 0\n{\nx = 0 } else { old = x }";
+        assert_eq!(
+            read(text),
+            [
+                "memory old = 0",
+                "if (x > 1)",
+                "x = 1",
+                "v = 0",
+                "else x < 0",
+                "x = 0",
+                "else ",
+                "old = x",
+                "end"
+            ]
+        );
+        assert_eq!(read("const float a := 1\n\n;;float b = 2"), ["let a = 1", "let b = 2"]);
+        assert_eq!(read(" \n;"), [""; 0]);
+    }
+
+    #[test]
+    fn what_is_no_statement_is_refused_at_its_place() {
+        for (text, at) in [
+            ("x", 0..1),
+            ("x == 1", 0..6),
+            ("x = 1; pos.x += 1", 7..17),
+            ("update(x)", 0..9),
+            ("while x < 1 { x = 1 }", 0..5),
+            ("if x < 0 x = 1", 0..2),
+            ("if x < 0; x = 1", 0..2),
+            ("else { x = 1 }", 0..4),
+            ("x = 1 { v = 1 }", 6..7),
+            ("½ = 1", 0..2),
+            ("let", 0..3),
+            ("return x", 0..6),
+            ("3", 0..1),
+            ("if x > 1 { x = 1 } else x = 2", 24..24),
+        ] {
+            assert_eq!(statements(text).unwrap_err().span, at, "{text}");
+        }
+    }
+}

@@ -1,0 +1,309 @@
+//! A rule as code that moves the same at any frame rate, in the language of `assets/methods`.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::{Frame, Rule};
+use crate::sim::law::StepCode;
+use crate::tools::port::powers::Powers;
+use crate::tools::source_code::{Language, rule_code};
+
+/// Eigenvalues whose logarithms are this far apart are written as two exponentials: of closer ones the difference of those
+/// would be rounding.
+const APART: f64 = 1e-3;
+/// A rest as near to the target as this is the target, but for rounding.
+const AT_TARGET: f64 = 1e-11;
+
+/// Why a rule has no closed form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum NoClosedForm {
+    NotLinear,
+    ManyNumbers,
+    Flips,
+    Drifts,
+}
+
+impl NoClosedForm {
+    /// The reason as a clause.
+    fn reason(self) -> &'static str {
+        match self {
+            Self::NotLinear => "the rule is not linear, and has no closed form",
+            Self::ManyNumbers => "the rule carries more than two numbers",
+            Self::Flips => {
+                "a part of it is gone, or changes sides, in one frame: between frames that is no motion"
+            }
+            Self::Drifts => "it has no rest, and the target pushes it",
+        }
+    }
+}
+
+/// A rule in a language.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RuleCode {
+    /// The function.
+    pub text: String,
+    /// Why it makes fixed steps; `None` if it is the closed form.
+    pub steps_because: Option<&'static str>,
+}
+
+impl Rule {
+    /// Code that moves the same at any frame rate: the closed form, or else fixed steps of the author's frames with
+    /// interpolation. `written` is the rule for the comment.
+    ///
+    /// # Errors
+    /// Why other languages have no word for the rule, in a clause.
+    pub fn code(&self, written: &str, language: Language) -> Result<RuleCode, String> {
+        let fps = self.fps;
+        let lines = written.lines().map(|line| line.trim().to_owned());
+        let mut about = vec![format!("This rule of {fps} frames per second, at any frame rate:")];
+        about.extend(lines.filter(|line| !line.is_empty()).map(|line| format!("  {line}")));
+        match self.closed_form() {
+            Ok(source) => {
+                about.push("The closed form: after a frame it is where the rule is, and two half steps are one.".into());
+                if self.state.len() > 1 && self.state.contains(&1) && !self.takes_step() {
+                    about.push(format!("v is in units per frame of 1/{fps} s, as in the rule."));
+                }
+                Ok(RuleCode { text: rule_code(&source, &about, language), steps_because: None })
+            }
+            Err(because) => {
+                let source = self.fixed_steps()?;
+                let reason = because.reason();
+                about.push(format!(
+                    "Fixed steps: {reason}. Draw memory.shown, which lies between the last two steps."
+                ));
+                let text = rule_code(&source, &about, language);
+                Ok(RuleCode { text, steps_because: Some(reason) })
+            }
+        }
+    }
+
+    /// The names of the two numbers in the source.
+    fn names(&self) -> Vec<String> {
+        let name = |index: &usize| match index {
+            0 | 1 => self.text.carried()[*index].name.clone(),
+            _ => format!("memory.{}", self.text.carried()[*index].field()),
+        };
+        self.state.iter().map(name).collect()
+    }
+
+    /// What stands before the first line: the target, and the numbers that are carried beside x and v.
+    fn head(&self, takes_target: bool, carried: impl Iterator<Item = usize>) -> String {
+        let mut head = String::new();
+        if takes_target {
+            head += "takes target: where it goes\n";
+        }
+        for index in carried.filter(|index| *index > 1) {
+            let carried = &self.text.carried()[index];
+            head += &format!("memory {} = {:?}\n", carried.field(), carried.start);
+        }
+        head + "\n"
+    }
+
+    fn closed_form(&self) -> Result<String, NoClosedForm> {
+        if !self.is_linear {
+            return Err(NoClosedForm::NotLinear);
+        }
+        let frame = self.frame(self.fps).ok_or(NoClosedForm::ManyNumbers)?;
+        let lines = match self.state.len() {
+            1 => self.first_order(&frame)?,
+            _ if self.stays => self.coasting(&frame)?,
+            _ => self.swinging(&frame)?,
+        };
+        // Compilers warn of what is not read.
+        let is_read = |line: &&String| {
+            let Some((name, _)) = line.strip_prefix("let ").and_then(|rest| rest.split_once(" ="))
+            else {
+                return true;
+            };
+            let mut words = lines.iter().flat_map(|line| line.split([' ', '(', ')']));
+            words.by_ref().filter(|word| *word == name).nth(1).is_some()
+        };
+        let lines: Vec<&str> = lines.iter().filter(is_read).map(String::as_str).collect();
+        let takes_target = lines.iter().any(|line| line.contains("target"));
+        Ok(self.head(takes_target, self.state.iter().copied()) + &lines.join("\n") + "\n")
+    }
+
+    fn first_order(&self, frame: &Frame) -> Result<Vec<String>, NoClosedForm> {
+        let names = self.names();
+        let x = &names[0];
+        let (kept, by_target, offset) = (frame.map.m11, frame.by_target.x, frame.offset.x);
+        if kept <= 0.0 {
+            return Err(NoClosedForm::Flips);
+        }
+        if kept == 1.0 {
+            if by_target != 0.0 {
+                return Err(NoClosedForm::Drifts);
+            }
+            return Ok(vec![format!("{x} += {} * h", number(offset * self.fps))]);
+        }
+        let rest = rest([by_target, offset].map(|part| part / (1.0 - kept)));
+        let decay = format!("exp({} * h)", number(libm::log(kept) * self.fps));
+        Ok(vec![match rest.as_str() {
+            "0.0" => format!("{x} *= {decay}"),
+            rest => format!("{x} = {rest} + ({x} - {}) * {decay}", grouped(rest)),
+        }])
+    }
+
+    /// Of an eigenvalue 1 and another one.
+    fn coasting(&self, frame: &Frame) -> Result<Vec<String>, NoClosedForm> {
+        let (names, fps) = (self.names(), self.fps);
+        let kept = frame.map.trace() - 1.0;
+        if frame.by_target != Vector2::zeros() {
+            return Err(NoClosedForm::Drifts);
+        }
+        if kept <= 0.0 {
+            return Err(NoClosedForm::Flips);
+        }
+        let change = frame.map - Matrix2::identity();
+        let mut lines =
+            vec![format!("let first = {}", names[0]), format!("let second = {}", names[1])];
+        let is_free = (1.0 - kept).abs() <= super::NO_RETURN;
+        // What a frame changes, how much of that comes of the offset, and what comes every frame.
+        let (by_offset, drift) = if is_free {
+            lines.push(format!("let gone = {} * h", number(fps)));
+            lines.push("let again = gone * (gone - 1.0) / 2.0".into());
+            (change * frame.offset, frame.offset)
+        } else {
+            let lost = 1.0 - kept;
+            lines.push(format!("let kept = exp({} * h)", number(libm::log(kept) * fps)));
+            lines.push(format!("let gone = (1.0 - kept) / {}", number(lost)));
+            let by_offset = -change * frame.offset / lost;
+            (by_offset, frame.offset - by_offset)
+        };
+        for (n, name) in names.iter().enumerate() {
+            let change = sum(&[(change[(n, 0)], "first"), (change[(n, 1)], "second")]);
+            let offset = if is_free {
+                [(by_offset[n], "again"), (drift[n], "gone")]
+            } else {
+                [(by_offset[n], "gone"), (drift[n] * fps, "h")]
+            };
+            let [change, offset] = [change, sum(&offset)];
+            match (&*change, &*offset) {
+                ("0.0", "0.0") => {}
+                (_, "0.0") => lines.push(format!("{name} += gone * {}", grouped(&change))),
+                ("0.0", _) => lines.push(format!("{name} += {offset}")),
+                _ => lines.push(format!("{name} += gone * {} + {offset}", grouped(&change))),
+            }
+        }
+        Ok(lines)
+    }
+
+    fn swinging(&self, frame: &Frame) -> Result<Vec<String>, NoClosedForm> {
+        let (names, fps, map) = (self.names(), self.fps, frame.map);
+        let (half, determinant) = (map.trace() / 2.0, map.determinant());
+        let powers = Powers::of(map.trace(), determinant).ok_or(NoClosedForm::Flips)?;
+        let Powers { log_scale, apart, swings } = powers;
+        let inverse = (Matrix2::identity() - map).try_inverse().ok_or(NoClosedForm::Drifts)?;
+        let rests = (inverse * frame.by_target, inverse * frame.offset);
+        let rest: Vec<String> = (0..2).map(|n| rest([rests.0[n], rests.1[n]])).collect();
+        let away = |n: usize| match &*rest[n] {
+            "0.0" => names[n].clone(),
+            rest => format!("{} - {}", names[n], grouped(rest)),
+        };
+        let mut lines =
+            vec![format!("let first = {}", away(0)), format!("let second = {}", away(1))];
+        let root = libm::sqrt((half * half - determinant).abs());
+        let exp = |log: f64| format!("exp({} * h)", number(log * fps));
+        if !swings && apart > APART {
+            lines.extend([
+                format!("let slow = {}", exp(log_scale + apart)),
+                format!("let fast = {}", exp(log_scale - apart)),
+                "let even = (slow + fast) / 2.0".into(),
+                format!("let odd = (slow - fast) * {}", number(0.5 / root)),
+            ]);
+        } else if apart == 0.0 {
+            lines.extend([
+                format!("let even = {}", exp(log_scale)),
+                format!("let odd = even * h * {}", number(fps / half)),
+            ]);
+        } else {
+            let [even, odd] = if swings { ["cos", "sin"] } else { ["cosh", "sinh"] };
+            lines.extend([
+                format!("let decay = {}", exp(log_scale)),
+                format!("let angle = {} * h", number(apart * fps)),
+                format!("let even = decay * {even}(angle)"),
+                format!("let odd = decay * {odd}(angle) * {}", number(1.0 / root)),
+            ]);
+        }
+        let beside = map - Matrix2::identity() * half;
+        for (n, (name, own)) in names.iter().zip(["first", "second"]).enumerate() {
+            let mixed = sum(&[(beside[(n, 0)], "first"), (beside[(n, 1)], "second")]);
+            let rest = if rest[n] == "0.0" { String::new() } else { format!("{} + ", rest[n]) };
+            lines.push(format!("{name} = {rest}even * {own} + odd * {}", grouped(&mixed)));
+        }
+        Ok(lines)
+    }
+
+    fn fixed_steps(&self) -> Result<String, String> {
+        let StepCode { functions, lines } = self.text.code()?;
+        let shown = &self.names()[0];
+        let mut source =
+            "memory unspent = 0.0\nmemory before = nan\nmemory shown = nan\n".to_owned();
+        source += &self.head(self.text.takes_target(), 0..self.text.carried().len());
+        functions.iter().for_each(|function| source += &format!("{function}\n"));
+        let step =
+            if lines.iter().any(|line| line.starts_with(StepCode::STEP)) { "var" } else { "let" };
+        let reads = lines.iter().any(|line| line.contains(StepCode::STEP));
+        let step = reads.then(|| format!("{step} {} = FRAME", StepCode::STEP));
+        let lines: Vec<String> =
+            step.into_iter().chain(lines).map(|line| format!("    {line}")).collect();
+        Ok(source
+            + &format!(
+                "const FRAME = {:?}
+if is_nan(memory.before) {{
+    memory.before = {shown}
+}}
+memory.unspent += h
+while memory.unspent >= FRAME {{
+    memory.unspent -= FRAME
+    memory.before = {shown}
+{}
+}}
+memory.shown = memory.before + ({shown} - memory.before) * (memory.unspent / FRAME)
+",
+                1.0 / self.fps,
+                lines.join("\n")
+            ))
+    }
+}
+
+/// A number in a source, in brackets if it has a sign.
+fn number(value: f64) -> String {
+    // A negative zero is 0.
+    let value = value + 0.0;
+    if value < 0.0 { format!("({value:?})") } else { format!("{value:?}") }
+}
+
+/// The rest for these parts of the target and of 1.
+fn rest([by_target, offset]: [f64; 2]) -> String {
+    let is_target = (by_target - 1.0).abs() <= AT_TARGET;
+    let by_target = if by_target.abs() <= AT_TARGET { 0.0 } else { by_target };
+    let target = match is_target {
+        true => "target".into(),
+        false => sum(&[(by_target, "target")]),
+    };
+    match (&*target, offset) {
+        (_, 0.0) => target,
+        ("0.0", _) => number(offset),
+        _ => format!("{target} + {}", number(offset)),
+    }
+}
+
+/// The sum of these names, each times a number.
+fn sum(terms: &[(f64, &str)]) -> String {
+    let mut written = String::new();
+    for (factor, name) in terms.iter().filter(|(factor, _)| *factor != 0.0) {
+        let sign = match (written.is_empty(), *factor < 0.0) {
+            (true, true) => "-",
+            (true, false) => "",
+            (false, true) => " - ",
+            (false, false) => " + ",
+        };
+        written += &format!("{sign}{:?} * {name}", factor.abs());
+    }
+    if written.is_empty() { "0.0".into() } else { written }
+}
+
+/// A sum in brackets.
+fn grouped(sum: &str) -> String {
+    if sum.contains(' ') || sum.starts_with('-') { format!("({sum})") } else { sum.to_owned() }
+}

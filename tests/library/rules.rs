@@ -1,0 +1,311 @@
+//! The code of rules at any frame rate, compiled and run, beside the rules at their own.
+
+use std::fmt::Write as _;
+use std::process::Command;
+use std::{env, fs};
+
+use regatta::sim::law::StepText;
+use regatta::tools::Rule;
+use regatta::tools::rule::RuleCode;
+use regatta::tools::source_code::Language;
+
+use crate::compilers::{build_folder, compiled_or_skip};
+
+/// Linear rules: pairs of eigenvalues, real ones, close and double ones, and those without a rest.
+const LINEAR: [&str; 17] = [
+    "v = (v + (target - x) * 0.2) * 0.85; x += v",
+    "v += ((target - x) * 100 - v * 20) * dt; x += v * dt",
+    "v += ((target - x) * 100 - v * 40) * dt; x += v * dt",
+    "v *= 0.5; x = x * 0.5 + v",
+    "v *= 0.5; x = x * 0.50000001 + v",
+    "v = v * 0.5 - x * 1e-9; x = x * 0.5 + v",
+    "x += (target - x) * 20 * dt",
+    "x = Mathf.Lerp(x, target, 0.1f);",
+    "x = x * 0.9 + 1",
+    "x = x * 0.8 + target * 0.1 + 0.3",
+    "v *= 0.9; x += v * dt",
+    "v -= 9.81 * dt; v *= 0.99; x += v * dt",
+    "v -= 9.81 * dt; x += v * dt",
+    "old = x; x += (x - prev) * 0.98; prev = old",
+    "v *= 0.9",
+    "x += 3 * dt",
+    "let k = 1 - exp(-20 * dt); v = lerp(v, 2, k); x += v * dt - x * 0.01 + target * 0.002",
+];
+/// Rules that are not, or have no closed form.
+const STEPPED: [&str; 6] = [
+    "v -= v * abs(v) * 0.1; x += v * dt",
+    "v += (target - x) * 40 * dt; if v > 1 { v = 1 } else if v < -1 { v = -1 }\nx += v * dt",
+    "v -= sign(v) * min(abs(v), 3 * dt); x += v * dt",
+    "x += (target - x) * 1.5",
+    "memory in = 0.5; in += (target - x) * dt; v += (target - x) * 2 + in * 0.1 - v; x += v * dt",
+    "dt = min(dt, 0.01); y = x; if y > 0.5 and not (v < 0) { y = pow(x, 2) + hypot(x, v) }; x += (target - y) * dt",
+];
+
+const FPS: f64 = 60.0;
+const FRAMES: usize = 48;
+const START: [f64; 2] = [0.25, 1.5];
+const TARGET: f64 = 2.0;
+/// The largest difference from the rule, as a part of the largest number of the run.
+const ROUNDING: f64 = 1e-12;
+
+/// x and v after each frame of a rule, from [`START`].
+fn frames(rule: &str) -> Vec<[f64; 2]> {
+    let text = StepText::read(rule).unwrap();
+    let mut registers = text.registers();
+    (0..2).for_each(|index| text.set(&mut registers, index, START[index]));
+    let step = |_| {
+        text.step(&mut registers, 1.0 / FPS, TARGET);
+        [0, 1].map(|index| text.value(&registers, index))
+    };
+    (0..FRAMES).map(step).collect()
+}
+
+fn code(rule: &str, language: Language) -> RuleCode {
+    Rule::read(rule, FPS).unwrap().code(rule, language).unwrap()
+}
+
+/// What the driver steps by, as parts of a frame.
+const PARTS: [f64; 3] = [1.0, 0.5, 2.0];
+
+/// The driver's call of the function of rule `n` and its memory, with what the language wants around them.
+fn rust() -> String {
+    let (mut text, mut calls) = (String::new(), String::new());
+    for (n, rule) in LINEAR.iter().chain(&STEPPED).enumerate() {
+        let printed = code(rule, Language::Rust).text;
+        let memory = printed.contains("memory: &mut");
+        let target = if printed.contains("target: f64") { ", TARGET" } else { "" };
+        let (made, given) = match memory {
+            true => (format!("let mut m = rule{n}::RuleMemory::default();"), "&mut m, "),
+            false => (String::new(), ""),
+        };
+        writeln!(text, "mod rule{n} {{\n{printed}}}").unwrap();
+        writeln!(
+            calls,
+            "{{ {made} let (mut x, mut v) = (START[0], START[1]); for _ in 0..frames {{ \
+             (x, v) = rule{n}::rule({given}x, v, h{target}); show(x, v); }} }}"
+        )
+        .unwrap();
+    }
+    format!(
+        "#![allow(unused_assignments)]\n{text}const START: [f64; 2] = {START:?};\nconst TARGET: f64 = {TARGET:?};\n\
+         fn show(x: f64, v: f64) {{ println!(\"{{:016x}} {{:016x}}\", x.to_bits(), v.to_bits()); }}\n\
+         fn main() {{ for part in {PARTS:?} {{ let h = part / {FPS:?}; let frames = ({FRAMES} as f64 / part) as usize;\n{calls}}} }}\n"
+    )
+}
+
+fn c() -> String {
+    let (mut text, mut calls) =
+        ("#include <stdio.h>\n#include <string.h>\n".to_owned(), String::new());
+    for (n, rule) in LINEAR.iter().chain(&STEPPED).enumerate() {
+        let printed = code(rule, Language::C).text;
+        let target = if printed.contains("double target") { ", TARGET" } else { "" };
+        let (made, given) = match printed.contains("rule_memory") {
+            true => (format!("rule{n}_memory m = RULE{n}_START;"), "&m, "),
+            false => (String::new(), ""),
+        };
+        let named = printed
+            .replace("rule(", &format!("rule{n}("))
+            .replace("rule_", &format!("rule{n}_"))
+            .replace("RULE_", &format!("RULE{n}_"));
+        text.push_str(&named);
+        writeln!(
+            calls,
+            "{{ {made} double x = START[0], v = START[1]; for (int i = 0; i < frames; i++) {{ \
+             rule{n}({given}&x, &v, h{target}); show(x, v); }} }}"
+        )
+        .unwrap();
+    }
+    let [x, v] = START;
+    let [one, half, two] = PARTS;
+    format!(
+        "{text}static const double START[2] = {{ {x:?}, {v:?} }};\nstatic const double TARGET = {TARGET:?};\n\
+         static void show(double x, double v) {{ unsigned long long bits[2]; memcpy(&bits[0], &x, 8); memcpy(&bits[1], &v, 8); \
+         printf(\"%016llx %016llx\\n\", bits[0], bits[1]); }}\n\
+         int main(void) {{ const double parts[] = {{ {one:?}, {half:?}, {two:?} }}; for (int p = 0; p < 3; p++) {{ \
+         const double h = parts[p] / {FPS:?}; const int frames = (int)({FRAMES} / parts[p]);\n{calls}}} return 0; }}\n"
+    )
+}
+
+fn c_sharp() -> String {
+    let (mut text, mut calls) = ("using System;\n".to_owned(), String::new());
+    for (n, rule) in LINEAR.iter().chain(&STEPPED).enumerate() {
+        let printed = code(rule, Language::CSharp).text;
+        let target = if printed.contains("double target") { ", Target" } else { "" };
+        let (made, given) = match printed.contains("Memory memory") {
+            true => (format!("var m = new Rule{n}.Memory();"), "m, "),
+            false => (String::new(), ""),
+        };
+        let printed = printed.replace("using System;\n", "");
+        text.push_str(&printed.replace("class Rule\n", &format!("class Rule{n}\n")));
+        writeln!(
+            calls,
+            "{{ {made} double x = Start[0], v = Start[1]; for (int i = 0; i < frames; i++) {{ \
+             Rule{n}.Step({given}ref x, ref v, h{target}); Show(x, v); }} }}"
+        )
+        .unwrap();
+    }
+    let [x, v] = START;
+    let [one, half, two] = PARTS;
+    format!(
+        "{text}public static class Driver {{ static readonly double[] Start = {{ {x:?}, {v:?} }}; const double Target = {TARGET:?};\n\
+         static void Show(double x, double v) {{ Console.WriteLine(\"{{0:x16}} {{1:x16}}\", BitConverter.DoubleToInt64Bits(x), \
+         BitConverter.DoubleToInt64Bits(v)); }}\n\
+         public static void Main() {{ foreach (double part in new double[] {{ {one:?}, {half:?}, {two:?} }}) {{ \
+         double h = part / {FPS:?}; int frames = (int)({FRAMES} / part);\n{calls}}} }} }}\n"
+    )
+}
+
+/// Holds what a driver printed against the rules: at every frame, at every second half frame, and at every other frame.
+fn hold(driver: &mut Command) {
+    let output = driver.output().unwrap();
+    assert!(output.status.success(), "{:?}", output.status);
+    let text = String::from_utf8(output.stdout).unwrap();
+    let number = |word: &str| f64::from_bits(u64::from_str_radix(word, 16).unwrap());
+    let mut rows = text.lines().map(|line| {
+        let mut words = line.split(' ').map(number);
+        [(); 2].map(|()| words.next().unwrap())
+    });
+    for part in PARTS {
+        for (n, rule) in LINEAR.iter().chain(&STEPPED).enumerate() {
+            let known = frames(rule);
+            let size = known.iter().flatten().fold(1.0_f64, |size, x| size.max(x.abs()));
+            let rows: Vec<[f64; 2]> = rows.by_ref().take((FRAMES as f64 / part) as usize).collect();
+            for (frame, known) in known.iter().enumerate() {
+                let steps = (frame + 1) as f64 / part;
+                if steps.fract() != 0.0 {
+                    continue;
+                }
+                let found = rows[steps as usize - 1];
+                // Of a chase the velocity is not a part of the motion.
+                for place in (0..2).filter(|place| n < LINEAR.len() || *place == 0) {
+                    let off = (found[place] - known[place]).abs();
+                    assert!(
+                        off <= ROUNDING * size,
+                        "{rule} by {part} frames, {frame}: {found:?} {known:?}"
+                    );
+                }
+            }
+        }
+    }
+    assert_eq!(rows.next(), None);
+}
+
+#[test]
+fn every_linear_rule_has_a_closed_form_and_no_other_has() {
+    for (rule, is_closed) in
+        LINEAR.iter().map(|rule| (rule, true)).chain(STEPPED.iter().map(|rule| (rule, false)))
+    {
+        let because = code(rule, Language::Rust).steps_because;
+        assert_eq!(because.is_none(), is_closed, "{rule}: {because:?}");
+    }
+}
+
+#[test]
+fn the_rust_of_rules_moves_as_they_do_at_every_frame_rate() {
+    let folder = build_folder("rules-rust");
+    let (source, program) = (folder.join("driver.rs"), folder.join("driver"));
+    fs::write(&source, rust()).unwrap();
+    let mut compiler = Command::new(env::var_os("RUSTC").unwrap_or("rustc".into()));
+    compiler.args(["--edition=2024", "-Dwarnings", "-o"]).arg(&program).arg(&source);
+    if compiled_or_skip("the_rust_of_rules_moves_as_they_do_at_every_frame_rate", &mut compiler) {
+        hold(&mut Command::new(&program));
+    }
+}
+
+#[test]
+fn the_c_of_rules_moves_as_they_do_and_is_cpp_too() {
+    for (compiler, file, standard) in
+        [("cc", "driver.c", "-std=c99"), ("c++", "driver.cpp", "-std=c++14")]
+    {
+        let folder = build_folder(&format!("rules-{file}"));
+        let (source, program) = (folder.join(file), folder.join("driver"));
+        fs::write(&source, c()).unwrap();
+        let mut compiler = Command::new(compiler);
+        compiler.args(["-Wall", "-Wextra", "-pedantic", "-Werror", standard, "-o"]);
+        compiler.arg(&program).arg(&source).arg("-lm");
+        if compiled_or_skip("the_c_of_rules_moves_as_they_do_and_is_cpp_too", &mut compiler) {
+            hold(&mut Command::new(&program));
+        }
+    }
+}
+
+#[test]
+fn the_c_sharp_of_rules_moves_as_they_do() {
+    let folder = build_folder("rules-cs");
+    let (source, program) = (folder.join("driver.cs"), folder.join("driver.exe"));
+    fs::write(&source, c_sharp()).unwrap();
+    let mut compiler = Command::new("mcs");
+    compiler.args(["-langversion:3", &format!("-out:{}", program.display())]).arg(&source);
+    if compiled_or_skip("the_c_sharp_of_rules_moves_as_they_do", &mut compiler) {
+        hold(Command::new("mono").arg(&program));
+    }
+}
+
+/// The frequency that is seen, the damping ratio, and the seconds to the last hundredth.
+fn seen(rule: &str, fps: f64) -> [Option<f64>; 3] {
+    let seen = Rule::read(rule, FPS).unwrap().seen_at(fps);
+    [seen.hz, seen.spring.and_then(|spring| spring.damping_ratio()), seen.settles_s]
+}
+
+fn is_near(found: Option<f64>, expected: f64) -> bool {
+    found.is_some_and(|found| (found / expected - 1.0).abs() < 1e-3)
+}
+
+#[test]
+fn what_a_player_sees_of_a_spring_is_that_of_its_eigenvalues() {
+    let spring = LINEAR[0];
+    let [hz, ratio, settles] = seen(spring, 60.0);
+    assert!(is_near(hz, 4.057) && is_near(ratio, 0.1879) && is_near(settles, 0.8893));
+    assert!(is_near(seen(spring, 120.0)[0], 2.0 * 4.0568));
+    let rule = Rule::read(spring, FPS).unwrap();
+    let wish = rule.spring().unwrap();
+    assert!(is_near(Some(wish.frequency_hz), 4.130) && is_near(Some(wish.damping_ratio), 0.1879));
+    assert_eq!((rule.rings_below_fps(), rule.explodes_below_fps()), (None, None));
+    // Its frames pass the target first by as much as is seen, but for where between two the peak is.
+    let overshoot = rule.seen_at(FPS).overshoot.unwrap();
+    let text = StepText::read(spring).unwrap();
+    let mut registers = text.registers();
+    let step = |_| {
+        text.step(&mut registers, 1.0 / FPS, 1.0);
+        text.value(&registers, 0)
+    };
+    let farthest = (0..20).map(step).fold(0.0, f64::max);
+    assert!((farthest - 1.0 - overshoot).abs() < 0.02, "{farthest} {overshoot}");
+    let grows = |decay: &str| Rule::read(&spring.replace("0.85", decay), FPS).unwrap().seen_at(FPS);
+    assert!(!grows("1.0").grows && grows("1.05").grows);
+    assert!(is_near(grows("1.05").spring.unwrap().damping_ratio(), -0.0534));
+}
+
+#[test]
+fn chases_and_frictions_are_no_springs() {
+    let chase = Rule::read("x += (target - x) * 20 * dt", 30.0).unwrap();
+    let at_30 = chase.seen_at(30.0);
+    assert!(is_near(at_30.halves_s, 0.02103) && at_30.hz.is_none() && !at_30.grows);
+    assert!(is_near(at_30.settles_s, 0.1397));
+    assert!(is_near(chase.rings_below_fps(), 20.0) && is_near(chase.explodes_below_fps(), 10.0));
+    assert_eq!((chase.seen_at(20.0).settles_s, chase.seen_at(15.0).hz), (Some(0.05), Some(7.5)));
+    assert!(chase.seen_at(9.0).grows && chase.spring().is_none());
+    assert!(is_near(chase.approach().map(|approach| approach.half_life_s), 0.02103));
+    let friction = Rule::read("v *= 0.9", FPS).unwrap();
+    assert!(is_near(friction.seen_at(60.0).halves_s, 0.1096));
+    let [after, before] = friction.coasts_s().unwrap()[..] else { panic!() };
+    assert!(is_near(Some(after), 0.15) && is_near(Some(before), 0.16667));
+    for rule in ["v *= 0.9; x += v * dt", "old = x; x += (x - prev) * 0.9; prev = old"] {
+        let friction = Rule::read(rule, FPS).unwrap();
+        assert!(friction.spring().is_none() && friction.approach().is_none());
+        assert!(is_near(friction.seen_at(60.0).halves_s, 0.1096), "{rule}");
+    }
+}
+
+#[test]
+fn a_rule_that_is_not_linear_is_told_by_its_small_motions_or_not_at_all() {
+    let rule = |text: &str| Rule::read(text, FPS).unwrap();
+    let limited = rule("v += ((target - x) * 40 - v * 2) * dt; v = clamp(v, -3, 3); x += v * dt");
+    let free = rule("v += ((target - x) * 40 - v * 2) * dt; x += v * dt");
+    assert!(!limited.is_linear() && free.is_linear());
+    assert_eq!(limited.seen_at(60.0), free.seen_at(60.0));
+    assert_eq!(limited.explodes_below_fps(), free.explodes_below_fps());
+    let dry = rule("v -= sign(v) * 3 * dt; x += v * dt").seen_at(60.0);
+    assert_eq!((dry.hz, dry.settles_s, dry.grows), (None, None, false));
+    assert!(rule("x += x * abs(x) + 0.1").seen_at(60.0).grows);
+}

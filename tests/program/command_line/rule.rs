@@ -1,0 +1,136 @@
+//! `rule`: lines of a game in; what a player sees at every frame rate, and code out.
+
+use std::fs;
+use std::io::Write as _;
+use std::process::{Output, Stdio};
+
+use serde_json::Value;
+
+use super::{regatta, stderr};
+
+fn rule(arguments: &[&str]) -> Output {
+    regatta().arg("rule").args(arguments).output().unwrap()
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = rule(&[arguments, &["--format", "json"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn at(found: &Value, fps: f64) -> Value {
+    let rows = found["seen"].as_array().unwrap();
+    rows.iter().find(|row| row["fps"] == fps).unwrap_or_else(|| panic!("{found}")).clone()
+}
+
+fn is_near(found: &Value, expected: f64) -> bool {
+    found.as_f64().is_some_and(|found| (found / expected - 1.0).abs() < 1e-3)
+}
+
+#[test]
+fn a_spring_without_dt_is_twice_as_fast_at_twice_the_rate() {
+    let text = "v = (v + (target - x) * 0.2) * 0.85; x += v";
+    let found = json(&[text]);
+    let keys: Vec<&String> = found.as_object().unwrap().keys().collect();
+    let mut expected = [
+        "rule",
+        "fps",
+        "linear",
+        "seen",
+        "rings_below_fps",
+        "explodes_below_fps",
+        "spring",
+        "code",
+    ];
+    expected.sort_unstable();
+    let mut keys: Vec<&str> = keys.into_iter().map(String::as_str).collect();
+    keys.sort_unstable();
+    assert_eq!(keys, expected);
+    assert_eq!((&found["rule"], &found["fps"]), (&text.into(), &60.0.into()));
+    assert_eq!((&found["linear"], &found["rings_below_fps"]), (&true.into(), &Value::Null));
+    let rates: Vec<f64> =
+        found["seen"].as_array().unwrap().iter().map(|row| row["fps"].as_f64().unwrap()).collect();
+    assert_eq!(rates, [30.0, 50.0, 60.0, 120.0, 144.0, 165.0, 240.0]);
+    assert!(is_near(&at(&found, 60.0)["hz"], 4.057) && is_near(&at(&found, 120.0)["hz"], 8.1136));
+    assert!(is_near(&at(&found, 144.0)["damping_ratio"], 0.1879));
+    assert!(is_near(&found["spring"]["hz"], 4.130), "{found}");
+    assert!(is_near(&found["spring"]["damping_ratio"], 0.1879), "{found}");
+    let code = found["code"].as_object().unwrap();
+    for (language, part) in
+        [("rust", "f64::cos"), ("c", "cos("), ("csharp", "Math.Cos"), ("gdscript", "cos(")]
+    {
+        assert!(code[language].as_str().unwrap().contains(part), "{language}: {found}");
+    }
+    assert_eq!(code.len(), 4);
+}
+
+#[test]
+fn a_chase_by_a_rate_rings_and_grows_below_its_rates() {
+    let found = json(&["x += (target - x) * 20 * dt", "--fps", "30"]);
+    assert!(
+        is_near(&found["rings_below_fps"], 20.0) && is_near(&found["explodes_below_fps"], 10.0)
+    );
+    assert_eq!(found["spring"], Value::Null);
+    let seen = at(&found, 30.0);
+    assert_eq!((&seen["hz"], &seen["damping_ratio"]), (&Value::Null, &Value::Null));
+    assert_eq!((&seen["grows"], found["seen"].as_array().unwrap().len()), (&false.into(), 7));
+    assert_eq!(
+        json(&["x += (target - x) * 0.1", "--fps", "90"])["seen"].as_array().unwrap().len(),
+        8
+    );
+    let text = rule(&["x += (target - x) * 20 * dt", "--fps", "30"]);
+    let text = String::from_utf8(text.stdout).unwrap();
+    for said in
+        ["halves in 0.02103 s", "rings below 20.00", "grows below 10.00", "f64::exp((-32.95"]
+    {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+}
+
+#[test]
+fn lines_come_from_an_argument_a_file_or_standard_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("friction.step");
+    fs::write(&path, "// Slides.\r\nv *= 0.9f;\r\n").unwrap();
+    let from_file = json(&[path.to_str().unwrap()]);
+    assert!(is_near(&at(&from_file, 60.0)["settles_s"], 0.7285), "{from_file}");
+    let mut child = regatta()
+        .args(["rule", "-", "--format", "json"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(b"v *= 0.9").unwrap();
+    let found: Value = serde_json::from_slice(&child.wait_with_output().unwrap().stdout).unwrap();
+    assert_eq!((&found["seen"], &found["spring"]), (&from_file["seen"], &Value::Null));
+}
+
+#[test]
+fn what_is_no_rule_is_refused_with_its_place_and_a_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let file = write("camera.step", b"v *= 0.9\nx += speed * dt\n");
+    let (binary, long) = (write("a", b"\xff\xfe"), write("b", &[b' '; 20_000]));
+    for (text, said) in [
+        ("x += k * dt", "rule:1:6: unknown name `k`; write x, v, h or target, or give it"),
+        (&*file, "camera.step:2:6: unknown name `speed`"),
+        ("x += (1", "rule:1:7: the text ends where `)` is missing"),
+        ("pos.x += 1", "rule:1:1: `pos.x += 1` is a part of something; a step moves one number"),
+        ("x + 1", "\"x + 1\" is no rule and no file; write an assignment"),
+        ("", "is no rule and no file"),
+        ("v += a(x) * dt", "unknown function `a`"),
+        (&*binary, "is not text; save it as UTF-8"),
+        (&*long, "holds more than 16384 bytes"),
+    ] {
+        let output = rule(&[text]);
+        assert_eq!(output.status.code(), Some(2), "{text}: {}", stderr(&output));
+        assert!(stderr(&output).contains(said), "{text}: {}", stderr(&output));
+        assert!(output.stdout.is_empty());
+    }
+    let output = rule(&["x += (1"]);
+    assert!(stderr(&output).contains("^"), "{}", stderr(&output));
+}
