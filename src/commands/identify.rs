@@ -66,7 +66,7 @@ pub(super) struct IdentifyArgs {
     #[arg(required_unless_present = "step")]
     tick_hz: Option<f64>,
 
-    /// The length of a tick in seconds, in place of --tick-hz
+    /// The length of a tick, in place of --tick-hz
     #[arg(long, value_name = "s", value_parser = rate_of_a_step, conflicts_with = "tick_hz")]
     #[arg(allow_negative_numbers = true)]
     step: Option<f64>,

@@ -93,7 +93,7 @@ pub(super) struct PortArgs {
     #[arg(allow_negative_numbers = true)]
     tick_hz: f64,
 
-    /// The length of a tick in seconds, in place of --tick-hz
+    /// The length of a tick, in place of --tick-hz
     #[arg(long, value_name = "s", value_parser = rate_of_a_step, conflicts_with = "tick_hz")]
     #[arg(allow_negative_numbers = true)]
     step: Option<f64>,
@@ -195,7 +195,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     });
     let from = from.transpose()?;
     let usual = match from {
-        Some(From::Dialect(_)) if !args.drive => Target::Dialects,
+        Some(From::Dialect { .. }) if !args.drive => Target::Dialects,
         _ => Target::Engines,
     };
     let wish = match from {
@@ -216,7 +216,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             let written = args.from.as_deref().unwrap_or_default();
             Error::mistake(format!("--from {}: {fault}", brief(written.as_ref())))
         })?,
-        Some(From::Dialect(wish)) => wish,
+        Some(From::Dialect { as_given, .. }) if args.drive => as_given,
+        Some(From::Dialect { shown, .. }) => shown,
         Some(From::Log(path)) => {
             let log = args.read.read(&path, args.tick_hz())?;
             let found = identify(&log, &args.read.body(args.mass), args.tick_hz());

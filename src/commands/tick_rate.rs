@@ -14,9 +14,9 @@ pub(super) struct TickRateArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     tick_hz: Option<TickRate>,
 
-    /// The length of a tick in seconds, in place of --tick-hz
+    /// The length of a tick, in place of --tick-hz
     ///
-    /// From 0.0001 to 100, such as 0.015, 15ms or 1/66.667.
+    /// From 0.0001 to 100 seconds, such as 0.015, 15ms or 1/66.667.
     #[arg(long, value_name = "s", value_parser = TickRate::of_step, conflicts_with = "tick_hz")]
     #[arg(allow_negative_numbers = true)]
     step: Option<TickRate>,
@@ -41,7 +41,7 @@ pub(super) struct TickRatesArgs {
 
     /// Lengths of a tick in seconds, in place of --tick-hz
     ///
-    /// From 0.0001 to 100, separated by commas, such as 0.015 or 1/66.667.
+    /// From 0.0001 to 100 seconds, separated by commas, such as 0.015 or 1/66.667.
     #[arg(long, value_name = "s", value_delimiter = ',', value_parser = TickRate::of_step)]
     #[arg(conflicts_with = "tick_hz", allow_negative_numbers = true)]
     step: Vec<TickRate>,

@@ -134,7 +134,9 @@ impl TimeBase {
 
     /// A time in milliseconds.
     pub fn milliseconds(&self, time: i128) -> f64 {
-        time as f64 / self.nanoseconds(1_000_000) as f64
+        let millisecond = self.nanoseconds(1_000_000);
+        let part = time.rem_euclid(millisecond) as f64 / millisecond as f64;
+        time.div_euclid(millisecond) as f64 + part
     }
 }
 

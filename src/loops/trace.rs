@@ -23,6 +23,8 @@ pub struct FrameTrace {
     clocks: Clocks,
     /// What wrote it, and in what unit where that had to be found; empty of a pattern.
     format: String,
+    /// How long the first frame took until it began, in nanoseconds, where a log counts it; else 0.
+    lead_ns: i64,
 }
 
 /// By what clocks frames begin and are displayed.
@@ -34,8 +36,19 @@ enum Clocks {
     Two,
     /// Only when they begin is known, and taken as when they are displayed.
     OfFrames,
-    /// The same, since the times of display do not go with those of the frames.
-    Parted,
+    /// The same, since times of the log contradict each other.
+    Parted(Parting),
+}
+
+/// Which times of a log contradict each other by more than 1 %.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Parting {
+    /// Those of display and those of frames.
+    Display,
+    /// The log's own time and those of frames.
+    Time,
+    /// The frames a second and those of frames.
+    Rate,
 }
 
 /// Where frames come from.
@@ -71,6 +84,7 @@ impl FrameTrace {
             source: Source::Recorded(frames.into()),
             clocks: Clocks::Two,
             format: String::new(),
+            lead_ns: 0,
         }
     }
 
@@ -81,7 +95,8 @@ impl FrameTrace {
         pattern: impl Pattern + 'static,
     ) -> Self {
         let source = Source::Pattern(Box::new(pattern));
-        Self { name: name.into(), refresh, source, clocks: Clocks::One, format: String::new() }
+        let (clocks, format) = (Clocks::One, String::new());
+        Self { name: name.into(), refresh, source, clocks, format, lead_ns: 0 }
     }
 
     /// Its name.
@@ -105,14 +120,15 @@ impl FrameTrace {
         let Source::Recorded(frames) = &self.source else { return None };
         let began: Vec<i64> = frames.iter().map(|frame| frame.began_ns).collect();
         let seconds = |ns: i64| ns as f64 / 1e9;
-        let lasted_s = seconds(began.last()? - began.first()?);
-        let longest = began.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap_or_default();
+        let lasted_s = seconds(began.last()? - began.first()? + self.lead_ns);
+        let lasted = began.windows(2).map(|pair| pair[1] - pair[0]).chain([self.lead_ns]);
+        let longest = lasted.max().unwrap_or_default();
         let never = frames.iter().filter(|frame| frame.displayed_ns.is_none()).count();
         let never = match never {
             0 => String::new(),
             never => format!(", {} never displayed", grouped(never as u64)),
         };
-        let rate = (frames.len() - 1) as f64 / lasted_s;
+        let rate = (frames.len() - usize::from(self.lead_ns == 0)) as f64 / lasted_s;
         Some(format!(
             "read {} in {} s: {} a second, longest {} ms{never} ({})",
             counted(frames.len(), "frame"),
@@ -130,9 +146,13 @@ impl FrameTrace {
     pub fn has_one_clock(&self) -> bool {
         self.clocks != Clocks::Two
     }
-    /// The same frames, whose times of display were taken for those of their beginnings, as the two clocks parted.
-    pub(super) fn with_parted_clocks(self) -> Self {
-        Self { clocks: Clocks::Parted, ..self }
+    /// The same frames, whose times of display were taken for those of their beginnings, as times of the log part.
+    pub(super) fn with_parted_clocks(self, parting: Parting) -> Self {
+        Self { clocks: Clocks::Parted(parting), ..self }
+    }
+    /// The same frames, of which the first took so many nanoseconds until it began.
+    pub(super) fn with_lead(self, lead_ns: i64) -> Self {
+        Self { lead_ns, ..self }
     }
     /// What to say of a log whose times of display are missing or not used; `None` of any other trace.
     pub fn missing_display(&self) -> Option<&'static str> {
@@ -141,8 +161,14 @@ impl FrameTrace {
             Clocks::OfFrames => {
                 Some("the log has no display times; each frame counts as shown when it begins")
             }
-            Clocks::Parted => Some(
+            Clocks::Parted(Parting::Display) => Some(
                 "the log's clocks of frames and of display part by more than 1 %, so that its display times are not used; each frame counts as shown when it begins",
+            ),
+            Clocks::Parted(Parting::Time) => Some(
+                "the log's own time and the sum of its frames part by more than 1 %, so that one of them is wrong; each frame counts as shown when it begins",
+            ),
+            Clocks::Parted(Parting::Rate) => Some(
+                "the log's frames a second contradict its times of frames, so that one of them is wrong; each frame counts as shown when it begins",
             ),
         }
     }

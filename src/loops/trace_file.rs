@@ -17,7 +17,7 @@ use std::collections::{HashMap, HashSet};
 
 use csv::{ByteRecord, StringRecord};
 
-use super::trace::FrameTrace;
+use super::trace::{FrameTrace, Parting};
 use columns::{Cells, Columns};
 use durations::{Unit, Unreadable};
 use stream::Stream;
@@ -140,26 +140,21 @@ fn of_table(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError>
 struct Checks {
     /// Whether the log says its unit.
     is_said: bool,
+    /// Whether rows have the log's own time in place of that of a frame.
+    is_own_time: bool,
     /// Each frame in milliseconds, if that is its unit, and where frames a second stand beside it the product of both.
     frames_ms: Vec<f64>,
     products: Vec<f64>,
-    /// The nanoseconds that the log's own clock had passed at the first and at the last row.
-    elapsed_ns: Option<[f64; 2]>,
-    last_line: u64,
+    /// The log's own time that passes in a unit of the time of its frames, in the longest stream.
+    time_ratio: Option<f64>,
 }
 
 impl Checks {
-    fn add(&mut self, cells: &Cells<'_>, line: u64) {
+    fn add(&mut self, cells: &Cells<'_>) {
         let Ok(began_ns) = cells.began_ns else { return };
         let ms = began_ns as f64 / 1e6;
         self.frames_ms.push(ms);
-        let [fps, elapsed] = cells.beside;
-        self.products.extend(fps.map(|fps| fps * ms));
-        if let Some(now) = elapsed {
-            let first = self.elapsed_ns.map_or(now, |[first, _]| first);
-            self.elapsed_ns = Some([first, now]);
-        }
-        self.last_line = line;
+        self.products.extend(cells.fps.map(|fps| fps * ms));
     }
 
     /// The unit that the times must have; `None` where nothing says that it is another than milliseconds.
@@ -167,11 +162,19 @@ impl Checks {
         let near = |unit: Unit, wanted: f64, found: f64| {
             (wanted / 2.0..wanted * 2.0).contains(&found).then_some(unit)
         };
+        if self.is_own_time {
+            return None;
+        }
         if let Some(product) = median(&self.products) {
             let of = |(unit, wanted)| near(unit, wanted, product);
             let units =
                 [(Unit::Milliseconds, 1e3), (Unit::Microseconds, 1e6), (Unit::Seconds, 1.0)];
             return units.into_iter().find_map(of);
+        }
+        if let Some(ratio) = self.time_ratio {
+            let units =
+                [(Unit::Milliseconds, 1.0), (Unit::Microseconds, 1e-3), (Unit::Seconds, 1e3)];
+            return units.into_iter().find_map(|(unit, wanted)| near(unit, wanted, ratio));
         }
         let median_ms = median(&self.frames_ms).filter(|_| !self.is_said)?;
         match median_ms {
@@ -184,13 +187,25 @@ impl Checks {
 
     /// The time between two samples in milliseconds, where rows are not frames.
     fn sampled_ms(&self) -> Option<f64> {
-        let [first, last] = self.elapsed_ns?;
-        let passed_ms = (last - first) / 1e6;
+        if self.is_own_time {
+            let product = median(&self.products)?;
+            return median(&self.frames_ms).filter(|_| product > 2e3);
+        }
         let rows = self.frames_ms.len() as f64 - 1.0;
         let frames_ms: f64 = self.frames_ms.iter().skip(1).sum();
-        (rows > 0.0 && passed_ms > 2.0 * frames_ms).then_some(passed_ms / rows)
+        let every_ms = self.time_ratio? * frames_ms / rows;
+        (rows > 0.0 && self.time_ratio? > 2.0).then_some(every_ms)
+    }
+
+    /// Whether the frames a second contradict the times of frames, in most rows.
+    fn is_rate_wrong(&self) -> bool {
+        let off = median(&self.products).map(|product| product / 1e3);
+        off.is_some_and(|off| !(1.0 / MAX_RATE_OFF..MAX_RATE_OFF).contains(&off))
     }
 }
+
+/// The factor by which frames a second that are averaged may be off the time of a frame, in the median.
+const MAX_RATE_OFF: f64 = 1.25;
 
 fn median(values: &[f64]) -> Option<f64> {
     let mut values = values.to_vec();
@@ -222,7 +237,8 @@ fn read_in(
     })?;
     let mut record = ByteRecord::new();
     let in_unit = unit.or(columns.unit).unwrap_or(Unit::Milliseconds);
-    let mut checks = Checks { is_said: columns.unit.is_some(), ..Checks::default() };
+    let (is_said, is_own_time) = (columns.unit.is_some(), columns.is_since_start());
+    let mut checks = Checks { is_said, is_own_time, ..Checks::default() };
 
     let (mut streams, mut numbers) = (Vec::<Stream>::new(), HashMap::<String, usize>::new());
     let mut key = String::new();
@@ -241,8 +257,9 @@ fn read_in(
             if *now_ns < 0 {
                 return Err(at(line, Fault::TimeRunsBack));
             }
+            cells.displayed_ns = Some(*now_ns);
         }
-        checks.add(&cells, line);
+        checks.add(&cells);
         key.clear();
         key.extend([cells.application, "\n", cells.process, "\n", cells.swap_chain]);
         let number = match numbers.get(&key) {
@@ -262,18 +279,27 @@ fn read_in(
     if let Some(still) = streams.iter().find(|stream| stream.stands_still()) {
         return Err(at(still.line(), Fault::NoTimePasses { frames: still.frames() }));
     }
-    if let Some(sampled_ms) =
-        checks.sampled_ms().filter(|_| unit.is_some() || checks.unit() == Some(Unit::Milliseconds))
-    {
+    let longest = streams.iter().max_by_key(|stream| stream.frames());
+    checks.time_ratio = longest.and_then(Stream::time_ratio).filter(|_| columns.is_sure_of_time());
+    let is_unit_known = unit.is_some() || is_own_time || checks.unit() == Some(Unit::Milliseconds);
+    let sampled_ms = checks.sampled_ms().filter(|_| columns.fps.is_some() && is_unit_known);
+    if let Some(sampled_ms) = sampled_ms {
         return Err(at(header_line, Fault::Sampled { every_ms: significant(sampled_ms, 3) }));
     }
     let names = names(name, &streams);
-    let found = unit.or(columns.unit.filter(|unit| *unit != Unit::Milliseconds));
+    let usual = [Unit::Milliseconds, Unit::Nanoseconds];
+    let found = unit.or(columns.unit.filter(|unit| !usual.contains(unit)));
     let in_words = found.map(|unit| format!(", in {}", unit.name())).unwrap_or_default();
-    let format = format!("{}{in_words}", columns.format);
+    let is_of_capframex = is_of_capframex(bytes) && columns.has_display();
+    let format = if is_of_capframex { "CapFrameX" } else { columns.format };
+    let format = format!("{format}{in_words}");
+    let known = Some(Parting::Rate).filter(|_| checks.is_rate_wrong());
     let trace = |(name, stream): (String, Stream)| {
-        let trace = stream.into_trace(name).written_by(format.clone());
+        let lead_ns = if columns.counts_first() { stream.lead_ns() } else { 0 };
+        let trace = stream.into_trace(name, columns.is_sure_of_time(), known);
+        let trace = trace.written_by(format.clone()).with_lead(lead_ns);
         match (columns.has_display(), columns.has_one_clock()) {
+            _ if trace.missing_display().is_some() => trace,
             (false, _) => trace.without_display(),
             (true, true) => trace.by_one_clock(),
             (true, false) => trace,
@@ -287,9 +313,19 @@ fn text_of(row: &ByteRecord) -> StringRecord {
     StringRecord::from_byte_record_lossy(row.clone())
 }
 
+/// Whether a capture of CapFrameX begins so: what it knows of the game and the machine, in remarks.
+fn is_of_capframex(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"//") && head(bytes).contains("//GameName")
+}
+
+/// The first bytes of a log as text.
+fn head(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(&bytes[..bytes.len().min(400)]).into_owned()
+}
+
 /// Whether these are the first bytes of a log of MSI Afterburner: rows whose first cell is their kind, 00 for the head.
 fn is_of_afterburner(bytes: &[u8]) -> bool {
-    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(400)]).into_owned();
+    let head = head(bytes);
     head.trim_start().starts_with("00,") && head.contains("Hardware monitoring")
 }
 

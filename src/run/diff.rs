@@ -6,28 +6,30 @@
 //! they stand, up to [`MAX_WAITING`] rows apart, so that memory does not grow with the rows. It
 //! grows with their names, up to a bound.
 
+use std::collections::HashMap;
 use std::collections::hash_map::DefaultHasher;
-use std::collections::{HashMap, VecDeque};
-use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::io::BufRead;
 
 use csv::ByteRecord;
 
-use crate::sim::number::{counted, significant};
-use crate::table::{Reading, TableError, TableReader};
+use crate::table::{Decimal, Reading, TableError, TableReader, number};
 
 mod clock;
+mod findings;
 mod growth;
 mod layout;
 mod number;
+mod side;
 
 use clock::{Course, Moves};
+pub use findings::{ColumnDifference, Comparison, Difference};
 use growth::Growth;
 pub use layout::{Chosen, NotComparable};
 use layout::{Layout, ValueColumn};
 pub use number::{distance_ulps, is_same_number};
 use number::{hide_a_difference, is_text, parsed, relative};
+use side::{Place, Side, Waiting};
 
 /// The relative differences whose first ticks are told.
 pub const LEVELS: [f64; 5] = [1e-12, 1e-9, 1e-6, 1e-3, 1.0];
@@ -55,12 +57,20 @@ pub trait Records {
     fn next(&mut self, row: &mut ByteRecord) -> Result<bool, Self::Error>;
 }
 
+/// Whether the columns of a run can be called so: several names, none of them a number.
+pub fn is_header(row: &ByteRecord) -> bool {
+    let is_name = |cell: &[u8]| {
+        !cell.trim_ascii().is_empty() && number(cell, Decimal::PointOrComma).is_none()
+    };
+    row.len() > 1 && row.iter().all(is_name)
+}
+
 /// The table in this text.
 ///
 /// # Errors
 /// What keeps its header from being read.
 pub fn table(text: &str) -> Result<TableReader<&[u8]>, TableError> {
-    TableReader::begin(text.as_bytes(), Reading::default(), |_| true)
+    TableReader::begin(text.as_bytes(), Reading::default(), is_header)
 }
 
 impl<R: BufRead> Records for TableReader<R> {
@@ -70,8 +80,9 @@ impl<R: BufRead> Records for TableReader<R> {
         self.header()
     }
 
+    /// Numbers have decimal points.
     fn next(&mut self, row: &mut ByteRecord) -> Result<bool, TableError> {
-        Ok(self.next(row)?.is_some())
+        Ok(self.next_with_points(row)?.is_some())
     }
 }
 
@@ -83,137 +94,6 @@ pub struct Tolerance {
     pub ulps: u64,
     /// The largest difference as a part of the larger of both.
     pub relative: f64,
-}
-
-/// Two values that differ.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
-    /// The tick; the row's place from 0 in a table without ticks.
-    pub tick: u64,
-    /// What the tick is called: the name of its column, or `tick` for the place of a row; `None` where rows have no order.
-    pub tick_name: Option<String>,
-    /// The columns by which the row is told apart at its tick, such as `lane`, `body` and `coordinate`, each with its cell.
-    pub key: Vec<(String, String)>,
-    /// The column of the values.
-    pub column: String,
-    /// The values as they are written; `None` where the column is not there.
-    pub values: [Option<String>; 2],
-    /// How many doubles lie from one to the other; `None` where one is no number, or not a number.
-    pub ulps: Option<u64>,
-    /// Their difference as a part of the larger; `None` where that has no meaning.
-    pub relative: Option<f64>,
-}
-
-/// The largest distance that is given in ulps, and not as a number.
-const FEW_ULPS: u64 = 1000;
-
-impl Difference {
-    /// The row's cell in a column of its key.
-    pub fn cell(&self, column: &str) -> Option<&str> {
-        self.key.iter().find(|(name, _)| name == column).map(|(_, cell)| &**cell)
-    }
-
-    /// Where it is: the tick, the lane as it is to be named, the body and the coordinate, or the cells of another key.
-    pub fn place(&self, lane_name: impl Fn(&str) -> String) -> String {
-        let tick = self.tick_name.as_ref().map(|name| format!("{name} {}", self.tick));
-        let cells = self.key.iter().map(|(name, cell)| match name.as_str() {
-            "lane" => lane_name(cell),
-            name if layout::NAMES.contains(&name) => cell.clone(),
-            name => format!("{name} {cell}"),
-        });
-        tick.into_iter().chain(cells).collect::<Vec<_>>().join(", ")
-    }
-
-    /// How large it is, in a few words.
-    pub fn size(&self) -> String {
-        let column = &self.column;
-        let [a, b] = self.values.each_ref().map(|value| value.as_deref()?.parse::<f64>().ok());
-        let (Some(a), Some(b)) = (a, b) else {
-            return format!("{column} is not a number on both sides");
-        };
-        let size = match self.ulps.filter(|ulps| *ulps <= FEW_ULPS) {
-            Some(ulps) => counted(ulps, "ulp"),
-            None => significant((a - b).abs(), 2),
-        };
-        let part = self.relative.map(|part| format!(", {} % of it", significant(100.0 * part, 2)));
-        format!("size: {size} in {column}{}", part.unwrap_or_default())
-    }
-}
-
-impl fmt::Display for Difference {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [a, b] = self.values.each_ref().map(|value| value.as_deref().unwrap_or("absent"));
-        let place = self.place(|lane| format!("lane {lane}"));
-        write!(f, "at {place}: {} is {a} in a and {b} in b", self.column)?;
-        if let Some(ulps) = self.ulps {
-            write!(f, ", {} apart", counted(ulps, "ulp"))?;
-        }
-        self.relative.map_or(Ok(()), |part| write!(f, ", {part:.1e} relative"))
-    }
-}
-
-/// A column whose values differ somewhere.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ColumnDifference {
-    /// The column.
-    pub column: String,
-    /// The first tick at which it differs by more than the [`Tolerance`].
-    pub first_tick: u64,
-    /// In how many rows it does.
-    pub rows: u64,
-}
-
-/// What two runs have in common, and where they part.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Comparison {
-    /// How many rows both have.
-    pub rows: u64,
-    /// The farthest that any coordinate went from its first value, on either side; the value `q`, or where there is none, all.
-    pub moved: f64,
-    /// The first values that differ by more than the [`Tolerance`], by their tick and then by their place.
-    pub first: Option<Difference>,
-    /// For each of [`LEVELS`], the tick at which a value first differs by it, as a part of the largest that this column of
-    /// this coordinate had until then.
-    pub reaches: [Option<u64>; LEVELS.len()],
-    /// The columns of both that differ, in the order of the first table.
-    pub columns: Vec<ColumnDifference>,
-    /// The columns of both that do not.
-    pub equal: Vec<String>,
-    /// The rate of its growth in 1/s, if it grows exponentially through three decades and more.
-    pub per_second: Option<f64>,
-    /// Whether rows belong together by their place alone.
-    pub is_by_place: bool,
-    /// Whether there is a motion: a column of numbers moves, or one of text changes, or rows have no order to move in.
-    pub changes: bool,
-    /// How many rows each side lacks.
-    pub missing: [u64; 2],
-    /// The tick of the first row that a side lacks.
-    pub first_missing: [Option<u64>; 2],
-    /// The columns that only this side has.
-    pub alone: [Vec<String>; 2],
-    /// The column that differs most, and by how much, as in `reaches`.
-    pub worst: Option<(String, f64)>,
-    /// Pairs of zeros of two signs, which count as equal.
-    pub zeros_of_two_signs: u64,
-    /// Pairs of NaN, which count as equal.
-    pub nans: u64,
-    /// Whether a row counts as missing because its like, if there is one, stands too far away.
-    pub is_cut_off: bool,
-    /// Rows that stand at another place on the other side.
-    pub displaced: u64,
-}
-
-impl Comparison {
-    /// Whether there is something to compare: two common rows, and a motion.
-    pub fn is_comparable(&self) -> bool {
-        self.rows >= 2 && self.changes && !self.is_cut_off
-    }
-
-    /// Whether both have the same rows with equal values.
-    pub fn is_same(&self) -> bool {
-        let is_whole = self.missing == [0; 2] && self.alone.iter().all(Vec::is_empty);
-        self.is_comparable() && self.first.is_none() && is_whole
-    }
 }
 
 /// The rows of one name: a coordinate of a body of a lane.
@@ -249,72 +129,6 @@ struct ColumnState {
     /// The same for cells that are written differently and are equal as numbers, which differ if they are text.
     hidden: Option<((u64, u64), Difference)>,
     hidden_rows: u64,
-}
-
-/// A row, where it belongs.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct Place {
-    /// The tick or the time, as bits that are in order.
-    order: u64,
-    stream: usize,
-}
-
-/// A row that waits for the other side's.
-struct Waiting {
-    row: ByteRecord,
-    /// How many rows its side had before it.
-    number: u64,
-}
-
-/// A side of the comparison.
-#[derive(Default)]
-struct Side {
-    /// The stream that the next row is of, if streams come in turn.
-    next: usize,
-    number: u64,
-    /// The order of the last row.
-    order: u64,
-    waiting: HashMap<Place, Waiting>,
-    /// The bytes of the rows that wait.
-    waiting_bytes: usize,
-    /// The rows that wait, and some that did, as they came.
-    queue: VecDeque<(Place, u64)>,
-}
-
-impl Side {
-    /// Lets a row wait. Returns the one of the same name that it replaces.
-    fn insert(&mut self, place: Place, row: Waiting) -> Option<Waiting> {
-        self.waiting_bytes += row.row.as_slice().len();
-        self.queue.push_back((place, row.number));
-        let twice = self.waiting.insert(place, row);
-        self.waiting_bytes -= twice.as_ref().map_or(0, |twice| twice.row.as_slice().len());
-        if self.queue.len() > 2 * MAX_WAITING {
-            let Side { queue, waiting, .. } = self;
-            queue.retain(|(at, n)| waiting.get(at).is_some_and(|row| row.number == *n));
-        }
-        twice
-    }
-
-    /// Takes out the row of this name.
-    fn remove(&mut self, place: &Place) -> Option<Waiting> {
-        let row = self.waiting.remove(place)?;
-        self.waiting_bytes -= row.row.as_slice().len();
-        Some(row)
-    }
-
-    fn is_full(&self) -> bool {
-        self.waiting.len() > MAX_WAITING || self.waiting_bytes > MAX_WAITING_BYTES
-    }
-
-    /// Takes out the row that has waited longest.
-    fn oldest(&mut self) -> Option<(Place, Waiting)> {
-        while let Some((place, number)) = self.queue.pop_front() {
-            if self.waiting.get(&place).is_some_and(|row| row.number == number) {
-                return Some((place, self.remove(&place)?));
-            }
-        }
-        None
-    }
 }
 
 /// Compares two runs.

@@ -7,7 +7,7 @@
 use std::path::Path;
 use std::sync::{Arc, LazyLock, OnceLock};
 
-use crate::sim::TickRate;
+pub use crate::sim::TickRate;
 use crate::sim::bodies::{ClaimHorizon, Kind, Origin};
 use crate::sim::integrators::Method;
 

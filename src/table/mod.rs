@@ -206,6 +206,24 @@ impl<R: BufRead> TableReader<R> {
             return Ok(Some(line));
         }
     }
+
+    /// Reads the next row like [`next`](Self::next), and turns decimal commas into points.
+    ///
+    /// # Errors
+    /// As [`next`](Self::next).
+    pub fn next_with_points(&mut self, row: &mut ByteRecord) -> Result<Option<u64>, TableError> {
+        let line = self.next(row)?;
+        let decimal = self.decimal();
+        let has_comma = |cell: &[u8]| cell.contains(&b',') && number(cell, decimal).is_some();
+        if decimal == Decimal::PointOrComma && row.iter().any(has_comma) {
+            let with_point = |cell: &[u8]| match has_comma(cell) {
+                true => String::from_utf8_lossy(cell).replace(',', ".").into_bytes(),
+                false => cell.to_vec(),
+            };
+            *row = row.iter().map(with_point).collect::<Vec<_>>().into();
+        }
+        Ok(line)
+    }
 }
 
 /// Whether a line is a remark.
@@ -227,10 +245,11 @@ fn cells(line: &[u8]) -> ByteRecord {
     row
 }
 
-/// What separates the cells of a header: of equal counts the comma.
+/// What separates the cells of a header: of equal counts the comma, and of one cell alone what is in no number.
 fn separator(header: &[u8]) -> u8 {
     let count = |separator: &u8| header.iter().filter(|byte| *byte == separator).count();
-    [b'\t', b';', b','].into_iter().max_by_key(count).expect("three")
+    let most = [b'\t', b';', b','].into_iter().max_by_key(count).expect("three");
+    if count(&most) == 0 { b';' } else { most }
 }
 
 /// Fails where a row does not end.

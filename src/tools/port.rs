@@ -165,6 +165,9 @@ impl Wish {
     ) -> Result<Self, String> {
         // x and v times a frame go by [[1 - dk, d], [-dk, d]].
         let [trace, determinant] = [1.0 + kept - kept * stiffness, kept];
+        if kept > 1.0 {
+            return Err(format!("so set it grows: {kept} of v is left; leave at most 1"));
+        }
         if !seen::is_stable(trace, determinant) {
             return Err(format!(
                 "so set it grows; the stiffness is below {}",

@@ -11,8 +11,8 @@ use super::{panels, theme};
 use crate::look::palette::Theme;
 use crate::loops::loop_lab::LoopCommand;
 use crate::measure::cloud::{CloudChoice, CloudKind, CloudWorker};
+use crate::scene::TickRate;
 use crate::scene::{SCENES, Scene};
-use crate::sim::TickRate;
 use crate::stage::compose;
 use crate::studio::guide::STOPS;
 use crate::studio::{

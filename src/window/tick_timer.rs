@@ -11,7 +11,7 @@ use winit::event_loop::EventLoopProxy;
 use super::Event;
 use crate::run::{Follow, Lane};
 use crate::scene::LaneSpec;
-use crate::sim::TickRate;
+use crate::scene::TickRate;
 use crate::stopwatch;
 use crate::studio::{Instrument, Studio};
 

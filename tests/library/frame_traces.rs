@@ -310,15 +310,15 @@ fn every_fault_is_named_with_its_line_and_a_remedy() {
     let row = |cells: &str| format!("MsBetweenPresents,MsBetweenDisplayChange\n1,1\n{cells}\n");
     let capture = "capture some frames";
     for (text, message) in [
-        (String::new(), format!("log:1: there is nothing here; {capture} with PresentMon, OCAT, CapFrameX, FrameView or MangoHud")),
-        ("\u{feff}\r\n".into(), format!("log:1: there is nothing here; {capture} with PresentMon, OCAT, CapFrameX, FrameView or MangoHud")),
+        (String::new(), format!("log:1: there is nothing here; {capture} with PresentMon, OCAT, CapFrameX, FrameView, MangoHud, Unreal or FRAPS")),
+        ("\u{feff}\r\n".into(), format!("log:1: there is nothing here; {capture} with PresentMon, OCAT, CapFrameX, FrameView, MangoHud, Unreal or FRAPS")),
         (
             "//a\nMsBetweenPresents,MsBetweenDisplayChange\n".into(),
             format!("log:2: there is a header and no frame of a program below it; {capture}"),
         ),
         (
             "Application,msBetweenDisplayChange\na,1\n".into(),
-            "log:1: the columns MsBetweenPresents, alone or with MsBetweenDisplayChange, FrameTime and DisplayedTime, or MangoHud's fps and frametime, are needed, and here are Application, msBetweenDisplayChange; write a row for each frame under a header, or frame times in milliseconds alone, one a line".into(),
+            "log:1: the columns MsBetweenPresents, alone or with MsBetweenDisplayChange, FrameTime and DisplayedTime, MangoHud's fps and frametime, Unreal's FrameTime, or FRAPS's Time (ms) are needed, and here are Application, msBetweenDisplayChange; write a row for each frame under a header, or frame times in milliseconds alone, one a line".into(),
         ),
         (row("1"), "log:3: the row has 1 of the header's first 2 cells; take it out if it was cut off".into()),
         (
@@ -448,7 +448,7 @@ fn a_list_of_times_is_read_under_a_heading_and_in_whatever_unit_it_is() {
         let (said, began) = summed(text);
         assert_eq!(began, expected, "{text}");
         let wanted =
-            format!("read 3 frames in 0.0500 s: 40.0 a second, longest 33.4 ms (a list{unit})");
+            format!("read 3 frames in 0.0667 s: 45.0 a second, longest 33.4 ms (a list{unit})");
         assert_eq!(said, wanted, "{text}");
     }
     assert!(read("log", "temperature\n16.7\n").is_err(), "whatever it is, it is no time");
@@ -465,6 +465,9 @@ fn the_unit_of_mangohud_is_found_by_its_frames_a_second_and_a_sample_is_no_frame
         format!("fps,frametime,elapsed\n{}", (0..50).map(row).collect::<String>())
     };
     assert_eq!(summed(&elapsed(4.0)).1.len(), 50);
+    assert!(
+        summed("n,Frame Time (s),cpu\n1,0.008,3\n2,0.008,4\n").0.ends_with("(a list, in seconds)")
+    );
     let error = read("log", &elapsed(100.0)).err().unwrap().to_string();
     assert!(error.contains("a sample every 100 ms (log_interval)"), "{error}");
 }
@@ -492,12 +495,20 @@ fn a_log_of_afterburner_is_refused_by_its_name() {
 
 /// Small logs of ten frames as each tool writes them, one of which was never displayed in two.
 const OF_TOOLS: [(&str, &str, &str); 11] = [
-    ("presentmon-1.csv", include_str!("../data/frame-traces/tools/presentmon-1.csv"), "PresentMon"),
-    ("presentmon-2.csv", include_str!("../data/frame-traces/tools/presentmon-2.csv"), "PresentMon"),
-    ("ocat.csv", include_str!("../data/frame-traces/tools/ocat.csv"), "PresentMon"),
-    ("capframex.csv", include_str!("../data/frame-traces/tools/capframex.csv"), "PresentMon"),
+    (
+        "presentmon-1.csv",
+        include_str!("../data/frame-traces/tools/presentmon-1.csv"),
+        "PresentMon 1",
+    ),
+    (
+        "presentmon-2.csv",
+        include_str!("../data/frame-traces/tools/presentmon-2.csv"),
+        "PresentMon 2",
+    ),
+    ("ocat.csv", include_str!("../data/frame-traces/tools/ocat.csv"), "OCAT"),
+    ("capframex.csv", include_str!("../data/frame-traces/tools/capframex.csv"), "CapFrameX"),
     ("capframex.json", include_str!("../data/frame-traces/tools/capframex.json"), "CapFrameX"),
-    ("frameview.csv", include_str!("../data/frame-traces/tools/frameview.csv"), "PresentMon"),
+    ("frameview.csv", include_str!("../data/frame-traces/tools/frameview.csv"), "FrameView"),
     ("mangohud.csv", include_str!("../data/frame-traces/tools/mangohud.csv"), "MangoHud"),
     (
         "mangohud-0.6.csv",
@@ -515,8 +526,10 @@ fn each_tool_that_the_manual_names_has_a_log_of_the_same_ten_frames() {
         let read = traces(name, text);
         assert_eq!(read.len(), 1, "{name}");
         let never = if name.starts_with("presentmon") { ", 1 never displayed" } else { "" };
-        let summary =
-            format!("read 10 frames in 0.167 s: 54.0 a second, longest 33.4 ms{never} ({tool})");
+        // A list has the time of its first frame, and the others say how long after the one before it began.
+        let is_list = ["a list", "MangoHud"].iter().any(|list| tool.starts_with(list));
+        let lasted = if is_list { "0.183 s: 54.5 a second" } else { "0.167 s: 54.0 a second" };
+        let summary = format!("read 10 frames in {lasted}, longest 33.4 ms{never} ({tool})");
         assert_eq!(read[0].summary(), Some(summary), "{name}");
         // In each unit the frames begin at the same nanosecond, to the digits that the tool writes.
         let began: Vec<i64> = frames(&read[0]).iter().map(|frame| frame.began_ns).collect();
@@ -528,6 +541,66 @@ fn each_tool_that_the_manual_names_has_a_log_of_the_same_ten_frames() {
             assert!((began - wanted).abs() <= 1000, "{name}: {began} and {wanted}");
         }
     }
+}
+
+#[test]
+fn times_are_held_against_each_other_and_what_contradicts_is_said() {
+    let log = |header: &str, row: &dyn Fn(f64) -> String| {
+        let rows: Vec<String> = (0..300).map(|n| row(f64::from(n))).collect();
+        traces("log", &format!("{header}\n{}\n", rows.join("\n"))).remove(0)
+    };
+    let presentmon = "TimeInSeconds,MsBetweenPresents,MsBetweenDisplayChange";
+    for (every_s, time, unit) in
+        [(0.008, 8.0, ""), (0.008, 8000.0, ", in µs"), (0.008, 0.008, ", in seconds")]
+    {
+        let trace = log(presentmon, &|n| format!("{},{time},{time}", n * every_s));
+        let said = trace.summary().unwrap();
+        assert_eq!(
+            said,
+            format!("read 300 frames in 2.39 s: 125 a second, longest 8.00 ms (PresentMon{unit})")
+        );
+        assert_eq!(trace.missing_display(), None);
+    }
+    let late = presentmon.replace("TimeInSeconds", "Dropped,MsUntilDisplayed");
+    for (header, row, told) in [
+        (presentmon, (&|n| format!("{},8,8", n * 0.0084)) as &dyn Fn(f64) -> String, "own time"),
+        ("CPUStartTime,FrameTime,DisplayedTime", &|n| format!("{},8,8", n * 10.0), "own time"),
+        (&late, &|n| format!("0,{},8,8", 20.0 + 0.4 * n), "clocks of frames and of display"),
+        ("fps,frametime,elapsed", &|n| format!("125,8,{}", n * 8.4e6), "own time"),
+        ("fps,frametime", &|_| "250,8".into(), "frames a second"),
+        ("frame;fps;frametime (ms)", &|n| format!("{n};250;8,0"), "frames a second"),
+    ] {
+        let trace = log(header, row);
+        let said = trace.missing_display().unwrap_or_default();
+        assert!(said.contains(told) && trace.has_one_clock(), "{header}: {said}");
+    }
+    for (header, row) in [
+        (
+            "CPUStartTime,FrameTime,DisplayedTime",
+            (&|n| format!("{},8,8", n * 8.0)) as &dyn Fn(f64) -> String,
+        ),
+        ("CPUStartTime,FrameTime,DisplayedTime", &|n| format!("{},8,8", n * 0.008)),
+        (&late, &|n| format!("0,{},8,8", 20.0 + n % 3.0)),
+    ] {
+        assert_eq!(log(header, row).missing_display(), None, "{header}");
+    }
+}
+
+#[test]
+fn the_first_mangohud_wrote_its_own_time_and_no_times_of_frames() {
+    let header = "fps,cpu_load,gpu_load,cpu_temp,elapsed";
+    let log = |step_ns: u64| {
+        let row = |n: u64| format!("125,5,90,60,{}\n", 3_000_000_000 + n * step_ns);
+        format!("os,cpu,gpu\nA,B,C\n{header}\n{}", (0..50).map(row).collect::<String>())
+    };
+    let (said, began) = summed(&log(8_000_000));
+    assert_eq!(
+        said,
+        "read 50 frames in 0.392 s: 125 a second, longest 8.00 ms (MangoHud before 0.6)"
+    );
+    assert_eq!(began[..3], [0.0, 8.0, 16.0]);
+    let error = read("log", &log(100_000_000)).err().unwrap().to_string();
+    assert!(error.contains("a sample every 100 ms (log_interval)"), "{error}");
 }
 
 #[test]

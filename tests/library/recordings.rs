@@ -201,11 +201,7 @@ fn a_recording_has_all_actions_and_repeats_the_run_to_the_bit() {
     let scene = parsed(&studio.deck.recording().unwrap());
     assert_eq!(ticks(&scene), (1..=9).map(|n| 25 * n).collect::<Vec<_>>());
     assert_eq!(scene.bodies[0].values, built_in("harbour").bodies[0].values, "as at the start");
-    assert_eq!(
-        (scene.lanes.len(), scene.tick_hz),
-        (5, 60.into()),
-        "with those that stood beside it"
-    );
+    assert_eq!((scene.lanes.len(), scene.tick_hz), (5, 60.into()), "with those beside it");
     assert!((scene.seconds - studio.race().t()).abs() < 1e-12);
     let last = scene.checks.last().unwrap();
     assert_eq!((last.tick, last.lane), (250, LaneId(1)));

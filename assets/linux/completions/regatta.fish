@@ -1,6 +1,6 @@
 # Print an optspec for argparse to handle cmd's options that are independent of any subcommand.
 function __fish_regatta_global_optspecs
-    string join \n scene= k= c= frequency= damping-ratio= mass= method= tick-hz= race loop= seconds= record= force theme= reduced-motion h/help V/version
+    string join \n scene= k= c= frequency= damping-ratio= mass= method= tick-hz= step= race loop= seconds= record= force theme= reduced-motion h/help V/version
 end
 
 function __fish_regatta_needs_command
@@ -107,6 +107,7 @@ engine-godot\t''
 engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_needs_command" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_needs_command" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l seconds -d 'Close after these simulated seconds' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l record -d 'Write the run to FILE as a scene' -r -F
@@ -127,7 +128,7 @@ complete -c regatta -n "__fish_regatta_needs_command" -f -a "cloud" -d 'Step a c
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "loop" -d 'Measure what game loops do to motion on a display'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "identify" -d 'Say which engine or method made a log of a motion'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "port" -d 'Print settings that make a spring move the same in every engine'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "rule" -d 'What your own lines do at every frame rate, and code that does not depend on it'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "rule" -d 'Say what your own lines do at every frame rate'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "show" -d 'Print a method or a game loop as code for your game'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "fixture" -d 'Write exact states as a test for your own engine'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "diff" -d 'Say where two runs first differ'
@@ -219,6 +220,7 @@ engine-godot\t''
 engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l seconds -d 'Close after these simulated seconds' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l record -d 'Write the run to FILE as a scene' -r -F
@@ -311,6 +313,7 @@ engine-godot\t''
 engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l loop -d 'Show the loop lab over a trace [default: edge]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l out -d 'The directory of the frames, or the file' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l frames -d 'How many frames to draw' -r
@@ -434,6 +437,7 @@ engine-godot\t''
 engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l seconds -d 'Simulated seconds [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l every -d 'Write only the ticks that are multiples of N' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l format -d 'How to write it: csv or json' -r -f -a "csv\t'Comma-separated values under a header'
@@ -523,6 +527,7 @@ engine-godot\t''
 engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge the methods of this family' -r -f -a "explicit\t''
 symplectic\t''
 adaptive\t''
@@ -623,6 +628,7 @@ engine-godot\t''
 engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l tick-hz -d 'Tick rates in Hz, separated by commas' -r
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l step -d 'Lengths of a tick in seconds, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l vary -d 'Values of a parameter: a row for each' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l seconds -d 'Simulated seconds of each run' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l format -d 'How to write it: csv or json' -r -f -a "csv\t'Comma-separated values under a header'
@@ -716,6 +722,7 @@ engine-godot\t''
 engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l points -d 'Starts, 1 to 1000000000' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l shape -d 'The shape of the starts: cat, disc or ring' -r -f -a "cat\t''
 disc\t''
@@ -754,7 +761,11 @@ alt-tab-5s\t''
 spiral\t''
 jitter\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l display-hz -d 'The refresh rate [default: the trace\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l fps -d 'Frames per second of a game with even frames [default: the display\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l max-ticks -d 'The most ticks in a frame [default: each loop\'s own]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l max-frame-ms -d 'The longest frame that is simulated [default: each loop\'s own]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l scene -d 'A scene or the file of one' -r -f -a "harbour\t''
 spring\t''
 ship\t''
@@ -843,10 +854,13 @@ complete -c regatta -n "__fish_regatta_using_subcommand loop" -l all -d 'Compare
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l force -d 'Replace the files that are there'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-hz -d 'Ticks per second of the game that wrote it' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l mass -d 'The mass in kg' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l k -d 'The stiffness of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l c -d 'The damping of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l drag -d 'The damping setting of the body' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l rest -d 'Where the spring rests, in metres [default: 0, or fitted]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l v0 -d 'The velocity of the first row, where v was not logged [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l thrust -d 'A constant force in newtons' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-column -d 'The column of the tick\'s number' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l t-column -d 'The column of the time in seconds' -r
@@ -860,6 +874,7 @@ complete -c regatta -n "__fish_regatta_using_subcommand port" -l damping-ratio -
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l from -d 'The settings of an engine or a user interface, a log, or a chase' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l mass -d 'The mass on the spring in kg' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-hz -d 'Ticks per second of the engines and of a log, frames per second of user interfaces' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l substeps -d 'Substeps per tick, 1 to 1000 [default: each engine\'s own]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l to -d 'Engines and user interfaces, all engines, or all of the others: ui' -r -f -a "all\t''
 ui\t''
@@ -898,6 +913,8 @@ complete -c regatta -n "__fish_regatta_using_subcommand port" -l decimation -d '
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l k -d 'The stiffness of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l c -d 'The damping of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l drag -d 'The damping setting of the body' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l rest -d 'Where the spring rests, in metres [default: 0, or fitted]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l v0 -d 'The velocity of the first row, where v was not logged [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l thrust -d 'A constant force in newtons' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-column -d 'The column of the tick\'s number' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l t-column -d 'The column of the time in seconds' -r
@@ -1005,6 +1022,7 @@ engine-godot\t''
 engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l seconds -d 'Simulated seconds [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l every -d 'Write only the ticks that are multiples of N' -r
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l as -d 'What to write: pytest, gtest, rust or json' -r -f -a "pytest\t''
@@ -1015,6 +1033,10 @@ complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l float -d 'Nu
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l ulps -d 'Numbers with at most N doubles from one to the other are equal' -r
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l relative -d 'Numbers that differ by at most this part of the larger are equal' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l key -d 'The columns by which rows belong together [default: tick,lane,body,coordinate]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l tick-column -d 'The column that counts ticks [default: tick]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l columns -d 'Compare these columns only' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l ignore -d 'Do not compare these columns' -r
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -s h -l help -d 'Print help (see more with \'--help\')'

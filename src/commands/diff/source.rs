@@ -11,7 +11,7 @@ use crate::commands::error::Error;
 use crate::commands::manifest::Mark;
 use crate::commands::{scene_file, verify};
 use crate::regular_file::{self, Unreadable};
-use crate::run::diff::{NotComparable, Records};
+use crate::run::diff::{NotComparable, Records, is_header};
 use crate::run::trace::{Made, row};
 use crate::table::{BUFFER_BYTES, Reading, TableError, TableFault, TableReader, Utf8};
 
@@ -114,7 +114,7 @@ impl Table {
                 ),
             })
         };
-        let begun = TableReader::begin(input, Reading::default(), |_| true);
+        let begun = TableReader::begin(input, Reading::default(), is_header);
         let mut reader = begun.map_err(&fault)?;
         let header = reader.header().clone();
         let (send, batches) = sync_channel(2);
@@ -127,7 +127,7 @@ impl Table {
                 large.for_each(|row| *row = ByteRecord::new());
                 let (mut filled, mut bytes) = (0, 0);
                 let read = loop {
-                    match reader.next(&mut batch[filled]) {
+                    match reader.next_with_points(&mut batch[filled]) {
                         Ok(Some(_)) => {
                             bytes += footprint(&batch[filled]);
                             filled += 1;

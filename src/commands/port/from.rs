@@ -11,8 +11,8 @@ use crate::tools::port::{Approach, Dialect, Friction, Key, Setup, Wish};
 pub(super) enum From {
     /// From the settings of an engine.
     Engine(EngineSettings),
-    /// From what a user interface is told.
-    Dialect(Wish),
+    /// From what a user interface is told: what it shows of that, and the spring of these numbers, which it may damp less.
+    Dialect { shown: Wish, as_given: Wish },
     /// From a velocity that keeps a part of itself in each frame.
     Friction(Friction),
     /// From a chase, and its rate of frames if it has one.
@@ -44,7 +44,7 @@ impl From {
                 Ok(Target::Engine(method)) => {
                     Err(format!("give its settings too: {}", example(method)))
                 }
-                Ok(Target::Dialect(dialect)) => of_dialect(dialect, "", mass_kg).map(From::Dialect),
+                Ok(Target::Dialect(dialect)) => of_dialect(dialect, "", mass_kg),
                 _ => Ok(From::Log(written.into())),
             };
         };
@@ -85,7 +85,8 @@ impl From {
                 let wrong = || format!("{kept} is kept; it must be between 0 and 1");
                 Ok(From::Friction(Friction { kept: fits.then_some(kept).ok_or_else(wrong)?, fps }))
             }
-            "per-frame-decay" => of_decay(rest, tick_hz, mass_kg).map(From::Dialect),
+            "per-frame-decay" => of_decay(rest, tick_hz, mass_kg)
+                .map(|wish| From::Dialect { shown: wish, as_given: wish }),
             "smooth-damp" => {
                 let seconds = above_0(rest, "s", "the smoothing time")?;
                 Ok(From::Approach(Approach::of_smooth_time(seconds), None))
@@ -100,7 +101,7 @@ impl From {
                 Target::Engine(method) => {
                     of_engine(method, rest, tick_hz, mass_kg).map(From::Engine)
                 }
-                Target::Dialect(dialect) => of_dialect(dialect, rest, mass_kg).map(From::Dialect),
+                Target::Dialect(dialect) => of_dialect(dialect, rest, mass_kg),
                 _ => Err(format!("{head} is all of a kind; name one")),
             },
         }
@@ -132,7 +133,7 @@ fn example(method: &Method) -> String {
 
 /// The motion of a user interface with settings that are written as `key=value,…`; those left out are the library's own,
 /// but for this mass in kg.
-fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<Wish, String> {
+fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<From, String> {
     let usual = |key: &Key| if key.name == "mass" { mass_kg } else { key.usual };
     let mut values: Vec<f64> = dialect.keys.iter().map(usual).collect();
     let mut given = Vec::new();
@@ -156,8 +157,18 @@ fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<Wish, St
             (None, number) => with_unit(number, "").map_err(|fault| format!("{key}: {fault}"))?,
         };
     }
-    let wish = dialect.read(&values)?;
-    Ok(if dialect.has_mass() { wish } else { Wish { mass_kg, ..wish } })
+    let wish = |values: &[f64]| {
+        let wish = dialect.read(values)?;
+        Ok::<_, String>(if dialect.has_mass() { wish } else { Wish { mass_kg, ..wish } })
+    };
+    let shown = wish(&values)?;
+    // A switch lets numbers through that the interface bounds.
+    for (index, key) in dialect.keys.iter().enumerate() {
+        if key.switch.is_some() && !given.contains(&index) {
+            values[index] = 1.0;
+        }
+    }
+    Ok(From::Dialect { shown, as_given: wish(&values)? })
 }
 
 /// The settings of a spring in an engine.

@@ -252,7 +252,9 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
                 };
                 let kept = limits.spectral_radius.map_or("unstable".into(), |radius| {
                     let word = if radius <= 1.0 + 1e-9 { "stable" } else { "unstable" };
-                    format!("{word}, a tick leaves {}", significant(radius, 3))
+                    // Near 1 it is the difference that counts.
+                    let digits = if (radius - 1.0).abs() < 0.01 { 6 } else { 3 };
+                    format!("{word}, a tick leaves {}", significant(radius, digits))
                 });
                 let substeps = match limits.fewest_substeps {
                     Some(n) => format!("stable from ×{n}"),

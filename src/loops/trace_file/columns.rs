@@ -16,15 +16,35 @@ pub(super) enum Span {
 }
 
 /// What tool writes a log, what its rows say, the column of frames and one beside it; each also without its `Ms`.
-const FORMATS: [(&str, Span, &str, Beside); 7] = [
-    ("PresentMon", Span::Before, "MsBetweenPresents", Beside::Until("MsUntilDisplayed")),
-    ("PresentMon", Span::Before, "MsBetweenPresents", Beside::Display("MsBetweenDisplayChange")),
-    ("PresentMon", Span::After, "MsFrameTime", Beside::Display("MsDisplayedTime")),
+const FORMATS: [(&str, Span, &str, Beside); 8] = [
+    (PRESENTMON, Span::Before, "MsBetweenPresents", Beside::Until("MsUntilDisplayed")),
+    (PRESENTMON, Span::Before, "MsBetweenPresents", Beside::Display("MsBetweenDisplayChange")),
+    (PRESENTMON, Span::After, "MsFrameTime", Beside::Display("MsDisplayedTime")),
     ("Unreal", Span::Before, "FrameTime", Beside::Other("GameThreadTime")),
     (FRAPS, Span::Before, "Time (ms)", Beside::Other("Frame")),
-    ("MangoHud", Span::Before, "frametime", Beside::Other("fps")),
-    ("PresentMon", Span::Before, "MsBetweenPresents", Beside::Nothing),
+    (MANGOHUD, Span::Before, "frametime", Beside::Other("fps")),
+    (OLD_MANGOHUD, Span::Before, "elapsed", Beside::Other("fps")),
+    (PRESENTMON, Span::Before, "MsBetweenPresents", Beside::Nothing),
 ];
+
+/// What writes PresentMon's columns, by one of its own: the first that is there.
+const OF_PRESENTMON: [(&str, &str); 9] = [
+    ("Motherboard", "OCAT"),
+    ("Resolution", "FrameView"),
+    ("CPUStartTime", "PresentMon 2"),
+    ("CPUStartQPC", "PresentMon 2"),
+    ("FrameType", "PresentMon 2"),
+    ("AnimationTime", "PresentMon 2"),
+    ("MsCPUBusy", "PresentMon 2"),
+    ("MsFrameTime", "PresentMon 2"),
+    ("Dropped", "PresentMon 1"),
+];
+
+/// The columns of a log's own time, with the nanoseconds of their units, and whether all versions write that unit.
+const TIMES: [(&str, f64, bool); 3] =
+    [("TimeInSeconds", 1e9, true), ("elapsed", 1.0, true), ("CPUStartTime", 1e6, false)];
+/// Columns that MangoHud alone has.
+const OF_MANGOHUD: [&str; 3] = ["elapsed", "cpu_load", "gpu_load"];
 
 /// What is beside a column of frames.
 enum Beside {
@@ -40,6 +60,17 @@ enum Beside {
 
 /// Words in the heading of a list of frame times.
 const OF_LIST: [&str; 5] = ["frame", "frametime", "dt", "delta", "deltatime"];
+/// What a column of frame times is called beside other columns.
+const OF_TABLE: [&str; 8] = [
+    "frametime",
+    "frame time",
+    "frame_time",
+    "frame-time",
+    "deltatime",
+    "delta time",
+    "delta_time",
+    "dt",
+];
 /// Words that say the unit of such a list.
 const UNITS: [(&str, Unit); 6] = [
     ("s", Unit::Seconds),
@@ -64,8 +95,12 @@ pub(super) struct Columns {
     displayed: Option<Column>,
     /// Whether the times of display are from a frame's own beginning.
     is_until: bool,
-    /// MangoHud's frames a second, and nanoseconds since it began.
-    beside: [Option<usize>; 2],
+    /// The frames a second that stand beside a frame's time.
+    pub(super) fps: Option<usize>,
+    /// The log's own time, the nanoseconds of its unit, and whether that is sure.
+    time: Option<(usize, f64, bool)>,
+    /// The times from a frame to its own display, where those between displays are read.
+    until: Option<usize>,
     dropped: Option<Column>,
     frame_type: Option<usize>,
     application: Option<usize>,
@@ -73,21 +108,38 @@ pub(super) struct Columns {
     swap_chain: Option<usize>,
 }
 
+const PRESENTMON: &str = "PresentMon";
 /// The tool whose times are in a unit that depends on its version, and a list that no tool wrote.
-pub(super) const MANGOHUD: &str = "MangoHud";
+const MANGOHUD: &str = "MangoHud";
 const LIST: &str = "a list";
+/// Its first versions, which wrote no times of frames.
+const OLD_MANGOHUD: &str = "MangoHud before 0.6";
 /// The tool whose rows say when a frame began, and not how long after the one before.
 const FRAPS: &str = "FRAPS";
 
-/// The column of a list of frame times under a heading, and its unit where that says so.
+/// The column of a list of frame times under a heading, or of the frame times of a table, and its unit where the name says so.
 fn of_list(header: &StringRecord) -> Option<(Column, Option<Unit>)> {
-    let name = header.get(0).filter(|_| header.len() == 1)?.trim();
-    let lower = name.to_lowercase();
-    let words: Vec<&str> = lower.split(|c: char| !c.is_alphabetic()).collect();
-    let is_plain = |sign: char| sign.is_alphanumeric() || "_ ()[].".contains(sign);
-    let is_named = words.iter().any(|word| OF_LIST.contains(word)) && name.chars().all(is_plain);
-    let unit = UNITS.iter().find(|(known, _)| words[1..].contains(known)).map(|(_, unit)| *unit);
-    is_named.then(|| (Column { index: 0, name: name.to_owned() }, unit))
+    let of = |(index, name): (usize, &str)| {
+        let name = name.trim();
+        let lower = name.to_lowercase();
+        let words: Vec<&str> = lower.split(|c: char| !c.is_alphabetic()).collect();
+        let is_plain = |sign: char| sign.is_alphanumeric() || "_ ()[].".contains(sign);
+        let is_named = match header.len() {
+            1 => words.iter().any(|word| OF_LIST.contains(word)) && name.chars().all(is_plain),
+            // Beside others it must be called so whole.
+            _ => OF_TABLE.iter().any(|known| lower.strip_prefix(known).is_some_and(is_unit)),
+        };
+        let unit =
+            UNITS.iter().find(|(known, _)| words[1..].contains(known)).map(|(_, unit)| *unit);
+        is_named.then(|| (Column { index, name: name.to_owned() }, unit))
+    };
+    header.iter().enumerate().find_map(of)
+}
+
+/// Whether this is nothing, or a unit behind a name.
+fn is_unit(rest: &str) -> bool {
+    let letters = rest.trim_matches(|c: char| !c.is_alphabetic());
+    letters.is_empty() || UNITS.iter().any(|(known, _)| *known == letters)
 }
 
 struct Column {
@@ -109,8 +161,12 @@ pub(super) struct Cells<'a> {
     pub(super) displayed_ns: Option<i64>,
     /// Whether that is from its own beginning.
     pub(super) is_until: bool,
-    /// The frames a second and the nanoseconds that stand beside it.
-    pub(super) beside: [Option<f64>; 2],
+    /// The frames a second that stand beside it.
+    pub(super) fps: Option<f64>,
+    /// The log's own time, in nanoseconds.
+    pub(super) time_ns: Option<f64>,
+    /// The time from its beginning to its display, in nanoseconds, beside those between displays.
+    pub(super) until_ns: Option<f64>,
     /// Whether a column says that it was displayed.
     pub(super) surely_displayed: bool,
     /// Whether a driver generated it, or repeated it, so that the program did not begin a frame.
@@ -134,7 +190,11 @@ impl Columns {
                 Beside::Other(name) => index(name).map(|_| (None, false))?,
                 Beside::Nothing => (None, false),
             };
-            let unit = (*format != MANGOHUD).then_some(Unit::Milliseconds);
+            let unit = match *format {
+                MANGOHUD => None,
+                OLD_MANGOHUD => Some(Unit::Nanoseconds),
+                _ => Some(Unit::Milliseconds),
+            };
             Some((*format, unit, *span, column(began)?, (displayed, is_until)))
         };
         let found = FORMATS.iter().find_map(times).or_else(|| {
@@ -145,15 +205,25 @@ impl Columns {
             let found = clip_list(header.iter().map(str::trim));
             return Err(Fault::Columns { found });
         };
-        let beside = if format == MANGOHUD { ["fps", "elapsed"].map(index) } else { [None; 2] };
+        let writer = OF_PRESENTMON.iter().find(|(own, _)| column(own).is_some());
+        let is_list = OF_MANGOHUD.iter().all(|own| index(own).is_none());
+        let format = match writer.filter(|_| format == PRESENTMON) {
+            Some((_, writer)) => writer,
+            None if format == MANGOHUD && is_list => LIST,
+            None => format,
+        };
+        let time = TIMES.iter().find_map(|&(name, ns, is_sure)| Some((index(name)?, ns, is_sure)));
+        let until = index("MsUntilDisplayed").filter(|_| displayed.is_some() && !is_until);
         Ok(Self {
             format,
             unit,
             span,
+            time: time.filter(|(index, ..)| *index != began.index),
             began,
             displayed,
             is_until,
-            beside,
+            fps: index("fps"),
+            until,
             dropped: column("Dropped"),
             frame_type: index("FrameType"),
             application: index("Application"),
@@ -172,7 +242,9 @@ impl Columns {
             began,
             displayed: None,
             is_until: false,
-            beside: [None; 2],
+            fps: None,
+            time: None,
+            until: None,
             dropped: None,
             frame_type: None,
             application: None,
@@ -188,7 +260,17 @@ impl Columns {
 
     /// Whether a row says when its frame began, and not how long after the one before.
     pub(super) fn is_since_start(&self) -> bool {
-        self.format == FRAPS
+        [FRAPS, OLD_MANGOHUD].contains(&self.format)
+    }
+
+    /// Whether the unit of the log's own time is sure.
+    pub(super) fn is_sure_of_time(&self) -> bool {
+        self.time.is_some_and(|(.., is_sure)| is_sure)
+    }
+
+    /// Whether the first row says how long a frame of the log took.
+    pub(super) fn counts_first(&self) -> bool {
+        [LIST, MANGOHUD].contains(&self.format)
     }
 
     /// Whether the frames end before this row: Unreal writes the header again, and what it knows of the build.
@@ -225,6 +307,10 @@ impl Columns {
             None => began_ns,
         };
         let frame_type = text(self.frame_type);
+        let number = |index: Option<usize>| {
+            let cell = row.get(index?)?.trim().replace(',', ".");
+            cell.parse::<f64>().ok().filter(|number| number.is_finite())
+        };
         Ok(Cells {
             application: text(self.application),
             process: text(self.process),
@@ -232,7 +318,9 @@ impl Columns {
             span: self.span,
             began_ns: began_ns.ok_or_else(|| Fault::NoTime { column: self.began.name.clone() }),
             is_until: self.is_until,
-            beside: self.beside.map(|index| row.get(index?)?.trim().parse().ok()),
+            fps: number(self.fps),
+            time_ns: self.time.and_then(|(index, ns, _)| Some(number(Some(index))? * ns)),
+            until_ns: number(self.until).map(|ms| 1e6 * ms),
             displayed_ns: displayed_ns.filter(|_| dropped != Some(true)),
             surely_displayed: dropped == Some(false) || self.displayed.is_none(),
             is_generated: !RENDERED.iter().any(|known| known.eq_ignore_ascii_case(frame_type)),

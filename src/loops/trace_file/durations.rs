@@ -10,6 +10,7 @@ pub(super) enum Unit {
     Seconds,
     Milliseconds,
     Microseconds,
+    Nanoseconds,
 }
 
 impl Unit {
@@ -19,6 +20,7 @@ impl Unit {
             Self::Seconds => 9,
             Self::Milliseconds => 6,
             Self::Microseconds => 3,
+            Self::Nanoseconds => 0,
         }
     }
 
@@ -28,6 +30,7 @@ impl Unit {
             Self::Seconds => "seconds",
             Self::Milliseconds => "ms",
             Self::Microseconds => "µs",
+            Self::Nanoseconds => "ns",
         }
     }
 }

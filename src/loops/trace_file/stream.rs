@@ -3,7 +3,7 @@
 use super::Fault;
 use super::columns::{Cells, Span};
 use crate::loops::time_base::RefreshRate;
-use crate::loops::trace::{Frame, FrameTrace};
+use crate::loops::trace::{Frame, FrameTrace, Parting};
 
 const YEAR_NS: i64 = 365 * 86_400_000_000_000;
 
@@ -21,6 +21,11 @@ pub(super) struct Stream {
     next_shown_ns: i64,
     /// How long ago the last frame began, where generated ones came after it.
     generated_ns: i64,
+    /// The first and the last frame with a time of the log beside it, and with a time until it was displayed, in nanoseconds.
+    timed: Option<[(Frame, f64); 2]>,
+    shown: Option<[(Frame, f64); 2]>,
+    /// How long the first frame took until it began.
+    lead_ns: i64,
 }
 
 /// A name with a replacement for each control character: it is printed in messages and on screens.
@@ -40,6 +45,9 @@ impl Stream {
             next_began_ns: Ok(0),
             next_shown_ns: 0,
             generated_ns: 0,
+            timed: None,
+            shown: None,
+            lead_ns: 0,
         }
     }
 
@@ -87,6 +95,16 @@ impl Stream {
             return Err(Fault::TooLong);
         }
         self.last_shown_ns = frame.displayed_ns.or(self.last_shown_ns);
+        if self.frames.is_empty() {
+            self.lead_ns = cells.began_ns.as_ref().copied().unwrap_or_default();
+        }
+        let until = cells.until_ns.filter(|_| frame.displayed_ns.is_some());
+        for (ends, beside) in [(&mut self.timed, cells.time_ns), (&mut self.shown, until)] {
+            if let Some(beside) = beside {
+                let first = ends.map_or((frame, beside), |[first, _]| first);
+                *ends = Some([first, (frame, beside)]);
+            }
+        }
         self.frames.push(frame);
         self.generated_ns = 0;
         Ok(())
@@ -137,32 +155,73 @@ impl Stream {
         Ok(Frame { began_ns, displayed_ns })
     }
 
-    /// The trace of all its frames, which are counted as shown when they begin where the times of display go otherwise.
-    pub(super) fn into_trace(mut self, name: String) -> FrameTrace {
-        let are_parted = are_parted(&self.frames);
-        if are_parted {
+    /// The log's own time that passes in a unit of the time of its frames; `None` where it has none.
+    pub(super) fn time_ratio(&self) -> Option<f64> {
+        let [(first, from), (last, to)] = self.timed?;
+        let frames_ns = (last.began_ns - first.began_ns) as f64;
+        Some((to - from) / frames_ns).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
+    }
+
+    /// Which times contradict each other: those of frames with the log's own, whose unit may not be sure, or with those of
+    /// display.
+    fn parting(&self, is_sure: bool) -> Option<Parting> {
+        let ratio = self.time_ratio().map(|ratio| match is_sure {
+            true => ratio,
+            false => ratio / libm::pow(1e3, (libm::log10(ratio) / 3.0).round()),
+        });
+        // A row may be written some frames late.
+        let few = 3.0 / self.frames.len() as f64;
+        let is_late = ratio.is_some_and(|ratio| (ratio - 1.0).abs() > PARTED.max(few));
+        let are_parted = are_parted(&self.frames, self.shown);
+        is_late.then_some(Parting::Time).or(are_parted.then_some(Parting::Display))
+    }
+
+    /// The trace of all its frames, which are counted as shown when they begin where times contradict each other: those of the
+    /// log's own clock, whose unit may not be sure, or `known` ones.
+    pub(super) fn into_trace(
+        mut self,
+        name: String,
+        is_sure: bool,
+        known: Option<Parting>,
+    ) -> FrameTrace {
+        let parting = self.parting(is_sure).or(known);
+        if parting.is_some() {
             for frame in &mut self.frames {
                 frame.displayed_ns = frame.displayed_ns.map(|_| frame.began_ns);
             }
         }
         let trace = FrameTrace::recorded(name, nominal_refresh(&self.frames), self.frames);
-        if are_parted { trace.with_parted_clocks() } else { trace }
+        match parting {
+            Some(parting) => trace.with_parted_clocks(parting),
+            None => trace,
+        }
+    }
+
+    /// How long the first frame took until it began.
+    pub(super) fn lead_ns(&self) -> i64 {
+        self.lead_ns
     }
 }
 
 /// The part of its length by which a log's two clocks may differ, and the refreshes that a queue before the display may hold.
 const PARTED: f64 = 0.01;
-const MAX_QUEUE: f64 = 4.0;
+const MAX_QUEUE: f64 = 6.0;
 
 /// Whether the times between the displays of frames add up to another length than those between their beginnings.
-fn are_parted(frames: &[Frame]) -> bool {
+fn are_parted(frames: &[Frame], until: Option<[(Frame, f64); 2]>) -> bool {
     let mut shown = frames.iter().filter(|frame| frame.displayed_ns.is_some());
     let (Some(first), Some(last)) = (shown.next(), shown.next_back()) else { return false };
     let span = |of: fn(&Frame) -> i64| (of(last) - of(first)) as f64;
     let began_ns = span(|frame| frame.began_ns);
     let apart_ns = (span(|frame| frame.displayed_ns.unwrap_or_default()) - began_ns).abs();
     let queue_ns = MAX_QUEUE * 1e9 / nominal_refresh(frames).hz();
-    apart_ns > PARTED * began_ns && apart_ns > queue_ns
+    // What the time from a frame to its display says of the same difference.
+    let against_ns = until.map_or(0.0, |[(first, from), (last, to)]| {
+        let late = |frame: Frame| (frame.displayed_ns.unwrap_or_default() - frame.began_ns) as f64;
+        ((late(last) - late(first)) - (to - from)).abs()
+    });
+    let most_ns = (PARTED * began_ns).max(queue_ns);
+    apart_ns > most_ns || against_ns > most_ns
 }
 
 /// The rate whose refresh is the median time between two displayed frames: most span one refresh. 60 Hz where there are

@@ -6,7 +6,7 @@ use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 use super::table::{Column, SortKey, Table, TableRow, show_words};
 use crate::run::race::Mode;
 use crate::scene::LaneSpec;
-use crate::sim::TickRate;
+use crate::scene::TickRate;
 use crate::stage::number::significant;
 use crate::studio::{Command, StageCommand, Studio};
 use crate::view::theme::{PanelPalette, palette, strong_font};

@@ -5,7 +5,7 @@ use egui::{Align2, Button, ComboBox, FontId, Id, Rect, RichText, Sense, Ui, vec2
 use super::inspector::NumberField;
 use super::parts::dialog;
 use super::text_field::select;
-use crate::sim::TickRate;
+use crate::scene::TickRate;
 use crate::studio::{Command, MySpring, SpringField, StageCommand, Studio, ViewCommand};
 use crate::tools::port::{DIALECTS, Dialect, DialectPort};
 use crate::tools::source_code::Language;

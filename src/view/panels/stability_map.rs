@@ -12,8 +12,8 @@ use super::annotations::{label, mixed, polygon};
 use super::breakpoints;
 use super::parts::{is_picture, numbered};
 use crate::measure::{Coverage, MapRequest, SeenLine, StabilityMap};
+use crate::scene::TickRate;
 use crate::scene::{Action, edited_values};
-use crate::sim::TickRate;
 use crate::stage::Parameter;
 use crate::stage::number::round;
 use crate::studio::{
@@ -43,6 +43,9 @@ const BESIDE: f32 = 10.0;
 const APART: f32 = 13.0;
 /// Half the height of the letters of a label, in points.
 const HALF_LETTER: f32 = 6.0;
+/// The height of a row of the key, and what the piece of a line takes of its width.
+const ROW: f32 = 16.0;
+const KEY_LINE: f32 = 32.0;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let top = ui.cursor().top();
@@ -231,7 +234,8 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
         }
     }
     keyed.retain(|entry| !named.contains(entry));
-    taken.extend(key(ui, studio, &keyed, area));
+    let key = key(ui, studio, &keyed, area, &taken);
+    taken.extend(key);
     let land = palette(ui).plot.gamma_multiply(0.8);
     for (ratio, points) in &seen {
         let others = seen.iter().filter(|(other, _)| other != ratio).map(|(_, points)| points);
@@ -251,21 +255,31 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
 }
 
 /// Names the boundaries at which no name has room, each beside a piece of its line, in the corner where the rate is least and
-/// the parameter greatest. Returns the places along the names.
-fn key(ui: &Ui, studio: &Studio, entries: &[usize], area: &PlotArea) -> Vec<Pos2> {
+/// the parameter greatest, off the places that are `taken`. Returns the places along the names.
+fn key(ui: &Ui, studio: &Studio, entries: &[usize], area: &PlotArea, taken: &[Pos2]) -> Vec<Pos2> {
     let painter = ui.painter().with_clip_rect(area.rect);
-    let rows = entries.iter().enumerate().flat_map(|(row, entry)| {
+    let mut rows = (0..).map(|row| area.rect.left_top() + vec2(8.0, 30.0 + ROW * row as f32));
+    let mut places = Vec::new();
+    for entry in entries {
         let (colour, dash) = palette(ui).style(studio.entries(), &studio.entries()[*entry]);
-        let from = area.rect.left_top() + vec2(8.0, 30.0 + 16.0 * row as f32);
-        let line = LineStyle { dash, ..LineStyle::solid(colour, 2.2) };
-        let piece = ScreenCurve::new(line, vec![from, from + vec2(26.0, 0.0)]);
-        chart::paint(&painter, &[Primitive::Curves(vec![piece])]);
         let name = numbered(*entry, &studio.lane_name(*entry));
-        let (at, font) = (from + vec2(32.0, 0.0), FontId::proportional(12.0));
-        let rect = painter.text(at, Align2::LEFT_CENTER, name, font, colour);
-        along(rect.center(), 0.0, rect.width())
-    });
-    rows.collect()
+        let name = painter.layout_no_wrap(name, FontId::proportional(12.0), colour);
+        let size = vec2(KEY_LINE + name.size().x, ROW);
+        let is_free = |from: &Pos2| {
+            let place = Rect::from_min_size(*from - vec2(0.0, ROW / 2.0), size).expand(HALF_LETTER);
+            !taken.iter().any(|at| place.contains(*at))
+        };
+        let Some(from) = rows.find(|from| is_free(from) || from.y > area.rect.bottom()) else {
+            break;
+        };
+        let line = LineStyle { dash, ..LineStyle::solid(colour, 2.2) };
+        let piece = ScreenCurve::new(line, vec![from, from + vec2(KEY_LINE - 6.0, 0.0)]);
+        chart::paint(&painter, &[Primitive::Curves(vec![piece])]);
+        let at = Align2::LEFT_CENTER.anchor_size(from + vec2(KEY_LINE, 0.0), name.size());
+        painter.galley(at.min, name, colour);
+        places.extend(along(at.center(), 0.0, at.width()));
+    }
+    places
 }
 
 /// The lines along which a player sees the same damping ratio of the selected engine.

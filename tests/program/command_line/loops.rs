@@ -395,7 +395,7 @@ fn mistakes_are_told_with_a_remedy() {
         ("--display-hz nan", "from 1 to 1000 Hz"),
         ("--latency-ms -1", "give 0 to 10000 ms"),
         ("--seconds 0", "more than 0 seconds"),
-        ("--tick-hz 0", "1..=10000"),
+        ("--tick-hz 0", "give a rate from 0.01 to 10000 Hz"),
         ("--scene nowhere", "nowhere"),
         ("--trace Cargo.toml", "Cargo.toml"),
         ("--out x.csv --frame-rows x.csv", "the same place"),

@@ -292,9 +292,9 @@ fn mistakes_are_refused_before_anything_is_swept() {
     for (options, said) in [
         ("--method rk5", "did you mean rk4? `regatta list methods` names all"),
         ("--scene shp", "is called \"shp\"; did you mean ship?"),
-        ("--tick-hz 0", "0 is not in 1..=10000"),
-        ("--tick-hz 60,10001", "10001 is not in 1..=10000"),
-        ("--tick-hz 60,", "cannot parse integer from empty string"),
+        ("--tick-hz 0", "give a rate from 0.01 to 10000 Hz"),
+        ("--tick-hz 60,10001", "'10001' for"),
+        ("--tick-hz 60,", "'' for"),
         ("--seconds 0", "give more than 0 seconds"),
         ("--seconds -1", "give 0 to 31536000 seconds"),
         ("--threads 0", "0 is not in 1..=256"),

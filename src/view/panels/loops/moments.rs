@@ -96,7 +96,8 @@ pub(super) fn layout(
     };
     let ticks = (format!("{:.3} Hz ticks", loops.scene().tick_hz), palette.accent);
     let above = pos2(rect.left(), room.top());
-    all.push(name(above, Align2::LEFT_TOP, "moment shown, ms from now", ticks).into());
+    let upright = name(above, Align2::LEFT_TOP, "moment shown, ms from now", ticks);
+    all.push(Text { right: room.right(), ..upright }.into());
     let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
     let frames = (format!("{hz} Hz frames"), palette.text);
     let below = pos2(rect.center().x, room.bottom());

@@ -6,7 +6,7 @@ use egui::text::LayoutJob;
 use egui::{Color32, FontId, Galley, TextFormat, Ui};
 
 use crate::measure::{Here, MapRequest, StabilityMap};
-use crate::sim::TickRate;
+use crate::scene::TickRate;
 use crate::stage::Parameter;
 use crate::stage::number::round;
 use crate::studio::Studio;
