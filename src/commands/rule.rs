@@ -169,6 +169,8 @@ fn words(rule: &Rule, written: &str, language: Language) -> String {
         let line = |below| format!("{what} below {} frames per second\n", significant(below, 4));
         said += &below.map(line).unwrap_or_default();
     }
+    let grows = rule.takes_step() && rule.explodes_below_fps().is_none() && rule.grows();
+    said += if grows { "grows at every frame rate\n" } else { "" };
     if let Some(coasts) = rule.coasts_s() {
         let seconds: Vec<String> = coasts.iter().map(|seconds| significant(*seconds, 4)).collect();
         said += &match &seconds[..] {

@@ -230,11 +230,12 @@ fn read_in(
     let mut table = TableReader::begin(Utf8::new(bytes), reading, is_header).map_err(broken)?;
     let (header_line, is_list) = (table.header_line(), table.is_list());
     let header = text_of(table.header());
-    let found = if is_list { Ok(Columns::of_list()) } else { Columns::find(&header) };
-    let columns = found.map_err(|fault| match is_of_afterburner(bytes) {
-        true => at(header_line, Fault::Afterburner),
-        false => at(header_line, fault),
-    })?;
+    let found = match is_list {
+        true => Ok(Columns::of_list()),
+        false if is_of_afterburner(bytes) => Err(Fault::Afterburner),
+        false => Columns::find(&header),
+    };
+    let columns = found.map_err(|fault| at(header_line, fault))?;
     let mut record = ByteRecord::new();
     let in_unit = unit.or(columns.unit).unwrap_or(Unit::Milliseconds);
     let (is_said, is_own_time) = (columns.unit.is_some(), columns.is_since_start());

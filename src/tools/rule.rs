@@ -4,10 +4,12 @@
 //! also between whole ones, are the motion at any frame rate. Of a rule that is not linear the same is told of small
 //! motions about its rest.
 
+use std::sync::Arc;
+
 use nalgebra::{Matrix2, Vector2};
 
 use super::port::powers::Powers;
-use super::port::seen::{NO_GROWTH, seen, spectral_radius};
+use super::port::seen::{seen, spectral_radius};
 use super::port::{Approach, Wish};
 use crate::sim::law::{ExpressionFault, StepText};
 use crate::sim::numerics::bisect;
@@ -22,13 +24,18 @@ const FRAME_RATES: [f64; 7] = [30.0, 50.0, 60.0, 120.0, 144.0, 165.0, 240.0];
 /// The least frame rate at which ringing and growth are sought, the largest of each, and the ratio of rates between.
 const SLOWEST: f64 = 0.1;
 const FASTEST_RINGING: f64 = 1e4;
-const FASTEST_GROWTH: f64 = 1e6;
+const FASTEST_GROWTH: f64 = 1e5;
 const RATIO: f64 = 1.02;
 const HALVINGS: u32 = 60;
 /// A part of the way, of a speed or of a swing, below which nothing is seen.
 const OVER: f64 = 0.01;
 /// A rule with an eigenvalue as near to 1 as this keeps wherever it is.
 const NO_RETURN: f64 = 1e-13;
+/// By how much an eigenvalue must be above 1 to grow, and for a second look: where that moves the frame rate at which growth
+/// begins, it begins at none.
+const GROWTH: f64 = 1e-12;
+const MORE_GROWTH: f64 = 1e-11;
+const SAME_RATE: f64 = 1e-3;
 /// How far from its rest a rule that is not linear is tried, and how much of that it may be off a linear one.
 const SMALL: f64 = 1e-6;
 const SMOOTH: f64 = 1e-3;
@@ -41,7 +48,7 @@ const MAX_WATCHED: f64 = 20_000.0;
 /// The lines that move a value once a frame, and the rate of frames for which they were written.
 #[derive(Debug)]
 pub struct Rule {
-    text: StepText,
+    text: Arc<StepText>,
     fps: f64,
     /// The carried numbers that decide the motion, the one that is seen first.
     state: Vec<usize>,
@@ -95,10 +102,14 @@ impl Rule {
     /// The first fault of the text.
     pub fn read(text: &str, fps: f64) -> Result<Self, ExpressionFault> {
         let text = StepText::read(text)?;
-        let reads = text.reads();
         // What is seen is the place, or of a rule that changes none the velocity.
-        let mut state = vec![usize::from(text.keeps(0))];
-        let mut next = 0;
+        let seen = usize::from(text.keeps(0));
+        Ok(Self::with_state(Arc::new(text), fps, vec![seen]))
+    }
+
+    /// The rule as a map of these carried numbers and those that they depend on.
+    fn with_state(text: Arc<StepText>, fps: f64, mut state: Vec<usize>) -> Self {
+        let (reads, mut next) = (text.reads(), 0);
         while let Some(&index) = state.get(next) {
             for read in &reads[index] {
                 if !state.contains(read) {
@@ -112,7 +123,19 @@ impl Rule {
         let map = rule.frame(fps).map(|frame| frame.map).filter(|_| rule.state.len() == 2);
         rule.stays =
             map.is_some_and(|map| (1.0 - map.trace() + map.determinant()).abs() <= NO_RETURN);
-        Ok(rule)
+        rule
+    }
+
+    /// The rule as a map of all that a game reads of it: `x` and `v`, as far as its lines change them.
+    fn whole(&self) -> Self {
+        let changed = (0..2).filter(|index| !self.text.keeps(*index));
+        let mut state = self.state.clone();
+        for index in changed {
+            if !state.contains(&index) {
+                state.push(index);
+            }
+        }
+        Self::with_state(Arc::clone(&self.text), self.fps, state)
     }
 
     /// Frames per second of its author.
@@ -206,7 +229,7 @@ impl Rule {
         let Some(motion) = self.motion(fps) else {
             return SeenRule { grows: self.grows_when_watched(fps), ..nothing };
         };
-        let grows = motion.radius() > NO_GROWTH;
+        let grows = motion.grows(GROWTH);
         let flips = motion.flips().then_some(fps / 2.0);
         let settles_s = (motion.radius() < 1.0).then(|| motion.frames_to_settle().max(1.0) / fps);
         match motion {
@@ -235,7 +258,15 @@ impl Rule {
 
     /// The frame rate below which it grows. `None` if the frame rate does not decide that.
     pub fn explodes_below_fps(&self) -> Option<f64> {
-        self.begins_below(FASTEST_GROWTH, |motion| motion.radius() > NO_GROWTH)
+        let above = |least| self.begins_below(FASTEST_GROWTH, |motion| motion.grows(least));
+        // What grows less and less, and at every rate, passes each bound somewhere.
+        let (found, next) = (above(GROWTH)?, above(MORE_GROWTH)?);
+        ((next / found - 1.0).abs() < SAME_RATE).then_some(found)
+    }
+
+    /// Whether it grows at the author's frame rate.
+    pub fn grows(&self) -> bool {
+        self.seen_at(self.fps).grows
     }
 
     /// The rate below which something begins that does not hold at `fastest`.
@@ -315,6 +346,11 @@ impl Motion {
             Motion::Approach { kept } | Motion::Coast { kept } => kept.abs(),
             Motion::Swing(map) => spectral_radius(map.trace(), map.determinant()),
         }
+    }
+
+    /// Whether what moves grows, by more than this in a frame.
+    fn grows(&self, least: f64) -> bool {
+        self.radius() > 1.0 + least
     }
 
     /// Whether it ends up changing sides at every frame.

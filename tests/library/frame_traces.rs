@@ -6,6 +6,8 @@ use std::time::Instant;
 use regatta::loops::trace_file::read;
 use regatta::loops::{Frame, FrameTrace, Pacer, TimeBase, policy};
 
+mod logs;
+
 const FILES: [&str; 6] = [
     include_str!("../data/frame-traces/presentmon_test_case_0.csv"),
     include_str!("../data/frame-traces/presentmon_test_case_1.csv"),
@@ -404,8 +406,9 @@ fn a_log_of_mangohud_is_read_below_its_lines_about_the_machine() {
         let expected = expected.map(|ns| Frame { began_ns: ns, displayed_ns: Some(ns) });
         assert_eq!(frames(trace), expected, "{text}");
     }
-    // The names of PresentMon alone are no log of MangoHud.
-    assert!(read("log", "FrameTime,CPUBusy\n16,3\n").is_err());
+    // PresentMon 2 has no times of display where it is told to track none.
+    let [trace] = &traces("log", "FrameTime,CPUBusy\n16,3\n17,3\n")[..] else { panic!("one") };
+    assert!(trace.summary().unwrap().ends_with("(PresentMon 2)") && trace.has_one_clock());
     let far = format!("{}fps,frametime\n60,16\n", "a remark\n".repeat(17));
     assert!(read("log", &far).err().unwrap().to_string().starts_with("log:1: the columns"));
 }
@@ -424,195 +427,4 @@ fn generated_frames_let_time_pass_and_are_no_frames_of_the_program() {
     assert_eq!(frames(trace), [at(0, 0), at(16, 17), at(33, 33)]);
     let none = "Application,FrameTime,DisplayedTime,FrameType\na,NA,8,Intel_XEFG\n";
     assert!(read("log", none).err().unwrap().to_string().contains("no frame of a program"));
-}
-
-/// What is read, in a line, and the beginnings of its frames in ms.
-fn summed(text: &str) -> (String, Vec<f64>) {
-    let [trace] = &traces("log", text)[..] else { panic!("one trace") };
-    let began = frames(trace).iter().map(|frame| frame.began_ns as f64 / 1e6).collect();
-    (trace.summary().expect("a log"), began)
-}
-
-#[test]
-fn a_list_of_times_is_read_under_a_heading_and_in_whatever_unit_it_is() {
-    let expected = vec![0.0, 16.6, 50.0];
-    for (text, unit) in [
-        ("# level 3\nframe_ms\n16.7\n16.6\n33.4\n", ""),
-        ("16.7\n16.6\n33.4\n", ""),
-        ("0.0167\n0.0166\n0.0334\n", ", in seconds"),
-        ("delta_s\n0.0167\n0.0166\n0.0334\n", ", in seconds"),
-        ("dt\n0.0167\n0.0166\n0.0334\n", ", in seconds"),
-        ("frametime_us\n16700\n16600\n33400\n", ", in µs"),
-        ("16700\n16600\n33400\n", ", in µs"),
-    ] {
-        let (said, began) = summed(text);
-        assert_eq!(began, expected, "{text}");
-        let wanted =
-            format!("read 3 frames in 0.0667 s: 45.0 a second, longest 33.4 ms (a list{unit})");
-        assert_eq!(said, wanted, "{text}");
-    }
-    assert!(read("log", "temperature\n16.7\n").is_err(), "whatever it is, it is no time");
-}
-
-#[test]
-fn the_unit_of_mangohud_is_found_by_its_frames_a_second_and_a_sample_is_no_frame() {
-    let (said, began) =
-        summed("fps,frametime,cpu_load\n190.114,5260,10\n200,5000,11\n100,10000,9\n");
-    assert_eq!(began, [0.0, 5.0, 15.0]);
-    assert!(said.ends_with("(MangoHud, in µs)"), "{said}");
-    let elapsed = |step_ms: f64| {
-        let row = |n: u32| format!("250,4.0,{}\n", (f64::from(n) * step_ms * 1e6) as u64);
-        format!("fps,frametime,elapsed\n{}", (0..50).map(row).collect::<String>())
-    };
-    assert_eq!(summed(&elapsed(4.0)).1.len(), 50);
-    assert!(
-        summed("n,Frame Time (s),cpu\n1,0.008,3\n2,0.008,4\n").0.ends_with("(a list, in seconds)")
-    );
-    let error = read("log", &elapsed(100.0)).err().unwrap().to_string();
-    assert!(error.contains("a sample every 100 ms (log_interval)"), "{error}");
-}
-
-#[test]
-fn a_frame_that_says_nothing_of_its_display_was_dropped_and_the_others_have_one_clock() {
-    let text = "TimeInSeconds,MsBetweenPresents,MsBetweenDisplayChange,MsUntilDisplayed\n\
-                0.000,7,14,15\n0.007,7,7,15\n0.014,7,14,NA\n0.021,7,0,15\n";
-    let [trace] = &traces("log", text)[..] else { panic!("one trace") };
-    let ms = |ms: i64| ms * 1_000_000;
-    let displayed: Vec<_> = frames(trace).iter().map(|frame| frame.displayed_ns).collect();
-    assert_eq!(displayed, [Some(ms(15)), Some(ms(22)), None, Some(ms(36))]);
-    assert!(trace.has_one_clock() && trace.missing_display().is_none());
-    assert!(trace.summary().unwrap().contains(", 1 never displayed (PresentMon)"));
-}
-
-#[test]
-fn a_log_of_afterburner_is_refused_by_its_name() {
-    let text = "00, 24-10-2025 15:41:23, Hardware monitoring log v1.6 \n\
-                02, 24-10-2025 15:41:23, Power               ,Framerate           ,Frametime           \n\
-                80, 24-10-2025 15:41:24, 143.1               ,99.691              ,10.031              \n";
-    let error = read("log", text).err().unwrap().to_string();
-    assert!(error.contains("a log of MSI Afterburner has a sample a second"), "{error}");
-}
-
-/// Small logs of ten frames as each tool writes them, one of which was never displayed in two.
-const OF_TOOLS: [(&str, &str, &str); 11] = [
-    (
-        "presentmon-1.csv",
-        include_str!("../data/frame-traces/tools/presentmon-1.csv"),
-        "PresentMon 1",
-    ),
-    (
-        "presentmon-2.csv",
-        include_str!("../data/frame-traces/tools/presentmon-2.csv"),
-        "PresentMon 2",
-    ),
-    ("ocat.csv", include_str!("../data/frame-traces/tools/ocat.csv"), "OCAT"),
-    ("capframex.csv", include_str!("../data/frame-traces/tools/capframex.csv"), "CapFrameX"),
-    ("capframex.json", include_str!("../data/frame-traces/tools/capframex.json"), "CapFrameX"),
-    ("frameview.csv", include_str!("../data/frame-traces/tools/frameview.csv"), "FrameView"),
-    ("mangohud.csv", include_str!("../data/frame-traces/tools/mangohud.csv"), "MangoHud"),
-    (
-        "mangohud-0.6.csv",
-        include_str!("../data/frame-traces/tools/mangohud-0.6.csv"),
-        "MangoHud, in µs",
-    ),
-    ("unreal.csv", include_str!("../data/frame-traces/tools/unreal.csv"), "Unreal"),
-    ("fraps.csv", include_str!("../data/frame-traces/tools/fraps.csv"), "FRAPS"),
-    ("times.txt", include_str!("../data/frame-traces/tools/times.txt"), "a list"),
-];
-
-#[test]
-fn each_tool_that_the_manual_names_has_a_log_of_the_same_ten_frames() {
-    for (name, text, tool) in OF_TOOLS {
-        let read = traces(name, text);
-        assert_eq!(read.len(), 1, "{name}");
-        let never = if name.starts_with("presentmon") { ", 1 never displayed" } else { "" };
-        // A list has the time of its first frame, and the others say how long after the one before it began.
-        let is_list = ["a list", "MangoHud"].iter().any(|list| tool.starts_with(list));
-        let lasted = if is_list { "0.183 s: 54.5 a second" } else { "0.167 s: 54.0 a second" };
-        let summary = format!("read 10 frames in {lasted}, longest 33.4 ms{never} ({tool})");
-        assert_eq!(read[0].summary(), Some(summary), "{name}");
-        // In each unit the frames begin at the same nanosecond, to the digits that the tool writes.
-        let began: Vec<i64> = frames(&read[0]).iter().map(|frame| frame.began_ns).collect();
-        let wanted: Vec<i64> = frames(&traces(OF_TOOLS[0].0, OF_TOOLS[0].1)[0])
-            .iter()
-            .map(|frame| frame.began_ns)
-            .collect();
-        for (began, wanted) in began.iter().zip(&wanted) {
-            assert!((began - wanted).abs() <= 1000, "{name}: {began} and {wanted}");
-        }
-    }
-}
-
-#[test]
-fn times_are_held_against_each_other_and_what_contradicts_is_said() {
-    let log = |header: &str, row: &dyn Fn(f64) -> String| {
-        let rows: Vec<String> = (0..300).map(|n| row(f64::from(n))).collect();
-        traces("log", &format!("{header}\n{}\n", rows.join("\n"))).remove(0)
-    };
-    let presentmon = "TimeInSeconds,MsBetweenPresents,MsBetweenDisplayChange";
-    for (every_s, time, unit) in
-        [(0.008, 8.0, ""), (0.008, 8000.0, ", in µs"), (0.008, 0.008, ", in seconds")]
-    {
-        let trace = log(presentmon, &|n| format!("{},{time},{time}", n * every_s));
-        let said = trace.summary().unwrap();
-        assert_eq!(
-            said,
-            format!("read 300 frames in 2.39 s: 125 a second, longest 8.00 ms (PresentMon{unit})")
-        );
-        assert_eq!(trace.missing_display(), None);
-    }
-    let late = presentmon.replace("TimeInSeconds", "Dropped,MsUntilDisplayed");
-    for (header, row, told) in [
-        (presentmon, (&|n| format!("{},8,8", n * 0.0084)) as &dyn Fn(f64) -> String, "own time"),
-        ("CPUStartTime,FrameTime,DisplayedTime", &|n| format!("{},8,8", n * 10.0), "own time"),
-        (&late, &|n| format!("0,{},8,8", 20.0 + 0.4 * n), "clocks of frames and of display"),
-        ("fps,frametime,elapsed", &|n| format!("125,8,{}", n * 8.4e6), "own time"),
-        ("fps,frametime", &|_| "250,8".into(), "frames a second"),
-        ("frame;fps;frametime (ms)", &|n| format!("{n};250;8,0"), "frames a second"),
-    ] {
-        let trace = log(header, row);
-        let said = trace.missing_display().unwrap_or_default();
-        assert!(said.contains(told) && trace.has_one_clock(), "{header}: {said}");
-    }
-    for (header, row) in [
-        (
-            "CPUStartTime,FrameTime,DisplayedTime",
-            (&|n| format!("{},8,8", n * 8.0)) as &dyn Fn(f64) -> String,
-        ),
-        ("CPUStartTime,FrameTime,DisplayedTime", &|n| format!("{},8,8", n * 0.008)),
-        (&late, &|n| format!("0,{},8,8", 20.0 + n % 3.0)),
-    ] {
-        assert_eq!(log(header, row).missing_display(), None, "{header}");
-    }
-}
-
-#[test]
-fn the_first_mangohud_wrote_its_own_time_and_no_times_of_frames() {
-    let header = "fps,cpu_load,gpu_load,cpu_temp,elapsed";
-    let log = |step_ns: u64| {
-        let row = |n: u64| format!("125,5,90,60,{}\n", 3_000_000_000 + n * step_ns);
-        format!("os,cpu,gpu\nA,B,C\n{header}\n{}", (0..50).map(row).collect::<String>())
-    };
-    let (said, began) = summed(&log(8_000_000));
-    assert_eq!(
-        said,
-        "read 50 frames in 0.392 s: 125 a second, longest 8.00 ms (MangoHud before 0.6)"
-    );
-    assert_eq!(began[..3], [0.0, 8.0, 16.0]);
-    let error = read("log", &log(100_000_000)).err().unwrap().to_string();
-    assert!(error.contains("a sample every 100 ms (log_interval)"), "{error}");
-}
-
-#[test]
-fn what_unreal_writes_below_its_frames_is_no_frame_and_fraps_counts_from_its_start() {
-    let rows = "EVENTS,FrameTime,GameThreadTime\n,16,9\n,17,9\n";
-    let of_build = "[Platform],Windows,[Config],Test,[HasHeaderRowAtEnd],0\n";
-    assert_eq!(frames(&traces("a", &format!("{rows}{of_build}"))[0]).len(), 2);
-    let began: Vec<i64> = frames(&traces("a", "Frame, Time (ms)\n1, 5.0\n2, 21.5\n")[0])
-        .iter()
-        .map(|it| it.began_ns)
-        .collect();
-    assert_eq!(began, [0, 16_500_000]);
-    let error = read("a", "Frame, Time (ms)\n1, 5.0\n2, 4.0\n").err().unwrap().to_string();
-    assert_eq!(error, "a:3: the frame begins before the one above it; put rows in order");
 }

@@ -16,10 +16,11 @@ pub(super) enum Span {
 }
 
 /// What tool writes a log, what its rows say, the column of frames and one beside it; each also without its `Ms`.
-const FORMATS: [(&str, Span, &str, Beside); 8] = [
+const FORMATS: [(&str, Span, &str, Beside); 9] = [
     (PRESENTMON, Span::Before, "MsBetweenPresents", Beside::Until("MsUntilDisplayed")),
     (PRESENTMON, Span::Before, "MsBetweenPresents", Beside::Display("MsBetweenDisplayChange")),
     (PRESENTMON, Span::After, "MsFrameTime", Beside::Display("MsDisplayedTime")),
+    (PRESENTMON, Span::After, "MsFrameTime", Beside::Other("CPUBusy")),
     ("Unreal", Span::Before, "FrameTime", Beside::Other("GameThreadTime")),
     (FRAPS, Span::Before, "Time (ms)", Beside::Other("Frame")),
     (MANGOHUD, Span::Before, "frametime", Beside::Other("fps")),

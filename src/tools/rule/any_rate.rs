@@ -56,7 +56,7 @@ impl Rule {
         let lines = written.lines().map(|line| line.trim().to_owned());
         let mut about = vec![format!("This rule of {fps} frames per second, at any frame rate:")];
         about.extend(lines.filter(|line| !line.is_empty()).map(|line| format!("  {line}")));
-        match self.closed_form() {
+        match self.whole().closed_form() {
             Ok(source) => {
                 about.push("The closed form: after a frame it is where the rule is, and two half steps are one.".into());
                 if self.state.len() > 1 && self.state.contains(&1) && !self.takes_step() {
@@ -243,22 +243,22 @@ impl Rule {
         let step =
             if lines.iter().any(|line| line.starts_with(StepCode::STEP)) { "var" } else { "let" };
         let reads = lines.iter().any(|line| line.contains(StepCode::STEP));
-        let step = reads.then(|| format!("{step} {} = FRAME", StepCode::STEP));
+        let step = reads.then(|| format!("{step} {} = FRAME_S", StepCode::STEP));
         let lines: Vec<String> =
             step.into_iter().chain(lines).map(|line| format!("    {line}")).collect();
         Ok(source
             + &format!(
-                "const FRAME = {:?}
+                "const FRAME_S = {:?}
 if is_nan(memory.before) {{
     memory.before = {shown}
 }}
 memory.unspent += h
-while memory.unspent >= FRAME {{
-    memory.unspent -= FRAME
+while memory.unspent >= FRAME_S {{
+    memory.unspent -= FRAME_S
     memory.before = {shown}
 {}
 }}
-memory.shown = memory.before + ({shown} - memory.before) * (memory.unspent / FRAME)
+memory.shown = memory.before + ({shown} - memory.before) * (memory.unspent / FRAME_S)
 ",
                 1.0 / self.fps,
                 lines.join("\n")

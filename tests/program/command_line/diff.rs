@@ -293,7 +293,7 @@ fn columns_can_be_chosen_and_each_says_from_where_on_it_differs() {
 
 #[test]
 fn headings_are_passed_and_decimal_commas_are_numbers() {
-    let folder = tempdir().unwrap();
+    let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("points.csv", "tick,x,y\n0,1.5,2\n1,1.6,3\n");
     write("commas.csv", "My run 3\r\n\r\ntick;x;y\r\n0;1,5;2\r\n1;1,6;3\r\n");

@@ -33,7 +33,8 @@ const WRITTEN_OUT: [(&str, &str); 3] = [
 ];
 
 /// Names that a language, or the code around the lines, has for something else.
-const TAKEN: [&str; 44] = [
+const TAKEN: [&str; 45] = [
+    "FRAME_S",
     "memory",
     "before",
     "unspent",
