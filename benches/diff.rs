@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::time::Instant;
 
 use csv::ByteRecord;
-use regatta::run::diff::{Tolerance, diff, table};
+use regatta::run::diff::{Chosen, Tolerance, diff, table};
 
 /// The rows of each log.
 const ROWS: u32 = 1_000_000;
@@ -49,7 +49,12 @@ fn main() {
     for (what, other) in [("the same", &before), ("each row another", &after)] {
         let table = |text| table(text).expect("a header");
         let of_both = rate(|| {
-            let found = diff(&mut table(&before), &mut table(other), Tolerance::default());
+            let found = diff(
+                &mut table(&before),
+                &mut table(other),
+                Tolerance::default(),
+                &Chosen::default(),
+            );
             let found: Result<_, Box<dyn Error>> = found;
             assert_eq!(found.expect("two tables").rows, u64::from(ROWS));
         });

@@ -56,6 +56,7 @@
 //!   [some bodies only](sim::integrators::Only) comes after all others; a physics engine is a
 //!   [family](sim::integrators::Family::Engine) of those, like `sim/integrators/bullet.rs`. Its
 //!   [source code](tools::source_code::MethodSource) is in `assets/methods`.
+//!   One by a person's lines is [read](sim::own_method()) when the program runs.
 //!   `BLESS=1 cargo test --test library tables` writes its row in the [manual](mod@manual::methods).
 //! - **A body**: copy `sim/bodies/pendulum.rs`, declare the file, add its card to [`BODIES`](sim::bodies::BODIES), and its
 //!   look, a file beside `look/pendulum.rs`, to `LOOKS`. A [law](sim::bodies::law_kind) or a [net](sim::bodies::net_kind), which

@@ -7,8 +7,9 @@ use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::error::Error;
-use super::id::{METHOD, TRACE};
+use super::id::TRACE;
 use super::output::Input;
+use super::own_method::METHOD_OR_FILE;
 use super::scene_file;
 use super::spring::SpringArgs;
 use super::tick_rate::TickRateArgs;
@@ -33,8 +34,8 @@ pub(super) struct ExperimentArgs {
 
     /// A method (`regatta list methods`), or several
     ///
-    /// Give the option again for each, to race them.
-    #[arg(long = "method", value_name = "ID", value_parser = METHOD)]
+    /// Give the option again for each, to race them. A file that ends in .step is a method of your own: `regatta help step`.
+    #[arg(long = "method", value_name = "ID|FILE", value_parser = METHOD_OR_FILE)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 

@@ -13,10 +13,11 @@ use super::error::Error;
 use super::experiment::{PathOrName, scene_names, some_seconds, trace_names};
 use super::file_names::{check_picture_name, row_format};
 use super::help::flowing;
-use super::id::{METHOD, POLICY};
+use super::id::POLICY;
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{RowFormat, RowWriter};
 use super::output::{Destination, Input, Output, STDOUT, same_file_path};
+use super::own_method::METHOD_OR_FILE;
 use super::scene_file;
 use super::tick_rate::TickRateArgs;
 use super::trace_source::traces;
@@ -120,8 +121,8 @@ pub(super) struct LoopArgs {
 
     /// The method of the bodies
     ///
-    /// `regatta list methods` has them.
-    #[arg(long, value_name = "ID", default_value = "rk4", value_parser = METHOD)]
+    /// `regatta list methods` has them. A file that ends in .step is a method of your own.
+    #[arg(long, value_name = "ID|FILE", default_value = "rk4", value_parser = METHOD_OR_FILE)]
     #[arg(hide_possible_values = true)]
     method: &'static Method,
 

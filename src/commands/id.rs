@@ -106,5 +106,13 @@ pub(super) const SHAPE: Id<CloudShape> =
 pub(super) const FAMILY: Id<Family> =
     Id::new("family", || Family::ALL.map(|(id, family)| (id.into(), family)).into());
 
+/// The languages of code, with C++, which compiles what is written for C.
+pub(super) const LANGUAGE_OR_CPP: Id<Language> = Id {
+    thing: LANGUAGE.thing,
+    lists: &[],
+    all: || (LANGUAGE.all)().into_iter().chain([("cpp".into(), Language::C)]).collect(),
+    spellings: || vec![("c++", "cpp"), ("c#", "csharp")],
+};
+
 pub(super) const LANGUAGE: Id<Language> =
     Id::new("language", || Language::ALL.map(|language| (language.id().into(), language)).into());

@@ -9,6 +9,7 @@
 //!   - `scene`: `name`, `text` (the TOML) and the text's `hash`.
 //!   - `lanes`: the scene's lanes, with the command line applied: each a `method`, its `substeps` and, where
 //!     the scene gives one, its `tolerance`, and `joint`, what its engine is told of springs.
+//!   - `methods`: those by lines of a person's own, if there are any: the `id` and the lines, `step`, of each.
 //!   - `race`: whether all of them race. If not, the `selected` method is shown solo; `null` stands for the scene's opening
 //!     method, and among many lanes for the best.
 //!   - `tick_hz` at the start, a number if it is a decimal, else a ratio such as `"60000/1001"`, `frames` asked for, `fps`,
@@ -70,6 +71,8 @@ pub struct Manifest {
 pub struct Settings {
     pub scene: SceneText,
     pub lanes: Vec<LaneEntry>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub methods: Vec<OwnEntry>,
     pub race: bool,
     /// The trace on which the loop lab is shown.
     #[serde(default, rename = "loop", skip_serializing_if = "Option::is_none")]
@@ -129,6 +132,15 @@ impl Settings {
         let text = serde_json::to_string(self).expect("all keys are strings");
         fingerprint(text.as_bytes())
     }
+}
+
+/// A method by lines of a person's own.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the module describes every field")]
+pub struct OwnEntry {
+    pub id: String,
+    pub step: String,
 }
 
 /// A scene file as it was.

@@ -80,6 +80,7 @@ mod file_names;
 mod interrupt;
 mod jobs;
 mod output;
+mod own_method;
 mod terminal;
 mod tick_rate;
 mod visible;

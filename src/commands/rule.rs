@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use super::argument::brief;
 use super::error::Error;
 use super::help::flowing;
-use super::id::LANGUAGE;
+use super::id::LANGUAGE_OR_CPP;
 use super::output::table::{Column, TableFormat, text};
 use super::tick_rate::rate_of_a_log;
 use crate::regular_file;
@@ -54,9 +54,9 @@ pub(super) struct RuleArgs {
     #[arg(allow_negative_numbers = true)]
     fps: f64,
 
-    /// The language of the code: rust, c, csharp or gdscript
+    /// The language of the code: rust, c, cpp, csharp or gdscript
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
-    #[arg(value_parser = LANGUAGE, hide_possible_values = true)]
+    #[arg(value_parser = LANGUAGE_OR_CPP, hide_possible_values = true)]
     language: Language,
 
     /// The format: text or json
@@ -113,9 +113,9 @@ fn object(rule: &Rule, written: &str) -> Value {
     };
     let spring =
         |spring: Wish| json!({ "hz": spring.frequency_hz, "damping_ratio": spring.damping_ratio });
-    let code = Language::ALL.into_iter().map(|language| {
+    let code = (LANGUAGE_OR_CPP.all)().into_iter().map(|(id, language)| {
         let code = rule.code(written, language).ok();
-        (language.id().to_owned(), Value::from(code.map(|code| code.text)))
+        (id, Value::from(code.map(|code| code.text)))
     });
     json!({
         "rule": written,

@@ -35,6 +35,12 @@ pub(super) fn text_now(path: &Path) -> Option<String> {
 
 /// Checks that `method`, which the command line names, steps `scene`.
 pub(super) fn check_method(scene: &Scene, method: &Method) -> Result<(), Error> {
+    if let Some(own) = scene.own_methods.iter().find(|own| own.id == method.id && *own != &method) {
+        return Err(Error::mistake(format!(
+            "--method: the scene has a method {:?} of its own, with other lines; give the file another name",
+            own.id
+        )));
+    }
     let Some(refusal) = scene.refusal(method) else { return Ok(()) };
     Err(Error::mistake(format!(
         "--method {refusal}; name another, which `regatta list methods` has, or another scene"

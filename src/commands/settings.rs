@@ -3,13 +3,16 @@
 use super::experiment::Experiment;
 use super::frame_names::{MAX_FRAMES, frame_name};
 use super::id::{CLOUD, INSTRUMENT, TRACE};
-use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings, fingerprint};
+use super::manifest::{
+    FrameEntry, LaneEntry, Manifest, OwnEntry, SceneText, Settings, fingerprint,
+};
 use super::schedule::{MAX_FPS, Schedule};
 use crate::look::palette::Theme;
 use crate::measure::cloud::{CloudChoice, CloudKind};
 use crate::run::race::Mode;
 use crate::scene::{LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, Swing, TOLERANCES};
-use crate::sim::integrators::method;
+use crate::sim::integrators::{Method, method};
+use crate::sim::own_method;
 use crate::studio::{Instrument, Motion, RunCommand, Studio};
 
 /// How a run is drawn: its frames, their size and what they show.
@@ -60,6 +63,9 @@ pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Set
         tolerance: lane.tolerance,
         joint: lane.joint.map(|it| [it.frequency_hz, it.damping_ratio]),
     };
+    let own = |method: &&Method| {
+        Some(OwnEntry { id: method.id.to_owned(), step: method.own_text()?.to_owned() })
+    };
     Settings {
         scene: SceneText {
             name: scene.name.clone(),
@@ -67,6 +73,7 @@ pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Set
             text: experiment.text.clone(),
         },
         lanes: scene.lanes.iter().map(lane).collect(),
+        methods: scene.own_methods.iter().filter_map(own).collect(),
         race: experiment.mode == Mode::Race,
         loop_trace: experiment.loop_trace.map(|card| card.id.to_owned()),
         selected: (!experiment.leaves_selection())
@@ -92,7 +99,17 @@ pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Set
 /// Why this program cannot run it.
 pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings), String> {
     let SceneText { name, text, .. } = &settings.scene;
-    let known = |id: &str| method(id).ok_or_else(|| format!("this program has no method {id:?}"));
+    let own = |entry: &OwnEntry| {
+        let made = own_method(&entry.id, &entry.step);
+        made.map_err(|fault| {
+            format!("this program cannot read the method {:?}: {}", entry.id, fault.what)
+        })
+    };
+    let own = settings.methods.iter().map(own).collect::<Result<Vec<_>, _>>()?;
+    let known = |id: &str| {
+        let found = own.iter().copied().find(|own| own.id == id).or_else(|| method(id));
+        found.ok_or_else(|| format!("this program has no method {id:?}"))
+    };
     let scene = Scene::parse(&format!("{name}.toml"), text)
         .map_err(|errors| format!("this program cannot read the scene: {errors}"))?;
     let substeps = |lane: &LaneEntry| (1..=MAX_SUBSTEPS).contains(&lane.substeps);
@@ -131,6 +148,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings),
     };
     // The lanes already have the substeps of equal cost.
     scene.equal_cost = false;
+    scene.own_methods.clone_from(&own);
     scene.lanes = settings.lanes.iter().map(lane).collect::<Result<_, String>>()?;
     let experiment = Experiment {
         scene,

@@ -6,12 +6,17 @@ use super::error::Error;
 use super::help::flowing;
 use super::id::{Id, LANGUAGE, METHOD, POLICY};
 use super::output::print;
+use super::own_method::OrStepFile;
 use super::terminal::print_status;
 use crate::loops::PolicyCard;
 use crate::sim::integrators::{METHODS, Method};
 use crate::tools::source_code::{Language, Precision, source_code};
 
 const ABOUT: &str = "\
+A method of your own is a file of the lines of its step: see `regatta help step`. Its card, in the
+comment, is measured: its order, what it does to the energy of a spring, and the built-in method that
+is nearest.
+
 The function makes one step of h seconds for one coordinate: of its position x, its velocity v and
 a function a(x, v) for the acceleration. A method with memory takes its memory too, a follower the
 position of its target and a rate, and an engine the settings of its joint and its body. The comment
@@ -21,6 +26,7 @@ Examples:
   regatta show rk4
   regatta show semi-implicit-euler --as csharp --float
   regatta show bdf2 --as c > bdf2.h
+  regatta show my.step --as cpp
   regatta show fixed-linear --as cpp";
 
 /// Print a method or a game loop as code for your game
@@ -29,13 +35,13 @@ Examples:
 pub(super) struct ShowArgs {
     /// A method, by its id or another name, or a game loop
     ///
-    /// `regatta list methods` and `regatta list policies` have them.
-    #[arg(value_name = "METHOD|POLICY", value_parser = ASKED, hide_possible_values = true)]
+    /// `regatta list methods` and `regatta list policies` have them. A file that ends in .step is a method of your own.
+    #[arg(value_name = "METHOD|POLICY|FILE", value_parser = ASKED_OR_FILE, hide_possible_values = true)]
     asked: Asked,
 
     /// The language: rust, c, cpp, csharp or gdscript
     ///
-    /// Methods are written in all but cpp, loops in rust and some in cpp and csharp.
+    /// Methods are written in all, in cpp as in c. Loops are in rust, and some in cpp and csharp.
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
     #[arg(value_parser = WRITTEN, hide_possible_values = true)]
     language: Written,
@@ -55,6 +61,10 @@ enum Asked {
     },
     Loop(&'static PolicyCard),
 }
+
+/// Takes those, or a file of lines.
+const ASKED_OR_FILE: OrStepFile<Asked> =
+    OrStepFile { id: ASKED, of: |method| Asked::Method { method, alias: None } };
 
 /// Takes the id of a method, one of its other ids, or the id of a game loop.
 const ASKED: Id<Asked> = Id {
@@ -114,8 +124,10 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
         }
         Asked::Loop(card) => return print(snippet(card, args.language)?),
     };
-    let Written::Of(language) = args.language else {
-        return Err(Error::mistake("methods are written in C, which C++ compiles; give --as c"));
+    let language = match args.language {
+        Written::Of(language) => language,
+        // C++ compiles what is written for C.
+        Written::Cpp => Language::C,
     };
     let precision = if args.float { Precision::Single } else { Precision::Double };
     let code = source_code(method, language, precision).map_err(Error::mistake)?;

@@ -11,10 +11,10 @@ use super::error::Error;
 use super::experiment::{PathOrName, scene_names, some_seconds};
 use super::file_names::{check_picture_name, row_format};
 use super::help::flowing;
-use super::id::METHOD;
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, STDOUT};
+use super::own_method::METHOD_OR_FILE;
 use super::scene_file;
 use super::spring::SpringArgs;
 use super::tick_rate::TickRatesArgs;
@@ -70,8 +70,8 @@ pub(super) struct SweepArgs {
 
     /// A method, or several [default: all]
     ///
-    /// `regatta list methods` has them. Give the option again for each.
-    #[arg(long = "method", value_name = "ID", value_parser = METHOD)]
+    /// `regatta list methods` has them. Give the option again for each. A file that ends in .step is a method of your own.
+    #[arg(long = "method", value_name = "ID|FILE", value_parser = METHOD_OR_FILE)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 
@@ -190,7 +190,14 @@ impl SweepArgs {
             named => named.contains(method),
         };
         let rates = self.tick_rates.given();
-        let methods = METHODS.iter().filter(asked).collect();
+        let of_scenes = scenes.iter().flat_map(|(_, scene)| scene.own_methods.iter());
+        let own = self.methods.iter().filter(|method| method.own_text().is_some());
+        let mut methods: Vec<&'static Method> = Vec::new();
+        for method in METHODS.iter().chain(of_scenes.chain(own).copied()).filter(asked) {
+            if !methods.contains(&method) {
+                methods.push(method);
+            }
+        }
         for method in &self.methods {
             // A method runs on the bodies that it steps; one that steps none would leave no row.
             let alone =

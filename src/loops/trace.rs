@@ -40,7 +40,7 @@ enum Clocks {
     Parted(Parting),
 }
 
-/// Which times of a log contradict each other by more than 1 %.
+/// Which times of a log contradict each other: by more than 1 %, or a quarter of frames a second, which are averages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Parting {
     /// Those of display and those of frames.

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use super::race::{Done, Mode, Race, lanes_that_race};
 use super::{Menu, Session};
 use crate::scene::{
-    Action, LaneId, LaneSpec, MAX_SECONDS, MIN_SECONDS, Scene, SceneBody, edited_values,
+    Action, LaneId, LaneSpec, MAX_LANES, MAX_SECONDS, MIN_SECONDS, Scene, SceneBody, edited_values,
 };
 use crate::sim::TickRate;
+use crate::sim::integrators::Method;
 
 /// The settings of the next restart. They include a person's choices, and no effects of a script.
 #[derive(Clone, Debug)]
@@ -59,6 +60,34 @@ impl StartSettings {
             tick_hz: session.race().tick_hz(),
             ..Self::of((**session.scene()).clone())
         }
+    }
+
+    /// Has a method by a person's own lines race beside the others, and selects it. It takes the place of one of its id.
+    /// Returns whether there is a lane for it.
+    pub(crate) fn race_own(&mut self, method: &'static Method) -> bool {
+        let spec = LaneSpec::plain(method);
+        let known = self.list.iter().position(|listed| listed.method.id == method.id);
+        if known.is_none() && self.scene.lanes.len() >= MAX_LANES {
+            return false;
+        }
+        for scene in [&mut self.opened, &mut self.scene] {
+            let mut with = (**scene).clone();
+            with.know_own(method);
+            if with.lanes.iter().all(|lane| lane.method != method) {
+                with.lanes.push(spec);
+            }
+            *scene = with.into();
+        }
+        let entry = known.unwrap_or(self.list.len());
+        match known {
+            Some(entry) => self.list[entry] = spec,
+            None => self.list.push(spec),
+        }
+        if !self.lanes.contains(&entry) {
+            self.lanes.push(entry);
+        }
+        (self.entry, self.mode, self.before_equal_cost) = (entry, Mode::Race, None);
+        true
     }
 
     /// A run at its start.

@@ -152,6 +152,7 @@ impl Scene {
             clouds: None,
             bodies: vec![SceneBody { appearance, ..SceneBody::new(name, kind, values) }],
             script: Vec::new(),
+            own_methods: Vec::new(),
             outdated: None,
             checks: Vec::new(),
         })

@@ -147,12 +147,12 @@ pub(super) fn check_method(
 }
 
 /// A plain lane for each [method for games](Method::is_for_games) that steps all of these bodies.
-pub(super) fn every_lane(bodies: &[BodyDraft]) -> Vec<LaneSpec> {
+pub(super) fn every_lane(bodies: &[BodyDraft], own: &[&'static Method]) -> Vec<LaneSpec> {
     let steps = |method: &Method, body: &BodyDraft| {
         let known = body.kind.as_ref().zip(body.values.as_ref());
         known.is_none_or(|(kind, values)| incompatibility(method, kind, values).is_none())
     };
-    let own = METHODS.iter().filter(|method| method.is_for_games());
-    let fitting = own.filter(|method| bodies.iter().all(|body| steps(method, body)));
+    let all = METHODS.iter().chain(own.iter().copied()).filter(|method| method.is_for_games());
+    let fitting = all.filter(|method| bodies.iter().all(|body| steps(method, body)));
     fitting.map(LaneSpec::plain).collect()
 }

@@ -13,6 +13,7 @@ use super::keys::{
     Key, METHOD, STEP_S, TICK_HZ, keep, list, number, quoted, read_lane_spec, step_s, tick_hz,
 };
 use super::nearest::{listed, nearest, offer};
+use super::own::{OWN, read_own};
 use super::script::{self, SceneContext};
 use super::table::Table;
 use super::wanted::{Field, Wanted};
@@ -41,9 +42,11 @@ pub(super) const METHOD_LIST: Field = Field::optional(
     "the methods that race; all that step the bodies, but for engines, if left out",
     Wanted::Methods,
 );
-const OPENING_METHOD: Field = Field::optional(
-    "method",
-    "the method shown first; the first lane's if left out",
+const OPENING_METHOD: Field =
+    Field::optional(OWN, "the method shown first; the first lane's if left out", Wanted::Method);
+const OPENING_BESIDE_OWN: Field = Field::optional(
+    "opening_method",
+    "the same, in a file with a `[[method]]` of its own",
     Wanted::Method,
 );
 pub(super) const RACE_TABLE: Field =
@@ -56,7 +59,7 @@ pub(super) struct Draft {
 }
 
 /// The keys above the first table.
-pub(super) static TOP: [Key<Draft, Scene>; 9] = [
+pub(super) static TOP: [Key<Draft, Scene>; 10] = [
     Key {
         field: Field::required(
             "title",
@@ -128,10 +131,32 @@ pub(super) static TOP: [Key<Draft, Scene>; 9] = [
     },
     Key {
         field: OPENING_METHOD,
-        read: |draft, top, field| draft.scene.opening_method = top.method(field),
-        write: |scene| scene.opening_method.map(|method| quoted(method.id)),
+        read: |draft, top, field| {
+            if !top.has_tables(field.key) {
+                draft.scene.opening_method = top.method(field);
+            }
+        },
+        write: |scene| opening_method(scene, true),
+    },
+    Key {
+        field: OPENING_BESIDE_OWN,
+        read: |draft, top, field| {
+            let method = top.method(field);
+            if top.has(field.key) && draft.scene.opening_method.is_some() {
+                let what = format!("`{OWN}` and `{}` both name a method", field.key);
+                top.complain(top.span(field.key), what, "keep one of them");
+            }
+            draft.scene.opening_method = method.or(draft.scene.opening_method);
+        },
+        write: |scene| opening_method(scene, false),
     },
 ];
+
+/// The method that a scene opens with, where this key is the one that can say it.
+fn opening_method(scene: &Scene, is_plain: bool) -> Option<String> {
+    let method = scene.opening_method.filter(|_| scene.own_methods.is_empty() == is_plain)?;
+    Some(quoted(method.id))
+}
 
 /// What kind of clouds a scene opens with.
 fn read_clouds(top: &mut Table<'_>, field: &Field) -> Option<CloudKind> {
@@ -186,6 +211,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
     }
 
     let mut top = Table::top(text, at_top, document.get_ref());
+    read_own(text, &mut top);
     let scene = Scene {
         name: name.into(),
         source: Some(text.into()),
@@ -203,6 +229,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         bodies: Vec::new(),
         script: Vec::new(),
         checks: Vec::new(),
+        own_methods: top.own().to_vec(),
         outdated: None,
     };
     let mut draft = Draft { scene, listed: None };
@@ -275,7 +302,10 @@ fn read_lanes(
             top.complain(span.clone(), what, remedy);
         }
     }
-    if is_given { lanes.into_iter().map(|(_, lane)| lane).collect() } else { every_lane(bodies) }
+    if is_given {
+        return lanes.into_iter().map(|(_, lane)| lane).collect();
+    }
+    every_lane(bodies, top.own())
 }
 
 /// A lane as a message names it.
@@ -299,7 +329,9 @@ fn check_opening_method(Scene { lanes, opening_method, .. }: &Scene, top: &mut T
                 known.push(lane.method.id);
             }
         }
-        let (key, id) = (OPENING_METHOD.key, method.id);
+        let is_beside = top.has(OPENING_BESIDE_OWN.key);
+        let key = if is_beside { OPENING_BESIDE_OWN.key } else { OPENING_METHOD.key };
+        let id = method.id;
         let remedy = format!("write one of {}, or give it a lane", listed(&known, '"', ", "));
         let what = format!("`{key}` is {id:?}, which no lane of this scene has");
         top.complain(top.span(key), what, remedy);

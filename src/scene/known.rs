@@ -5,6 +5,7 @@ use super::document::{LANE, RACE, RACE_TABLE, TOP};
 use super::keys::{Key, SPEC};
 use super::law::{COORDINATE_KEYS, LAW, LAW_KEYS};
 use super::net::{GRID_KEYS, KICKED, LIST_KEYS, NET, SPRING_KEYS};
+use super::own::{OWN, OWN_KEYS};
 use super::script::{
     AT_S, CHECK, CHECKS, COMMAND, COMMAND_KEYS, LANE as LANE_NUMBER, OF_A_BODY, TICK,
 };
@@ -37,6 +38,7 @@ pub fn scene_tables() -> Vec<(String, Vec<SceneKey>)> {
         ("the top of the file".to_owned(), [fields(&TOP), vec![RACE_TABLE]].concat()),
         ("[race]".to_owned(), fields(&RACE)),
         (array(LANE), fields(&SPEC)),
+        (array(OWN), fields(&OWN_KEYS)),
         (array(LAW), [vec![NAME], fields(&LAW_KEYS)].concat()),
         (format!("[{LAW}.coordinates.x]"), fields(&COORDINATE_KEYS)),
         (array(NET), of_nets),

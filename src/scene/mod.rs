@@ -28,6 +28,7 @@ mod law;
 mod nearest;
 mod net;
 mod outline;
+mod own;
 mod refusal;
 mod saved;
 mod sayable;
@@ -122,6 +123,8 @@ pub struct Scene {
     pub tick_hz: TickRate,
     /// How long it runs, from [`MIN_SECONDS`] to [`MAX_SECONDS`].
     pub seconds: f64,
+    /// The methods by lines of its author's own, no two of one id.
+    pub own_methods: Vec<&'static Method>,
     /// The methods that race, 1 to [`MAX_LANES`], no two alike.
     pub lanes: Vec<LaneSpec>,
     /// The method that the program opens the scene with, one of the lanes'; `None` for the first lane's.

@@ -27,11 +27,12 @@ impl Scene {
         })
     }
 
-    /// The methods of the table that step every body of this scene, in its order. Those of engines are among
-    /// them only if the scene names one.
+    /// The methods of the table that step every body of this scene, in its order, and then the scene's own. Those of engines
+    /// are among them only if the scene names one.
     pub fn fitting_methods(&self) -> impl Iterator<Item = &'static Method> {
         let is_shown = |method: &&Method| !method.is_engine() || self.names_an_engine();
-        METHODS.iter().filter(is_shown).filter(|method| self.refusal(method).is_none())
+        let all = METHODS.iter().chain(self.own_methods.iter().copied());
+        all.filter(is_shown).filter(|method| self.refusal(method).is_none())
     }
 
     /// The [methods that fit](Scene::fitting_methods) and are [for a game to implement](Method::is_for_games).
@@ -70,6 +71,7 @@ impl Scene {
         if methods.len() > 1 {
             self.lanes = self.lanes_of(methods);
         }
+        methods.iter().for_each(|method| self.know_own(method));
         // The methods of engines are on the list of no scene that does not name one.
         for &method in methods.iter().filter(|method| method.is_engine()) {
             if self.lanes.iter().all(|lane| lane.method != method) {
@@ -78,6 +80,22 @@ impl Scene {
         }
         self.hint.take_if(|_| self.lanes != own);
         self
+    }
+
+    /// Adds a method to the scene's [own](Scene::own_methods) if it is one by a person's lines. It takes the place of one of
+    /// its id.
+    pub(crate) fn know_own(&mut self, method: &'static Method) {
+        if method.own_text().is_none() {
+            return;
+        }
+        match self.own_methods.iter_mut().find(|own| own.id == method.id) {
+            Some(own) => *own = method,
+            None => self.own_methods.push(method),
+        }
+        let earlier = self.lanes.iter_mut().filter(|lane| lane.method.id == method.id);
+        earlier.for_each(|lane| lane.method = method);
+        self.opening_method =
+            self.opening_method.map(|opens| if opens.id == method.id { method } else { opens });
     }
 
     /// The lane that the scene opens with if no method is named.

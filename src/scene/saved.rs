@@ -56,6 +56,10 @@ fn change(author: &mut dyn TableLike, before: &dyn TableLike, after: &dyn TableL
         author.remove(key);
     }
     for (key, new) in after.iter().filter(|(key, new)| !is_same(before.get(key), Some(new))) {
+        // A key that becomes a table leaves its spaces behind.
+        if before.get(key).is_some_and(|old| old.is_value() != new.is_value()) {
+            author.remove(key);
+        }
         match (author.get_mut(key), before.get(key)) {
             (Some(item), Some(old)) => change_item(key, item, old, new),
             _ => _ = author.insert(key, at_the_end(new.clone())),

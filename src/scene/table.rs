@@ -25,6 +25,10 @@ pub(super) struct Table<'t> {
     place: Place,
     /// The key at the top of the file that is called so.
     at_top: fn(&str) -> Option<&'static str>,
+    /// The methods that the file brings along.
+    own: Vec<&'static Method>,
+    /// The ids of those that have faults.
+    faulty: Vec<String>,
     /// The bytes of its header; none at the top.
     pub(super) header: Range<usize>,
     entries: &'t DeTable<'t>,
@@ -43,12 +47,25 @@ impl<'t> Table<'t> {
     ) -> Self {
         let (place, header) = (Place::Top, 0..0);
         let (keys, arrays, errors, below) = (vec![], vec![], vec![], vec![]);
-        Self { text, place, at_top, header, entries, keys, arrays, errors, below }
+        Self {
+            text,
+            place,
+            at_top,
+            own: vec![],
+            faulty: vec![],
+            header,
+            entries,
+            keys,
+            arrays,
+            errors,
+            below,
+        }
     }
 
     /// A table in this file.
     fn other(&self, place: Place, header: Range<usize>, entries: &'t DeTable<'t>) -> Self {
-        Self { place, header, ..Self::top(self.text, self.at_top, entries) }
+        let (own, faulty) = (self.own.clone(), self.faulty.clone());
+        Self { place, header, own, faulty, ..Self::top(self.text, self.at_top, entries) }
     }
 
     pub(super) fn complain(
@@ -76,6 +93,24 @@ impl<'t> Table<'t> {
 
     pub(super) fn has(&self, key: &str) -> bool {
         self.entries.contains_key(key)
+    }
+
+    /// The methods that the file brings along.
+    pub(super) fn own(&self) -> &[&'static Method] {
+        &self.own
+    }
+
+    /// Has keys name a method that the file brings along; of one with faults no more is said.
+    pub(super) fn bring(&mut self, id: &str, method: Option<&'static Method>) {
+        match method {
+            Some(method) => self.own.push(method),
+            None => self.faulty.push(id.to_owned()),
+        }
+    }
+
+    /// Whether the value of `key` is a list of tables.
+    pub(super) fn has_tables(&self, key: &str) -> bool {
+        self.entries.get(key).is_some_and(|value| is_table(value.get_ref()))
     }
 
     /// Notes that a key is allowed here.
@@ -309,11 +344,12 @@ impl<'t> Table<'t> {
         let Some(id) = value.get_ref().as_str() else {
             return self.wrong_type_of(subject, value, &Wanted::Method);
         };
-        let method = METHODS.iter().find(|method| method.id == id);
-        if method.is_none() {
-            let spellings = METHODS.iter().flat_map(Method::spellings);
+        let all = || METHODS.iter().chain(self.own.iter().copied());
+        let method = all().find(|method| method.id == id);
+        if method.is_none() && !self.faulty.iter().any(|faulty| faulty == id) {
+            let spellings = all().flat_map(Method::spellings);
             let nearest = nearest(id, spellings);
-            let known: Vec<_> = METHODS.iter().map(|method| method.id).collect();
+            let known: Vec<_> = all().map(|method| method.id).collect();
             let what = format!("unknown method {:?} in `{key}`", clip(id));
             self.complain(value.span(), what, offer(nearest, &known, '"'));
         }

@@ -74,6 +74,8 @@ pub(super) enum Wanted {
     Coordinates(&'static str),
     /// An expression.
     Expression,
+    /// The lines of a step.
+    Lines,
     /// The names of two coordinates.
     Plane,
     /// Two expressions.
@@ -154,6 +156,7 @@ impl Wanted {
             | Wanted::Method
             | Wanted::Hash
             | Wanted::Expression
+            | Wanted::Lines
             | Wanted::Pin
             | Wanted::Clouds
             | Wanted::Layout => "a string",
@@ -213,6 +216,10 @@ impl fmt::Display for Wanted {
                 write!(f, "`[{name}.x]` for a coordinate x, and its keys below")
             }
             Wanted::Expression => write!(f, "an expression in double quotes, such as \"-k*x/m\""),
+            Wanted::Lines => write!(
+                f,
+                "lines in three double quotes, such as \"\"\"v += h * a(x, v); x += h * v\"\"\""
+            ),
             Wanted::Plane => write!(f, "the names of two coordinates, such as [\"x\", \"y\"]"),
             Wanted::At => {
                 write!(f, "two expressions for x and y, such as [\"l*sin(a)\", \"-l*cos(a)\"]")

@@ -7,16 +7,20 @@ use std::error::Error;
 use std::fmt;
 
 use super::bodies::stepped_kinds;
-use super::integrators::{METHODS, Method};
+use super::integrators::{Family, METHODS, Method};
 
 mod cost;
 mod geometry;
+mod likeness;
 mod linear;
 mod memory;
 mod order;
 pub mod problems;
 mod stability;
 mod tolerance;
+
+pub use order::orders_of;
+pub use stability::limits;
 
 /// A claim of a card, and what was measured.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -91,7 +95,7 @@ pub fn check(method: &Method) -> Conformance {
             holds: false,
         }],
         // Nothing can be built by such a card.
-        None if !is_listed(method) && method.custom.is_none() => vec![named(method)],
+        None if !is_listed(method) && !method.is_from_outside() => vec![named(method)],
         None => vec![
             named(method),
             order::without_drag(method),
@@ -109,6 +113,46 @@ pub fn check(method: &Method) -> Conformance {
     Conformance { method: method.id, claims }
 }
 
+/// A card with what is measured of its method in place of its claims: orders, evaluations, stability limits, whether it is
+/// symplectic and reversible, its memory, and [what to expect](Method::about): its orders, the energy of a spring, and the
+/// built-in method that is nearest. What cannot be measured is not claimed: an order is then 0.
+pub fn measured(card: &'static Method) -> Method {
+    let is_so = |found: Measured| found.is_ok_and(|(is_so, _)| is_so);
+    let orders = orders_of(card);
+    let [order, order_with_drag] =
+        orders.each_ref().map(|found| found.as_ref().map_or(0, |it| order::whole(*it)));
+    let counts = cost::counts(card).map(|(_, counts)| counts).unwrap_or_default();
+    let count = counts.first().filter(|_| counts.len() == 1);
+    let evaluations = count.and_then(|count| u32::try_from(*count).ok());
+    let has_memory = is_so(memory::has_memory(card));
+    let symplectic = is_so(geometry::keeps_area(card));
+    let rounded = |limit: f64| (1e3 * limit).round() / 1e3;
+    let limits = limits(card).unwrap_or([Some(0.0); 4]).map(|limit| limit.map(rounded));
+    let [undamped, damped @ ..] = limits;
+    let about = format!(
+        "{}; {}; {}",
+        order::in_words(&orders),
+        likeness::energy(card),
+        likeness::nearest(card, evaluations)
+    );
+    Method {
+        about: about.leak(),
+        family: if symplectic { Family::Symplectic } else { Family::Explicit },
+        order,
+        order_with_drag,
+        evaluations,
+        symplectic,
+        reversible: is_so(geometry::returns(card)),
+        stability_limit: undamped,
+        damped_limits: match damped {
+            [Some(slight), Some(medium), Some(critical)] => Some([slight, medium, critical]),
+            _ => None,
+        },
+        restart: has_memory.then_some("by the first values of its memory"),
+        ..*card
+    }
+}
+
 /// Whether a method of the table has its id.
 fn is_listed(method: &Method) -> bool {
     METHODS.iter().any(|listed| listed.id == method.id)
@@ -123,9 +167,9 @@ fn named(method: &Method) -> Claim {
         ("an id has lower-case letters, digits and hyphens".to_owned(), false)
     } else if name.is_empty() {
         ("it has no name".to_owned(), false)
-    } else if is_listed && method.custom.is_some() {
+    } else if is_listed && method.is_from_outside() {
         ("a method of the table has this id".to_owned(), false)
-    } else if !is_listed && method.custom.is_none() {
+    } else if !is_listed && !method.is_from_outside() {
         ("it is not in the table, and `custom` does not say how it is built".to_owned(), false)
     } else {
         (format!("{name:?}"), true)

@@ -32,7 +32,9 @@ pub use expression::{MAX_BYTES, MAX_DEPTH};
 pub use fault::{ExpressionFault, LawFault, Part, Remedy};
 pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
-pub use step_text::{Carried, MAX_STEP_BYTES, StepCode, StepMap, StepRegisters, StepText};
+pub use step_text::{
+    Carried, MAX_STEP_BYTES, StepCall, StepCode, StepMap, StepRegisters, StepText,
+};
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText, Layout};
 

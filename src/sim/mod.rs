@@ -26,6 +26,8 @@ pub mod law;
 mod net_plan;
 pub mod number;
 pub(crate) mod numerics;
+#[cfg(feature = "lab")]
+mod own_method;
 mod parameter;
 mod propagator;
 mod reference;
@@ -44,6 +46,8 @@ pub(crate) use clock::max_ticks;
 pub use clock::{Accumulator, Clock, Due, MAX_FRAME_MS, TickRateError};
 #[cfg(feature = "lab")]
 pub use numerics::least_squares;
+#[cfg(feature = "lab")]
+pub use own_method::{check_own_id, own_method, own_method_id};
 pub use parameter::{Acts, Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, Text};
 pub use reference::{MAX_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use state::{Elementwise, State, Vector};

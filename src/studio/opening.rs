@@ -15,7 +15,7 @@ use super::viewer::{Dialog, Viewer};
 use crate::run::diff::Comparison;
 use crate::run::race::Mode;
 use crate::run::{Run, StartSettings};
-use crate::scene::{Mistake, Scene, SceneErrors};
+use crate::scene::{LaneSpec, Mistake, Scene, SceneErrors};
 use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 
@@ -63,6 +63,25 @@ pub fn open_file(studio: &mut Studio, path: &Path, scene: Scene) {
     let index = studio.deck.scene_list.put(path, scene);
     open(&mut studio.deck, &mut studio.viewer, index);
     tell_outdated(&mut studio.deck, &mut studio.viewer);
+}
+
+/// Has a method by a person's own lines race in the open scene, from its start. An undo brings back the run before.
+pub fn race_own_method(studio: &mut Studio, lane: LaneSpec) {
+    let method = lane.method;
+    let Studio { deck, viewer, loops, .. } = studio;
+    if let Some(refusal) = deck.scene().refusal(method) {
+        return viewer.set_notice(refusal.to_string());
+    }
+    let mut is_raced = true;
+    restart(deck, viewer, Some("the method"), |next| is_raced = next.race_own(method));
+    if !is_raced {
+        return viewer
+            .set_notice(format!("there is no lane left for {}: open a scene of fewer", method.id));
+    }
+    *loops = None;
+    deck.openings += 1;
+    (viewer.findings, viewer.dialog) = (None, None);
+    viewer.set_notice(format!("{}: {}", method.id, method.about));
 }
 
 /// Tells of a file that says in ticks when its commands are done, which is read for this release only.

@@ -11,7 +11,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::port::powers::Powers;
 use super::port::seen::{seen, spectral_radius};
 use super::port::{Approach, Wish};
-use crate::sim::law::{ExpressionFault, StepText};
+use crate::sim::law::{ExpressionFault, Remedy, StepText};
 use crate::sim::numerics::bisect;
 use crate::tools::identify::Effective;
 
@@ -102,6 +102,15 @@ impl Rule {
     /// The first fault of the text.
     pub fn read(text: &str, fps: f64) -> Result<Self, ExpressionFault> {
         let text = StepText::read(text)?;
+        if let Some(span) = text.acceleration_at() {
+            return Err(ExpressionFault {
+                span,
+                what: "a rule is the whole motion, and calls no acceleration".into(),
+                remedy: Remedy::Words(
+                    "give lines that call one in a file, as a method: `--method my.step`, `regatta show my.step`".into(),
+                ),
+            });
+        }
         // What is seen is the place, or of a rule that changes none the velocity.
         let seen = usize::from(text.keeps(0));
         Ok(Self::with_state(Arc::new(text), fps, vec![seen]))

@@ -127,7 +127,10 @@ fn program(
 ) -> Result<Program<'static>, NoSourceCode> {
     let refused = |reason| NoSourceCode { method: method.id, language, reason };
     let source = MethodSource::of(method);
-    let source = source.ok_or(refused("it is a custom method, whose code is where it was made"))?;
+    let source = source.ok_or(refused(match method.own_text() {
+        Some(_) => "a function that its lines call has no word there",
+        None => "it is a custom method, whose code is where it was made",
+    }))?;
     match source.0.refusal(language).or(language.refusal(precision)) {
         Some(reason) => Err(refused(reason)),
         None => Ok(source.0),

@@ -1,4 +1,4 @@
-//! Opens scene files that are dropped on the window or typed by their paths, and completes paths.
+//! Opens scene files, traces and methods that are dropped on the window or typed by their paths, and completes paths.
 
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
@@ -7,10 +7,10 @@ use crate::loops::{FrameTrace, trace_file};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 use crate::run::diff::{Chosen, Comparison, NotComparable, Tolerance, diff};
 use crate::run::trace::{Made, last_tick};
-use crate::scene::{Mistake, SCENES, Scene};
+use crate::scene::{LaneSpec, MAX_FILE_BYTES, Mistake, SCENES, Scene};
 use crate::studio::{
-    SceneList, StageCommand, Studio, ViewCommand, open_file, open_traces, refuse_typed_path,
-    show_comparison, show_mistakes,
+    SceneList, StageCommand, Studio, ViewCommand, open_file, open_traces, race_own_method,
+    refuse_typed_path, show_comparison, show_mistakes,
 };
 
 /// Reads a scene file and returns its scene and its text, or what the command line would print of its mistakes.
@@ -50,6 +50,8 @@ enum Held {
         text: String,
     },
     Traces(Vec<FrameTrace>),
+    /// A lane of a method by a person's own lines.
+    Lane(LaneSpec),
     /// How it differs from the run, and the recording.
     Compared(Box<(Comparison, Scene)>),
 }
@@ -89,6 +91,8 @@ impl Asked {
             })
         } else if is_trace(&self.path) {
             traces_in(&self.path).map(Held::Traces)
+        } else if has_ending(&self.path, "step") {
+            lane_in(&self.path).map(Held::Lane)
         } else {
             read(&self.path).map(|(scene, text)| {
                 SceneList::prepare_scene(&scene);
@@ -124,6 +128,12 @@ impl ReadFile {
                     studio.apply(ViewCommand::CloseDialog);
                 }
             }
+            Ok(Held::Lane(lane)) => {
+                race_own_method(studio, lane);
+                if is_typed {
+                    studio.apply(ViewCommand::CloseDialog);
+                }
+            }
             Ok(Held::Compared(compared)) => {
                 let (found, recording) = *compared;
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -147,9 +157,19 @@ fn compared(recording: Scene, run: Scene) -> Comparison {
 
 /// Whether a file's name says that it holds a trace of frames.
 fn is_trace(path: &Path) -> bool {
-    let is =
-        |known: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
-    is("csv") || is("txt")
+    has_ending(path, "csv") || has_ending(path, "txt")
+}
+
+fn has_ending(path: &Path, known: &str) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known))
+}
+
+/// The lane of the method in a file of lines.
+fn lane_in(path: &Path) -> Result<LaneSpec, Vec<Mistake>> {
+    let bytes = regular_file::read(path, MAX_FILE_BYTES)
+        .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    LaneSpec::from_step(&name, &bytes).map_err(Vec::from)
 }
 
 fn traces_in(path: &Path) -> Result<Vec<FrameTrace>, Vec<Mistake>> {
@@ -259,6 +279,38 @@ mod tests {
         found.show(&mut studio);
         assert_eq!((studio.deck.scene_name().as_str(), studio.race().tick()), ("a link", 0));
         assert_eq!(studio.scene().checks.last().unwrap().tick, 90);
+    }
+
+    #[test]
+    fn a_method_that_is_dropped_races_in_the_open_scene_and_a_changed_one_takes_its_place() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mine.step");
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let lanes = studio.scene().lanes.len();
+        (0..30).for_each(|_| studio.tick());
+        let drop = |studio: &mut Studio, lines: &str| {
+            std::fs::write(&path, lines).unwrap();
+            Asked::dropped(studio, &path).read(&read()).show(studio);
+            let specs = studio.race().entrants().iter().map(|entrant| entrant.spec);
+            let own: Vec<_> = specs.filter(|spec| spec.method.id == "mine").collect();
+            (own, studio.viewer.notice.as_deref().unwrap_or_default().to_owned())
+        };
+        let (first, notice) = drop(&mut studio, "v += h * a(x, v); x += h * v");
+        assert!(notice.starts_with("mine: order 1.00"), "{notice}");
+        assert_eq!((first.len(), studio.race().tick()), (1, 0));
+        assert_eq!(studio.scene().lanes.len(), lanes + 1);
+        (0..30).for_each(|_| studio.tick());
+        let recorded = studio.deck.recording().unwrap();
+        assert!(
+            recorded.contains("[[method]]") && recorded.contains("id = \"mine\""),
+            "{recorded}"
+        );
+        let (second, _) = drop(&mut studio, "x += h * v; v += h * a(x, v)");
+        assert!(second.len() == 1 && second != first);
+        assert_eq!(studio.scene().lanes.len(), lanes + 1);
+        drop(&mut studio, "x += h * w");
+        let Some(Dialog::Mistakes { report, .. }) = studio.viewer.dialog() else { panic!() };
+        assert!(report[0].message.starts_with("mine.step:1:10: unknown name `w`"), "{report:?}");
     }
 
     #[test]

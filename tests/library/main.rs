@@ -45,6 +45,7 @@ mod loop_snippets;
 mod manual_tables;
 mod misuse;
 mod nets;
+mod own_methods;
 mod pacing_policies;
 mod picture;
 mod pinned;

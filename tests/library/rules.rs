@@ -12,7 +12,7 @@ use regatta::tools::source_code::Language;
 use crate::compilers::{build_folder, compiled_or_skip};
 
 /// Linear rules: pairs of eigenvalues, real ones, close and double ones, and those without a rest.
-const LINEAR: [&str; 17] = [
+const LINEAR: [&str; 19] = [
     "v = (v + (target - x) * 0.2) * 0.85; x += v",
     "v += ((target - x) * 100 - v * 20) * dt; x += v * dt",
     "v += ((target - x) * 100 - v * 40) * dt; x += v * dt",
@@ -30,13 +30,16 @@ const LINEAR: [&str; 17] = [
     "v *= 0.9",
     "x += 3 * dt",
     "let k = 1 - exp(-20 * dt); v = lerp(v, 2, k); x += v * dt - x * 0.01 + target * 0.002",
+    "x += (target - x) * 0.1; v += (target - v) * 0.3",
+    "x *= 0.9; v *= 0.5",
 ];
 /// Rules that are not, or have no closed form.
-const STEPPED: [&str; 6] = [
+const STEPPED: [&str; 7] = [
     "v -= v * abs(v) * 0.1; x += v * dt",
     "v += (target - x) * 40 * dt; if v > 1 { v = 1 } else if v < -1 { v = -1 }\nx += v * dt",
     "v -= sign(v) * min(abs(v), 3 * dt); x += v * dt",
     "x += (target - x) * 1.5",
+    "v = (target - x) * 5; x += v * dt",
     "memory in = 0.5; in += (target - x) * dt; v += (target - x) * 2 + in * 0.1 - v; x += v * dt",
     "dt = min(dt, 0.01); y = x; if y > 0.5 and not (v < 0) { y = pow(x, 2) + hypot(x, v) }; x += (target - y) * dt",
 ];
@@ -308,4 +311,40 @@ fn a_rule_that_is_not_linear_is_told_by_its_small_motions_or_not_at_all() {
     let dry = rule("v -= sign(v) * 3 * dt; x += v * dt").seen_at(60.0);
     assert_eq!((dry.hz, dry.settles_s, dry.grows), (None, None, false));
     assert!(rule("x += x * abs(x) + 0.1").seen_at(60.0).grows);
+}
+
+#[test]
+fn growth_begins_at_a_rate_or_is_there_at_every_one() {
+    let of = |lines: &str| {
+        let rule = Rule::read(lines, FPS).unwrap();
+        (rule.explodes_below_fps(), rule.grows())
+    };
+    // Semi-implicit Euler holds up to h ω = 2, and explicit Euler with friction up to h = c / k.
+    let found = of("v -= 3600 * x * dt; x += v * dt");
+    assert!(is_near(found.0, 30.0) && !found.1, "{found:?}");
+    let found = of("let ox = x; x += v * dt; v -= (500 * ox + 20 * v) * dt");
+    assert!(is_near(found.0, 25.0) && !found.1, "{found:?}");
+    for always in [
+        "let ox = x; x += v * dt; v -= 30 * ox * dt",
+        "let mx = x + v * dt / 2; let mv = v - 30 * x * dt / 2; x += mv * dt; v -= 30 * mx * dt",
+    ] {
+        assert_eq!(of(always), (None, true), "{always}");
+    }
+    assert!(!of("v -= 30 * x * dt; x += v * dt").1);
+}
+
+#[test]
+fn what_games_call_the_numbers_and_where_they_start_is_read() {
+    let plain = frames("v += (target - x) * 0.1; x += v");
+    for same in [
+        "velocity += (goal - position) * 0.1; position += velocity",
+        "this.vel += (targetPos - this.pos) * 0.1f; this.pos += this.vel;",
+        "float x = 0f; float v = 3f;\nv += (target - x) * 0.1f; x += v;",
+    ] {
+        assert_eq!(frames(same), plain, "{same}");
+    }
+    let own = StepText::read("let speed = 2; x += speed * v").unwrap();
+    assert!(own.is_linear() && own.keeps(1), "a name of its own beside v");
+    let fault = Rule::read("x += v; x = x / 0", FPS).unwrap_err();
+    assert_eq!((fault.span, &*fault.what), (11..17, "it divides by 0"));
 }

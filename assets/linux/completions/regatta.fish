@@ -925,10 +925,11 @@ json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l drive -d 'The limits of a drive with these gains'
 complete -c regatta -n "__fish_regatta_using_subcommand port" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l fps -d 'The frames per second for which they were written' -r
-complete -c regatta -n "__fish_regatta_using_subcommand rule" -l as -d 'The language of the code: rust, c, csharp or gdscript' -r -f -a "rust\t''
+complete -c regatta -n "__fish_regatta_using_subcommand rule" -l as -d 'The language of the code: rust, c, cpp, csharp or gdscript' -r -f -a "rust\t''
 c\t''
 csharp\t''
-gdscript\t''"
+gdscript\t''
+cpp\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -s h -l help -d 'Print help (see more with \'--help\')'

@@ -104,12 +104,18 @@ impl<'t> Table<'t> {
 
     /// An expression. A line break in it counts as a space.
     pub(in crate::scene) fn expression(&mut self, field: &Field) -> Option<Written> {
+        let written = self.written(field)?;
+        let text = written.text.replace(['\n', '\r', '\t'], " ");
+        Some(Written { text, ..written })
+    }
+
+    /// A text of several lines.
+    pub(in crate::scene) fn written(&mut self, field: &Field) -> Option<Written> {
         let value = self.value(field)?;
         let Some(text) = value.get_ref().as_str() else { return self.wrong_type(field, value) };
         let span = value.span();
         let start = self.text[span.clone()].find(text).map(|at| span.start + at);
-        let text = text.replace(['\n', '\r', '\t'], " ");
-        Some(Written { text, span, start })
+        Some(Written { text: text.to_owned(), span, start })
     }
 
     /// The names in a list of texts, with their bytes.

@@ -30,16 +30,22 @@ fn costs<V: Vector>(
     Ok((first, others))
 }
 
+/// The evaluations of the first step, and of each later one on several problems.
+pub(super) fn counts(method: &Method) -> Result<(u64, BTreeSet<u64>), StepFailure> {
+    const STEPS: u32 = 100;
+    let start = State { q: 1.0, v: 0.0 };
+    let (first, mut counts) = costs(method, problem(spring(5.0, 0.1)), start, 0.25, STEPS)?;
+    let (_, others) = costs(method, problem(Kepler), kepler_orbit(0.3, 0.0), 0.05, 30)?;
+    counts.extend(others);
+    Ok((first, counts))
+}
+
 /// Evaluations per step: equal to the card's count at every step, or varying if the card gives none.
 pub(super) fn evaluations(method: &Method) -> Claim {
-    const STEPS: u32 = 100;
-    let damped = costs(method, problem(spring(5.0, 0.1)), State { q: 1.0, v: 0.0 }, 0.25, STEPS);
-    let orbit = costs(method, problem(Kepler), kepler_orbit(0.3, 0.0), 0.05, 30);
     let claimed = method.evaluations.map_or("it decides".to_owned(), |count| count.to_string());
-    let (measured, holds) = match (damped, orbit) {
-        (Err(failure), _) | (_, Err(failure)) => (failure.to_string(), false),
-        (Ok((first, mut counts)), Ok((_, others))) => {
-            counts.extend(others);
+    let (measured, holds) = match counts(method) {
+        Err(failure) => (failure.to_string(), false),
+        Ok((first, counts)) => {
             let (least, most) = (counts.first().copied(), counts.last().copied());
             let [least, most] = [least, most].map(|count| count.expect("of many steps"));
             // A method that reuses evaluations owes one evaluation more at its first step.

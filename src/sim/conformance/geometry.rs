@@ -52,9 +52,13 @@ fn both_kept(off: [Result<f64, StepFailure>; 2], what: &str) -> Measured {
 
 /// Whether a step conserves phase-space area, on a linear and on a nonlinear system.
 pub(super) fn symplectic(method: &Method) -> Claim {
+    yes_or_no("symplectic", method.symplectic, keeps_area(method))
+}
+
+pub(super) fn keeps_area(method: &Method) -> Measured {
     let off = [area(method, problem(spring(1.0, 0.0))), area(method, problem(UnitPendulum))];
     let off = off.map(|area| area.map(|area| (area - 1.0).abs()));
-    yes_or_no("symplectic", method.symplectic, both_kept(off, "area changes by"))
+    both_kept(off, "area changes by")
 }
 
 /// How far from its start a step of `h` and a step of `-h` leave the state.
@@ -68,7 +72,11 @@ fn there_and_back(method: &Method, system: Problem<f64>) -> Result<f64, StepFail
 
 /// Whether a step back undoes a step, on a linear and on a nonlinear system.
 pub(super) fn reversible(method: &Method) -> Claim {
+    yes_or_no("reversible", method.reversible, returns(method))
+}
+
+pub(super) fn returns(method: &Method) -> Measured {
     let on = [problem(spring(1.0, 0.0)), problem(UnitPendulum)];
     let off = on.map(|system| there_and_back(method, system));
-    yes_or_no("reversible", method.reversible, both_kept(off, "there and back it is off by"))
+    both_kept(off, "there and back it is off by")
 }

@@ -42,13 +42,14 @@ fn forgets(method: &Method) -> Result<bool, StepFailure> {
 
 /// Whether the method has a memory, which a reset clears.
 pub(super) fn restart(method: &Method) -> Claim {
-    let measure = || -> Measured {
-        let carries = carries(method)?;
-        let words = if carries { "its steps depend on those before" } else { "it has no memory" };
-        if !forgets(method)? {
-            return Err("a reset leaves some of its memory".into());
-        }
-        Ok((carries, words.to_owned()))
-    };
-    yes_or_no("restart", method.restart.is_some(), measure())
+    yes_or_no("restart", method.restart.is_some(), has_memory(method))
+}
+
+pub(super) fn has_memory(method: &Method) -> Measured {
+    let carries = carries(method)?;
+    let words = if carries { "its steps depend on those before" } else { "it has no memory" };
+    if !forgets(method)? {
+        return Err("a reset leaves some of its memory".into());
+    }
+    Ok((carries, words.to_owned()))
 }

@@ -2,8 +2,12 @@
 
 use super::Claim;
 use super::problems::{fresh, problem, spring};
-use crate::sim::integrators::{Method, StepFailure};
-use crate::sim::state::State;
+use crate::sim::bodies::Spring;
+use crate::sim::integrators::{DAMPING_RATIOS, Method, StepFailure};
+use crate::sim::numerics::bisect;
+use crate::sim::stability::{CoupledMotion, SmallMotion};
+use crate::sim::state::{State, nan_is_infinite};
+use crate::sim::{Solver, stepper};
 
 /// The most that an amplitude of 1 may be below the limit: at 0.99 of the limit of a symplectic map the ellipse
 /// is 7 to 14 times as long as wide.
@@ -37,6 +41,77 @@ fn largest_amplitude(
         }
     }
     Ok(largest)
+}
+
+/// The largest product that is tried.
+const MAX_LIMIT: f64 = 6.0;
+const COARSE: f64 = 0.01;
+/// Without drag some grow by `(h ω)⁴/8` a step: below this product too little to see.
+const UNSEEN: f64 = 0.06;
+/// A spectral radius that is larger by more is seen.
+const SEEN: f64 = 1e-9;
+
+/// The map of one step of a fresh method under `a = -k x - c v`: what `x` and `v` become, by the `x` before and by the `v`
+/// before.
+pub(super) fn map_of(
+    method: &Method,
+    [k, c]: [f64; 2],
+    h: f64,
+) -> Result<[[f64; 2]; 2], StepFailure> {
+    let system = problem(Spring { stiffness: k, damping: c, ..spring(1.0, 0.0) });
+    let step = |q: f64, v: f64| {
+        let mut state = State { q, v };
+        fresh(method).step(&system, 0.0, h, &mut state)?;
+        Ok([state.q, state.v])
+    };
+    let [from, by_q, by_v] = [step(0.3, -0.2)?, step(1.3, -0.2)?, step(0.3, 0.8)?];
+    Ok([by_q, by_v].map(|to| [to[0] - from[0], to[1] - from[1]]))
+}
+
+/// The spectral radius of the map of one step on an oscillator of 1 rad/s and this damping ratio; infinite if there is none.
+///
+/// # Errors
+/// If the method fails.
+pub(super) fn radius(method: &Method, ratio: f64, h: f64) -> Result<f64, StepFailure> {
+    let [[a, c], [b, d]] = map_of(method, [1.0, 2.0 * ratio], h)?;
+    let (half_trace, determinant) = ((a + d) / 2.0, a * d - b * c);
+    Ok(nan_is_infinite(match half_trace * half_trace - determinant {
+        apart if apart > 0.0 => half_trace.abs() + apart.sqrt(),
+        _ => determinant.sqrt(),
+    }))
+}
+
+/// The products of `h ω` at which a method stops being stable: without drag in the long run, and in one step at each of
+/// [`DAMPING_RATIOS`]. `None` if it is stable at all that are tried.
+///
+/// # Errors
+/// If the method fails.
+pub fn limits(method: &'static Method) -> Result<[Option<f64>; 4], StepFailure> {
+    radius(method, 0.0, COARSE)?;
+    let undamped = small_motion();
+    let in_one = |ratio: f64, h: f64| radius(method, ratio, h).is_ok_and(|it| it < 1.0 + SEEN);
+    let for_long = |h: f64| {
+        let found = undamped.as_ref().map(|motion| motion.stability(method, h, 1));
+        found.is_some_and(|found| found.is_ok_and(|it| it.spectral_radius < 1.0 + SEEN))
+    };
+    let undamped = first_beyond(|h| h < UNSEEN || for_long(h));
+    let undamped = undamped.map(|limit| if limit <= UNSEEN { 0.0 } else { limit });
+    let [slight, medium, critical] = DAMPING_RATIOS.map(|ratio| first_beyond(|h| in_one(ratio, h)));
+    Ok([undamped, slight, medium, critical])
+}
+
+/// The motion of the undamped oscillator, whose map has what a method carries.
+pub(super) fn small_motion() -> Option<CoupledMotion> {
+    let body = stepper(spring(1.0, 0.0), Solver::Truth);
+    SmallMotion::of(&*body).ok()?.coupled().ok()
+}
+
+/// The first `h` beyond which `stable` ends.
+fn first_beyond(stable: impl Fn(f64) -> bool) -> Option<f64> {
+    let steps = (MAX_LIMIT / COARSE) as u32;
+    let beyond = (1..steps).map(|n| COARSE * f64::from(n)).find(|&h| !stable(h))?;
+    let [within, _] = bisect([beyond - COARSE, beyond], 20, stable);
+    Some(within)
 }
 
 /// What contradicts a limit of `h ω`; `None` if nothing does.

@@ -7,6 +7,8 @@ use super::custom_method::AnyIntegrator;
 use super::free_spin::FreeSpin;
 use super::integrator::Tolerance;
 use super::joint_mode::JointMode;
+#[cfg(feature = "lab")]
+use crate::sim::law::StepText;
 use crate::sim::system::{BodyClass, Coupling};
 
 /// The families of methods, for menus and tables.
@@ -270,6 +272,10 @@ pub struct Method {
     /// How a custom method is built, which is not in [`METHODS`](super::METHODS): [`custom_integrator`](super::custom_integrator) of its
     /// type. `None` for those of the table.
     pub custom: Option<fn(usize) -> Box<dyn AnyIntegrator>>,
+    /// The lines of a method that a person wrote, which is not in [`METHODS`](super::METHODS) either: see
+    /// [`own_method`](crate::sim::own_method()).
+    #[cfg(feature = "lab")]
+    pub own: Option<&'static StepText>,
 }
 
 impl Method {
@@ -277,6 +283,19 @@ impl Method {
     pub fn spellings(&'static self) -> impl Iterator<Item = (&'static str, &'static str)> {
         let spellings = [self.id, self.name].into_iter().chain(self.also.iter().copied());
         spellings.map(|spelling| (spelling, self.id))
+    }
+
+    /// Whether it is not of the table: [custom](Method::custom), or by a person's own lines.
+    pub fn is_from_outside(&self) -> bool {
+        self.custom.is_some() || self.own_text().is_some()
+    }
+
+    /// The lines of a method that a person wrote; `None` of any other.
+    pub fn own_text(&self) -> Option<&'static str> {
+        #[cfg(feature = "lab")]
+        return self.own.map(StepText::source);
+        #[cfg(not(feature = "lab"))]
+        None
     }
 
     /// Whether this is a published listing with its faults, which is never advised.
@@ -295,6 +314,8 @@ impl Method {
     pub(in crate::sim) fn numbers_kept(&self, n: usize, coupling: Coupling) -> usize {
         let matrices = self.matrices as usize;
         match coupling.reach(n) {
+            #[cfg(feature = "lab")]
+            _ if let Some(lines) = self.own => (lines.slots() + 3) * n,
             _ if self.custom.is_some() => 16 * (n + 3),
             // The exponential of a small matrix is a whole one.
             Some(_) if self.family == Family::Linearised && n <= 32 => matrices * (n + 2) * (n + 2),
@@ -337,8 +358,9 @@ impl Method {
 }
 
 impl PartialEq for Method {
+    /// Ids are unique, but for methods of people's own lines.
     fn eq(&self, other: &Self) -> bool {
-        self.id == other.id
+        self.id == other.id && self.own_text() == other.own_text()
     }
 }
 
@@ -377,6 +399,8 @@ const PLAIN: Method = Method {
     follower: None,
     source: "",
     custom: None,
+    #[cfg(feature = "lab")]
+    own: None,
 };
 
 /// An explicit method: an undamped oscillator grows at every step.

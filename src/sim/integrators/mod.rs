@@ -67,6 +67,8 @@ mod semi_implicit_euler_implicit_drag;
 mod shared;
 mod smooth_damp;
 mod ssp_rk3;
+#[cfg(feature = "lab")]
+mod step_method;
 mod stormer_verlet;
 mod tr_bdf2;
 mod velocity_verlet;
@@ -176,7 +178,7 @@ macro_rules! methods {
         /// A method that steps no such system is one that [refuses](StepFailure::Refused) every step.
         ///
         /// # Panics
-        /// If `method` is neither from [`METHODS`] nor [custom](Method::custom).
+        /// If `method` is neither from [`METHODS`] nor [from outside](Method::is_from_outside).
         pub fn construct<S: System<Vector: Vector>, C: Construct<S>>(
             method: &Method,
             coupling: Coupling,
@@ -184,6 +186,10 @@ macro_rules! methods {
         ) -> C::Output {
             if let Some(build) = method.custom {
                 return construct.of(|like| CustomMethod::new(build, like));
+            }
+            #[cfg(feature = "lab")]
+            if let Some(lines) = method.own {
+                return construct.of(|like| step_method::StepMethod::of(lines, like));
             }
             $(if const { refusal::<S, C>(&$file::CARD).is_none() } {
                 if method.id == $file::CARD.id {
@@ -290,7 +296,7 @@ pub(in crate::sim) fn any_integrator<V: Vector>(
         }
     }
     match method.only.and_then(|only| only.incompatibility(class)) {
-        Some(reason) if method.custom.is_none() => Box::new(Unfit { reason }),
+        Some(reason) if !method.is_from_outside() => Box::new(Unfit { reason }),
         _ => construct(method, coupling, Boxed(like)),
     }
 }

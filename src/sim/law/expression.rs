@@ -86,6 +86,10 @@ pub(super) trait Scope {
     fn names(&self) -> Vec<String>;
     /// Why a name that other expressions may use cannot be used here.
     fn why_not(&self, name: &str) -> Option<String>;
+    /// Whether a call of this name is one of the acceleration.
+    fn is_acceleration(&self, _name: &str) -> bool {
+        false
+    }
     /// The function with this name.
     fn function(&self, name: &str) -> Option<&'static Function> {
         Function::named(name)
@@ -342,6 +346,9 @@ impl Parser<'_> {
     fn named(&mut self) -> Parsed<usize> {
         let (span, name) = (self.span(), self.written().to_owned());
         self.next += 1;
+        if self.peek() == Token::Symbol("(") && self.scope.is_acceleration(&name) {
+            return self.acceleration(span);
+        }
         if let Some(function) = self.scope.function(&name) {
             if self.peek() != Token::Symbol("(") {
                 let what = format!("`{name}` is a function");

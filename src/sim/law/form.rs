@@ -46,6 +46,7 @@ pub(super) fn is_linear(
             | Op::Not
             | Op::If
             | Op::Smooth(_)
+            | Op::Call
             | Op::Switch(_) => match operands.iter().map(|&slot| of[slot as usize]).max() {
                 None | Some(Dependence::Constant) => Dependence::Constant,
                 _ => Dependence::Any,

@@ -20,6 +20,8 @@ pub(super) enum Op {
     If,
     Smooth(&'static Smooth),
     Switch(Switch),
+    /// The acceleration that a step asks for, of a place and a velocity. A third operand says whether it is asked for.
+    Call,
 }
 
 impl Op {
@@ -28,7 +30,7 @@ impl Op {
         match self {
             Op::And | Op::Or | Op::Not => true,
             Op::Switch(switch) => switch.is_truth(),
-            Op::Number | Op::Input | Op::Negate | Op::If | Op::Smooth(_) => false,
+            Op::Number | Op::Input | Op::Negate | Op::If | Op::Smooth(_) | Op::Call => false,
             Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Power => false,
         }
     }

@@ -4,17 +4,21 @@
 //! nothing: of an `if`, both blocks are evaluated, and the values of one are taken. A name that is read before the lines
 //! assign it is carried from step to step, as `x` and `v` are.
 
+use std::ops::Range;
+
 use super::expression::Expression;
 use super::fault::{ExpressionFault, fault};
 use super::form::is_linear;
 use super::jet::Jet;
 use super::tape::Tape;
 pub use code::StepCode;
+pub use method::StepCall;
 use plain::plain;
 use reader::Reader;
 use statements::statements;
 
 mod code;
+mod method;
 mod plain;
 mod reader;
 mod statements;
@@ -51,18 +55,25 @@ pub struct Carried {
 /// The lines of a step, read.
 #[derive(Debug)]
 pub struct StepText {
+    source: String,
     names: Vec<String>,
     lines: Vec<Line>,
     carried: Vec<Carried>,
     /// Its values are the carried numbers after a step, in their order.
     tape: Tape,
+    /// The bytes of the first call of the acceleration; `None` in a rule.
+    call: Option<Range<usize>>,
+    calls: Vec<StepCall>,
 }
 
 /// The carried numbers of one body, and where its steps are evaluated.
 #[derive(Clone, Debug)]
 pub struct StepRegisters {
+    /// Those of a coordinate after those of the one before.
     slots: Vec<f64>,
     next: Vec<f64>,
+    /// Of each coordinate, where the acceleration is asked for, with which velocity, and what it is.
+    asked: [Vec<f64>; 3],
 }
 
 /// The carried numbers after a step and their derivatives, by each carried number and then by the target.
@@ -85,12 +96,17 @@ impl StepText {
             let what = format!("the text has {} bytes", text.len());
             return fault(end..text.len(), what, format!("keep at most {MAX_STEP_BYTES}"));
         }
-        let text = plain(text);
-        let mut reader = Reader::new(&text)?;
-        for statement in statements(&text)? {
+        let plain = plain(text);
+        let mut reader = Reader::new(&plain)?;
+        for statement in statements(&plain)? {
             reader.take(statement)?;
         }
-        reader.finish()
+        Ok(Self { source: text.to_owned(), ..reader.finish()? })
+    }
+
+    /// The text as it was written.
+    pub fn source(&self) -> &str {
+        &self.source
     }
 
     /// The carried numbers: `x`, `v`, then those of the text.
@@ -139,6 +155,7 @@ impl StepText {
         let mut registers = StepRegisters {
             slots: vec![0.0; self.tape.slots],
             next: vec![0.0; self.carried.len()],
+            asked: [const { Vec::new() }; 3],
         };
         for carried in &self.carried {
             registers.slots[carried.input] = carried.start;
@@ -148,7 +165,7 @@ impl StepText {
 
     /// Steps a body by `h` seconds. Never allocates.
     pub fn step(&self, registers: &mut StepRegisters, h: f64, target: f64) {
-        let StepRegisters { slots, next } = registers;
+        let StepRegisters { slots, next, .. } = registers;
         if slots[H].to_bits() != h.to_bits() || h == 0.0 {
             slots[H] = h;
             self.tape.prepare::<1>(slots.as_chunks_mut().0);
@@ -238,7 +255,7 @@ mod tests {
         let text = "x += v\nif x > 1 {\n  let over = x - 1\n  x = 1 - over; v = -v\n} else if x < 0.5 { v *= 2 } else { v *= 3 }";
         assert_eq!(run(text, 1), [0.75, 1.5]);
         assert_eq!(run(text, 2), [2.0 - 2.25, -1.5]);
-        assert_eq!(run("if x < 0 { x = 1/0 } else { x = 2 }", 1), [2.0, 0.5]);
+        assert_eq!(run("if x < 0 { x = 1/(v*0) } else { x = 2 }", 1), [2.0, 0.5]);
     }
 
     #[test]

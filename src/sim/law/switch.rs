@@ -84,6 +84,9 @@ impl Switch {
     pub(super) fn value(self, a: f64, b: f64, table: Option<&Curve>) -> f64 {
         match self.pieces {
             Pieces::Floor => libm::floor(a),
+            // No mode tells a NaN, which equals nothing.
+            Pieces::Order if self.value == Value::Equal => f64::from(u8::from(a == b)),
+            Pieces::Order if self.value == Value::NotEqual => f64::from(u8::from(a != b)),
             _ => self.value_on(self.mode(a, b, table), a, b, table),
         }
     }

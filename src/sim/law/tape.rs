@@ -32,6 +32,17 @@ struct Instruction {
     table: u16,
 }
 
+/// A call among the operations: its place in the main part, and the slots of its operands and its value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Call {
+    pub(super) at: usize,
+    pub(super) x: usize,
+    pub(super) v: usize,
+    /// 1 where it is asked for; `None` if it always is.
+    pub(super) guard: Option<usize>,
+    pub(super) to: usize,
+}
+
 /// Where an operation stands in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Origin {
@@ -121,7 +132,9 @@ impl Tape {
         let table = node.op.is_table().then(|| &expression.tables[node.index]);
         let points = table.map_or(&[][..], Curve::points);
         let bits = points.iter().map(|point| point.map(f64::to_bits)).collect();
-        let key = (node.op, operands, node.number.to_bits(), bits);
+        // Each call is made, also of equal operands.
+        let number = if node.op == Op::Call { node.index as u64 } else { node.number.to_bits() };
+        let key = (node.op, operands, number, bits);
         if let Some(&slot) = known.get(&key) {
             return slot;
         }
@@ -130,7 +143,8 @@ impl Tape {
         known.insert(key, to);
         self.origins.insert(to, origin);
         let count = node.arguments().len();
-        let is_constant = operands[..count].iter().all(|&slot| is_fixed[slot as usize]);
+        let is_constant =
+            node.op != Op::Call && operands[..count].iter().all(|&slot| is_fixed[slot as usize]);
         is_fixed.push(is_constant);
         let index = self.tables.len() as u16;
         self.tables.extend(table.cloned());
@@ -159,6 +173,29 @@ impl Tape {
     #[inline]
     pub(super) fn evaluate(&self, slots: &mut [f64]) {
         self.run(slots, Switch::value);
+    }
+
+    /// Evaluates a part of the main operations.
+    #[inline]
+    pub(super) fn evaluate_part(&self, part: Range<usize>, slots: &mut [f64]) {
+        let (slots, _) = slots.as_chunks_mut::<1>();
+        self.run_lanes(&self.main[part], slots, &[], Switch::value);
+    }
+
+    /// How many operations the main part has.
+    pub(super) fn length(&self) -> usize {
+        self.main.len()
+    }
+
+    /// The calls, in the order in which they are made.
+    pub(super) fn calls(&self) -> Vec<Call> {
+        let call = |(at, instruction): (usize, &Instruction)| {
+            let [x, v, guard] = instruction.operands.map(usize::from);
+            let guard = (instruction.count > 2).then_some(guard);
+            Call { at, x, v, guard, to: usize::from(instruction.to) }
+        };
+        let all = self.main.iter().enumerate();
+        all.filter(|(_, instruction)| instruction.op == Op::Call).map(call).collect()
     }
 
     /// Evaluates the tape on several motions at once. `alike` is [`Tape::alike`].
@@ -287,7 +324,7 @@ impl Tape {
                     from_fn(|i| switched(switch, a[i], b[i], table))
                 }
                 // The caller writes them.
-                Op::Number | Op::Input => slots[to],
+                Op::Number | Op::Input | Op::Call => slots[to],
             };
             slots[to] = value;
         }
@@ -298,6 +335,8 @@ fn jet(op: Op, [a, b, c]: [Jet; 3], table: Option<&Curve>) -> Jet {
     match op {
         // Already in their slots.
         Op::Number | Op::Input => a,
+        // The caller knows no derivative of it.
+        Op::Call => [f64::NAN; 3],
         Op::Negate => a.map(|x| -x),
         Op::Add => jet::sum(a, b),
         Op::Subtract => jet::difference(a, b),

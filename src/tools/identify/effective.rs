@@ -40,7 +40,8 @@ impl Effective {
 
     /// The damping ratio; negative if energy is gained; `None` without a spring.
     pub fn damping_ratio(&self) -> Option<f64> {
-        (self.omega > 0.0).then(|| self.decay / self.omega)
+        // A negative zero is 0.
+        (self.omega > 0.0).then(|| self.decay / self.omega + 0.0)
     }
 
     /// The stiffness and the damping of a spring with this motion, for each kilogram.

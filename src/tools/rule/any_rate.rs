@@ -234,7 +234,7 @@ impl Rule {
     }
 
     fn fixed_steps(&self) -> Result<String, String> {
-        let StepCode { functions, lines } = self.text.code()?;
+        let StepCode { functions, lines, .. } = self.text.code()?;
         let shown = &self.names()[0];
         let mut source =
             "memory unspent = 0.0\nmemory before = nan\nmemory shown = nan\n".to_owned();

@@ -23,7 +23,7 @@ use crate::printed::texts;
 ///   its rows, in `loops.rs`; the pipe to ffmpeg is run in `formats.rs`.
 /// - `toml`: scenes are read, below; dependencies are resolved in `tests/library/ci_recipe.rs`.
 const BLOCKS: [(&str, &str, usize); 19] = [
-    ("scenes", "toml", 3),
+    ("scenes", "toml", 4),
     ("commands", "console", 6),
     ("commands", "sh", 2),
     ("commands", "text", 1),
@@ -31,7 +31,7 @@ const BLOCKS: [(&str, &str, usize); 19] = [
     ("logs", "console", 1),
     ("questions", "console", 15),
     ("code", "console", 1),
-    ("step", "console", 2),
+    ("step", "console", 3),
     ("library", "rust", 2),
     ("library", "text", 1),
     ("library", "toml", 1),
@@ -50,6 +50,9 @@ const LOG: &str = include_str!("../../data/engines/box2d__spring_1hz_z005_60hz.c
 /// Makes the files of a reader's own that examples are about. Without a driver there is no `clip`.
 fn make_own_files(test: &str, folder: &Path) -> Vec<&'static str> {
     fs::write(folder.join("spring.csv"), LOG).unwrap();
+    let rk4 = include_str!("../../../assets/methods/rk4.step");
+    let slipped = rk4.replace("let k2_x = v +", "let k2_x = v -");
+    fs::write(folder.join("my-rk4.step"), slipped).unwrap();
     let mut session = Session::solo(Scene::built_in("harbour").unwrap().into(), 0);
     session.run(640);
     fs::write(folder.join("run.toml"), session.recording(640).to_toml()).unwrap();
@@ -111,7 +114,7 @@ fn every_example_with_an_answer_prints_that_answer() {
         ("logs", 1),
         ("questions", 19),
         ("code", 1),
-        ("step", 2),
+        ("step", 3),
         ("README", 1),
     ];
     assert_eq!(compared, expected);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Parser;
+use super::{Node, Parser};
 use crate::sim::curve::Curve;
 use crate::sim::law::fault::{Parsed, fault};
 use crate::sim::law::function::{Function, Meaning};
@@ -72,6 +72,27 @@ impl Parser<'_> {
                 node
             }
         })
+    }
+
+    /// The call of the acceleration, whose name has been taken: at a place, with a velocity, after a time.
+    pub(super) fn acceleration(&mut self, name: Range<usize>) -> Parsed<usize> {
+        self.next += 1;
+        let mut arguments = vec![self.nested(Self::any)?];
+        while self.takes(",") {
+            arguments.push(self.nested(Self::any)?);
+        }
+        self.expect(")", "the arguments")?;
+        let span = name.start..self.tokens[self.next - 1].1.end;
+        if arguments.len() > 3 {
+            let what = "an acceleration is one of a place, a velocity and a time";
+            return fault(span, what, "write `a(x, v)`, or `a(x, v, h / 2)`");
+        }
+        arguments.iter().try_for_each(|argument| self.want_number(*argument).map(|_| ()))?;
+        if arguments.len() == 1 {
+            let v = self.scope.input("v").unwrap_or_default();
+            arguments.push(self.node(Node::input(v), span.clone()));
+        }
+        Ok(self.push(Op::Call, &arguments, span))
     }
 
     /// The points of a table.

@@ -1,22 +1,38 @@
 //! The lines in the language of `assets/methods`, which has a printer for other languages.
 
-use super::{BUILT_IN, Carried, H, Line, StepText};
+use super::reader::FIELD;
+use super::{BUILT_IN, Carried, H, Line, StepText, V};
 use crate::sim::law::expression::Expression;
 use crate::sim::law::function::{FUNCTIONS, Meaning};
 use crate::sim::law::op::{INFIXES, Level, Op};
 
 /// The lines of a step as code.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepCode {
     /// The functions that the lines call and not every language has.
     pub functions: Vec<&'static str>,
+    /// The fields of `memory`, each with its first value.
+    pub memory: Vec<(String, f64)>,
     /// The lines. Carried numbers of the text are fields of `memory`, the length of a step is called [`STEP`](Self::STEP).
     pub lines: Vec<String>,
 }
 
 impl StepCode {
-    /// The name of the length of a step.
+    /// The name of the length of a step of a rule.
     pub const STEP: &str = "step_s";
+
+    /// The code of a method in the language of `assets/methods`.
+    pub(in crate::sim) fn method(&self) -> String {
+        let Self { functions, memory, lines } = self;
+        let mut text = "takes a(x, v): the acceleration at position x and velocity v\n".to_owned();
+        text.extend(memory.iter().map(|(field, start)| match start.is_nan() {
+            true => format!("memory {field} = nan\n"),
+            false => format!("memory {field} = {start:?}\n"),
+        }));
+        text.extend(functions.iter().map(|function| format!("\n{function}")));
+        text.extend(lines.iter().map(|line| format!("\n{line}")));
+        text + "\n"
+    }
 }
 
 /// The most bytes of an expression.
@@ -87,7 +103,7 @@ type Written = (String, Option<Level>);
 impl Carried {
     /// Its name in code: a field of `memory` unless it is `x` or `v`.
     pub fn field(&self) -> String {
-        own(&self.name)
+        own(self.name.strip_prefix(FIELD).unwrap_or(&self.name))
     }
 }
 
@@ -97,7 +113,9 @@ impl StepText {
     /// # Errors
     /// What other languages cannot be told, in a clause.
     pub fn code(&self) -> Result<StepCode, String> {
-        let mut code = StepCode::default();
+        let memory = self.carried.iter().filter(|carried| carried.input > V);
+        let memory = memory.map(|carried| (carried.field(), carried.start)).collect();
+        let mut code = StepCode { memory, ..StepCode::default() };
         let mut is_known: Vec<bool> =
             (0..self.names.len()).map(|name| self.is_state(name)).collect();
         let mut depth = 0;
@@ -146,9 +164,12 @@ impl StepText {
     fn name(&self, index: usize) -> String {
         let name = &self.names[index];
         match index {
-            H => StepCode::STEP.into(),
+            H if self.call.is_none() => StepCode::STEP.into(),
             _ if index < BUILT_IN.len() => name.clone(),
-            _ if self.is_state(index) => format!("memory.{}", own(name)),
+            _ if self.is_state(index) => {
+                format!("memory.{}", own(name.strip_prefix(FIELD).unwrap_or(name)))
+            }
+            _ if name == "a" && self.call.is_some() => "a_own".into(),
             _ => own(name),
         }
     }
@@ -166,6 +187,10 @@ impl StepText {
                 (Op::Number, _) => (format!("{:?}", node.number), None),
                 (Op::Input, _) => (self.name(node.index), None),
                 (Op::Power, _) => call("pow"),
+                (Op::Call, _) => {
+                    let [x, v] = [operand(0), operand(1)].map(|(text, _)| text);
+                    (format!("a({x}, {v})"), None)
+                }
                 (Op::Negate, _) => {
                     (format!("-{}", within(operand(0), Some(Level::Product))), Some(Level::Sum))
                 }

@@ -4,6 +4,13 @@
 const PREFIXES: [&str; 10] =
     ["Mathf.", "MathF.", "Math.", "math.", "Time.", "std::", "f32::", "f64::", "self.", "this."];
 
+/// What begins a line of `assets/methods` that says something about the method, for people.
+const HEADINGS: [&str; 6] =
+    ["takes a(", "order: ", "stability: ", "symplectic: ", "several: ", "held: "];
+
+/// What stands before a number that is carried, where another of its name is not.
+const MEMORY: &str = "memory";
+
 /// What may end a number in other languages.
 const SUFFIXES: [&str; 8] = ["_f64", "_f32", "f64", "f32", "f", "F", "d", "D"];
 
@@ -18,15 +25,18 @@ pub(super) fn plain(text: &str) -> String {
     if text.starts_with('\u{feff}') {
         plain[..'\u{feff}'.len_utf8()].fill(b' ');
     }
-    let mut at = 0;
+    let (mut at, mut is_line_start) = (0, true);
     while at < text.len() {
         let rest = &text.as_bytes()[at..];
+        let begins = std::mem::replace(&mut is_line_start, rest[0] == b'\n');
         let blank = |plain: &mut Vec<u8>, length: usize| {
             let blanks = plain[at..at + length].iter_mut();
             blanks.filter(|byte| **byte != b'\n').for_each(|byte| *byte = b' ');
             length
         };
+        let is_heading = |heading: &&str| begins && rest.starts_with(heading.as_bytes());
         at += match rest[0] {
+            _ if HEADINGS.iter().any(is_heading) => blank(&mut plain, line_length(rest)),
             b'#' => blank(&mut plain, line_length(rest)),
             b'/' if rest.starts_with(b"//") => blank(&mut plain, line_length(rest)),
             b'/' if rest.starts_with(b"/*") => {
@@ -46,7 +56,16 @@ pub(super) fn plain(text: &str) -> String {
                         lower_name(&mut plain[at + length..]);
                         length
                     }
-                    None => rest.iter().take_while(|byte| is_name_part(**byte)).count(),
+                    None => {
+                        let length = rest.iter().take_while(|byte| is_name_part(**byte)).count();
+                        if &rest[..length] == MEMORY.as_bytes() && rest.get(length) == Some(&b'.') {
+                            // One name, as long.
+                            plain[at + length] = b'_';
+                            length + 1
+                        } else {
+                            length
+                        }
+                    }
                 }
             }
             _ => 1,
@@ -103,6 +122,7 @@ mod tests {
             ("x /* a\nb */ = x0f", "x     \n     = x0f"),
             ("\u{feff}x = 1.f;\r\n", "   x = 1. ; \n"),
             ("h = Time.deltaTime", "h =      deltaTime"),
+            ("takes a(x, v): it\nx = memory.y", "                 \nx = memory_y"),
             (".", "."),
             ("1e", "1e"),
             ("/*", "  "),

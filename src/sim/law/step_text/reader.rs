@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use super::plain::is_name_part;
 use super::statements::{Statement, statements};
-use super::{BUILT_IN, Carried, H, Line, StepText, TARGET, V, X};
+use super::{BUILT_IN, Carried, H, Line, StepCall, StepText, TARGET, V, X};
 use crate::sim::law::expression::{Expression, Node, Scope, parse, parse_condition};
 use crate::sim::law::fault::{ExpressionFault, Parsed, Part, Remedy, fault, quoted};
 use crate::sim::law::function::Function;
@@ -16,8 +17,24 @@ const MAX_STEP_NAMES: usize = 64;
 /// The most blocks within each other.
 const MAX_BLOCKS: usize = 32;
 
+/// The most calls of the acceleration in a step.
+const MAX_CALLS: usize = 64;
+
 /// Other names of the length of a step.
 const STEP_NAMES: [&str; 5] = ["dt", "delta", "deltaTime", "delta_time", "delta_seconds"];
+
+/// What games call `x`, `v` and `target`, where the lines have no such name.
+const OTHER_NAMES: [(usize, &[&str]); 3] = [
+    (X, &["pos", "position", "value", "current"]),
+    (V, &["vel", "velocity", "speed"]),
+    (TARGET, &["goal", "desired", "targetPos", "target_pos", "targetPosition", "target_position"]),
+];
+
+/// The names by which lines call the acceleration.
+const ACCELERATION: [&str; 3] = ["a", "accel", "acceleration"];
+
+/// What a field of `memory` begins with once it is one name.
+pub(super) const FIELD: &str = "memory_";
 
 /// The values of the names where the reader stands.
 type Values = Vec<Option<usize>>;
@@ -28,6 +45,8 @@ struct Block {
     before: Values,
     /// The values at the end of the first branch, once the second is open.
     first: Option<Values>,
+    /// The guard of what stands around it.
+    outside: Option<usize>,
     /// Whether it ends with the block around it, as that of `else if` does.
     is_chained: bool,
 }
@@ -45,11 +64,38 @@ pub(super) struct Reader<'t> {
     values: Values,
     carried: Vec<usize>,
     blocks: Vec<Block>,
+    /// The first call of the acceleration, which makes a method of the lines.
+    call: Option<Range<usize>>,
+    /// The nodes of the calls, and of their times.
+    calls: Vec<[usize; 2]>,
+    /// Of a method, whether the lines here are among those that are run.
+    guard: Option<usize>,
+}
+
+/// Whether a text has this word.
+fn has_word(text: &str, word: &str) -> bool {
+    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|found| found == word)
+}
+
+/// The bytes of the name of the first call of the acceleration.
+fn first_call(text: &str) -> Option<Range<usize>> {
+    let name = |at: usize| {
+        let is_part = |byte: &u8| is_name_part(*byte);
+        let before = at.checked_sub(1).and_then(|before| text.as_bytes().get(before));
+        if before.is_some_and(|byte| is_part(byte) || *byte == b'.') {
+            return None;
+        }
+        let length = text.as_bytes()[at..].iter().take_while(|byte| is_part(byte)).count();
+        let is_called = text[at + length..].trim_start_matches([' ', '\t']).starts_with('(');
+        let span = at..at + length;
+        (is_called && ACCELERATION.contains(&&text[span.clone()])).then_some(span)
+    };
+    text.match_indices('a').find_map(|(at, _)| name(at))
 }
 
 impl Scope for Reader<'_> {
     fn input(&self, name: &str) -> Option<usize> {
-        let index = self.index(name)?;
+        let index = self.index(name).filter(|index| *index != TARGET || self.call.is_none())?;
         (self.is_carried[index] || self.values[index].is_some()).then_some(index)
     }
 
@@ -57,8 +103,13 @@ impl Scope for Reader<'_> {
         self.names.clone()
     }
 
-    fn why_not(&self, _: &str) -> Option<String> {
-        None
+    fn why_not(&self, name: &str) -> Option<String> {
+        let is_target = self.call.is_some() && self.index(name) == Some(TARGET);
+        is_target.then(|| "a method moves by `a(x, v)`, and has no target".to_owned())
+    }
+
+    fn is_acceleration(&self, name: &str) -> bool {
+        ACCELERATION.contains(&name)
     }
 
     fn function(&self, name: &str) -> Option<&'static Function> {
@@ -79,14 +130,18 @@ impl<'t> Reader<'t> {
             values: vec![None; BUILT_IN.len()],
             carried: vec![X, V],
             blocks: Vec::new(),
+            call: first_call(text),
+            calls: Vec::new(),
+            guard: None,
         };
         for statement in statements(text)? {
-            let (name, is_carried) = match statement {
-                Statement::Assign { name, is_declared, .. } => (name, !is_declared),
-                Statement::Memory { name, .. } => (name, true),
-                _ => continue,
-            };
-            reader.declare(name, is_carried)?;
+            match statement {
+                Statement::Assign { name, is_declared, .. } => {
+                    reader.declare(name, !is_declared, false)?;
+                }
+                Statement::Memory { name, .. } => reader.declare(name, true, true)?,
+                _ => {}
+            }
         }
         Ok(reader)
     }
@@ -95,11 +150,22 @@ impl<'t> Reader<'t> {
         if STEP_NAMES.contains(&name) {
             return Some(H);
         }
-        self.names.iter().position(|known| known == name)
+        let other = OTHER_NAMES
+            .iter()
+            .find(|(index, names)| names.contains(&name) && !has_word(self.text, BUILT_IN[*index]));
+        let known = || self.names.iter().position(|known| known == name);
+        other.map(|(index, _)| *index).or_else(known)
     }
 
-    fn declare(&mut self, span: Range<usize>, is_carried: bool) -> Parsed<()> {
-        let name = &self.text[span.clone()];
+    /// The name that a statement declares: of a memory that lines read as `memory.name`, that.
+    fn declared(&self, span: Range<usize>, is_memory: bool) -> String {
+        let name = &self.text[span];
+        let field = format!("{FIELD}{name}");
+        if is_memory && self.text.contains(&field) { field } else { name.to_owned() }
+    }
+
+    fn declare(&mut self, span: Range<usize>, is_carried: bool, is_memory: bool) -> Parsed<()> {
+        let name = &*self.declared(span.clone(), is_memory);
         let is_word = OPERATOR_WORDS.contains(&name) || name == "pi";
         if is_word || Function::named_in_steps(name).is_some() {
             let what = format!("`{}` has a meaning of its own in expressions", quoted(name));
@@ -128,14 +194,28 @@ impl<'t> Reader<'t> {
     /// Takes the next statement.
     pub(super) fn take(&mut self, statement: Statement) -> Parsed<()> {
         match statement {
-            Statement::Assign { name, joins, value, is_declared: _ } => {
-                self.assign(name, joins, value)
+            Statement::Assign { name, joins, value, is_declared } => {
+                // A game declares where its value starts above the lines of its frames.
+                let index = self.index(&self.text[name.clone()]).filter(|index| *index <= V);
+                let is_first = index.is_some_and(|index| self.values[index].is_none());
+                let start = match is_declared && is_first && self.blocks.is_empty() {
+                    true => self.alone(&self.expression(value.clone(), false)?, value.clone()).ok(),
+                    false => None,
+                };
+                match index.zip(start) {
+                    Some((index, start)) => self.starts[index] = start,
+                    None => self.assign(name, joins, value)?,
+                }
+                Ok(())
             }
             Statement::Memory { name, value } => {
-                let expression = self.expression(value.clone(), false)?;
-                let map = self.alone(&expression, value)?;
-                let index = self.index(&self.text[name]).unwrap_or(X);
-                self.starts[index] = map;
+                // No step is of that length, so that lines can tell the first.
+                let start = match self.text[value.clone()].trim() {
+                    "nan" => f64::NAN,
+                    _ => self.alone(&self.expression(value.clone(), false)?, value)?,
+                };
+                let index = self.index(&self.declared(name, true)).unwrap_or(X);
+                self.starts[index] = start;
                 Ok(())
             }
             Statement::If(condition) => self.open(condition, false),
@@ -145,6 +225,9 @@ impl<'t> Reader<'t> {
                     return fault(brace, "`else` follows no block of an `if`", "remove it");
                 };
                 block.first = Some(std::mem::replace(&mut self.values, block.before.clone()));
+                let (taken, outside) = (block.condition, block.outside);
+                let not = self.push(Node::new(Op::Not, &[taken]), &brace);
+                self.guard = Some(self.within(outside, not, &brace));
                 self.lines.push(Line::Else);
                 match condition {
                     Some(condition) => self.open(condition, true),
@@ -172,9 +255,10 @@ impl<'t> Reader<'t> {
         let in_text = |found: ExpressionFault| {
             let at = found.span.start + span.start..found.span.end + span.start;
             let is_call = self.text[at.end..].trim_start().starts_with('(');
+            let known = if self.call.is_some() { "x, v or h" } else { "x, v, h or target" };
             let remedy = match found.remedy {
                 Remedy::Name { written, .. } if !is_call => Remedy::Words(format!(
-                    "write x, v, h or target, or give it a value before: `let {} = 1`",
+                    "write {known}, or give it a value before: `let {} = 1`",
                     quoted(&written)
                 )),
                 remedy => remedy,
@@ -186,7 +270,7 @@ impl<'t> Reader<'t> {
 
     /// The value of an expression of numbers alone.
     fn alone(&self, expression: &Expression, span: Range<usize>) -> Parsed<f64> {
-        let reads = expression.nodes.iter().any(|node| node.op == Op::Input);
+        let reads = expression.nodes.iter().any(|node| matches!(node.op, Op::Input | Op::Call));
         let tape = Tape::new(0, |_| false, &[(Part::Energy, expression)]).ok().filter(|_| !reads);
         let value = tape.map(|tape| {
             let mut slots = vec![0.0; tape.slots];
@@ -206,7 +290,15 @@ impl<'t> Reader<'t> {
         joins: &'static str,
         value: Range<usize>,
     ) -> Parsed<()> {
-        let expression = self.expression(value, false)?;
+        let expression = self.expression(value.clone(), false)?;
+        let is_0 = |node: usize| {
+            let node = expression.nodes[node];
+            matches!(node.op, Op::Number) && node.number == 0.0
+        };
+        let mut nodes = expression.nodes.iter();
+        if nodes.any(|node| matches!(node.op, Op::Divide) && is_0(node.arguments()[1])) {
+            return fault(value, "it divides by 0", "divide by another number");
+        }
         let index = self.index(&self.text[name.clone()]).unwrap_or(X);
         let found = self.splice(&expression, name.start);
         let found = match joins {
@@ -239,14 +331,25 @@ impl<'t> Reader<'t> {
         }
         let expression = self.expression(condition.clone(), true)?;
         let node = self.splice(&expression, condition.start);
-        let before = self.values.clone();
-        self.blocks.push(Block { condition: node, before, first: None, is_chained });
+        let (before, outside) = (self.values.clone(), self.guard);
+        self.guard = Some(self.within(outside, node, &condition));
+        self.blocks.push(Block { condition: node, before, first: None, outside, is_chained });
         self.lines.push(Line::If(expression));
         Ok(())
     }
 
+    /// Whether lines are run that stand within a block of this condition.
+    fn within(&mut self, outside: Option<usize>, condition: usize, at: &Range<usize>) -> usize {
+        match outside {
+            Some(outside) => self.push(Node::new(Op::And, &[outside, condition]), at),
+            None => condition,
+        }
+    }
+
     /// Chooses the values of the branch that is taken.
-    fn close(&mut self, Block { condition, before, first, .. }: Block, brace: &Range<usize>) {
+    fn close(&mut self, block: Block, brace: &Range<usize>) {
+        let Block { condition, before, first, outside, is_chained: _ } = block;
+        self.guard = outside;
         let second = match first.is_some() {
             true => std::mem::take(&mut self.values),
             false => before.clone(),
@@ -313,13 +416,29 @@ impl<'t> Reader<'t> {
             let found = read.iter().find(|(name, _)| inner.op == Op::Input && inner.index == *name);
             found.map_or(node, |(_, number)| *number)
         };
-        for node in &mut self.nodes.nodes[before..] {
-            *node = node.reading(number_of);
+        for node in before..self.nodes.nodes.len() {
+            let new = self.nodes.nodes[node].reading(number_of);
+            self.nodes.nodes[node] = if new.op == Op::Call { self.called(&new, node) } else { new };
         }
         number_of(self.nodes.nodes.len() - 1)
     }
 
+    /// A call of the acceleration by these lines, if they are run.
+    fn called(&mut self, call: &Node, node: usize) -> Node {
+        let &[x, v, ref time @ ..] = call.arguments() else { return *call };
+        let index = self.calls.len();
+        self.calls.push([node, time.first().copied().unwrap_or(x)]);
+        let operands = [Some(x), Some(v), self.guard].into_iter().flatten().collect::<Vec<_>>();
+        let mut made = Node::new(Op::Call, &operands);
+        made.index = index;
+        made
+    }
+
     fn check_length(&self, at: Range<usize>) -> Parsed<()> {
+        if self.calls.len() > MAX_CALLS {
+            let what = format!("the lines call the acceleration more than {MAX_CALLS} times");
+            return fault(at, what, "write fewer");
+        }
         if self.nodes.nodes.len() <= 2 * MAX_OPERATIONS {
             return Ok(());
         }
@@ -342,7 +461,10 @@ impl<'t> Reader<'t> {
         }
         let mut carried = self.carried.clone();
         carried.sort_unstable();
-        let outputs: Vec<usize> = carried.iter().map(|index| self.value(*index, &last)).collect();
+        let ends: Vec<usize> = carried.iter().map(|index| self.value(*index, &last)).collect();
+        // Calls in the order written, also those that decide nothing.
+        let asked = [0, 1].map(|of| self.calls.iter().map(move |call| call[of]));
+        let outputs: Vec<usize> = asked.into_iter().flatten().chain(ends).collect();
         let whole = |node: usize| Expression {
             nodes: self.nodes.nodes[..=node].to_vec(),
             spans: self.nodes.spans[..=node].to_vec(),
@@ -350,7 +472,7 @@ impl<'t> Reader<'t> {
         };
         let expressions: Vec<Expression> = outputs.into_iter().map(whole).collect();
         let parts: Vec<_> = expressions.iter().map(|of| (Part::Energy, of)).collect();
-        let tape = Tape::new(self.names.len(), |input| input == H, &parts).or_else(|long| {
+        let mut tape = Tape::new(self.names.len(), |input| input == H, &parts).or_else(|long| {
             let (noun, most) = match long.are_switches {
                 true => ("corners and jumps", MAX_SWITCHES),
                 false => ("operations", MAX_OPERATIONS),
@@ -363,6 +485,11 @@ impl<'t> Reader<'t> {
             input,
         };
         let carried = carried.into_iter().map(named).collect();
-        Ok(StepText { carried, names: self.names, lines: self.lines, tape })
+        let times = tape.outputs.drain(..2 * self.calls.len()).skip(self.calls.len()).collect();
+        let Reader { names, lines, call, .. } = self;
+        let (source, calls) = (String::new(), Vec::new());
+        let mut text = StepText { source, names, lines, carried, tape, call, calls };
+        text.calls = StepCall::all(&text, times);
+        Ok(text)
     }
 }

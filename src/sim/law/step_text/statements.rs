@@ -27,14 +27,23 @@ const DECLARERS: [&str; 10] =
 
 /// The words that begin what no step can have.
 const REFUSED: [(&str, &str); 8] = [
-    ("while", "write the lines of one step; `--fps` says how often they run"),
-    ("for", "write the lines of one step; `--fps` says how often they run"),
+    ("while", "write the lines of one step, which has no loops"),
+    ("for", "write the lines of one step, which has no loops"),
     ("return", "assign `x` and `v` in its place"),
     ("fn", "write the lines inside the function"),
     ("func", "write the lines inside the function"),
     ("def", "write the lines inside the function"),
     ("void", "write the lines inside the function"),
     ("function", "write the lines inside the function"),
+];
+
+/// The words that begin such a line in `assets/methods`, where no operator follows.
+const REFUSED_ALONE: [(&str, &str); 5] = [
+    ("takes", "a method takes `a(x, v)` alone"),
+    ("use", "write the lines inside the functions"),
+    ("count", "write the lines of one step, which has no loops"),
+    ("fail", "let the numbers be what they become"),
+    ("stay", "write the lines in an `if` of the opposite"),
 ];
 
 /// The operators of an assignment, each with the one that joins the value to the number before.
@@ -188,6 +197,11 @@ impl Reader<'_> {
                     format!("`{written}(…)` is a call"),
                     "write an assignment, such as `x += v * dt`",
                 ),
+                _ if let Some((_, remedy)) =
+                    REFUSED_ALONE.iter().find(|(word, _)| *word == written) =>
+                {
+                    return fault(name, format!("`{written}` cannot stand in a step"), *remedy);
+                }
                 _ => (
                     format!("`{written}` is not assigned"),
                     "write `=`, `+=`, `-=`, `*=` or `/=` after it",

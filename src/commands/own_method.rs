@@ -1,0 +1,68 @@
+//! Methods by lines of a person's own, in files that end in `.step`.
+
+use std::ffi::OsStr;
+use std::path::Path;
+
+use annotate_snippets::Renderer;
+use clap::builder::{PossibleValue, TypedValueParser};
+use clap::error::ErrorKind;
+
+use super::argument::brief;
+use super::error::Error;
+use super::id::{Id, METHOD};
+use crate::regular_file;
+use crate::scene::{LaneSpec, MAX_FILE_BYTES};
+use crate::sim::integrators::Method;
+
+/// Takes what an id stands for, or the method in a file of lines.
+#[derive(Clone, Copy)]
+pub(super) struct OrStepFile<T: 'static> {
+    pub(super) id: Id<T>,
+    /// What a method stands for.
+    pub(super) of: fn(&'static Method) -> T,
+}
+
+/// Takes the id of a method, or a file of lines.
+pub(super) const METHOD_OR_FILE: OrStepFile<&Method> =
+    OrStepFile { id: METHOD, of: |method| method };
+
+impl<T: Copy + Send + Sync + 'static> TypedValueParser for OrStepFile<T> {
+    type Value = T;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        arg: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<T, clap::Error> {
+        if !is_step(Path::new(value)) {
+            return self.id.parse_ref(command, arg, value);
+        }
+        load(Path::new(value)).map(self.of).map_err(|error| {
+            let report = error.report(&Renderer::plain());
+            let report = report.strip_prefix("error: ").unwrap_or(&report);
+            clap::Error::raw(ErrorKind::ValueValidation, format!("{report}\n"))
+        })
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new((self.id.all)().into_iter().map(|(id, _)| PossibleValue::new(id))))
+    }
+}
+
+/// Whether the name of a file says that it holds the lines of a step.
+fn is_step(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("step"))
+}
+
+/// The method in a file, under the file's name.
+fn load(path: &Path) -> Result<&'static Method, Error> {
+    let name = brief(path);
+    let bytes = regular_file::read(path, MAX_FILE_BYTES).map_err(|error| {
+        Error::mistake(match error.is_missing() {
+            true => format!("no file is called {name:?}; give its path, or the id of a method"),
+            false => format!("cannot read the method {name}: {error}"),
+        })
+    })?;
+    Ok(LaneSpec::from_step(&name, &bytes)?.method)
+}

@@ -1,0 +1,120 @@
+//! Reads a `[[method]]`: a method by lines of its author's own.
+
+use std::path::Path;
+
+use super::errors::{SceneErrors, position};
+use super::keys::{Key, quoted};
+use super::nearest::words;
+use super::table::{Table, Written};
+use super::wanted::{Field, Wanted};
+use super::{LaneSpec, MAX_LANES};
+use crate::sim::integrators::Method;
+use crate::sim::law::{ExpressionFault, Remedy};
+use crate::sim::{check_own_id, own_method, own_method_id};
+
+/// The name of the table array. A key at the top is called so too, which names the method shown first.
+pub(super) const OWN: &str = "method";
+
+/// The most characters of an id; see [`check_own_id`].
+const MAX_ID_CHARS: usize = 64;
+
+const ID: Field = Field::required(
+    "id",
+    "the name by which lanes and commands know it",
+    Wanted::Text(MAX_ID_CHARS),
+);
+
+/// An own method as far as it has been read.
+#[derive(Default)]
+pub(super) struct OwnDraft {
+    id: Option<String>,
+    step: Option<Written>,
+}
+
+/// The keys of an own method.
+pub(super) static OWN_KEYS: [Key<OwnDraft, Method>; 2] = [
+    Key {
+        field: ID,
+        read: |own, row, field| own.id = row.text(field),
+        write: |method| Some(quoted(method.id)),
+    },
+    Key {
+        field: Field::required("step", "its lines (`regatta help step`)", Wanted::Lines),
+        read: |own, row, field| own.step = row.written(field),
+        write: |method| method.own_text().map(lines),
+    },
+];
+
+impl LaneSpec {
+    /// The lane of a method by a person's own lines, from the bytes of a file; `file` is the file's name, whose stem is the
+    /// method's.
+    ///
+    /// # Errors
+    /// The first fault of the lines, or of the name.
+    pub fn from_step(file: &str, bytes: &[u8]) -> Result<Self, SceneErrors> {
+        let text = str::from_utf8(bytes)
+            .map_err(|error| SceneErrors::not_utf8(file, bytes, error.valid_up_to()))?;
+        let id = own_method_id(&Path::new(file).file_stem().unwrap_or_default().to_string_lossy());
+        let of_name = |[what, remedy]: [String; 2]| {
+            let what = format!("the file's name is the method's, and {what}");
+            ExpressionFault { span: 0..0, what, remedy: Remedy::Words(remedy) }
+        };
+        let method = check_own_id(&id).map_err(of_name).and_then(|()| own_method(&id, text));
+        method.map(Self::plain).map_err(|fault| SceneErrors::of_step(file, text, fault))
+    }
+}
+
+/// Lines as a string of several lines.
+fn lines(text: &str) -> String {
+    let escaped = |sign: char| match sign {
+        '\\' => "\\\\".to_owned(),
+        '"' => "\\\"".to_owned(),
+        sign if sign.is_control() && !"\n\t".contains(sign) => format!("\\u{:04X}", sign as u32),
+        sign => sign.to_string(),
+    };
+    format!("\"\"\"\n{}\"\"\"", text.chars().map(escaped).collect::<String>())
+}
+
+/// Reads the own methods of a file, which its other keys may name from then on.
+pub(super) fn read_own(text: &str, top: &mut Table<'_>) {
+    if !top.has_tables(OWN) {
+        return;
+    }
+    let rows = top.rows(OWN);
+    if let Some(row) = rows.get(MAX_LANES) {
+        let what = format!("the scene has {} methods of its own", rows.len());
+        top.complain(row.header.clone(), what, format!("keep at most {MAX_LANES}"));
+    }
+    let mut ids: Vec<(String, usize)> = Vec::new();
+    for mut row in rows.into_iter().take(MAX_LANES) {
+        let mut draft = OwnDraft::default();
+        Key::read_all(&OWN_KEYS, &mut draft, &mut row);
+        let at = row.span(ID.key);
+        if let Some(id) = draft.id {
+            let first = ids.iter().find(|(other, _)| *other == id);
+            let method = match (check_own_id(&id), first, draft.step) {
+                (Err([what, remedy]), ..) => {
+                    row.complain(at.clone(), what, remedy);
+                    None
+                }
+                (_, Some((_, first)), _) => {
+                    let (line, _) = position(text, *first);
+                    let what = format!("the method on line {line} is called {id:?} already");
+                    row.complain(at.clone(), what, "give it another `id`");
+                    None
+                }
+                (.., None) => None,
+                (.., Some(step)) => match own_method(&id, &step.text) {
+                    Ok(method) => Some(method),
+                    Err(fault) => {
+                        row.complain(step.within(&fault.span), fault.what, words(fault.remedy));
+                        None
+                    }
+                },
+            };
+            top.bring(&id, method);
+            ids.push((id, at.start));
+        }
+        top.adopt(row);
+    }
+}

@@ -1,0 +1,216 @@
+//! Which built-in method makes the same of linear forces, or nearly: the powers of the step in the map of one step.
+
+use std::sync::LazyLock;
+
+use super::problems::{Air, Problem, UnitPendulum, fresh, problem};
+use super::stability::{map_of, small_motion};
+use crate::sim::integrators::{Family, METHODS, Method};
+use crate::sim::number::{significant, superscript};
+use crate::sim::numerics::{XorShift, least_squares};
+use crate::sim::state::State;
+
+/// The highest degree of a map in `k` and `c`: the calls that are made one after the other.
+const MAX_DEGREE: u32 = 6;
+/// Maps from which the coefficients are found, and others on which they are tried.
+const SAMPLES: usize = 60;
+const TRIED: usize = 6;
+/// Coefficients that differ by less are the same, and what is less is none.
+const ROUNDING: f64 = 1e-8;
+/// The least likeness of a method that is near.
+const NEAR: f64 = 0.5;
+/// What a coefficient of the other sign counts: a slip of a sign leaves the terms where they are.
+const OTHER_SIGN: f64 = 0.5;
+/// What as many evaluations count.
+const AS_MANY: f64 = 0.1;
+/// Steps of a run in which methods are to stay the same.
+const STEPS: u32 = 12;
+/// Steps in a swing in which energy is watched: a spring of 1 Hz at 60 Hz.
+const STEPS_A_SWING: f64 = 60.0;
+/// The largest denominator of a coefficient that is written as a fraction.
+const MAX_DENOMINATOR: u32 = 120;
+
+/// A term `kⁱ cʲ` of what becomes of `x` or of `v`, by the `x` or the `v` before.
+#[derive(Clone, Copy, PartialEq)]
+struct Term {
+    i: u32,
+    j: u32,
+    /// 0 for `x`, 1 for `v`.
+    of: usize,
+    by: usize,
+}
+
+impl Term {
+    fn all() -> impl Iterator<Item = Term> {
+        let entries = [[0, 0], [0, 1], [1, 0], [1, 1]].into_iter();
+        entries.flat_map(|[of, by]| monomials().map(move |[i, j]| Term { i, j, of, by }))
+    }
+
+    /// The power of the step that goes with it.
+    fn power(self) -> u32 {
+        (2 * self.i + self.j + self.by as u32).saturating_sub(self.of as u32)
+    }
+}
+
+/// Such as `h² k x in x`.
+impl std::fmt::Display for Term {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let factor = |letter: &str, power: u32| match power {
+            0 => String::new(),
+            1 => format!("{letter} "),
+            _ => format!("{letter}{} ", superscript(power as i32)),
+        };
+        let [of, by] = [self.of, self.by].map(|part| ["x", "v"][part]);
+        let factors = [factor("h", self.power()), factor("k", self.i), factor("c", self.j)];
+        write!(f, "{}{by} in {of}", factors.concat())
+    }
+}
+
+fn monomials() -> impl Iterator<Item = [u32; 2]> {
+    (0..=MAX_DEGREE).flat_map(|i| (0..=MAX_DEGREE - i).map(move |j| [i, j]))
+}
+
+/// The coefficients of the map of a step, in the order of [`Term::all`]; `None` if it is no polynomial of such a degree.
+fn coefficients(method: &Method) -> Option<Vec<f64>> {
+    let mut random = XorShift::new(1);
+    let forces: Vec<[f64; 2]> =
+        (0..SAMPLES + TRIED).map(|_| [random.next(), random.next()]).collect();
+    let maps: Vec<_> =
+        forces.iter().map(|force| map_of(method, *force, 1.0)).collect::<Result<_, _>>().ok()?;
+    let value = |[i, j]: [u32; 2], [k, c]: [f64; 2]| {
+        libm::pow(k, f64::from(i)) * libm::pow(c, f64::from(j))
+    };
+    let columns: Vec<Vec<f64>> = monomials()
+        .map(|term| forces[..SAMPLES].iter().map(|force| value(term, *force)).collect())
+        .collect();
+    let mut all = Vec::new();
+    for [of, by] in [[0, 0], [0, 1], [1, 0], [1, 1]] {
+        let values: Vec<f64> = maps.iter().map(|map| map[by][of]).collect();
+        let found = least_squares(&columns, &values[..SAMPLES])?;
+        let is_so = |(force, value_there): (&[f64; 2], &f64)| {
+            let sum: f64 = monomials().zip(&found).map(|(term, by)| by * value(term, *force)).sum();
+            (sum - value_there).abs() < ROUNDING
+        };
+        if !forces.iter().zip(&values).all(is_so) {
+            return None;
+        }
+        all.extend(found);
+    }
+    Some(all)
+}
+
+/// The built-in methods that compute each stage from known values, with their coefficients.
+static KNOWN: LazyLock<Vec<(&'static Method, Vec<f64>)>> = LazyLock::new(|| {
+    let families = [Family::Explicit, Family::Symplectic, Family::AsPrinted];
+    let all = METHODS.iter().filter(|method| families.contains(&method.family));
+    all.filter_map(|method| Some((method, coefficients(method)?))).collect()
+});
+
+/// Whether two methods make the same steps on this system.
+fn are_alike(a: &Method, b: &Method, system: &dyn Fn() -> Problem<f64>) -> bool {
+    let run = |method: &Method| {
+        let (system, mut stepper) = (system(), fresh(method));
+        let mut state = State { q: 0.7, v: -0.4 };
+        let step =
+            |i: u32| stepper.step(&system, 0.2 * f64::from(i), 0.2, &mut state).map(|()| state);
+        (0..STEPS).map(step).collect::<Result<Vec<_>, _>>().unwrap_or_default()
+    };
+    let near = |(a, b): (&State<f64>, &State<f64>)| {
+        (a.q - b.q).abs() < ROUNDING && (a.v - b.v).abs() < ROUNDING
+    };
+    let (a, b) = (run(a), run(b));
+    !a.is_empty() && a.len() == b.len() && a.iter().zip(&b).all(near)
+}
+
+/// From 0 to 1, how much two maps have in common: of each coefficient the smaller of the two as a part of the larger. They count as many times as they are divided by in the exact motion.
+fn likeness(a: &[f64], b: &[f64]) -> f64 {
+    let (mut common, mut all) = (0.0, 0.0);
+    for (term, (a, b)) in Term::all().zip(a.iter().zip(b)) {
+        let weight: f64 = (1..=term.power()).map(f64::from).product();
+        let smaller = a.abs().min(b.abs());
+        common += weight * if a * b > 0.0 { smaller } else { OTHER_SIGN * smaller };
+        all += weight * a.abs().max(b.abs());
+    }
+    common / all
+}
+
+/// The built-in method that is nearest, and the first power of the step in which it differs.
+pub(super) fn nearest(method: &Method, evaluations: Option<u32>) -> String {
+    let Some(own) = coefficients(method) else {
+        return "no step of it on linear forces is a sum of powers of the step".into();
+    };
+    let is_other = |(a, b): (&f64, &f64)| (a - b).abs() >= ROUNDING;
+    let curved: [&dyn Fn() -> Problem<f64>; 2] = [&|| problem(UnitPendulum), &|| problem(Air)];
+    let is_it = |known: &Method| curved.iter().all(|system| are_alike(method, known, system));
+    let rank = |(known, theirs): &(&'static Method, Vec<f64>)| {
+        let is_same = !own.iter().zip(theirs).any(is_other);
+        // Of several that are the same on linear forces, the one that is on others too.
+        let as_many = f64::from(u8::from(known.evaluations == evaluations));
+        match is_same {
+            true => 1.0 + AS_MANY + f64::from(u8::from(is_it(known))),
+            false => likeness(&own, theirs) + AS_MANY * as_many,
+        }
+    };
+    let best = KNOWN.iter().rev().max_by(|a, b| rank(a).total_cmp(&rank(b)));
+    let Some((known, theirs)) = best.filter(|best| rank(best) >= NEAR) else {
+        return "near none of the built-in methods".into();
+    };
+    let mut differing: Vec<(Term, [f64; 2])> = Term::all()
+        .zip(own.iter().zip(theirs))
+        .filter(|(_, pair)| is_other(*pair))
+        .map(|(term, (own, theirs))| (term, [*own, *theirs]))
+        .collect();
+    differing.sort_by_key(|(term, _)| term.power());
+    let id = known.id;
+    let Some((term, pair)) = differing.first() else {
+        let is_linear = are_alike(method, known, &|| problem(super::problems::spring(3.0, 0.1)));
+        return match (is_linear, is_it(known)) {
+            (true, true) => format!("the same as {id}"),
+            (true, false) => format!("the same as {id} on linear forces"),
+            (false, _) => {
+                format!("its first step is that of {id} on linear forces, and later ones are not")
+            }
+        };
+    };
+    let [own, theirs] = pair.map(fraction);
+    format!(
+        "nearest: {id} (order {}), from which, under a = -k x - c v, the coefficient of {term} differs: {own} for {theirs}",
+        known.order
+    )
+}
+
+/// A coefficient as a fraction, if it is one.
+fn fraction(value: f64) -> String {
+    let whole = |denominator: u32| (value * f64::from(denominator)).round();
+    let is_it = |denominator: &u32| {
+        (whole(*denominator) / f64::from(*denominator) - value).abs() < ROUNDING
+    };
+    match (1..=MAX_DENOMINATOR).find(is_it) {
+        Some(1) => format!("{}", whole(1) + 0.0),
+        Some(denominator) => format!("{}/{denominator}", whole(denominator)),
+        None => significant(value, 6),
+    }
+}
+
+/// What a method does to the energy of a spring.
+pub(super) fn energy(method: &'static Method) -> String {
+    let h = std::f64::consts::TAU / STEPS_A_SWING;
+    let found = small_motion().and_then(|motion| motion.stability(method, h, 1).ok());
+    let radius = found.map_or(f64::NAN, |found| found.spectral_radius);
+    let change = libm::pow(radius, 2.0 * STEPS_A_SWING) - 1.0;
+    let part = |change: f64| match 100.0 * change {
+        percent if percent < 1000.0 => format!("{} %", significant(percent, 3)),
+        _ => format!("{} times", significant(change, 3)),
+    };
+    match change {
+        change if !change.is_finite() => "a spring of 1 Hz at 60 Hz blows up".into(),
+        change if change.abs() < ROUNDING => {
+            "a spring gains and loses no energy in the long run".into()
+        }
+        change if change > 0.0 => {
+            format!("a spring of 1 Hz at 60 Hz gains {} of its energy a swing", part(change))
+        }
+        change => {
+            format!("a spring of 1 Hz at 60 Hz loses {} of its energy a swing", part(-change))
+        }
+    }
+}

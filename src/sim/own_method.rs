@@ -1,0 +1,103 @@
+//! Methods by lines of a person's own, with cards that are measured.
+
+use std::sync::{Mutex, PoisonError};
+
+use super::conformance;
+use super::integrators::{Family, METHODS, Method};
+use super::law::{ExpressionFault, Remedy, StepText};
+
+/// The most characters of an id.
+const MAX_ID_CHARS: usize = 64;
+
+/// Every method that was made, so that equal lines under one id are one method.
+static KNOWN: Mutex<Vec<&'static Method>> = Mutex::new(Vec::new());
+
+/// The method of these lines under this id. Its card is measured by [`conformance`], once in a process: a fraction of a
+/// second. Equal lines have one card, which is kept for as long as the process lives.
+///
+/// # Errors
+/// The first fault of the lines, or that they call no acceleration.
+///
+/// ```
+/// use regatta::sim::own_method;
+///
+/// let euler = own_method("mine", "v += a(x, v) * h; x += v * h").unwrap();
+/// assert_eq!((euler.order, euler.evaluations, euler.symplectic), (1, Some(1), true));
+/// assert!(own_method("mine", "x += v * h").is_err());
+/// ```
+pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFault> {
+    let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let is_it = |method: &&&Method| method.id == id && method.own_text() == Some(text);
+    if let Some(method) = known().iter().find(is_it) {
+        return Ok(method);
+    }
+    let read = StepText::read(text)?;
+    if read.acceleration_at().is_none() {
+        return Err(ExpressionFault {
+            span: 0..text.len(),
+            what: "no line calls `a(x, v)`, so that the lines are a rule".into(),
+            remedy: Remedy::Words(
+                "ask `regatta rule`, or call the acceleration: `v += h * a(x, v)`".into(),
+            ),
+        });
+    }
+    let code = read.code().map(|code| code.method()).unwrap_or_default();
+    let formula =
+        text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let formula: Vec<&'static str> = formula.map(|line| &*line.to_owned().leak()).collect();
+    let name: &'static str = id.to_owned().leak();
+    let lines = Box::leak(Box::new(read));
+    let card = Box::leak(Box::new(Method {
+        id: name,
+        name,
+        about: "a method by lines of one's own",
+        formula: formula.leak(),
+        code: code.leak(),
+        source: "lines of one's own; this card is measured",
+        own: Some(lines),
+        ..Family::Explicit.card()
+    }));
+    let method = conformance::measured(card);
+    let mut known = known();
+    // Another thread may have been faster.
+    if let Some(method) = known.iter().find(is_it) {
+        return Ok(method);
+    }
+    known.push(Box::leak(Box::new(method)));
+    Ok(known[known.len() - 1])
+}
+
+/// The id of the method in a file whose name without its ending is this: its letters and digits in lower case, with hyphens
+/// for all others.
+pub fn own_method_id(stem: &str) -> String {
+    let mut id = String::new();
+    for letter in stem.chars() {
+        match letter {
+            letter if letter.is_ascii_alphanumeric() => id.push(letter.to_ascii_lowercase()),
+            _ if !id.is_empty() && !id.ends_with('-') => id.push('-'),
+            _ => {}
+        }
+    }
+    id.trim_end_matches('-').to_owned()
+}
+
+/// What is wrong with the id of an own method, and how to mend it.
+///
+/// # Errors
+/// If it is none, or one of [`METHODS`] has it.
+pub fn check_own_id(id: &str) -> Result<(), [String; 2]> {
+    if id.is_empty() || own_method_id(id) != id || id.len() > MAX_ID_CHARS {
+        let remedy = format!(
+            "write up to {MAX_ID_CHARS} lower-case letters and digits with hyphens between, such as `my-rk4`"
+        );
+        return Err([format!("{id:?} is no id of a method"), remedy]);
+    }
+    let mut taken = METHODS.iter().flat_map(Method::spellings);
+    match taken.find(|(spelling, _)| *spelling == id) {
+        Some((_, of)) => Err([
+            format!("{id:?} is a name of the built-in method {of}"),
+            format!("give it another name, such as `my-{id}`"),
+        ]),
+        None => Ok(()),
+    }
+}

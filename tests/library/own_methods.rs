@@ -1,0 +1,239 @@
+//! Methods by lines of a person's own: their motion, their cards, and what is said of them.
+
+use glam::DVec2;
+use regatta::conformance::check;
+use regatta::conformance::problems::{Kepler, Problem, kepler_orbit, problem, spring};
+use regatta::sim::integrators::{GENERAL_METHODS, METHODS, Method, integrator};
+use regatta::sim::law::StepText;
+use regatta::sim::{State, Vector, check_own_id, own_method, own_method_id};
+
+/// The methods of the table whose sources are lines of one step.
+const TAKEN: [&str; 15] = [
+    "explicit-euler",
+    "midpoint",
+    "improved-euler",
+    "ssp-rk3",
+    "rk4",
+    "adams-bashforth-2",
+    "semi-implicit-euler",
+    "velocity-verlet",
+    "position-verlet",
+    "yoshida4",
+    "pefrl",
+    "improved-euler-as-printed",
+    "rk4-as-printed",
+    "adaptive-euler-as-printed",
+    "jakobsen-verlet",
+];
+
+fn own(method: &Method) -> &'static Method {
+    own_method(&format!("own-{}", method.id), method.code)
+        .unwrap_or_else(|fault| panic!("{}: {fault:?}", method.id))
+}
+
+/// The states of a run.
+fn run<V: Vector>(method: &Method, system: &Problem<V>, start: &State<V>) -> Vec<State<V>> {
+    let (mut state, mut stepper) = (start.clone(), integrator(method, &start.q));
+    let step = |i: u32| {
+        // Of another length in the midst.
+        let h = if i < 60 { 0.02 } else { 0.013 };
+        stepper.step(system, 0.02 * f64::from(i), h, &mut state).unwrap();
+        state.clone()
+    };
+    (0..100).map(step).collect()
+}
+
+#[test]
+fn the_sources_that_are_lines_of_one_step_are_read_and_all_others_refused_with_a_reason() {
+    for method in METHODS {
+        let read = StepText::read(method.code);
+        match read {
+            Ok(text) => {
+                let is_method = text.acceleration_at().is_some();
+                assert_eq!(is_method, TAKEN.contains(&method.id), "{}", method.id);
+            }
+            Err(fault) => {
+                assert!(!TAKEN.contains(&method.id), "{}: {fault:?}", method.id);
+                println!("{:30} {}; {:?}", method.id, fault.what, fault.remedy);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_source_read_as_own_lines_moves_as_the_method_does() {
+    for method in GENERAL_METHODS.iter().filter(|method| TAKEN.contains(&method.id)) {
+        let own = own(method);
+        let swing = State { q: 1.0, v: 0.5 };
+        let [found, wanted] =
+            [own, method].map(|method| run(method, &problem(spring(3.0, 0.1)), &swing));
+        let off = found.iter().zip(&wanted).map(|(a, b)| (a.q - b.q).abs().max((a.v - b.v).abs()));
+        let off = off.fold(0.0, f64::max);
+        println!("{:30} {off:e}", method.id);
+        assert!(off < 1e-13, "{}: {off}", method.id);
+        let orbit = kepler_orbit(0.3, 0.0);
+        let [found, wanted] = [own, method].map(|method| run(method, &problem(Kepler), &orbit));
+        let off = found.iter().zip(&wanted).map(|(a, b): (&State<DVec2>, &State<DVec2>)| {
+            (a.q - b.q).length().max((a.v - b.v).length())
+        });
+        assert!(off.fold(0.0, f64::max) < 1e-12, "{}", method.id);
+    }
+}
+
+#[test]
+fn the_card_of_own_lines_is_measured_and_holds() {
+    for method in GENERAL_METHODS
+        .iter()
+        .filter(|method| TAKEN.contains(&method.id) && method.tolerance.is_none())
+    {
+        let own = own(method);
+        let of = |card: &Method| {
+            (
+                [card.order, card.order_with_drag],
+                card.evaluations,
+                [card.symplectic, card.reversible, card.restart.is_some()],
+            )
+        };
+        assert_eq!(of(own), of(method), "{}", method.id);
+        let limits = |card: &Method| {
+            let damped = card.damped_limits.unwrap();
+            [card.stability_limit.unwrap(), damped[0], damped[1], damped[2]]
+        };
+        let off = limits(own).into_iter().zip(limits(method)).map(|(a, b)| (a - b).abs());
+        assert!(off.fold(0.0, f64::max) < 2e-3, "{}: {:?}", method.id, limits(own));
+        // A listing as printed may be better in its velocity; own lines are no listing.
+        let found = check(own);
+        assert!(found.holds() || method.is_as_printed(), "{found}");
+    }
+}
+
+/// Runge-Kutta 4 with a slip.
+fn slipped(right: &str, wrong: &str) -> &'static Method {
+    let rk4 = METHODS.iter().find(|method| method.id == "rk4").unwrap().code;
+    assert!(rk4.contains(right));
+    own_method("slipped", &rk4.replacen(right, wrong, 1)).unwrap()
+}
+
+#[test]
+fn a_slip_in_rk4_is_told_with_its_order_and_the_coefficient_that_differs() {
+    let sign = slipped("let k2_x = v +", "let k2_x = v -").about;
+    assert!(sign.starts_with("order 1.00; a spring of 1 Hz at 60 Hz gains "), "{sign}");
+    // By hand: a third of the second stage goes to x, with half a step of the first the wrong way round.
+    let end = "nearest: rk4 (order 4), from which, under a = -k x - c v, the coefficient of h² k x in x differs: -1/6 for -1/2";
+    assert!(sign.ends_with(end), "{sign}");
+    let stage = slipped("let k4_v = a(x + h * k3_x", "let k4_v = a(x + h * k2_x").about;
+    assert!(stage.contains("order 3.") || stage.contains("order 2."), "{stage}");
+    assert!(stage.contains("nearest: rk4 "), "{stage}");
+    for (lines, told) in [
+        ("v += a(x, v) * h; x += v * h", "the same as semi-implicit-euler"),
+        // Heun's method is the midpoint method on linear forces.
+        (
+            "let k = a(x, v); let w = v + h * k; let l = a(x + h * v, w); x += h * (v + w) / 2; v += h * (k + l) / 2",
+            "the same as improved-euler",
+        ),
+        (
+            "x = 3 * x + 20 * h * h * a(x, v); v = 7 * v - 5 * x",
+            "near none of the built-in methods",
+        ),
+    ] {
+        let about = own_method("told", lines).unwrap().about;
+        assert!(about.ends_with(told), "{about}");
+    }
+}
+
+#[test]
+fn a_call_is_made_at_the_part_of_the_step_that_its_place_tells() {
+    let parts = |text: &str| -> Vec<f64> {
+        StepText::read(text).unwrap().calls().iter().map(|call| call.part).collect()
+    };
+    let code = |id: &str| METHODS.iter().find(|method| method.id == id).unwrap().code;
+    assert_eq!(parts(code("rk4")), [0.0, 0.5, 0.5, 1.0]);
+    assert_eq!(parts(code("position-verlet")), [0.5]);
+    assert_eq!(parts(code("velocity-verlet")), [0.0, 1.0]);
+    assert_eq!(parts("v += h * a(x, v, h / 4); x += h * v"), [0.25]);
+    // A ramp that only time makes, from rest: after a second v is its integral, which the middle has exactly.
+    struct Ramp;
+    impl regatta::sim::System for Ramp {
+        type Vector = f64;
+        fn acceleration(&self, t: f64, _q: &f64, _v: &f64, a: &mut f64) {
+            *a = t;
+        }
+    }
+    let rk4 = own_method("ramp", code("rk4")).unwrap();
+    let mut state = State { q: 0.0, v: 0.0 };
+    integrator(rk4, &0.0).step(&problem(Ramp), 3.0, 1.0, &mut state).unwrap();
+    assert!(
+        (state.v - 3.5).abs() < 1e-15 && (state.q - (1.5 + 1.0 / 6.0)).abs() < 1e-15,
+        "{state:?}"
+    );
+}
+
+#[test]
+fn a_call_in_a_block_is_made_only_where_the_block_is_run() {
+    let text = "memory n = 0\nlet k = a(x, v)\nif n < 2 {\n  v += h * a(x, v)\n} else {\n  v += h * k\n}\nx += h * v\nn = n + 1";
+    let method = own_method("sometimes", text).unwrap();
+    let system = problem(spring(2.0, 0.0));
+    let mut state = State { q: 1.0, v: 0.0 };
+    let mut stepper = integrator(method, &0.0);
+    let counts = [(); 4].map(|()| {
+        let before = system.evaluations();
+        stepper.step(&system, 0.0, 0.01, &mut state).unwrap();
+        system.evaluations() - before
+    });
+    assert_eq!(counts, [2, 2, 1, 1]);
+    stepper.reset();
+    let before = system.evaluations();
+    stepper.step(&system, 0.0, 0.01, &mut state).unwrap();
+    assert_eq!(system.evaluations() - before, 2, "a reset gives the memory its first value");
+}
+
+#[test]
+fn ids_are_those_of_files_and_none_of_a_built_in_method() {
+    for (stem, id) in
+        [("my_RK4", "my-rk4"), ("Game.Verlet", "game-verlet"), ("é", ""), ("-a--b-", "a-b")]
+    {
+        assert_eq!(own_method_id(stem), id);
+    }
+    assert!(check_own_id("my-rk4").is_ok());
+    for id in ["", "rk4", "My", "a--b", "a_b"] {
+        assert!(check_own_id(id).is_err(), "{id}");
+    }
+    let [one, other] = ["x += h * v; v += h * a(x, v)", "v += h * a(x, v); x += h * v"]
+        .map(|text| own_method("twin", text).unwrap());
+    assert!(
+        one != other
+            && std::ptr::eq(one, own_method("twin", "x += h * v; v += h * a(x, v)").unwrap())
+    );
+}
+
+#[test]
+fn a_scene_its_recording_and_its_link_carry_the_lines() {
+    use regatta::run::{Session, link};
+    use regatta::scene::{LaneSpec, Scene};
+
+    let lines = "// \"mine\" \\ é\r\nv += h * a(x, v)\n\tx += h * v\n";
+    let lane = LaneSpec::from_step("dir/My_Euler.step", lines.as_bytes()).unwrap();
+    assert_eq!(lane.method.id, "my-euler");
+    let rk4 = METHODS.iter().find(|method| method.id == "rk4").unwrap();
+    let mut scene = Scene::built_in("spring").unwrap().with_methods(&[lane.method, rk4]);
+    scene.opening_method = Some(lane.method);
+    let again = Scene::parse("again.toml", &scene.to_toml()).unwrap();
+    assert_eq!(again.lanes, scene.lanes);
+    assert!(std::ptr::eq(again.lanes[0].method, lane.method));
+    assert!(again.methods_for_games().any(|method| method == lane.method));
+    let mut session = Session::racing(scene.into());
+    session.run(90);
+    let text = session.recording_text(90).unwrap();
+    let recorded = Scene::parse("recorded.toml", &text).unwrap();
+    let packed = link::text(&link::to(&recorded).unwrap()).unwrap();
+    for scene in [recorded, Scene::parse("link", &packed).unwrap()] {
+        let checks = scene.checks.clone();
+        let mut replay = Session::racing(scene.into());
+        replay.run(90);
+        let last = checks.iter().filter(|check| check.tick == 90);
+        for check in last {
+            assert_eq!(replay.race().lane_hash(check.lane), Some(check.hash));
+        }
+        assert!(checks.iter().any(|check| check.tick == 90));
+    }
+}
