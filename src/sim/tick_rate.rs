@@ -20,9 +20,9 @@ const MAX_TERM: u64 = 100_000_000_000_000;
 /// use regatta::sim::TickRate;
 ///
 /// let source: TickRate = TickRate::of_step("0.015").expect("a step");
-/// assert_eq!(source, "200/3".parse().expect("a rate"));
+/// assert_eq!(source, "200/3".parse::<TickRate>().expect("a rate"));
 /// assert_eq!((source.step_s(), source.seconds(200)), (0.015, 3.0));
-/// assert_eq!(TickRate::from(60), "60.0".parse().expect("a rate"));
+/// assert_eq!(TickRate::from(60), "60.0".parse::<TickRate>().expect("a rate"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TickRate {
