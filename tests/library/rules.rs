@@ -343,6 +343,8 @@ fn what_games_call_the_numbers_and_where_they_start_is_read() {
     ] {
         assert_eq!(frames(same), plain, "{same}");
     }
+    let declared = StepText::read("float x = 2f;\nx += v;").unwrap();
+    assert_eq!(declared.value(&declared.registers(), 0), 2.0);
     let own = StepText::read("let speed = 2; x += speed * v").unwrap();
     assert!(own.is_linear() && own.keeps(1), "a name of its own beside v");
     let fault = Rule::read("x += v; x = x / 0", FPS).unwrap_err();
