@@ -165,11 +165,12 @@ fn words(rule: &Rule, written: &str, language: Language) -> String {
     if !rule.takes_step() {
         said += "without dt: a frame does the same at every rate, so that it is twice as fast at twice the rate\n";
     }
-    for (what, below) in [("rings", rule.rings_below_fps()), ("grows", rule.explodes_below_fps())] {
-        let line = |below| format!("{what} below {} frames per second\n", significant(below, 4));
+    let explodes_below = rule.explodes_below_fps();
+    for (verb, below) in [("rings", rule.rings_below_fps()), ("grows", explodes_below)] {
+        let line = |below| format!("{verb} below {} frames per second\n", significant(below, 4));
         said += &below.map(line).unwrap_or_default();
     }
-    let grows = rule.takes_step() && rule.explodes_below_fps().is_none() && rule.grows();
+    let grows = rule.takes_step() && explodes_below.is_none() && rule.grows();
     said += if grows { "grows at every frame rate\n" } else { "" };
     if let Some(coasts) = rule.coasts_s() {
         let seconds: Vec<String> = coasts.iter().map(|seconds| significant(*seconds, 4)).collect();

@@ -246,11 +246,11 @@ fn read_in(
     let mut last_ns = None;
     loop {
         let next = table.next(&mut record);
-        if columns.end_before(&text_of(&record)) {
+        let row = text_of(&record);
+        if columns.end_before(&row) {
             break;
         }
         let Some(line) = next.map_err(broken)? else { break };
-        let row = text_of(&record);
         let mut cells = columns.read(&row, in_unit).map_err(|fault| at(line, fault))?;
         if let (true, Ok(now_ns)) = (columns.is_since_start(), &mut cells.began_ns) {
             let before_ns = last_ns.replace(*now_ns).unwrap_or(*now_ns);

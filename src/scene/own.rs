@@ -10,18 +10,15 @@ use super::wanted::{Field, Wanted};
 use super::{LaneSpec, MAX_LANES};
 use crate::sim::integrators::Method;
 use crate::sim::law::{ExpressionFault, Remedy};
-use crate::sim::{check_own_id, own_method, own_method_id};
+use crate::sim::{MAX_OWN_ID_CHARS, check_own_id, own_method, own_method_id};
 
 /// The name of the table array. A key at the top is called so too, which names the method shown first.
 pub(super) const OWN: &str = "method";
 
-/// The most characters of an id; see [`check_own_id`].
-const MAX_ID_CHARS: usize = 64;
-
 const ID: Field = Field::required(
     "id",
     "the name by which lanes and commands know it",
-    Wanted::Text(MAX_ID_CHARS),
+    Wanted::Text(MAX_OWN_ID_CHARS),
 );
 
 /// An own method as far as it has been read.

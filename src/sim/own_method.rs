@@ -6,8 +6,8 @@ use super::conformance;
 use super::integrators::{Family, METHODS, Method};
 use super::law::{ExpressionFault, Remedy, StepText};
 
-/// The most characters of an id.
-const MAX_ID_CHARS: usize = 64;
+/// The most characters of the id of an own method.
+pub(crate) const MAX_OWN_ID_CHARS: usize = 64;
 
 /// Every method that was made, so that equal lines under one id are one method.
 static KNOWN: Mutex<Vec<&'static Method>> = Mutex::new(Vec::new());
@@ -86,9 +86,9 @@ pub fn own_method_id(stem: &str) -> String {
 /// # Errors
 /// If it is none, or one of [`METHODS`] has it.
 pub fn check_own_id(id: &str) -> Result<(), [String; 2]> {
-    if id.is_empty() || own_method_id(id) != id || id.len() > MAX_ID_CHARS {
+    if id.is_empty() || own_method_id(id) != id || id.len() > MAX_OWN_ID_CHARS {
         let remedy = format!(
-            "write up to {MAX_ID_CHARS} lower-case letters and digits with hyphens between, such as `my-rk4`"
+            "write up to {MAX_OWN_ID_CHARS} lower-case letters and digits with hyphens between, such as `my-rk4`"
         );
         return Err([format!("{id:?} is no id of a method"), remedy]);
     }

@@ -36,6 +36,13 @@ fn above_0(written: &str, unit: &str, what: &str) -> Result<f64, String> {
     if found > 0.0 { Ok(found) } else { Err(format!("{what} is {written}; it must be above 0")) }
 }
 
+/// The setting before the `@`, and the frames per second behind it.
+fn with_frames<'a>(written: &'a str, example: &str) -> Result<(&'a str, f64), String> {
+    let parts = written.split_once('@');
+    let (setting, fps) = parts.ok_or_else(|| format!("give the frames too: {example}"))?;
+    Ok((setting, above_0(fps, "fps", "the rate of frames")?))
+}
+
 impl From {
     /// Reads it, at this tick rate in hertz and of a body of this mass in kg.
     pub(super) fn parse(written: &str, tick_hz: f64, mass_kg: f64) -> Result<Self, String> {
@@ -50,9 +57,7 @@ impl From {
         };
         match head {
             "lerp" => {
-                let (part, fps) =
-                    rest.split_once('@').ok_or("give the frames too: lerp:0.1@60fps")?;
-                let fps = above_0(fps, "fps", "the rate of frames")?;
+                let (part, fps) = with_frames(rest, "lerp:0.1@60fps")?;
                 let part = with_unit(part, "")?;
                 let fits = part > 0.0 && part < 1.0;
                 let wrong = || format!("the part is {part}; it must be between 0 and 1");
@@ -62,9 +67,7 @@ impl From {
                 ))
             }
             "lerp-dt" => {
-                let (rate, fps) =
-                    rest.split_once('@').ok_or("give the frames too: lerp-dt:20@30fps")?;
-                let fps = above_0(fps, "fps", "the rate of frames")?;
+                let (rate, fps) = with_frames(rest, "lerp-dt:20@30fps")?;
                 let rate = above_0(rate, "", "the rate")?;
                 let part = rate / fps;
                 if part >= 1.0 {
@@ -77,9 +80,7 @@ impl From {
                 Ok(From::Approach(Approach::of_lerp(part, fps), Some(fps)))
             }
             "friction" => {
-                let (kept, fps) =
-                    rest.split_once('@').ok_or("give the frames too: friction:0.9@60fps")?;
-                let fps = above_0(fps, "fps", "the rate of frames")?;
+                let (kept, fps) = with_frames(rest, "friction:0.9@60fps")?;
                 let kept = with_unit(kept, "")?;
                 let fits = kept > 0.0 && kept < 1.0;
                 let wrong = || format!("{kept} is kept; it must be between 0 and 1");
