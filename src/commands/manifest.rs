@@ -141,6 +141,9 @@ impl Settings {
 pub struct OwnEntry {
     pub id: String,
     pub step: String,
+    /// The frame rate of a rule's author, exactly; nothing for a method.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fps: Option<String>,
 }
 
 /// A scene file as it was.

@@ -51,7 +51,7 @@ impl<T: Copy + Send + Sync + 'static> TypedValueParser for OrStepFile<T> {
 }
 
 /// Whether the name of a file says that it holds the lines of a step.
-fn is_step(path: &Path) -> bool {
+pub(super) fn is_step(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("step"))
 }
 

@@ -10,6 +10,7 @@ use super::argument::brief;
 use super::error::Error;
 use super::help::flowing;
 use super::id::LANGUAGE_OR_CPP;
+use super::output::print;
 use super::output::table::{Column, TableFormat, text};
 use super::tick_rate::rate_of_a_log;
 use crate::regular_file;
@@ -18,7 +19,7 @@ use crate::sim::law::MAX_STEP_BYTES;
 use crate::sim::number::significant;
 use crate::tools::Rule;
 use crate::tools::port::{DIALECTS, Reach, Wish, followers};
-use crate::tools::rule::SeenRule;
+use crate::tools::rule::{SeenRule, rule_scene};
 use crate::tools::source_code::Language;
 
 const ABOUT: &str = "\
@@ -37,7 +38,8 @@ Examples:
   regatta rule 'v = (v + (target - x) * 0.2) * 0.85; x += v'
   regatta rule 'x += (target - x) * 20 * dt' --fps 30 --as csharp
   regatta rule 'v *= 0.9; x += v * dt' --format json
-  regatta rule camera.step";
+  regatta rule camera.step
+  regatta rule camera.step --fps 50 --scene > camera.toml";
 
 /// Say what your own lines do at every frame rate
 ///
@@ -58,6 +60,13 @@ pub(super) struct RuleArgs {
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
     #[arg(value_parser = LANGUAGE_OR_CPP, hide_possible_values = true)]
     language: Language,
+
+    /// Print a scene of it instead: the lines raced at half, once and twice that rate
+    ///
+    /// Their motion at the rate of --fps is the exact one there. `regatta RULE.step` opens that scene in the window, for 60
+    /// frames per second.
+    #[arg(long, conflicts_with_all = ["format", "language"])]
+    scene: bool,
 
     /// The format: text or json
     #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
@@ -93,6 +102,12 @@ fn read(written: &str) -> Result<(String, String), Error> {
 
 pub(super) fn run(args: &RuleArgs) -> Result<(), Error> {
     let (name, written) = read(&args.rule)?;
+    if args.scene {
+        let fps = args.fps.to_string().parse().map_err(|wanted| {
+            Error::mistake(format!("--fps {} is no tick rate: {wanted}", args.fps))
+        })?;
+        return print(rule_scene(&name, &written, fps)?.to_toml());
+    }
     let rule = Rule::read(&written, args.fps)
         .map_err(|fault| Error::from(SceneErrors::of_step(&name, &written, fault)))?;
     args.format.print(&match args.format {

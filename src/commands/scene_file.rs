@@ -5,18 +5,30 @@ use std::path::Path;
 use super::argument::brief;
 use super::error::Error;
 use super::output::Input;
+use super::own_method::is_step;
 use super::terminal::print_status;
 
 pub(super) use crate::regular_file::is_link;
 use crate::regular_file::{self, Unreadable};
 use crate::run::link::{self, Link};
 use crate::scene::{BuiltIn, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, nearest};
+use crate::sim::TickRate;
 use crate::sim::integrators::Method;
+use crate::sim::law::StepText;
+use crate::tools::rule::rule_scene;
+
+/// The frame rate of a rule's author where nothing says it: the usual one of games.
+const USUAL_FPS: TickRate = TickRate::whole(60);
 
 /// The built-in scene of that name, or the scene in the file at that path or in that link, and its text.
 pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
     if let Some(built_in) = built_in(path) {
         return Ok((Scene::parse(built_in.name, built_in.text)?, built_in.text.to_owned()));
+    }
+    if is_step(path) {
+        let scene = scene_of_rule(path)?;
+        let text = scene.to_toml();
+        return Ok((scene, text));
     }
     let bytes = read(path)?;
     let scene = Scene::from_bytes(&name_in_link(path).unwrap_or_else(|| shown(path)), &bytes)?;
@@ -25,10 +37,25 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
 }
 
+/// The scene of the rule in a file of lines.
+fn scene_of_rule(path: &Path) -> Result<Scene, Error> {
+    let (name, bytes) = (brief(path), read(path)?);
+    let Ok(text) = str::from_utf8(&bytes) else {
+        return Err(Error::mistake(format!("{name} is not text; save it as UTF-8")));
+    };
+    if StepText::read(text).is_ok_and(|text| text.acceleration_at().is_some()) {
+        return Err(Error::mistake(format!(
+            "{name} calls the acceleration, and is a method; give `--method {name}`, with a scene"
+        )));
+    }
+    Ok(rule_scene(&name, text, USUAL_FPS)?)
+}
+
 /// The text that the built-in scene of that name, or the file at that path, has now; `None` if it cannot be read.
 pub(super) fn text_now(path: &Path) -> Option<String> {
     match built_in(path) {
         Some(built_in) => Some(built_in.text.to_owned()),
+        None if is_step(path) => Some(scene_of_rule(path).ok()?.to_toml()),
         None => Some(String::from_utf8_lossy(&read(path).ok()?).into_owned()),
     }
 }
@@ -54,7 +81,7 @@ pub(super) fn is_built_in(path: &Path) -> bool {
 
 /// Whether `path` says by its ending, or as a built-in scene by its name, that it is a scene.
 pub(super) fn is_name(path: &Path) -> bool {
-    is_built_in(path) || path.extension().is_some_and(|ending| ending == "toml")
+    is_built_in(path) || is_step(path) || path.extension().is_some_and(|ending| ending == "toml")
 }
 
 /// Whether `path` is the path of a file.

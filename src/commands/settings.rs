@@ -10,9 +10,8 @@ use super::schedule::{MAX_FPS, Schedule};
 use crate::look::palette::Theme;
 use crate::measure::cloud::{CloudChoice, CloudKind};
 use crate::run::race::Mode;
-use crate::scene::{LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, Swing, TOLERANCES};
+use crate::scene::{LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, Swing, TOLERANCES, own};
 use crate::sim::integrators::{Method, method};
-use crate::sim::own_method;
 use crate::studio::{Instrument, Motion, RunCommand, Studio};
 
 /// How a run is drawn: its frames, their size and what they show.
@@ -64,7 +63,9 @@ pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Set
         joint: lane.joint.map(|it| [it.frequency_hz, it.damping_ratio]),
     };
     let own = |method: &&Method| {
-        Some(OwnEntry { id: method.id.to_owned(), step: method.own_text()?.to_owned() })
+        let step = method.own_text()?.to_owned();
+        let fps = method.rule_fps().map(|fps| fps.to_string());
+        Some(OwnEntry { id: method.id.to_owned(), step, fps })
     };
     Settings {
         scene: SceneText {
@@ -99,13 +100,12 @@ pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Set
 /// Why this program cannot run it.
 pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings), String> {
     let SceneText { name, text, .. } = &settings.scene;
-    let own = |entry: &OwnEntry| {
-        let made = own_method(&entry.id, &entry.step);
-        made.map_err(|fault| {
-            format!("this program cannot read the method {:?}: {}", entry.id, fault.what)
-        })
+    let made = |entry: &OwnEntry| {
+        let refused = |why| format!("this program cannot read the method {:?}: {why}", entry.id);
+        let fps = entry.fps.as_deref().map(str::parse).transpose().map_err(refused)?;
+        own(&entry.id, &entry.step, fps).map_err(|fault| refused(fault.what))
     };
-    let own = settings.methods.iter().map(own).collect::<Result<Vec<_>, _>>()?;
+    let own = settings.methods.iter().map(made).collect::<Result<Vec<_>, _>>()?;
     let known = |id: &str| {
         let found = own.iter().copied().find(|own| own.id == id).or_else(|| method(id));
         found.ok_or_else(|| format!("this program has no method {id:?}"))

@@ -186,7 +186,7 @@ impl SweepArgs {
             }
         }
         let asked = |method: &&Method| match &self.methods[..] {
-            [] => method.is_for_games(),
+            [] => method.is_for_games() || method.rule_fps().is_some(),
             named => named.contains(method),
         };
         let rates = self.tick_rates.given();

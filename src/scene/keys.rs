@@ -91,6 +91,11 @@ pub(super) fn tick_hz(rate: TickRate) -> Option<String> {
     rate.decimal_hz().or_else(|| (!is_step).then(|| quoted(&rate.to_string())))
 }
 
+/// A rate that no other key can say, as TOML.
+pub(super) fn rate(rate: TickRate) -> String {
+    rate.decimal_hz().unwrap_or_else(|| quoted(&rate.to_string()))
+}
+
 /// The length of a tick as TOML, of a rate that only this says as a decimal.
 pub(super) fn step_s(rate: TickRate) -> Option<String> {
     rate.decimal_step_s().filter(|_| rate.decimal_hz().is_none())

@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use super::errors::{SceneErrors, position};
-use super::keys::{Key, quoted};
+use super::keys::{Key, quoted, rate};
 use super::nearest::words;
 use super::table::{Table, Written};
 use super::wanted::{Field, Wanted};
 use super::{LaneSpec, MAX_LANES};
 use crate::sim::integrators::Method;
-use crate::sim::law::{ExpressionFault, Remedy};
-use crate::sim::{MAX_OWN_ID_CHARS, check_own_id, own_method, own_method_id};
+use crate::sim::law::{ExpressionFault, Remedy, StepText};
+use crate::sim::{MAX_OWN_ID_CHARS, TickRate, check_own_id, own_method, own_method_id, own_rule};
 
 /// The name of the table array. A key at the top is called so too, which names the method shown first.
 pub(super) const OWN: &str = "method";
@@ -26,14 +26,24 @@ const ID: Field = Field::required(
 pub(super) struct OwnDraft {
     id: Option<String>,
     step: Option<Written>,
+    fps: Option<TickRate>,
 }
 
 /// The keys of an own method.
-pub(super) static OWN_KEYS: [Key<OwnDraft, Method>; 2] = [
+pub(super) static OWN_KEYS: [Key<OwnDraft, Method>; 3] = [
     Key {
         field: ID,
         read: |own, row, field| own.id = row.text(field),
         write: |method| Some(quoted(method.id)),
+    },
+    Key {
+        field: Field::optional(
+            "fps",
+            "of a rule, the frames per second for which it was written",
+            Wanted::TickRate,
+        ),
+        read: |own, row, field| own.fps = row.tick_rate(field),
+        write: |method| method.rule_fps().map(rate),
     },
     Key {
         field: Field::required("step", "its lines (`regatta help step`)", Wanted::Lines),
@@ -59,6 +69,32 @@ impl LaneSpec {
         let method = check_own_id(&id).map_err(of_name).and_then(|()| own_method(&id, text));
         method.map(Self::plain).map_err(|fault| SceneErrors::of_step(file, text, fault))
     }
+}
+
+/// Whether these are the lines of a rule: they call no acceleration.
+pub fn is_rule(bytes: &[u8]) -> bool {
+    let read = str::from_utf8(bytes).ok().and_then(|text| StepText::read(text).ok());
+    read.is_some_and(|text| text.acceleration_at().is_none())
+}
+
+/// The method or the rule of these lines.
+///
+/// # Errors
+/// The first fault.
+pub(crate) fn own(
+    id: &str,
+    text: &str,
+    fps: Option<TickRate>,
+) -> Result<&'static Method, ExpressionFault> {
+    match fps {
+        Some(fps) => own_rule(id, text, fps),
+        None => own_method(id, text),
+    }
+}
+
+/// An own method or rule as a table of a scene file, with an empty line before it.
+pub(crate) fn own_table(method: &Method) -> String {
+    format!("\n[[{OWN}]]\n{}", Key::lines(&OWN_KEYS, method))
 }
 
 /// Lines as a string of several lines.
@@ -101,7 +137,7 @@ pub(super) fn read_own(text: &str, top: &mut Table<'_>) {
                     None
                 }
                 (.., None) => None,
-                (.., Some(step)) => match own_method(&id, &step.text) {
+                (.., Some(step)) => match own(&id, &step.text, draft.fps) {
                     Ok(method) => Some(method),
                     Err(fault) => {
                         row.complain(step.within(&fault.span), fault.what, words(fault.remedy));

@@ -7,12 +7,11 @@ use super::document::{LANE, RACE, TOP};
 use super::keys::{Key, SPEC, list, numbers, quoted};
 use super::law::{LAW, LAW_KEYS, coordinate_tables};
 use super::net::{GRID_KEYS, KICKED, LIST_KEYS};
-use super::own::{OWN, OWN_KEYS};
+use super::own::own_table;
 use super::script::{CHECK, CHECKS, command_tables, parameter_value};
 use super::{Check, Scene, SceneBody};
 use crate::scene::LaneSpec;
 use crate::sim::bodies::{Form, NetPlan, Range};
-use crate::sim::integrators::Method;
 
 impl Scene {
     /// Replaces the hashes in the checks of a scene file's `text`, in the order of the file. The rest of the text stays
@@ -47,9 +46,7 @@ impl Scene {
         if !race.is_empty() {
             text += &format!("\n[race]\n{race}");
         }
-        let own =
-            |method: &&'static Method| format!("\n[[{OWN}]]\n{}", Key::lines(&OWN_KEYS, method));
-        text.extend(self.own_methods.iter().map(own));
+        text.extend(self.own_methods.iter().copied().map(own_table));
         if !self.has_plain_lanes() {
             let row = |spec| format!("\n[[{LANE}]]\n{}", Key::lines(&SPEC, spec));
             text.extend(self.lanes.iter().map(row));

@@ -33,8 +33,10 @@ pub use fault::{ExpressionFault, LawFault, Part, Remedy};
 pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
 pub use step_text::{
-    Carried, MAX_STEP_BYTES, StepCall, StepCode, StepMap, StepRegisters, StepText,
+    Carried, LinearRule, MAX_STEP_BYTES, OwnLines, RuleBody, StepCall, StepCode, StepMap,
+    StepRegisters, StepText,
 };
+pub(crate) use step_text::{Frame, NO_RETURN, Powers, remembers_place};
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText, Layout};
 

@@ -3,8 +3,9 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::conformance;
-use super::integrators::{Family, METHODS, Method};
-use super::law::{ExpressionFault, Remedy, StepText};
+use super::integrators::{Family, METHODS, Method, Needs, Only};
+use super::law::{ExpressionFault, LinearRule, OwnLines, Remedy, RuleBody, StepText};
+use super::tick_rate::TickRate;
 
 /// The most characters of the id of an own method.
 pub(crate) const MAX_OWN_ID_CHARS: usize = 64;
@@ -26,38 +27,90 @@ static KNOWN: Mutex<Vec<&'static Method>> = Mutex::new(Vec::new());
 /// assert!(own_method("mine", "x += v * h").is_err());
 /// ```
 pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFault> {
+    known_or(id, text, None, || {
+        let read = StepText::read(text)?;
+        if read.acceleration_at().is_none() {
+            return Err(ExpressionFault {
+                span: 0..text.len(),
+                what: "no line calls `a(x, v)`, so that the lines are a rule".into(),
+                remedy: Remedy::Words(
+                    "give its `fps` in a scene, or its file in the place of one; or call the acceleration: `v += h * a(x, v)`".into(),
+                ),
+            });
+        }
+        let code = read.code().map(|code| code.method()).unwrap_or_default();
+        Ok(conformance::measured(Box::leak(Box::new(Method {
+            about: "a method by lines of one's own",
+            code: code.leak(),
+            source: "lines of one's own; this card is measured",
+            ..card(id, OwnLines::Method(read))
+        }))))
+    })
+}
+
+/// The rule of these lines under this id, written for this many frames per second. As a method it steps followers of first
+/// order, or bodies with a force: a rule of one number the former, one of two the latter. It knows nothing of their forces.
+///
+/// # Errors
+/// The first fault of the lines, or why no body moves like them.
+///
+/// ```
+/// use regatta::sim::{TickRate, own_rule};
+///
+/// let chase = own_rule("chase", "x += (target - x) * 20 * dt", TickRate::whole(30)).unwrap();
+/// assert_eq!(chase.rule_fps(), Some(TickRate::whole(30)));
+/// assert!(own_rule("method", "v += a(x, v) * h; x += v * h", TickRate::whole(30)).is_err());
+/// ```
+pub fn own_rule(id: &str, text: &str, fps: TickRate) -> Result<&'static Method, ExpressionFault> {
+    known_or(id, text, Some(fps), || {
+        let read = StepText::read(text)?;
+        let fault = |span, [what, remedy]: [String; 2]| ExpressionFault {
+            span,
+            what,
+            remedy: Remedy::Words(remedy),
+        };
+        if let Some(span) = read.acceleration_at() {
+            let what = "a rule is the whole motion, and calls no acceleration";
+            return Err(fault(
+                span,
+                [what, "leave `fps` out: these lines are a method"].map(str::to_owned),
+            ));
+        }
+        let rule = LinearRule::new(read, fps).map_err(|why| fault(0..text.len(), why))?;
+        let only = match rule.body() {
+            RuleBody::Follower { .. } => Only {
+                needs: Needs::Law { order: 1 },
+                reason: "a rule of one number moves a follower with `order = 1`",
+            },
+            _ => Only { needs: Needs::Force, reason: "a rule of two numbers moves no follower" },
+        };
+        Ok(Method {
+            about: "a rule of one's own: the same lines once a step, whatever the body",
+            source: "lines of one's own",
+            order: 0,
+            order_with_drag: 0,
+            evaluations: Some(u32::from(rule.takes_target())),
+            only: Some(only),
+            ..card(id, OwnLines::Rule(rule))
+        })
+    })
+}
+
+/// The method of these lines that this process has, or else the one that is made.
+fn known_or(
+    id: &str,
+    text: &str,
+    fps: Option<TickRate>,
+    make: impl FnOnce() -> Result<Method, ExpressionFault>,
+) -> Result<&'static Method, ExpressionFault> {
     let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let is_it = |method: &&&Method| method.id == id && method.own_text() == Some(text);
+    let is_it = |method: &&&Method| {
+        method.id == id && method.own_text() == Some(text) && method.rule_fps() == fps
+    };
     if let Some(method) = known().iter().find(is_it) {
         return Ok(method);
     }
-    let read = StepText::read(text)?;
-    if read.acceleration_at().is_none() {
-        return Err(ExpressionFault {
-            span: 0..text.len(),
-            what: "no line calls `a(x, v)`, so that the lines are a rule".into(),
-            remedy: Remedy::Words(
-                "ask `regatta rule`, or call the acceleration: `v += h * a(x, v)`".into(),
-            ),
-        });
-    }
-    let code = read.code().map(|code| code.method()).unwrap_or_default();
-    let formula =
-        text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
-    let formula: Vec<&'static str> = formula.map(|line| &*line.to_owned().leak()).collect();
-    let name: &'static str = id.to_owned().leak();
-    let lines = Box::leak(Box::new(read));
-    let card = Box::leak(Box::new(Method {
-        id: name,
-        name,
-        about: "a method by lines of one's own",
-        formula: formula.leak(),
-        code: code.leak(),
-        source: "lines of one's own; this card is measured",
-        own: Some(lines),
-        ..Family::Explicit.card()
-    }));
-    let method = conformance::measured(card);
+    let method = make()?;
     let mut known = known();
     // Another thread may have been faster.
     if let Some(method) = known.iter().find(is_it) {
@@ -65,6 +118,16 @@ pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFau
     }
     known.push(Box::leak(Box::new(method)));
     Ok(known[known.len() - 1])
+}
+
+/// A card with the name and formula of these lines.
+fn card(id: &str, own: OwnLines) -> Method {
+    let lines = own.text().source().lines().map(str::trim);
+    let lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let formula: Vec<&'static str> = lines.map(|line| &*line.to_owned().leak()).collect();
+    let name: &'static str = id.to_owned().leak();
+    let own: &'static OwnLines = Box::leak(Box::new(own));
+    Method { id: name, name, formula: formula.leak(), own: Some(own), ..Family::Explicit.card() }
 }
 
 /// The id of the method in a file whose name without its ending is this: its letters and digits in lower case, with hyphens

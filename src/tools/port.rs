@@ -13,7 +13,6 @@ mod drive;
 mod follow;
 mod friction;
 mod inverse;
-pub(super) mod powers;
 pub(super) mod seen;
 
 pub use dialect::{DIALECTS, Departure, Dialect, DialectPort, Key, Switch};

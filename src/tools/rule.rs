@@ -8,16 +8,17 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::port::powers::Powers;
 use super::port::seen::{seen, spectral_radius};
 use super::port::{Approach, Wish};
-use crate::sim::law::{ExpressionFault, Remedy, StepText};
+use crate::sim::law::{ExpressionFault, Frame, Powers, Remedy, StepText, remembers_place};
 use crate::sim::numerics::bisect;
 use crate::tools::identify::Effective;
 
 pub use any_rate::RuleCode;
+pub use scene::rule_scene;
 
 mod any_rate;
+mod scene;
 
 /// The frame rates at which a rule is shown, beside its author's.
 const FRAME_RATES: [f64; 7] = [30.0, 50.0, 60.0, 120.0, 144.0, 165.0, 240.0];
@@ -29,8 +30,6 @@ const RATIO: f64 = 1.02;
 const HALVINGS: u32 = 60;
 /// A part of the way, of a speed or of a swing, below which nothing is seen.
 const OVER: f64 = 0.01;
-/// A rule with an eigenvalue as near to 1 as this keeps wherever it is.
-const NO_RETURN: f64 = 1e-13;
 /// By how much an eigenvalue must be above 1 to grow, and for a second look: where that moves the frame rate at which growth
 /// begins, it begins at none.
 const GROWTH: f64 = 1e-12;
@@ -87,14 +86,6 @@ enum Motion {
     Swing(Matrix2<f64>),
 }
 
-/// A frame of up to two numbers: `map` of them, and what comes to them from the target and without it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Frame {
-    map: Matrix2<f64>,
-    by_target: Vector2<f64>,
-    offset: Vector2<f64>,
-}
-
 impl Rule {
     /// Reads the lines of a rule that was written for this many frames per second.
     ///
@@ -117,21 +108,10 @@ impl Rule {
     }
 
     /// The rule as a map of these carried numbers and those that they depend on.
-    fn with_state(text: Arc<StepText>, fps: f64, mut state: Vec<usize>) -> Self {
-        let (reads, mut next) = (text.reads(), 0);
-        while let Some(&index) = state.get(next) {
-            for read in &reads[index] {
-                if !state.contains(read) {
-                    state.push(*read);
-                }
-            }
-            next += 1;
-        }
-        let is_linear = text.is_linear();
+    fn with_state(text: Arc<StepText>, fps: f64, state: Vec<usize>) -> Self {
+        let (state, is_linear) = (text.with_causes(state), text.is_linear());
         let mut rule = Self { text, fps, state, is_linear, stays: false };
-        let map = rule.frame(fps).map(|frame| frame.map).filter(|_| rule.state.len() == 2);
-        rule.stays =
-            map.is_some_and(|map| (1.0 - map.trace() + map.determinant()).abs() <= NO_RETURN);
+        rule.stays = rule.state.len() == 2 && rule.frame(fps).is_some_and(|it| it.keeps_place());
         rule
     }
 
@@ -170,25 +150,8 @@ impl Rule {
     /// What a frame makes of its numbers; `None` if they are more than two, or if it is no map of them, not even of small
     /// motions about a rest at 0.
     fn frame(&self, fps: f64) -> Option<Frame> {
-        if self.state.len() > 2 {
-            return None;
-        }
-        let rest = vec![0.0; self.text.carried().len()];
-        let found = self.text.map(1.0 / fps, &rest, 0.0);
-        let of = |numbers: &[f64]| {
-            let mut both = self.state.iter().map(|index| numbers[*index]);
-            Vector2::new(both.next().unwrap_or(0.0), both.next().unwrap_or(0.0))
-        };
-        let column =
-            |n: usize| self.state.get(n).map_or(Vector2::zeros(), |n| of(&found.columns[*n]));
-        let frame = Frame {
-            map: Matrix2::from_columns(&[column(0), column(1)]),
-            by_target: of(&found.columns[rest.len()]),
-            offset: of(&found.values),
-        };
-        let numbers = frame.map.iter().chain(&frame.by_target).chain(&frame.offset);
-        let is_finite = numbers.into_iter().all(|x| x.is_finite());
-        (is_finite && (self.is_linear || self.is_smooth(&frame, fps))).then_some(frame)
+        let frame = self.text.frame(&self.state, 1.0 / fps)?;
+        (self.is_linear || self.is_smooth(&frame, fps)).then_some(frame)
     }
 
     /// Whether small motions about a rest at 0 are those of this frame.
@@ -417,8 +380,7 @@ impl Motion {
 /// How far the first of two numbers that start at rest from 1 is from half the trace after a frame, as a part of the root
 /// of the determinant. The second rests at 1 too if it is the first of a frame before.
 fn beside(map: &Matrix2<f64>) -> f64 {
-    let is_echo = map.m21 == 1.0 && map.m22 == 0.0;
-    let first = if is_echo { map.m11 + map.m12 } else { map.m11 };
+    let first = if remembers_place(map) { map.m11 + map.m12 } else { map.m11 };
     (first - map.trace() / 2.0) / libm::sqrt(map.determinant())
 }
 

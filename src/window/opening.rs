@@ -7,7 +7,7 @@ use crate::loops::{FrameTrace, trace_file};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 use crate::run::diff::{Chosen, Comparison, NotComparable, Tolerance, diff};
 use crate::run::trace::{Made, last_tick};
-use crate::scene::{LaneSpec, MAX_FILE_BYTES, Mistake, SCENES, Scene};
+use crate::scene::{LaneSpec, MAX_FILE_BYTES, Mistake, SCENES, Scene, is_rule};
 use crate::studio::{
     SceneList, StageCommand, Studio, ViewCommand, open_file, open_traces, race_own_method,
     refuse_typed_path, show_comparison, show_mistakes,
@@ -91,13 +91,21 @@ impl Asked {
             })
         } else if is_trace(&self.path) {
             traces_in(&self.path).map(Held::Traces)
-        } else if has_ending(&self.path, "step") {
-            lane_in(&self.path).map(Held::Lane)
         } else {
-            read(&self.path).map(|(scene, text)| {
-                SceneList::prepare_scene(&scene);
-                Held::Scene { scene: Box::new(scene), text }
-            })
+            let lines = has_ending(&self.path, "step").then(|| lines_in(&self.path));
+            match lines {
+                Some(Err(mistakes)) => Err(mistakes),
+                Some(Ok((name, lines))) if !is_rule(&lines) => {
+                    LaneSpec::from_step(&name, &lines).map(Held::Lane).map_err(Vec::from)
+                }
+                lines => read(&self.path).map(|(scene, text)| {
+                    SceneList::prepare_scene(&scene);
+                    let lines = lines.and_then(Result::ok);
+                    // The text of the file, which is watched.
+                    let lines = lines.and_then(|(_, lines)| String::from_utf8(lines).ok());
+                    Held::Scene { scene: Box::new(scene), text: lines.unwrap_or(text) }
+                }),
+            }
         };
         ReadFile { asked: self, held }
     }
@@ -164,12 +172,11 @@ fn has_ending(path: &Path, known: &str) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known))
 }
 
-/// The lane of the method in a file of lines.
-fn lane_in(path: &Path) -> Result<LaneSpec, Vec<Mistake>> {
+/// The name and the bytes of a file of lines.
+fn lines_in(path: &Path) -> Result<(String, Vec<u8>), Vec<Mistake>> {
     let bytes = regular_file::read(path, MAX_FILE_BYTES)
         .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    LaneSpec::from_step(&name, &bytes).map_err(Vec::from)
+    Ok((path.file_name().unwrap_or_default().to_string_lossy().into_owned(), bytes))
 }
 
 fn traces_in(path: &Path) -> Result<Vec<FrameTrace>, Vec<Mistake>> {
@@ -195,7 +202,7 @@ fn from_home(typed: &str) -> PathBuf {
     }
 }
 
-/// Completes a path: appends what all folders and TOML files whose names begin so have in common.
+/// Completes a path: appends the common beginning of all folders, scene files and rules whose names begin so.
 pub(super) fn completed(typed: &str) -> String {
     let (folder, begun) = match typed.rfind(MAIN_SEPARATOR) {
         Some(end) => typed.split_at(end + MAIN_SEPARATOR.len_utf8()),
@@ -213,7 +220,7 @@ pub(super) fn completed(typed: &str) -> String {
         if path.is_dir() {
             return Some(format!("{name}{MAIN_SEPARATOR}"));
         }
-        path.extension().is_some_and(|ending| ending == "toml").then_some(name)
+        ["toml", "step"].iter().any(|ending| has_ending(&path, ending)).then_some(name)
     });
     let common = fitting.reduce(|common, name| {
         let alike = common.chars().zip(name.chars()).take_while(|(a, b)| a == b);
@@ -227,6 +234,7 @@ mod tests {
     use super::*;
     use crate::run::link;
     use crate::studio::{Compared, Dialog, RunCommand};
+    use crate::tools::rule::rule_scene;
 
     /// Reads scene files without the command line's options.
     fn read() -> ReadScene {
@@ -311,6 +319,29 @@ mod tests {
         drop(&mut studio, "x += h * w");
         let Some(Dialog::Mistakes { report, .. }) = studio.viewer.dialog() else { panic!() };
         assert!(report[0].message.starts_with("mine.step:1:10: unknown name `w`"), "{report:?}");
+    }
+
+    #[test]
+    fn a_rule_that_is_dropped_is_a_scene_of_its_own_and_is_watched_as_its_lines() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mine.step");
+        let lines = "x += (target - x) * 20 * dt";
+        std::fs::write(&path, lines).unwrap();
+        let rule: ReadScene = Arc::new(|path| {
+            let text = std::fs::read_to_string(path).unwrap();
+            let scene = rule_scene("mine.step", &text, 60.into()).map_err(Vec::from)?;
+            Ok((scene.clone(), scene.to_toml()))
+        });
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let found = Asked::dropped(&studio, &path).read(&rule);
+        assert_eq!(found.scene(), Some((path.clone(), lines.to_owned())));
+        found.show(&mut studio);
+        assert_eq!((studio.scene().name.as_str(), studio.race().entrants().len()), ("mine", 3));
+        std::fs::write(&path, "x -= x * abs(x)").unwrap();
+        Asked::dropped(&studio, &path).read(&rule).show(&mut studio);
+        let Some(Dialog::Mistakes { report, .. }) = studio.viewer.dialog() else { panic!() };
+        assert!(report[0].message.contains("the rule is not linear"), "{report:?}");
+        assert_eq!(studio.scene().name, "mine");
     }
 
     #[test]

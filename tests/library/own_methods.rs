@@ -3,6 +3,8 @@
 use glam::DVec2;
 use regatta::conformance::check;
 use regatta::conformance::problems::{Kepler, Problem, kepler_orbit, problem, spring};
+use regatta::run::{Session, link};
+use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::{GENERAL_METHODS, METHODS, Method, integrator};
 use regatta::sim::law::StepText;
 use regatta::sim::{State, Vector, check_own_id, own_method, own_method_id};
@@ -208,9 +210,6 @@ fn ids_are_those_of_files_and_none_of_a_built_in_method() {
 
 #[test]
 fn a_scene_its_recording_and_its_link_carry_the_lines() {
-    use regatta::run::{Session, link};
-    use regatta::scene::{LaneSpec, Scene};
-
     let lines = "// \"mine\" \\ é\r\nv += h * a(x, v)\n\tx += h * v\n";
     let lane = LaneSpec::from_step("dir/My_Euler.step", lines.as_bytes()).unwrap();
     assert_eq!(lane.method.id, "my-euler");
@@ -221,6 +220,11 @@ fn a_scene_its_recording_and_its_link_carry_the_lines() {
     assert_eq!(again.lanes, scene.lanes);
     assert!(std::ptr::eq(again.lanes[0].method, lane.method));
     assert!(again.methods_for_games().any(|method| method == lane.method));
+    carries_its_lines(scene);
+}
+
+/// Runs a recording of the scene and a link to it, and holds both to the recorded hashes.
+fn carries_its_lines(scene: Scene) {
     let mut session = Session::racing(scene.into());
     session.run(90);
     let text = session.recording_text(90).unwrap();
@@ -235,5 +239,47 @@ fn a_scene_its_recording_and_its_link_carry_the_lines() {
             assert_eq!(replay.race().lane_hash(check.lane), Some(check.hash));
         }
         assert!(checks.iter().any(|check| check.tick == 90));
+    }
+}
+
+/// Linear rules, the frame rates of their authors, and the kinds of their bodies.
+const RULES: [(&str, &str, &str); 7] = [
+    ("v = (v + (target - x) * 0.2) * 0.85; x += v", "60", "spring"),
+    ("v += ((target - x) * 100 - v * 5 - 9.8) * dt; x += v * dt", "59.94", "spring"),
+    ("v += (target - x) * 40 * dt; v *= 0.5; x += v * dt", "50", "spring"),
+    ("old = x; x += (x - prev) * 0.98 - x * 0.01; prev = old", "30", "spring"),
+    ("x += (target - x) * 20 * dt", "1/0.015", "follow"),
+    ("x = x * 0.8 + target * 0.1 + 0.3", "144", "follow"),
+    ("v *= 0.9; x += v * dt", "60", "law"),
+];
+
+#[test]
+fn a_rule_is_exact_at_its_authors_rate_and_parts_from_itself_at_others() {
+    use regatta::run::race::Race;
+    use regatta::tools::rule::rule_scene;
+
+    for (text, fps, kind) in RULES {
+        let scene = rule_scene("a/my rule.step", text, fps.parse().unwrap()).unwrap();
+        assert_eq!((scene.bodies[0].kind.id.as_str(), scene.name.as_str()), (kind, "my-rule"));
+        let mut race = Race::of_scene(&scene);
+        let mut farthest = [0.0_f64; 3];
+        // Through both kicks.
+        for _ in 0..race.nearest_tick(scene.seconds) {
+            race.run(1);
+            let truth = race.truth().bodies()[0].state();
+            for (farthest, entrant) in farthest.iter_mut().zip(race.entrants()) {
+                let state = entrant.lane.bodies()[0].state();
+                let [off, away] = [&truth, &state].map(|state| state.q[0]);
+                assert!(state.q[0].is_finite() && state.v[0].is_finite(), "{text}");
+                *farthest = farthest.max((off - away).abs());
+            }
+        }
+        let [half, own, twice] = farthest;
+        assert!(own < 1e-9, "{text}: {own}");
+        assert!(half > 1e-3 && twice > 1e-3, "{text}: {farthest:?}");
+        let again = Scene::parse("again", &scene.to_toml()).unwrap();
+        assert!(std::ptr::eq(again.own_methods[0], scene.own_methods[0]), "{text}");
+        assert!(scene.methods_for_games().all(|method| method.rule_fps().is_none()));
+        carries_its_lines(scene);
     }
 }

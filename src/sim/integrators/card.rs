@@ -7,8 +7,9 @@ use super::custom_method::AnyIntegrator;
 use super::free_spin::FreeSpin;
 use super::integrator::Tolerance;
 use super::joint_mode::JointMode;
+use crate::sim::TickRate;
 #[cfg(feature = "lab")]
-use crate::sim::law::StepText;
+use crate::sim::law::OwnLines;
 use crate::sim::system::{BodyClass, Coupling};
 
 /// The families of methods, for menus and tables.
@@ -272,10 +273,10 @@ pub struct Method {
     /// How a custom method is built, which is not in [`METHODS`](super::METHODS): [`custom_integrator`](super::custom_integrator) of its
     /// type. `None` for those of the table.
     pub custom: Option<fn(usize) -> Box<dyn AnyIntegrator>>,
-    /// The lines of a method that a person wrote, which is not in [`METHODS`](super::METHODS) either: see
-    /// [`own_method`](crate::sim::own_method()).
+    /// The lines of a method or a rule that a person wrote, which is not in [`METHODS`](super::METHODS) either: see
+    /// [`own_method`](crate::sim::own_method()) and [`own_rule`](crate::sim::own_rule()).
     #[cfg(feature = "lab")]
-    pub own: Option<&'static StepText>,
+    pub own: Option<&'static OwnLines>,
 }
 
 impl Method {
@@ -290,11 +291,20 @@ impl Method {
         self.custom.is_some() || self.own_text().is_some()
     }
 
-    /// The lines of a method that a person wrote; `None` of any other.
+    /// The lines of a method or a rule that a person wrote; `None` for any other.
     pub fn own_text(&self) -> Option<&'static str> {
         #[cfg(feature = "lab")]
-        return self.own.map(StepText::source);
+        return self.own.map(|own| own.text().source());
         #[cfg(not(feature = "lab"))]
+        None
+    }
+
+    /// The frame rate for which a rule was written; `None` for a method.
+    pub fn rule_fps(&self) -> Option<TickRate> {
+        #[cfg(feature = "lab")]
+        if let Some(OwnLines::Rule(rule)) = self.own {
+            return Some(rule.fps());
+        }
         None
     }
 
@@ -303,10 +313,10 @@ impl Method {
         self.family == Family::AsPrinted
     }
 
-    /// Whether it is for a game to implement. The methods of engines and the listings as printed are not: they run where
-    /// they are named.
+    /// Whether it is a method for a game to implement. The methods of engines, the listings as printed and rules are not:
+    /// they run where they are named.
     pub fn is_for_games(&self) -> bool {
-        !self.is_engine() && !self.is_as_printed()
+        !self.is_engine() && !self.is_as_printed() && self.rule_fps().is_none()
     }
 
     /// An upper bound on the numbers that it keeps on the heap beside its own vectors, of `n` coordinates coupled so. A
@@ -315,7 +325,7 @@ impl Method {
         let matrices = self.matrices as usize;
         match coupling.reach(n) {
             #[cfg(feature = "lab")]
-            _ if let Some(lines) = self.own => (lines.slots() + 3) * n,
+            _ if let Some(own) = self.own => (own.text().slots() + 3) * n,
             _ if self.custom.is_some() => 16 * (n + 3),
             // The exponential of a small matrix is a whole one.
             Some(_) if self.family == Family::Linearised && n <= 32 => matrices * (n + 2) * (n + 2),
@@ -360,7 +370,9 @@ impl Method {
 impl PartialEq for Method {
     /// Ids are unique, but for methods of people's own lines.
     fn eq(&self, other: &Self) -> bool {
-        self.id == other.id && self.own_text() == other.own_text()
+        self.id == other.id
+            && self.own_text() == other.own_text()
+            && self.rule_fps() == other.rule_fps()
     }
 }
 

@@ -69,6 +69,8 @@ mod smooth_damp;
 mod ssp_rk3;
 #[cfg(feature = "lab")]
 mod step_method;
+#[cfg(feature = "lab")]
+mod step_rule;
 mod stormer_verlet;
 mod tr_bdf2;
 mod velocity_verlet;
@@ -188,8 +190,14 @@ macro_rules! methods {
                 return construct.of(|like| CustomMethod::new(build, like));
             }
             #[cfg(feature = "lab")]
-            if let Some(lines) = method.own {
-                return construct.of(|like| step_method::StepMethod::of(lines, like));
+            match method.own {
+                Some(crate::sim::law::OwnLines::Method(lines)) => {
+                    return construct.of(|like| step_method::StepMethod::of(lines, like));
+                }
+                Some(crate::sim::law::OwnLines::Rule(rule)) => {
+                    return construct.of(|_| step_rule::StepRule::of(rule));
+                }
+                None => {}
             }
             $(if const { refusal::<S, C>(&$file::CARD).is_none() } {
                 if method.id == $file::CARD.id {

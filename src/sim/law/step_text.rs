@@ -12,14 +12,19 @@ use super::form::is_linear;
 use super::jet::Jet;
 use super::tape::Tape;
 pub use code::StepCode;
+pub(crate) use linear::{Frame, NO_RETURN, remembers_place};
+pub use linear::{LinearRule, RuleBody};
 pub use method::StepCall;
 use plain::plain;
+pub(crate) use powers::Powers;
 use reader::Reader;
 use statements::statements;
 
 mod code;
+mod linear;
 mod method;
 mod plain;
+mod powers;
 mod reader;
 mod statements;
 
@@ -83,6 +88,25 @@ pub struct StepMap {
     pub values: Vec<f64>,
     /// A column for each number that changes.
     pub columns: Vec<Vec<f64>>,
+}
+
+/// Lines of a person's own that step a body.
+#[derive(Debug)]
+pub enum OwnLines {
+    /// A method, which calls the acceleration.
+    Method(StepText),
+    /// A rule, which is the whole motion.
+    Rule(LinearRule),
+}
+
+impl OwnLines {
+    /// The lines.
+    pub fn text(&self) -> &StepText {
+        match self {
+            Self::Method(text) => text,
+            Self::Rule(rule) => rule.text(),
+        }
+    }
 }
 
 impl StepText {

@@ -2,12 +2,12 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::powers::Powers;
 use crate::sim::State;
 use crate::sim::bodies::Follow;
 use crate::sim::integrators::{
     FollowerQuantity, FollowerSetting, METHODS, Method, fresh, in_code, problem,
 };
+use crate::sim::law::Powers;
 use crate::sim::numerics::bisect;
 
 /// How fast a value approaches a target that rests.

@@ -2,9 +2,8 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::{Frame, Rule};
-use crate::sim::law::StepCode;
-use crate::tools::port::powers::Powers;
+use super::Rule;
+use crate::sim::law::{Frame, NO_RETURN, Powers, StepCode};
 use crate::tools::source_code::{Language, rule_code};
 
 /// Eigenvalues whose logarithms are this far apart are written as two exponentials: of closer ones the difference of those
@@ -156,7 +155,7 @@ impl Rule {
         let change = frame.map - Matrix2::identity();
         let mut lines =
             vec![format!("let first = {}", names[0]), format!("let second = {}", names[1])];
-        let is_free = (1.0 - kept).abs() <= super::NO_RETURN;
+        let is_free = (1.0 - kept).abs() <= NO_RETURN;
         // What a frame changes, how much of that comes of the offset, and what comes every frame.
         let (by_offset, drift) = if is_free {
             lines.push(format!("let gone = {} * h", number(fps)));

@@ -43,7 +43,7 @@ fn mistakes_in_own_methods_are_told_with_place_and_remedy() {
         (
             "rule.step",
             "x += v * dt",
-            "no line calls `a(x, v)`, so that the lines are a rule; ask `regatta rule`",
+            "no line calls `a(x, v)`, so that the lines are a rule; give its `fps` in a scene, or its file",
         ),
         (
             "rk4.step",
@@ -63,4 +63,35 @@ fn mistakes_in_own_methods_are_told_with_place_and_remedy() {
     assert!(stderr(&output).contains("as a method: `--method my.step`"), "{}", stderr(&output));
     let missing = regatta().args(["show", "none.step"]).output().unwrap();
     assert!(stderr(&missing).contains("no file is called"), "{}", stderr(&missing));
+}
+
+#[test]
+fn a_file_of_a_rule_stands_in_the_place_of_a_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(folder.path(), "camera.step", "x += (target - x) * 20 * dt");
+    let scene = stdout_of(&format!("rule {path} --fps 60 --scene"));
+    let toml = file(folder.path(), "camera.toml", &scene);
+    let rows = |scene: &str| stdout_of(&format!("trace --scene {scene} --seconds 2.5"));
+    assert_eq!(rows(&path), rows(&toml));
+    assert!(rows(&path).contains(",camera,"));
+    let other = stdout_of(&format!("rule {path} --fps 59.94 --scene"));
+    assert!(other.contains("tick_hz = 29.97") && other.contains("fps = 59.94"), "{other}");
+    let swept = stdout_of(&format!("sweep --scene {path} --tick-hz 60 --seconds 1"));
+    assert!(swept.contains(",camera,camera,60,"), "{swept}");
+    for (name, text, told) in [
+        ("a.step", "v += a(x, v) * dt; x += v * dt", "is a method; give `--method a.step`"),
+        ("b.step", "v -= v * abs(v) * dt; x += v", "b.step:1:1: the rule is not linear"),
+        ("c.step", "x += (x - target) * dt", "c.step:1:1: the rule grows at 60 frames"),
+        ("d.step", "x += (x - w) * dt", "d.step:1:11: unknown name `w`"),
+        ("rk4.step", "x *= 0.9", "\"rk4\" is a name of the built-in method rk4"),
+    ] {
+        let path = file(folder.path(), name, text);
+        let output = regatta().current_dir(&folder).args(["trace", "--scene", name]).output();
+        let output = output.unwrap();
+        let said = stderr(&output);
+        assert!(said.contains(told) && output.status.code() == Some(2), "{path}: {said}");
+    }
+    let output =
+        regatta().args(["trace", "--scene", "spring", "--method", &path]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
 }

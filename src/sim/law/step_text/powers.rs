@@ -5,18 +5,18 @@ const SAME: f64 = 1e-7;
 
 /// The powers of a map of two numbers whose eigenvalues are a pair, or real and positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::tools) struct Powers {
+pub(crate) struct Powers {
     /// The logarithm of the root of the determinant, by which a step scales.
-    pub(in crate::tools) log_scale: f64,
+    pub(crate) log_scale: f64,
     /// The eigenvalues are exp(log_scale ± apart), or exp(log_scale ± i apart) if the motion swings.
-    pub(in crate::tools) apart: f64,
+    pub(crate) apart: f64,
     /// Whether the eigenvalues are a pair.
-    pub(in crate::tools) swings: bool,
+    pub(crate) swings: bool,
 }
 
 impl Powers {
     /// Of a map with this trace and determinant; `None` if it changes sides at every step.
-    pub(in crate::tools) fn of(trace: f64, determinant: f64) -> Option<Self> {
+    pub(crate) fn of(trace: f64, determinant: f64) -> Option<Self> {
         let half = trace / 2.0;
         let square = half * half - determinant;
         if determinant <= 0.0 || square >= 0.0 && half <= 0.0 {
@@ -29,7 +29,7 @@ impl Powers {
     }
 
     /// The numbers e and o by which the power is e + o (M - ½ trace M) / √(determinant).
-    pub(in crate::tools) fn at(&self, steps: f64) -> [f64; 2] {
+    pub(crate) fn at(&self, steps: f64) -> [f64; 2] {
         let &Self { log_scale, apart, swings } = self;
         let of = |log: f64| libm::exp(steps * log);
         match apart {

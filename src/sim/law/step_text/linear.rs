@@ -1,0 +1,342 @@
+//! Rules of up to two carried numbers: a frame as a map, and a linear rule as the motion of a body.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::powers::Powers;
+use super::{StepRegisters, StepText};
+use crate::sim::TickRate;
+
+/// A rule with an eigenvalue this near to 1 keeps wherever it is.
+pub(crate) const NO_RETURN: f64 = 1e-13;
+/// A rest this near to the target is the target, but for rounding.
+const AT_TARGET: f64 = 1e-11;
+/// A decay per frame this near to none is none, but for rounding.
+const NO_DECAY: f64 = 1e-14;
+
+/// One frame of up to two numbers: `map` of them, and what the target and constants add.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Frame {
+    pub(crate) map: Matrix2<f64>,
+    pub(crate) by_target: Vector2<f64>,
+    pub(crate) offset: Vector2<f64>,
+}
+
+impl Frame {
+    /// Whether an eigenvalue is 1, so that the motion ends wherever it is.
+    pub(crate) fn keeps_place(&self) -> bool {
+        (1.0 - self.map.trace() + self.map.determinant()).abs() <= NO_RETURN
+    }
+}
+
+/// Whether the second number of this map is the first of the frame before.
+pub(crate) fn remembers_place(map: &Matrix2<f64>) -> bool {
+    map.m21 == 1.0 && map.m22 == 0.0
+}
+
+impl StepText {
+    /// The indices of these carried numbers and of all that they depend on.
+    pub(crate) fn with_causes(&self, mut state: Vec<usize>) -> Vec<usize> {
+        let (reads, mut next) = (self.reads(), 0);
+        while let Some(&index) = state.get(next) {
+            for read in &reads[index] {
+                if !state.contains(read) {
+                    state.push(*read);
+                }
+            }
+            next += 1;
+        }
+        state
+    }
+
+    /// The frame of `h` seconds of these one or two carried numbers, linearised about 0. `None` for more of them, and where
+    /// a coefficient is not finite.
+    pub(crate) fn frame(&self, state: &[usize], h: f64) -> Option<Frame> {
+        if state.len() > 2 {
+            return None;
+        }
+        let rest = vec![0.0; self.carried().len()];
+        let found = self.map(h, &rest, 0.0);
+        let of = |numbers: &[f64]| {
+            let mut both = state.iter().map(|index| numbers[*index]);
+            Vector2::new(both.next().unwrap_or(0.0), both.next().unwrap_or(0.0))
+        };
+        let column = |n: usize| state.get(n).map_or(Vector2::zeros(), |n| of(&found.columns[*n]));
+        let frame = Frame {
+            map: Matrix2::from_columns(&[column(0), column(1)]),
+            by_target: of(&found.columns[rest.len()]),
+            offset: of(&found.values),
+        };
+        let mut numbers = frame.map.iter().chain(&frame.by_target).chain(&frame.offset);
+        numbers.all(|number| number.is_finite()).then_some(frame)
+    }
+}
+
+/// The body that a linear rule moves like, per kilogram.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RuleBody {
+    /// A follower of first order.
+    Follower {
+        /// Its rate, per second.
+        rate: f64,
+    },
+    /// A mass on a spring.
+    Spring {
+        /// The stiffness, in N/m per kg.
+        stiffness: f64,
+        /// The damping, in N·s/m per kg; negative if the motion grows.
+        damping: f64,
+    },
+    /// A mass that friction alone slows.
+    Coasting {
+        /// The drag, in N·s/m per kg; negative if it speeds up.
+        drag: f64,
+    },
+}
+
+/// A linear rule that steps a body.
+///
+/// Through the places that the rule reaches at its author's frame rate there is one smooth motion that decays and swings
+/// evenly: the exact motion of its [body](LinearRule::body). The velocity of that motion is a combination of the rule's two
+/// numbers, and is the velocity of the body at any frame rate. So the rule is exact at its author's rate, and needs no memory
+/// beside the state.
+#[derive(Debug)]
+pub struct LinearRule {
+    text: StepText,
+    fps: TickRate,
+    /// The carried number that decides the motion beside `x`.
+    second: Option<usize>,
+    /// Where `x` and the second number rest, from the target: a part of the target, and a constant.
+    rest: [[f64; 2]; 2],
+    /// The velocity per unit of each number's distance from its rest, per second.
+    gains: [f64; 2],
+    body: RuleBody,
+    remembers_place: bool,
+}
+
+impl LinearRule {
+    /// The rule of these lines, written for this many frames per second.
+    ///
+    /// # Errors
+    /// Why no body moves like it, and the remedy.
+    pub fn new(text: StepText, fps: TickRate) -> Result<Self, [String; 2]> {
+        let refused = |why: &str, remedy: &str| Err([why.to_owned(), remedy.to_owned()]);
+        let ask = "`regatta rule` says what it does, and prints code for any frame rate";
+        if text.keeps(0) {
+            return refused("the rule leaves `x` where it is", "say how it moves: `x += v * dt`");
+        }
+        if !text.is_linear() {
+            return refused("the rule is not linear, so that no exact motion is behind it", ask);
+        }
+        let state = text.with_causes(vec![0]);
+        let hz = fps.hz();
+        let Some(frame) = text.frame(&state, 1.0 / hz) else {
+            return refused(
+                "the rule carries more than two numbers, or one that is not finite",
+                ask,
+            );
+        };
+        let powers = match state.len() {
+            1 if frame.map.m11 > 0.0 && (frame.map.m11 - 1.0).abs() > NO_RETURN => {
+                let kept = frame.map.m11;
+                Some(Powers { log_scale: libm::log(kept), apart: 0.0, swings: false })
+            }
+            1 => None,
+            _ => Powers::of(frame.map.trace(), frame.map.determinant()),
+        };
+        let Some(powers) = powers else {
+            let why = "a part of the motion is gone, changes sides or drifts off in one frame";
+            return refused(why, ask);
+        };
+        let coasts = state.len() == 2 && frame.keeps_place();
+        if coasts && (frame.by_target != Vector2::zeros() || frame.offset != Vector2::zeros()) {
+            return refused("the rule has no rest, and is pushed", ask);
+        }
+        let body = match (state.len(), coasts) {
+            (1, _) => RuleBody::Follower { rate: -powers.log_scale * hz },
+            (_, true) => RuleBody::Coasting { drag: -2.0 * powers.log_scale * hz },
+            (_, false) => powers.spring(hz),
+        };
+        let [stretch, turn] = powers.rates().map(|rate| rate * hz);
+        let (map, half) = (frame.map, frame.map.trace() / 2.0);
+        let root = libm::sqrt(map.determinant());
+        let gains = match state.len() {
+            1 => [stretch, 0.0],
+            _ => [stretch + turn * (map.m11 - half) / root, turn * map.m12 / root],
+        };
+        if state.len() == 2 && (!gains[1].is_finite() || gains[1] == 0.0) {
+            return refused("the second number of the rule does not move the first", ask);
+        }
+        let inverse = match (state.len(), coasts) {
+            (_, true) => Matrix2::zeros(),
+            (1, _) => Matrix2::new(1.0 / (1.0 - map.m11), 0.0, 0.0, 0.0),
+            _ => (Matrix2::identity() - map).try_inverse().unwrap_or_default(),
+        };
+        let (by_target, offset) = (inverse * frame.by_target, inverse * frame.offset);
+        let at_target = |part: f64| if (part - 1.0).abs() <= AT_TARGET { 0.0 } else { part - 1.0 };
+        Ok(Self {
+            second: state.get(1).copied(),
+            // From the target, which is where the body rests.
+            rest: [[at_target(by_target.x), offset.x], [by_target.y, offset.y]],
+            gains,
+            body,
+            remembers_place: remembers_place(&map),
+            text,
+            fps,
+        })
+    }
+
+    /// The text as it was written.
+    pub fn text(&self) -> &StepText {
+        &self.text
+    }
+
+    /// The frame rate of its author.
+    pub fn fps(&self) -> TickRate {
+        self.fps
+    }
+
+    /// The body that it moves like at its author's frame rate.
+    pub fn body(&self) -> RuleBody {
+        self.body
+    }
+
+    /// Whether the target decides where the body rests.
+    pub fn takes_target(&self) -> bool {
+        self.text.takes_target()
+    }
+
+    /// The velocity of a body that the lines start at `x` from its rest (m), in m/s: with their second number as they declare
+    /// it, or at `x` too if it is the place of the frame before.
+    pub fn start_velocity(&self, x: f64) -> f64 {
+        let second = match self.second {
+            Some(_) if self.remembers_place => x,
+            Some(index) => self.text.carried()[index].start - self.rest[1][1],
+            None => 0.0,
+        };
+        self.gains[0] * x + self.gains[1] * second
+    }
+
+    /// Steps a body by a frame of `h` seconds. `target` is where it rests. Never allocates.
+    pub fn step(&self, registers: &mut StepRegisters, h: f64, target: f64, [q, v]: [&mut f64; 2]) {
+        let [shift, rest] = self.rest.map(|[part, constant]| part * target + constant);
+        let [by_place, by_second] = self.gains;
+        self.text.set(registers, 0, *q + shift);
+        if let Some(second) = self.second {
+            let away = (*v - by_place * (*q - target)) / by_second;
+            self.text.set(registers, second, rest + away);
+        }
+        self.text.step(registers, h, target);
+        *q = self.text.value(registers, 0) - shift;
+        *v = by_place * (*q - target);
+        if let Some(second) = self.second {
+            *v += by_second * (self.text.value(registers, second) - rest);
+        }
+    }
+}
+
+impl Powers {
+    /// The spring whose motion at this many steps per second these are.
+    fn spring(&self, hz: f64) -> RuleBody {
+        let Self { log_scale, apart, swings } = *self;
+        let decay = if log_scale.abs() <= NO_DECAY { 0.0 } else { log_scale };
+        let square = if swings { apart * apart } else { -apart * apart };
+        RuleBody::Spring {
+            stiffness: (decay * decay + square) * hz * hz,
+            damping: -2.0 * decay * hz,
+        }
+    }
+
+    /// The derivatives of [`Powers::at`] at 0.
+    fn rates(&self) -> [f64; 2] {
+        let Self { log_scale, apart, swings } = *self;
+        let turn = match apart {
+            0.0 => 1.0,
+            apart if swings => apart / libm::sin(apart),
+            apart => apart / libm::sinh(apart),
+        };
+        [log_scale, turn]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rule(text: &str, fps: u32) -> Result<LinearRule, [String; 2]> {
+        LinearRule::new(StepText::read(text).unwrap(), TickRate::whole(fps))
+    }
+
+    /// Places of the lines by themselves and of the body that they step, from 1 m off the rest.
+    fn both(text: &str, fps: u32, target: f64) -> Vec<[f64; 2]> {
+        let (rule, lines) = (rule(text, fps).unwrap(), StepText::read(text).unwrap());
+        let [mut alone, mut registers] = [(); 2].map(|()| lines.registers());
+        let shift = rule.rest[0][0] * target + rule.rest[0][1];
+        let mut q = target + 1.0;
+        let mut v = rule.start_velocity(1.0);
+        lines.set(&mut alone, 0, q + shift);
+        if rule.remembers_place {
+            lines.set(&mut alone, rule.second.unwrap(), q + shift);
+        }
+        let h = 1.0 / f64::from(fps);
+        (0..100)
+            .map(|_| {
+                lines.step(&mut alone, h, target);
+                rule.step(&mut registers, h, target, [&mut q, &mut v]);
+                [lines.value(&alone, 0) - shift, q]
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_body_under_a_rule_is_where_its_lines_put_it() {
+        for (text, fps, target) in [
+            ("v = (v + (target - x) * 0.2) * 0.85; x += v", 60, 0.0),
+            ("v += ((target - x) * 100 - 5 * v - 9.8) * dt; x += v * dt", 60, 0.0),
+            ("old = x; x += (x - prev) * 0.98 - x * 0.01; prev = old", 50, 0.0),
+            ("x += (target - x) * 20 * dt", 30, 3.5),
+            ("x = lerp(x, target, 0.1) + 0.05", 144, -2.0),
+            ("v *= 0.9; x += v * dt", 60, 0.0),
+        ] {
+            for [alone, q] in both(text, fps, target) {
+                assert!(q.is_finite() && (alone - q).abs() < 1e-12, "{text}: {alone} {q}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_rule_is_the_body_that_it_moves_like() {
+        // Semi-implicit Euler of ω² = 100 at 60 Hz: cos(θ) = 1 - ω²h²/2.
+        let theta = f64::acos(1.0 - 100.0 / 7200.0) * 60.0;
+        let RuleBody::Spring { stiffness, damping } =
+            rule("v += (target - x) * 100 * dt; x += v * dt", 60).unwrap().body()
+        else {
+            panic!("a spring")
+        };
+        assert!((stiffness / (theta * theta) - 1.0).abs() < 1e-12 && damping == 0.0);
+        let RuleBody::Coasting { drag } = rule("v *= 0.9; x += v", 60).unwrap().body() else {
+            panic!("it coasts")
+        };
+        assert!((drag + 60.0 * f64::ln(0.9)).abs() < 1e-11, "{drag}");
+        let RuleBody::Follower { rate } = rule("x += (target - x) * 0.5", 30).unwrap().body()
+        else {
+            panic!("a follower")
+        };
+        assert!((rate - 30.0 * f64::ln(2.0)).abs() < 1e-12, "{rate}");
+    }
+
+    #[test]
+    fn a_rule_that_no_body_moves_like_says_why() {
+        for (text, why) in [
+            ("v *= 0.9", "leaves `x`"),
+            ("v -= v * abs(v) * dt; x += v", "not linear"),
+            ("x = target", "in one frame"),
+            ("x += 3", "in one frame"),
+            ("x = -x", "in one frame"),
+            ("a = b; b = x - b; x += 0.1 * (a - b)", "more than two"),
+            ("v += (target - 0.5) * dt; v *= 0.9; x += v", "no rest"),
+        ] {
+            let [found, _] = rule(text, 60).unwrap_err();
+            assert!(found.contains(why), "{text}: {found}");
+        }
+    }
+}
