@@ -260,18 +260,17 @@ fn a_rule_is_exact_at_its_authors_rate_and_parts_from_itself_at_others() {
 
     for (text, fps, kind) in RULES {
         let scene = rule_scene("a/my rule.step", text, fps.parse().unwrap()).unwrap();
-        assert_eq!((scene.bodies[0].kind.id.as_str(), scene.name.as_str()), (kind, "my-rule"));
+        assert_eq!((&*scene.bodies[0].kind.id, &*scene.name), (kind, "my-rule"));
         let mut race = Race::of_scene(&scene);
         let mut farthest = [0.0_f64; 3];
         // Through both kicks.
         for _ in 0..race.nearest_tick(scene.seconds) {
             race.run(1);
-            let truth = race.truth().bodies()[0].state();
+            let truth = &race.truth().bodies()[0].stepper;
             for (farthest, entrant) in farthest.iter_mut().zip(race.entrants()) {
-                let state = entrant.lane.bodies()[0].state();
-                let [off, away] = [&truth, &state].map(|state| state.q[0]);
-                assert!(state.q[0].is_finite() && state.v[0].is_finite(), "{text}");
-                *farthest = farthest.max((off - away).abs());
+                let lane = &entrant.lane.bodies()[0].stepper;
+                assert!(lane.q()[0].is_finite() && lane.v()[0].is_finite(), "{text}");
+                *farthest = farthest.max((truth.q()[0] - lane.q()[0]).abs());
             }
         }
         let [half, own, twice] = farthest;
