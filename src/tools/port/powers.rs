@@ -1,21 +1,21 @@
-//! The powers of a map of two numbers, also between whole ones.
+//! Powers of a map of two numbers, with exponents that need not be whole.
 
-/// Logarithms of eigenvalues that are closer than this are those of a double one: their difference is rounding.
+/// Eigenvalues whose logarithms are closer than this count as a double one: the difference is rounding.
 const SAME: f64 = 1e-7;
 
-/// The powers of a map of two numbers whose eigenvalues are a pair, or real and positive.
+/// Powers of a map of two numbers whose eigenvalues are a complex pair, or real and positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::tools) struct Powers {
-    /// The logarithm of the root of the determinant, by which a step scales.
+    /// Logarithm of the square root of the determinant, by which a step scales.
     pub(in crate::tools) log_scale: f64,
     /// The eigenvalues are exp(log_scale ± apart), or exp(log_scale ± i apart) if the motion swings.
     pub(in crate::tools) apart: f64,
-    /// Whether the eigenvalues are a pair.
+    /// Whether the eigenvalues are a complex pair.
     pub(in crate::tools) swings: bool,
 }
 
 impl Powers {
-    /// Of a map with this trace and determinant; `None` if it changes sides at every step.
+    /// The powers of a map with this trace and determinant; `None` if a real eigenvalue is not positive.
     pub(in crate::tools) fn of(trace: f64, determinant: f64) -> Option<Self> {
         let half = trace / 2.0;
         let square = half * half - determinant;
@@ -28,7 +28,7 @@ impl Powers {
         Some(Self { log_scale: libm::log(determinant) / 2.0, apart, swings })
     }
 
-    /// The numbers e and o by which the power is e + o (M - ½ trace M) / √(determinant).
+    /// The coefficients e and o of the power e + o (M - ½ trace M) / √(determinant).
     pub(in crate::tools) fn at(&self, steps: f64) -> [f64; 2] {
         let &Self { log_scale, apart, swings } = self;
         let of = |log: f64| libm::exp(steps * log);
