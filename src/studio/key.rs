@@ -72,8 +72,8 @@ impl fmt::Display for Key {
 }
 
 impl Key {
-    /// Whether a browser has a use for it that a visitor expects of every page: to load it again, to look behind it, to fill
-    /// the screen, and to enlarge it. A page leaves it to the browser.
+    /// Whether a browser has a use for it that a visitor expects of every page: to load it again, to look behind it,
+    /// to fill the screen, and to enlarge it. A page leaves it to the browser.
     pub fn is_browsers(self) -> bool {
         matches!(
             self,
@@ -111,8 +111,8 @@ impl Binding {
     }
 }
 
-/// A table of lines: how often, the keys as shown, what they do, also on a page where that is something else, and each key with
-/// its command.
+/// A table of lines: how often, the keys as shown, what they do, also on a page where that is something else, and
+/// each key with its command.
 macro_rules! keys {
     ($($often:ident $shown:literal $about:literal $(or $page:literal)?: $($key:ident $(($of:literal))? => $command:expr),+;)+) => {
         &[$(Binding {

@@ -51,8 +51,8 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
     studio.deck.running = true;
 }
 
-/// Leaves the loop lab; the run goes on as it did before, or the one that was left for a guide closed since. Returns whether
-/// it was open.
+/// Leaves the loop lab; the run goes on as it did before, or the one that was left for a guide closed since. Returns
+/// whether it was open.
 pub(super) fn leave_loop_lab(studio: &mut Studio) -> bool {
     let Some(loops) = studio.loops.take() else { return false };
     studio.deck.running = loops.run_goes_on;

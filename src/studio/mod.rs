@@ -110,8 +110,8 @@ impl Studio {
         Self::starting_with(StartSettings::of(scene))
     }
 
-    /// At tick 0 of a scene, as options ask for it: under the method `selected`, or else the one that the scene opens with.
-    /// Of a race in which none was selected the verdicts select one. A single lane is shown solo.
+    /// At tick 0 of a scene, as options ask for it: under the method `selected`, or else the one that the scene opens
+    /// with. Of a race in which none was selected the verdicts select one. A single lane is shown solo.
     pub fn opened(scene: Scene, selected: Option<&'static Method>, mode: Mode) -> Self {
         let method = selected.unwrap_or_else(|| scene.opening_lane().method);
         let mut next = StartSettings::of(scene);
@@ -239,8 +239,8 @@ impl Studio {
         self.advance_in_time(u64::MAX, frame_ns, &mut || true, &mut ())
     }
 
-    /// Like [`Studio::advance`], but stops at tick `last`, and before the eyes of an observer. After each tick it asks whether
-    /// there is time for another; if there is not, it drops those that are still due.
+    /// Like [`Studio::advance`], but stops at tick `last`, and before the eyes of an observer. After each tick it
+    /// asks whether there is time for another; if there is not, it drops those that are still due.
     pub fn advance_in_time(
         &mut self,
         last: u64,

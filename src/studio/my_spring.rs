@@ -109,8 +109,8 @@ impl MySpring {
         }
     }
 
-    /// The text of a scene of the spring alone, at this tick rate in Hz. Its stretch is counted from where the mass rests:
-    /// about that it swings alike with gravity and without.
+    /// The text of a scene of the spring alone, at this tick rate in Hz. Its stretch is counted from where the mass
+    /// rests: about that it swings alike with gravity and without.
     pub fn scene_text(self, tick_hz: impl Into<TickRate>) -> String {
         let Self { mass_kg, stiffness_n_per_m, damping_n_s_per_m, v0_m_per_s, .. } = self;
         let (sag_m, x0_m) = (self.sag_m(), self.x0_m - self.sag_m());

@@ -34,8 +34,8 @@ impl Observer for Notices<'_> {
     }
 }
 
-/// What became of the bodies that halted in the last tick. Allocates nothing if none did. A reference that was not tried is
-/// told of on the stage.
+/// What became of the bodies that halted in the last tick. Allocates nothing if none did. A reference that was not
+/// tried is told of on the stage.
 fn of_halts(scene: &Scene, race: &Race) -> Vec<String> {
     let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
     let told = halts.flat_map(|(entrant, halt)| {

@@ -26,8 +26,9 @@ pub const MANY_LANES: usize = 10;
 /// The most ticks for which a changed scene is run again: an hour at 60 Hz, which takes about a second.
 const MAX_RERUN: u64 = 60 * 3600;
 
-/// Whether the lanes of a scene race, and which method is selected, where options name these methods. Several race, and so does a
-/// scene that opens as a race where none is named; else it is as `asked`. The first is selected, unless they are [`MANY_LANES`].
+/// Whether the lanes of a scene race, and which method is selected, where options name these methods. Several race,
+/// and so does a scene that opens as a race where none is named; else it is as `asked`. The first is selected, unless
+/// they are [`MANY_LANES`].
 pub fn lineup(
     scene: &Scene,
     methods: &[&'static Method],
@@ -101,8 +102,8 @@ pub(super) fn open_spring(deck: &mut Deck, viewer: &mut Viewer) {
     open_described(deck, viewer, spring.advised_scene(tick_hz));
 }
 
-/// The spring that a person has described, and the tick rate at which it is to run: that of its dialog, or else the present
-/// one.
+/// The spring that a person has described, and the tick rate at which it is to run: that of its dialog, or else the
+/// present one.
 pub fn described_spring(deck: &Deck, viewer: &Viewer) -> (MySpring, TickRate) {
     let tick_hz = match viewer.dialog {
         Some(Dialog::Spring { tick_hz }) => tick_hz,
@@ -135,9 +136,9 @@ fn open_described(deck: &mut Deck, viewer: &mut Viewer, scene: Result<Scene, Sce
     }
 }
 
-/// Replaces the scene of a changed file. If it is open and equal, the run goes on; if it has the same lanes and kinds of
-/// bodies, the new scene runs to the present tick; otherwise it starts at tick 0. A notice says that
-/// what a person did in the run is left out.
+/// Replaces the scene of a changed file. If it is open and equal, the run goes on; if it has the same lanes and kinds
+/// of bodies, the new scene runs to the present tick; otherwise it starts at tick 0. A notice says that what a person
+/// did in the run is left out.
 pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
     let is_open = studio.deck.scene_list.open_path() == Some(path);
     let tick = studio.deck.race().tick();

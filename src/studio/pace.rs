@@ -11,16 +11,16 @@ const SPAN_NS: u64 = 1_000_000_000;
 /// Measures a driver's frames per second and its real-time factor.
 #[derive(Debug, Default)]
 pub struct PaceMeter {
-    /// When each recent frame began, in nanoseconds, and the simulated time then in seconds, with the part of a tick that
-    /// is owed: counted in whole ticks the figure would jump at low rates.
+    /// When each recent frame began, in nanoseconds, and the simulated time then in seconds, with the part of a tick
+    /// that is owed: counted in whole ticks the figure would jump at low rates.
     frames: VecDeque<(u64, f64)>,
     /// The tick rate and the speed of those frames.
     under: Option<(TickRate, u32)>,
 }
 
 impl PaceMeter {
-    /// Adds a frame that began at `now_ns`, in nanoseconds of real time. A pause, a jump in time or a change of rate starts
-    /// the measurement again.
+    /// Adds a frame that began at `now_ns`, in nanoseconds of real time. A pause, a jump in time or a change of rate
+    /// starts the measurement again.
     pub fn frame(&mut self, now_ns: u64, studio: &Studio) {
         let under = Some((studio.clock().tick_hz(), studio.clock().speed_percent()));
         let t = studio.deck.time_with_owed_s();
@@ -68,8 +68,8 @@ pub struct LiveFrame {
     pub ticks: u32,
     /// The ticks that it dropped.
     pub dropped: u64,
-    /// The change of the moment shown minus that of real time, in milliseconds of real time. The moment of display is not
-    /// known: frames count as displayed when they begin.
+    /// The change of the moment shown minus that of real time, in milliseconds of real time. The moment of display is
+    /// not known: frames count as displayed when they begin.
     pub animation_error_ms: f64,
 }
 

@@ -1,5 +1,5 @@
-//! Where a run before a person rests: at its scene's length, and where all its bodies have blown up, which can be watched
-//! again.
+//! Where a run before a person rests: at its scene's length, and where all its bodies have blown up, which can be
+//! watched again.
 
 use super::acting::seek;
 use super::deck::Deck;

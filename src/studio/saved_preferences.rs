@@ -1,4 +1,5 @@
-//! What a driver remembers of a person from one run to the next, as a text that it keeps wherever the system has it kept.
+//! What a driver remembers of a person from one run to the next, as a text that it keeps wherever the system has it
+//! kept.
 
 use std::path::{Path, PathBuf};
 

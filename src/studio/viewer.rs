@@ -145,8 +145,8 @@ pub struct Viewer {
     pub(super) pointed: Option<usize>,
     /// The driver's pace while time runs; `None` without real time, as in a capture.
     pub pace: Option<Pace>,
-    /// The time of a tick of each lane that flew when the driver measured it last, in nanoseconds: `None` of a lane that
-    /// halted.
+    /// The time of a tick of each lane that flew when the driver measured it last, in nanoseconds: `None` of a lane
+    /// that halted.
     pub tick_times: Vec<(LaneSpec, Option<f64>)>,
     /// The latest message, until it has been shown for some seconds.
     pub notice: Option<Notice>,
@@ -193,7 +193,8 @@ impl Viewer {
         self.pointed
     }
 
-    /// Whether the pointer's button is down, as [`ViewCommand::PointerDown`](super::ViewCommand::PointerDown) told last.
+    /// Whether the pointer's button is down, as [`ViewCommand::PointerDown`](super::ViewCommand::PointerDown) told
+    /// last.
     pub fn pointer_is_down(&self) -> bool {
         self.hz_at_press.is_some()
     }
@@ -228,8 +229,9 @@ impl Viewer {
         self.tour.as_ref().is_some_and(Tour::is_asking)
     }
 
-    /// The verdict on the method with this index in the list, of the run that [`Studio::analysis_request`](super::Studio::analysis_request)
-    /// describes; `None` until it has been [found](super::accept_findings), and while a person is [asked](Self::is_asked).
+    /// The verdict on the method with this index in the list, of the run that
+    /// [`Studio::analysis_request`](super::Studio::analysis_request) describes; `None` until it has been
+    /// [found](super::accept_findings), and while a person is [asked](Self::is_asked).
     pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
         self.judged(entry).filter(|_| !self.is_asked())
     }
@@ -293,8 +295,8 @@ impl Viewer {
         self.hints = Hints::default();
     }
 
-    /// Closes the guide, whose scene is no longer shown, and restores the choices made before it. The instrument stays: it
-    /// is in sight.
+    /// Closes the guide, whose scene is no longer shown, and restores the choices made before it. The instrument
+    /// stays: it is in sight.
     pub(super) fn leave_guide(&mut self, left: Option<&LeftRun>) {
         if let Some(LeftRun { display: before, .. }) = left {
             let display = &mut self.preferences.display;

@@ -1,5 +1,5 @@
-//! Work beside a studio's run, which a driver does on threads of its own, or between frames: one step of it can take longer
-//! than a frame.
+//! Work beside a studio's run, which a driver does on threads of its own, or between frames: one step of it can take
+//! longer than a frame.
 
 use std::sync::Arc;
 
@@ -20,7 +20,8 @@ pub trait Work {
     /// Replaces the request.
     fn take(&mut self, request: Self::Request);
 
-    /// Does one step, which may end early when `stop` says so. Returns its result, if it has one, and whether there is more to do.
+    /// Does one step, which may end early when `stop` says so. Returns its result, if it has one, and whether there
+    /// is more to do.
     fn step(&mut self, stop: &dyn Fn() -> bool) -> (Option<Self::Found>, bool);
 }
 

@@ -7,8 +7,8 @@ const ZOOMS: (f64, f64) = (1.0 / 8.0, 64.0);
 /// the least zoom, so that everything visible can be zoomed in on.
 const FARTHEST: f64 = 4.5;
 
-/// A zoom and a pan relative to the frame that the camera fits. They are in units of the frame, so that they do not depend
-/// on the size of the window.
+/// A zoom and a pan relative to the frame that the camera fits. They are in units of the frame, so that they do not
+/// depend on the size of the window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ZoomPan {
     /// How many times larger than fitted, within [`ZOOMS`].
