@@ -1,4 +1,3 @@
-//! A satellite about a fixed centre of gravity: `r″ = -μ r / |r|³`.
 
 use super::kepler;
 use super::prelude::*;
@@ -44,8 +43,8 @@ const PARAMETERS: [Of; 6] = [
         .about("what one kick adds to the speed, along the path"),
 ];
 
-/// A satellite of negligible mass; its energy is per kilogram. Its coordinates are its position
-/// relative to the centre, in metres.
+/// A satellite of negligible mass; its energy is per kilogram. Its coordinates are its position relative to the
+/// centre, in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Orbit {
     /// μ, in cubic metres per second squared.
@@ -54,7 +53,7 @@ pub struct Orbit {
     pub q0: DVec2,
     /// Velocity at the start, in metres per second.
     pub v0: DVec2,
-    /// What one kick adds to the speed, in metres per second.
+    /// The change of speed by one kick, in metres per second.
     pub kick: f64,
 }
 
@@ -111,7 +110,7 @@ impl Body for Orbit {
         *to = kepler::flow(self.mu, dt, from);
     }
 
-    /// Infinite so close to the centre that the rounding of the time exceeds the time of passage.
+    /// Infinite if the satellite is so close to the centre that the rounding of the time exceeds the time of passage.
     fn exact_error(&self, _t: f64, dt: f64, _from: &State<DVec2>, to: &State<DVec2>) -> [f64; 2] {
         if 100.0 * f64::EPSILON * dt.abs() * to.v.length() > to.q.length() {
             return [f64::INFINITY; 2];
