@@ -117,7 +117,7 @@ impl Rule {
         Ok(Self::with_state(Arc::new(text), fps, vec![seen]))
     }
 
-    /// The rule as a map of these carried numbers and of those that they depend on.
+    /// The rule as a map of these carried numbers and their dependencies.
     fn with_state(text: Arc<StepText>, fps: f64, mut state: Vec<usize>) -> Self {
         let (reads, mut next) = (text.reads(), 0);
         while let Some(&index) = state.get(next) {
