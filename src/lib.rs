@@ -21,10 +21,10 @@
 //! | `window` | a screen, real time, files | `scene run measure loops look studio view` | `window.rs` |
 //! | `commands` | the command line: captures, threads | `sim table scene run tools measure loops look studio view window` | `commands/mod.rs` |
 //!
-//! A feature adds rooms. Without any, the crate is `sim` without [`bodies`](sim::bodies) and [`law`](sim::law)s, for a
-//! game's own loop. `lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands`: those that draw
-//! need `view`, and `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate,
-//! a file or a wall clock: text comes in as `&str`, time as integers.
+//! Without features the crate is `sim` without [`bodies`](sim::bodies) and [`law`](sim::law)s, for a game's own loop.
+//! `lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands`: those that draw need `view`, and
+//! `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or a wall
+//! clock: text comes in as `&str`, time as integers.
 //!
 //! # A frame
 //!
@@ -50,8 +50,6 @@
 //!   tests loop over them.
 //!
 //! # Add a thing
-//!
-//! `CONTRIBUTING.md` has every file of a method and of a scene.
 //!
 //! - **A method**: copy `sim/integrators/midpoint.rs`, add a line to `methods!` and its source to `assets/methods`.
 //! - **A physics engine**: a method [for some bodies only](sim::integrators::Only), like `sim/integrators/bullet.rs`.
@@ -84,7 +82,7 @@
 #![doc = include_str!("../examples/custom_method.rs")]
 //! ```
 //!
-//! Many copies of a body: `examples/cloud.rs`, `examples/batch.rs`.
+//! For many copies of a body see `examples/cloud.rs` and `examples/batch.rs`.
 //!
 //! # In continuous integration
 //!
@@ -99,7 +97,8 @@
 //! # Out of scope
 //!
 //! Collisions and contacts, which would hide the integrator behind the solver; generic scalars, which would bury the
-//! formulas (`commands/sweep/round_off.rs` is the one exception); constraints, which a closed body with natural coordinates does not need.
+//! formulas (`commands/sweep/round_off.rs` is the exception); constraints, which a closed body with natural coordinates
+//! does not need.
 
 // Only `main` exits, and the printers of the commands alone speak to a person.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
