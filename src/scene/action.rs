@@ -121,7 +121,7 @@ impl Action {
         words.trim_end().to_owned()
     }
 
-    /// The quantity or event that it changes, as a noun.
+    /// A noun for the action, for people.
     pub(crate) fn noun(&self) -> &'static str {
         match self {
             Action::Method(_) | Action::Lane { .. } => "the switch",
