@@ -23,8 +23,8 @@
 //!
 //! Without features the crate is `sim` without [`bodies`](sim::bodies) and [`law`](sim::law)s, for a game's own loop.
 //! `lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands`: those that draw need `view`, and
-//! `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or a wall
-//! clock: text comes in as `&str`, time as integers.
+//! `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or a
+//! wall clock: text comes in as `&str`, time as integers.
 //!
 //! # A frame
 //!
@@ -39,8 +39,8 @@
 //!   Frame rate, drawing, platform and build profile change nothing: `tests/determinism.rs` compares hashes.
 //! - **A run is a value.** A [`Session`](run::Session) changes only by [`Action`](scene::Action)s and ticks, and its
 //!   [`Journal`](run::Journal) holds them all. A [`Run`](run::Run) goes to any tick and finds the same bits.
-//! - **A body that blows up is data.** It halts, keeps its last good state and gives a reason; the other bodies continue
-//!   unchanged.
+//! - **A body that blows up is data.** It halts, keeps its last good state and gives a reason; the other bodies go
+//!   on unchanged.
 //! - **A step allocates nothing**, locks nothing and touches no file.
 //! - **Claims are measured.** Tests hold every field of a [`Method`](sim::integrators::Method) card from both sides,
 //!   with drag and without.
@@ -55,8 +55,8 @@
 //! - **A physics engine**: a method [for some bodies only](sim::integrators::Only), like `sim/integrators/bullet.rs`.
 //! - **A body**: copy `sim/bodies/pendulum.rs` and `look/pendulum.rs`; add it to `BODIES` and `LOOKS`.
 //! - **A scene**: a file in `assets/scenes` and its name in [`SCENES`](scene::SCENES).
-//! - **A game loop**: a card in [`POLICIES`](loops::POLICIES) and its source in `assets/loops`; a loop with a memory also
-//!   has a file beside `loops/policies/whole_refresh.rs`.
+//! - **A game loop**: a card in [`POLICIES`](loops::POLICIES) and its source in `assets/loops`; a loop with a memory
+//!   also has a file beside `loops/policies/whole_refresh.rs`.
 //! - **A metric** or **a key**: one entry of its table.
 //!
 //! # In your own game loop
@@ -76,7 +76,8 @@
 #![doc = include_str!("../examples/custom_body.rs")]
 //! ```
 //!
-//! A custom method is an [`Integrator`](sim::integrators::Integrator) and a card, which [`conformance::check`] measures:
+//! A custom method is an [`Integrator`](sim::integrators::Integrator) and a card, which [`conformance::check`]
+//! measures:
 //!
 //! ```
 #![doc = include_str!("../examples/custom_method.rs")]
