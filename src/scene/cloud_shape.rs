@@ -109,7 +109,7 @@ impl CloudShape {
             Self::Ring => [1.0, RING].map(|radius| circle([0.0, 0.0], radius, count / 2)).into(),
             Self::Cat => {
                 // Counter-clockwise from the inner foot of the right ear: over the head, over the left ear, below the
-                // head to the outer foot of the right ear, and over that ear.
+                // head to the right ear's outer foot, and over that ear.
                 let (middle, radius) = ([0.0, HEAD.0], HEAD.1);
                 let meets = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| {
                     let (dx, dy, fy) = (bx - ax, by - ay, ay - HEAD.0);

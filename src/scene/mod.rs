@@ -175,7 +175,7 @@ pub struct Scripted {
     /// Time in seconds, at most [`MAX_SECONDS`]. The action comes before the nearest tick at the rate in force, in
     /// every lane and in the truth.
     pub at_s: f64,
-    /// What is done.
+    /// The action.
     pub action: Action,
 }
 

@@ -71,7 +71,7 @@ pub(crate) fn nearest_tick(seconds: f64, tick_hz: TickRate) -> u64 {
 
 impl TimeScale {
     /// The times from `tick` on, which comes at `t` seconds. The rate is `tick_hz` and, from each tick of `changes`
-    /// on, in order, the rate beside it.
+    /// on, in order, the rate paired with it.
     pub(crate) fn new(
         (tick, t): (u64, f64),
         tick_hz: TickRate,
