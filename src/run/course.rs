@@ -98,7 +98,7 @@ impl Noted {
     }
 }
 
-/// Halts in the last tick that no failure forecast foresaw.
+/// Halts in the last tick, except those of a reference that was declined beforehand.
 fn halts(race: &Race) -> impl Iterator<Item = Event> {
     let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
     halts.map(|(entrant, halt)| {
@@ -126,7 +126,7 @@ const ON_TIME_S: f64 = 1e-6;
 #[derive(Clone)]
 pub(super) struct Hashes {
     pub(super) tick: u64,
-    /// Last full second before this tick.
+    /// Full seconds up to this tick.
     second: f64,
     pub(super) of_lanes: Vec<(LaneId, u64)>,
 }

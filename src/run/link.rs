@@ -338,8 +338,8 @@ pub fn to_built_in(name: &str) -> String {
     format!("{MARK}{SCENE}={name}")
 }
 
-/// The link that names a run from its start, whatever its present tick; `None` if it needs a packed run. Only an
-/// unedited built-in scene has such a link, under methods and at a rate that a link can name.
+/// The link that names a run from its start, at any present tick; `None` if it needs a packed run. Only an unedited
+/// built-in scene has such a link, under methods and at a rate that a link can name.
 pub fn naming(session: &Session) -> Option<String> {
     let (scene, start) = (session.scene(), session.start());
     let built_in = Scene::built_in(&scene.name).filter(|_| scene.in_rust().is_none())?;

@@ -138,8 +138,8 @@ impl UndoStack {
         }
     }
 
-    /// Drops the change that undo would reach last, or else the first of the undone ones. Returns whether there was
-    /// one.
+    /// Drops the change that undo would reach last, or else the one that redo would reach last. Returns whether there
+    /// was one.
     pub(super) fn drop_last(&mut self) -> bool {
         let from = if self.done.is_empty() { &mut self.undone } else { &mut self.done };
         let is_there = !from.is_empty();

@@ -18,7 +18,8 @@ use crate::studio::{shown_state, shown_truth};
 const BAR_MARGIN: f32 = 130.0;
 /// Height of a chip, in points.
 const CHIP: f32 = 27.0;
-/// Generous mean letter widths (points): of a body's name, of a verdict, and of other words at a cell's head.
+/// Upper bounds of the mean letter width (points): in a body's name, in a verdict, and in other words at a cell's
+/// head.
 const NAME_LETTER: f32 = 8.5;
 const VERDICT_LETTER: f32 = 7.6;
 const LETTER: f32 = 6.7;

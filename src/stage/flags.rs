@@ -21,7 +21,7 @@ const PUSHES: usize = 3;
 const BADGE: f32 = 24.0;
 const WIDE_BADGE: f32 = 92.0;
 const NARROW_BADGE: f32 = 26.0;
-/// Width of a badge besides its words, and a generous mean width of their letters, in points.
+/// Width of a badge besides its words, and upper bound of the mean width of their letters, in points.
 const BESIDE_WORDS: f32 = 40.0;
 const LETTER: f32 = 7.3;
 /// From this value on, badges show places as powers of ten.

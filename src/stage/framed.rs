@@ -104,7 +104,7 @@ impl BodyView {
     }
 
     /// Makes room for the lane alone on the stage: up to some times the true motion, or without limit for a person
-    /// who watches live.
+    /// who watches.
     fn widened(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
         if moment.studio.display().motion != Motion::Recorded {
             return self.outgrown(moment, lane, body);

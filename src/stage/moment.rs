@@ -41,7 +41,7 @@ impl<'a> DrawContext<'a> {
         self.studio.display().theme.lane_style(lanes, &lanes[entry])
     }
 
-    /// What is remembered of a body in a lane.
+    /// The recent past of a body in a lane.
     pub(super) fn history(&self, entrant: &Entrant, body: usize) -> &'a History {
         &self.studio.past().histories(entrant.id)[body]
     }

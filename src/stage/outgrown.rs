@@ -104,7 +104,7 @@ impl Room {
     }
 }
 
-/// The next power of two from `times` on, where `times` may exceed it by rounding.
+/// The smallest power of two that is at least `times`, within rounding, and at least 1.
 pub(super) fn in_steps(times: f64) -> f64 {
     const ROUNDING: f64 = 1e-9;
     libm::exp2(libm::ceil(libm::log2(times.max(1.0)) - ROUNDING))

@@ -99,7 +99,7 @@ pub enum StageCommand {
     Pick(usize),
     /// Selects the next or the previous menu entry, cyclically.
     MethodBeside(Step),
-    /// Solo to race, from the start line; race to solo, with the selected lane as it is.
+    /// Solo to race, from the start line; race to solo, in the present state of the selected lane.
     ToggleRace,
     /// Pauses and moves one tick forward or back.
     Tick(Step),

@@ -163,7 +163,7 @@ pub enum DriverRequest {
     ToggleFullScreen,
     /// Open the scene file at the typed path.
     OpenTypedPath,
-    /// Complete the typed path as far as it is unambiguous.
+    /// Complete the typed path up to its first ambiguity.
     CompletePath,
     /// End the program.
     Quit,

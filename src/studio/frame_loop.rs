@@ -30,9 +30,9 @@ pub struct FrameLoop {
     asked: Vec<Command>,
     /// Tick to reach before time passes, and whether time then runs.
     goal: Option<(u64, bool)>,
-    /// Start of the last frame; `None` if time was paused, or waits for long work.
+    /// Start of the last frame; `None` after a pause or after skipped time.
     last_frame_ns: Option<u64>,
-    /// Last time at which time passed, running or not.
+    /// Real time of the last [`pass`](Self::pass).
     passed_ns: u64,
     /// Number of openings when time last passed.
     openings: u64,

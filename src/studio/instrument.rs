@@ -3,7 +3,7 @@
 /// An instrument in the panel beside the stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Instrument {
-    /// Every body's first coordinate over time.
+    /// A coordinate of every body, or its velocity, over time.
     Motion,
     /// The chosen metric over time.
     Error,

@@ -21,7 +21,7 @@ use crate::sim::integrators::Method;
 
 /// Name of a custom spring on the list of scenes.
 const MY_SPRING: &str = "my spring";
-/// With this number of methods in the options, none is selected.
+/// From this number of named methods on, none is selected.
 pub const MANY_LANES: usize = 10;
 /// Most ticks for which a changed scene is run again: an hour at 60 Hz, which takes about a second.
 const MAX_RERUN: u64 = 60 * 3600;

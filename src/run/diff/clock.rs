@@ -106,7 +106,7 @@ fn words(name: &str) -> Vec<String> {
 pub(super) struct Course {
     /// Place of the last row, and the values of both sides there.
     last: Option<(f64, [f64; 2])>,
-    /// Lower and upper bound on the growth per row if it is constant, for each of [`PRECISIONS`].
+    /// Exclusive bounds on the growth per row, if it is constant, for each of [`PRECISIONS`].
     growth: [[f64; 2]; 2],
     steps: u32,
     /// Unit of the last digit in the last values.

@@ -78,8 +78,8 @@ fn wanted(is_ticks: bool) -> &'static str {
     if is_ticks { "a whole number of 0 or more" } else { "a number" }
 }
 
-/// Roles of columns whose names do not tell. Both tables must have every column named here; for an ignored one, the
-/// first is enough.
+/// Roles of columns, where their names are not enough. Both tables must have every column named here, except that one
+/// may lack an ignored column.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Chosen {
     /// Key columns, in place of `tick`, `lane`, `body` and `coordinate`. The first one named `tick`, `frame` or
