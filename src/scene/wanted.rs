@@ -54,7 +54,6 @@ pub(super) enum Wanted {
     TickRate,
     /// The length of a tick in seconds.
     Step,
-    /// A whole number.
     Whole(RangeInclusive<u64>),
     /// A list of points.
     Curve(bodies::Range),
@@ -72,7 +71,6 @@ pub(super) enum Wanted {
     Constants,
     /// A table of this name for each coordinate.
     Coordinates(&'static str),
-    /// An expression.
     Expression,
     /// The lines of a step.
     Lines,
@@ -92,7 +90,6 @@ pub(super) enum Wanted {
     Node,
     /// The numbers of two nodes.
     Ends,
-    /// A list of springs.
     Springs,
     /// A spring in such a list.
     Spring,

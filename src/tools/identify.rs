@@ -94,7 +94,6 @@ pub struct Identification {
     pub recommended: Vec<(&'static Method, Effective)>,
 }
 
-/// Maximum number of recommended methods.
 const MAX_RECOMMENDED: usize = 3;
 
 /// A swing whose residual exceeds this share of its amplitude is not that of the log.

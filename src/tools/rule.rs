@@ -42,7 +42,7 @@ const SMALL: f64 = 1e-6;
 const SMOOTH: f64 = 1e-3;
 /// Parts of a swing, or of a decay, in the search for the last visible moment.
 const PARTS: u32 = 64;
-/// Seconds for which a rule without a map is watched for growth, and the most frames.
+/// Length of the run that shows whether a rule without a map grows: in seconds, and at most in frames.
 const WATCHED_S: f64 = 20.0;
 const MAX_WATCHED: f64 = 20_000.0;
 

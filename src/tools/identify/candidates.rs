@@ -39,7 +39,6 @@ impl fmt::Display for Candidate {
 const USUAL_OF_ENGINES: &[u32] = &[1, 2, 4, 8, 16];
 /// Counts of substeps that people set for a method of their own.
 const USUAL: &[u32] = &[1, 2, 4];
-/// Largest count of substeps tried.
 const MAX_SUBSTEPS: u32 = 16;
 
 /// Twice the log-odds against an engine that holds a spring's force through the tick.

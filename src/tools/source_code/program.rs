@@ -87,8 +87,8 @@ pub(super) struct Program<'a> {
     pub(super) body: Vec<Line<'a>>,
 }
 
-/// Parts of the header that a source can put in its own words: claims of the card, use on several coordinates, and
-/// the moment at which it holds a time-dependent force.
+/// Parts of the header that a source can word itself: claims of the card, use on several coordinates, and the moment
+/// at which it holds a time-dependent force.
 const CLAIMS: [&str; 5] = ["order", "stability", "symplectic", "several", "held"];
 
 /// Functions that several methods share.
