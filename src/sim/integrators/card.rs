@@ -273,7 +273,7 @@ pub struct Method {
     /// Builds a custom method, which is not in [`METHODS`](super::METHODS):
     /// [`custom_integrator`](super::custom_integrator) of its type. `None` for methods of the table.
     pub custom: Option<fn(usize) -> Box<dyn AnyIntegrator>>,
-    /// The program of a method that a person wrote, which is not in [`METHODS`](super::METHODS) either: see
+    /// The lines of a method that a person wrote, which is not in [`METHODS`](super::METHODS) either: see
     /// [`own_method`](crate::sim::own_method()).
     #[cfg(feature = "lab")]
     pub own: Option<&'static StepText>,
@@ -286,12 +286,12 @@ impl Method {
         spellings.map(|spelling| (spelling, self.id))
     }
 
-    /// Whether it is not in the table: [custom](Method::custom), or a person's own program.
+    /// Whether it is not in the table: [custom](Method::custom), or made of a person's own lines.
     pub fn is_from_outside(&self) -> bool {
         self.custom.is_some() || self.own_text().is_some()
     }
 
-    /// The source text of a method that a person wrote; `None` for any other.
+    /// The text of a method made of a person's own lines; `None` for any other.
     pub fn own_text(&self) -> Option<&'static str> {
         #[cfg(feature = "lab")]
         return self.own.map(StepText::source);
@@ -360,7 +360,7 @@ impl Method {
 }
 
 impl PartialEq for Method {
-    /// Ids are unique, except for methods of a person's own.
+    /// Ids are unique, except for methods made of a person's own lines.
     fn eq(&self, other: &Self) -> bool {
         self.id == other.id && self.own_text() == other.own_text()
     }

@@ -20,8 +20,7 @@ pub(in crate::sim::integrators) struct Jacobian<V> {
     slope: V,
     /// The largest distance of an entry from the diagonal; `None` if no matrix is kept.
     reach: Option<usize>,
-    /// Column by column, the rows that each column [reaches](Self::rows). `da_dq` is empty for a Jacobian by velocity
-    /// alone.
+    /// Column by column, the [rows](rows()) kept of each column. `da_dq` is empty for a Jacobian by velocity alone.
     da_dq: Vec<f64>,
     da_dv: Vec<f64>,
 }
