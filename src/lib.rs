@@ -22,8 +22,8 @@
 //! | `commands` | the command line: captures, threads | `sim table scene run tools measure loops look studio view window` | `commands/mod.rs` |
 //!
 //! Without features the crate is `sim` without [`bodies`](sim::bodies) and [`law`](sim::law)s, for a game's own loop.
-//! `lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands`: those that draw need `view`, and
-//! `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or a
+//! `lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands`: those that draw need `view`,
+//! and `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or a
 //! wall clock: text comes in as `&str`, time as integers.
 //!
 //! # A frame
