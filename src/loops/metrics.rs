@@ -205,7 +205,6 @@ pub(super) struct PacingMeter {
 }
 
 impl PacingMeter {
-    /// Number of frames added.
     pub(super) fn frames(&self) -> u64 {
         self.frames
     }

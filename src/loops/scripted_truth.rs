@@ -42,7 +42,6 @@ impl BodyError {
 }
 
 impl ScriptedTruth {
-    /// The solution at the scene's start.
     pub(super) fn new(scene: &Scene) -> Self {
         let lane = Lane::new(scene, Solver::Truth, 1);
         let none = BodyError { squares: 0.0, count: 0, range: [f64::INFINITY, f64::NEG_INFINITY] };

@@ -179,7 +179,7 @@ impl Checks {
         }
         let median_ms = median(&self.frames_ms).filter(|_| !self.is_said)?;
         match median_ms {
-            // Below this, 5000 frames per second; above the next, less than one in two seconds.
+            // The limits are 5000 frames per second and one frame in two seconds.
             ..0.2 if median_ms > 0.0 => Some(Unit::Seconds),
             2000.0.. => Some(Unit::Microseconds),
             _ => None,

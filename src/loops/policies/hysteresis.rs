@@ -20,7 +20,7 @@ pub(super) struct Hysteresis {
     owed: i128,
     /// At index k, the ticks of the last k frames.
     made: [i128; FRAMES],
-    /// At index k, the smaller typical number of ticks of k + 1 frames.
+    /// At index k, the smaller of the two typical numbers of ticks of k + 1 frames.
     typical: [i128; FRAMES],
 }
 

@@ -5,8 +5,8 @@ use crate::loops::time_base::TimeBase;
 
 /// Number of recent durations in the mean.
 const LAST: usize = 11;
-/// How many of the longest and of the shortest durations are left out. Hitches of at most this many frames have no
-/// effect.
+/// How many of the longest and of the shortest durations are left out. Hitches of at most this many frames do not
+/// affect the mean.
 const LEFT_OUT: usize = 2;
 /// Divisor of the step's approach to the mean per frame. A larger one is smoother, and slower to adapt to another
 /// rate.

@@ -61,7 +61,6 @@ impl Stream {
         &self.process
     }
 
-    /// Line of its first row.
     pub(super) fn line(&self) -> u64 {
         self.line
     }
