@@ -58,7 +58,6 @@ impl<'a> Ranking<'a> {
         Self { all }
     }
 
-    /// The lowest cost.
     pub(super) fn least_cost(&self) -> Option<f64> {
         Some(self.all.first()?.met.cost_per_s)
     }

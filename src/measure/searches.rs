@@ -76,7 +76,6 @@ impl RatesDown {
         Self { held_hz: hz, strides, failed_hz: None }
     }
 
-    /// The next rate to try.
     pub(super) fn next(&self) -> Option<u32> {
         let stride =
             if self.failed_hz.is_some() { 1 } else { (self.held_hz / self.strides).max(1) };

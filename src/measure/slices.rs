@@ -86,7 +86,6 @@ pub(super) struct Sliced<T> {
 }
 
 impl<T> Sliced<T> {
-    /// Work that is counted on this meter.
     pub(super) fn new(meter: Arc<Meter>, work: impl Future<Output = T> + Send + 'static) -> Self {
         Self { meter, work: Box::pin(work) }
     }
@@ -138,7 +137,6 @@ impl<T> Default for Once<T> {
 }
 
 impl<T> Once<T> {
-    /// The value, if it is known.
     pub(super) fn found(&self) -> Option<&T> {
         self.found.get()
     }

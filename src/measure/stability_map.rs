@@ -259,7 +259,6 @@ impl TestProblem {
         matches!(self, Self::Uncoupled(Uncoupled { modes, .. }) if modes.iter().all(NormalMode::is_conserved))
     }
 
-    /// Whether the true motion grows.
     fn grows(&self) -> bool {
         matches!(self, Self::Coupled(coupled) if coupled.grows())
     }

@@ -174,7 +174,7 @@ mod tests {
                 );
             }
         }
-        // The difference of two decays is largest in between, at (r/s)^(s/(s-r)) - (r/s)^(r/(s-r)) of the start.
+        // The difference of two decays has its maximum in between: (r/s)^(s/(s-r)) - (r/s)^(r/(s-r)) of the start.
         let slow = SwingCurve { q: 1.0, b: 0.0, growth_per_s: -0.1, frequency: 100.0 };
         let fast = SwingCurve { growth_per_s: -0.15, ..slow };
         let wanted = libm::pow(2.0 / 3.0, 2.0) - libm::pow(2.0 / 3.0, 3.0);

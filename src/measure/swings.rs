@@ -51,7 +51,6 @@ impl Node {
         (self.t, self.a, self.half_turn) = (t, None, half_turn);
     }
 
-    /// The acceleration of coordinate `i`.
     fn acceleration(&mut self, stepper: &dyn Stepper, i: usize) -> f64 {
         let Self { t, q, v, a, .. } = self;
         let all = a.get_or_insert_with(|| {

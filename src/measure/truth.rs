@@ -60,7 +60,8 @@ pub(super) struct BodyTruth {
     pub(super) centres: Vec<f64>,
     /// Reach over the long run, or until the truth fails.
     pub(super) reach: Reach,
-    /// The normal modes of a linear body with its last parameters, and the motion in each after the last input.
+    /// The normal modes of a linear body with its last parameters, and the part of the motion after the last input in
+    /// each.
     pub(super) modes: Option<Vec<MovedMode>>,
     /// Largest kinetic energy in joules, which is the total energy of an oscillator. `None` if energy is not
     /// conserved or nothing moves.
@@ -123,7 +124,6 @@ impl BodyTruth {
         stepper
     }
 
-    /// The script's actions on the body at the start.
     pub(super) fn inputs_at_start(&self) -> Vec<Scripted> {
         let input = |action: &Action| Scripted { at_s: 0.0, action: action.clone() };
         self.at_start.iter().map(input).collect()
@@ -300,7 +300,6 @@ impl BodyTruth {
     }
 }
 
-/// The motion over the long run.
 struct LongRun {
     reach: ReachSoFar,
     /// Mean of each coordinate; empty if the motion was not followed.

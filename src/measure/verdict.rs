@@ -104,7 +104,7 @@ pub struct Comparison {
     /// Whether it meets [`Criterion::LooksRight`](super::Criterion::LooksRight); `None` if unknown.
     pub looks_right: Option<bool>,
     /// Widest swing relative to the true one; `None` if nothing swings. For a nonlinear body it is known only at
-    /// ticks, and `None` unless it is wider.
+    /// ticks, and `None` unless the swing is wider.
     pub width: Option<f64>,
     /// Seconds by which the motion is early at the end of the horizon, negative if it is late. `None` if this does
     /// not cause most of the error.

@@ -25,7 +25,6 @@ pub(super) enum Memory {
 /// The body that a cloud is made of.
 #[derive(Clone, Copy)]
 pub(super) struct Subject<'a> {
-    /// Its name, for people.
     name: &'a str,
     /// Copies the body to these starts; `None` if that is not possible.
     copies: &'a dyn Fn(Solver, Vec<State<f64>>) -> Option<NewBatch>,
@@ -111,7 +110,6 @@ impl Course {
         self.batch.v()
     }
 
-    /// The current tick.
     pub(super) fn tick(&self) -> u64 {
         self.ticks.first + self.ticks.count
     }

@@ -29,7 +29,7 @@ const SPREAD: f64 = 10.0;
 const BEHIND_S: f64 = 0.125;
 const LEAST_POINTS: usize = 1_000;
 
-/// Approximate number of evaluations between two pictures, and the maximum for a real-time run to reach its first
+/// Approximate number of evaluations in one call of `work`, and the maximum for a real-time run to reach its first
 /// requested tick with all points.
 const WORK: u64 = 4_000_000;
 const WORK_AT_FIRST: u64 = 8 * WORK;

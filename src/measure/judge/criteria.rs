@@ -43,7 +43,6 @@ impl From<TooMuch> for CriterionMiss {
 }
 
 impl Judge {
-    /// Whether a lane meets a criterion.
     pub(in crate::measure) async fn meets(
         &self,
         criterion: Criterion,

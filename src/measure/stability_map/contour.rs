@@ -11,7 +11,7 @@ use crate::sim::numerics::bisect;
 /// which is less than a pixel of a map that fills a screen.
 const HALVINGS: u32 = 9;
 
-/// A grid of points over a rectangle.
+/// A grid of points over a rectangle, the outermost on its border.
 pub(super) struct Corners {
     counts: [usize; 2],
     ends: [[f64; 2]; 2],
@@ -22,7 +22,6 @@ impl Corners {
         Self { counts, ends }
     }
 
-    /// Number of points along each axis.
     pub(super) fn counts(&self) -> [usize; 2] {
         self.counts
     }
