@@ -23,8 +23,8 @@
 //!
 //! Without features the crate is `sim` without [`bodies`](sim::bodies) and [`law`](sim::law)s, for a game's own loop.
 //! `lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands`: those that draw need `view`,
-//! and `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or a
-//! wall clock: text comes in as `&str`, time as integers.
+//! and `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or
+//! a wall clock: text comes in as `&str`, time as integers.
 //!
 //! # A frame
 //!
