@@ -1,10 +1,10 @@
 //! Equations of motion as text: `z = "-k*z/m"`, compiled to a flat tape.
 //!
 //! The parser and the evaluator are our own. Crates that read expressions evaluate them with std's mathematics, which
-//! differs from platform to platform; here every function is `libm`'s. Operations keep the order of the text: `a + b +
-//! c` is `(a + b) + c`. A whole exponent up to 16 becomes a product, so that `x^2` has the bits of `x*x`, `x^3` those
-//! of `x*x*x`, and `x^-2` those of `1/(x*x)`. Any other exponent is `libm::pow`'s. The parser recurses for brackets,
-//! signs and functions, at most [`MAX_DEPTH`] deep.
+//! differs from platform to platform; here every function is `libm`'s. Operations keep the order of the text:
+//! `a + b + c` is `(a + b) + c`. A whole exponent up to 16 becomes a product, so that `x^2` has the bits of `x*x`,
+//! `x^3` those of `x*x*x`, and `x^-2` those of `1/(x*x)`. Any other exponent is `libm::pow`'s. The parser recurses for
+//! brackets, signs and functions, at most [`MAX_DEPTH`] deep.
 
 use super::body::Distances;
 use compile::{Compiled, Compiler, check_names};

@@ -109,8 +109,8 @@ impl Chain {
         if self.x0 == 0.0 { 1.0 } else { self.x0.abs() }
     }
 
-    /// The position in metres of mass `j`, from 1, displaced by `x`: the chain lies along x, and displacements are across
-    /// it. `j` = 0 and `j` = masses + 1 are the walls.
+    /// The position in metres of mass `j`, from 1, displaced by `x`: the chain lies along x, and displacements are
+    /// across it. `j` = 0 and `j` = masses + 1 are the walls.
     pub fn place_of(&self, j: usize, x: f64) -> DVec2 {
         let part = j as f64 / (self.masses + 1) as f64;
         DVec2::new((2.0 * part - 1.0) * HALF_LENGTH * self.amplitude(), x)

@@ -31,8 +31,8 @@ const LATER_STATES: usize = 3;
 /// Prefixes of the names of a coordinate and of its velocity.
 const PREFIXES: [&str; 2] = ["", "v"];
 
-/// The largest relative change of the energy, or distance from an exact solution, after one tick: far above the accuracy of
-/// the reference, and far below what is visible.
+/// The largest relative change of the energy, or distance from an exact solution, after one tick: far above the
+/// accuracy of the reference, and far below what is visible.
 const TICK_TOLERANCE: f64 = 1e-7;
 
 /// The largest relative change of the energy over all ticks.

@@ -1,7 +1,7 @@
 //! A camera, or any value, that follows a target.
 //!
-//! A first-order law moves it as `x′ = k (g - x)`, a second-order law as a critically damped spring, `x″ = ω² (g - x)
-//! - 2 ω x′`. The target is `g(t) = s + r t + A sin(2π f t)` from time 0 on.
+//! A first-order law moves it as `x′ = k (g - x)`, a second-order law as a critically damped spring,
+//! `x″ = ω² (g - x) - 2 ω x′`. The target is `g(t) = s + r t + A sin(2π f t)` from time 0 on.
 
 use std::f64::consts::TAU;
 
@@ -135,8 +135,8 @@ impl Follow {
 impl System for Follow {
     type Vector = f64;
 
-    /// The first-order law, differentiated once, with its defect `v - k (g - x)` decaying at the rate k: `x″ = k g′ -
-    /// k x′ - k (x′ - k (g - x))`. The homogeneous part is that of the second-order law.
+    /// The first-order law, differentiated once, with its defect `v - k (g - x)` decaying at the rate k:
+    /// `x″ = k g′ - k x′ - k (x′ - k (g - x))`. The homogeneous part is that of the second-order law.
     #[inline]
     fn acceleration(&self, t: f64, x: &f64, v: &f64, a: &mut f64) {
         let k = self.rate;

@@ -1,8 +1,8 @@
 //! A steered ship: surge and sway of its centre of mass, and yaw. Its thrust is interpolated from a table over speed.
 //!
-//! Written in the frame of the water, where the equation is of second order in the coordinates: `m (vx, vy)′ = (δₜ
-//! T(u) - C u) bow - S w port` and `I r′ = δᵣ L u - D r`, with the surge speed `u` along the bow and the sway speed
-//! `w` to port.
+//! Written in the frame of the water, where the equation is of second order in the coordinates:
+//! `m (vx, vy)′ = (δₜ T(u) - C u) bow - S w port` and `I r′ = δᵣ L u - D r`, with the surge speed `u` along the bow
+//! and the sway speed `w` to port.
 
 use glam::DVec3;
 

@@ -13,9 +13,10 @@ pub enum SpinMap {
     /// `L' = L - h ω × L`, then scaled to the length of `L`. It keeps that length and changes the energy. Rapier; Jolt
     /// with `mApplyGyroscopicForce`, PhysX with `eENABLE_GYROSCOPIC_FORCES`.
     ScaledMomentum,
-    /// One Newton step from `ω` towards the root of implicit Euler, `I (ω' - ω) + h ω' × I ω' = 0`: `ω' = ω - J⁻¹ h ω × L`
-    /// with `J = I + h ([ω] I - [L])`, where `[a] b = a × b`. Bullet (`computeGyroscopicImpulseImplicit_Body`);
-    /// MuJoCo's integrators `implicit` and `implicitfast`. Not finite where `J` has no inverse.
+    /// One Newton step from `ω` towards the root of implicit Euler, `I (ω' - ω) + h ω' × I ω' = 0`:
+    /// `ω' = ω - J⁻¹ h ω × L` with `J = I + h ([ω] I - [L])`, where `[a] b = a × b`. Bullet
+    /// (`computeGyroscopicImpulseImplicit_Body`); MuJoCo's integrators `implicit` and `implicitfast`. Not finite where
+    /// `J` has no inverse.
     NewtonStep,
     /// `ω' = ω - h I⁻¹ (ω × L)`, explicit Euler. MuJoCo's integrator `Euler`.
     Explicit,

@@ -34,8 +34,8 @@ const RELATIVE_DIFFERENCES: (f64, f64) = (6e-6, 1e-11);
 /// Bounds on a difference: below the first it underflows, above the second it overflows.
 const EXTREMES: (f64, f64) = (1e-150, 1e150);
 
-/// Solves `A_i = a(t_i, Q_i, V_i)` for all `S` stages at once, where `Q_i = q_i + Σ α_ij A_j` and `V_i = v_i + Σ β_ij
-/// A_j`.
+/// Solves `A_i = a(t_i, Q_i, V_i)` for all `S` stages at once, where `Q_i = q_i + Σ α_ij A_j` and
+/// `V_i = v_i + Σ β_ij A_j`.
 #[derive(Clone)]
 pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
     /// `q_i` and `v_i`, set before solving.
