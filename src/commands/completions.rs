@@ -1,4 +1,4 @@
-//! `regatta completions`: a script for a shell, so that Tab completes options, scenes and methods.
+//! `regatta completions`: prints a script for a shell, so that Tab completes options, scenes and methods.
 
 use clap::{Args, Command};
 use clap_complete::Shell;

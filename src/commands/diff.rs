@@ -1,4 +1,4 @@
-//! `regatta diff`: where two runs first differ, and how the difference grows.
+//! `regatta diff`: finds where two runs first differ, and how the difference grows.
 
 use std::path::{Path, PathBuf};
 

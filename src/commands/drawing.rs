@@ -110,7 +110,7 @@ impl Plot {
     }
 }
 
-/// The number of columns that gives about as many rows.
+/// The number of columns for which a grid has about as many rows.
 pub(super) fn columns(charts: usize) -> usize {
     (2..charts).find(|columns| columns * (columns + 1) >= charts).unwrap_or(charts.min(2))
 }

@@ -1,4 +1,4 @@
-//! The error that ends a command, whatever its cause.
+//! The error that ends a command.
 
 use std::fmt::Display;
 use std::io;
@@ -139,17 +139,17 @@ impl Error {
         }
     }
 
-    /// The same error with words before its message.
+    /// Puts words before the message.
     pub(super) fn within(self, words: &str) -> Self {
         Self { message: format!("{words}: {}", self.message), ..self }
     }
 
-    /// The same error with words after its message.
+    /// Puts words after the message.
     pub(super) fn and(self, words: impl Display) -> Self {
         Self { message: format!("{}; {words}", self.message), ..self }
     }
 
-    /// The same error as a mistake, unless it is an interrupt.
+    /// Turns the error into a mistake, unless it is an interrupt.
     pub(super) fn or_mistake(self) -> Self {
         let kind =
             if self.kind == ExitReason::Interrupted { self.kind } else { ExitReason::Mistake };
@@ -165,8 +165,7 @@ impl Error {
         self.kind == ExitReason::ClosedPipe
     }
 
-    /// The exit code of the process: 1 for a run that failed, 2 for a mistake in the request, 130 for an
-    /// interrupt.
+    /// Exit code of the process: 1 for a failed run, 2 for a mistake in the request, 130 for an interrupt.
     pub fn exit_code(&self) -> u8 {
         match self.kind {
             ExitReason::Failed | ExitReason::ClosedPipe => 1,

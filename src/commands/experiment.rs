@@ -58,7 +58,7 @@ pub(super) struct Experiment {
 }
 
 impl ExperimentArgs {
-    /// Reads the scene and applies the other options. `asked` is the mode, unless the methods decide it.
+    /// Reads the scene and applies the other options. `asked` is the mode, unless the methods or the scene decide it.
     pub(super) fn load(&self, asked: Mode) -> Result<Experiment, Error> {
         let (scene, text) = match self.spring.load()? {
             Some((scene, text)) => (self.applied_to(scene)?, text),

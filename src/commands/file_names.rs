@@ -28,7 +28,7 @@ pub(super) fn is_of_pictures(ending: &str) -> bool {
     PICTURES.contains(&ending)
 }
 
-/// Whether files with this ending hold something else.
+/// Whether files with this ending never hold pictures.
 #[cfg(feature = "view")]
 pub(super) fn holds_no_picture(ending: &str) -> bool {
     NO_PICTURES.contains(&ending)

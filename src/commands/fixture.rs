@@ -1,4 +1,4 @@
-//! `regatta fixture`: the states of a scene's truth, as a test for an engine.
+//! `regatta fixture`: prints the states of a scene's truth as a test for an engine.
 
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};

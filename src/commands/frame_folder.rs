@@ -140,8 +140,8 @@ impl FrameFolder {
         self.blessing.as_ref().map_or(&self.path, Blessing::place)
     }
 
-    /// Creates the folder if necessary and removes the files of an earlier capture. The folder never holds frames of two
-    /// captures.
+    /// Creates the folder if necessary, and removes the files of an earlier capture. The folder never mixes frames of
+    /// two captures.
     pub(super) fn clear(&mut self) -> Result<(), Error> {
         if self.lock.is_none() {
             fs::create_dir_all(&self.path).map_err(Error::of_place(

@@ -19,7 +19,7 @@ type Tell = Option<Box<dyn Fn() + Send>>;
 
 static WATCHED: OnceLock<Watched> = OnceLock::new();
 
-/// Time for which a blocked stream may go on after an interrupt.
+/// Time that a blocked stream still has after an interrupt.
 const GRACE: Duration = Duration::from_millis(100);
 
 /// A flag that is set once Ctrl-C is pressed or the system asks the process to end. Call this before beginning a

@@ -1,4 +1,4 @@
-//! `manifest.json`: describes what a capture drew, so that `regatta verify` can judge it later.
+//! `manifest.json`: describes a capture, so that `regatta verify` can judge it later.
 //!
 //! The file is UTF-8 JSON beside the frames. It appears whole, after the frames that it lists. Its numbers are exact:
 //! floats are the shortest decimals that read back to the same bits. This is [`SCHEMA`] 1:

@@ -3,8 +3,8 @@
 //! Data goes to standard output and everything else to standard error, so that a command works in a pipe. A pipe that
 //! closes early ends a command quietly. Scripts rely on names, columns and exit codes.
 //!
-//! The modules below come in four groups: the subcommands; the run's inputs; the drawing of a run, frame by frame,
-//! into a folder, a stream or a sheet; and code that all of them share.
+//! The modules below come in four groups: subcommands, inputs of a run, drawing, and shared code. Drawing writes a
+//! run, frame by frame, into a folder, a stream or a sheet.
 
 #![cfg_attr(
     not(feature = "window"),

@@ -119,7 +119,7 @@ pub(super) fn manifest_of(dir: &Path) -> Result<(Manifest, Experiment), Error> {
     Ok((rerun.manifest, rerun.experiment))
 }
 
-/// Whether `path` is to be judged as a scene file: a link, a file, or a missing path that ends in `.toml`.
+/// Whether `path` counts as a scene file: a link, a file, or a missing path that ends in `.toml`.
 fn is_scene_file(path: &Path) -> bool {
     super::scene_file::is_link(path)
         || !path.is_dir()

@@ -32,7 +32,7 @@ pub struct Reading {
     pub short_rows: bool,
     /// Whether remarks may also appear between rows.
     pub remarks: bool,
-    /// Whether a first line that is only a number is already a row: of a list without a header.
+    /// Whether a first line that is only a number is already a row. The table is then a list without a header.
     pub lists: bool,
 }
 

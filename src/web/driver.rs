@@ -114,7 +114,7 @@ impl Driver {
         address: Address,
         mut studio: Studio,
     ) -> Self {
-        // At first the stage is alone, as in the window.
+        // Unless a person has stored another choice, the stage is alone at first, as in the window.
         let remembered = storage(&window).and_then(|storage| storage.get_item(STORED).ok()?);
         let remembered = remembered.and_then(|text| SavedPreferences::parse(&text).ok());
         remembered.unwrap_or_default().apply(&mut studio);

@@ -73,7 +73,7 @@ pub(crate) fn listen() {
         });
         on(&window, "resize", |driver, _: Event| driver.request_frame());
         if let Some(document) = window.document() {
-            // Time in which nobody could see the page is not simulated.
+            // Do not simulate time during which nobody could see the page.
             on(&document, "visibilitychange", |driver, _: Event| {
                 driver.frames.skip_time();
                 driver.remember();

@@ -62,7 +62,7 @@ impl Asked {
         Self { path: known(studio, path), is_typed: false, compared: None }
     }
 
-    /// The typed file, as the command line reads it. If a built-in scene has the typed name, opens it at once and
+    /// The typed file, as the command line reads it. The name of a built-in scene opens that scene at once and
     /// returns `None`.
     pub(super) fn typed(studio: &mut Studio) -> Option<Self> {
         let typed = studio.viewer.typed_path().trim().to_owned();
@@ -341,7 +341,7 @@ mod tests {
         };
         let message = &report[0].message;
         assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
-        // The name of a built-in scene opens that, as on the command line.
+        // As on the command line, the name of a built-in scene opens that scene.
         studio.apply(ViewCommand::TypePath(" ship ".into()));
         assert!(Asked::typed(&mut studio).is_none());
         assert_eq!((studio.deck.scene_name().as_str(), studio.viewer.dialog()), ("ship", None));

@@ -45,7 +45,7 @@ impl FileWatch {
 
     /// Reads a file, and watches it if it is a scene.
     pub(super) fn open(&self, asked: Asked) {
-        // If the thread has ended, so does the window.
+        // If the thread has ended, the window ends too.
         _ = self.files.send(asked);
     }
 }

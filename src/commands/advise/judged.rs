@@ -139,7 +139,7 @@ impl Row {
     }
 }
 
-/// Warns if something else kept the machine busy while costs were measured.
+/// Warns if other work kept the machine busy during the measurements.
 pub(super) fn warn_of_load(rows: &[Row]) {
     let timings = rows.iter().flat_map(|row| row.timings.iter().flatten());
     let mut spreads: Vec<f64> = timings.map(|timing| timing.spread).collect();

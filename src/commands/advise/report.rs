@@ -83,7 +83,7 @@ fn slowest_rates<'r>(rows: impl IntoIterator<Item = &'r Row>) -> String {
     format!("\nslowest tick rates in one step a tick, in Hz\n{}", table::text(RATES, rows, "  "))
 }
 
-/// The method to take for each criterion.
+/// Recommends a method for each criterion, or gives the reason why there is none.
 fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> String {
     let mut text = String::new();
     if rows.len() < wanted {

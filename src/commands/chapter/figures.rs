@@ -8,7 +8,6 @@ use crate::look::palette::Theme;
 use crate::scene::Scene;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
-/// A figure of the chapter.
 pub(super) struct Diagram {
     /// Number in the book.
     pub(super) number: &'static str,
@@ -72,7 +71,6 @@ pub(super) fn all() -> Vec<Diagram> {
     ]
 }
 
-/// A figure of one chart.
 fn figure(
     title: &str,
     note: String,

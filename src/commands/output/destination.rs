@@ -138,7 +138,7 @@ struct Sink {
 
 enum Target {
     Stdout,
-    /// A device or a pipe, which is written to and not replaced.
+    /// A device or a pipe. It is written to, never replaced.
     Device(Arc<File>),
     File(AtomicFile, IfExists),
 }

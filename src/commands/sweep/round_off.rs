@@ -229,8 +229,8 @@ mod tests {
     }
 
     /// Predicts the step with the least error, and that error. The model treats each rounding of the speed as random:
-    /// in n steps of m additions the error grows to √(n m) times that of one, which is the spacing of the numbers
-    /// about v over √12. The truncation error C h^p adds to it.
+    /// in n steps of m additions the error grows to √(n m) times that of one. The error of one is the spacing of the
+    /// numbers about v over √12. The truncation error C h^p adds to this.
     fn bottom(id: &str, width: Width) -> (f64, f64) {
         let ship = chapters_ship();
         let (t, v) = (8.0_f64, ship.exact(8.0, &ship.start()).unwrap().v);

@@ -107,7 +107,6 @@ impl Difference {
     }
 }
 
-/// Judges the scene file at `path`.
 pub(super) fn judge(path: &Path) -> Result<Report, Error> {
     let (scene, _) = scene_file::load(path)?;
     if scene.checks.is_empty() {
@@ -192,8 +191,9 @@ fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
     Ok(())
 }
 
-/// Replaces the hashes in the checks of the file at `path` with those of a new run. A file without checks gets those
-/// of a [recording](Session::recording): of each lane at every second, fewer in a long run, and at the end.
+/// Replaces the hashes in the checks of the file at `path` with those of a new run. A file without checks gets the
+/// checks of a [recording](Session::recording). They cover each lane at every second, or less often in a long run,
+/// and at the end.
 pub(super) fn bless(path: &Path) -> Result<(), Error> {
     if scene_file::is_link(path) {
         return Err(Error::mistake(
@@ -220,7 +220,7 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Checks for a scene that has none: of every lane, once a second and at the end.
+/// Checks for a scene that has none. They cover every lane once a second and at the end.
 pub(in crate::commands) fn checks_of(path: &Path, scene: &Scene) -> Result<Vec<Check>, Error> {
     let last = end_of(path, scene)?;
     Ok(Session::racing(scene.clone().into()).recording(last).checks)

@@ -78,7 +78,7 @@ fn is_report(path: &Path) -> bool {
     start.is_empty() || start.starts_with(JUNIT_BEGINS) || is_json()
 }
 
-/// The result. Its lines also go to standard output as soon as they are known.
+/// The result. Each of its lines also goes to standard output at once.
 #[derive(Debug)]
 pub(super) struct Report {
     path: PathBuf,
