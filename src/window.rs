@@ -143,7 +143,7 @@ struct App {
     minimised: bool,
     title: String,
     screenshot: bool,
-    /// The moment from which frames count time.
+    /// Zero point of the frames' time.
     started: Instant,
     /// Whether any frame was shown.
     is_shown: bool,
