@@ -231,9 +231,9 @@ pub(super) fn instance(mut descriptor: wgpu::InstanceDescriptor) -> wgpu::Instan
 
 /// Makes the C library keep the memory that a frame frees, for the next frame.
 ///
-/// A software driver allocates some 16 MB for a frame and frees them after it. If they went back to the system, it
-/// would clear and map them again page by page, which takes a quarter of the time of a frame. glibc keeps up to twice
-/// the size of the largest block that it mapped separately and got back. Other libraries take no notice.
+/// A software driver allocates some 16 MB for a frame and frees them after it. Memory that goes back to the system is
+/// cleared and mapped again page by page, which takes a quarter of the time of a frame. The C library glibc keeps up to
+/// twice the size of the largest block that it mapped separately and got back. Other libraries take no notice.
 fn keep_freed_memory() {
     /// In bytes.
     const BLOCK: usize = 16 << 20;

@@ -115,7 +115,7 @@ impl Readback {
         let submission = gpu.queue.submit(drawing.into_iter().chain([encoder.finish()]));
         let (sender, mapped) = mpsc::channel();
         buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver is gone only if nobody waits any more.
+            // The receiver is gone only after its owner gave up waiting.
             sender.send(result).ok();
         });
         self.pending.push_back(Pending { buffer, submission, mapped, row_bytes, blue_first });

@@ -20,7 +20,7 @@ pub(in crate::view) type AxisMark = (f64, String);
 const MIN_MARKS: usize = 3;
 /// Maximum number of significant digits of a mark.
 const MAX_DIGITS: usize = 15;
-/// A linear axis writes out numbers of this size, and others with a power of ten.
+/// Range of numbers that a linear axis writes out. Others get a power of ten.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e6;
 /// Exponents of the powers of ten that a logarithmic axis writes out.
 const PLAIN_POWERS: std::ops::RangeInclusive<i32> = -3..=5;

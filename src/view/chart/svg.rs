@@ -183,7 +183,7 @@ fn outline(stroke: Stroke) -> String {
     format!(r#"fill="none" stroke-width="{}" {}"#, stroke.width, paint("stroke", stroke.color))
 }
 
-/// Value of a colour attribute, with its opacity.
+/// The colour `attribute`, with its opacity.
 fn paint(attribute: &str, colour: Color32) -> String {
     let [r, g, b, a] = colour.to_srgba_unmultiplied();
     let opacity = match a {

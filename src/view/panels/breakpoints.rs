@@ -28,7 +28,7 @@ pub(super) const DIALOG_ON_STAGE: f32 = 310.0;
 // Heights of the window.
 pub(super) const TOP_BAR: f32 = 120.0;
 pub(super) const FOOTER: f32 = 200.0;
-/// On another page, a frame of 270 with a bar of 28 still has them.
+/// An embedded frame of 270, with a bar of 28, still has them.
 pub(super) const LANES: f32 = 240.0;
 pub(super) const TIMELINE: f32 = 420.0;
 pub(super) const TIMES_OF_TIMELINE: f32 = 560.0;

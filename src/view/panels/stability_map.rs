@@ -335,7 +335,7 @@ fn label_places(points: &[Pos2], width: f32, rect: Rect, taken: &[Pos2]) -> Vec<
         .collect()
 }
 
-/// Whether a label is clear of the boundaries in `others`, so that nobody takes it for theirs.
+/// Whether a label is clear of the boundaries in `others`, so that it cannot be taken for theirs.
 fn is_clear((at, angle): &(Pos2, f32), width: f32, others: &[Pos2]) -> bool {
     along(*at, *angle, width).all(|at| others.iter().all(|other| other.distance(at) >= BESIDE))
 }

@@ -3,7 +3,7 @@
 use crate::stage::{Acts, Parameter, Range};
 use crate::studio::Studio;
 
-/// A slider extends to this many times less and more than the scene's value.
+/// A logarithmic slider extends from the scene's value divided by this factor to the value times it.
 const REACH: f64 = 100.0;
 /// A slider that is not logarithmic extends to this many times that value.
 const LINEAR_REACH: f64 = 4.0;
