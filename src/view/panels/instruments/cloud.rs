@@ -44,7 +44,7 @@ const AREAS: f32 = 0.3;
 const MIN_AREAS: f32 = 110.0;
 /// Maximum ratio of a cloud's width to its height.
 const MAX_ASPECT: f32 = 1.3;
-/// Maximum texels on a side of a cloud's image. Each texel covers two cells of the density or fewer.
+/// Maximum texels on a side of a cloud's image: at most two for each cell of the density.
 const MAX_TEXELS: usize = 1024;
 /// Minimum side of a cloud, in points.
 const MIN_SIDE: f32 = 30.0;
