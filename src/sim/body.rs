@@ -6,7 +6,7 @@ use super::parameter::{self, ParameterOf};
 use super::state::Vector;
 use super::system::{BodyClass, StateOf, System};
 
-/// A thing that moves by an equation of motion.
+/// A kind of body that moves by an equation of motion.
 pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Its class, for methods that step only [some](super::integrators::Only) bodies.
     const CLASS: BodyClass = BodyClass::Forced;

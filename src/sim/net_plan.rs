@@ -12,7 +12,7 @@ pub const MAX_NODES: usize = 100_000;
 /// The most springs of a net: eight per node, twice the springs of a grid with shear.
 pub const MAX_SPRINGS: usize = 8 * MAX_NODES;
 
-/// The nodes and springs of a net, as a scene lists them.
+/// The plan of a net, as a scene writes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetPlan {
     /// Its nodes and springs.
@@ -40,7 +40,7 @@ pub struct Grid {
     pub rows: usize,
     /// The distance between neighbours, in metres.
     pub spacing: f64,
-    /// Whether springs also join the diagonals of each square.
+    /// Whether springs also run along the diagonals of each square.
     pub shear: bool,
     /// The fixed nodes; `None` if all are free.
     pub pin: Option<Pin>,

@@ -10,7 +10,7 @@ use super::integrators::{Method, Override, StepFailure, Stepped};
 use super::state::Vector;
 use super::system::{Coupling, EngineSettings, Evaluation, Pursuit, StateOf};
 
-/// Advances a body: a method, or the truth.
+/// The solver of a body: a method, or the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
     /// A method from the table.

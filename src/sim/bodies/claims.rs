@@ -175,7 +175,7 @@ pub(super) fn check<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Result<(), 
     fault.map_or(Ok(()), Err)
 }
 
-/// Whether `a` and `b` differ by no more than `most`; a NaN does.
+/// Whether `a` and `b` differ by at most `most`; a NaN never does.
 fn is_near(a: f64, b: f64, most: f64) -> bool {
     (a - b).abs() <= most
 }

@@ -214,7 +214,7 @@ impl Kind {
     }
 
     /// Stiffness in 1/s² and damping in 1/s, each per unit of mass, of the engine joint that equals this body. `None`
-    /// if the body is no spring, or more than one.
+    /// if the body is no spring, or has other forces too.
     pub fn joint(&self, body: &dyn Stepper) -> Option<[f64; 2]> {
         let EngineSettings { stiffness, damping, drag } = body.engine_settings(0.0);
         let is_joint = self.class == BodyClass::Joint && stiffness > 0.0 && drag == 0.0;

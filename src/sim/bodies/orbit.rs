@@ -1,3 +1,4 @@
+//! A satellite about a fixed centre of gravity: `r″ = -μ r / |r|³`.
 
 use super::kepler;
 use super::prelude::*;

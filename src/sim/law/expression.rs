@@ -84,7 +84,7 @@ pub(super) trait Scope {
     fn names(&self) -> Vec<String>;
     /// Why this name, allowed in other expressions, is not allowed here.
     fn why_not(&self, name: &str) -> Option<String>;
-    /// Whether this name is a function call of the acceleration.
+    /// Whether a call of this name is a call of the acceleration.
     fn is_acceleration(&self, _name: &str) -> bool {
         false
     }

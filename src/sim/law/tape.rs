@@ -66,7 +66,7 @@ pub(in crate::sim) struct Tape {
     origins: HashMap<u16, Origin>,
 }
 
-/// From the expression with this index on, a tape is too long or has too many switches.
+/// The fault of a tape that is too long or has too many switches, from the expression with this index on.
 pub(super) struct TooLong {
     pub(super) expression: usize,
     pub(super) are_switches: bool,

@@ -15,7 +15,7 @@ const REJECTED_FACTOR: f64 = 0.25;
 /// about half a turn does not alternate.
 const MAX_ANGLE: f64 = 3.3;
 
-/// The largest distance from the boundary of a piece at which a step may end, relative to its distance at the start.
+/// The largest distance from the boundary of a piece at which a step may end, relative to the distances at both ends.
 /// The error of the state is of second order in this.
 const BOUNDARY_TOLERANCE: f64 = 1e-9;
 

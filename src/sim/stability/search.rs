@@ -3,7 +3,7 @@
 /// The rates to search, in Hz.
 pub const RATES_HZ: std::ops::RangeInclusive<u32> = 1..=10_000;
 
-/// Rungs of the ladder above the first passing one that must pass too. Each is about 1.4 times the one before.
+/// Number of rungs above the first passing one that must pass too. Each is about 1.4 times the one before.
 const CONFIRMATIONS: u32 = 2;
 
 /// Searches [`RATES_HZ`], one rate per call, for the slowest that passes a test.

@@ -154,7 +154,8 @@ impl CoupledMotion {
 /// Times in seconds at which the derivatives of the force must equal those of the start.
 const LATER_S: [f64; 2] = [0.37, 2.9];
 
-/// Rates below this fraction of the largest count as zero: a double eigenvalue keeps half as many digits.
+/// Rates below this fraction of the largest count as zero. It is above √ε, by which rounding splits a double
+/// eigenvalue.
 const FORCE_FREE: f64 = 1e-7;
 
 /// A true growth below this fraction of the largest rate is rounding.

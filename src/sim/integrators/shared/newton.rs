@@ -189,7 +189,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     }
 
     /// Computes and factors the Jacobian at the current `A`, by differences suited to the weights of `whole`.
-    // Inlined because the two callers would otherwise call it out of their loops, at a fourteenth of a step.
+    // Called from two places, so that without `inline(always)` it would leave the loop, at a fourteenth of a step.
     #[inline(always)]
     fn factor(
         &mut self,

@@ -67,8 +67,8 @@ impl<V: Vector> Slopes<V> {
         self.reach = [reach(h.abs() * change, q), reach(change, v)];
     }
 
-    /// Overwrites `slope` with the derivative of the acceleration at `y` in the direction `along`. Without a forward
-    /// difference to use, the difference is central.
+    /// Overwrites `slope` with the derivative of the acceleration at `y` in the direction `along`. A difference is
+    /// central unless a forward one is given.
     #[inline]
     pub(in crate::sim::integrators) fn take(
         &mut self,

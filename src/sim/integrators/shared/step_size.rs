@@ -1,9 +1,9 @@
 //! Step size control of an adaptive method: which substep of a tick to try, whether to accept it, and which to try
 //! next. The step size carries over from tick to tick.
 //!
-//! The control compares the error of a substep, not divided by the step, with the tolerance. All pairs here propagate
-//! the better of their two solutions, so that the error per second is proportional to the tolerance, and a method of
-//! order p takes `tolerance^(-1/p)` substeps.
+//! The control compares the error of a substep with the tolerance, without dividing it by the step. All pairs here
+//! propagate the better of their two solutions, so that the error per second is proportional to the tolerance, and a
+//! method of order p takes `tolerance^(-1/p)` substeps.
 
 use super::LastStep;
 use crate::sim::integrators::failure::StepFailure;
