@@ -1,4 +1,4 @@
-//! A file that appears whole under its name or not at all, even after a loss of power: it is written under a
+//! A file that appears whole under its name or not at all, even after a loss of power. It is written under a
 //! temporary name beside its place, synced, and renamed.
 
 use std::fs::{File, Metadata};
@@ -7,60 +7,61 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-/// What stands before the random characters of a temporary name, and behind them.
+/// Text before and after the random characters of a temporary name.
 const MARK: &str = ".regatta-";
 const ENDING: &str = ".part";
 
 /// Random characters in a temporary name.
 pub(crate) const RANDOM_CHARS: usize = 6;
 
-/// File systems take names of 255 bytes; a longer stem leaves no room for the random characters.
+/// Longest name that a temporary name repeats. File systems take names of 255 bytes, and a longer one leaves no room
+/// for the random characters.
 const MAX_STEM: usize = 200;
 
-/// A file being written. Dropped before it is committed, it leaves nothing.
+/// A file being written. Dropping it before it is committed leaves nothing.
 #[derive(Debug)]
 pub(crate) struct AtomicFile {
     part: NamedTempFile,
     path: PathBuf,
 }
 
-/// What happens to an existing file of the same name.
+/// Policy for an existing file of the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum IfExists {
-    /// It is replaced.
+    /// The new file replaces it.
     Replace,
     /// It stays, and the new file is discarded.
     Keep,
-    /// It stays, and the new file gets the first of `name-2`, `name-3` … that is free.
+    /// It stays, and the new file gets the first free name of `name-2`, `name-3` …
     Beside,
 }
 
 impl AtomicFile {
-    /// Creates a file with a new temporary name beside `path`.
+    /// Creates a file with a temporary name beside `path`.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         let name = path.file_name().filter(|name| name.len() <= MAX_STEM).unwrap_or_default();
         let mut prefix = name.to_owned();
         prefix.push(MARK);
         let mut builder = tempfile::Builder::new();
         builder.prefix(&prefix).suffix(ENDING).rand_bytes(RANDOM_CHARS);
-        // Made as any new file is: the crate's own are for nobody but their owner.
+        // Open it like any new file: only their owner may read the crate's own files.
         let create = |part: &Path| File::options().write(true).create_new(true).open(part);
         let part = builder.make_in(directory_of(path), create)?;
         Ok(Self { part, path: path.to_owned() })
     }
 
-    /// The final name that it is to have.
+    /// The final name of the file.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Copies the permissions of the file that will be replaced.
+    /// Copies the permissions of the file to be replaced.
     pub(crate) fn set_permissions_of(&self, older: &Metadata) -> io::Result<()> {
         self.part.as_file().set_permissions(older.permissions())
     }
 
-    /// Syncs the file and gives it its final name, which it returns. Only [`sync_directory`] makes the name survive a loss
-    /// of power.
+    /// Syncs the file, gives it its final name, and returns that. Only [`sync_directory`] makes the name survive a
+    /// loss of power.
     pub(crate) fn rename(self, if_exists: IfExists) -> io::Result<PathBuf> {
         let Self { mut part, path } = self;
         part.as_file().sync_all()?;
@@ -84,7 +85,7 @@ impl AtomicFile {
         unreachable!("no folder holds as many files")
     }
 
-    /// Writes all of the file, and commits it. Returns its final name.
+    /// Writes the whole file and commits it. Returns its final name.
     pub(crate) fn write_whole(mut self, bytes: &[u8], if_exists: IfExists) -> io::Result<PathBuf> {
         self.write_all(bytes)?;
         self.commit(if_exists)
@@ -99,7 +100,7 @@ impl AtomicFile {
 
 impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // Not through the crate, which names the temporary file in its errors.
+        // Do not write through the crate, which names the temporary file in its errors.
         self.part.as_file_mut().write(bytes)
     }
 
@@ -108,18 +109,18 @@ impl Write for AtomicFile {
     }
 }
 
-/// Writes a file whole, and returns its final name.
+/// Writes a whole file and returns its final name.
 pub(crate) fn write_file(path: &Path, bytes: &[u8], if_exists: IfExists) -> io::Result<PathBuf> {
     AtomicFile::create(path)?.write_whole(bytes, if_exists)
 }
 
-/// The final name of the file with the temporary name `name`; `None` if that is not a temporary name.
+/// Final name of the file with this temporary name; `None` if it is not a temporary name.
 pub(crate) fn final_name(name: &str) -> Option<&str> {
     let (whole, random) = name.strip_suffix(ENDING)?.rsplit_once(MARK)?;
     is_random(random).then_some(whole)
 }
 
-/// Whether these can be the random characters of a temporary name.
+/// Whether these may be the random characters of a temporary name.
 pub(crate) fn is_random(characters: &str) -> bool {
     characters.len() == RANDOM_CHARS && characters.bytes().all(|b| b.is_ascii_alphanumeric())
 }
@@ -130,7 +131,7 @@ pub(crate) fn sync_directory(path: &Path) -> io::Result<()> {
         return Ok(());
     }
     match File::open(path)?.sync_all() {
-        // Some file systems sync directories by themselves and offer nothing to ask them.
+        // Some file systems sync directories by themselves and offer no call for it.
         Err(error)
             if matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) =>
         {
@@ -140,7 +141,7 @@ pub(crate) fn sync_directory(path: &Path) -> io::Result<()> {
     }
 }
 
-/// The path with this number behind the stem of its name; 1 is the path itself.
+/// The path with this number after the stem of its name. With 1 it is the path itself.
 fn numbered(path: &Path, number: u32) -> PathBuf {
     if number == 1 {
         return path.to_owned();

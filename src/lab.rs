@@ -1,6 +1,6 @@
-//! The former paths of the rooms between `sim` and the pixels, kept for one release. Take [`scene`], [`run`](crate::run),
-//! [`tools`](crate::tools), [`measure`](crate::measure), [`loops`](crate::loops), [`look`](crate::look), [`studio`] or
-//! [`stage`](crate::stage) instead.
+//! Former paths of the rooms between `sim` and the pixels, kept for one release. Use [`scene`], [`run`](crate::run),
+//! [`tools`](crate::tools), [`measure`](crate::measure), [`loops`](crate::loops), [`look`](crate::look), [`studio`]
+//! or [`stage`](crate::stage) instead.
 
 pub use crate::look::palette;
 pub use crate::loops::{self as pacing, loop_lab};
@@ -16,13 +16,13 @@ pub use crate::scene::{
 pub use crate::studio::{self, Studio};
 pub use crate::tools::{identify, port, source_code};
 
-/// The former path of the drawn past and of the menu.
+/// Former path of the drawn past and of the menu.
 pub mod past {
     pub use crate::run::Menu;
     pub use crate::run::past::*;
 }
 
-/// The former path of a run's parts.
+/// Former path of a run's parts.
 pub mod session {
     pub use crate::run::{
         Event, EventKind, Reached, RecordingError, Replay, Run as Timeline, SNAPSHOT_BYTES,
@@ -30,7 +30,7 @@ pub mod session {
     };
 }
 
-/// The former path of [`stage`](crate::stage).
+/// Former path of [`stage`](crate::stage).
 pub mod picture {
     pub use crate::look::palette::{self, Rgba};
     pub use crate::look::{Framing, Handle, Look, Pull};
@@ -38,7 +38,7 @@ pub mod picture {
     pub use crate::stage::*;
 }
 
-/// The former path of [`measure`](crate::measure).
+/// Former path of [`measure`](crate::measure).
 pub mod analysis {
     pub use crate::measure::*;
     pub use crate::run::{METRICS, Metric, Scale, Unit, energy_gained_percent};

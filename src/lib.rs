@@ -1,75 +1,67 @@
-//! Regatta shows, in real time, what a numerical integrator does to a game's moving bodies, so that a
-//! developer picks the right one before shipping.
+//! Regatta shows in real time what a numerical integrator does to a game's moving bodies, so that a developer picks
+//! the right one before shipping.
 //!
 //! # The house
 //!
-//! A room names those above it in this table only, and a test holds it to the third column.
+//! A room may use only the rooms in its third column, all of them above it. A test checks this.
 //!
 //! | room | holds | may name | open first |
 //! |---|---|---|---|
-//! | [`sim`] | mathematics: states, equations, methods, bodies | - | `sim/integrators/rk4.rs` |
-//! | [`table`] | one reader of tables: bytes in, a header, rows and numbers out | - | `table/mod.rs` |
-//! | [`scene`] | a scene as text and as value; actions; custom bodies | `sim` | `scene/mod.rs` |
-//! | [`run`] | a race of methods against the truth: its actions, its drawn past, its text | `sim table scene` | `run/mod.rs` |
-//! | [`tools`] | a developer's tools: the method of a log, a spring for an engine, source code | `sim table scene` | `tools/port.rs` |
-//! | [`measure`] | verdicts, advice, stability maps, clouds of starts | `sim scene run tools` | `measure/judge.rs` |
-//! | [`loops`] | game loops, traces of frames, the loop lab | `sim table scene run measure` | `loops/loop_run.rs` |
-//! | [`look`] | how a body looks and is held; colours | `sim scene run measure` | `look/pendulum.rs` |
-//! | [`studio`] | a person at a run: commands, the view, work in the background | `sim scene run tools measure loops look` | `studio/apply.rs` |
-//! | [`stage`] | the picture as plain data: [`compose`](stage::compose()) makes a [`Picture`](stage::Picture) | `sim scene run measure loops look studio` | `stage/compose.rs` |
-//! | `view` | pixels: panels, charts, and `FrameRenderer::draw`, the one way to draw | `scene run tools measure loops look studio stage` | `view/frame.rs` |
-//! | `window` | a screen, real time, a person's files | `scene run measure loops look studio view` | `window.rs` |
-//! | `commands` | the command line: files, captures, threads | `sim table scene run tools measure loops look studio view window` | `commands/mod.rs` |
+//! | [`sim`] | states, equations, methods, bodies | - | `sim/integrators/rk4.rs` |
+//! | [`table`] | a table reader: bytes to rows and numbers | - | `table/mod.rs` |
+//! | [`scene`] | scenes as text and value, actions, custom bodies | `sim` | `scene/mod.rs` |
+//! | [`run`] | a race against the truth: actions, past, recording | `sim table scene` | `run/mod.rs` |
+//! | [`tools`] | a log's method, springs for engines, source code | `sim table scene` | `tools/port.rs` |
+//! | [`measure`] | verdicts, advice, stability maps, clouds | `sim scene run tools` | `measure/judge.rs` |
+//! | [`loops`] | game loops, frame traces, the loop lab | `sim table scene run measure` | `loops/loop_run.rs` |
+//! | [`look`] | shapes, handles and colours of bodies | `sim scene run measure` | `look/pendulum.rs` |
+//! | [`studio`] | a person at a run: commands, view, background work | `sim scene run tools measure loops look` | `studio/apply.rs` |
+//! | [`stage`] | the picture as data: [`compose`](stage::compose()) makes a [`Picture`](stage::Picture) | `sim scene run measure loops look studio` | `stage/compose.rs` |
+//! | `view` | pixels: panels, charts, `FrameRenderer::draw` | `scene run tools measure loops look studio stage` | `view/frame.rs` |
+//! | `window` | a screen, real time, files | `scene run measure loops look studio view` | `window.rs` |
+//! | `commands` | the command line: captures, threads | `sim table scene run tools measure loops look studio view window` | `commands/mod.rs` |
 //!
-//! A feature is a row with all above it: without any the package is `sim` without its [`bodies`](sim::bodies) and
-//! [`law`](sim::law)s, what a game's own loop needs; `lab` adds the rooms to `stage`; then come `view` and `window`. `cli` is
-//! `commands`, of which those that draw come with `view`, and `play` with `window`. The default, `desktop`, has all. Up to `stage`
-//! nothing knows a graphics crate, a file or a wall clock: text comes in as `&str`, time as integers.
+//! Without features the crate is `sim` without [`bodies`](sim::bodies) and [`law`](sim::law)s, for a game's own loop.
+//! `lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands`: those that draw need `view`,
+//! and `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or
+//! a wall clock: text comes in as `&str`, time as integers.
 //!
 //! # A frame
 //!
 //! events → [`Command`](studio::Command)s → [`Studio::apply`](studio::Studio::apply) → [`Action`](scene::Action)s →
-//! [`Race`](run::Race) → [`Done`](run::race::Done) → [`Clock::advance`](sim::Clock::advance) → the [ticks](run::Run::tick) that are
-//! due → [`compose`](stage::compose()) → `FrameRenderer::draw` → present or read back; in real time, by a
-//! [`FrameLoop`](studio::FrameLoop).
+//! [`Race`](run::Race) → [`Done`](run::race::Done) → [`Clock::advance`](sim::Clock::advance) → due
+//! [ticks](run::Run::tick) → [`compose`](stage::compose()) → `FrameRenderer::draw` → present or read back. A
+//! [`FrameLoop`](studio::FrameLoop) does this in real time.
 //!
-//! # What holds
+//! # Invariants
 //!
-//! - **The same bits everywhere.** Stepped state is `f64` and uses only `+ - × ÷ √` and `libm`; time is counted in whole
-//!   ticks. Frame rate, drawing, platform and build profile change nothing: `tests/determinism.rs` compares
-//!   [`Race::lane_hashes`](run::Race::lane_hashes) with committed values.
-//! - **A run is a value.** A [`Session`](run::Session) changes by [`Action`](scene::Action)s and ticks only, and its
-//!   [`Journal`](run::Journal) holds them all, whether a script, a person or a test gave them. A
-//!   [`Run`](run::Run) goes to any tick and finds the same bits (`tests/library/sessions.rs`).
-//! - **A body that blows up is data.** It halts, keeps its last good state and says why; the others go on, unchanged to the bit.
-//! - **The step allocates nothing**, takes no lock and touches no file (`tests/library/allocation.rs`).
-//! - **Claims are measured.** `tests/library/conformance` tests every field of a [`Method`](sim::integrators::Method) card both
-//!   ways, with drag and without.
-//! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES), [metrics](run::METRICS),
-//!   [scenes](scene::SCENES), [keys](studio::KEYS), the [stops](studio::guide::STOPS) of the guide,
-//!   [game loops](loops::POLICIES), [their metrics](loops::PACING_METRICS) and [traces](loops::TRACES): menus, help, command
-//!   line and tests loop over them.
+//! - **The same bits everywhere.** Stepped state is `f64` and uses only `+ - × ÷ √` and `libm`; time is whole ticks.
+//!   Frame rate, drawing, platform and build profile change nothing: `tests/determinism.rs` compares hashes.
+//! - **A run is a value.** A [`Session`](run::Session) changes only by [`Action`](scene::Action)s and ticks, and its
+//!   [`Journal`](run::Journal) holds them all. A [`Run`](run::Run) goes to any tick and finds the same bits.
+//! - **A body that blows up is data.** It halts, keeps its last good state and gives a reason; the other bodies go
+//!   on unchanged.
+//! - **A step allocates nothing**, locks nothing and touches no file.
+//! - **Claims are measured.** Tests hold every field of a [`Method`](sim::integrators::Method) card from both sides,
+//!   with drag and without.
+//! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
+//!   [metrics](run::METRICS), [scenes](scene::SCENES), [keys](studio::KEYS), [stops](studio::guide::STOPS),
+//!   [game loops](loops::POLICIES), [their metrics](loops::PACING_METRICS) and [traces](loops::TRACES). Menus, help and
+//!   tests loop over them.
 //!
-//! # Adding a thing
+//! # Add a thing
 //!
-//! - **A method**: copy `sim/integrators/midpoint.rs`, declare the file, add its line to `methods!`. A method for
-//!   [some bodies only](sim::integrators::Only) comes after all others; a physics engine is a
-//!   [family](sim::integrators::Family::Engine) of those, like `sim/integrators/bullet.rs`. Its
-//!   [source code](tools::source_code::MethodSource) is in `assets/methods`.
-//!   One by a person's lines is [read](sim::own_method()) when the program runs.
-//!   `BLESS=1 cargo test --test library tables` writes its row in the [manual](mod@manual::methods).
-//! - **A body**: copy `sim/bodies/pendulum.rs`, declare the file, add its card to [`BODIES`](sim::bodies::BODIES), and its
-//!   look, a file beside `look/pendulum.rs`, to `LOOKS`. A [law](sim::bodies::law_kind) or a [net](sim::bodies::net_kind), which
-//!   a scene lays out itself, has a kind of its own, made when the scene is read.
-//! - **A scene**: add a file to `assets/scenes` and its name to a group of [`SCENES`](scene::SCENES).
-//! - **A game loop**: a card in [`POLICIES`](loops::POLICIES), its source in `assets/loops`, and a file beside
-//!   `loops/policies/whole_refresh.rs` if it has a memory.
-//! - **A metric**: one entry of [`METRICS`](run::METRICS). **A key**: one entry of [`KEYS`](studio::KEYS).
+//! - **A method**: copy `sim/integrators/midpoint.rs`, add a line to `methods!` and its source to `assets/methods`.
+//! - **A physics engine**: a method [for some bodies only](sim::integrators::Only), like `sim/integrators/bullet.rs`.
+//! - **A body**: copy `sim/bodies/pendulum.rs` and `look/pendulum.rs`; add it to `BODIES` and `LOOKS`.
+//! - **A scene**: a file in `assets/scenes` and its name in [`SCENES`](scene::SCENES).
+//! - **A game loop**: a card in [`POLICIES`](loops::POLICIES) and its source in `assets/loops`; a loop with a memory
+//!   also has a file beside `loops/policies/whole_refresh.rs`.
+//! - **A metric** or **a key**: one entry of its table.
 //!
 //! # In your own game loop
 //!
-//! The clock and the methods work on any system of yours. Here a ball falls through air, stepped at
-//! 120 Hz whatever the frame rate, and drawn between ticks:
+//! A ball falls through air, stepped at 120 Hz at any frame rate and drawn between ticks:
 //!
 //! ```
 #![doc = include_str!("../examples/game_loop.rs")]
@@ -78,49 +70,36 @@
 //! # Custom bodies and methods
 //!
 //! A [`System`](sim::System) and a start are enough for [`advise`], [`Race::of`](run::Race::of),
-//! [`Scene::of`](scene::Scene::of) and `Window::run`; [`Options`](scene::Options) and [`Extras`](sim::bodies::Extras) say more:
+//! [`Scene::of`](scene::Scene::of) and `Window::run`:
 //!
 //! ```
 #![doc = include_str!("../examples/custom_body.rs")]
 //! ```
 //!
-//! Many starts of a body of one coordinate are a [`Cloud`](measure::cloud::Cloud), which knows what becomes of their area:
-//!
-//! ```
-#![doc = include_str!("../examples/cloud.rs")]
-//! ```
-//!
-//! A million copies of such a body are a [`Batch`](sim::batch::Batch):
-//!
-//! ```
-#![doc = include_str!("../examples/batch.rs")]
-//! ```
-//!
-//! A custom method is an [`Integrator`](sim::integrators::Integrator) and a card, which
-//! [`conformance::check`] measures:
+//! A custom method is an [`Integrator`](sim::integrators::Integrator) and a card, which [`conformance::check`]
+//! measures:
 //!
 //! ```
 #![doc = include_str!("../examples/custom_method.rs")]
 //! ```
 //!
+//! For many copies of a body see `examples/cloud.rs` and `examples/batch.rs`.
+//!
 //! # In continuous integration
 //!
-//! A race of a scene gives the same hashes for ever, unless its physics changes:
+//! A race of a scene keeps its hashes until its physics changes:
 //!
 //! ```
 #![doc = include_str!("../examples/ci_hash.rs")]
 //! ```
 //!
-//! # The manual
-//!
-//! What the program does, in [chapters](manual): from the [keys](mod@manual::keys) to what is [stable](mod@manual::stable).
+//! The [manual] describes the program.
 //!
 //! # Out of scope
 //!
-//! Collisions and contacts, which would hide the integrator behind the solver; generic scalars,
-//! because the formulas would drown, but for one experiment on their width
-//! (`commands/sweep/round_off.rs`); and constraints, because a closed body with natural coordinates needs
-//! none.
+//! Collisions and contacts, which would hide the integrator behind the solver; generic scalars, which would bury the
+//! formulas (`commands/sweep/round_off.rs` is the exception); constraints, which a closed body with natural coordinates
+//! does not need.
 
 // Only `main` exits, and the printers of the commands alone speak to a person.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]

@@ -1,5 +1,5 @@
-//! Regatta's program: command line in, exit code out. 0 is success, 1 a run that failed, 2 a mistake in
-//! the command line or in a scene file, 130 an interrupt.
+//! Regatta's program: command line in, exit code out. 0 is success, 1 a failed run, 2 a mistake in the command line
+//! or in a scene file, 130 an interrupt.
 
 use std::io::{self, Write};
 use std::panic::{self, PanicHookInfo};
@@ -11,8 +11,8 @@ use std::process::ExitCode;
 
 use regatta::commands::{self, Cli};
 
-/// The libraries below us speak of errors only, and EGL not at all: it tries drivers that are not there,
-/// and what matters of that comes back as an error value. `RUST_LOG` overrides it.
+/// Log filter: these libraries report errors only, and EGL nothing. EGL tries drivers that are not installed, and any
+/// failure that matters comes back as an error value. `RUST_LOG` overrides it.
 const LOG_FILTER: &str =
     "warn,arboard=error,wgpu_core=error,wgpu_hal=error,wgpu_hal::gles::egl=off,naga=error";
 
@@ -32,7 +32,7 @@ fn run() -> ExitCode {
     let cli = match Cli::read(std::env::args_os()) {
         Ok(cli) => cli,
         Err(answer) => {
-            // Help and version come this way too. A closed pipe is no reason to complain.
+            // Help and version also arrive here. A closed pipe is no reason to complain.
             let printed = answer.print().and_then(|()| io::stdout().flush());
             if let Err(error) = printed
                 && !answer.use_stderr()
@@ -55,9 +55,9 @@ fn run() -> ExitCode {
     }
 }
 
-/// Restarts the program with a folder in `XDG_RUNTIME_DIR` in which there is no Wayland, where the variable is unset and no
-/// window is opened. Mesa looks for Wayland before it lists its adapters, and libwayland complains of the variable on standard
-/// error. It is set before drivers and threads are there, by the only call that is safe.
+/// Restarts the program with an `XDG_RUNTIME_DIR` in which there is no Wayland, if the variable is unset and no
+/// window opens. Mesa looks for Wayland before it lists its adapters, and libwayland complains about the variable on
+/// standard error. A restart is the only safe way to set it before there are drivers and threads.
 #[cfg(target_os = "linux")]
 fn restart_without_wayland(cli: &Cli) {
     use std::os::unix::process::CommandExt;
@@ -77,14 +77,14 @@ fn restart_without_wayland(cli: &Cli) {
 }
 
 fn report_bug(panic: &PanicHookInfo<'_>) {
-    // What the libraries below us do where the system starts no thread for them is no bug of ours.
+    // A library that cannot start a thread, because the system refuses, is no bug of ours.
     let said = panic.payload_as_str().unwrap_or_default();
     if ["failed to spawn thread", "ThreadPoolBuildError"].iter().any(|what| said.contains(what)) {
         return commands::print_status(
             "error: the system starts no more threads for this program; let it (ulimit -u, ulimit -v)",
         );
     }
-    // Not `eprintln!`, which panics in its turn where standard error is closed.
+    // Not `eprintln!`, which itself panics if standard error is closed.
     commands::print_status(&format!(
         "error: regatta has a bug, and stopped: {panic}\n\
          Please report it with these lines and the command that you gave."

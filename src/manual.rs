@@ -1,20 +1,19 @@
-//! The manual, in chapters: what the program and the library do, with examples. `regatta help` prints the same
-//! text.
+//! The manual of the program and the library, in chapters with examples. `regatta help` prints the same text.
 
 /// A chapter of the manual.
 #[derive(Clone, Copy, Debug)]
 pub struct Chapter {
-    /// What `regatta help` is asked for.
+    /// The chapter's name in `regatta help`.
     pub id: &'static str,
-    /// What it is about, in a line.
+    /// A summary in one line.
     pub about: &'static str,
-    /// Markdown.
+    /// The text in Markdown.
     pub text: &'static str,
 }
 
 macro_rules! chapters {
     ($($id:ident: $about:literal)*) => {
-        /// All chapters, in the order in which they are read.
+        /// All chapters, in reading order.
         pub const CHAPTERS: &[Chapter] = &[$(Chapter {
             id: stringify!($id),
             about: $about,
@@ -22,7 +21,7 @@ macro_rules! chapters {
         }),*];
         $(
             #[doc = concat!("The manual: ", $about, ".\n\n")]
-            // What these print is run by tests, in a package of its own where it is Rust.
+            // Tests run the examples in these chapters. Those in Rust run in a separate package.
             #[cfg_attr(all(doc, not(doctest)), doc = include_str!(concat!("manual/", stringify!($id), ".md")))]
             pub mod $id {}
         )*
@@ -46,7 +45,7 @@ chapters! {
     stable: "what stays as it is from release to release"
 }
 
-/// The chapter that is called `id`.
+/// The chapter with this id.
 pub fn chapter(id: &str) -> Option<&'static Chapter> {
     CHAPTERS.iter().find(|chapter| chapter.id == id)
 }

@@ -1,14 +1,14 @@
-//! The note by which a PNG file is known as made by this program.
+//! The note that marks a PNG file as made by this program.
 
-/// What each file says of where it comes from, under the keyword that PNG has for it.
+/// PNG's keyword for the origin of a file, and our text for it.
 pub(crate) const SOFTWARE: (&str, &str) = ("Software", "regatta");
 
-/// Signature, header and note stand in as many bytes at the start of a file.
+/// Length of a file's start that contains signature, header and note, in bytes.
 #[cfg(feature = "cli")]
 pub(crate) const NOTED_WITHIN: usize = 128;
 
-/// Whether the file that begins with these bytes, [`NOTED_WITHIN`] of them if it has as many, says that
-/// this program made it.
+/// Whether a file with this start was made by this program. The start should have [`NOTED_WITHIN`] bytes, or be the
+/// whole file.
 #[cfg(feature = "cli")]
 pub(crate) fn is_encoded_here(start: &[u8]) -> bool {
     let (keyword, text) = SOFTWARE;

@@ -1,7 +1,7 @@
-//! What a game's loop needs, in one import.
+//! Everything that a game's loop needs, in one import.
 //!
 //! With the feature `lab` it also has bodies, scenes, races and verdicts. The vectors of the systems are in
-//! [`regatta::glam`](crate::glam), beside which a game may have another version.
+//! [`regatta::glam`](crate::glam), because a game may use another version of glam.
 
 #[cfg(feature = "lab")]
 pub use crate::measure::{Adviser, CRITERIA, Judge, Report, Verdict};

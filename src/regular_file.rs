@@ -1,4 +1,4 @@
-//! Reads the files that a person names: regular ones, up to a stated size. Reading a pipe or a device could wait for ever.
+//! Reads the regular files that a person names, up to a given size. Reading a pipe or a device could block for ever.
 
 use std::fs::{File, Metadata};
 use std::io::{self, Read};
@@ -6,35 +6,35 @@ use std::path::Path;
 
 use crate::run::link;
 
-/// The most bytes of a table that is read, a log of a motion or of frames: half an hour of frames at 144 Hz.
+/// Most bytes of a table, such as a log of a motion or of frames: half an hour of frames at 144 Hz.
 pub(crate) const MAX_TABLE_BYTES: usize = 64 << 20;
 
-/// Whether a path that a person names is that of no file, but a link to a run.
+/// Whether a path from a person is a link to a run instead of a file.
 pub(crate) fn is_link(path: &Path) -> bool {
     path.to_str().is_some_and(link::is_link) && !path.exists()
 }
 
-/// Why a file is not read, with the remedy.
+/// The reason why a file is not read, with the remedy.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Unreadable {
     /// The system refuses, or there is no such file.
     #[error("{0}; give one that you may read")]
     System(#[from] io::Error),
-    /// There is no such file, and a link to a run in the place of its path.
+    /// There is no such file: the path is a link to a run.
     #[error("it is a link to a run; give a file")]
     Link,
-    /// The path is that of a directory.
+    /// The path is a directory.
     #[error("it is a directory; give a file in it")]
     Directory,
-    /// The path is that of a pipe, a device or a socket.
+    /// The path is a pipe, a device or a socket.
     #[error(
         "it is no regular file but a pipe or a device, which may never end; write it to a file"
     )]
     NotRegular,
-    /// The file is larger than what is asked for can be.
+    /// The file is larger than allowed.
     #[error("it holds more than {max_bytes} bytes; give a shorter one")]
     TooLarge {
-        /// The most bytes that it may have.
+        /// Most bytes allowed.
         max_bytes: usize,
     },
 }
@@ -47,7 +47,7 @@ impl Unreadable {
     }
 }
 
-/// The bytes of a regular file of at most `max_bytes`: none of a file whose length is 0.
+/// Reads a regular file of at most `max_bytes`. A file that reports a length of 0 gives no bytes.
 pub(crate) fn read(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable> {
     let bytes = read_start(path, max_bytes.saturating_add(1))?;
     if bytes.len() > max_bytes {
@@ -56,7 +56,7 @@ pub(crate) fn read(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable>
     Ok(bytes)
 }
 
-/// The bytes of a table: of a regular file, or of standard input where the path is `-`.
+/// Reads a table from a regular file, or from standard input if the path is `-`.
 #[cfg(feature = "cli")]
 pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, Unreadable> {
     if path.as_os_str() != "-" {
@@ -70,7 +70,7 @@ pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, Unreadable> {
     }
 }
 
-/// What a table at this path is called.
+/// Name of the table at this path, for messages.
 #[cfg(feature = "cli")]
 pub(crate) fn table_name(path: &Path) -> String {
     match path.as_os_str() == "-" {
@@ -79,24 +79,24 @@ pub(crate) fn table_name(path: &Path) -> String {
     }
 }
 
-/// The first bytes of a regular file, at most `max_bytes`.
+/// Reads the first bytes of a regular file, at most `max_bytes`.
 pub(crate) fn read_start(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable> {
     let mut bytes = Vec::new();
     open(path)?.take(max_bytes as u64).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
-/// A regular file, of whatever size: nothing of a file whose length is 0.
+/// Opens a regular file of any size. A file that reports a length of 0 gives no bytes.
 pub(crate) fn open(path: &Path) -> Result<io::Take<File>, Unreadable> {
     if is_link(path) {
         return Err(Unreadable::Link);
     }
-    // Before it is opened: opening a pipe waits for its other end.
+    // Check before opening: opening a pipe waits for its other end.
     check(&path.metadata()?)?;
     let file = File::open(path)?;
     let found = file.metadata()?;
     check(&found)?;
-    // What says that it is empty may be the kernel's, as /proc/kmsg is, and reading it could wait for ever too.
+    // A file with a length of 0 may be the kernel's, such as /proc/kmsg. Reading that could block for ever, too.
     let most = if found.len() == 0 { 0 } else { u64::MAX };
     Ok(file.take(most))
 }

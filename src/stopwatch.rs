@@ -6,20 +6,20 @@ use std::time::{Duration, Instant};
 
 use crate::run::{Follow, Lane};
 
-/// The fewest ticks that are timed together. Reading the clock takes as long as a few ticks of a small body, which is at
-/// most a hundredth of this many.
+/// Fewest ticks timed together. Reading the clock takes as long as a few ticks of a small body, at most a hundredth
+/// of this many.
 const TOGETHER: u64 = 256;
 
-/// The fewest runs of which the fastest is taken, so that one that the system interrupts is not: unless they take this
-/// many times the effort.
+/// Fewest runs. The fastest one counts, so that an interruption by the system does not. Fewer suffice once they have
+/// taken this many times the effort.
 const MIN_RUNS: usize = 5;
 const PATIENCE: u32 = 20;
 
-/// The nanoseconds per tick of what is `made`, run by run, from least to most. A run is `ticks` ticks, or fewer where
-/// `effort` passes first; it is repeated until `effort` has passed, and a few times more on a busy machine. None if `ticks`
-/// is 0.
+/// Nanoseconds per tick of the lane from `made`, run by run, from least to most. A run has `ticks` ticks, or fewer if
+/// `effort` passes first. It is repeated until `effort` has passed, and a few times more on a busy machine. Empty if
+/// `ticks` is 0.
 ///
-/// It must not halt within these ticks: a halted lane costs nothing.
+/// The lane must not halt within these ticks: a halted lane costs nothing.
 pub(crate) fn ns_per_tick(
     made: impl Fn() -> Follow<'static, Lane>,
     ticks: u64,
@@ -32,7 +32,7 @@ pub(crate) fn ns_per_tick(
     runs(effort, || begin.elapsed(), || ns_per_tick_of_a_run(&made, ticks, effort))
 }
 
-/// What `run` returns, from least to most, repeated until `elapsed` is the `effort` and there are a few.
+/// Results of `run`, from least to most. Repeats it until `elapsed` reaches `effort` and there are a few results.
 fn runs(
     effort: Duration,
     mut elapsed: impl FnMut() -> Duration,
@@ -50,13 +50,13 @@ fn runs(
     }
 }
 
-/// Nanoseconds per tick, over as many copies as have [`TOGETHER`] ticks; over one, if that takes `effort`.
+/// Nanoseconds per tick, over enough copies for [`TOGETHER`] ticks, or over one copy if that takes `effort`.
 fn ns_per_tick_of_a_run(
     made: &impl Fn() -> Follow<'static, Lane>,
     ticks: u64,
     effort: Duration,
 ) -> f64 {
-    // To make a lane may take longer than to step it.
+    // Making a lane may take longer than stepping it.
     let (mut elapsed, mut done) = elapsed_in(made, ticks, effort, 1);
     if done < TOGETHER && elapsed < effort {
         (elapsed, done) = elapsed_in(made, ticks, effort, TOGETHER.div_ceil(ticks));
@@ -64,7 +64,7 @@ fn ns_per_tick_of_a_run(
     elapsed.as_nanos() as f64 / done as f64
 }
 
-/// The time that this many runs take, until `effort` has passed, and their ticks.
+/// Time that this many runs take, and their ticks. Stops once `effort` has passed.
 fn elapsed_in(
     made: &impl Fn() -> Follow<'static, Lane>,
     ticks: u64,

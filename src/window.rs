@@ -1,7 +1,7 @@
-//! The window: drives a [`Studio`] in real time, by keys and mouse, and shows it. No other code reads a wall clock to
-//! drive a studio.
+//! The window: drives a [`Studio`] in real time, by keys and mouse, and shows it. No other code of this crate reads a
+//! wall clock to drive a studio.
 //!
-//! A frame is drawn when something has changed: always while time runs, and after an event while it is paused. A
+//! It draws a frame when something has changed: always while time runs, and after an event while time is paused. A
 //! hidden window draws nothing and continues to simulate.
 
 use std::sync::Arc;
@@ -54,17 +54,18 @@ use tick_timer::TickTimer;
 use watch::FileWatch;
 use work_thread::WorkThread;
 
-/// The longest time between two simulation steps without a frame. It is well below the clock's longest frame, so that
-/// a window that is hidden, or not asked for frames by the window system, drops no ticks.
+/// Longest time between two simulation steps without a frame. It is well below the clock's longest frame. A window
+/// that is hidden, or gets no requests for frames from the window system, thus drops no ticks.
 const MAX_WAIT: Duration = Duration::from_millis(100);
 
-/// Advice on a spring takes longer than a frame: a thread of its own gives it.
+/// A separate thread handles this command, because advice on a spring takes longer than a frame.
 const OPEN_SPRING: Command = Command::Stage(StageCommand::OpenSpring);
 
-/// Opens a window on `studio` and runs it until it is closed. `files` reads the scene files that are opened in the window.
+/// Opens a window on `studio` and runs it until it is closed. `files` reads the scene files that a person opens in
+/// it.
 ///
 /// # Errors
-/// [`WindowError::NoDisplay`] if there is none, before any other error; the others at any time.
+/// [`WindowError::NoDisplay`] if there is no display, before any other error. The others may come at any time.
 pub fn run(
     mut studio: Studio,
     settings: WindowSettings,
@@ -128,23 +129,23 @@ struct App {
     recording: Option<GrowingRecording>,
     tick_timer: TickTimer,
     watch: FileWatch,
-    /// The end of the run, in simulated seconds.
+    /// End of the run in simulated seconds.
     seconds: Option<f64>,
-    /// The size of the window in points, when it last did not fill the screen.
+    /// Size of the window in points when it last did not fill the screen.
     size: Option<[u32; 2]>,
     proxy: EventLoopProxy<Event>,
     canvas: Option<Canvas>,
     clipboard: Clipboard,
     held: Modifiers,
-    /// Whether a redraw was requested and the window system has not asked for it yet.
+    /// Whether a requested redraw is still to come from the window system.
     redraw_owed: bool,
     occluded: bool,
     minimised: bool,
     title: String,
     screenshot: bool,
-    /// The moment from which frames count time.
+    /// Zero point of the frames' time.
     started: Instant,
-    /// Whether a frame was shown.
+    /// Whether any frame was shown.
     is_shown: bool,
     interrupted: bool,
     outcome: Result<(), WindowError>,
@@ -171,7 +172,7 @@ impl App {
         }
         let waits_for_field = self.waits_for_field();
         let Some(canvas) = &mut self.canvas else { return };
-        // Text for a field that is not shown yet waits until it is.
+        // Hold back text for a field until a frame has shown the field.
         let early = if waits_for_field { canvas.take_events() } else { Vec::new() };
         let drawn = canvas.draw(&self.frames.studio, &mut self.clipboard);
         canvas.put_back(early);
@@ -199,7 +200,7 @@ impl App {
         }
     }
 
-    /// A moment as frames count it, in nanoseconds.
+    /// Nanoseconds from `started` to `moment`.
     fn ns_at(&self, moment: Instant) -> u64 {
         moment.duration_since(self.started).as_nanos() as u64
     }
@@ -208,7 +209,7 @@ impl App {
         self.ns_at(Instant::now())
     }
 
-    /// Leaves the time since the frame began out of the run, after work that takes long.
+    /// Leaves the time since the frame began out of the run. For use after slow work.
     fn stand_still(&mut self) {
         self.frames.stand_still(self.now_ns());
     }
@@ -273,7 +274,7 @@ impl App {
         }
     }
 
-    /// Finds what to recommend for the spring that a person has described, which takes longer than a frame if it is stiff.
+    /// Searches for advice on the spring that a person has described. If it is stiff, this takes longer than a frame.
     fn advise_on_spring(&self) {
         let Studio { deck, viewer, .. } = &self.frames.studio;
         let (spring, tick_hz) = described_spring(deck, viewer);
@@ -305,7 +306,7 @@ impl ApplicationHandler<Event> for App {
         self.title = self.frames.studio.title();
         let attributes = settings::attributes(self.size, event_loop)
             .with_title(self.title.clone())
-            // AccessKit has to be there before the window shows.
+            // AccessKit must be ready before the window is visible.
             .with_visible(false);
         let window = match event_loop.create_window(attributes) {
             Ok(window) => Arc::new(window),
@@ -375,7 +376,7 @@ impl ApplicationHandler<Event> for App {
             WindowEvent::Resized(size) => {
                 canvas.resize();
                 self.size = settings::size_of(&canvas.window, *size).or(self.size);
-                // How Windows says that a window is minimised.
+                // Windows reports a minimised window in this way.
                 self.minimised = size.width == 0 || size.height == 0;
             }
             WindowEvent::ThemeChanged(theme) => {

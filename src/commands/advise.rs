@@ -94,7 +94,8 @@ pub(super) struct AdviseArgs {
     format: TableFormat,
 }
 
-/// A lane for each method of a family that steps the scene, as the scene lists it.
+/// One lane for each method of the family that can step the scene. A method that the scene lists keeps the scene's
+/// lane.
 fn of_family(scene: &Scene, family: Family) -> Result<Vec<LaneSpec>, Error> {
     let listed = |method| scene.lanes.iter().find(|lane| lane.method == method).copied();
     let fitting = scene.methods_of(family);

@@ -1,5 +1,5 @@
-//! Arguments of the command line: those that are numbers, and how any stands in a message: cut where it is long, as a link
-//! to a run is.
+//! Parsers for numeric arguments, and the form of arguments in messages: long ones, such as links to a run, are
+//! shortened.
 
 use std::path::Path;
 
@@ -8,16 +8,16 @@ use clap::error::{ContextKind, ContextValue};
 use crate::regular_file::is_link;
 use crate::scene::{clip, cut};
 
-/// The most characters of an argument in a message: more than a person writes, and no more than a few lines.
+/// Most characters of an argument in a message: longer than a person types, yet only a few lines.
 const MAX_SHOWN_CHARS: usize = 300;
 
-/// A path for a message. Of a link, whose letters say nothing, the first few stand for it.
+/// A path for a message. A link is unreadable, so only its first characters appear.
 pub(super) fn brief(path: &Path) -> String {
     let written = path.display().to_string();
     if is_link(path) { clip(&written) } else { cut(MAX_SHOWN_CHARS, &written) }
 }
 
-/// An error of the command line, in which long arguments are cut.
+/// Shortens long arguments in a command line error.
 pub(super) fn with_brief_arguments(mut error: clap::Error) -> clap::Error {
     let shorter = |(kind, value): (ContextKind, &ContextValue)| match value {
         ContextValue::String(text) => {
@@ -28,7 +28,7 @@ pub(super) fn with_brief_arguments(mut error: clap::Error) -> clap::Error {
     };
     let long: Vec<(ContextKind, ContextValue)> = error.context().filter_map(shorter).collect();
     if !long.is_empty() {
-        // A suggestion would repeat what is too long.
+        // A suggestion would repeat the long argument.
         error.remove(ContextKind::Suggested);
     }
     for (kind, shown) in long {
@@ -37,7 +37,7 @@ pub(super) fn with_brief_arguments(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// A finite number on the command line that fits, or else what is wanted.
+/// Parses a finite number for which `fits` is true. The error names the `wanted` numbers.
 pub(super) fn number_that(
     written: &str,
     fits: fn(f64) -> bool,
@@ -47,18 +47,18 @@ pub(super) fn number_that(
     number.ok_or_else(|| format!("give {wanted}"))
 }
 
-/// A number of the command line that is not negative.
+/// Parses a number of at least 0.
 pub(super) fn number(written: &str) -> Result<f64, String> {
     number_that(written, |x| x >= 0.0, "a number from 0 up")
 }
 
-/// A frequency of the command line in Hz, which may have its unit behind it.
+/// Parses a frequency in Hz, with or without its unit.
 pub(super) fn frequency(written: &str) -> Result<f64, String> {
     let number = written.strip_suffix("Hz").unwrap_or(written).trim_end();
     number_that(number, |hz| hz > 0.0, "a frequency above 0 in Hz, such as 2.5Hz")
 }
 
-/// A number of the command line above 0.
+/// Parses a number above 0.
 pub(super) fn positive(written: &str) -> Result<f64, String> {
     number_that(written, |x| x > 0.0, "a number above 0")
 }

@@ -148,10 +148,10 @@ enum Shown {
 /// One column per second: enough to see a method fail on every scene.
 const SHEET_FPS: u32 = 1;
 
-/// As many cells as stand beside each other on a page.
+/// As many cells as fit side by side on a page.
 const SHEET_COLUMNS: u32 = 6;
 
-/// The longest side of a frame in pixels: what nearly every adapter can draw on.
+/// Longest side of a frame in pixels. Nearly every adapter can draw it.
 const MAX_SIDE_PX: u32 = 8192;
 
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {

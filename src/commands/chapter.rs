@@ -1,5 +1,5 @@
-//! `regatta chapter`: the numbers and figures of the chapter that this program began with, from the
-//! running code, beside what is printed there.
+//! `regatta chapter`: recomputes the tables and figures of the book chapter with which this program began, next to
+//! the printed numbers.
 //!
 //! Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
 
@@ -68,7 +68,7 @@ pub(super) fn run(args: &ChapterArgs) -> Result<(), Error> {
     print(text)
 }
 
-/// Pixels of a figure, and pixels to a point: legible in a page's width.
+/// Pixel size of a figure, and pixels per point: legible at page width.
 const SIZE_PX: [u32; 2] = [1600, 1000];
 const SCALE: f32 = 1.6;
 
@@ -96,7 +96,7 @@ fn draw(mut folder: FigureFolder) -> Result<(), Error> {
     Ok(())
 }
 
-/// The state of the body of a built-in scene at a time, from which the numbers and figures are taken.
+/// State of a built-in scene's body at time `t` (s), for the tables and figures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Moment {
     t: f64,
@@ -104,22 +104,20 @@ struct Moment {
     v: f64,
 }
 
-/// The built-in scene of this name.
 fn scene(name: &str) -> Scene {
     Scene::built_in(name).expect("the chapter's scenes are built in")
 }
 
-/// The method with this id.
 fn method_of(id: &str) -> &'static Method {
     method(id).expect("the chapter's methods are in the table")
 }
 
-/// The scene's first body at every tick up to `seconds`, the start included, at the scene's tick rate.
+/// States of the scene's first body at every tick from 0 to `seconds`, at the scene's tick rate.
 fn by_method(scene: &Scene, id: &str, seconds: f64) -> Vec<Moment> {
     moments(scene, Solver::Method(method_of(id)), seconds, scene.tick_hz)
 }
 
-/// The exact motion of the scene's first body, with `per_second` states per second.
+/// Exact motion of the scene's first body, with `per_second` states per second.
 fn exactly(scene: &Scene, seconds: f64, per_second: impl Into<TickRate>) -> Vec<Moment> {
     moments(scene, Solver::Truth, seconds, per_second.into())
 }

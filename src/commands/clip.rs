@@ -1,4 +1,4 @@
-//! Draws a run into a folder of numbered pictures, and writes a manifest beside them.
+//! Draws a run into a folder of numbered pictures with a manifest.
 
 use super::drawing::{adapter, closing_line, interrupted_after};
 use super::error::Error;
@@ -15,8 +15,8 @@ use super::terminal::{print_status, report_left_alone};
 use crate::studio::Studio;
 use crate::view::png;
 
-/// Draws the run of `studio`, which the experiment begins, into `folder` and reports on standard error what it wrote.
-/// Returns the studio at its end.
+/// Draws the run of `studio` into `folder` and reports the result on standard error. The studio must be at the start
+/// of `experiment`. Returns it at the end of the run.
 pub(super) fn record(
     experiment: &Experiment,
     studio: Studio,
@@ -26,7 +26,7 @@ pub(super) fn record(
     let CaptureSettings { schedule, size_px, .. } = capture;
     let mut renderer = capture.renderer()?;
     let adapter = adapter(&renderer);
-    // Before the first entry of the folder is made, which would stay.
+    // Watch before the folder gets its first entry, which an unhandled Ctrl-C would leave behind.
     let interrupted = watch_for_interrupt();
     folder.clear()?;
 

@@ -1,4 +1,4 @@
-//! `regatta cloud`: a shape of many starts under some methods, and what becomes of its area, as a table.
+//! `regatta cloud`: steps a shape of many starts under some methods and tabulates how its area changes.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -91,14 +91,14 @@ pub(super) struct CloudArgs {
     force: bool,
 }
 
-/// A cloud that is smaller is lost in the rounding of its states.
+/// A smaller cloud is lost in the rounding of its states.
 const MIN_REACH: f64 = 1e-6;
 
 fn reach(written: &str) -> Result<f64, String> {
     number_that(written, |it| (MIN_REACH..=1e9).contains(&it), "a number from 1e-6 to 1e9")
 }
 
-/// The error of a cloud that cannot be.
+/// The error for a cloud that cannot be built.
 fn no_cloud(why: NoCloud) -> Error {
     Error::mistake(match why {
         NoCloud::TooMany { .. } => format!("{why} --points"),
@@ -108,7 +108,7 @@ fn no_cloud(why: NoCloud) -> Error {
     })
 }
 
-/// The format of the rows by the name of their file.
+/// The format of the rows, from the name of their file.
 fn format(out: &Path) -> Result<RowFormat, Error> {
     match ending(out).as_deref() {
         Some("png" | "gif") => Err(Error::mistake(format!(
@@ -119,28 +119,28 @@ fn format(out: &Path) -> Result<RowFormat, Error> {
     }
 }
 
-/// The most moments at which the area is looked at.
+/// Most area measurements in a run.
 const MAX_LOOKS: u64 = 100;
 
 /// The longest default run, in seconds.
 const USUAL_SECONDS: f64 = 60.0;
 
-/// A method's cloud while it is stepped.
+/// A method's cloud in progress.
 struct MethodCloud {
     spec: LaneSpec,
     cloud: Cloud,
     stepping: Duration,
-    /// The areas on the way, where they are known.
+    /// Area ratios measured on the way, where known.
     areas: Vec<f64>,
 }
 
 impl MethodCloud {
-    /// What the area has become.
+    /// Describes the change of the area.
     fn words(&self, area_ratio: Option<f64>) -> String {
         self.cloud.in_words(area_ratio, self.areas.iter().copied())
     }
 
-    /// Steps to a tick, and looks at the area there.
+    /// Steps to `tick` and measures the area there.
     fn go_to(&mut self, tick: u64) {
         let begun = Instant::now();
         self.cloud.go_to(tick);
@@ -150,7 +150,6 @@ impl MethodCloud {
 }
 
 impl CloudArgs {
-    /// The ticks of the run.
     fn ticks(&self, scene: &Scene) -> u64 {
         let seconds = self.seconds.unwrap_or(scene.seconds.min(USUAL_SECONDS));
         ((seconds * f64::from(scene.tick_hz)).round() as u64).max(1)
@@ -172,7 +171,7 @@ pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
     let threads = args.threads.map_or(0, usize::from);
     let pool = jobs::pool(threads)?;
     let (ticks, reached) = (args.ticks(&scene), Arc::new(AtomicU64::new(0)));
-    // Not waited for after an interrupt: a tick of many points takes seconds, and so does what is measured of them.
+    // An interrupt does not wait for this thread: a tick of many points takes seconds, and so does its measurement.
     let (args, noted) = (args.clone(), Arc::clone(&reached));
     let rows = move || pool.install(|| rows(&args, &scene, &specs, &noted));
     let Some(rows) = jobs::result(&interrupted, rows) else {
@@ -182,9 +181,8 @@ pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
     write_rows(output, format, COLUMNS, &rows?)
 }
 
-/// A row of the table.
 struct Row {
-    /// Its id, with what tells it from other rows of the same method.
+    /// Id of the method, made distinct from other rows of the same method.
     method: String,
     measure: CloudMeasure,
     body_steps_per_s: f64,
@@ -199,7 +197,7 @@ const COLUMNS: &[Column<Row>] = &[
     Column::new("hash", |row| json!(format!("{:016x}", row.measure.hash))),
 ];
 
-/// The rows of all methods. The tick that all have come to is noted in `reached`.
+/// Computes the rows of all methods. `reached` follows the last tick that all methods have reached.
 fn rows(
     args: &CloudArgs,
     scene: &Scene,
@@ -235,13 +233,13 @@ fn rows(
     Ok(runs.iter().map(|run| row(run, specs, points, ticks, is_read)).collect())
 }
 
-/// The first body of one coordinate, else the first.
+/// The first body of one coordinate, or else the first body.
 fn scene_body(scene: &Scene) -> &SceneBody {
     let of_one = |body: &&SceneBody| body.kind.coordinates(&body.values).len() == 1;
     scene.bodies.iter().find(of_one).unwrap_or(&scene.bodies[0])
 }
 
-/// A method's row. Tells in words what has become of its area where the rows go into a file, and of starts that are lost.
+/// Builds a method's row. Prints a summary if the rows go to a file or if starts were lost.
 fn row(run: &MethodCloud, specs: &[LaneSpec], points: usize, ticks: u64, is_read: bool) -> Row {
     let MethodCloud { spec, cloud, stepping, .. } = run;
     let measure = cloud.measure();

@@ -1,4 +1,4 @@
-//! `regatta completions`: a script for a shell, so that Tab completes options, scenes and methods.
+//! `regatta completions`: prints a script for a shell, so that Tab completes options, scenes and methods.
 
 use clap::{Args, Command};
 use clap_complete::Shell;
@@ -23,7 +23,7 @@ pub(super) struct CompletionsArgs {
 
 /// Prints the script for the command line `cli`.
 pub(super) fn run(args: &CompletionsArgs, cli: &mut Command) -> Result<(), Error> {
-    // By way of memory: on a closed pipe the generator itself would panic.
+    // Generate into memory: on a closed pipe the generator itself would panic.
     let mut script = Vec::new();
     clap_complete::generate(args.shell, cli, "regatta", &mut script);
     print(String::from_utf8_lossy(&script))

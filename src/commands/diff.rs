@@ -1,4 +1,4 @@
-//! `regatta diff`: where two runs first differ, and how the difference grows.
+//! `regatta diff`: finds where two runs first differ, and how the difference grows.
 
 use std::path::{Path, PathBuf};
 
@@ -188,11 +188,11 @@ fn words(found: &Comparison, a: &Path, b: &Path) -> String {
             lines.push(format!("{what}: {count}"));
         }
     }
-    // A cell or a name of a file may have ends of lines in it.
+    // A cell or a file name may contain line breaks.
     lines.iter().map(|line| visible_in_a_line(line) + "\n").collect()
 }
 
-/// From where on each column differs, and which do not.
+/// Lists the columns that differ, each with its first tick, and the columns that are equal.
 fn by_column(found: &Comparison, tick_name: Option<&str>) -> String {
     let from = |tick: u64| tick_name.map_or(String::new(), |name| format!(" from {name} {tick}"));
     let differ = found
@@ -210,7 +210,7 @@ fn by_column(found: &Comparison, tick_name: Option<&str>) -> String {
     }
 }
 
-/// As JSON, with the numbers as they are written in the tables.
+/// The comparison as JSON, with numbers spelled as in the tables.
 fn object(found: &Comparison) -> String {
     const WRITTEN: [&str; 2] = ["\u{1}a", "\u{1}b"];
     let finite = |part: f64| part.is_finite().then_some(part);

@@ -1,4 +1,4 @@
-//! Draws recordings, and figures of charts: the renderer for each, and the sentence at the end or of an interrupt.
+//! Renderers for captures and charts, and the closing and interrupt messages of a capture.
 
 use std::io::Write;
 
@@ -10,12 +10,12 @@ use super::settings::CaptureSettings;
 use crate::sim::number::counted;
 use crate::view::{AdapterPreference, Figure, Gpu, GpuError, OffscreenRenderer, Panels, png};
 
-/// The most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files. More is
+/// Most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files. A larger request is
 /// probably a typing mistake.
 const MAX_PIXELS: u64 = 1_000_000_000_000;
 
 impl CaptureSettings {
-    /// A renderer for frames of this size.
+    /// A renderer for these frames. Fails if the capture has too many pixels.
     pub(super) fn renderer(&self) -> Result<OffscreenRenderer, Error> {
         let size_px = self.size_px;
         check_pixels(self.schedule.frames, size_px, MAX_PIXELS)?;
@@ -33,7 +33,7 @@ pub(super) fn gpu() -> Result<Gpu, Error> {
 
 const GIGA: u64 = 1_000_000_000;
 
-/// Fails if so many frames of this size have more pixels in all than `most`.
+/// Fails if the frames together have more than `most` pixels.
 pub(super) fn check_pixels(frames: u32, [width, height]: [u32; 2], most: u64) -> Result<(), Error> {
     let pixels = u64::from(frames) * u64::from(width) * u64::from(height);
     if pixels <= most {
@@ -47,12 +47,12 @@ pub(super) fn check_pixels(frames: u32, [width, height]: [u32; 2], most: u64) ->
     )))
 }
 
-/// An interrupt after `done` of `frames` frames; `whole` names those that are written whole.
+/// The error for an interrupt after `done` of `frames` frames. `whole` names the complete frames.
 pub(super) fn interrupted_after(done: u32, frames: u32, whole: &str) -> Error {
     Error::interrupted_after(format!("{done} of {frames} frames; whole: {whole}"))
 }
 
-/// The message at the end of a capture: what was written, and where.
+/// The last message of a capture: frame count, size and place.
 pub(super) fn closing_line(capture: &CaptureSettings, place: &str) -> String {
     let Schedule { frames, fps } = capture.schedule;
     let [width, height] = capture.size_px;
@@ -71,21 +71,21 @@ pub(super) fn adapter(renderer: &OffscreenRenderer) -> Adapter {
     }
 }
 
-/// Pixels of a chart, and pixels per point: legible when a few charts fill a screen.
+/// Pixel size of a chart, and pixels per point: legible when a few charts fill a screen.
 const CHART_PX: [u32; 2] = [920, 660];
 const SCALE: f32 = 1.6;
 
-/// Pixels that title, legend and note take.
+/// Height in pixels of title, legend and note.
 const MARGIN_PX: u32 = 240;
 
-/// A figure of charts, to be drawn into a PNG file that is opened first.
+/// Draws one figure of charts into a PNG file. Opens the file before the figure is computed.
 pub(super) struct Plot {
     renderer: OffscreenRenderer,
     output: Output,
 }
 
 impl Plot {
-    /// Opens the output and a device that can draw this many charts.
+    /// Opens the output and a device that can draw `charts` charts.
     pub(super) fn open(to: Destination<'_>, charts: usize) -> Result<Self, Error> {
         let output = to.open()?;
         let columns = columns(charts);
@@ -102,7 +102,6 @@ impl Plot {
         Ok(Self { renderer, output })
     }
 
-    /// Draws the figure into its output.
     pub(super) fn draw(mut self, figure: &Figure) -> Result<(), Error> {
         let (size_px, mut rgba) = (self.renderer.size_px(), Vec::new());
         self.renderer.draw_figure(figure, &mut rgba)?;
@@ -111,7 +110,7 @@ impl Plot {
     }
 }
 
-/// The number of columns that gives about as many rows.
+/// The number of columns for which a grid has about as many rows.
 pub(super) fn columns(charts: usize) -> usize {
     (2..charts).find(|columns| columns * (columns + 1) >= charts).unwrap_or(charts.min(2))
 }

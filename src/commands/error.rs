@@ -1,4 +1,4 @@
-//! The error that ends a command, whatever its cause.
+//! The error that ends a command.
 
 use std::fmt::Display;
 use std::io;
@@ -12,12 +12,12 @@ use crate::scene::{Mistake, SceneErrors};
 #[cfg(feature = "view")]
 use crate::view::{GpuError, ReadbackError};
 
-/// What the exit code tells of an error.
+/// Reason for an error. It decides the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ExitReason {
     /// The run failed.
     Failed,
-    /// The request cannot be met as it was made.
+    /// The request cannot be met as given.
     Mistake,
     /// Ctrl-C was pressed, or the system asked the process to end.
     Interrupted,
@@ -25,17 +25,17 @@ enum ExitReason {
     ClosedPipe,
 }
 
-/// What names the place of an output.
+/// How the user named the place of an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PlaceOf {
-    /// An option, which may name another place.
+    /// An option, which could name another place.
     Option(&'static str),
-    /// The clip that is blessed: it cannot be at another place.
+    /// The clip to bless. No other place will do.
     Blessed,
 }
 
 impl PlaceOf {
-    /// The remedy, which another place is too if there can be one.
+    /// The remedy, which also offers another place if an option names the place.
     pub(super) fn or_another(self, remedy: &str) -> String {
         match self {
             Self::Option(option) => format!("{remedy}, or give another {option}"),
@@ -43,7 +43,7 @@ impl PlaceOf {
         }
     }
 
-    /// The remedy for an error of the system.
+    /// The remedy for an I/O error.
     fn remedy(self, error: &io::Error) -> String {
         match (error.kind(), self) {
             (io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded, _) => {
@@ -67,7 +67,7 @@ impl PlaceOf {
 pub struct Error {
     kind: ExitReason,
     message: String,
-    /// The mistakes of a scene file, which are reported with its lines.
+    /// The mistakes of a scene file, reported with its lines.
     scene: Option<SceneErrors>,
 }
 
@@ -86,7 +86,7 @@ impl Error {
         Self::new(ExitReason::Mistake, message)
     }
 
-    /// A failed run as what it is where 1 says something else.
+    /// Turns a failed run into a mistake, for commands whose exit code 1 has another meaning.
     pub(super) fn into_mistake(self) -> Self {
         match self.kind {
             ExitReason::Failed => Self { kind: ExitReason::Mistake, ..self },
@@ -104,20 +104,20 @@ impl Error {
         Self::new(ExitReason::Interrupted, "interrupted; nothing was written")
     }
 
-    /// An interrupt while the other end of the stream `name` stood still.
+    /// An interrupt while nothing was reading the stream `name`.
     pub(super) fn interrupted_while_waiting_for(name: &str) -> Self {
         let message = format!("interrupted while nothing was reading {name}");
         Self::new(ExitReason::Interrupted, message)
     }
 
-    /// A failed write, with this message.
+    /// A failed write. A broken pipe means that the reader closed it.
     pub(super) fn unwritten(error: &io::Error, message: impl Display) -> Self {
         let is_closed = error.kind() == io::ErrorKind::BrokenPipe;
         Self::new(if is_closed { ExitReason::ClosedPipe } else { ExitReason::Failed }, message)
     }
 
-    /// A conversion of the system's errors while `doing`, such as `write`, the file or the directory at `path`, which
-    /// `option` names on the command line.
+    /// Converts I/O errors that occur while `doing`, such as `write`, the file or directory at `path`. `option` names
+    /// the path on the command line.
     pub(super) fn of_file(
         doing: &'static str,
         path: &Path,
@@ -126,7 +126,7 @@ impl Error {
         Self::of_place(doing, path, PlaceOf::Option(option))
     }
 
-    /// The same of a place that perhaps no option names.
+    /// Like `of_file`, for a place that an option or a clip names.
     pub(super) fn of_place(
         doing: &'static str,
         path: &Path,
@@ -139,17 +139,17 @@ impl Error {
         }
     }
 
-    /// The same error with words before its message.
+    /// Puts words before the message.
     pub(super) fn within(self, words: &str) -> Self {
         Self { message: format!("{words}: {}", self.message), ..self }
     }
 
-    /// The same error with words after its message.
+    /// Puts words after the message.
     pub(super) fn and(self, words: impl Display) -> Self {
         Self { message: format!("{}; {words}", self.message), ..self }
     }
 
-    /// The same error as a mistake, unless it is an interrupt.
+    /// Turns the error into a mistake, unless it is an interrupt.
     pub(super) fn or_mistake(self) -> Self {
         let kind =
             if self.kind == ExitReason::Interrupted { self.kind } else { ExitReason::Mistake };
@@ -165,8 +165,7 @@ impl Error {
         self.kind == ExitReason::ClosedPipe
     }
 
-    /// The exit code of the process: 1 for a run that failed, 2 for a mistake in the request, 130 for an
-    /// interrupt.
+    /// Exit code of the process: 1 for a failed run, 2 for a mistake in the request, 130 for an interrupt.
     pub fn exit_code(&self) -> u8 {
         match self.kind {
             ExitReason::Failed | ExitReason::ClosedPipe => 1,
@@ -182,8 +181,8 @@ impl Error {
         parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
     }
 
-    /// The messages, each with the lines of the scene file that it is about. Control characters are signs, but for those of
-    /// the renderer's colours.
+    /// The messages, each with its lines of the scene file. Shows control characters as visible signs, except those
+    /// of the renderer's colours.
     pub(super) fn mistakes(&self, renderer: &Renderer) -> Vec<Mistake> {
         let Some(errors) = &self.scene else {
             let title = Level::ERROR.primary_title(visible(&self.message));
@@ -213,7 +212,8 @@ impl From<SceneErrors> for Error {
     }
 }
 
-/// An error of a command's output. One that an `Output` has not explained is of standard output.
+/// Recovers the command's own error from an I/O error. An error that no `Output` has explained is about standard
+/// output.
 impl From<io::Error> for Error {
     fn from(error: io::Error) -> Self {
         error.downcast().unwrap_or_else(|error| {

@@ -1,4 +1,4 @@
-//! The options that every run has in common, and the studio that they set up.
+//! Options common to every run, and the studio that they set up.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -43,22 +43,22 @@ pub(super) struct ExperimentArgs {
     tick_rate: TickRateArgs,
 }
 
-/// A scene with the command line's options applied, and the methods that run it.
+/// A scene with the command line's options applied, and its methods.
 pub(super) struct Experiment {
     /// The scene, with the options applied.
     pub(super) scene: Scene,
     /// The text of the scene file, without the options.
     pub(super) text: String,
-    /// The first method named; `None` where none is, or many are.
+    /// The first method named; `None` if no method or many methods are named.
     pub(super) selected: Option<&'static Method>,
     /// Whether the lanes of the scene race.
     pub(super) mode: Mode,
-    /// The trace on which the loop lab is open, if it is.
+    /// Trace of the loop lab, if the lab is open.
     pub(super) loop_trace: Option<&'static TraceCard>,
 }
 
 impl ExperimentArgs {
-    /// Reads the scene and applies the other options to it. `asked` is the mode where the methods leave it open.
+    /// Reads the scene and applies the other options. `asked` is the mode, unless the methods or the scene decide it.
     pub(super) fn load(&self, asked: Mode) -> Result<Experiment, Error> {
         let (scene, text) = match self.spring.load()? {
             Some((scene, text)) => (self.applied_to(scene)?, text),
@@ -68,7 +68,7 @@ impl ExperimentArgs {
         Ok(Experiment { scene, text, selected, mode, loop_trace: None })
     }
 
-    /// Reads a scene, and applies the other options to it if it is the one that was given.
+    /// Reads a scene. Applies the other options only if `--scene` names the same scene.
     pub(super) fn read(&self, path: &Path) -> Result<(Scene, String), Error> {
         let (mut scene, text) = scene_file::load(path)?;
         if path == self.scene() && !self.spring.is_given() {
@@ -79,7 +79,7 @@ impl ExperimentArgs {
         Ok((scene, text))
     }
 
-    /// A scene with the other options.
+    /// Applies the tick rate and the methods to a scene.
     fn applied_to(&self, scene: Scene) -> Result<Scene, Error> {
         let tick_hz = self.tick_rate.given().unwrap_or(scene.tick_hz);
         let scene = scene.at_tick_hz(tick_hz);
@@ -87,17 +87,17 @@ impl ExperimentArgs {
         Ok(scene.with_methods(&self.methods))
     }
 
-    /// The scene as it was given, a name or a path, or else the first built-in scene.
+    /// The `--scene` argument, a name or a path, or else the first built-in scene.
     pub(super) fn scene(&self) -> &Path {
         self.scene.as_deref().unwrap_or(Path::new(SCENES[0].name))
     }
 
-    /// The file of the scene that is run, if it is one.
+    /// The scene file that the command reads, if any.
     pub(super) fn input(&self) -> Option<Input<'_>> {
         scene_file::input(self.scene()).filter(|_| !self.is_a_spring())
     }
 
-    /// The same options with this scene, unless they choose the scene, its methods or its tick rate.
+    /// The same options with `scene`, unless they already choose a scene, methods or a tick rate.
     pub(super) fn or_scene(&self, scene: &Path) -> Self {
         let is_chosen =
             self.names_a_scene() || !self.methods.is_empty() || self.tick_rate.given().is_some();
@@ -105,34 +105,33 @@ impl ExperimentArgs {
         Self { scene, ..self.clone() }
     }
 
-    /// Whether a scene is given, or a spring in its place.
+    /// Whether a scene or a spring is given.
     pub(super) fn names_a_scene(&self) -> bool {
         self.scene.is_some() || self.is_a_spring()
     }
 
-    /// Whether a spring is given in the place of a scene.
+    /// Whether a spring replaces the scene.
     pub(super) fn is_a_spring(&self) -> bool {
         self.spring.is_given()
     }
 
-    /// The lanes of the methods named, as `scene` has them.
+    /// The lanes of the named methods, set up as in `scene`.
     pub(super) fn lanes_named(&self, scene: &Scene) -> Vec<LaneSpec> {
         scene.lanes_of(&self.methods)
     }
 
-    /// Whether no method is named.
     pub(super) fn names_no_method(&self) -> bool {
         self.methods.is_empty()
     }
 }
 
 impl Experiment {
-    /// The method that is flown alone, or selected in a race.
+    /// The method shown alone, or selected in a race.
     pub(super) fn opening_method(&self) -> &'static Method {
         self.selected.unwrap_or_else(|| self.scene.opening_lane().method)
     }
 
-    /// Whether lanes race and none was named, so that their verdicts select one.
+    /// Whether the race has no selected method yet, so that its verdicts select one.
     pub(super) fn leaves_selection(&self) -> bool {
         self.mode == Mode::Race && self.selected.is_none()
     }
@@ -147,7 +146,7 @@ impl Experiment {
     }
 }
 
-/// The built-in trace of this id, for the command line's parser.
+/// The built-in trace with this id, as a parser for clap.
 pub(super) fn known_trace(id: &str) -> Result<&'static TraceCard, String> {
     TRACE.find(id).map_err(|refusal| match is_path(id) {
         true => "only built-in traces are taken here; drop the file on the window, open it there with O, or \
@@ -157,7 +156,7 @@ pub(super) fn known_trace(id: &str) -> Result<&'static TraceCard, String> {
     })
 }
 
-/// Whether what is meant to be an id looks like the path of a file.
+/// Whether an id looks like a file path.
 fn is_path(id: &str) -> bool {
     Path::new(id).extension().is_some() || id.contains(['/', '\\'])
 }
@@ -178,7 +177,7 @@ impl From<ThemeName> for Theme {
     }
 }
 
-/// A duration on the command line, in seconds.
+/// Parses a duration in seconds.
 pub(super) fn seconds(written: &str) -> Result<f64, String> {
     match written.parse::<f64>() {
         Ok(seconds) if (0.0..=MAX_SECONDS).contains(&seconds) => Ok(seconds),
@@ -187,7 +186,7 @@ pub(super) fn seconds(written: &str) -> Result<f64, String> {
     }
 }
 
-/// A positive number of seconds on the command line.
+/// Parses a duration above 0 seconds.
 pub(super) fn some_seconds(written: &str) -> Result<f64, String> {
     match seconds(written)? {
         0.0 => Err("give more than 0 seconds".into()),
@@ -195,7 +194,7 @@ pub(super) fn some_seconds(written: &str) -> Result<f64, String> {
     }
 }
 
-/// Takes any path; offers these names to the shell's completion.
+/// Accepts any path. Offers these names for shell completion.
 #[derive(Clone)]
 pub(super) struct PathOrName(pub(super) fn() -> Vec<&'static str>);
 
@@ -216,12 +215,11 @@ impl TypedValueParser for PathOrName {
     }
 }
 
-/// The names of the built-in scenes.
 pub(super) fn scene_names() -> Vec<&'static str> {
     SCENES.iter().map(|scene| scene.name).collect()
 }
 
-/// Where to begin among the scenes, and where a list of all is.
+/// Long help of `--scene`: the scenes to start with, and the command that lists the rest.
 fn scene_help() -> String {
     let first = SCENES.iter().filter(|scene| scene.group == SceneGroup::StartHere);
     let names: Vec<&str> = first.map(|scene| scene.name).collect();
@@ -233,7 +231,6 @@ fn scene_help() -> String {
     )
 }
 
-/// The names of the built-in traces.
 pub(super) fn trace_names() -> Vec<&'static str> {
     TRACES.iter().map(|card| card.id).collect()
 }

@@ -1,4 +1,4 @@
-//! The files of a table and of its picture: their formats by their names.
+//! Formats of a table and of its picture, from their file names.
 
 use std::path::Path;
 
@@ -7,18 +7,18 @@ use crate::commands::error::Error;
 use crate::commands::output::same_file_path;
 use crate::commands::output::table::RowFormat;
 
-/// The endings of files that hold pictures; all others promise nothing.
+/// File name endings that promise a picture. All others promise nothing.
 const PICTURES: [&str; 21] = [
     "apng", "avi", "avif", "bmp", "gif", "jpeg", "jpg", "m4v", "mkv", "mov", "mp4", "mpeg", "mpg",
     "png", "rgba", "svg", "tif", "tiff", "webm", "webp", "y4m",
 ];
 
-/// Endings of files that hold no pictures, and so nothing that a capture writes.
+/// Endings of files without pictures, which a capture never writes.
 #[cfg(feature = "view")]
 const NO_PICTURES: [&str; 11] =
     ["csv", "html", "json", "log", "md", "pdf", "sheet", "toml", "txt", "xml", "zip"];
 
-/// What a name ends in, after its last dot, in small letters.
+/// The file name's extension in lower case.
 pub(super) fn ending(path: &Path) -> Option<String> {
     path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase)
 }
@@ -28,18 +28,18 @@ pub(super) fn is_of_pictures(ending: &str) -> bool {
     PICTURES.contains(&ending)
 }
 
-/// Whether files with this ending hold something else.
+/// Whether files with this ending never hold pictures.
 #[cfg(feature = "view")]
 pub(super) fn holds_no_picture(ending: &str) -> bool {
     NO_PICTURES.contains(&ending)
 }
 
-/// The error of a name that promises another format than the one asked for.
+/// The error for a file name that promises another format than the requested one.
 pub(super) fn mislabelled(path: &Path, remedy: &str) -> Error {
     Error::mistake(format!("{} would not hold what its name says; {remedy}", brief(path)))
 }
 
-/// The format asked for, else the one that the name of `out` asks for, else CSV.
+/// The requested format, else the one that the name of `out` implies, else CSV.
 pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowFormat, Error> {
     let mislabelled = |remedy| Err(mislabelled(out, remedy));
     let ending = ending(out);
@@ -62,7 +62,7 @@ pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowForm
     }
 }
 
-/// Whether a PNG may have this name: one that ends in .png, or in nothing, and is not that of the rows.
+/// Checks that a PNG may be named `plot`: it ends in .png or has no ending, and differs from `out`.
 pub(super) fn check_picture_name(plot: &Path, out: &Path) -> Result<(), Error> {
     match plot.extension() {
         Some(ending) if !ending.eq_ignore_ascii_case("png") => {

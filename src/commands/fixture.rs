@@ -1,4 +1,4 @@
-//! `regatta fixture`: the states of a scene's truth, as a test for an engine.
+//! `regatta fixture`: prints the states of a scene's truth as a test for an engine.
 
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -63,17 +63,17 @@ enum Format {
     Json,
 }
 
-/// How a test in a language is written.
+/// Syntax of a test in one language.
 struct Language {
-    /// The file, with `@NAME@` for what is put in.
+    /// The file, with a placeholder of the form `@NAME@` for each inserted text.
     template: &'static str,
     comment: &'static str,
-    /// What a double and a float are called, and how a literal of each ends.
+    /// Names of the double and float types, each with the suffix of its literals.
     reals: [(&'static str, &'static str); 2],
-    /// What comes before and after the states of a body: `@` stands for its name in quotes, `%` for its largest coordinate and
-    /// velocity.
+    /// Text before and after the states of a body. Its quoted name replaces `@`; its largest coordinate and velocity
+    /// replace `%`.
     body: [&'static str; 2],
-    /// What comes round a state, and round a list.
+    /// Text around a state, and around a list.
     state: [&'static str; 2],
     list: [&'static str; 2],
 }
@@ -110,11 +110,11 @@ impl Format {
     }
 }
 
-/// The relative error that a state has by its rounding alone, in double and in single precision, with room for the order in
-/// which an engine adds.
+/// Relative rounding error of a state in double and in single precision, with room for the order in which an engine
+/// adds.
 const ROUNDING: [f64; 2] = [1e-12, 1e-6];
 
-/// The states of a body's truth at some ticks.
+/// States of a body's truth at the written ticks.
 #[derive(Default)]
 struct States {
     rows: Vec<(u64, Vec<f64>, Vec<f64>)>,
@@ -165,7 +165,7 @@ pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
     }
 }
 
-/// Notes the present of every body that goes on.
+/// Records the current state of every body that has not stopped.
 fn note(states: &mut [States], studio: &Studio, args: &FixtureArgs) {
     let tick = studio.race().tick();
     for (states, body) in states.iter_mut().zip(studio.race().truth().bodies()) {
@@ -179,12 +179,12 @@ fn note(states: &mut [States], studio: &Studio, args: &FixtureArgs) {
     }
 }
 
-/// A number to its last digit.
+/// Formats a number to its last digit.
 fn digits(value: f64, is_float: bool) -> String {
     if is_float { format!("{:?}", value as f32) } else { format!("{value:?}") }
 }
 
-/// What the file says of where its numbers come from, line by line.
+/// Lines at the top of the file: where its numbers come from.
 fn about(scene: &Scene, studio: &Studio) -> Vec<String> {
     let mut text =
         format!("{}: exact states for a test of an engine, by regatta fixture.\n", scene.title);
@@ -200,7 +200,7 @@ fn about(scene: &Scene, studio: &Studio) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
-/// A name between quotation marks, as every one of the languages has it.
+/// Quotes a name in a syntax that all the languages share.
 fn quoted(name: &str) -> String {
     let escaped = name.replace('\\', "\\\\").replace('"', "\\\"");
     format!("\"{}\"", escaped.replace(char::is_control, " "))

@@ -1,5 +1,4 @@
-//! The directory that a capture fills with numbered pictures and a manifest, each of which appears whole
-//! or not at all.
+//! The directory that a capture fills with numbered pictures and a manifest. Each file appears whole or not at all.
 
 use std::ffi::OsString;
 use std::fs;
@@ -21,36 +20,36 @@ use super::frame_names::{frame_name, in_the_way, is_a_captures, is_pending, not_
 use blessing::Blessing;
 use entries::Entries;
 
-/// What may become of the frames that a folder holds.
+/// Policy for frames that are already in a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FolderPolicy {
-    /// The folder has to be empty or new.
+    /// The folder must be new or empty.
     Refuse,
-    /// Frames make way for the new ones; other entries stay.
+    /// New frames replace old ones. Other entries stay.
     Replace,
-    /// Frames make way once all the new ones are written.
+    /// New frames replace old ones once all of them are written.
     Bless,
 }
 
-/// A folder of frames. While it exists no other process may write there.
+/// A folder of frames. No other process may write to it while this value exists.
 #[derive(Debug)]
 pub(super) struct FrameFolder {
     path: PathBuf,
     existing: FolderPolicy,
-    /// What names the folder on the command line.
+    /// How the user named the folder.
     place: PlaceOf,
     entries: Entries,
-    /// How many frames were added.
+    /// Number of frames added.
     frames: u32,
-    /// The directory of new frames that will be swapped in.
+    /// The directory of new frames, to be swapped in.
     blessing: Option<Blessing>,
     /// `None` while the folder does not exist.
     lock: Option<DirectoryLock>,
 }
 
 impl FrameFolder {
-    /// Examines the folder at `path`, which need not exist yet and which `place` names. Changes nothing, except that a
-    /// blessing interrupted during its swap is completed, where frames may be replaced.
+    /// Examines the folder at `path`, which need not exist yet. Changes nothing, except that it completes an
+    /// interrupted swap of a blessing if frames may be replaced.
     pub(super) fn inspect(
         path: &Path,
         existing: FolderPolicy,
@@ -107,7 +106,7 @@ impl FrameFolder {
             )));
         }
         if self.existing == FolderPolicy::Bless {
-            // A capture may stop before the frame that a directory blocks; a swap replaces all frames.
+            // A plain capture may stop before a frame that a directory blocks, but a swap replaces all frames.
             entries.foreign = entries.foreign.or(entries.in_the_way.take());
         }
         if let Some(path) = entries.foreign {
@@ -127,7 +126,6 @@ impl FrameFolder {
         Ok(())
     }
 
-    /// The path of the folder.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
@@ -137,13 +135,13 @@ impl FrameFolder {
         self.existing != FolderPolicy::Bless
     }
 
-    /// The directory that files are written to.
+    /// The directory that receives new files.
     fn place(&self) -> &Path {
         self.blessing.as_ref().map_or(&self.path, Blessing::place)
     }
 
-    /// Creates the folder if necessary and removes the files of an earlier capture. The folder never holds frames of two
-    /// captures.
+    /// Creates the folder if necessary, and removes the files of an earlier capture. The folder never mixes frames of
+    /// two captures.
     pub(super) fn clear(&mut self) -> Result<(), Error> {
         if self.lock.is_none() {
             fs::create_dir_all(&self.path).map_err(Error::of_place(
@@ -162,7 +160,7 @@ impl FrameFolder {
             FolderPolicy::Bless => name.to_str().is_some_and(|name| !is_a_captures(name)),
             _ => true,
         };
-        // The manifest, which speaks of the frames, goes before them.
+        // Remove the manifest first, because it describes the frames.
         for name in self.entries.ours.iter().rev().filter(|name| goes(name)) {
             let path = self.path.join(name);
             fs::remove_file(&path).map_err(fail(&path))?;
@@ -197,7 +195,7 @@ impl FrameFolder {
         swapped.map_err(Error::of_place("put the new frames into", &self.path, self.place))
     }
 
-    /// The error of a file of this name that could not be written.
+    /// The error for a file that could not be written.
     fn unwritten(&self, name: &str, error: io::Error) -> Error {
         let error = Error::of_place("write", &self.path.join(name), self.place)(error);
         if !self.takes_a_part() {
@@ -209,7 +207,7 @@ impl FrameFolder {
         ))
     }
 
-    /// The names of the first and the last frame written.
+    /// Path of the first frame written and name of the last.
     pub(super) fn range(&self) -> String {
         let name = |frame| self.path.join(frame_name(frame)).display().to_string();
         match self.frames {
@@ -219,7 +217,7 @@ impl FrameFolder {
         }
     }
 
-    /// The names of the entries that no capture made, and that were left alone.
+    /// Names of the entries that no capture made. They were left alone.
     pub(super) fn others(&self) -> &[OsString] {
         &self.entries.others
     }

@@ -1,4 +1,4 @@
-//! The names of frames, and how to tell the files that a capture made: by their content, not their names.
+//! Names of frames, and the test whether a capture made a file: by its content, not its name.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -14,10 +14,10 @@ use crate::commands::output::same_file_path;
 use crate::picture_note::{NOTED_WITHIN, is_encoded_here};
 use crate::regular_file;
 
-/// The most frames in a folder: as many as six digits number.
+/// Most frames in a folder: six digits number no more.
 pub(crate) const MAX_FRAMES: u32 = 1_000_000;
 
-/// The directory of a complete set of new frames. Once it has this name, the frames replace the old ones.
+/// Directory of a complete set of new frames. Once it has this name, its frames replace the old ones.
 pub(crate) const READY: &str = ".regatta-blessed";
 
 /// The file name of the frame with this number, from 0.
@@ -25,7 +25,7 @@ pub(crate) fn frame_name(frame: u32) -> String {
     format!("frame-{frame:06}.png")
 }
 
-/// The number of the frame with this file name; `None` if it is not the name of a frame.
+/// Number of the frame with this file name; `None` for any other name.
 pub(crate) fn frame_number(name: &str) -> Option<u32> {
     let digits = name.strip_prefix("frame-")?.strip_suffix(".png")?;
     let is_number = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit());
@@ -43,12 +43,12 @@ pub(crate) fn is_a_captures(name: &str) -> bool {
     name == manifest::FILE_NAME || frame_number(name).is_some()
 }
 
-/// Whether the file at `path` is a frame or a manifest of a capture, by its name and by what is in it.
+/// Whether the file at `path` is a frame or a manifest of a capture. Both its name and its content must match.
 pub(crate) fn is_ours(path: &Path) -> bool {
     name_of(path).is_some_and(is_a_captures) && is_of_ours(path)
 }
 
-/// Whether a capture that was killed left the file at `path`: by its name, and by what is in it, if anything is.
+/// Whether a killed capture left the file at `path`. Its name must match, and so must its content unless it is empty.
 pub(crate) fn is_left_over(path: &Path) -> bool {
     name_of(path).and_then(final_name).is_some_and(is_a_captures)
         && (fs::symlink_metadata(path).is_ok_and(|entry| entry.is_file() && entry.len() == 0)
@@ -77,15 +77,15 @@ pub(crate) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
     is_ours.then(|| manifest["frames"].as_array().map(files).unwrap_or_default())
 }
 
-/// Whether the swap of a `--bless` was interrupted: the manifest, which comes last, has not taken its place.
+/// Whether the swap of a `--bless` was interrupted before its last step, the move of the manifest.
 pub(crate) fn is_pending(clip: &Path) -> bool {
     let ready = clip.join(READY);
     fs::symlink_metadata(&ready).is_ok_and(|entry| entry.is_dir())
         && frames_claimed(&ready.join(manifest::FILE_NAME)).is_some()
 }
 
-/// What keeps a `--bless` of `clip` from replacing its frames: something at the place of its new frames that no `--bless`
-/// made.
+/// An entry that no `--bless` made at the place of the new frames of `clip`. It keeps a `--bless` from replacing the
+/// old ones.
 pub(crate) fn in_the_way(clip: &Path) -> Option<PathBuf> {
     let ready = clip.join(READY);
     if !fs::symlink_metadata(&ready).ok()?.is_dir() {
@@ -102,7 +102,7 @@ pub(crate) fn in_the_way(clip: &Path) -> Option<PathBuf> {
     })
 }
 
-/// The error of a file that has the name of one of ours, and that no command made.
+/// The error for a file that has one of our names but that no command made.
 pub(crate) fn not_ours(path: &Path, place: PlaceOf) -> Error {
     let (path, remedy) = (brief(path), place.or_another("move it away"));
     Error::mistake(format!("{path} was not made by regatta and is not replaced; {remedy}"))

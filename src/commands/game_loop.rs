@@ -1,4 +1,4 @@
-//! `regatta loop`: what a game loop does to motion, over the frames of a display.
+//! `regatta loop`: measures how game loops distort motion over the frames of a display.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -187,7 +187,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let inputs = args.inputs();
     let interrupted = watch_for_interrupt();
     let stop = || interrupted.load(Ordering::Relaxed);
-    // Before the first run: a refusal should not come late.
+    // Open the outputs before the first run: a refusal should not come late.
     let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
     let to = |path, option| Destination { path, option, if_exists, inputs: &inputs };
     let out = to(&args.out, "--out").open_for_text()?;
@@ -237,7 +237,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
 }
 
 impl LoopArgs {
-    /// What is simulated of a frame at most.
+    /// Limits on the simulated part of a frame. Refuses `--max-ticks` for a policy that ignores it.
     fn limits(&self) -> Result<FrameLimits, Error> {
         let free =
             self.policies.iter().find(|card| self.max_ticks.is_some() && !card.has_max_ticks);
@@ -252,14 +252,14 @@ impl LoopArgs {
         Ok(FrameLimits { max_ticks: self.max_ticks, max_frame_ms: self.max_frame_ms })
     }
 
-    /// The files that are read.
+    /// Files that the command reads.
     fn inputs(&self) -> Vec<Input<'_>> {
         let files = self.traces.iter().filter(|path| path.to_str().and_then(trace_card).is_none());
         let traces = files.map(|path| (&**path, "read as a trace"));
         traces.chain(scene_file::input(&self.scene)).collect()
     }
 
-    /// Where the picture goes, if one is asked for.
+    /// Path of the picture, if one is asked for.
     fn plot(&self) -> Option<&Path> {
         #[cfg(feature = "view")]
         return self.plot.as_deref();
@@ -267,7 +267,7 @@ impl LoopArgs {
         None
     }
 
-    /// The policies asked for, each once.
+    /// The requested policies without duplicates.
     fn policies(&self) -> Vec<&'static PolicyCard> {
         if self.policies.is_empty() {
             return POLICIES.iter().filter(|card| self.all || card.is_usual).collect();
@@ -281,7 +281,7 @@ impl LoopArgs {
         policies
     }
 
-    /// When a run of a trace ends, in nanoseconds.
+    /// End of a run of `trace`, in nanoseconds.
     fn until_ns(&self, scene: &Scene, trace: &FrameTrace) -> i64 {
         match self.seconds {
             None if trace.ends() => i64::MAX,
@@ -290,7 +290,7 @@ impl LoopArgs {
     }
 }
 
-/// What is measured of a single run. The last takes a second one.
+/// Metrics of a single run. The state difference needs a second run.
 fn metrics() -> impl Iterator<Item = &'static PacingMetric> {
     PACING_METRICS.iter().filter(|metric| metric.id != "state_difference")
 }

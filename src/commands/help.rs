@@ -1,4 +1,4 @@
-//! `regatta help`: of the program, of a command, or a chapter of the manual.
+//! `regatta help`: prints the help of the program or of a command, or a chapter of the manual.
 
 use clap::{Args, Command};
 
@@ -13,13 +13,13 @@ Examples:
   regatta help capture
   regatta help scenes | less";
 
-/// The chapter of keys.
+/// Id of the chapter on keys.
 const KEYS: &str = "keys";
 
-/// The columns that every help fits.
+/// Columns that every help text fits.
 pub(super) const COLUMNS: usize = 80;
 
-/// The blanks before a row of a list.
+/// Indent of a list row, in blanks.
 const ROW_INDENT: usize = 2;
 
 /// Print this help, that of a command, or a chapter of the manual
@@ -31,9 +31,8 @@ pub(super) struct HelpArgs {
     topic: Option<String>,
 }
 
-/// A text for people with the lines of each paragraph joined, to be broken where the terminal ends. Of a list, whose rows are
-/// indented and begin with a term and two blanks, rows stay as they are where all of them fit; else each explanation
-/// stands below its term.
+/// Joins the lines of each paragraph, so that the terminal can wrap them. List rows are indented and begin with a
+/// term and two blanks. They stay on one line if all of them fit; otherwise each explanation moves below its term.
 pub(super) fn flowing(text: &str) -> String {
     let blocks = text.split("\n\n").map(|block| {
         let mut rows: Vec<String> = Vec::new();
@@ -65,7 +64,7 @@ fn manual() -> String {
     format!("{EXAMPLES}\n\nChapters:{}", lines.collect::<String>())
 }
 
-/// The examples of the program, and the chapters of its manual.
+/// The program's examples and the chapters of its manual.
 pub(super) fn overview(examples: &str) -> String {
     let chapters: Vec<&str> = CHAPTERS.iter().map(|chapter| chapter.id).collect();
     let chapters = chapters.join(", ");
@@ -74,7 +73,7 @@ pub(super) fn overview(examples: &str) -> String {
     ))
 }
 
-/// A chapter for a terminal. The table of keys is wider than one: `keys` stands in its place.
+/// A chapter for a terminal. Its table of keys is too wide, so `keys` replaces it.
 fn shown(chapter: &Chapter, keys: &str) -> String {
     let is_row = |line: &&str| line.starts_with('|');
     match chapter.text.lines().find(is_row).filter(|_| chapter.id == KEYS) {
@@ -87,7 +86,7 @@ fn shown(chapter: &Chapter, keys: &str) -> String {
     }
 }
 
-/// Prints what `cli` says of itself or of one of its commands, or a chapter; `keys` is the list of keys.
+/// Prints the help of `cli` or of one of its commands, or a chapter. `keys` is the list of keys.
 pub(super) fn run(args: &HelpArgs, cli: Command, keys: &str) -> Result<(), Error> {
     let topic = args.topic.as_deref();
     if let Some(chapter) = topic.and_then(chapter) {

@@ -1,4 +1,4 @@
-//! Ids on the command line: taken, offered to the shell's completion, or refused with the one that was probably meant.
+//! Ids on the command line: parsed, offered for shell completion, or refused with a suggestion.
 
 use std::ffi::OsStr;
 
@@ -11,15 +11,15 @@ use crate::sim::integrators::{Family, METHODS, Method};
 use crate::studio::Instrument;
 use crate::tools::source_code::Language;
 
-/// One kind of ids, and what each stands for.
+/// One kind of id, with the value of each id.
 #[derive(Clone, Copy)]
 pub(super) struct Id<T: 'static> {
-    /// What has such an id, in messages.
+    /// Noun for messages, such as "method".
     pub(super) thing: &'static str,
-    /// The lists of `regatta list` that name all; without one the message does.
+    /// The lists of `regatta list` that name all ids. If there are none, the message names them.
     pub(super) lists: &'static [&'static str],
     pub(super) all: fn() -> Vec<(String, T)>,
-    /// Other spellings, each with its id, by which a mistake is understood.
+    /// Other spellings, each with its id, for suggestions.
     pub(super) spellings: fn() -> Vec<(&'static str, &'static str)>,
 }
 
@@ -28,10 +28,10 @@ impl<T: Copy> Id<T> {
         Self { thing, lists: &[], all, spellings: Vec::new }
     }
 
-    /// What this id stands for.
+    /// The value of `id`.
     ///
     /// # Errors
-    /// The message for an id that is none.
+    /// The message for an unknown id, with a suggestion.
     pub(super) fn find(&self, id: &str) -> Result<T, String> {
         let all = (self.all)();
         if let Some((_, found)) = all.iter().find(|(known, _)| known == id) {
@@ -106,7 +106,7 @@ pub(super) const SHAPE: Id<CloudShape> =
 pub(super) const FAMILY: Id<Family> =
     Id::new("family", || Family::ALL.map(|(id, family)| (id.into(), family)).into());
 
-/// The languages of code, with C++, which compiles what is written for C.
+/// The languages of code, with C++, which compiles the C code.
 pub(super) const LANGUAGE_OR_CPP: Id<Language> = Id {
     thing: LANGUAGE.thing,
     lists: &[],

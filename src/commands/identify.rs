@@ -1,4 +1,4 @@
-//! `regatta identify`: which method, with how many substeps, made a log of a motion.
+//! `regatta identify`: finds the method and the number of substeps that made a log of a motion.
 
 use std::path::{Path, PathBuf};
 
@@ -44,7 +44,7 @@ Examples:
   regatta identify spring.csv --tick-hz 60 --k 40 --c 0.5 --mass 2
   regatta identify log.csv --tick-hz 60 --k 40 --x-column pos.x --format json";
 
-/// Where no method can be run on the body.
+/// The answer if no method can run on the body.
 const NOTHING_RUNS: &str = "\
 unknown: no method can follow this log; give the body with --k or --drag, check --tick-hz, and log
 three ticks in a row\n";
@@ -134,7 +134,7 @@ fn signed(written: &str) -> Result<f64, String> {
     number_that(written, |_| true, "a number")
 }
 
-/// How to say right what was said wrong of a log.
+/// Names the option that corrects a mistaken setting of the log.
 fn remedy(error: &LogError) -> &'static str {
     match error.mistaken {
         None => "",
@@ -148,7 +148,7 @@ fn remedy(error: &LogError) -> &'static str {
 }
 
 impl LogArgs {
-    /// Reads the log at `path`, of a game with this tick rate in hertz.
+    /// Reads the log at `path` of a game with this tick rate in hertz.
     pub(super) fn read(&self, path: &Path, tick_hz: f64) -> Result<Log, Error> {
         let bytes = regular_file::read_table(path).map_err(|error| {
             Error::mistake(format!("cannot read the log {}: {error}", brief(path)))
@@ -167,7 +167,7 @@ impl LogArgs {
         Ok(log)
     }
 
-    /// The body of the log, which has this mass in kg.
+    /// The logged body, with its mass in kg.
     pub(super) fn body(&self, mass: f64) -> LoggedBody {
         let spring = match (self.k, self.drag, self.thrust) {
             (Some(k), ..) => Some([k / mass, self.c.unwrap_or(0.0) / mass]),

@@ -13,21 +13,21 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use super::error::Error;
 use super::terminal::print_status;
 
-/// The longest time until an interrupt is noticed.
+/// Longest delay before an interrupt is noticed.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// The time between two lines on how far the jobs are, where no bar shows it.
+/// Time between two progress lines if no bar is shown.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
-/// A pool of this many threads; if it is 0, of one for each core, or of as many as `RAYON_NUM_THREADS` says.
+/// A pool of `threads` threads. Zero means `RAYON_NUM_THREADS`, or one per core if that is not set.
 ///
 /// # Errors
-/// If the system does not start them.
+/// If the system cannot start the threads.
 pub(super) fn pool(threads: usize) -> Result<ThreadPool, Error> {
     ThreadPoolBuilder::new().num_threads(threads).build().map_err(no_threads)
 }
 
-/// The error of threads that the system does not start.
+/// The error for threads that the system cannot start.
 pub(super) fn no_threads(why: impl Display) -> Error {
     Error::failed(format!(
         "cannot start the threads: {why}; give fewer --threads, where a command takes them, or let the \
@@ -35,9 +35,8 @@ pub(super) fn no_threads(why: impl Display) -> Error {
     ))
 }
 
-/// The results of `work` for the jobs 0 to `number` - 1, in order; `None` for a job that was not done when
-/// `interrupted` was set. After an interrupt the threads are not waited for: some jobs take minutes, and the
-/// process is about to end.
+/// Results of `work` for the jobs 0 to `number` - 1, in order. A job that was not done when `interrupted` was set
+/// gives `None`. An interrupt does not wait for the threads: some jobs take minutes, and the process is about to end.
 pub(super) fn results<R: Send + 'static>(
     pool: &ThreadPool,
     number: usize,
@@ -68,8 +67,8 @@ pub(super) fn results<R: Send + 'static>(
     results
 }
 
-/// The result of `work` on a thread of its own; `None` if `interrupted` is set before it is there. After an interrupt the
-/// thread is not waited for: the process is about to end.
+/// Result of `work` on a new thread; `None` if `interrupted` is set first. An interrupt does not wait for the thread:
+/// the process is about to end.
 pub(super) fn result<R: Send + 'static>(
     interrupted: &AtomicBool,
     work: impl FnOnce() -> R + Send + 'static,
@@ -77,7 +76,7 @@ pub(super) fn result<R: Send + 'static>(
     result_within(Duration::ZERO, interrupted, work)
 }
 
-/// The same, which is waited for so long after an interrupt.
+/// Like `result`, but waits for `grace` after an interrupt.
 pub(super) fn result_within<R: Send + 'static>(
     grace: Duration,
     interrupted: &AtomicBool,
@@ -94,8 +93,8 @@ pub(super) fn result_within<R: Send + 'static>(
     found
 }
 
-/// The next result; `None` once none is left or `interrupted` is set. While it waits, `meanwhile` is called at least every
-/// [`PATIENCE`].
+/// The next result; `None` once none is left or `interrupted` is set. Calls `meanwhile` at least every [`PATIENCE`]
+/// while it waits.
 fn next<R>(
     receiver: &Receiver<R>,
     interrupted: &AtomicBool,
@@ -141,7 +140,7 @@ mod tests {
         let (sets, (sender, receiver)) = (Arc::clone(&set), mpsc::channel::<()>());
         let found = result(&set, move || {
             sets.store(true, Ordering::Relaxed);
-            // It ends after the wait for it does.
+            // This thread ends after the wait for it.
             receiver.recv().unwrap_err();
         });
         assert_eq!(found, None);
@@ -155,7 +154,7 @@ mod tests {
         let set = Arc::clone(&interrupted);
         let work = move |job| {
             if job == 3 {
-                // The jobs before it were sent on by this thread, and have time to be noticed.
+                // This thread has sent the earlier results. Leave time for them to arrive.
                 thread::sleep(Duration::from_millis(100));
                 set.store(true, Ordering::Relaxed);
                 thread::sleep(Duration::from_secs(1));

@@ -1,4 +1,4 @@
-//! `regatta link`: a run as an address.
+//! `regatta link`: prints a run as a link.
 
 use std::path::PathBuf;
 

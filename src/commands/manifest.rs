@@ -1,33 +1,33 @@
-//! `manifest.json`: describes what a capture drew, so that `regatta verify` can judge it later.
+//! `manifest.json`: describes a capture, so that `regatta verify` can judge it later.
 //!
-//! The file stands beside the frames, is UTF-8 JSON, and appears whole, after the frames that it
-//! lists. Its numbers are exact: floats are the shortest decimals that read back to the same bits.
-//! This is [`SCHEMA`] 1:
+//! The file is UTF-8 JSON beside the frames. It appears whole, after the frames that it lists. Its numbers are exact:
+//! floats are the shortest decimals that read back to the same bits. This is [`SCHEMA`] 1:
 //!
 //! - `schema`: the number of this description. `regatta`: the version of the program that drew.
 //! - `settings`: everything that the run depends on.
 //!   - `scene`: `name`, `text` (the TOML) and the text's `hash`.
-//!   - `lanes`: the scene's lanes, with the command line applied: each a `method`, its `substeps` and, where
-//!     the scene gives one, its `tolerance`, and `joint`, what its engine is told of springs.
-//!   - `methods`: those by lines of a person's own, if there are any: the `id` and the lines, `step`, of each.
-//!   - `race`: whether all of them race. If not, the `selected` method is shown solo; `null` stands for the scene's opening
-//!     method, and among many lanes for the best.
-//!   - `tick_hz` at the start, a number if it is a decimal, else a ratio such as `"60000/1001"`, `frames` asked for, `fps`,
-//!     `size` in pixels, `scale` in pixels a point,
-//!     whether there are `panels`, the `instrument` among
-//!     them and what the `cloud` is where they were asked for, whether there is `motion`, the `theme` where it is `light`, the trace of the `loop` lab where that is shown, and `mark_every`, in ticks.
+//!   - `lanes`: the scene's lanes, with the command line applied. Each has a `method` and its `substeps`. If the
+//!     scene gives them, it also has its `tolerance` and its `joint`, the spring setting of an engine.
+//!   - `methods`: a person's own methods, if any: the `id` of each, and its lines, `step`.
+//!   - `race`: whether all of them race. If not, the `selected` method is shown solo. `null` selects the scene's
+//!     opening method, and among many lanes the best.
+//!   - `tick_hz`: the tick rate at the start. It is a number if it is a decimal, else a ratio such as `"60000/1001"`.
+//!   - `frames`: the requested number of frames. `fps`: frames per second. `size`: in pixels. `scale`: pixels per
+//!     point.
+//!   - `panels`: whether they are shown. `instrument` and `cloud`: the requested ones, if any. `motion`: whether it
+//!     is on.
+//!   - `theme`: only if it is `light`. `loop`: the trace of the loop lab, if that is shown. `mark_every`: in ticks.
 //! - `settings_hash`: the hash of `settings` as JSON without spaces.
 //! - `adapter`: the graphics adapter: `name`, `driver`, `driver_info`, `backend`, `kind`.
 //! - `complete`: `false` if the capture was interrupted.
-//! - `frames`: for each frame its `file`, the `tick` reached, `alpha` as numerator and denominator of
-//!   the part of the next tick that is drawn, and `pixels`, the hash of its RGBA bytes.
-//! - `lanes`: each lane at the end: `method`, `substeps`, the `hash` of its state, the tick at which its first
-//!   body `halted` or `null`, and for each of its `bodies` its `name`, the tick at which it `halted` or `null`
-//!   and, at the end, every metric of `regatta list metrics` against the exact solution, `null` where it has no
-//!   meaning.
-//! - `marks`: the state of each lane at every `mark_every`th `tick` and at the end: for each of the
-//!   `lanes` its `hash` and, body by body, `q` and `v`; a value that is not finite, which JSON cannot
-//!   write as a number, is one of the strings `inf`, `-inf` and `NaN`.
+//! - `frames`: for each frame its `file`, the `tick` reached, the drawn part of the next tick as `alpha`, numerator
+//!   and denominator, and `pixels`, the hash of its RGBA bytes.
+//! - `lanes`: each lane at the end: `method`, `substeps`, the `hash` of its state, and the tick at which its first
+//!   body `halted`, or `null`. Each of its `bodies` has its `name`, the tick at which it `halted` or `null`, and
+//!   every metric of `regatta list metrics` against the exact solution. A metric without meaning is `null`.
+//! - `marks`: the state of each lane at every `mark_every`th `tick` and at the end. Each of the `lanes` has its
+//!   `hash` and, body by body, `q` and `v`. JSON has no numbers that are not finite, so these are the strings `inf`,
+//!   `-inf` and `NaN`.
 //!
 //! A lane's `hash` is [`Race::lane_hashes`](crate::run::Race::lane_hashes). The other hashes are XXH3's
 //! 64 bits ([`fingerprint`]). All are hexadecimal. There is no seed, because nothing in a run is random.
@@ -39,10 +39,10 @@ use xxhash_rust::xxh3::xxh3_64;
 use crate::run::diff::is_same_number;
 use crate::sim::TickRate;
 
-/// The number of the description above. A manifest of another one cannot be judged.
+/// The schema number of the description above. Manifests with another number cannot be judged.
 pub const SCHEMA: u32 = 1;
 
-/// The largest manifest that is read, in bytes: twice that of a capture of a million frames with its marks.
+/// Largest manifest that is read, in bytes: twice that of a capture of a million frames with its marks.
 pub(super) const MAX_BYTES: usize = 512 << 20;
 
 /// The manifest's file name.
@@ -95,7 +95,7 @@ pub struct Settings {
     pub mark_every: u64,
 }
 
-/// A tick rate as JSON that is read back as the same: a number if it is a decimal, else text such as `1/0.015`.
+/// A tick rate as JSON that reads back as the same rate: a number if it is a decimal, else text such as `1/0.015`.
 mod exact {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
@@ -134,7 +134,7 @@ impl Settings {
     }
 }
 
-/// A method by lines of a person's own.
+/// A person's own method.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]
@@ -146,7 +146,7 @@ pub struct OwnEntry {
     pub fps: Option<String>,
 }
 
-/// A scene file as it was.
+/// The scene file at the time of the capture.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]
@@ -163,10 +163,10 @@ pub struct SceneText {
 pub struct LaneEntry {
     pub method: String,
     pub substeps: u32,
-    /// The tolerance in place of the method's own, where the scene gives one.
+    /// Tolerance that replaces the method's own, if the scene gives one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// The frequency in hertz and the damping ratio that the engine is told of springs, where the scene gives them.
+    /// Frequency in hertz and damping ratio of the engine's spring setting, if the scene gives them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<[f64; 2]>,
 }
@@ -203,7 +203,7 @@ pub struct LaneEnd {
     pub substeps: u32,
     pub hash: String,
     pub halted: Option<u64>,
-    /// For each body its name, its halt and its metrics.
+    /// Name, halt and metrics of each body.
     pub bodies: Vec<Map<String, Value>>,
 }
 
@@ -242,7 +242,8 @@ impl LaneMark {
 }
 
 impl Manifest {
-    /// The text of the file, with a line for each entry of a list, so that two manifests can be compared line by line.
+    /// The text of the file. Each entry of a list has its own line, so that two manifests can be compared line by
+    /// line.
     pub fn to_text(&self) -> String {
         let value = serde_json::to_value(self).expect("all keys are strings");
         let mut text = String::new();
@@ -261,7 +262,7 @@ fn lay_out(value: &Value, depth: usize, text: &mut String) {
             text.push('{');
             for (key, value) in entries {
                 text.push_str(&format!("{separator}{indent}{}: ", Value::from(key.as_str())));
-                // The entries of a list are one line each.
+                // Each entry of a list takes one line.
                 lay_out(value, depth + 1, text);
                 separator = ",\n";
             }
@@ -279,13 +280,13 @@ fn lay_out(value: &Value, depth: usize, text: &mut String) {
     }
 }
 
-/// A hash of a text or of pixels, to be written down and compared later, by other programs too: XXH3 of `bytes`, 64 bits
-/// with the seed 0, as 16 hexadecimal digits.
+/// A hash of a text or of pixels, for later comparison, also by other programs: XXH3 of `bytes`, 64 bits with the
+/// seed 0, as 16 hexadecimal digits.
 pub fn fingerprint(bytes: &[u8]) -> String {
     format!("{:016x}", xxh3_64(bytes))
 }
 
-/// A number in JSON, which cannot write infinity and NaN as numbers.
+/// A number in JSON, or a word for infinity or NaN, which JSON cannot write as numbers.
 #[derive(Deserialize, Serialize)]
 #[serde(untagged)]
 enum AnyNumber {

@@ -1,11 +1,10 @@
-//! The command line: one file a subcommand, from arguments to a finished run.
+//! The command line: one file per subcommand, from arguments to a finished run.
 //!
-//! Data goes to standard output and everything else to standard error, so that a command can stand in
-//! a pipe; a pipe that closes early ends a command quietly. Names, columns and exit codes are an
-//! interface that scripts rely on.
+//! Data goes to standard output and everything else to standard error, so that a command works in a pipe. A pipe that
+//! closes early ends a command quietly. Scripts rely on names, columns and exit codes.
 //!
-//! The modules below come in four groups: the subcommands; what is run; how a run is drawn, frame by frame,
-//! into a folder, a stream or a sheet; and what all of them share.
+//! The modules below come in four groups: subcommands, inputs of a run, drawing, and shared code. Drawing writes a
+//! run, frame by frame, into a folder, a stream or a sheet.
 
 #![cfg_attr(
     not(feature = "window"),
@@ -126,13 +125,13 @@ pub struct Cli {
     play: PlayArgs,
 }
 
-/// The most bytes of an argument: more than a path has. Messages quote arguments.
+/// Most bytes of an argument, more than a path has. Messages quote arguments.
 const MAX_ARGUMENT_BYTES: usize = 4096;
 
-/// The command before a word that is the name of no command, but of a list or of a chapter.
+/// The command to insert before a first word that names no command but a list or a chapter.
 fn unnamed_command(cli: &clap::Command, arguments: &[OsString]) -> Option<&'static str> {
     let word = arguments.get(1)?.to_str().filter(|word| cli.find_subcommand(word).is_none())?;
-    // A chapter that is called like a scene waits for the word `help`.
+    // A chapter that shares its name with a scene needs the word `help`.
     let is_scene = SCENES.iter().any(|scene| scene.name == word);
     match list::names().any(|name| name == word) {
         true => Some("list"),
@@ -140,8 +139,8 @@ fn unnamed_command(cli: &clap::Command, arguments: &[OsString]) -> Option<&'stat
     }
 }
 
-/// Where a scene stands without an option before it, in a command that takes one: a link, or where no other argument is without
-/// an option the name of a built-in scene or of a scene file.
+/// Index of a scene without an option before it, in a command that takes a scene. It may be a link. The name of a
+/// built-in scene or of a scene file also counts, unless the command takes positional arguments.
 fn lone_scene(cli: &clap::Command, arguments: &[OsString]) -> Option<usize> {
     let end = arguments.iter().position(|one| one == "--").unwrap_or(arguments.len());
     let named = arguments.get(1).and_then(|one| cli.find_subcommand(one));
@@ -164,7 +163,7 @@ fn lone_scene(cli: &clap::Command, arguments: &[OsString]) -> Option<usize> {
     (1..end).filter(is_scene).find(is_lone)
 }
 
-/// The error of an unknown word, with the name of a scene, a list or a chapter that is like it.
+/// The error for an unknown word, with the similar name of a scene, a list or a chapter.
 fn with_similar_name(mut error: clap::Error, word: &str) -> clap::Error {
     let others = list::names().chain(CHAPTERS.iter().map(|chapter| chapter.id));
     let names = SCENES.iter().map(|scene| scene.name).chain(others);
@@ -176,11 +175,11 @@ fn with_similar_name(mut error: clap::Error, word: &str) -> clap::Error {
 }
 
 impl Cli {
-    /// Reads a command line, the program's name first.
+    /// Parses a command line that begins with the program's name.
     ///
     /// # Errors
     ///
-    /// What is to be shown in place of running it: a mistake, or the help or version that it asks for.
+    /// The text to show instead of running the command: a mistake, or the help or version that the user asked for.
     pub fn read(arguments: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
         let mut arguments: Vec<OsString> = arguments.into_iter().collect();
         let is_link = |one: &OsString| scene_file::is_link(one.as_ref());
@@ -201,7 +200,7 @@ impl Cli {
             arguments.insert(at, "--scene".into());
         }
         Self::try_parse_from(&arguments).map_err(|error| {
-            // The message quotes them.
+            // The message quotes the arguments.
             let texts: Vec<_> = arguments.iter().map(|one| one.to_string_lossy()).collect();
             let shown: Vec<_> = texts.iter().map(|text| visible(text)).collect();
             let error = match shown.iter().zip(&texts).all(|(shown, text)| shown == text) {
@@ -220,7 +219,7 @@ impl Cli {
 }
 
 impl Cli {
-    /// Whether the command draws and opens no window, as `play` does where the environment names no display.
+    /// Whether the command draws without opening a window. That includes `play` if the environment names no display.
     pub fn draws_without_a_window(&self) -> bool {
         match &self.command {
             #[cfg(feature = "view")]
@@ -238,7 +237,7 @@ impl Cli {
     }
 }
 
-/// Makes the subcommands from a row each: what the command line has of it, and what runs it.
+/// Declares the subcommands from one row each: the arguments, and the function that runs them.
 macro_rules! subcommands {
     ($($(#[$when:meta])* $name:ident($args:ty) => $run:expr,)*) => {
         #[derive(Debug, Subcommand)]

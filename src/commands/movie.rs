@@ -21,17 +21,17 @@ pub(super) trait Movie: Send {
     fn push(&mut self, frame: &DrawnFrame) -> Result<(), Error>;
 }
 
-/// A stream that was begun.
+/// A started stream, or the reason why it could not start.
 pub(super) type Begun<'a> = Result<Box<dyn Movie + 'a>, Error>;
 
-/// Begins a stream of one format.
+/// Starts a stream of one format.
 pub(super) type Begin = for<'a> fn(&'a mut Output, &CaptureSettings) -> Begun<'a>;
 
-/// One pixel in this many is sampled for a GIF's palette. The coarsest sampling: twice as fast as a
-/// medium one, and on flat colours no worse.
+/// The palette of a GIF samples one pixel in this many. This is the coarsest sampling: twice as fast as a medium one,
+/// and on flat colours no worse.
 const GIF_SPEED: i32 = 30;
 
-/// Draws the run of `studio` into `output` and reports on standard error what it wrote.
+/// Draws the run of `studio` into `output` and reports the result on standard error.
 pub(super) fn record(
     studio: Studio,
     capture: CaptureSettings,
@@ -64,8 +64,8 @@ pub(super) fn record(
     Ok(())
 }
 
-/// GIF, with a palette of 256 colours for each frame. Its encoder writes the last byte when it is dropped; the output tells
-/// when it is closed whether it could.
+/// GIF, with a palette of 256 colours for each frame. Dropping the encoder writes the last byte; closing the output
+/// reports whether that worked.
 struct Gif<'a> {
     encoder: GifEncoder<&'a mut Output>,
     size_px: [u32; 2],
@@ -108,7 +108,7 @@ impl Movie for Y4m<'_> {
     }
 }
 
-/// How long a GIF shows this frame, in hundredths of a second; the remainder is carried to the next frame.
+/// Duration of a frame in a GIF, in hundredths of a second. The remainder moves to the next frame.
 fn shown_cs(frame: u32, fps: u32) -> u32 {
     let ends = |frame: u32| u64::from(frame) * 100 / u64::from(fps);
     (ends(frame + 1) - ends(frame)) as u32
@@ -121,7 +121,7 @@ fn of_gif(error: ImageError) -> Error {
     }
 }
 
-/// Replaces `planes` by all Y, all Cb and all Cr: BT.601, 16 to 235 and 16 to 240.
+/// Replaces `planes` with all Y, all Cb and all Cr: BT.601, 16 to 235 and 16 to 240.
 fn to_yuv(rgba: &[u8], planes: &mut Vec<u8>) {
     let pixels = rgba.len() / 4;
     planes.resize(3 * pixels, 0);

@@ -1,5 +1,5 @@
-//! Where a command's results go: standard output, files that appear whole or not at all, directories that
-//! one process writes to at a time, and the formats of pictures and tables.
+//! Outputs of a command: standard output, files that appear whole or not at all, directories with one writer at a
+//! time, and tables.
 
 mod destination;
 mod directory_lock;

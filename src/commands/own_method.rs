@@ -1,4 +1,4 @@
-//! Methods by lines of a person's own, in files that end in `.step`.
+//! A person's own methods, in files that end in `.step`.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -14,15 +14,15 @@ use crate::regular_file;
 use crate::scene::{LaneSpec, MAX_FILE_BYTES};
 use crate::sim::integrators::Method;
 
-/// Takes what an id stands for, or the method in a file of lines.
+/// Parser for an id, or for a method in a `.step` file.
 #[derive(Clone, Copy)]
 pub(super) struct OrStepFile<T: 'static> {
     pub(super) id: Id<T>,
-    /// What a method stands for.
+    /// Converts a method to the parsed type.
     pub(super) of: fn(&'static Method) -> T,
 }
 
-/// Takes the id of a method, or a file of lines.
+/// Parser for the id of a method, or for a `.step` file.
 pub(super) const METHOD_OR_FILE: OrStepFile<&Method> =
     OrStepFile { id: METHOD, of: |method| method };
 
@@ -55,7 +55,7 @@ pub(super) fn is_step(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("step"))
 }
 
-/// The method in a file, under the file's name.
+/// Loads a method from a file and names it after the file.
 fn load(path: &Path) -> Result<&'static Method, Error> {
     let name = brief(path);
     let bytes = regular_file::read(path, MAX_FILE_BYTES).map_err(|error| {

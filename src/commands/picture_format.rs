@@ -1,4 +1,4 @@
-//! The formats that a capture writes, and the one that a file's name asks for.
+//! Formats of a capture, and the choice of one by a file's name.
 
 use std::path::Path;
 
@@ -11,35 +11,33 @@ use super::movie::{self, Begin};
 use super::output::STDOUT;
 use Writing::{Folder, Movie, Sheet};
 
-/// How a capture is written.
+/// Kind of output that a capture writes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Writing {
-    /// A picture a frame, in a directory.
+    /// One picture per frame, in a directory.
     Folder,
-    /// One picture of all frames.
+    /// One picture with all frames.
     Sheet,
     /// All frames in one stream.
     Movie(Begin),
 }
 
-/// A format of a capture.
 #[derive(Debug)]
 pub(super) struct PictureFormat {
-    /// As `--format` takes it.
+    /// Value of `--format`.
     pub(super) id: &'static str,
     about: &'static str,
-    /// The endings of the files that hold it.
+    /// Endings of files in this format.
     endings: &'static [&'static str],
-    /// The most frames per second that it shows.
+    /// Most frames per second in this format.
     max_fps: Option<u32>,
     pub(super) writing: Writing,
 }
 
-/// All formats.
 pub(super) static FORMATS: [PictureFormat; 4] = [
     format("png", "Numbered pictures and a manifest in a directory", &[], Folder),
     PictureFormat {
-        // Players show a frame for two hundredths of a second at least.
+        // Players show a frame for at least two hundredths of a second.
         max_fps: Some(50),
         ..format(
             "gif",
@@ -61,7 +59,7 @@ const fn format(
     PictureFormat { id, about, endings, max_fps: None, writing }
 }
 
-/// Takes the id of a format; offers all of them to the shell's completion.
+/// Parser for the id of a format. Offers all ids for shell completion.
 pub(super) fn by_id() -> impl TypedValueParser<Value = &'static PictureFormat> {
     let ids = FORMATS.iter().map(|format| PossibleValue::new(format.id).help(format.about));
     PossibleValuesParser::new(ids).map(|id| PictureFormat::find(&id).expect("no other is taken"))
@@ -72,7 +70,7 @@ impl PictureFormat {
         FORMATS.iter().find(|format| format.id == id)
     }
 
-    /// The format asked for, else the one that the name of `out` asks for, else numbered pictures.
+    /// The requested format, else the one that the name of `out` implies, else numbered pictures.
     pub(super) fn of(out: &Path, asked: Option<&'static Self>) -> Result<&'static Self, Error> {
         let path = brief(out);
         if out == Path::new(STDOUT) {
@@ -113,7 +111,7 @@ impl PictureFormat {
         }
     }
 
-    /// Fails if a run cannot be written at this many frames per second.
+    /// Fails if the format cannot show this many frames per second.
     pub(super) fn check(&self, fps: u32) -> Result<(), Error> {
         match self.max_fps {
             Some(most) if fps > most => Err(Error::mistake(format!(
@@ -128,7 +126,7 @@ impl PictureFormat {
         matches!(self.writing, Sheet)
     }
 
-    /// What a sheet wants instead of what all others do.
+    /// Picks `sheet` for a sheet and `others` for every other format.
     pub(super) fn or_sheet<T>(&self, others: T, sheet: T) -> T {
         if self.is_sheet() { sheet } else { others }
     }

@@ -1,8 +1,8 @@
-//! Frames are drawn on this thread, encoded on several others, and passed on in order by one more. While a
+//! Draws frames on this thread, encodes them on several others, and passes them on in order on one more. While a
 //! frame is encoded, the next is drawn and the one after it is simulated.
 //!
-//! A frame that has been passed on gives its buffer back to the thread that draws. The number of buffers is
-//! fixed, and bounds the memory of a run of any length, whichever stage is slow.
+//! A frame that has been passed on gives its buffer back to the drawing thread. The fixed number of buffers bounds
+//! the memory of a run of any length, whichever stage is slow.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::num::NonZero;
@@ -23,40 +23,40 @@ use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 /// Frames that the device draws at a time. More gain nothing on a software adapter and cost memory.
 const MAX_IN_FLIGHT: usize = 2;
 
-/// Threads that encode: no device draws fast enough to keep more of them busy, and each holds a frame.
+/// Threads that encode. No device draws fast enough to keep more of them busy, and each uses a frame of memory.
 const MAX_ENCODERS: usize = 4;
 
 /// Buffers beyond one per encoder: one frame waits for an encoder, and one is being passed on.
 const SPARE_BUFFERS: usize = 2;
 
-/// A frame as it comes from the device.
+/// A frame from the device.
 pub(super) struct DrawnFrame {
-    /// Counted from 0.
+    /// Index, from 0.
     pub(super) frame: u32,
-    /// The tick reached.
+    /// Tick reached.
     pub(super) tick: u64,
-    /// The part of the next tick that is drawn, as an exact fraction.
+    /// Part of the next tick that is drawn, as an exact fraction.
     pub(super) alpha: (u64, u64),
-    /// Its pixels, top row first.
+    /// Pixels, top row first.
     pub(super) rgba: Vec<u8>,
 }
 
-/// A frame with what its encoder returned, or the panic of its encoder.
+/// A frame with the result or the panic of its encoder.
 type Encoded<T> = (DrawnFrame, thread::Result<T>);
 
 /// A run to be drawn.
 pub(super) struct Pipeline<'a> {
     pub(super) renderer: &'a mut OffscreenRenderer,
-    /// At tick 0.
+    /// Must be at tick 0.
     pub(super) studio: &'a mut Studio,
     pub(super) state_log: &'a mut StateLog,
     pub(super) schedule: Schedule,
 }
 
 impl Pipeline<'_> {
-    /// Draws the frames in order and passes each to `take` with what `encode` returned for it. Several
-    /// frames are encoded at once if there are processors for it. Returns how many frames were drawn. Once
-    /// `interrupted` is set, no further frame is drawn; those drawn already are still passed on.
+    /// Draws the frames in order and passes each to `take` with the result of `encode`. Encodes several frames at
+    /// once if there are processors for it. Returns the number of frames drawn. Once `interrupted` is set, draws no
+    /// further frame but still passes on those already drawn.
     pub(super) fn draw_all<T: Send>(
         self,
         interrupted: &AtomicBool,
@@ -69,7 +69,7 @@ impl Pipeline<'_> {
             take(drawn, encoded)
         };
         let processors = thread::available_parallelism().map_or(1, NonZero::get);
-        // One is left to drawing.
+        // Leave one processor for drawing.
         let encoders = (processors - 1).clamp(1, MAX_ENCODERS);
         let drawn = self.draw_beside(encoders, interrupted, encode, take);
         progress.finish_and_clear();
@@ -164,7 +164,7 @@ fn take_in_order<T>(
     Ok(())
 }
 
-/// Puts numbered results back in order: holds those that arrive before their turn.
+/// Puts numbered results back in order and keeps those that arrive before their turn.
 struct ReorderingWindow<T> {
     next: u32,
     early: BTreeMap<u32, T>,
@@ -181,7 +181,7 @@ impl<T> ReorderingWindow<T> {
         self.early.insert(number, result);
     }
 
-    /// The result with the next number, from 0, if it is there.
+    /// The result with the next number, from 0, if it has arrived.
     fn take_next(&mut self) -> Option<T> {
         let result = self.early.remove(&self.next)?;
         self.next += 1;
@@ -190,8 +190,8 @@ impl<T> ReorderingWindow<T> {
 }
 
 /// Completes the loops on the stage, and the analysis and the clouds that the panels show. A window shows results as
-/// they are found; a recording waits for a stated amount of work on verdicts before each frame, so that its frames are
-/// reproducible. Returns `false` after an interrupt, when the work is not waited for: the process is about to end.
+/// they arrive. A recording completes a stated amount of work on verdicts before each frame, so that its frames are
+/// reproducible. Returns `false` after an interrupt, without waiting for the work: the process is about to end.
 pub(super) fn complete_analysis(
     studio: &mut Studio,
     renderer: &OffscreenRenderer,
@@ -246,7 +246,7 @@ mod tests {
         let mut state_log = StateLog::new(1, studio.race());
         let (studio, state_log) = (&mut studio, &mut state_log);
         let run = Pipeline { renderer, studio, state_log, schedule: SCHEDULE };
-        // The first of every two takes longer than the second.
+        // Every other frame, from the first on, takes longer to encode.
         let encode = |drawn: &DrawnFrame| {
             thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
             drawn.frame
@@ -301,7 +301,7 @@ mod tests {
         let [on_their_way, most] = [0, 0].map(AtomicUsize::new);
         let encode = |drawn: &DrawnFrame| {
             most.fetch_max(on_their_way.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
-            // The first is held back until all buffers are in use, and a little longer.
+            // Delay the first frame until all buffers are in use, and a little longer.
             while drawn.frame == 0 && most.load(Ordering::SeqCst) < 3 + SPARE_BUFFERS {
                 thread::yield_now();
             }

@@ -1,4 +1,4 @@
-//! `regatta play`: the window; where there is no display, its first seconds as pictures.
+//! `regatta play`: opens the window or, without a display, draws its first seconds as pictures.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -84,21 +84,21 @@ pub(super) struct PlayArgs {
     reduced_motion: bool,
 }
 
-/// The directory for pictures if there is no display.
+/// Directory of the pictures if there is no display.
 const FRAMES_DIR: &str = "regatta-frames";
-/// How many pictures are drawn if there is no display: enough to see what each method does, and drawn in seconds even
-/// in software.
+/// Number of pictures if there is no display: enough to show how each method behaves, and drawn in seconds even in
+/// software.
 const FRAMES: u32 = 4 * FPS;
-/// The size of those pictures, which is that of the window.
+/// Size of these pictures, equal to the window's.
 const SIZE_PX: [u32; 2] = [1280, 720];
 
 pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let mode = if args.race { Mode::Race } else { Mode::Solo };
     let preferences = preferences::load();
-    // A run of a given length is a script's, and is the same everywhere.
+    // A run of a given length belongs to a script and is the same everywhere.
     let last_scene = preferences.scene.as_deref().filter(|_| args.seconds.is_none());
     let again = last_scene.map(|scene| args.experiment.or_scene(scene));
-    // A scene file may have gone since.
+    // The scene file may be gone by now.
     let again = again.and_then(|options| Some((options.load(mode).ok()?, options)));
     let (experiment, options) = match again {
         Some(opened) => opened,
@@ -123,8 +123,8 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         let if_exists = if args.force { IfExists::Replace } else { IfExists::Beside };
         Destination { path, option: "--record", if_exists, inputs: &inputs }
     });
-    // Opened before the run, which could otherwise turn out impossible to save. A file is begun again when the run is over,
-    // so that a killed program leaves only what grows beside it.
+    // Open the file before the run, which could otherwise turn out impossible to save. Begin it again after the run,
+    // so that a killed program leaves only the unfinished recording beside it.
     let opened = record.map(Destination::open_for_text).transpose()?;
     let unfinished = opened.as_ref().and_then(Output::file).map(UnfinishedRecording::beside);
     let stream = opened.filter(|output| output.file().is_none());
@@ -183,12 +183,12 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     }
 }
 
-/// The length of a run in words.
+/// Length of a run in words.
 fn ticks(studio: &Studio) -> String {
     counted(studio.run().end(), "tick")
 }
 
-/// Draws the first seconds into a folder, and returns the studio as it then is.
+/// Draws the first seconds into a folder and returns the studio at the end of the run.
 fn without_display(
     args: &PlayArgs,
     experiment: &Experiment,
@@ -219,15 +219,15 @@ fn without_display(
     };
     let last = args.seconds.map(|seconds| studio.race().nearest_tick(seconds));
     let mut studio = clip::record(experiment, studio, capture, folder)?;
-    // The last frame is before the end.
+    // The last frame is before the end of the run.
     while last.is_some_and(|last| studio.race().tick() < last) {
         studio.tick();
     }
     Ok(studio)
 }
 
-/// How the window reads scene files: the file named on the command line with the options given there, others as they
-/// are. Errors are worded as on the command line.
+/// Reader of scene files for the window. Applies the command line's options to the file that it names, and to no
+/// other. Errors read as on the command line.
 fn files(args: &ExperimentArgs, experiment: &Experiment) -> SceneFiles {
     let given = args.clone();
     let read =

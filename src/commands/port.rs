@@ -1,4 +1,4 @@
-//! `regatta port`: the settings with which a spring moves the same in every engine.
+//! `regatta port`: finds the settings with which a spring moves the same in every engine.
 
 use clap::builder::RangedU64ValueParser;
 use clap::{ArgGroup, Args};
@@ -127,7 +127,7 @@ pub(super) struct PortArgs {
     format: TableFormat,
 }
 
-/// What the settings are sought of.
+/// An engine or user interface to find settings for, or all of one kind.
 #[derive(Clone, Copy, Debug)]
 enum Target {
     Engines,
@@ -136,17 +136,16 @@ enum Target {
     Dialect(&'static Dialect),
 }
 
-/// Whether the method is of an engine whose spring has settings.
+/// Whether the method belongs to an engine whose spring has settings.
 fn has_modes(method: &Method) -> bool {
     method.engine.is_some_and(|engine| !engine.modes.is_empty())
 }
 
-/// The engines that have a spring.
 fn engines() -> impl Iterator<Item = &'static Method> {
     METHODS.iter().filter(|method| has_modes(method))
 }
 
-/// Takes the id of what has a spring, or that of all of a kind.
+/// Parser for the id of an engine or user interface with a spring, or for all of one kind.
 const TARGET: Id<Target> = Id {
     thing: "engine or user interface with a spring",
     lists: &[],
@@ -161,7 +160,7 @@ const TARGET: Id<Target> = Id {
 };
 
 impl PortArgs {
-    /// The tick rate in Hz.
+    /// Tick rate in Hz, from either option.
     fn tick_hz(&self) -> f64 {
         self.step.unwrap_or(self.tick_hz)
     }
@@ -176,13 +175,13 @@ fn about() -> String {
     ABOUT.replace("{dialects}", &dialects.join(", "))
 }
 
-/// An engine's setup with its settings; `None` if it shows nothing near the wish.
+/// An engine's setup with its settings; `None` if no settings come near the wish.
 struct PortedEngine {
     setup: Setup,
     ported: Option<Ported>,
 }
 
-/// A drive in an engine: its own, and with its first mode that of a force of user code.
+/// A drive in an engine: its own and, with the engine's first mode, a force in user code.
 struct Drive {
     setup: Setup,
     limits: Vec<DriveLimits>,
@@ -265,7 +264,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             )));
         }
     }
-    // Whether a drive is stable is the question, however fast it is.
+    // A drive may have any frequency: the question is whether it is stable.
     match setups.is_empty() || args.drive {
         true => wish.check_numbers(args.tick_hz()).map_err(Error::mistake)?,
         false => wish.check(args.tick_hz()).map_err(Error::mistake)?,

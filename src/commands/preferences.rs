@@ -1,7 +1,7 @@
-//! Where the window's [preferences](SavedPreferences) are from one run to the next.
+//! Storage of the window's [preferences](SavedPreferences) between runs.
 //!
-//! They are in `window.toml` in the folder that the system has for a program's settings, under `XDG_CONFIG_HOME` on
-//! Linux. A file that cannot be understood is ignored, with a line on standard error.
+//! The file is `window.toml` in the system's folder for a program's settings, under `XDG_CONFIG_HOME` on Linux. An
+//! invalid file is ignored, with a line on standard error.
 
 use std::path::{Path, PathBuf};
 
@@ -14,10 +14,9 @@ use crate::regular_file;
 use crate::scene::MAX_FILE_BYTES;
 use crate::studio::{SavedPreferences, Studio};
 
-/// The name of the file.
 const FILE_NAME: &str = "window.toml";
 
-/// What the file says; nothing where there is none.
+/// Loads the saved preferences, or the defaults if there is no file.
 pub(super) fn load() -> SavedPreferences {
     let Some(path) = path() else { return SavedPreferences::default() };
     read(&path).unwrap_or_else(|why| {
@@ -34,13 +33,13 @@ fn read(path: &Path) -> Result<SavedPreferences, String> {
     SavedPreferences::parse(str::from_utf8(&bytes).map_err(|_| "it is not text")?)
 }
 
-/// Writes the file. Where that is not possible, nothing is remembered.
+/// Saves the preferences. A failure goes to the log only.
 pub(super) fn save(preferences: &SavedPreferences) {
     let Some(path) = path() else { return };
     let write = |path: &Path| {
         let folder = path.parent().unwrap_or(path);
         std::fs::create_dir_all(folder)?;
-        // Whole or not at all, as another window may close at the same time.
+        // Replace the file atomically, as another window may close at the same time.
         begin_file(path)?.write_whole(preferences.to_text().as_bytes(), IfExists::Replace)
     };
     if let Err(error) = write(&path) {
@@ -48,7 +47,7 @@ pub(super) fn save(preferences: &SavedPreferences) {
     }
 }
 
-/// The open scene of a studio, as it is remembered: a name, or an absolute path.
+/// The studio's open scene for the file: a name, or an absolute path.
 pub(super) fn scene_of(studio: &Studio) -> Option<PathBuf> {
     match studio.deck.scene_list().open_path() {
         Some(path) => path.canonicalize().ok(),

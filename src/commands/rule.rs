@@ -1,4 +1,4 @@
-//! `regatta rule`: what the lines with which a game moves a value once a frame do at every frame rate.
+//! `regatta rule`: analyses the lines with which a game moves a value once a frame, at every frame rate.
 
 use std::io::{self, Read};
 use std::path::Path;
@@ -73,7 +73,7 @@ pub(super) struct RuleArgs {
     format: TableFormat,
 }
 
-/// The name of the rule in messages, and its text.
+/// Name of the rule in messages, and its text.
 fn read(written: &str) -> Result<(String, String), Error> {
     let path = Path::new(written);
     let (name, bytes) = if written == "-" {
@@ -144,12 +144,12 @@ fn object(rule: &Rule, written: &str) -> Value {
     })
 }
 
-/// A number to so many digits; nothing where there is none.
+/// A number with this many digits, or null.
 fn digits(value: Option<f64>, digits: usize) -> Value {
     value.map(|value| significant(value, digits)).into()
 }
 
-/// The undamped frequency, where it differs from the one that is seen by more than a hundredth.
+/// The undamped frequency, if it differs from the visible one by more than a hundredth.
 fn undamped(seen: &SeenRule) -> Option<f64> {
     let undamped = seen.spring?.undamped_hz();
     seen.hz.is_none_or(|hz| (hz / undamped - 1.0).abs() > 0.01).then_some(undamped)

@@ -20,7 +20,7 @@ use crate::tools::rule::rule_scene;
 /// The frame rate of a rule's author where nothing says it: the usual one of games.
 const USUAL_FPS: TickRate = TickRate::whole(60);
 
-/// The built-in scene of that name, or the scene in the file at that path or in that link, and its text.
+/// Loads the built-in scene of that name, or the scene in that file or link. Returns it with its text.
 pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
     if let Some(built_in) = built_in(path) {
         return Ok((Scene::parse(built_in.name, built_in.text)?, built_in.text.to_owned()));
@@ -51,7 +51,7 @@ fn scene_of_rule(path: &Path) -> Result<Scene, Error> {
     Ok(rule_scene(&name, text, USUAL_FPS)?)
 }
 
-/// The text that the built-in scene of that name, or the file at that path, has now; `None` if it cannot be read.
+/// Current text of the built-in scene of that name, or of the file at that path; `None` if it cannot be read.
 pub(super) fn text_now(path: &Path) -> Option<String> {
     match built_in(path) {
         Some(built_in) => Some(built_in.text.to_owned()),
@@ -60,7 +60,7 @@ pub(super) fn text_now(path: &Path) -> Option<String> {
     }
 }
 
-/// Checks that `method`, which the command line names, steps `scene`.
+/// Checks that `method`, from the command line, can step `scene`.
 pub(super) fn check_method(scene: &Scene, method: &Method) -> Result<(), Error> {
     if let Some(own) = scene.own_methods.iter().find(|own| own.id == method.id && *own != &method) {
         return Err(Error::mistake(format!(
@@ -74,17 +74,16 @@ pub(super) fn check_method(scene: &Scene, method: &Method) -> Result<(), Error> 
     )))
 }
 
-/// Whether `path` is the name of a built-in scene.
 pub(super) fn is_built_in(path: &Path) -> bool {
     built_in(path).is_some()
 }
 
-/// Whether `path` says by its ending, or as a built-in scene by its name, that it is a scene.
+/// Whether `path` looks like a scene: it ends in .toml or is the name of a built-in scene.
 pub(super) fn is_name(path: &Path) -> bool {
     is_built_in(path) || is_step(path) || path.extension().is_some_and(|ending| ending == "toml")
 }
 
-/// Whether `path` is the path of a file.
+/// Whether `path` is a file's path: neither a built-in scene nor a link.
 pub(super) fn is_file(path: &Path) -> bool {
     !is_built_in(path) && !is_link(path)
 }
@@ -94,18 +93,18 @@ pub(super) fn input(path: &Path) -> Option<Input<'_>> {
     is_file(path).then_some((path, "the scene that is run"))
 }
 
-/// The path for people; a link is as long as its run.
+/// The path for messages. A link is too long to show: it contains its run.
 pub(super) fn shown(path: &Path) -> String {
     if is_link(path) { "the link".into() } else { brief(path) }
 }
 
-/// The built-in scene that a link names, if `path` is one that does.
+/// Name of the built-in scene in a link, if `path` is such a link.
 fn name_in_link(path: &Path) -> Option<String> {
     let link = Link::read(path.to_str().filter(|_| is_link(path))?).ok()?;
     link.named().ok().filter(|_| !link.is_packed()).map(|named| named.scene.name)
 }
 
-/// The tick at which a link is to be looked at, if `path` is one that says so.
+/// The tick at which a link opens, if `path` is a link with a tick.
 pub(super) fn tick_of(path: &Path) -> Option<u64> {
     let written = path.to_str().filter(|_| is_link(path))?;
     Link::read(written).ok()?.tick()

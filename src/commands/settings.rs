@@ -1,4 +1,4 @@
-//! The settings with which a run is drawn, and how they and an experiment become those of a manifest and back.
+//! Settings of a capture, and their conversion to and from those of a manifest.
 
 use super::experiment::Experiment;
 use super::frame_names::{MAX_FRAMES, frame_name};
@@ -14,7 +14,7 @@ use crate::scene::{LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, Swing, TOLERANCES, 
 use crate::sim::integrators::{Method, method};
 use crate::studio::{Instrument, Motion, RunCommand, Studio};
 
-/// How a run is drawn: its frames, their size and what they show.
+/// Settings of a capture: its frames, their size and their content.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CaptureSettings {
     pub(super) schedule: Schedule,
@@ -23,9 +23,9 @@ pub(super) struct CaptureSettings {
     pub(super) scale: f32,
     /// Whether panels are shown around the stage.
     pub(super) panels: bool,
-    /// The instrument among them; `None` for the usual one.
+    /// Instrument in the panels; `None` for the default.
     pub(super) instrument: Option<Instrument>,
-    /// What the clouds are; `None` for the usual shape.
+    /// Kind of the clouds; `None` for the default shape.
     pub(super) cloud: Option<CloudKind>,
     /// Whether trails fade and the camera glides.
     pub(super) motion: bool,
@@ -35,7 +35,7 @@ pub(super) struct CaptureSettings {
 }
 
 impl CaptureSettings {
-    /// The studio of an experiment at the start of the run, as it is drawn.
+    /// Prepares an experiment's studio for drawing.
     pub(super) fn dress(&self, mut studio: Studio) -> Studio {
         studio.viewer.preferences.display.motion =
             if self.motion { Motion::Recorded } else { Motion::Reduced };
@@ -50,10 +50,10 @@ impl CaptureSettings {
     }
 }
 
-/// The light theme in a manifest; the dark one is not written.
+/// The light theme in a manifest. The dark one is not written.
 const LIGHT: &str = "light";
 
-/// The settings of a run, for its manifest.
+/// Settings of a run, for its manifest.
 pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Settings {
     let scene = &experiment.scene;
     let lane = |lane: &LaneSpec| LaneEntry {
@@ -83,7 +83,7 @@ pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Set
         frames: capture.schedule.frames,
         fps: capture.schedule.fps,
         size: capture.size_px,
-        // The shortest decimal of an f32 is the same number as an f64 for people, and reads back.
+        // The shortest decimal of an f32 reads well as an f64, and reads back as the same f32.
         scale: capture.scale.to_string().parse().expect("a number's own text"),
         panels: capture.panels,
         instrument: capture.instrument.map(Instrument::id),
@@ -97,7 +97,7 @@ pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Set
 /// The run that these settings describe.
 ///
 /// # Errors
-/// Why this program cannot run it.
+/// The reason why this program cannot run it.
 pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings), String> {
     let SceneText { name, text, .. } = &settings.scene;
     let made = |entry: &OwnEntry| {
@@ -175,10 +175,10 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings),
     Ok((experiment, capture))
 }
 
-/// Checks that a manifest is as its capture wrote it.
+/// Checks that nobody has altered a manifest.
 ///
 /// # Errors
-/// What was altered.
+/// A description of the alteration.
 pub(super) fn check(manifest: &Manifest) -> Result<(), String> {
     let settings = &manifest.settings;
     let scene = &settings.scene;

@@ -16,7 +16,7 @@ use crate::scene::LaneSpec;
 use crate::studio::Studio;
 use crate::view::png;
 
-/// The most pixels of a sheet, a gigabyte of memory.
+/// Most pixels of a sheet: a gigabyte of memory.
 const MAX_SHEET_PIXELS: u64 = 1 << 28;
 
 /// Draws every lane of the experiment alone, at the moments of the capture, into one picture.

@@ -1,4 +1,4 @@
-//! `regatta show`: a method as a function, or a game loop, to be taken into a game.
+//! `regatta show`: prints a method or a game loop as code for a game.
 
 use clap::Args;
 
@@ -51,22 +51,22 @@ pub(super) struct ShowArgs {
     float: bool,
 }
 
-/// What was asked for.
+/// The method or game loop to show.
 #[derive(Clone, Copy, Debug)]
 enum Asked {
     Method {
         method: &'static Method,
-        /// The one of its [other ids](Method::also) that was given, if it was not its own.
+        /// The [other id](Method::also) that the user gave, if it was not the method's own.
         alias: Option<&'static str>,
     },
     Loop(&'static PolicyCard),
 }
 
-/// Takes those, or a file of lines.
+/// Parser for all of these ids, or for a `.step` file.
 const ASKED_OR_FILE: OrStepFile<Asked> =
     OrStepFile { id: ASKED, of: |method| Asked::Method { method, alias: None } };
 
-/// Takes the id of a method, one of its other ids, or the id of a game loop.
+/// Parser for the id of a method, one of its other ids, or the id of a game loop.
 const ASKED: Id<Asked> = Id {
     thing: "method or policy",
     lists: &["methods", "policies"],
@@ -83,12 +83,12 @@ const ASKED: Id<Asked> = Id {
     spellings: || [(METHOD.spellings)(), (POLICY.spellings)()].concat(),
 };
 
-/// A language that something is written in.
+/// A language of methods or of game loops.
 #[derive(Clone, Copy, Debug)]
 enum Written {
-    /// One of those of methods.
+    /// A language of methods.
     Of(Language),
-    /// That of loops alone.
+    /// C++, the language of some loops but of no method.
     Cpp,
 }
 
@@ -104,7 +104,7 @@ const WRITTEN: Id<Written> = Id {
 };
 
 impl Written {
-    /// Its name on the card of a loop.
+    /// Name of the language on a loop's card.
     fn of_loops(self) -> &'static str {
         match self {
             Self::Cpp => "c++",
@@ -126,7 +126,7 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     };
     let language = match args.language {
         Written::Of(language) => language,
-        // C++ compiles what is written for C.
+        // C++ compiles the C code.
         Written::Cpp => Language::C,
     };
     let precision = if args.float { Precision::Single } else { Precision::Double };

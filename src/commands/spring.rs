@@ -1,4 +1,4 @@
-//! A custom spring on the command line, in the place of a scene.
+//! A custom spring on the command line, instead of a scene.
 
 use clap::Args;
 
@@ -38,19 +38,19 @@ pub(super) struct SpringArgs {
     mass: Option<f64>,
 }
 
-/// The tick rate in Hz of a spring for which none is given: the usual one of games.
+/// Default tick rate of a spring in Hz: the usual one of games.
 const USUAL_TICK_HZ: u32 = 60;
 
 impl SpringArgs {
-    /// Whether a spring is described.
+    /// Whether the options describe a spring.
     pub(super) fn is_given(&self) -> bool {
         self.k.is_some() || self.frequency.is_some()
     }
 
-    /// The spring's scene and its text, if a spring is described.
+    /// The spring's scene and its text; `None` if the options describe no spring.
     ///
     /// # Errors
-    /// If a scene may not have its numbers.
+    /// If the numbers are not valid in a scene.
     pub(super) fn load(&self) -> Result<Option<(Scene, String)>, Error> {
         let mass_kg = self.mass.unwrap_or(1.0);
         let by_stiffness = self.k.map(|stiffness_n_per_m| MySpring {

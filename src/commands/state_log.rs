@@ -8,11 +8,11 @@ use crate::run::race::{Observer, Race};
 use crate::sim::Solver;
 use crate::studio::Studio;
 
-/// The default number of marks in a run. They locate a difference to within a few ticks, and the manifest of a race stays
+/// Default number of marks in a run. They locate a difference to within a few ticks and keep the manifest of a race
 /// below a megabyte.
 const USUAL_MARKS: u64 = 500;
 
-/// The default number of ticks between two marks, for a run of this many ticks.
+/// Default number of ticks between two marks, for a run of this many ticks.
 pub(super) fn usual_stride(ticks: u64) -> u64 {
     ticks.div_ceil(USUAL_MARKS).max(1)
 }
@@ -25,12 +25,12 @@ pub(super) struct StateLog {
 }
 
 impl StateLog {
-    /// A log that starts with a mark of the present state.
+    /// Starts a log with a mark of the current state.
     pub(super) fn new(every: u64, race: &Race) -> Self {
         Self { every, marks: vec![mark(race)] }
     }
 
-    /// All marks; the last is the present state.
+    /// All marks, the last of the current state.
     pub(super) fn close(mut self, race: &Race) -> Vec<Mark> {
         if self.marks.last().is_none_or(|last| last.tick != race.tick()) {
             self.marks.push(mark(race));
@@ -59,7 +59,7 @@ fn mark(race: &Race) -> Mark {
     Mark { tick: race.tick(), lanes: lanes.collect() }
 }
 
-/// Each lane at the end, with its metrics against the truth.
+/// The end of each lane, with its metrics against the truth.
 pub(super) fn ends(studio: &Studio) -> Vec<LaneEnd> {
     let race = studio.race();
     let end = |(entrant, hash): (&crate::run::race::Entrant, u64)| {

@@ -23,7 +23,7 @@ pub(super) struct TickRateArgs {
 }
 
 impl TickRateArgs {
-    /// The rate that was given, if one was.
+    /// The given rate, if any.
     pub(super) fn given(&self) -> Option<TickRate> {
         self.tick_hz.or(self.step)
     }
@@ -48,7 +48,7 @@ pub(super) struct TickRatesArgs {
 }
 
 impl TickRatesArgs {
-    /// The rates that were given, each once, in order.
+    /// The given rates, ascending and without duplicates.
     pub(super) fn given(&self) -> Vec<TickRate> {
         let mut rates = [&self.tick_hz[..], &self.step[..]].concat();
         rates.sort_unstable();
@@ -57,20 +57,20 @@ impl TickRatesArgs {
     }
 }
 
-/// The rate of a game that ran elsewhere, which may be any number of hertz up to a million.
+/// Parses the rate of a game that ran elsewhere: any number of hertz above 0, up to a million.
 ///
 /// # Errors
-/// What to give in its place.
+/// A message with the valid range.
 pub(super) fn rate_of_a_log(written: &str) -> Result<f64, String> {
     let wanted = "a rate above 0 and up to 1000000 Hz, such as 60";
     let number = |_| number_that(written, |hz| hz > 0.0 && hz <= 1e6, wanted);
     written.parse().map(TickRate::hz).or_else(number)
 }
 
-/// The rate of the length of a tick in seconds.
+/// Parses the length of a tick in seconds, and returns the rate in hertz.
 ///
 /// # Errors
-/// What to give in its place.
+/// A message with the valid form.
 pub(super) fn rate_of_a_step(written: &str) -> Result<f64, String> {
     TickRate::of_step(written).map(TickRate::hz)
 }

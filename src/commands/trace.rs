@@ -1,4 +1,4 @@
-//! `regatta trace`: every lane's numbers, tick by tick, as a tidy table on standard output.
+//! `regatta trace`: writes every lane's numbers, tick by tick, as a tidy table on standard output.
 
 use std::io;
 
@@ -91,7 +91,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
 struct Trace<'a> {
     rows: RowWriter<Output>,
     args: &'a TraceArgs,
-    /// The present row, of which most cells stay for the next.
+    /// The current row. Most cells stay for the next row.
     cells: [Value; COLUMNS.len()],
 }
 
@@ -101,7 +101,7 @@ impl<'a> Trace<'a> {
         Ok(Self { rows, args, cells: Default::default() })
     }
 
-    /// Writes the present of the truth and of every lane, but of bodies that have halted.
+    /// Writes the current state of the truth and of every lane, except for bodies that have halted.
     fn tick(&mut self, studio: &Studio) -> io::Result<()> {
         let race = studio.race();
         if !race.tick().is_multiple_of(self.args.every) {
@@ -118,7 +118,7 @@ impl<'a> Trace<'a> {
     }
 }
 
-/// The accuracy that the truth of a body reached on a run: the largest coordinate and velocity, and their errors.
+/// Accuracy of a body's truth on a run: the largest coordinate and velocity, and their errors.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Reached {
     pub(super) largest: [f64; 2],
@@ -136,7 +136,7 @@ impl Reached {
         self.error = [0, 1].map(|i: usize| self.error[i].max(error[i]));
     }
 
-    /// The larger of the relative errors; 0 of what does not move.
+    /// The larger of the relative errors. An error of 0 stays 0, even for a body that does not move.
     pub(super) fn relative(&self) -> f64 {
         let part =
             |i: usize| if self.error[i] == 0.0 { 0.0 } else { self.error[i] / self.largest[i] };
@@ -144,12 +144,13 @@ impl Reached {
     }
 }
 
-/// What is known of the bodies whose truth is a reference solution at the end; `at_start` is what it was at the start.
+/// Reports the accuracy of each body whose truth is a reference solution at the end. `at_start` has the truths at the
+/// start.
 fn tell_accuracy(bodies: &[SceneBody], at_start: &[Truth], reached: &[Reached], truth: &Lane) {
     for (((SceneBody { name, .. }, at_start), reached), truth) in
         bodies.iter().zip(at_start).zip(reached).zip(truth.bodies())
     {
-        // What a halt says needs no aim.
+        // A halt has its own message and needs no aim.
         let aim = truth.truth().aimed_accuracy().filter(|_| !truth.stepper.is_beyond_reference());
         let Some(accuracy) = aim else { continue };
         let why = match at_start {
@@ -167,7 +168,7 @@ fn tell_accuracy(bodies: &[SceneBody], at_start: &[Truth], reached: &[Reached], 
     }
 }
 
-/// The bodies that stopped, to be told of when the table is done and cannot be torn by a message.
+/// Messages about bodies that stopped. They wait until the table is done, because they could break it up.
 #[derive(Default)]
 struct Halts {
     lines: Vec<String>,

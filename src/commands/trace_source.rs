@@ -11,7 +11,7 @@ use crate::loops::{
 use crate::regular_file;
 use crate::scene::nearest;
 
-/// The refresh rate of a trace that any display will do for.
+/// Refresh rate for a trace that suits any display.
 const USUAL: RefreshRate = RefreshRate::new(60, 1);
 
 fn remedy(path: &Path) -> String {
@@ -22,9 +22,9 @@ fn remedy(path: &Path) -> String {
     }
 }
 
-/// The traces that these names stand for, on a display of this rate where they have none of their own. Without a name, frames
-/// at a rate of their own, or an even display of that rate, or else all built-in traces. A display without a rate shows each
-/// frame when it begins.
+/// The named traces, on a display of the rate `display` if they have none of their own. Without a name, frames at
+/// `fps`, or an even display of that rate, or else all built-in traces. A display without a rate shows each frame
+/// when it begins.
 pub(super) fn traces(
     names: &[PathBuf],
     display: Option<RefreshRate>,

@@ -1,8 +1,8 @@
-//! The recording of a run while it goes on: a scene file beside the final one. It is replaced by a longer one every few
-//! seconds, and removed when the recording is whole. The next start tells of one that a killed program left behind.
+//! The recording of a run in progress: a scene file beside the final one. A longer one replaces it every few seconds,
+//! and it is removed when the recording is whole. The next start reports one that a killed program left behind.
 //!
-//! Where it is stands in a note of its own beside the settings, which is locked as long as the program runs. Only files that
-//! have both the name and the text of a note are ever removed there.
+//! A note beside the settings names its path, and is locked as long as the program runs. Only files that have both
+//! the name and the text of a note are ever removed there.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -16,47 +16,47 @@ use crate::atomic_file::{IfExists, RANDOM_CHARS, is_random};
 use crate::regular_file;
 use crate::window::KeepRecording;
 
-/// What stands between the stem and the number of an unfinished recording's name, and what it ends in.
+/// Text between the stem and the number in an unfinished recording's name, and the name's ending.
 const UNFINISHED: &str = ".unfinished";
 const ENDING: &str = ".toml";
 
-/// How notes are kept: in which folder beside the settings, under which names, and with which first words.
+/// How notes are stored: their folder beside the settings, the form of their names, and their first words.
 struct Notes {
     folder: &'static str,
-    /// What stands before the random characters of a note's name, and behind them.
+    /// Text before and after the random characters of a note's name.
     name: [&'static str; 2],
     heading: &'static str,
 }
 
-/// The notes that are written. Their folder is hidden, so that nobody takes it for a store of recordings.
+/// Notes of this release. Their folder is hidden, so that nobody takes it for a store of recordings.
 const NOTES: Notes = Notes {
     folder: ".unfinished-notes",
     name: ["recording-", ".note"],
     heading: "regatta has an unfinished recording in\n",
 };
 
-/// Those of earlier releases, in a folder that a person may keep recordings in.
+/// Notes of earlier releases, in a folder that may also contain a person's recordings.
 const OLDER_NOTES: Notes = Notes { folder: "recordings", name: [".tmp", ""], heading: "" };
 
-/// More than a path has.
+/// Most bytes of a note, more than a path has.
 const MAX_NOTE_BYTES: usize = 1 << 16;
 
-/// A recording that grows.
+/// A recording in progress.
 pub(super) struct UnfinishedRecording {
     state: Arc<Mutex<RecordingState>>,
 }
 
 enum RecordingState {
-    /// Nothing was written yet. The file will be at this path, or at a free one beside it.
+    /// Nothing is written yet. The file will get this path, or a free one beside it.
     Wanted(PathBuf),
-    /// It is in this file, of which a note says where it is, where one can be made.
+    /// The file, and the note with its path, unless the note could not be written.
     Growing { path: PathBuf, note: Option<Note> },
-    /// The recording is whole: no more is written.
+    /// The recording is whole: nothing more is written.
     Finished,
 }
 
 impl UnfinishedRecording {
-    /// One beside the file that the recording will be written to.
+    /// An unfinished recording beside the file that will contain the whole one.
     pub(super) fn beside(recording: &Path) -> Self {
         let stem = match recording.extension() {
             Some(ending) if ending == "toml" => recording.file_stem(),
@@ -69,7 +69,7 @@ impl UnfinishedRecording {
         Self { state: Arc::new(Mutex::new(state)) }
     }
 
-    /// What keeps the recording so far.
+    /// The callback that saves the recording so far.
     pub(super) fn keeper(&self) -> KeepRecording {
         let state = Arc::clone(&self.state);
         Box::new(move |text| {
@@ -78,7 +78,7 @@ impl UnfinishedRecording {
         })
     }
 
-    /// Removes the file: the recording is whole.
+    /// Removes the file, since the recording is whole.
     pub(super) fn finish(self) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         if let RecordingState::Growing { path, note } =
@@ -110,7 +110,7 @@ impl RecordingState {
     }
 }
 
-/// A file that says where an unfinished recording is.
+/// A file with the path of an unfinished recording.
 struct Note {
     path: PathBuf,
     _locked: File,
@@ -141,13 +141,13 @@ impl Notes {
         Ok(settings.join(self.folder))
     }
 
-    /// The text of the note on a recording; `None` if its path does not fit into a line.
+    /// Text of the note on a recording; `None` if its path does not fit into a line.
     fn text(&self, recording: &Path) -> Option<String> {
         let path = recording.to_str().filter(|path| !path.contains(char::is_control))?;
         Some(format!("{}{path}", self.heading))
     }
 
-    /// The recording that the file at `path` is a note on; `None` if it is not a note, by its name or by its text.
+    /// The recording that the note at `path` names; `None` if the file has not the name or not the text of a note.
     fn recording_in(&self, path: &Path) -> Option<PathBuf> {
         let [before, behind] = self.name;
         let name = path.file_name()?.to_str()?;
@@ -161,11 +161,11 @@ impl Notes {
         (is_noted && recording.is_absolute() && is_unfinished(&recording)).then_some(recording)
     }
 
-    /// Removes the note at `path` if the program that wrote it is gone. Returns the message about its recording, if that is
-    /// still there.
+    /// Removes the note at `path` if the program that wrote it is gone. Returns a message about its recording, if
+    /// that still exists.
     fn left_behind_in(&self, path: &Path) -> Option<String> {
         let recording = self.recording_in(path)?;
-        // The program that has written it would hold the lock.
+        // A running program would still have the lock.
         File::open(path).ok()?.try_lock().ok()?;
         fs::remove_file(path).ok()?;
         let name = recording.display();
@@ -182,8 +182,8 @@ impl Notes {
     }
 }
 
-/// Whether a recording of this name may be [unfinished](UnfinishedRecording::beside): `x.unfinished.toml`, or
-/// `x.unfinished-2.toml` where that was taken.
+/// Whether the name may belong to an [unfinished](UnfinishedRecording::beside) recording: `x.unfinished.toml`, or
+/// `x.unfinished-2.toml` if that was taken.
 fn is_unfinished(recording: &Path) -> bool {
     let name = recording.file_name().and_then(OsStr::to_str).unwrap_or_default();
     let stem = name.strip_suffix(ENDING).unwrap_or_default();
@@ -192,7 +192,7 @@ fn is_unfinished(recording: &Path) -> bool {
     })
 }
 
-/// What to say, once, of the recordings that programs have left behind.
+/// Messages about recordings that programs left behind. Each appears once.
 pub(super) fn left_behind() -> Vec<String> {
     [NOTES, OLDER_NOTES].iter().flat_map(Notes::left_behind).collect()
 }
@@ -267,7 +267,7 @@ mod tests {
             }
             assert_eq!(fs::read_to_string(folder.join(name)).unwrap(), text, "{name}");
         }
-        // The recording may have gone since: its note goes too.
+        // If the recording is gone by now, its note goes too.
         for (notes, name, text) in [
             (
                 NOTES,

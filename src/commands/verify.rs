@@ -1,7 +1,7 @@
 //! `regatta verify`: checks that this program still reproduces a capture or a recording.
 //!
-//! A run is repeated once. Its physics is judged bit by bit, also where there is no GPU; its pixels may move when the
-//! physics has not.
+//! Repeats a run once. Its physics must match bit by bit, also without a GPU. Its pixels may differ while the physics
+//! is the same.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -119,15 +119,15 @@ pub(super) fn manifest_of(dir: &Path) -> Result<(Manifest, Experiment), Error> {
     Ok((rerun.manifest, rerun.experiment))
 }
 
-/// Whether something is at the path that is no directory, or nothing and the path ends in `.toml`, or it is a link.
+/// Whether `path` counts as a scene file: a link, a file, or a missing path that ends in `.toml`.
 fn is_scene_file(path: &Path) -> bool {
     super::scene_file::is_link(path)
         || !path.is_dir()
             && (path.exists() || path.extension().is_some_and(|ending| ending == "toml"))
 }
 
-/// The files that `--report` names, opened. None of them may be a file of a capture, the recording that is judged, or
-/// anything else than an older report.
+/// Opens the files that `--report` names. None of them may be a file of a capture, the judged recording, or anything
+/// else than an older report.
 fn report_files(args: &VerifyArgs) -> Result<Vec<ReportFile>, Error> {
     let mut files: Vec<(ReportFormat, &Path)> = Vec::new();
     for words in args.report.as_deref().unwrap_or_default().chunks_exact(2) {
@@ -159,30 +159,30 @@ fn percent(written: &str) -> Result<f64, String> {
     number_that(written, |it| (0.0..=100.0).contains(&it), "a percentage from 0 to 100")
 }
 
-/// The run of a capture by its manifest, to be repeated.
+/// A capture's run from its manifest, to be repeated.
 struct Rerun {
     manifest: Manifest,
     capture: CaptureSettings,
     experiment: Experiment,
 }
 
-/// The frames of a repeated run.
+/// Frames of a repeated run.
 struct Frames {
-    /// Whether they have to be the same to the byte.
+    /// Whether they must be the same to the byte.
     are_exact: bool,
-    /// How each differs from its file, if it does.
+    /// Difference of each frame from its file, if any.
     differences: Vec<Option<String>>,
 }
 
 impl Rerun {
-    /// The studio at the start of the run, and the log of its states.
+    /// The studio at the start of the run, and a log of its states.
     fn begin(&self) -> (Studio, StateLog) {
         let studio = self.capture.dress(self.experiment.studio());
         let state_log = StateLog::new(self.capture.mark_every, studio.race());
         (studio, state_log)
     }
 
-    /// The studio at the end of the run and its log, where nothing is drawn; `None` after an interrupt.
+    /// Runs to the end without drawing. Returns the studio and its log, or `None` after an interrupt.
     fn run(&self, interrupted: &AtomicBool) -> Option<(Studio, StateLog)> {
         let (mut studio, mut state_log) = self.begin();
         for frame in 0..self.manifest.frames.len() as u32 {

@@ -1,31 +1,31 @@
-//! A bead for each coordinate on a rail of its own, or one bead in a plane.
+//! Draws a custom body or a law as beads: one bead per coordinate, each on its rail, or one bead in a plane.
 
 use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 
-/// The radius of a bead in halves of the picture's width, on a rail and in a plane.
+/// Radius of a bead, on a rail and in a plane, in halves of the picture's width.
 const BEAD: f64 = 0.055;
 const BEAD_IN_PLANE: f64 = 0.045;
 
-/// The distance of two rails, and the room above and below them, in halves of the width.
+/// Distance between two rails, and the margin above and below them, in halves of the width.
 const RAILS_APART: f64 = 0.3;
 const MARGIN: f64 = 0.2;
 
-/// How far a rail reaches beyond the motion, in halves of the motion's range.
+/// Half the length of a rail, in halves of the motion's range.
 const BEYOND: f64 = 1.25;
 
-/// How long the trail in a plane is, in seconds.
+/// Length of the trail in a plane, in seconds.
 const TRAIL_S: f64 = 4.0;
 
-/// One rail: its coordinate's place of rest in the picture, and how long its unit is there.
+/// The rail of one coordinate: where its range lies in the picture, and at which scale.
 #[derive(Clone, Copy)]
 struct Rail {
-    /// The middle of the coordinate's range.
+    /// Middle of the coordinate's range.
     middle: f64,
     /// Half of that range.
     half: f64,
-    /// Where the middle is drawn.
+    /// Position of the middle in the picture.
     at: DVec2,
     /// Metres of the picture for a unit of the coordinate.
     scale: f64,
@@ -40,32 +40,32 @@ impl Rail {
         self.middle + (x - self.at.x) / self.scale
     }
 
-    /// Where both ends are drawn.
+    /// Left and right end of the rail in the picture.
     fn ends(&self) -> [DVec2; 2] {
         [-1.0, 1.0].map(|side| self.place(self.middle + side * BEYOND * self.half))
     }
 }
 
-/// The middle and half of a range; of one without extent its size, and of nothing 1.
+/// Middle and half-width of a range. An empty range is as wide as its value is large; a range of zeros has a
+/// half-width of 1.
 fn middle_and_half(&(low, high): &(f64, f64)) -> [f64; 2] {
     let (middle, half) = (low + (high - low) / 2.0, (high - low) / 2.0);
     let half = if half > 1e-9 * middle.abs() { half } else { middle.abs() };
     [middle, if half > 0.0 { half } else { 1.0 }]
 }
 
-/// A body that is drawn as beads.
 pub(super) struct Beads<'a> {
-    /// The name and the unit of each coordinate.
+    /// Name and unit of each coordinate.
     pub(super) coordinates: Vec<[&'a str; 2]>,
-    /// The least and the largest value of each coordinate.
+    /// Minimum and maximum of each coordinate.
     pub(super) ranges: Vec<(f64, f64)>,
-    /// The coordinates that are x and y of a plane, if it is drawn in one.
+    /// Indices of the coordinates that are x and y, if the body moves in a plane.
     pub(super) plane: Option<[usize; 2]>,
 }
 
 impl Beads<'_> {
-    /// The rails from the top down. The first has the scale of the picture; those of its unit share its scale
-    /// and zero, so that the coordinates can be compared, and the others have one of their own.
+    /// The rails from the top down. Coordinates with the first one's unit share its scale and zero, so that they can
+    /// be compared. Every other coordinate has its range scaled to the same length.
     fn rails(&self) -> Vec<Rail> {
         let [_, unit] = self.coordinates[0];
         let pairs = || self.ranges.iter().zip(&self.coordinates);
@@ -83,7 +83,7 @@ impl Beads<'_> {
         pairs().enumerate().map(rail).collect()
     }
 
-    /// The middle of the plane's picture, and half its width and height.
+    /// Centre of the plane's picture, and half its width and height.
     fn plane_room(&self, plane: [usize; 2]) -> [DVec2; 2] {
         let [x, y] = plane.map(|place| middle_and_half(&self.ranges[place]));
         let half = x[1].max(y[1]);
@@ -144,7 +144,7 @@ impl Drawn for Beads<'_> {
         rails.iter().zip(q).map(|(rail, &q)| Handle { at: rail.place(q), radius }).collect()
     }
 
-    /// The other coordinates keep their places and their velocities.
+    /// The other coordinates keep their values and velocities.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         match self.plane {
             Some([x, y]) => {

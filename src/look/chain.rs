@@ -1,11 +1,11 @@
-//! Beads on a line between two walls.
+//! Draws a chain: beads on a line between two walls.
 
 use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Chain;
 
-/// The radius of each bead of a chain, in metres.
+/// Radius of each bead of a chain, in metres.
 fn bead(chain: &Chain, beads: usize) -> f64 {
     let room = -2.0 * chain.place_of(0, 0.0).x / (beads + 1) as f64;
     (0.28 * room).min(0.11 * chain.amplitude())
@@ -44,7 +44,7 @@ impl Drawn for Chain {
         (1..).zip(q).map(|(j, &x)| Handle { at: self.place_of(j, x), radius }).collect()
     }
 
-    /// The other beads keep their places and their velocities.
+    /// The other beads keep their positions and velocities.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         q[pull.handle] = pull.to.y;
         v[pull.handle] = pull.velocity.y;

@@ -1,4 +1,4 @@
-//! A custom body: as its author draws it, or beads on rails or in a plane.
+//! Draws a custom body with its author's drawing function, or else as beads on rails or in a plane.
 
 use super::beads::Beads;
 use super::{Drawn, Framing, Handle, Outline, Pull, typed};

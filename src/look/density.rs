@@ -1,16 +1,16 @@
-//! The picture of a cloud: the counts of points on each pixel as tones of its method's colour.
+//! Draws a cloud: the number of points on each pixel sets the tone of the method's colour.
 
 use super::palette::{Rgba, Theme, mixed};
 use crate::measure::cloud::Density;
 
-/// Parts of a point that have a tone of their own, and the points up to which they have.
+/// Tones are precomputed up to a count of `USUAL`, in steps of 1/`PARTS` of a point.
 const PARTS: f32 = 8.0;
 const USUAL: usize = 256;
 
-/// How many times denser than on average a place is that has the brightest tone, if one is.
+/// Density of the brightest tone, relative to the mean, unless the densest pixel exceeds it.
 const DENSE: f32 = 8.0;
 
-/// Counts, which have this sum, as colours: brighter by the logarithm of the count.
+/// Colours of the counts, brighter with the logarithm of the count. `sum` is the sum of all counts.
 fn shaded(
     counts: impl Iterator<Item = f32> + Clone,
     sum: f32,
@@ -21,7 +21,7 @@ fn shaded(
         .clone()
         .fold((0.0_f32, 0_u32), |(most, n), count| (most.max(count), n + u32::from(count > 0.0)));
     let (mean, palette) = (sum / covered.max(1) as f32, theme.palette());
-    // An even cover has the plain colour.
+    // A uniform density shows the plain colour.
     let whole = libm::log1pf(most.max(2.0).max(DENSE * mean));
     let tone = |count: f32| {
         let part = libm::log1pf(count) / whole;
@@ -39,7 +39,7 @@ fn shaded(
     counts.map(shown).collect()
 }
 
-/// Every `stride`th of these counts, spread evenly over so many places.
+/// Resamples every `stride`th count to `places` bins and keeps the total.
 fn spread(counts: &[f32], stride: usize, places: usize) -> Vec<f32> {
     let count = counts.len().div_ceil(stride);
     let wide = places as f32 / count as f32;
@@ -56,8 +56,8 @@ fn spread(counts: &[f32], stride: usize, places: usize) -> Vec<f32> {
     spread
 }
 
-/// The picture of a cloud in a method's colour, brighter by the logarithm of the count, in another size and transparent where no
-/// point is: what lies between two pixels falls on both.
+/// The picture of a cloud in a method's colour, brighter with the logarithm of the count and transparent where no
+/// point is. It is scaled to `size_px`; a point that falls between two pixels is shared by both.
 pub fn density_picture(
     density: &Density,
     size_px: [usize; 2],

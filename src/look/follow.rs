@@ -1,18 +1,18 @@
-//! A camera on a chart recorder's paper, with a line to the target that it follows.
+//! Draws a camera on a chart recorder's paper, with a line to the target that it follows.
 
 use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Follow;
 
-/// How far the camera and the target go to either side, in metres; of a camera that stays, 1.
+/// Largest distance of the camera or the target from 0 at the start, in metres; 1 if both stay at 0.
 fn reach(follow: &Follow) -> f64 {
     let target = follow.step.abs() + follow.sine.abs();
     let reach = target.max(follow.x0.abs());
     if reach > 0.0 { reach } else { 1.0 }
 }
 
-/// The radii of the camera and of the target, and half the length of the line across the target, in reaches.
+/// Radius of the camera, radius of the target, and half the length of the line across the target, in reaches.
 const CAMERA: f64 = 0.09;
 const TARGET: f64 = 0.045;
 const HALF_POST: f64 = 0.16;
@@ -35,7 +35,7 @@ impl Drawn for Follow {
         vec![Handle { at: DVec2::new(q[0], 0.0), radius: CAMERA * reach(self) }]
     }
 
-    /// By the law of first order the velocity follows from the place.
+    /// Under the first-order law, the camera's velocity depends on its position.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         v[0] = match self.order {
             1 => v[0] - self.rate * (pull.to.x - q[0]),

@@ -1,14 +1,14 @@
-//! A ship that is steered, from above.
+//! Draws a steered ship from above.
 
 use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Helm;
 
-/// What is shown across, in metres: a turning circle.
+/// Width of the view in metres: it shows a turning circle.
 const WIDTH_M: f64 = 150.0;
 
-/// The length of the hull, in metres.
+/// Length of the hull, in metres.
 const LENGTH_M: f64 = 0.15 * WIDTH_M;
 
 impl Drawn for Helm {
@@ -25,7 +25,7 @@ impl Drawn for Helm {
         vec![Handle { at: DVec2::from_slice(q), radius: LENGTH_M / 2.0 }]
     }
 
-    /// The ship keeps its heading, and turns no more.
+    /// The ship keeps its heading and stops turning.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         pull.to.write_to_slice(q);
         pull.velocity.extend(0.0).write_to_slice(v);

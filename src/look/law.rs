@@ -1,5 +1,5 @@
-//! A law, drawn as its scene says: beads on rails or in a plane, heights, a carriage, a follower, or discs in places of
-//! its own.
+//! Draws a law in the layout that its scene names: beads on rails or in a plane, heights, a carriage, a follower, or
+//! discs at the scene's places.
 
 use glam::DVec2;
 
@@ -24,7 +24,7 @@ pub(super) fn picture(body: &LaneBody) -> Box<dyn Drawn + '_> {
     }
     let unit = text.coordinates[0].unit;
     let alike = text.coordinates.iter().take_while(|of| of.unit == unit).count();
-    // Those of other units are no places.
+    // Coordinates in other units are not positions along the same axis.
     let ranges = preview.ranges[..alike].to_vec();
     match text.layout {
         Layout::Beads => {
@@ -37,18 +37,18 @@ pub(super) fn picture(body: &LaneBody) -> Box<dyn Drawn + '_> {
     }
 }
 
-/// The least and the greatest of some ranges and of 0; of nothing but 0, a unit to either side.
+/// Minimum and maximum of 0 and all ranges; -1 and 1 if every range is 0.
 fn reach(ranges: &[(f64, f64)]) -> [f64; 2] {
     let (low, high) =
         ranges.iter().fold((0.0_f64, 0.0_f64), |all, next| (all.0.min(next.0), all.1.max(next.1)));
     if low < high { [low, high] } else { [-1.0, 1.0] }
 }
 
-/// The radii of a follower and of what it follows, in parts of the farthest that they go.
+/// Radius of the follower and of its target, relative to the farthest distance that either reaches.
 const BODY: f64 = 0.08;
 const TARGET: f64 = 0.05;
 
-/// The body on a chart recorder's paper, with a line to what it follows if that is a coordinate too.
+/// The body on a chart recorder's paper, with a line to its target if the target is a coordinate too.
 struct Follower {
     ranges: Vec<(f64, f64)>,
 }
@@ -59,7 +59,7 @@ impl Follower {
         high.max(-low)
     }
 
-    /// The coordinates that are drawn: the follower, and what it follows.
+    /// The coordinates that are drawn: the follower, then its target if there is one.
     fn places<'q>(&self, q: &'q [f64]) -> &'q [f64] {
         &q[..self.ranges.len().min(2)]
     }

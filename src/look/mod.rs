@@ -1,5 +1,5 @@
-//! How each kind of body looks: its outline, and what part of its world the stage shows. One file a kind, one
-//! line each in the table below.
+//! Looks: the outline of each kind of body, and the part of its world that the stage shows. Each kind has one file,
+//! and one line in the table below.
 
 use std::any::Any;
 
@@ -28,104 +28,101 @@ mod spring;
 
 pub use density::density_picture;
 
-/// What part of a body's world the stage shows.
+/// The part of a body's world that the stage shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Framing {
-    /// Afloat: the camera follows the true body over the water, and a wake lies where the body has
-    /// been.
+    /// Afloat: the camera follows the true body over the water, and a wake marks where the body has been.
     Follow {
-        /// The metres shown across, at least; a sixth of that is about a hull.
+        /// Minimum visible width in metres; about six hulls.
         width_m: f64,
-        /// The metres shown from top to bottom, at least.
+        /// Minimum visible height in metres.
         height_m: f64,
-        /// How far the wake reaches back, in seconds.
+        /// Length of the wake in seconds.
         wake_s: f64,
     },
-    /// The camera stays on the origin and shows this many metres to each side, more if the true
-    /// body swings further. The body moves along x only, and its trail is drawn as a chart recorder
-    /// would.
+    /// The camera stays on the origin and shows this distance to each side, or more if the true body swings further.
+    /// The body moves along x only, and its trail runs over the paper as in a chart recorder.
     Recorder {
         /// Metres from the middle to the edge.
         half_width_m: f64,
     },
-    /// The camera stays and shows a rectangle, more if the true body moves further. The trail lies
-    /// where the body has been.
+    /// The camera stays and shows a rectangle, or more if the true body moves further. The trail marks where the body
+    /// has been.
     Fixed {
-        /// The rectangle's middle.
+        /// Centre of the rectangle.
         centre_m: DVec2,
-        /// Metres from there to the edges.
+        /// Metres from the centre to the edges.
         half_m: DVec2,
-        /// How far the trail reaches back, in seconds.
+        /// Length of the trail in seconds.
         trail_s: f64,
     },
 }
 
-/// A part of a body that a hand can take hold of.
+/// A part of a body that a person can grab.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Handle {
-    /// Its middle, in metres.
+    /// Its centre, in metres.
     pub at: DVec2,
-    /// How far it reaches from there, in metres.
+    /// Its radius, in metres.
     pub radius: f64,
 }
 
-/// Where a hand has brought a handle, and how it moves there.
+/// Target of a grabbed handle, and its velocity there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pull {
-    /// The handle's index among the body's [handles](Look::handles).
+    /// Index of the handle among the body's [handles](Look::handles).
     pub handle: usize,
-    /// Where it is to be, in metres.
+    /// Target position in metres.
     pub to: DVec2,
-    /// How fast it is to move, in metres per second.
+    /// Target velocity in metres per second.
     pub velocity: DVec2,
 }
 
-/// How a body looks with its present parameters.
+/// The picture of one kind of body with its current parameters.
 trait Drawn {
-    /// Draws it at these coordinates, in metres, x right and y up; [`Outline::at`] is where it is and
-    /// [`Outline::t`] when.
+    /// Draws the body at the coordinates `q`, in metres, x right and y up. [`Outline::at`] is its position and
+    /// [`Outline::t`] the time.
     fn draw(&self, q: &[f64], outline: &mut Outline);
 
-    /// What part of its world the stage shows.
     fn framing(&self) -> Framing;
 
-    /// The closed course along which it goes from this state, if it does.
+    /// The closed course that the body follows from this state; empty if it has none.
     fn course(&self, _q: &[f64], _v: &[f64]) -> Vec<DVec2> {
         Vec::new()
     }
 
-    /// What it does in truth from this state on, in a few words, if that is simple.
+    /// The true motion from this state on in a few words, if it is simple.
     fn promise(&self, _q: &[f64], _v: &[f64]) -> Option<String> {
         None
     }
 
-    /// How far to each side of its rest it swings in truth from this state on, at most, in metres, if that is simple.
+    /// Amplitude of the true motion from this state on, in metres, if it is simple.
     fn swing_m(&self, _q: &[f64], _v: &[f64]) -> Option<f64> {
         None
     }
 
-    /// Whether it is one body over a ground, on which it comes down again.
+    /// Whether it is a single body above a ground, on which it comes down again.
     fn has_ground(&self) -> bool {
         false
     }
 
-    /// Where a hand can take hold of it at these coordinates.
+    /// The handles of the body at these coordinates.
     fn handles(&self, q: &[f64]) -> Vec<Handle>;
 
-    /// Brings a handle as near to where it is pulled as the body lets it, moving as it is pulled as far as the body
-    /// lets it. What the handle does not move keeps its state.
+    /// Brings a handle as close to its target position and velocity as the body allows. Coordinates that the handle
+    /// does not move keep their state.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull);
 }
 
-/// How bodies of one kind look.
+/// How to place and draw bodies of one kind.
 struct LookCard {
-    /// The kind's id.
+    /// Id of the kind.
     kind: &'static str,
     place: fn(&dyn Any, &[f64]) -> DVec2,
     picture: for<'a> fn(&'a LaneBody) -> Box<dyn Drawn + 'a>,
 }
 
-/// The look of every kind in the table, in the order of [`BODIES`](crate::sim::bodies::BODIES).
+/// The looks of all built-in kinds, in the order of [`BODIES`](crate::sim::bodies::BODIES).
 static LOOKS: &[LookCard] = &[
     LookCard::plain::<Ship>("ship"),
     LookCard::plain::<Spring>("spring"),
@@ -136,12 +133,12 @@ static LOOKS: &[LookCard] = &[
     LookCard::plain::<Follow>("follow"),
 ];
 
-/// The looks of kinds that are not in that table.
+/// The looks of kinds outside that table.
 static LAW_LOOK: LookCard = LookCard::of::<Law>("law", law::picture);
 static NET_LOOK: LookCard = LookCard::of::<Net>("net", net::picture);
 static CUSTOM_LOOK: LookCard = LookCard::of::<Custom>("custom", custom::picture);
 
-/// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate. Empty for a pure
+/// Unit of a body's picture, as text for people: that of its plane, or else of its first coordinate. Empty for a pure
 /// number.
 pub(crate) fn drawn_unit(kind: &Kind) -> &'static str {
     let plane = match &kind.origin {
@@ -168,7 +165,6 @@ impl LookCard {
         Self { kind, place, picture }
     }
 
-    /// The look of bodies of this kind.
     fn find(kind: &Kind) -> &'static Self {
         match kind.origin {
             Origin::Law(_) => return &LAW_LOOK,
@@ -181,7 +177,7 @@ impl LookCard {
     }
 }
 
-/// How a body looks with its present parameters.
+/// The look of a body with its current parameters.
 pub struct Look<'a> {
     body: &'a LaneBody,
     card: &'static LookCard,
@@ -189,7 +185,7 @@ pub struct Look<'a> {
 }
 
 impl<'a> Look<'a> {
-    /// How `body` looks.
+    /// The look of `body`.
     pub fn of(body: &'a LaneBody) -> Self {
         let card = LookCard::find(&body.kind);
         Self { body, card, picture: (card.picture)(body) }
@@ -203,43 +199,43 @@ impl<'a> Look<'a> {
         outline
     }
 
-    /// What part of the body's world the stage shows.
+    /// The part of the body's world that the stage shows.
     pub fn framing(&self) -> Framing {
         self.picture.framing()
     }
 
-    /// The closed course that the body goes along in this state, if it does.
+    /// The closed course that the body follows from this state; empty if it has none.
     pub fn course(&self, q: &[f64], v: &[f64]) -> Vec<DVec2> {
         self.picture.course(q, v)
     }
 
-    /// What the body does in truth from this state on, in a few words, if that is simple.
+    /// The true motion from this state on in a few words, if it is simple.
     pub fn promise(&self, q: &[f64], v: &[f64]) -> Option<String> {
         self.picture.promise(q, v)
     }
 
-    /// How far to each side of its rest the body swings in truth from this state on, at most, in metres, if that is simple.
+    /// Amplitude of the true motion from this state on, in metres, if it is simple.
     pub fn swing_m(&self, q: &[f64], v: &[f64]) -> Option<f64> {
         self.picture.swing_m(q, v)
     }
 
-    /// Whether it is one body over a ground, on which it comes down again.
+    /// Whether it is a single body above a ground, on which it comes down again.
     pub fn has_ground(&self) -> bool {
         self.picture.has_ground()
     }
 
-    /// Where a hand can take hold of the body at the coordinates `q`.
+    /// The handles of the body at the coordinates `q`.
     pub fn handles(&self, q: &[f64]) -> Vec<Handle> {
         self.picture.handles(q)
     }
 
-    /// Changes coordinates and velocities as a hand pulls the body.
+    /// Moves coordinates and velocities so that the handle follows the pull.
     pub fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         self.picture.pull(q, v, pull);
     }
 }
 
-/// Coordinates or velocities as the body has them.
+/// Copies coordinates or velocities into the body's vector type.
 fn vector<B: Body>(body: &B, components: &[f64]) -> B::Vector {
     let mut vector = body.start().q;
     vector.components_mut().copy_from_slice(components);
@@ -258,7 +254,7 @@ mod tests {
     use crate::sim::Solver;
     use crate::sim::bodies::{BODIES, kind};
 
-    /// The scene of the kind's name under the truth.
+    /// The kind's built-in scene, stepped by the truth.
     fn lane(kind: &Kind) -> Lane {
         Lane::new(&Scene::built_in(kind.id).expect("a scene for each kind"), Solver::Truth, 1)
     }

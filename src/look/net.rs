@@ -1,4 +1,4 @@
-//! Threads between nodes, and a bead on each node of a small net.
+//! Draws a net: its threads, and a bead on each node if the net is small.
 
 use std::sync::Arc;
 
@@ -9,21 +9,21 @@ use crate::run::race::LaneBody;
 use crate::scene::{Preview, Thread};
 use crate::sim::bodies::Net;
 
-/// The most nodes with beads: of more, beads hide the threads.
+/// Largest number of nodes with beads. In larger nets beads would hide the threads.
 const MAX_BEADS: usize = 64;
 
-/// The radius of a bead, of a pin, and of what a hand can take hold of, in units of the shortest spring.
+/// Radius of a bead, of a pin, and of a handle, in lengths of the shortest spring.
 const BEAD: f64 = 0.13;
 const PIN: f64 = 0.16;
 const GRIP: f64 = 0.45;
 
-/// The largest radius of a bead and of a pin, in units of the picture's width.
+/// Largest radius of a bead or a pin, relative to the picture's width.
 const MAX_BEAD: f64 = 0.01;
 
-/// The room around the motion, as a part of it.
+/// Margin around the motion, relative to the motion.
 const MARGIN: f64 = 0.12;
 
-/// How long the trail of the marked node is, in seconds.
+/// Length of the marked node's trail, in seconds.
 const TRAIL_S: f64 = 1.2;
 
 struct NetPicture<'a> {
@@ -66,7 +66,7 @@ impl Drawn for NetPicture<'_> {
         Net::nodes(q).iter().map(|&node| Handle { at: DVec2::from(node), radius }).collect()
     }
 
-    /// The other nodes keep their places and their velocities.
+    /// The other nodes keep their positions and velocities.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         Net::nodes_mut(q)[pull.handle] = pull.to.into();
         Net::nodes_mut(v)[pull.handle] = pull.velocity.into();

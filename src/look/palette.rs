@@ -1,7 +1,7 @@
-//! The colours of the night chart and of the day chart, and the second cue that tells one method from another.
+//! The colours of the night chart and the day chart, and the dash patterns that also distinguish the methods.
 //!
-//! Method colours begin with those of Okabe and Ito, which people with any kind of colour vision can tell apart,
-//! made lighter for the dark stage and darker for the light one.
+//! The first method colours are those of Okabe and Ito, which people with any kind of colour vision can distinguish.
+//! They are lighter on the dark stage and darker on the light one.
 
 use std::sync::LazyLock;
 
@@ -9,7 +9,7 @@ use crate::measure::Severity;
 use crate::scene::LaneSpec;
 use crate::sim::integrators::{METHODS, Method};
 
-/// A colour: red, green, blue and alpha, sRGB, alpha not multiplied in.
+/// Red, green, blue and alpha in sRGB, alpha not premultiplied.
 pub type Rgba = [u8; 4];
 
 pub(crate) const WHITE: Rgba = [255; 4];
@@ -26,7 +26,7 @@ pub enum Theme {
 }
 
 impl Theme {
-    /// Its colours.
+    /// The colours of the theme.
     pub fn palette(self) -> &'static Palette {
         match self {
             Theme::Dark => &DARK,
@@ -34,7 +34,6 @@ impl Theme {
         }
     }
 
-    /// The other theme.
     pub fn other(self) -> Self {
         match self {
             Theme::Dark => Theme::Light,
@@ -42,22 +41,23 @@ impl Theme {
         }
     }
 
-    /// The colour of a method's evaluation of the force, by its number from 0.
+    /// Colour of the `number`th force evaluation of a step, counted from 0.
     pub fn evaluation(self, number: usize) -> Rgba {
         let [orange, blue, pink, yellow, green, amber, violet] = self.palette().methods;
         [green, blue, yellow, pink, orange, violet, amber][number % 7]
     }
 
-    /// The colour of a method, and its dash pattern as the second cue: drawn length and gap in points, a
-    /// gap of 0 being solid.
+    /// Colour and dash pattern of a method. The pattern is the length of a dash and of a gap in points; a gap of 0 is
+    /// solid.
     pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
         self.drawn(indices(method))
     }
 
-    /// The colour and the dash pattern of a lane among `lanes`: its method's. Of several lanes of one method the first has
-    /// them, and each of the others another colour and another dash. Of the first nine no two share their dash and a colour
-    /// that some people cannot tell apart, and one whose colour another has gets one of its own while there is one. Explicit
-    /// Euler's colour is no other method's.
+    /// Colour and dash pattern of a lane among `lanes`. The first lane of a method has the method's style; each
+    /// further lane of that method has another colour and dash.
+    ///
+    /// No two of the first nine lanes share their dash together with colours that some people confuse. A lane whose
+    /// colour is taken gets a free one while there is one. Only explicit Euler has explicit Euler's colour.
     pub fn lane_style(self, lanes: &[LaneSpec], lane: &LaneSpec) -> (Rgba, [f32; 2]) {
         self.drawn(lane_places(lanes, lane))
     }
@@ -66,7 +66,7 @@ impl Theme {
         (self.palette().methods[colour], DASHES[dash])
     }
 
-    /// The colour and the dash pattern of the game loop with this index in [`POLICIES`](crate::loops::POLICIES): seven
+    /// Colour and dash pattern of the game loop with this index in [`POLICIES`](crate::loops::POLICIES). Seven
     /// neighbours differ in colour.
     pub fn loop_style(self, index: usize) -> (Rgba, [f32; 2]) {
         let colour = LOOPS[index % LOOPS.len()];
@@ -74,53 +74,51 @@ impl Theme {
     }
 }
 
-/// The colours of a theme.
 #[derive(Debug)]
 pub struct Palette {
-    /// Behind everything.
+    /// Background of the window.
     pub background: Rgba,
-    /// A panel.
+    /// Background of a panel.
     pub panel: Rgba,
-    /// A control, a selected row.
+    /// Background of a control or a selected row.
     pub raised: Rgba,
-    /// A line between panels, the border of a control.
+    /// Line between panels, or border of a control.
     pub line: Rgba,
-    /// Behind the curves of a plot.
+    /// Background of a plot.
     pub plot: Rgba,
-    /// The grid of a plot.
+    /// Grid of a plot.
     pub grid: Rgba,
     /// Text.
     pub text: Rgba,
     /// Quiet text.
     pub dim: Rgba,
-    /// Hover, focus, a kick, a cross to drag.
+    /// Hover, focus, a kick, a draggable cross.
     pub accent: Rgba,
-    /// Text on a field of the accent.
+    /// Text on the accent colour.
     pub on_accent: Rgba,
-    /// The sea at the top of the stage and at its bottom.
+    /// The sea at the top and at the bottom of the stage.
     pub sea: [Rgba; 2],
     /// Waves, depth contours, distance marks.
     pub chart: Rgba,
-    /// The quay, and its edge.
+    /// The quay and its edge.
     pub quay: [Rgba; 2],
-    /// The wire of a coil spring: its edge, and the metal in the shade, in the light, and where it gleams.
+    /// The wire of a coil spring: its edge, and the metal in shade, in light and at the highlight.
     pub wire: [Rgba; 4],
     /// The exact solution.
     pub exact: Rgba,
-    /// What went wrong.
+    /// Errors and bad verdicts.
     pub bad: Rgba,
-    /// What to be careful about.
+    /// Warnings and doubtful verdicts.
     pub warn: Rgba,
-    /// What is right.
+    /// Good verdicts.
     pub good: Rgba,
-    /// What looks right.
+    /// Fair verdicts.
     pub fair: Rgba,
-    /// Of methods.
     methods: [Rgba; 7],
 }
 
 impl Palette {
-    /// The colour of a verdict of this severity.
+    /// Colour of a verdict of this severity.
     pub fn of_severity(&self, severity: Severity) -> Rgba {
         match severity {
             Severity::Fine => self.good,
@@ -132,7 +130,7 @@ impl Palette {
     }
 }
 
-/// Whether black is read better on it than white.
+/// Whether black text is more legible on this colour than white text.
 pub(crate) fn is_bright([r, g, b, _]: Rgba) -> bool {
     let [r, g, b] = [r, g, b].map(u32::from);
     2 * r + 5 * g + b > 8 * 112
@@ -204,24 +202,24 @@ static LIGHT: Palette = Palette {
     ],
 };
 
-/// Drawn length and gap in points. Six patterns against seven colours: no two of the first 42 methods
-/// share both.
+/// Length of dash and gap in points. With six patterns and seven colours, the first 42 methods all differ in one of
+/// the two.
 const DASHES: [[f32; 2]; 6] =
     [[9.0, 4.0], [16.0, 4.0], [5.0, 4.0], [2.5, 3.5], [1.0, 0.0], [12.0, 9.0]];
 
-/// The patterns that are given first; the others are more alike.
+/// Number of patterns used first; the others resemble them.
 const FIRST_DASHES: usize = 5;
 
-/// The indices of the dashes of engines, which race among themselves.
+/// Indices of the dashes of engines, which race among themselves.
 const ENGINE_DASHES: [usize; 3] = [4, 1, 2];
 
-/// The hues that a deuteranope sees the colours in, yellow, blue and grey, by the indices of the colours.
+/// Hue that a deuteranope sees in each colour: 0 yellow, 1 blue, 2 grey.
 const HUES: [usize; 7] = [0, 1, 2, 0, 2, 0, 1];
 
-/// The first lanes of a list, which have keys: of these no two share hue and dash.
+/// Number of lanes at the head of a list, those with keys. No two of them share hue and dash.
 const TOLD_APART: usize = 9;
 
-/// The indices of the colours of game loops. No two warm ones are beside each other.
+/// Indices of the colours of game loops. No two warm ones are adjacent.
 const LOOPS: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
 
 /// The methods that the chapter and its scenes race, with the indices of their colours and dashes.
@@ -234,31 +232,31 @@ const CLASSICS: [(&str, usize, usize); 6] = [
     ("adaptive-euler", 5, 0),
 ];
 
-/// The index of the colour of explicit Euler alone.
+/// Index of the colour that only explicit Euler has.
 const EULER: usize = 0;
 
-/// The indices of the warm colours, which are much alike on the light chart.
+/// Indices of the warm colours, which look alike on the light chart.
 const WARM: [usize; 3] = [0, 3, 5];
 
-/// Whether two colours could be taken for each other.
+/// Whether a person could confuse two colours.
 fn are_alike(a: usize, b: usize) -> bool {
     a == b || WARM.contains(&a) && WARM.contains(&b)
 }
 
-/// The indices of the colour and the dash of a method.
+/// Indices of a method's colour and dash.
 fn indices(method: &Method) -> (usize, usize) {
     let listed = METHODS.iter().position(|listed| listed == method);
     listed.map_or_else(|| own_style(method), |index| STYLES[index])
 }
 
-/// The indices of the colour and the dash of a method that keeps them in every scene.
+/// Indices of the colour and dash of a method that has the same style in every scene.
 fn classic(method: &Method) -> Option<(usize, usize)> {
     let found = CLASSICS.iter().find(|(id, ..)| *id == method.id);
     found.map(|&(_, colour, dash)| (colour, dash))
 }
 
-/// The indices of the colour and the dash of a lane. A lane after the first of its method has a colour unlike that of any
-/// lane before it, as long as there is one, and then at least a pair of its own.
+/// Indices of a lane's colour and dash. A further lane of a method gets a colour unlike all earlier ones while there
+/// is one, then at least an unused pair.
 fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
     let is_first = |end: usize| lanes[..end].iter().all(|other| other.method != lanes[end].method);
     let end = match lanes.iter().position(|other| other == lane) {
@@ -284,7 +282,7 @@ fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
             _ => None,
         };
         let wanted = other.unwrap_or((colour, dash));
-        // With another dash, or else in another colour too.
+        // First tries the other dashes, then other colours too.
         let dashed = (0..dashes).map(|n| (wanted.0, (wanted.1 + n) % dashes));
         let is_told = |pair: &(usize, usize)| {
             let looks = |of: (usize, usize)| (HUES[of.0], of.1);
@@ -296,14 +294,14 @@ fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
     taken[end]
 }
 
-/// The indices of the colour and the dash of a method that is not in the table: always the same, by its id, and no
-/// solid line, which those that people know best have.
+/// Indices of the colour and dash of a method outside the table, derived from its id so that they never change. It
+/// never has the first colour or the first dash, which are those of explicit Euler.
 fn own_style(method: &Method) -> (usize, usize) {
     let sum = method.id.bytes().fold(0, |sum: usize, byte| (31 * sum + usize::from(byte)) % 9973);
     (1 + sum % (DARK.methods.len() - 1), 1 + sum % (FIRST_DASHES - 1))
 }
 
-/// The indices of each method's colour and dash. No method has a colour like that of a neighbour in the table.
+/// Indices of each method's colour and dash. Neighbours in the table have unlike colours.
 static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
     let colours = DARK.methods.len();
     let first = (0..colours * FIRST_DASHES).map(|n| (n % colours, n % FIRST_DASHES));
@@ -332,7 +330,7 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
     styles
 });
 
-/// A colour between two, at this part of the way from the first to the second; opaque.
+/// The opaque colour at the fraction `part` of the way from the first to the second.
 pub fn mixed(from: Rgba, to: Rgba, part: f32) -> Rgba {
     let mix = |i: usize| {
         f32::from(from[i]) + part.clamp(0.0, 1.0) * (f32::from(to[i]) - f32::from(from[i]))
@@ -340,7 +338,7 @@ pub fn mixed(from: Rgba, to: Rgba, part: f32) -> Rgba {
     [mix(0) as u8, mix(1) as u8, mix(2) as u8, 255]
 }
 
-/// The same colour, less opaque.
+/// The same colour with its alpha scaled by `part`.
 pub(crate) fn faded([r, g, b, a]: Rgba, part: f32) -> Rgba {
     [r, g, b, (f32::from(a) * part.clamp(0.0, 1.0)) as u8]
 }

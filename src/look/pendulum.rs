@@ -1,4 +1,4 @@
-//! A bob on a rod.
+//! Draws a bob on a rod.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::{Body, Pendulum};
 
-/// The radius of the bob, in lengths of the rod.
+/// Radius of the bob, in lengths of the rod.
 const BOB: f64 = 0.12;
 
 impl Drawn for Pendulum {
@@ -27,7 +27,7 @@ impl Drawn for Pendulum {
         vec![Handle { at: self.place(&q[0]), radius: BOB * self.length }]
     }
 
-    /// To the nearest turn, so that a bob that is led round and round counts its turns.
+    /// Chooses the angle nearest to the current one, so that turns add up while the bob is led around.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         if pull.to != DVec2::ZERO {
             let angle = libm::atan2(pull.to.x, -pull.to.y);

@@ -1,4 +1,4 @@
-//! A ship on a straight course, from above.
+//! Draws a ship on a straight course, from above.
 
 use glam::DVec2;
 
@@ -6,7 +6,7 @@ use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Ship;
 use crate::sim::number::round;
 
-/// The length of the hull, in metres.
+/// Length of the hull, in metres.
 const LENGTH_M: f64 = 9.0;
 
 impl Drawn for Ship {

@@ -1,4 +1,4 @@
-//! A block on a coil spring, on a chart recorder's paper.
+//! Draws a block on a coil spring, on a chart recorder's paper.
 
 use glam::DVec2;
 
@@ -6,8 +6,7 @@ use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Spring;
 use crate::sim::number::round;
 
-/// The amplitude that the undamped spring would swing with from its start, in metres; of one that would not
-/// swing, 1.
+/// Amplitude of the undamped motion from the spring's start, in metres; 1 if it starts at rest.
 fn amplitude(spring: &Spring) -> f64 {
     let amplitude = libm::hypot(spring.x0, spring.v0 / spring.angular_frequency());
     if amplitude > 0.0 { amplitude } else { 1.0 }
@@ -51,7 +50,7 @@ mod tests {
 
     #[test]
     fn a_spring_is_shown_as_far_as_it_swings_on_both_sides() {
-        // At 5 rad/s; at rest, a metre.
+        // The spring oscillates at 5 rad/s. At rest, the amplitude counts as 1 m.
         for (x0, v0, amplitude) in [
             (0.5, 0.0, 0.5),
             (0.0, -2.0, 0.4),

@@ -1,4 +1,4 @@
-//! Which loop to take, for the command line and the loop lab alike.
+//! Recommends a game loop, for the command line and the loop lab.
 
 use super::metrics::PacingReport;
 use super::policy::PolicyCard;
@@ -8,48 +8,48 @@ use crate::run::race::Interpolation;
 use crate::sim::TickRate;
 use crate::sim::number::round;
 
-/// Animation errors that differ by less are alike, in milliseconds: no display shows the difference.
+/// Animation errors within this margin are equal, in milliseconds: no display shows the difference.
 const ALIKE_MS: f64 = 1e-3;
-/// Position errors that differ by less are alike, in amplitudes.
+/// Position errors within this margin are equal, in amplitudes.
 const AS_NEAR: f64 = 0.01;
 
-/// The largest mean latency of a loop that is advised unless another is asked for, in milliseconds.
+/// Default limit on the mean latency of a recommended loop, in milliseconds.
 pub const USUAL_LATENCY_MS: f64 = 20.0;
 
-/// Why a loop that draws between two ticks is advised where one that draws beyond the last is as smooth.
+/// Reason to prefer a loop that draws between two ticks to an equally smooth one that draws beyond the last tick.
 const NOT_AHEAD: &str = "extrapolation or a render tick would be as smooth and no tick late, but overshoots at each kick";
 
-/// The loop to take.
+/// The recommended loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AdvisedLoop {
-    /// Its index among those measured.
+    /// Its index among the measured loops.
     pub index: usize,
-    /// Why not another that is as smooth, if that needs a word.
+    /// Why it beats another that is as smooth, where this needs an explanation.
     pub why: Option<&'static str>,
 }
 
-/// Why no loop is advised. Indices are of those measured.
+/// Why no loop is recommended. Indices refer to the measured loops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoLoop {
     /// Fewer than two frames were displayed.
     TooFewFrames,
-    /// None has a fixed tick: the physics of all depends on the frame rate.
+    /// No loop has a fixed tick: the physics of every loop depends on the frame rate.
     NoFixedTick,
-    /// In each with a fixed tick the speed depends on the frame rate.
+    /// The speed of every loop with a fixed tick depends on the frame rate.
     OtherSpeed,
-    /// In each with a fixed tick the motion is lost.
+    /// Every loop with a fixed tick loses the motion.
     MotionLost,
-    /// None with a fixed tick is smooth within the latency.
+    /// No loop with a fixed tick is smooth within the latency.
     Unfit {
-        /// The least late of the smooth ones.
+        /// The smooth loop with the least latency.
         late: Option<usize>,
-        /// The smoothest of the others: of those within the latency if there is one, else of all if none is smooth.
+        /// The smoothest uneven loop: within the latency if there is one, otherwise only if no loop is smooth.
         uneven: Option<usize>,
     },
 }
 
 impl NoLoop {
-    /// The loop that is nearest to be advised.
+    /// The loop that comes closest to a recommendation.
     pub fn nearest(self) -> Option<usize> {
         match self {
             Self::Unfit { late, uneven } => late.or(uneven),
@@ -58,7 +58,7 @@ impl NoLoop {
     }
 }
 
-/// Loops that were measured on one trace.
+/// Loops measured on the same trace.
 pub struct MeasuredLoops<'a> {
     loops: Vec<(&'static PolicyCard, &'a PacingReport)>,
     tick_hz: TickRate,
@@ -66,8 +66,8 @@ pub struct MeasuredLoops<'a> {
 }
 
 impl<'a> MeasuredLoops<'a> {
-    /// These loops at a tick rate, on a trace whose frames begin and are displayed by one clock, or by two without a common
-    /// origin. By two only differences of latencies have a meaning, so that they count from the least.
+    /// Collects loops at a tick rate, measured on one trace. If its frames begin and are displayed by clocks without
+    /// a common origin, only differences of latencies have a meaning. Latencies then count from the smallest one.
     pub fn new(
         loops: impl IntoIterator<Item = (&'static PolicyCard, &'a PacingReport)>,
         tick_hz: impl Into<TickRate>,
@@ -79,17 +79,17 @@ impl<'a> MeasuredLoops<'a> {
         Self { loops, tick_hz: tick_hz.into(), origin_ms: least.unwrap_or(0.0) }
     }
 
-    /// The mean latency of the loop with this index, in milliseconds.
+    /// Mean latency of the loop with this index, in milliseconds.
     pub fn latency_ms(&self, index: usize) -> Option<f64> {
         self.loops[index].1.latency_mean_ms().map(|latency| latency - self.origin_ms)
     }
 
-    /// The loop with the least animation error among those with a fixed tick that are smooth and whose mean latency is at
-    /// most `latency_ms`. Ties go to those that draw no moment beyond their last tick, then to the smaller position error,
-    /// then to the first.
+    /// The smooth loop with a fixed tick, a mean latency of at most `latency_ms`, and the smallest animation error.
+    /// Ties go to loops that never draw beyond their last tick, then to the smaller position error, then to the
+    /// first.
     ///
     /// # Errors
-    /// If there is none.
+    /// The reason if no loop qualifies.
     pub fn advised(&self, latency_ms: f64) -> Result<AdvisedLoop, NoLoop> {
         if self.loops.iter().all(|(_, report)| report.animation_error_rms_ms.is_none()) {
             return Err(NoLoop::TooFewFrames);
@@ -132,7 +132,7 @@ impl<'a> MeasuredLoops<'a> {
         Ok(AdvisedLoop { index, why })
     }
 
-    /// Why none is advised within this latency, clause by clause, with what `name` calls a loop.
+    /// Reasons why no loop is recommended within this latency, clause by clause. `name` names a loop.
     pub fn reasons(
         &self,
         none: NoLoop,
@@ -172,7 +172,7 @@ impl<'a> MeasuredLoops<'a> {
         LoopVerdict::of(card, report, self.tick_hz).severity == Severity::Fine
     }
 
-    /// By what loops are compared: the least comes first.
+    /// Sort key of a loop; the smallest is the best.
     fn rank(&self, index: usize) -> (f64, bool, f64) {
         let (card, report) = self.loops[index];
         let steps = |value: Option<f64>, step: f64| {

@@ -1,7 +1,7 @@
 //! The loop lab: one body under one method in every game loop, over the same frames, in slow motion.
 //!
-//! Frames are few, so that all of them are kept: going back and forth is looking them up. They are made when something is
-//! chosen, by a [`LoopWorker`] beside the lab, and a loop is shown as soon as it was run.
+//! A run has few frames, so the lab keeps them all and moves through them by lookup. After each choice a
+//! [`LoopWorker`] runs the loops in the background, and the lab shows each loop as soon as it has run.
 
 use std::sync::Arc;
 
@@ -20,77 +20,77 @@ mod running;
 pub use lane::{FRAME_METRICS, FrameMetric, LoopFrame, LoopLane, LoopState};
 pub use running::{FoundLoop, LoopRequest, LoopWorker};
 
-/// The traces that come first, with the policies on the stage: noise that makes raw ticks flip between none and two, under
-/// the raw loop and the one that heals noise; then a display for which ticks are too few, under the raw loop and the usual
-/// remedy.
+/// The opening traces and the policies on the stage with them. Noise first: raw ticks flip between none and two,
+/// under the raw loop and the one that heals noise. Then a display with too few ticks, under the raw loop and the
+/// usual remedy.
 const OPENING: [(&str, [&str; 2]); 2] =
     [("edge", [RAW, "whole-refresh"]), ("steady-144", [RAW, "fixed-linear"])];
-/// The loop whose ticks are drawn as they come.
+/// The loop that draws its ticks without interpolation.
 pub const RAW: &str = "fixed";
-/// How much of a trace the opening shows before it goes on, in nanoseconds of the display: long enough to see a judder.
+/// Length of the opening's first trace, in nanoseconds of the display: long enough to see a judder.
 const OPENING_NS: i64 = 1_500_000_000;
-/// The most policies on the stage.
+/// Maximum number of policies on the stage.
 pub const MAX_ON_STAGE: usize = 4;
-/// How many times slower than real time it can be played; a monitor adds its own judder to what is faster.
+/// Slow-motion factors. A monitor adds its own judder to faster playback.
 pub const SLOWNESS: [u32; 6] = [1, 2, 4, 8, 16, 32];
-/// How slow it is at first.
+/// Initial slow-motion factor.
 const SLOWNESS_AT_FIRST: u32 = 8;
-/// The display of a trace that has none of its own.
+/// Display of a trace that names none.
 const DISPLAY: RefreshRate = RefreshRate::new(60, 1);
 
-/// A change of the loop lab.
+/// A command in the loop lab.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LoopCommand {
-    /// Opens it, or leaves it.
+    /// Opens or closes the loop lab.
     ToggleLab,
-    /// Selects the loop with this index in [`POLICIES`], and brings it on the stage.
+    /// Selects the loop with this index in [`POLICIES`] and puts it on the stage.
     Select(usize),
-    /// Takes the loop with this index off the stage, or brings it on.
+    /// Takes the loop with this index off the stage, or puts it there.
     ToggleOnStage(usize),
     /// Chooses the trace with this index.
     Trace(usize),
-    /// Plays this many times slower than real time.
+    /// Sets the slow-motion factor.
     Slowness(u32),
-    /// Goes to this moment of the display, in nanoseconds.
+    /// Moves to this time of the display, in nanoseconds.
     Seek(i64),
 }
 
-/// A body under one method in every loop, and where a person is in its frames.
+/// One body under one method in every loop, and the playback position.
 pub struct LoopLab {
-    /// With one body.
+    /// Contains only the one body.
     scene: Arc<Scene>,
     method: &'static Method,
-    /// The body at its start, for how it looks.
+    /// The body at its start, from which its look is drawn.
     body: LaneBody,
     traces: Vec<FrameTrace>,
     trace: usize,
-    /// The loops that are wanted.
+    /// The loops to run.
     request: Arc<LoopRequest>,
     lanes: Vec<LoopLane>,
-    /// The loop to take, or why none, once all were run.
+    /// The recommended loop, or why there is none, once all loops have run.
     advice: Option<Result<AdvisedLoop, NoLoop>>,
-    /// The range of the exact first coordinate.
+    /// Range of the exact first coordinate.
     range: [f64; 2],
     on_stage: Vec<usize>,
-    /// Whether a person chose what is on the stage.
+    /// Whether a person chose the lanes on the stage.
     is_stage_chosen: bool,
-    /// Whether it goes on by itself to the second trace of the opening.
+    /// Whether playback continues with the second trace of the opening by itself.
     plays_opening: bool,
-    /// The index of the metric in [`FRAME_METRICS`].
+    /// Index in [`FRAME_METRICS`].
     metric: usize,
     is_overlaid: bool,
     selected: usize,
     now_ns: i64,
     end_ns: i64,
     slowness: u32,
-    /// Whether the run goes on when the loop lab is left.
+    /// Whether the run resumes on leaving the loop lab.
     pub(crate) run_goes_on: bool,
-    /// Whether the stage was without instruments before.
+    /// Whether the stage had no instruments before the loop lab opened.
     pub(crate) stage_was_alone: bool,
 }
 
 impl LoopLab {
-    /// The body with this index in a scene under a method, at the start. No loop was [run](Self::request) yet.
+    /// The lab for one body of a scene, at the start. No loop has [run](Self::request) yet.
     pub fn new(scene: &Scene, body: usize, method: &'static Method) -> Self {
         let mut cards: Vec<&TraceCard> = TRACES.iter().collect();
         cards.sort_by_key(|card| {
@@ -126,12 +126,12 @@ impl LoopLab {
         studio
     }
 
-    /// Goes on by itself to the second trace of the opening, until [`end_opening`](Self::end_opening).
+    /// Continues with the second trace of the opening by itself, until [`end_opening`](Self::end_opening).
     pub(crate) fn play_opening(&mut self) {
         self.plays_opening = true;
     }
 
-    /// Stays with the chosen trace.
+    /// Stays on the chosen trace.
     pub(crate) fn end_opening(&mut self) {
         self.plays_opening = false;
     }
@@ -148,7 +148,7 @@ impl LoopLab {
         self.ask();
     }
 
-    /// Asks for all loops again: those that are shown are of another choice.
+    /// Requests all loops again and discards the lanes of the previous choice.
     fn ask(&mut self) {
         self.request = Arc::new(LoopRequest {
             scene: self.scene.clone(),
@@ -162,12 +162,12 @@ impl LoopLab {
         self.range = [f64::INFINITY, f64::NEG_INFINITY];
     }
 
-    /// The loops that are wanted, for a [`LoopWorker`]. It is another value after each choice.
+    /// The request for a [`LoopWorker`]. Every choice replaces it with a new one.
     pub fn request(&self) -> &Arc<LoopRequest> {
         &self.request
     }
 
-    /// Shows a loop that was run, unless it was asked for before the last choice.
+    /// Shows a loop that has run; drops it if its request is outdated.
     pub(crate) fn accept(&mut self, found: FoundLoop) {
         let FoundLoop { request, index, lane } = found;
         if !Arc::ptr_eq(&request, &self.request) {
@@ -185,7 +185,7 @@ impl LoopLab {
         }
     }
 
-    /// Compares the raw loop with the one to take, or the nearest to it, unless a person chose what is on the stage.
+    /// Shows the raw loop beside the recommended or nearest one, unless a person chose the lanes on the stage.
     fn bring_advised_on_stage(&mut self) {
         let raw = index_of(RAW);
         if let Some(best) = self.best().filter(|best| *best != raw && !self.is_stage_chosen) {
@@ -194,7 +194,7 @@ impl LoopLab {
         }
     }
 
-    /// All loops as they were measured; `None` before all were run.
+    /// All measured loops; `None` until all have run.
     fn measured(&self) -> Option<MeasuredLoops<'_>> {
         let measured = self.lanes.iter().map(|lane| Some((lane.card(), lane.report()?)));
         let measured: Vec<_> = measured.collect::<Option<_>>()?;
@@ -202,21 +202,21 @@ impl LoopLab {
         Some(MeasuredLoops::new(measured, self.scene.tick_hz, has_one_clock))
     }
 
-    /// Whether every loop was run.
+    /// Whether every loop has run.
     pub fn is_complete(&self) -> bool {
         self.lanes.iter().all(LoopLane::was_run)
     }
 
-    /// Whether every loop on the stage was run.
+    /// Whether every loop on the stage has run.
     pub fn is_stage_complete(&self) -> bool {
         self.on_stage.iter().all(|&index| self.lanes[index].was_run())
     }
 
-    /// The scene, with the one body.
+    /// The scene, reduced to the one body.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
-    /// The method of the body.
+    /// The method that steps the body.
     pub fn method(&self) -> &'static Method {
         self.method
     }
@@ -224,47 +224,47 @@ impl LoopLab {
     pub fn body(&self) -> &LaneBody {
         &self.body
     }
-    /// The least and the greatest value of the exact first coordinate in the loops that were run; zeros if none was.
+    /// Range of the exact first coordinate over all loops that have run; zeros if none has.
     pub fn range(&self) -> [f64; 2] {
         if self.range[0] > self.range[1] { [0.0; 2] } else { self.range }
     }
-    /// The traces that can be chosen: the built-in ones, then those that were opened.
+    /// The available traces: the built-in ones, then opened ones.
     pub fn traces(&self) -> &[FrameTrace] {
         &self.traces
     }
-    /// The index of the chosen trace.
+    /// Index of the chosen trace.
     pub fn trace(&self) -> usize {
         self.trace
     }
-    /// The body in every loop, in the order of [`POLICIES`].
+    /// The lanes of all loops, in the order of [`POLICIES`].
     pub fn lanes(&self) -> &[LoopLane] {
         &self.lanes
     }
-    /// The loop to take, by its index in [`POLICIES`]; `None` before all were run, or if none will do.
+    /// The recommended loop, by its index in [`POLICIES`]; `None` until all have run, or if none qualifies.
     pub fn advised(&self) -> Option<AdvisedLoop> {
         self.advice?.ok()
     }
-    /// Why no loop is advised, and the reasons clause by clause; `None` before all were run, or if one is.
+    /// Why no loop is recommended, with reasons clause by clause; `None` until all have run, or if one is.
     pub fn none_advised(&self) -> Option<(NoLoop, Vec<String>)> {
         let none = self.advice?.err()?;
         Some((none, self.measured()?.reasons(none, USUAL_LATENCY_MS, |card| card.name)))
     }
-    /// The index of the loop to take, or of the nearest to it.
+    /// Index of the recommended loop, or of the nearest to it.
     fn best(&self) -> Option<usize> {
         self.advice?.map_or_else(NoLoop::nearest, |advised| Some(advised.index))
     }
-    /// The indices of the lanes as they are listed: the one to take, or the nearest to it, then all others in the order of
+    /// Order of the lanes in the list: the recommended loop or the nearest to it, then the others in the order of
     /// [`POLICIES`].
     pub fn listed(&self) -> Vec<usize> {
         let first = self.best();
         let others = (0..self.lanes.len()).filter(|index| Some(*index) != first);
         first.into_iter().chain(others).collect()
     }
-    /// The words in the place of plots until every loop on the stage was run.
+    /// Placeholder for the plots until every loop on the stage has run.
     pub fn waiting(&self) -> Option<&'static str> {
         (!self.is_stage_complete()).then_some("Running the loops on the stage…")
     }
-    /// The verdict on the loop with this index in [`POLICIES`].
+    /// Verdict on the loop with this index in [`POLICIES`].
     pub fn verdict(&self, index: usize) -> LoopVerdict {
         let lane = &self.lanes[index];
         let Some(report) = lane.report() else { return LoopVerdict::awaited() };
@@ -274,39 +274,39 @@ impl LoopLab {
         }
         verdict
     }
-    /// The indices of the lanes on the stage, from top to bottom.
+    /// Indices of the lanes on the stage, from top to bottom.
     pub fn on_stage(&self) -> &[usize] {
         &self.on_stage
     }
-    /// Whether the stage has the lanes over each other, and not below each other.
+    /// Whether the lanes on the stage overlap instead of lying below each other.
     pub fn is_overlaid(&self) -> bool {
         self.is_overlaid
     }
-    /// The index of the selected lane.
+    /// Index of the selected lane.
     pub fn selected(&self) -> usize {
         self.selected
     }
-    /// The moment of the display, in nanoseconds.
+    /// Playback position: time of the display in nanoseconds.
     pub fn now_ns(&self) -> i64 {
         self.now_ns
     }
-    /// How far a frame that the display holds now is behind, in milliseconds: at the moment of its display, or now if it
-    /// has been held for more than two refreshes.
+    /// Delay of the frame on the display, in milliseconds. It is the frame's latency, plus the time since it appeared
+    /// once the display has held it for more than two refreshes.
     pub fn late_ms(&self, frame: &LoopFrame) -> f64 {
         let held_ms = (self.now_ns - frame.displayed_ns) as f64 / 1e6;
         let refresh_ms = 1000.0 / self.traces[self.trace].refresh().hz();
         frame.latency_ms() + if held_ms > 2.0 * refresh_ms { held_ms } else { 0.0 }
     }
-    /// The last moment of the loops that were run, in nanoseconds; 0 if none was.
+    /// End of the longest loop that has run, in nanoseconds; 0 if none has.
     pub fn end_ns(&self) -> i64 {
         self.end_ns
     }
-    /// How many times slower than real time it is played.
+    /// Slow-motion factor.
     pub fn slowness(&self) -> u32 {
         self.slowness
     }
 
-    /// The index of the metric that the error instrument shows in [`FRAME_METRICS`].
+    /// Index in [`FRAME_METRICS`] of the metric that the error instrument shows.
     pub fn metric(&self) -> usize {
         self.metric
     }
@@ -316,7 +316,7 @@ impl LoopLab {
         self.metric = index.min(FRAME_METRICS.len() - 1);
     }
 
-    /// Chooses the trace with this index; the moment stays, if the trace reaches it. A trace of the opening brings its
+    /// Chooses a trace and keeps the playback position if the trace reaches it. A trace of the opening puts its
     /// policies on the stage, unless a person chose others.
     pub fn choose_trace(&mut self, index: usize) {
         self.trace = index.min(self.traces.len() - 1);
@@ -329,36 +329,35 @@ impl LoopLab {
         self.ask();
     }
 
-    /// Adds traces, and chooses the first of them.
+    /// Adds traces and chooses the first of them.
     pub fn add_traces(&mut self, traces: Vec<FrameTrace>) {
         let index = self.traces.len();
         self.traces.extend(traces);
         self.choose_trace(index);
     }
 
-    /// Chooses the tick rate, clamped to [`Clock::TICK_HZ`](crate::sim::Clock::TICK_HZ).
+    /// Sets the tick rate, clamped to [`Clock::TICK_HZ`](crate::sim::Clock::TICK_HZ).
     pub fn set_tick_hz(&mut self, tick_hz: impl Into<TickRate>) {
         Arc::make_mut(&mut self.scene).tick_hz = tick_hz.into().clamp(TickRate::MIN, TickRate::MAX);
         self.ask();
     }
 
-    /// Chooses the method.
     pub fn set_method(&mut self, method: &'static Method) {
         self.method = method;
         self.ask();
     }
 
-    /// Sets how many times slower than real time it is played.
+    /// Sets the slow-motion factor, clamped to the range of [`SLOWNESS`].
     pub fn set_slowness(&mut self, slowness: u32) {
         self.slowness = slowness.clamp(SLOWNESS[0], SLOWNESS[SLOWNESS.len() - 1]);
     }
 
-    /// Puts the lanes of the stage over each other, or below each other.
+    /// Switches between overlapping lanes and lanes below each other.
     pub(crate) fn toggle_overlay(&mut self) {
         self.is_overlaid = !self.is_overlaid;
     }
 
-    /// Selects the lane with this index, and brings it on the stage.
+    /// Selects the lane with this index and puts it on the stage.
     pub fn select(&mut self, index: usize) {
         if index >= self.lanes.len() {
             return;
@@ -374,7 +373,7 @@ impl LoopLab {
         }
     }
 
-    /// Takes the lane with this index off the stage, or brings it on; one stays.
+    /// Takes the lane with this index off the stage, or puts it there. The last one stays.
     pub fn toggle(&mut self, index: usize) {
         self.is_stage_chosen = true;
         match self.on_stage.iter().position(|&shown| shown == index) {
@@ -387,8 +386,8 @@ impl LoopLab {
         }
     }
 
-    /// Goes on by `real_ns` nanoseconds of real time; at the end it begins again. The opening goes on to its next trace.
-    /// Time stands still while a loop on the stage was not run.
+    /// Advances playback by `real_ns` nanoseconds of real time and wraps around at the end. The opening continues
+    /// with its next trace. Time waits until all loops on the stage have run.
     pub fn advance(&mut self, real_ns: i64) {
         if !self.is_stage_complete() {
             return;
@@ -404,12 +403,12 @@ impl LoopLab {
         }
     }
 
-    /// Goes to a moment of the display, in nanoseconds.
+    /// Moves to a time of the display, in nanoseconds.
     pub fn seek(&mut self, now_ns: i64) {
         self.now_ns = now_ns.clamp(0, self.end_ns);
     }
 
-    /// Moves by frames of the selected lane.
+    /// Moves forward or back by frames of the selected lane.
     pub fn step(&mut self, frames: i64) {
         let frames_of = self.lanes[self.selected].frames();
         let at = self.lanes[self.selected].frame_at(self.now_ns).unwrap_or_default() as i64;
@@ -419,18 +418,18 @@ impl LoopLab {
         }
     }
 
-    /// The selected policy's card.
+    /// Card of the selected policy.
     pub fn selected_card(&self) -> &'static PolicyCard {
         self.lanes[self.selected].card()
     }
 }
 
-/// The index of the loop with this id in [`POLICIES`].
+/// Index of the loop with this id in [`POLICIES`].
 fn index_of(id: &str) -> usize {
     POLICIES.iter().position(|card| card.id == id).expect("a built-in loop")
 }
 
-/// The one body of a scene at its start.
+/// The scene's only body at its start.
 fn at_start(scene: &Scene) -> LaneBody {
     let body = &scene.bodies[0];
     LaneBody::new(body, Solver::Truth)

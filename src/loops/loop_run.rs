@@ -1,4 +1,4 @@
-//! A scene in a game loop over the frames of a trace.
+//! Runs a scene in a game loop over the frames of a trace.
 
 use super::metrics::{FrameRecord, PacingMeter, PacingReport};
 use super::paced_lane::PacedLane;
@@ -15,8 +15,8 @@ pub const MIN_RUN_S: f64 = 10.0;
 
 /// A scene under one method in one loop, frame by frame.
 ///
-/// The first frame starts the clock and shows the start; each later frame makes the steps that the loop decides on. The
-/// scene's script acts before the first step at or after its time.
+/// The first frame starts the clock and shows the start. Each later frame makes the steps that the loop decides on.
+/// The scene's script acts before the first step at or after its time.
 ///
 /// ```
 /// use regatta::loops::{LoopRun, policy, trace_card, RefreshRate};
@@ -39,12 +39,12 @@ pub struct LoopRun {
     meter: PacingMeter,
     last: Option<(Frame, Steps)>,
     script: TimedScript,
-    /// One frame in this number is made; the others are left out.
+    /// Only every n-th frame of the trace is made.
     stride: u32,
 }
 
 impl LoopRun {
-    /// The run before its first frame, at the scene's tick rate.
+    /// Prepares the run before its first frame, at the scene's tick rate.
     pub fn new(
         scene: &Scene,
         spec: LaneSpec,
@@ -54,7 +54,7 @@ impl LoopRun {
         Self::limited(scene, spec, card, trace, FrameLimits::default())
     }
 
-    /// The same run with a loop that simulates at most so much in a frame.
+    /// As [`new`](Self::new), with limits on the work in a frame.
     pub fn limited(
         scene: &Scene,
         spec: LaneSpec,
@@ -75,7 +75,7 @@ impl LoopRun {
         }
     }
 
-    /// The run of the same game at half the frame rate: every second frame is left out.
+    /// The same run at half the frame rate, skipping every second frame.
     fn at_half_the_rate(self) -> Self {
         Self { stride: 2, ..self }
     }
@@ -85,17 +85,17 @@ impl LoopRun {
         &self.lane
     }
 
-    /// The exact coordinates of the body at this index of the scene at the moment of the last displayed frame.
+    /// Exact coordinates of the body with this index at the last displayed frame.
     pub fn exact(&self, body: usize) -> &[f64] {
         self.truth.body(body).stepper.q()
     }
 
-    /// The body at this index of the scene, exactly, at the moment of the last displayed frame.
+    /// The body with this index in its exact state at the last displayed frame.
     pub(crate) fn exact_body(&self, body: usize) -> &LaneBody {
         self.truth.body(body)
     }
 
-    /// Makes the next frame; `None` where the trace has ended.
+    /// Makes the next frame; `None` at the end of the trace.
     pub fn next_frame(&mut self) -> Option<FrameRecord> {
         let steps_before = self.last.map_or(0, |(_, steps)| steps.count);
         let mut frame = self.frames.next(steps_before)?;
@@ -130,8 +130,7 @@ impl LoopRun {
         })
     }
 
-    /// Makes frames up to the first that begins at `until_ns` or later, or until `stop` says so, and returns when the last
-    /// one began.
+    /// Makes frames until one begins at or after `until_ns`, or `stop` returns true. Returns when the last one began.
     pub fn run_until(
         &mut self,
         until_ns: i64,
@@ -145,14 +144,14 @@ impl LoopRun {
         self.began_ns()
     }
 
-    /// When the last frame began; 0 before the first.
+    /// Start of the last frame in nanoseconds; 0 before the first.
     fn began_ns(&self) -> i64 {
         self.last.map_or(0, |(frame, _)| frame.began_ns)
     }
 
-    /// Runs on to `until_ns`, and returns what was seen with the [difference](PacingReport::state_difference) to the same
-    /// game at half the frame rate. Both are compared at every frame that both have: at one moment alone, two motions that
-    /// are whole periods apart would look alike.
+    /// Runs to `until_ns` and also runs the same game at half the frame rate to report their
+    /// [difference](PacingReport::state_difference). The two are compared at every frame that they share. At a single
+    /// moment, two motions that are whole periods apart would look alike.
     pub fn measure(
         mut self,
         until_ns: i64,
@@ -187,7 +186,7 @@ impl LoopRun {
         }
     }
 
-    /// What was seen so far.
+    /// The report on the frames so far.
     pub fn report(&self) -> PacingReport {
         let (steps, evaluations) = (self.lane.steps(), self.lane.evaluations());
         let report = self.meter.report(self.lane.pacer(), steps, evaluations);

@@ -1,84 +1,84 @@
-//! What a viewer of the display sees of a loop, in numbers.
+//! Measures how a loop looks to a viewer of the display.
 
 use super::pacer::Pacer;
 use super::policy::Steps;
 use super::trace::Frame;
 use crate::run::Unit;
 
-/// By how much a frame may miss a double step and count as one: the nanoseconds of a trace are rounded.
+/// Tolerance for double steps, since traces round to nanoseconds.
 const LEEWAY_NS: i64 = 1000;
 
-/// What a loop did over a trace.
+/// Measurements of a loop over a trace.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PacingReport {
     /// Frames, displayed or not.
     pub frames: u64,
-    /// Frames that were displayed.
+    /// Displayed frames.
     pub displayed: u64,
-    /// RMS of the animation error in milliseconds; `None` before two frames were displayed.
+    /// RMS animation error in milliseconds; `None` until two frames are displayed.
     pub animation_error_rms_ms: Option<f64>,
-    /// The largest animation error, by magnitude.
+    /// Largest animation error, by magnitude.
     pub animation_error_max_ms: Option<f64>,
-    /// Displayed frames that show the same moment as the one before, in percent.
+    /// Displayed frames that repeat the previous moment, in percent.
     pub repeated_percent: Option<f64>,
-    /// Displayed frames that show two ticks or more at once and run ahead of the display by half a tick or more, in percent.
+    /// Displayed frames that advance by two ticks or more, and by half a tick or more beyond the display, in percent.
     pub double_percent: Option<f64>,
-    /// The mean and the largest of the display's time minus the moment shown, also of a game that runs ahead of it.
+    /// Mean and maximum of display time minus the moment shown; negative for a game that runs ahead.
     pub(super) latency_ms: [Option<f64>; 2],
-    /// Real time that was given up.
+    /// Real time that the loop dropped.
     pub dropped_ms: f64,
-    /// The most real time that was neither simulated nor given up.
+    /// Maximum of the real time that was neither simulated nor dropped.
     pub owed_max_ms: f64,
-    /// RMS of the distance from the exact solution at the display's moment, in amplitudes, of the worst body.
+    /// RMS distance from the exact solution at the time of display, in amplitudes, for the worst body.
     pub position_error_rms: Option<f64>,
     /// Steps of the bodies.
     pub ticks: u64,
     /// Evaluations of the bodies' accelerations.
     pub evaluations: u64,
-    /// The furthest that the bodies come from where they are at half the frame rate, at a frame that both have, in
-    /// amplitudes; `None` where it was not measured.
+    /// Largest distance of the bodies from their positions at half the frame rate, over all shared frames, in
+    /// amplitudes; `None` if not measured.
     pub state_difference: Option<f64>,
-    /// The time simulated beyond that at half the frame rate; `None` where it was not measured.
+    /// Simulated time minus that at half the frame rate; `None` if not measured.
     pub time_difference_ms: Option<f64>,
 }
 
-/// Time by which a game is off at half the frame rate that shows that it runs at another speed, in milliseconds: more
-/// than a few ticks.
+/// Time difference at half the frame rate above which the game runs at another speed, in milliseconds. It exceeds a
+/// few ticks.
 const OTHER_SPEED_MS: f64 = 100.0;
-/// A motion that is further off than this, in amplitudes, is lost: one that is shown late is off by two at most.
+/// Position error above which the motion is lost, in amplitudes. A motion that is merely late is off by at most two.
 const LOST: f64 = 4.0;
-/// A difference of the motion at half the frame rate that is no rounding, in amplitudes.
+/// Difference of the motion at half the frame rate above which it is more than rounding, in amplitudes.
 const OTHER_MOTION: f64 = 1e-9;
 
 impl PacingReport {
-    /// The mean of the display's time minus the moment shown, in milliseconds. `None` before a frame was displayed, and
-    /// of a game whose speed depends on the frame rate: it runs away from the display, or falls behind for ever.
+    /// Mean of display time minus the moment shown, in milliseconds. `None` until a frame is displayed, or if the
+    /// speed depends on the frame rate: such a game runs away from the display or falls behind for ever.
     pub fn latency_mean_ms(&self) -> Option<f64> {
         self.latency_ms[0].filter(|_| self.keeps_speed() != Some(false))
     }
 
-    /// The largest of it.
+    /// Maximum latency, as for [`latency_mean_ms`](Self::latency_mean_ms).
     pub fn latency_max_ms(&self) -> Option<f64> {
         self.latency_ms[1].filter(|_| self.keeps_speed() != Some(false))
     }
 
-    /// Whether the game runs as fast at half the frame rate; `None` where it was not measured.
+    /// Whether the game has the same speed at half the frame rate; `None` if not measured.
     pub fn keeps_speed(&self) -> Option<bool> {
         self.time_difference_ms.map(|difference| difference.abs() <= OTHER_SPEED_MS)
     }
 
-    /// Whether the motion has nothing to do with the exact one any more, as where a method is too coarse for the tick.
+    /// Whether the motion no longer resembles the exact one, as when a method is too coarse for the tick.
     pub fn loses_motion(&self) -> bool {
         self.position_error_rms.is_some_and(|distance| distance.is_nan() || distance > LOST)
     }
 
-    /// The [difference of the motion](Self::state_difference) at half the frame rate, if it is more than rounding.
+    /// [Difference of the motion](Self::state_difference) at half the frame rate, if it exceeds rounding.
     pub fn other_motion(&self) -> Option<f64> {
         self.state_difference.filter(|difference| *difference > OTHER_MOTION)
     }
 }
 
-/// A quantity of a [`PacingReport`].
+/// A metric of a [`PacingReport`].
 #[derive(Debug)]
 pub struct PacingMetric {
     /// Name in output, `snake_case`.
@@ -87,13 +87,13 @@ pub struct PacingMetric {
     pub name: &'static str,
     /// Its unit.
     pub unit: Unit,
-    /// What it is, in one line.
+    /// Description in one line.
     pub about: &'static str,
-    /// The value; `None` where it has no meaning.
+    /// Reads the value; `None` if it has no meaning.
     pub measure: fn(&PacingReport) -> Option<f64>,
 }
 
-/// Every metric of a loop, in the order in which they are listed.
+/// Every metric of a loop, in display order.
 pub const PACING_METRICS: &[PacingMetric] = &[
     PacingMetric {
         id: "frames",
@@ -188,12 +188,12 @@ pub const PACING_METRICS: &[PacingMetric] = &[
     },
 ];
 
-/// Adds up what is seen of a loop, frame by frame. Times are in the unit of its [`TimeBase`](super::TimeBase).
+/// Accumulates the metrics of a loop, frame by frame. Times are in the unit of its [`TimeBase`](super::TimeBase).
 #[derive(Clone, Debug, Default)]
 pub(super) struct PacingMeter {
     frames: u64,
     displayed: u64,
-    /// The moment of display and the moment shown of the last displayed frame.
+    /// Display time and moment shown of the last displayed frame.
     last: Option<[i128; 2]>,
     squares_ms2: f64,
     largest_error: i128,
@@ -205,12 +205,12 @@ pub(super) struct PacingMeter {
 }
 
 impl PacingMeter {
-    /// The frames added.
     pub(super) fn frames(&self) -> u64 {
         self.frames
     }
 
-    /// Adds a frame, after its steps. Returns its animation error in milliseconds, if it and another were displayed.
+    /// Adds a frame after its steps. Returns its animation error in milliseconds if it and an earlier frame were
+    /// displayed.
     pub(super) fn frame(&mut self, frame: Frame, pacer: &Pacer) -> Option<f64> {
         self.frames += 1;
         self.max_owed = self.max_owed.max(pacer.owed());
@@ -235,7 +235,7 @@ impl PacingMeter {
         Some(error_ms)
     }
 
-    /// What was seen so far of a loop that made `ticks` steps with `evaluations`.
+    /// The report so far on a loop that made `ticks` steps with `evaluations`.
     pub(super) fn report(&self, pacer: &Pacer, ticks: u64, evaluations: u64) -> PacingReport {
         let base = pacer.base();
         let (displayed, changes) = (self.displayed as f64, self.displayed.saturating_sub(1) as f64);
@@ -264,19 +264,19 @@ impl PacingMeter {
     }
 }
 
-/// The steps of a frame that was made.
+/// A frame that the loop made, with its steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameRecord {
-    /// Its number, from 0.
+    /// Index from 0.
     pub number: u64,
     /// When it began and was displayed.
     pub frame: Frame,
-    /// The simulated moment that it shows, in milliseconds.
+    /// Simulated moment that it shows, in milliseconds.
     pub shown_ms: f64,
     /// Its steps.
     pub steps: Steps,
-    /// The time that it gave up, in milliseconds.
+    /// Real time that it dropped, in milliseconds.
     pub dropped_ms: f64,
-    /// The animation error in milliseconds, if it and a frame before it were displayed.
+    /// Animation error in milliseconds, if it and an earlier frame were displayed.
     pub animation_error_ms: Option<f64>,
 }

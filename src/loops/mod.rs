@@ -1,9 +1,9 @@
-//! Game loops: what a loop does to motion, apart from the method that steps it.
+//! Game loops: their effect on motion, independent of the method that steps it.
 //!
-//! A [`FrameTrace`] says for each [`Frame`] when it began and when its picture was displayed. A [`Policy`] sees what a game
-//! sees, the duration of the last frame, and answers with steps and the moment to show; [`POLICIES`] is the table of them.
-//! A [`PacedLane`] steps bodies by a policy, a [`LoopRun`] goes through a trace with one, and [`PACING_METRICS`] are what a
-//! viewer of the display sees of it. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
+//! A [`FrameTrace`] records when each [`Frame`] began and when its picture was displayed. A [`Policy`] knows only the
+//! duration of the last frame, as a game does, and decides on steps and the moment to show. [`POLICIES`] lists all of
+//! them. A [`PacedLane`] steps bodies by a policy, a [`LoopRun`] follows a trace with one, and [`PACING_METRICS`]
+//! measure how it looks on the display. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
 
 mod advice;
 pub mod loop_lab;

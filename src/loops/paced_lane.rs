@@ -1,4 +1,4 @@
-//! A scene's bodies under one method, stepped by a game loop.
+//! Steps a scene's bodies under one method in a game loop.
 
 use super::pacer::Pacer;
 use super::policy::Steps;
@@ -9,17 +9,17 @@ use crate::run::race::Lane;
 pub struct PacedLane {
     pacer: Pacer,
     lane: Lane,
-    /// The copy that is drawn, of a loop that steps one.
+    /// The drawn copy, in a loop with a render tick.
     ahead: Option<Lane>,
-    /// What the copies so far have evaluated.
+    /// Evaluations by all drawn copies so far.
     evaluations_ahead: u64,
     steps: u64,
-    /// The length of the last step in seconds, a tick at the start.
+    /// Length of the last step in seconds; a tick at the start.
     last_step_s: f64,
 }
 
 impl PacedLane {
-    /// A lane at its start in a loop before its first frame.
+    /// Puts a lane at its start into a loop before its first frame.
     pub fn new(pacer: Pacer, lane: Lane) -> Self {
         let last_step_s = pacer.base().seconds(pacer.base().tick());
         Self { pacer, lane, ahead: None, evaluations_ahead: 0, steps: 0, last_step_s }
@@ -33,18 +33,18 @@ impl PacedLane {
     pub fn lane(&self) -> &Lane {
         &self.lane
     }
-    /// The steps made.
+    /// Number of steps made.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// The evaluations of accelerations so far, those for what is only drawn among them.
+    /// Evaluations of accelerations so far, including those of drawn copies.
     pub fn evaluations(&self) -> u64 {
         self.lane.evaluations() + self.evaluations_ahead
     }
 
-    /// Makes the steps of a frame; `duration_ns` is that of the last frame in nanoseconds. Calls `before_step` with the
-    /// number of steps made and the time in seconds before each.
+    /// Makes the steps of a frame, where `duration_ns` is the duration of the last frame in nanoseconds. Calls
+    /// `before_step` with the number of steps made and the time in seconds before each step.
     pub fn frame(
         &mut self,
         duration_ns: i64,
@@ -72,7 +72,7 @@ impl PacedLane {
         steps
     }
 
-    /// The coordinates of the body at this index of the scene as the picture shows them.
+    /// Coordinates in the picture of the body with this index.
     pub fn drawn(&self, body: usize) -> Vec<f64> {
         let drawing = self.pacer.card().drawing;
         let lane = self.ahead.as_ref().unwrap_or(&self.lane);

@@ -1,4 +1,4 @@
-//! A loop at work: a rule with the time that it has simulated.
+//! A policy at work, with the time that it has simulated.
 
 use super::policy::{FrameLimits, Policy, PolicyCard, Steps};
 use super::time_base::TimeBase;
@@ -10,7 +10,7 @@ pub struct Pacer {
     card: &'static PolicyCard,
     base: TimeBase,
     policy: Box<dyn Policy>,
-    /// The longest frame, if one is set.
+    /// Maximum frame duration, if one is set.
     longest: Option<i128>,
     passed: i128,
     simulated: i128,
@@ -23,14 +23,14 @@ impl Pacer {
         Self::limited(card, base, FrameLimits::default())
     }
 
-    /// The same loop, which simulates at most so much in a frame.
+    /// As [`new`](Self::new), with limits on the work in a frame.
     pub fn limited(card: &'static PolicyCard, base: TimeBase, limits: FrameLimits) -> Self {
         let policy = (card.build)(base, limits);
         let longest = limits.max_frame_ms.map(|ms| base.nanoseconds(i64::from(ms) * 1_000_000));
         Self { card, base, policy, longest, passed: 0, simulated: 0, dropped: 0 }
     }
 
-    /// What is known of its rule.
+    /// Card of its policy.
     pub fn card(&self) -> &'static PolicyCard {
         self.card
     }
@@ -38,20 +38,21 @@ impl Pacer {
     pub fn base(&self) -> TimeBase {
         self.base
     }
-    /// The time simulated.
+    /// Simulated time.
     pub fn simulated(&self) -> i128 {
         self.simulated
     }
-    /// The time given up.
+    /// Dropped time.
     pub fn dropped(&self) -> i128 {
         self.dropped
     }
-    /// The time of the frames so far that is neither simulated nor given up; negative where the simulation is ahead.
+    /// Time that is neither simulated nor dropped; negative if the simulation is ahead.
     pub fn owed(&self) -> i128 {
         self.passed - self.simulated - self.dropped
     }
 
-    /// Decides what a frame simulates. `duration_ns` is that of the last frame, in nanoseconds; a negative one counts as 0.
+    /// Decides on the steps of a frame. `duration_ns` is the duration of the last frame in nanoseconds; a negative
+    /// one counts as 0.
     pub fn frame(&mut self, duration_ns: i64) -> Steps {
         let duration = self.base.nanoseconds(duration_ns.max(0));
         let kept = self.longest.map_or(duration, |longest| duration.min(longest));
@@ -63,13 +64,13 @@ impl Pacer {
         steps
     }
 
-    /// How far the picture is from the last tick to the next: in [0, 1] where it is drawn between them, in [-1/2, 3/2) under
-    /// `hysteresis`, and 0 under a rule that has no ticks.
+    /// Position of the picture between the last tick and the next. It is in [0, 1] for policies that draw between
+    /// ticks, in [-1/2, 3/2) under `hysteresis`, and 0 for policies without ticks.
     pub fn alpha(&self) -> f64 {
         self.policy.owed() as f64 / self.base.tick() as f64
     }
 
-    /// The simulated moment that the picture shows. Interpolation shows one a tick before the first, too.
+    /// Simulated moment in the picture. With interpolation it begins one tick before the start.
     pub fn shown(&self) -> i128 {
         let now = self.simulated + self.policy.owed();
         match self.card.drawing {

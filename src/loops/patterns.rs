@@ -1,4 +1,4 @@
-//! The table of built-in traces, and the patterns of their frames.
+//! The built-in traces and the patterns of their frames.
 
 use super::time_base::RefreshRate;
 use super::trace::{Frame, FrameTrace, Pattern};
@@ -11,15 +11,15 @@ mod tests;
 pub struct TraceCard {
     /// Its name on the command line, `kebab-case`.
     pub id: &'static str,
-    /// What happens in it, in one line.
+    /// Description in one line.
     pub about: &'static str,
-    /// The rate of its display; `None` where any display will do, 60 Hz unless one is chosen.
+    /// Rate of its display; `None` if any display will do, by default one of 60 Hz.
     pub refresh: Option<RefreshRate>,
     build: fn(&'static str, RefreshRate) -> FrameTrace,
 }
 
 impl TraceCard {
-    /// The trace on its own display, or else on one of this rate.
+    /// The trace on its own display, or else on a display with this rate.
     pub fn trace(&self, refresh: RefreshRate) -> FrameTrace {
         (self.build)(self.id, self.refresh.unwrap_or(refresh))
     }
@@ -97,15 +97,16 @@ pub fn trace_card(id: &str) -> Option<&'static TraceCard> {
     TRACES.iter().find(|card| card.id == id)
 }
 
-/// An even display of any rate, by the name `steady-` and the rate.
+/// The trace `steady-` plus the rate: an even display of any rate.
 pub fn steady_trace(refresh: RefreshRate) -> FrameTrace {
-    // As many decimals as a rate can be given with.
+    // A rate has at most six decimals.
     let hz = (refresh.hz() * 1e6).round() / 1e6;
     FrameTrace::of_pattern(format!("steady-{hz}"), refresh, Steady::new(refresh))
 }
 
-/// A game that begins even frames at one rate, on an even display of another, by the name `fps-`, the rate, `-on-` and the
-/// display's. A frame is displayed at the first refresh after its beginning, unless the next one is too.
+/// The trace `fps-`, the frame rate, `-on-` and the refresh rate: even frames at one rate on an even display of
+/// another. A frame is displayed at the first refresh after it begins, unless the next frame reaches the same
+/// refresh.
 pub fn frames_on_display(fps: RefreshRate, refresh: RefreshRate) -> FrameTrace {
     let name = format!("fps-{fps}-on-{refresh}");
     FrameTrace::of_pattern(name, refresh, OtherRate { fps, refresh, next: 0, shown_at: 0 })
@@ -117,12 +118,12 @@ struct OtherRate {
     fps: RefreshRate,
     refresh: RefreshRate,
     next: u64,
-    /// The first refresh at which the last frame could be shown.
+    /// First refresh that could show the last frame.
     shown_at: u64,
 }
 
 impl OtherRate {
-    /// The first refresh at or after the beginning of this frame, from one that is before it.
+    /// First refresh at or after the start of this frame. The search begins at `from`, which must not be later.
     fn refresh_of(&self, frame: u64, from: u64) -> u64 {
         let began_ns = self.fps.refresh_ns(frame);
         (from..).find(|n| self.refresh.refresh_ns(*n) >= began_ns).expect("refreshes have no end")
@@ -144,7 +145,7 @@ impl Pattern for OtherRate {
     }
 }
 
-/// An even display, and a game that is ready for every refresh: every frame begins and is displayed at one.
+/// An even display and a game that is always ready: every frame begins and is displayed at a refresh.
 #[derive(Clone, Copy)]
 struct Steady {
     refresh: RefreshRate,
@@ -152,7 +153,6 @@ struct Steady {
 }
 
 impl Steady {
-    /// The pattern at its first refresh.
     fn new(refresh: RefreshRate) -> Self {
         Self { refresh, next: 0 }
     }
@@ -170,17 +170,17 @@ impl Pattern for Steady {
     }
 }
 
-/// The seed of the noise of [`Edge`]: one whose noise is near 0 in the mean, so that it adds no latency.
+/// Seed of the noise of [`Edge`]. The mean of this noise is near 0, so that it adds no latency.
 const EDGE_SEED: u64 = 4;
 
-/// The most by which a frame begins early or late: what a sleeping thread is woken off by. Below half the shortest refresh,
-/// 1 ms, so that each frame begins after the one before.
+/// Largest shift of a frame's beginning, as when a sleeping thread wakes early or late. It is below half the shortest
+/// refresh, 1 ms, so that each frame begins after the one before.
 const EDGE_NS: i64 = 499_999;
 
-/// Frames that begin at the edge of a tick, a little before or after it.
+/// Frames that begin a little before or after the edge of a tick.
 ///
-/// Frame n begins at refresh n plus noise, the first without; it is displayed at refresh n, by design also where that is
-/// before it began, so that the mean latency is that of the loop alone.
+/// Frame n begins at refresh n plus noise, the first one without. It is displayed at refresh n, by design even where
+/// that is before it began, so that the mean latency is that of the loop alone.
 #[derive(Clone, Copy)]
 struct Edge {
     refresh: RefreshRate,
@@ -189,7 +189,6 @@ struct Edge {
 }
 
 impl Edge {
-    /// The pattern at its first refresh.
     fn new(refresh: RefreshRate) -> Self {
         Self { refresh, next: 0, noise: Noise::new(EDGE_SEED) }
     }
@@ -210,18 +209,18 @@ impl Pattern for Edge {
 
 /// Frames of one refresh each, and now and then a long one.
 ///
-/// After every so many frames of one refresh each, one of several: its picture is displayed at the last of them, and the next
-/// frame begins after it. So the display sees the long time one frame before the game does.
+/// After every `short` frames of one refresh follows one of `long` refreshes. Its picture is displayed at the last of
+/// them, and the next frame begins after it. So the display sees the long time one frame before the game does.
 #[derive(Clone, Copy)]
 struct LongFrame {
     refresh: RefreshRate,
-    /// The frames before a long one.
+    /// Number of frames before a long one.
     short: u64,
-    /// The refreshes of a long one, at least 1.
+    /// Duration of a long frame in refreshes, at least 1.
     long: u64,
-    /// The refresh at which the next frame begins.
+    /// Refresh at which the next frame begins.
     at: u64,
-    /// The frames since the last long one.
+    /// Number of frames since the last long one.
     since: u64,
 }
 
@@ -231,7 +230,7 @@ impl LongFrame {
         Self { refresh, short, long, at: 0, since: 0 }
     }
 
-    /// A frame of `long_ns` after every `short_ns`, both to the next whole refresh.
+    /// A frame of `long_ns` after every `short_ns`, both rounded up to whole refreshes.
     fn lasting(refresh: RefreshRate, short_ns: i64, long_ns: i64) -> Self {
         let refreshes = |ns| (1..).find(|&n| refresh.refresh_ns(n) >= ns).expect("no end");
         Self::new(refresh, refreshes(short_ns), refreshes(long_ns))
@@ -255,11 +254,11 @@ impl Pattern for LongFrame {
     }
 }
 
-/// A game whose clock is read unevenly, while its pictures are displayed evenly.
+/// A game that reads its clock unevenly while its pictures are displayed evenly.
 ///
-/// Every second frame begins a quarter of a refresh late, so that frames last 5/4 and 3/4 of a refresh by turns. Frame n is
-/// displayed at refresh n, by design also where that is before it began: as with the steady traces, the latency is that
-/// of the loop alone.
+/// Every second frame begins a quarter of a refresh late, so that durations alternate between 5/4 and 3/4 of a
+/// refresh. Frame n is displayed at refresh n, by design even where that is before it began. As with the steady
+/// traces, the latency is that of the loop alone.
 #[derive(Clone, Copy)]
 struct Heartbeat {
     refresh: RefreshRate,
@@ -267,7 +266,6 @@ struct Heartbeat {
 }
 
 impl Heartbeat {
-    /// The pattern at its first refresh.
     fn new(refresh: RefreshRate) -> Self {
         Self { refresh, next: 0 }
     }
@@ -286,25 +284,24 @@ impl Pattern for Heartbeat {
     }
 }
 
-/// What a step costs: 5/4 of a tick at 60 Hz.
+/// Cost of a step: 5/4 of a tick at 60 Hz.
 const STEP_NS: i64 = 20_800_000;
 
 /// Steps that cost more time than they simulate: the spiral of death.
 ///
-/// A frame lasts a refresh, or as long as its steps take if that is longer. It is displayed when it begins, since what it
-/// will cost is not known then.
+/// A frame lasts a refresh, or as long as its steps take if that is longer. It is displayed when it begins, since its
+/// cost is not yet known then.
 #[derive(Clone, Copy)]
 struct Spiral {
     refresh: RefreshRate,
-    /// When the last frame that took too long ended.
+    /// End of the last frame that took too long.
     since_ns: i64,
-    /// The refreshes since then.
+    /// Refreshes since then.
     refreshes: u64,
     begun: bool,
 }
 
 impl Spiral {
-    /// The pattern at its first frame.
     fn new(refresh: RefreshRate) -> Self {
         Self { refresh, since_ns: 0, refreshes: 0, begun: false }
     }
@@ -332,28 +329,27 @@ impl Pattern for Spiral {
     }
 }
 
-/// The seed of the noise of [`Jitter`].
+/// Seed of the noise of [`Jitter`].
 const JITTER_SEED: u64 = 9;
 
-/// One frame in so many, by chance, is slow.
+/// On average one frame in this number is slow.
 const SLOW_IN: i64 = 64;
 
-/// A game whose frames take now more time, now less, and wait for the display in a queue.
+/// A game with uneven frame times whose pictures wait for the display in a queue.
 ///
-/// Frames take 0.5 to 1.1 refreshes, and a slow one up to 2 more. A picture is displayed at the first refresh when it is
-/// ready and none before it waits; the game runs ahead by one waiting picture, so that in good times the latency is two
-/// refreshes.
+/// Frames take 0.5 to 1.1 refreshes, and a slow one up to 2 more. A picture is displayed at the first refresh when it
+/// is ready and none before it waits. The game runs ahead by one waiting picture, so that in good times the latency
+/// is two refreshes.
 #[derive(Clone, Copy)]
 struct Jitter {
     refresh: RefreshRate,
     began_ns: i64,
-    /// The refresh at which the last picture was displayed.
+    /// Refresh at which the last picture was displayed.
     shown: u64,
     noise: Noise,
 }
 
 impl Jitter {
-    /// The pattern at its first frame.
     fn new(refresh: RefreshRate) -> Self {
         Self { refresh, began_ns: 0, shown: 0, noise: Noise::new(JITTER_SEED) }
     }
@@ -376,7 +372,7 @@ impl Pattern for Jitter {
         while self.refresh.refresh_ns(self.shown) < ready {
             self.shown += 1;
         }
-        // The place in the queue is free again when the picture before this one goes up.
+        // The slot in the queue is free again when the previous picture is displayed.
         self.began_ns = ready.max(self.refresh.refresh_ns(before));
         Frame { began_ns, displayed_ns: Some(self.refresh.refresh_ns(self.shown)) }
     }
@@ -386,17 +382,16 @@ impl Pattern for Jitter {
     }
 }
 
-/// A generator of whole numbers, the same on every platform: Sebastiano Vigna's SplitMix64.
+/// Generates whole numbers, the same on every platform: Sebastiano Vigna's SplitMix64.
 #[derive(Clone, Copy)]
 struct Noise(u64);
 
 impl Noise {
-    /// The generator at its start for a seed.
     const fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// A number from 0 to `most`, which is not negative, all equally likely.
+    /// A uniformly distributed number from 0 to `most`, which must not be negative.
     fn up_to(&mut self, most: i64) -> i64 {
         let many = u128::from(most.unsigned_abs()) + 1;
         // The high half of the product lies in 0..many: no division, and a bias below 2⁻⁶⁴ · many.

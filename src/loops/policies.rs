@@ -1,4 +1,4 @@
-//! The table of rules, and the rules without a memory.
+//! The table of policies, and the policies without a memory.
 
 use super::policy::{Policy, PolicyCard, Snippet, Steps};
 use crate::run::race::Interpolation;
@@ -14,7 +14,7 @@ mod median;
 mod snapped;
 mod whole_refresh;
 
-/// The loop with this id in each of these languages.
+/// The snippets of a loop, one per language.
 macro_rules! snippets {
     ($id:literal: $($language:literal $ending:literal),+) => {
         &[$(Snippet {
@@ -24,7 +24,8 @@ macro_rules! snippets {
     };
 }
 
-/// A fixed tick drawn at the last one; the cards of the other ways of drawing it differ in that.
+/// A fixed tick that shows its last state. Policies that draw a fixed tick differently derive their cards from this
+/// one.
 const FIXED: PolicyCard = PolicyCard {
     id: "fixed",
     name: "Fixed",
@@ -42,7 +43,7 @@ const FIXED: PolicyCard = PolicyCard {
     build: |base, limits| Box::new(Fixed::new(base, limits)),
 };
 
-/// Every rule of a game loop, from the simplest on.
+/// Every policy of a game loop, the simplest first.
 pub static POLICIES: &[PolicyCard] = &[
     PolicyCard {
         id: "variable",
@@ -222,15 +223,15 @@ pub static POLICIES: &[PolicyCard] = &[
     },
 ];
 
-/// The rule with this id.
+/// The policy with this id.
 pub fn policy(id: &str) -> Option<&'static PolicyCard> {
     POLICIES.iter().find(|card| card.id == id)
 }
 
-/// One step of the frame's duration.
+/// One step as long as the frame.
 #[derive(Clone, Copy)]
 struct Variable {
-    /// The longest step; the rest of a longer frame is dropped.
+    /// Longest step; the rest of a longer frame is dropped.
     longest: Option<i128>,
 }
 
@@ -245,7 +246,7 @@ impl Policy for Variable {
     }
 }
 
-/// One tick a frame: the game is as fast as the display.
+/// One tick per frame: the game is as fast as the display.
 #[derive(Clone, Copy)]
 struct Lockstep {
     tick: i128,
@@ -261,10 +262,10 @@ impl Policy for Lockstep {
     }
 }
 
-/// The most steps in a frame; those of a longer one are longer than a tick.
+/// Maximum number of steps in a frame. In frames that need more, steps are longer than a tick.
 const MAX_STEPS: u32 = 6;
 
-/// The fewest equal steps of at most a tick.
+/// As few equal steps as possible, none longer than a tick.
 #[derive(Clone, Copy)]
 struct SemiFixed {
     tick: i128,

@@ -1,4 +1,4 @@
-//! What a game loop decides each frame, and what is known of the rule by which it does.
+//! The policy of a game loop: its decision for each frame, and its card.
 
 use super::time_base::TimeBase;
 use crate::run::race::Interpolation;
@@ -6,11 +6,11 @@ use crate::run::race::Interpolation;
 /// The steps of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Steps {
-    /// How many, all of the same length.
+    /// Number of steps, all of the same length.
     pub count: u32,
-    /// The simulated time of all of them together.
+    /// Simulated time of all steps together.
     pub span: i128,
-    /// The real time that is given up: it will never be simulated.
+    /// Real time that is dropped: it will never be simulated.
     pub dropped: i128,
 }
 
@@ -21,21 +21,22 @@ impl Steps {
     }
 }
 
-/// The most that a loop simulates in a frame, where that is set and not the rule's own.
+/// Limits on the work in a frame. `None` keeps the policy's own limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameLimits {
-    /// Ticks, or steps of a rule that [has a most](PolicyCard::has_max_ticks).
+    /// Maximum number of ticks, or of steps, for a policy that [limits them](PolicyCard::has_max_ticks).
     pub max_ticks: Option<u32>,
-    /// The longest frame in milliseconds; what a frame is longer is given up.
+    /// Maximum frame duration in milliseconds; the excess is dropped.
     pub max_frame_ms: Option<u32>,
 }
 
-/// The rule of a game loop, with its memory. Times are in the unit of a [`TimeBase`].
+/// The decisions of a game loop, with its memory. Times are in the unit of a [`TimeBase`].
 pub trait Policy: Send {
-    /// Decides what a frame simulates. It sees what a game sees: the duration of the last frame, never negative.
+    /// Decides on the steps of a frame. `duration` is the duration of the last frame, never negative, as a game would
+    /// measure it.
     fn frame(&mut self, duration: i128) -> Steps;
 
-    /// The time since the last tick, by which a picture is drawn between ticks; 0 under a rule that has no ticks.
+    /// Time since the last tick, for drawing between ticks; 0 for a policy without ticks.
     fn owed(&self) -> i128 {
         0
     }
@@ -50,57 +51,58 @@ impl Clone for Box<dyn Policy> {
     }
 }
 
-/// A loop written out in a language, to be taken into a game.
+/// The source code of a loop in one language, to copy into a game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Snippet {
     /// The language: `rust`, `c++` or `c#`.
     pub language: &'static str,
-    /// The source.
+    /// The source code.
     pub source: &'static str,
 }
 
-/// What is known of a rule.
+/// Description of a policy.
 ///
-/// In formulas H is the tick, dt the duration of the last frame, R the refresh of the display, and α the owed part of a
-/// tick.
+/// In formulas H is the tick, dt the duration of the last frame, R the refresh of the display, and α the fraction of
+/// a tick that is owed.
 #[derive(Debug)]
 pub struct PolicyCard {
     /// Its name on the command line, `kebab-case`.
     pub id: &'static str,
     /// Its name for people.
     pub name: &'static str,
-    /// The rule in one line.
+    /// Its rule in one line.
     pub formula: &'static str,
-    /// Its constants; empty where it has none.
+    /// Its constants; empty if it has none.
     pub constants: &'static str,
-    /// What a frame of no time or less, and one of ten seconds, do.
+    /// Its response to a frame of no or negative time, and to one of ten seconds.
     pub odd_frames: &'static str,
-    /// Who uses it.
+    /// Engines and games that use it.
     pub users: &'static str,
-    /// Where it is described.
+    /// Source that describes it.
     pub source: &'static str,
-    /// How the picture is drawn between ticks.
+    /// Interpolation of the picture between ticks.
     pub drawing: Interpolation,
-    /// Whether it is drawn so of a copy that was stepped on to the moment to show, and is dropped.
+    /// Whether the picture shows a copy that is stepped to the moment to show, then discarded.
     pub has_render_tick: bool,
     /// Whether every step is a whole tick, so that the physics is the same to the bit at any frame rate.
     pub has_fixed_tick: bool,
-    /// Whether its ticks in a frame have a most, which can be set.
+    /// Whether it limits the ticks in a frame, so that the limit can be set.
     pub has_max_ticks: bool,
-    /// Whether `regatta loop` compares it where none is named.
+    /// Whether `regatta loop` compares it by default.
     pub is_usual: bool,
-    /// The loop, to be taken into a game.
+    /// Source code to copy into a game.
     pub snippets: &'static [Snippet],
     pub(super) build: fn(TimeBase, FrameLimits) -> Box<dyn Policy>,
 }
 
 impl PolicyCard {
-    /// How the picture is drawn between ticks, for people.
+    /// Name of the interpolation between ticks, for people.
     pub fn drawn(&self) -> &'static str {
         if self.has_render_tick { "a copy stepped on" } else { self.drawing.name() }
     }
 
-    /// Whether a moment is drawn that is beyond the last tick. It is drawn as if nothing would act on the bodies until then.
+    /// Whether the picture can lie beyond the last tick. It is then drawn as if nothing acted on the bodies in the
+    /// meantime.
     pub fn draws_ahead(&self) -> bool {
         self.has_render_tick || self.drawing == Interpolation::Extrapolated
     }

@@ -1,4 +1,4 @@
-//! The exact solution at the moments of display, how far the pictures are from it, and the script that drives both.
+//! The exact solution at each time of display, the distance of the pictures from it, and the script that drives both.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::run::race::{Lane, LaneBody};
 use crate::scene::{Action, Scene};
 use crate::sim::Solver;
 
-/// The exact solution of a scene, gone through from moment to moment.
+/// The exact solution of a scene, stepped from one time of display to the next.
 #[derive(Clone)]
 pub(super) struct ScriptedTruth {
     lane: Lane,
@@ -16,16 +16,16 @@ pub(super) struct ScriptedTruth {
     errors: Vec<BodyError>,
 }
 
-/// The furthest that each body of two lanes has been apart, in the unit of its first coordinate.
+/// Largest distance so far of each body between two lanes, in the unit of its first coordinate.
 #[derive(Default)]
 pub(super) struct Furthest(Vec<f64>);
 
-/// The errors of a body's pictures.
+/// Errors of a body's pictures.
 #[derive(Clone, Copy)]
 struct BodyError {
     squares: f64,
     count: u64,
-    /// The range of the first coordinate.
+    /// Range of the first coordinate.
     range: [f64; 2],
 }
 
@@ -35,14 +35,13 @@ impl BodyError {
         Some((self.range[1] - self.range[0]) / 2.0).filter(|half| *half > 0.0 && half.is_finite())
     }
 
-    /// The RMS of the distance in amplitudes.
+    /// RMS distance in amplitudes.
     fn rms(&self) -> Option<f64> {
         Some((self.squares / self.count as f64).sqrt() / self.amplitude()?)
     }
 }
 
 impl ScriptedTruth {
-    /// The solution at the scene's start.
     pub(super) fn new(scene: &Scene) -> Self {
         let lane = Lane::new(scene, Solver::Truth, 1);
         let none = BodyError { squares: 0.0, count: 0, range: [f64::INFINITY, f64::NEG_INFINITY] };
@@ -50,7 +49,7 @@ impl ScriptedTruth {
         Self { lane, t: 0.0, script: TimedScript::new(scene), errors }
     }
 
-    /// Goes on to `t` (s), and adds how far every body is drawn from it.
+    /// Advances to `t` (s) and adds the distance of every drawn body from its exact position.
     pub(super) fn compare(&mut self, t: f64, paced: &PacedLane) {
         while let Some((at, action)) = self.script.next_due(t) {
             self.advance(at);
@@ -69,12 +68,12 @@ impl ScriptedTruth {
         }
     }
 
-    /// A body in its exact state.
+    /// The body with this index in its exact state.
     pub(super) fn body(&self, body: usize) -> &LaneBody {
         &self.lane.bodies()[body]
     }
 
-    /// Takes in how far the bodies of two lanes are apart.
+    /// Updates `furthest` with the distances between the bodies of two lanes.
     pub(super) fn widen(&self, furthest: &mut Furthest, one: &Lane, other: &Lane) {
         furthest.0.resize(one.bodies().len(), 0.0);
         let bodies = one.bodies().iter().zip(other.bodies()).zip(&mut furthest.0);
@@ -83,7 +82,7 @@ impl ScriptedTruth {
         }
     }
 
-    /// The furthest in amplitudes, of the worst body.
+    /// Largest distance of the worst body, in amplitudes.
     pub(super) fn in_amplitudes(&self, furthest: &Furthest) -> Option<f64> {
         let bodies = furthest.0.iter().zip(&self.errors);
         let shares = bodies.filter_map(|(most, error)| Some(most / error.amplitude()?));
@@ -97,34 +96,33 @@ impl ScriptedTruth {
         }
     }
 
-    /// The RMS of the distance in amplitudes, of the worst body.
+    /// RMS distance of the worst body, in amplitudes.
     pub(super) fn position_error_rms(&self) -> Option<f64> {
         self.errors.iter().filter_map(BodyError::rms).reduce(f64::max)
     }
 }
 
-/// The largest distance between two states of a body, in the coordinates that have the unit of the first.
+/// Largest distance between two states of a body, over the coordinates in the unit of the first.
 fn distance(body: &LaneBody, one: &[f64], other: &[f64]) -> f64 {
     let pairs = body.like_first(one).zip(body.like_first(other));
     pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
 }
 
-/// The actions of a script that are still to be done.
+/// The actions of a script that are still to come.
 #[derive(Clone)]
 pub(super) struct TimedScript {
-    /// By time in seconds.
+    /// Sorted by time in seconds.
     rows: Arc<[(f64, Action)]>,
     done: usize,
 }
 
 impl TimedScript {
-    /// All of a scene's script.
     pub(super) fn new(scene: &Scene) -> Self {
         let rows = scene.timed_script().map(|(t, action)| (t, action.clone()));
         Self { rows: rows.collect(), done: 0 }
     }
 
-    /// The next action that is due by `t` (s), with its time.
+    /// Takes the next action due by `t` (s), with its time.
     pub(super) fn next_due(&mut self, t: f64) -> Option<(f64, Action)> {
         let due = self.rows.get(self.done).filter(|(at, _)| *at <= t).cloned();
         self.done += usize::from(due.is_some());

@@ -5,13 +5,13 @@ use std::str::FromStr;
 
 use crate::sim::TickRate;
 
-/// The longest time in any unit: sums of a few have room.
+/// Longest time in any unit; a sum of a few does not overflow.
 const LONGEST: i128 = i128::MAX / 4;
 
 /// Nanoseconds in a second.
 const SECOND_NS: i128 = 1_000_000_000;
 
-/// The rate at which a display shows pictures: a fraction, since 59.94 Hz is not a whole number.
+/// Refresh rate of a display, as a fraction, since 59.94 Hz is not a whole number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RefreshRate {
     numerator: u32,
@@ -19,19 +19,19 @@ pub struct RefreshRate {
 }
 
 impl RefreshRate {
-    /// The rates in Hz that a display can have here.
+    /// Valid rates in Hz.
     pub const HZ: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
 
-    /// `numerator / denominator` in Hz.
+    /// A rate of `numerator / denominator` in Hz.
     ///
     /// # Panics
-    /// If it is not in [`RefreshRate::HZ`].
+    /// If the rate is not in [`RefreshRate::HZ`].
     pub const fn new(numerator: u32, denominator: u32) -> Self {
         assert!(denominator > 0 && numerator >= denominator && numerator / 1000 <= denominator);
         Self { numerator, denominator }
     }
 
-    /// The rate whose refresh takes `period_ns` nanoseconds, or the nearest in [`RefreshRate::HZ`].
+    /// The rate with a refresh of `period_ns` nanoseconds, clamped to [`RefreshRate::HZ`].
     pub fn of_period(period_ns: i64) -> Self {
         let period_ns = period_ns.clamp(1_000_000, 1_000_000_000) as u32;
         Self::new(SECOND_NS as u32, period_ns)
@@ -42,8 +42,7 @@ impl RefreshRate {
         f64::from(self.numerator) / f64::from(self.denominator)
     }
 
-    /// When refresh `n` begins, in nanoseconds from the first, rounded up: the moment at which a clock in nanoseconds first
-    /// sees it.
+    /// Start of refresh `n` in nanoseconds from the first, rounded up: a clock in nanoseconds sees it at this time.
     pub fn refresh_ns(self, n: u64) -> i64 {
         let seconds_ns = u128::from(n) * u128::from(self.denominator) * SECOND_NS.unsigned_abs();
         let ns = seconds_ns.div_ceil(self.numerator.into());
@@ -61,7 +60,7 @@ impl fmt::Display for RefreshRate {
 impl FromStr for RefreshRate {
     type Err = String;
 
-    /// Reads a decimal with at most six digits after the point, such as `59.94`.
+    /// Parses a decimal with at most six digits after the point, such as `59.94`.
     fn from_str(written: &str) -> Result<Self, String> {
         const MILLION: u32 = 1_000_000;
         let rate = written.parse::<f64>().ok().filter(|hz| Self::HZ.contains(hz));
@@ -82,9 +81,9 @@ fn greatest_common_divisor(mut a: u32, mut b: u32) -> u32 {
     a
 }
 
-/// The unit of time of one loop: a nanosecond divided by the numerators of the tick rate and of the refresh rate.
+/// Unit of time of one loop: a nanosecond divided by the numerators of the tick rate and the refresh rate.
 ///
-/// In it a nanosecond, a tick and a refresh are whole, so that days of frames add up without a rounding.
+/// A nanosecond, a tick and a refresh are whole numbers of it, so that days of frames add up without rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TimeBase {
     tick_hz: TickRate,
@@ -106,33 +105,33 @@ impl TimeBase {
     pub fn tick_hz(&self) -> TickRate {
         self.tick_hz
     }
-    /// The length of a tick.
+    /// Length of a tick.
     pub fn tick(&self) -> i128 {
         SECOND_NS * self.tick_terms()[1] * i128::from(self.refresh.numerator)
     }
-    /// The time between two refreshes of the display.
+    /// Time between two refreshes of the display.
     pub fn refresh(&self) -> i128 {
         SECOND_NS * i128::from(self.refresh.denominator) * self.tick_terms()[0]
     }
-    /// A time in nanoseconds. At tick rates of nine digits after the point it is 49 days at most.
+    /// Converts nanoseconds to this unit. With a tick rate of nine decimals, times are limited to 49 days.
     pub fn nanoseconds(&self, ns: i64) -> i128 {
         let ticks = i128::from(ns) * self.tick_terms()[0];
         ticks.saturating_mul(self.refresh.numerator.into()).clamp(-LONGEST, LONGEST)
     }
 
-    /// The ticks in a whole number of seconds, and that number.
+    /// A number of ticks that last a whole number of seconds, and that number of seconds.
     fn tick_terms(&self) -> [i128; 2] {
         self.tick_hz.ratio().map(i128::from)
     }
 
-    /// A time in seconds: of n whole ticks to the bit n divided by the tick rate.
+    /// Converts a time to seconds. A time of n whole ticks is to the bit n divided by the tick rate.
     pub fn seconds(&self, time: i128) -> f64 {
         let tick = self.tick();
         let part = time.rem_euclid(tick) as f64 / tick as f64;
         self.tick_hz.seconds_of(time.div_euclid(tick) as f64 + part)
     }
 
-    /// A time in milliseconds.
+    /// Converts a time to milliseconds.
     pub fn milliseconds(&self, time: i128) -> f64 {
         let millisecond = self.nanoseconds(1_000_000);
         let part = time.rem_euclid(millisecond) as f64 / millisecond as f64;

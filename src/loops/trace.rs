@@ -1,68 +1,67 @@
-//! The frames that a game has to make: when each begins, and when its picture is displayed.
+//! Frame traces: when a game begins each frame, and when its picture is displayed.
 
 use std::sync::Arc;
 
 use super::time_base::RefreshRate;
 use crate::sim::number::{counted, grouped, significant};
 
-/// A frame of a game on a display: when it began and when its picture was displayed, in nanoseconds from the start of its trace.
+/// A frame of a game: when it began and when its picture was displayed, in nanoseconds from the start of its trace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// When the game began it, which is when it reads the time.
+    /// When the game began the frame and read the time.
     pub began_ns: i64,
-    /// When its picture appeared on the display; `None` if another replaced it before.
+    /// When its picture appeared on the display; `None` if another picture replaced it before.
     pub displayed_ns: Option<i64>,
 }
 
-/// The frames of a game on a display, by name.
+/// A named sequence of frames on a display.
 #[derive(Clone)]
 pub struct FrameTrace {
     name: String,
     refresh: RefreshRate,
     source: Source,
     clocks: Clocks,
-    /// What wrote it, and in what unit where that had to be found; empty of a pattern.
+    /// The tool that wrote the log, and the unit of its times if that was inferred; empty for a pattern.
     format: String,
-    /// How long the first frame took until it began, in nanoseconds, where a log counts it; else 0.
+    /// Duration of the first frame before it began, in nanoseconds, if the log counts it; else 0.
     lead_ns: i64,
 }
 
-/// By what clocks frames begin and are displayed.
+/// The clocks of a trace.
 #[derive(Clone, Copy, PartialEq)]
 enum Clocks {
-    /// One.
+    /// Frames begin and are displayed by the same clock.
     One,
-    /// Two without a common origin.
+    /// Two clocks without a common origin.
     Two,
-    /// Only when they begin is known, and taken as when they are displayed.
+    /// Only the beginnings are known, and count as times of display too.
     OfFrames,
-    /// The same, since times of the log contradict each other.
+    /// As `OfFrames`, because times in the log contradict each other.
     Parted(Parting),
 }
 
-/// Which times of a log contradict each other: by more than 1 %, or a quarter of frames a second, which are averages.
+/// Contradictory times of a log. They differ by more than 1 %, or by a quarter for the averaged frames per second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Parting {
-    /// Those of display and those of frames.
+    /// Display times against frame times.
     Display,
-    /// The log's own time and those of frames.
+    /// The log's own time against frame times.
     Time,
-    /// The frames a second and those of frames.
+    /// Frames per second against frame times.
     Rate,
 }
 
-/// Where frames come from.
 #[derive(Clone)]
 enum Source {
-    /// A list, which ends.
+    /// A finite list.
     Recorded(Arc<[Frame]>),
-    /// A pattern without end.
+    /// An endless pattern.
     Pattern(Box<dyn Pattern>),
 }
 
-/// A pattern of frames without end.
+/// An endless pattern of frames.
 pub(super) trait Pattern: Send + Sync {
-    /// The next frame. `steps` is the number of steps that the game made in the one before.
+    /// The next frame. `steps` is the number of steps that the game made in the previous one.
     fn next(&mut self, steps: u32) -> Frame;
 
     /// A copy with its memory.
@@ -76,7 +75,7 @@ impl Clone for Box<dyn Pattern> {
 }
 
 impl FrameTrace {
-    /// The trace that these frames make, in order, on a display of this nominal rate.
+    /// A trace of these frames, in order, on a display of this nominal rate.
     pub fn recorded(name: impl Into<String>, refresh: RefreshRate, frames: Vec<Frame>) -> Self {
         Self {
             name: name.into(),
@@ -88,7 +87,7 @@ impl FrameTrace {
         }
     }
 
-    /// The trace of a pattern at its start.
+    /// A trace of a pattern from its start.
     pub(super) fn of_pattern(
         name: impl Into<String>,
         refresh: RefreshRate,
@@ -103,19 +102,19 @@ impl FrameTrace {
     pub fn name(&self) -> &str {
         &self.name
     }
-    /// The nominal rate of its display.
+    /// Nominal rate of its display.
     pub fn refresh(&self) -> RefreshRate {
         self.refresh
     }
-    /// The same frames, which begin and are displayed by one clock.
+    /// The same frames, beginning and displayed by one clock.
     pub(super) fn by_one_clock(self) -> Self {
         Self { clocks: Clocks::One, ..self }
     }
-    /// The same frames as written by this tool.
+    /// The same frames, with the name of the tool that wrote them.
     pub(super) fn written_by(self, format: String) -> Self {
         Self { format, ..self }
     }
-    /// What was read of a log: its frames, how long they last, and what wrote it; `None` of a pattern.
+    /// Summary of a log: its frames, their durations and the tool that wrote it; `None` for a pattern.
     pub fn summary(&self) -> Option<String> {
         let Source::Recorded(frames) = &self.source else { return None };
         let began: Vec<i64> = frames.iter().map(|frame| frame.began_ns).collect();
@@ -138,23 +137,23 @@ impl FrameTrace {
             self.format
         ))
     }
-    /// The same frames, of which only the beginnings were logged.
+    /// The same frames, from a log without display times.
     pub(super) fn without_display(self) -> Self {
         Self { clocks: Clocks::OfFrames, ..self }
     }
-    /// Whether its frames begin and are displayed by one clock. In the logs of tools they do not.
+    /// Whether frames begin and are displayed by one clock. In the logs of most tools they are not.
     pub fn has_one_clock(&self) -> bool {
         self.clocks != Clocks::Two
     }
-    /// The same frames, whose times of display were taken for those of their beginnings, as times of the log part.
+    /// The same frames, without display times because the log contradicts itself.
     pub(super) fn with_parted_clocks(self, parting: Parting) -> Self {
         Self { clocks: Clocks::Parted(parting), ..self }
     }
-    /// The same frames, of which the first took so many nanoseconds until it began.
+    /// The same frames, where the first one took `lead_ns` nanoseconds until it began.
     pub(super) fn with_lead(self, lead_ns: i64) -> Self {
         Self { lead_ns, ..self }
     }
-    /// What to say of a log whose times of display are missing or not used; `None` of any other trace.
+    /// Notice about a log whose display times are missing or not used; `None` for any other trace.
     pub fn missing_display(&self) -> Option<&'static str> {
         match self.clocks {
             Clocks::One | Clocks::Two => None,
@@ -176,17 +175,17 @@ impl FrameTrace {
     pub fn ends(&self) -> bool {
         matches!(self.source, Source::Recorded(_))
     }
-    /// The same frames on a display of another nominal rate.
+    /// The same frames on a display with another nominal rate.
     pub fn on(self, refresh: RefreshRate) -> Self {
         Self { refresh, ..self }
     }
-    /// Its frames from the first on.
+    /// Its frames, from the first.
     pub fn frames(&self) -> Frames {
         Frames { source: self.source.clone(), next: 0 }
     }
 }
 
-/// The frames of a trace, one after the other.
+/// Iterates over the frames of a trace.
 #[derive(Clone)]
 pub struct Frames {
     source: Source,
@@ -194,8 +193,8 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// The next frame; `None` at the end of a recording. `steps` is the number of steps that the game made in the frame
-    /// before, on which it depends where a step takes long.
+    /// The next frame; `None` at the end of a recording. `steps` is the number of steps in the previous frame, on
+    /// which the duration depends where steps take long.
     pub fn next(&mut self, steps: u32) -> Option<Frame> {
         match &mut self.source {
             Source::Recorded(frames) => {

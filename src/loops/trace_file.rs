@@ -1,11 +1,13 @@
-//! Traces from the logs of frame-time tools: PresentMon, OCAT, CapFrameX, FrameView, MangoHud, Unreal and FRAPS write a row for each
-//! frame, and a person a list of frame times in milliseconds, one a line.
+//! Traces from the logs of frame-time tools: PresentMon, OCAT, CapFrameX, FrameView, MangoHud, Unreal and FRAPS,
+//! which write a row per frame. A plain list of frame times in milliseconds, one a line, works too.
 //!
-//! A log can hold several streams of frames, from several programs and windows; each is a trace of its own. The first row
-//! of a stream starts its clock. From then on a frame begins `MsBetweenPresents` after the one before, and is displayed
-//! `MsBetweenDisplayChange` after the last one displayed. The two clocks have no common origin in these columns, so that a
-//! frame's display may lie before its beginning: differences within each clock count, not their offset. Where a log has no
-//! times of display, frames are taken as displayed when they begin, and the trace [says so](FrameTrace::missing_display).
+//! A log can contain several streams of frames, from several programs and windows; each becomes a separate trace. The
+//! first row of a stream starts its clock. From then on a frame begins `MsBetweenPresents` after the one before, and
+//! is displayed `MsBetweenDisplayChange` after the last one displayed.
+//!
+//! The two clocks have no common origin in these columns, so that a frame's display may lie before its beginning.
+//! Differences within each clock count, not their offset. If a log has no display times, frames count as displayed
+//! when they begin, and the trace [reports it](FrameTrace::missing_display).
 
 #[cfg(feature = "serde")]
 mod capture_json;
@@ -29,14 +31,13 @@ use crate::table::{Reading, TableError, TableFault, TableReader, Utf8};
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{name}:{line}: {fault}")]
 pub struct TraceFileError {
-    /// What the caller calls the log.
+    /// Name of the log, from the caller.
     pub name: String,
-    /// The line of the fault, from 1.
+    /// Line of the fault, from 1.
     pub line: u64,
     fault: Fault,
 }
 
-/// What can be wrong with a log of frames.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 enum Fault {
     #[error(
@@ -96,11 +97,12 @@ pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
     from_bytes(name, text.as_bytes())
 }
 
-/// Reads the streams of a log from the bytes of a file, in order of their first rows. A lone stream is called `name`, several
-/// are called `name`, a colon and their program, with its process and a number where these are needed to tell them apart.
+/// Reads the streams of a log from the bytes of a file, in order of their first rows. A single stream has the name
+/// `name`. Several are named `name`, a colon and their program, plus process and number where names would otherwise
+/// collide.
 ///
 /// # Errors
-/// If the bytes are no such log; the message calls it `name`.
+/// If the bytes are not a log of this kind; the message calls it `name`.
 pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
     let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if start.trim_ascii_start().starts_with(b"{") {
@@ -109,7 +111,7 @@ pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFile
     of_table(name, bytes)
 }
 
-/// Reads the runs of a capture in JSON, whose lines say nothing.
+/// Reads the runs of a JSON capture. Errors name the frame, since the line numbers of JSON are meaningless.
 #[cfg(feature = "serde")]
 fn of_json(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
     let at = |fault| TraceFileError { name: name.into(), line: 1, fault };
@@ -126,7 +128,6 @@ fn of_json(name: &str, _bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError>
     Err(TraceFileError { name: name.into(), line: 1, fault: Fault::Json })
 }
 
-/// Reads the streams of a table.
 fn of_table(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
     let (traces, checks) = read_in(name, bytes, None)?;
     match checks.unit() {
@@ -135,17 +136,17 @@ fn of_table(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError>
     }
 }
 
-/// What stands beside the times of a log, by which their unit is found.
+/// Hints at the unit of a log's times.
 #[derive(Default)]
 struct Checks {
-    /// Whether the log says its unit.
+    /// Whether the log names its unit.
     is_said: bool,
-    /// Whether rows have the log's own time in place of that of a frame.
+    /// Whether rows have the log's own time instead of frame times.
     is_own_time: bool,
-    /// Each frame in milliseconds, if that is its unit, and where frames a second stand beside it the product of both.
+    /// Frame times as if in milliseconds, and their products with frames per second where the log has these.
     frames_ms: Vec<f64>,
     products: Vec<f64>,
-    /// The log's own time that passes in a unit of the time of its frames, in the longest stream.
+    /// Ratio of the log's own time to the sum of its frame times, in the longest stream.
     time_ratio: Option<f64>,
 }
 
@@ -157,7 +158,7 @@ impl Checks {
         self.products.extend(cells.fps.map(|fps| fps * ms));
     }
 
-    /// The unit that the times must have; `None` where nothing says that it is another than milliseconds.
+    /// Unit of the times; `None` if nothing indicates another than milliseconds.
     fn unit(&self) -> Option<Unit> {
         let near = |unit: Unit, wanted: f64, found: f64| {
             (wanted / 2.0..wanted * 2.0).contains(&found).then_some(unit)
@@ -178,14 +179,14 @@ impl Checks {
         }
         let median_ms = median(&self.frames_ms).filter(|_| !self.is_said)?;
         match median_ms {
-            // Five thousand frames a second, and one in two seconds.
+            // The limits are 5000 frames per second and one frame in two seconds.
             ..0.2 if median_ms > 0.0 => Some(Unit::Seconds),
             2000.0.. => Some(Unit::Microseconds),
             _ => None,
         }
     }
 
-    /// The time between two samples in milliseconds, where rows are not frames.
+    /// Time between two samples in milliseconds, if rows are not frames.
     fn sampled_ms(&self) -> Option<f64> {
         if self.is_own_time {
             let product = median(&self.products)?;
@@ -197,14 +198,14 @@ impl Checks {
         (rows > 0.0 && self.time_ratio? > 2.0).then_some(every_ms)
     }
 
-    /// Whether the frames a second contradict the times of frames, in most rows.
+    /// Whether frames per second contradict frame times in most rows.
     fn is_rate_wrong(&self) -> bool {
         let off = median(&self.products).map(|product| product / 1e3);
         off.is_some_and(|off| !(1.0 / MAX_RATE_OFF..MAX_RATE_OFF).contains(&off))
     }
 }
 
-/// The factor by which frames a second that are averaged may be off the time of a frame, in the median.
+/// Largest ratio between averaged frames per second and frame times, in the median.
 const MAX_RATE_OFF: f64 = 1.25;
 
 fn median(values: &[f64]) -> Option<f64> {
@@ -213,7 +214,7 @@ fn median(values: &[f64]) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
-/// Reads the streams of a log whose times are in this unit, or else in that of its format.
+/// Reads the streams of a log with times in this unit, or else in the unit of its format.
 fn read_in(
     name: &str,
     bytes: &[u8],
@@ -225,7 +226,7 @@ fn read_in(
         fault => at(line, Fault::Unreadable(fault.to_string())),
     };
     let is_header = |row: &ByteRecord| Columns::find(&text_of(row)).is_ok();
-    // OCAT writes what it knows of the machine in the first row alone.
+    // OCAT describes the machine in the first row only.
     let reading = Reading { short_rows: true, remarks: true, lists: true };
     let mut table = TableReader::begin(Utf8::new(bytes), reading, is_header).map_err(broken)?;
     let (header_line, is_list) = (table.header_line(), table.is_list());
@@ -309,12 +310,12 @@ fn read_in(
     Ok((names.into_iter().zip(streams).map(trace).collect(), checks))
 }
 
-/// A row as text; what is no text is read as well as it can be.
+/// A row as text, with bytes that are not UTF-8 replaced.
 fn text_of(row: &ByteRecord) -> StringRecord {
     StringRecord::from_byte_record_lossy(row.clone())
 }
 
-/// Whether a capture of CapFrameX begins so: what it knows of the game and the machine, in remarks.
+/// Whether a log starts with the remarks of CapFrameX on the game and the machine.
 fn is_of_capframex(bytes: &[u8]) -> bool {
     bytes.starts_with(b"//") && head(bytes).contains("//GameName")
 }
@@ -324,13 +325,13 @@ fn head(bytes: &[u8]) -> String {
     String::from_utf8_lossy(&bytes[..bytes.len().min(400)]).into_owned()
 }
 
-/// Whether these are the first bytes of a log of MSI Afterburner: rows whose first cell is their kind, 00 for the head.
+/// Whether a log is one of MSI Afterburner: rows begin with their kind, which is 00 for the head.
 fn is_of_afterburner(bytes: &[u8]) -> bool {
     let head = head(bytes);
     head.trim_start().starts_with("00,") && head.contains("Hardware monitoring")
 }
 
-/// A name for each stream, none twice.
+/// A unique name for each stream.
 fn names(name: &str, streams: &[Stream]) -> Vec<String> {
     if streams.len() == 1 {
         return vec![name.into()];

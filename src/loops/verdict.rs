@@ -1,4 +1,4 @@
-//! The verdict on a loop: a line of words, and how bad it is.
+//! The verdict on a loop: a line of words and a severity.
 
 use std::fmt;
 
@@ -8,11 +8,11 @@ use crate::measure::Severity;
 use crate::sim::TickRate;
 use crate::sim::number::round;
 
-/// An animation error that nobody sees, in milliseconds.
+/// Animation error that nobody sees, in milliseconds.
 const SMOOTH_MS: f64 = 0.1;
-/// One that many see.
+/// Animation error that many people see, in milliseconds.
 const JUDDER_MS: f64 = 2.0;
-/// A latency that is worth a word, in ticks.
+/// Latency worth a mention, in ticks.
 const LATE_TICKS: f64 = 0.25;
 
 /// A verdict on a loop.
@@ -20,12 +20,12 @@ const LATE_TICKS: f64 = 0.25;
 pub struct LoopVerdict {
     /// How bad it is.
     pub severity: Severity,
-    /// The words, the most important first.
+    /// Its clauses, the most important first.
     pub parts: Vec<String>,
 }
 
 impl LoopVerdict {
-    /// The verdict on a loop by its report at this tick rate in Hz.
+    /// The verdict on a loop from its report, at a tick rate in Hz.
     pub fn of(card: &PolicyCard, report: &PacingReport, tick_hz: impl Into<TickRate>) -> Self {
         let mut verdict = Self::seen(report, tick_hz.into());
         let differs = report.keeps_speed() != Some(false) && report.other_motion().is_some();
@@ -38,7 +38,7 @@ impl LoopVerdict {
         verdict
     }
 
-    /// The verdict on a loop that was not run yet.
+    /// A placeholder for a loop that has not run yet.
     pub(crate) fn awaited() -> Self {
         Self::new(Severity::Unknown, [Some("running…".into())])
     }
@@ -47,12 +47,12 @@ impl LoopVerdict {
         Self { severity, parts: parts.into_iter().flatten().collect() }
     }
 
-    /// The words, from all of them to those of the first part alone.
+    /// Wordings of decreasing length, from all clauses to the first one only.
     pub fn wordings(&self) -> Vec<String> {
         (1..=self.parts.len()).rev().map(|count| self.parts[..count].join(", ")).collect()
     }
 
-    /// The verdict on what a viewer sees.
+    /// The verdict on the picture as a viewer sees it.
     fn seen(report: &PacingReport, tick_hz: TickRate) -> Self {
         let said = |severity, words: &str| Self::new(severity, [Some(words.into())]);
         if report.keeps_speed() == Some(false) && report.animation_error_rms_ms.is_some() {

@@ -1,5 +1,5 @@
-//! Advice on the method for a scene at its tick rate: the fewest substeps that meet each of three criteria, and how much
-//! lower the rate or stiffer the bodies could be.
+//! Advice on the method for a scene at its tick rate. It gives the fewest substeps that meet each of three criteria,
+//! and how much lower the rate or stiffer the bodies could be.
 
 use std::sync::Arc;
 
@@ -19,45 +19,45 @@ use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 use crate::sim::stability::RateSearch;
 
-/// The most substeps per tick that are tried.
+/// Largest number of substeps per tick that is tried.
 pub const MAX_ADVISED_SUBSTEPS: u32 = 64;
 
-/// The number of substeps up to which each is tried before the most.
+/// Up to this many substeps, each number is tried before [`MAX_ADVISED_SUBSTEPS`].
 const FEW_SUBSTEPS: u32 = 8;
 
-/// The most work for one run of a stiffer scene, in the unit of [`MAX_WORK`](super::MAX_WORK). There are many such runs.
+/// Work limit for one run of a stiffer scene, in the unit of [`MAX_WORK`](super::MAX_WORK). There are many such runs.
 const WORK_WHEN_STIFFER: u64 = 10_000_000;
 
-/// A scene that is accurate but leaves less than this part of the tolerance is so by a hair: the error at coarse ticks has
-/// bumps, and the factors between those that are tried are tried, too.
+/// An accurate scene that spares less than this fraction of the tolerance is borderline. The error at coarse ticks
+/// has bumps, so that the factors in between are then tried, too.
 const SPARE_WHEN_STIFFER: f64 = 0.2;
 
-/// A body of more coordinates has its margins searched for methods of about the least cost only: its runs are dear.
+/// For a body with more coordinates, only cheap methods have their margins searched, since its runs are expensive.
 const MANY_COORDINATES: usize = 8;
 
-/// The most times the least cost that a method of about the least cost has.
+/// Largest cost of such a cheap method, relative to the cheapest.
 const MAX_TIMES_CHEAPEST: f64 = 4.0;
 
-/// The advice on one method on a scene.
+/// The advice on one method for a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MethodAdvice {
     /// The method.
     pub spec: LaneSpec,
     /// The verdict at the requested rate.
     pub verdict: Verdict,
-    /// Whether and how the method meets each of [`CRITERIA`].
+    /// For each of [`CRITERIA`], whether and how the method meets it.
     pub met: [CriterionResult; CRITERIA.len()],
 }
 
 impl MethodAdvice {
-    /// The outcome of the method with this many substeps a tick, by the hardest criterion that it is known to meet with them.
+    /// Outcome with this many substeps per tick, by the hardest criterion that the method is known to meet with them.
     pub fn outcome_with(&self, substeps: u32) -> Outcome {
         let meets = |i: &usize| self.met[*i].met().is_some_and(|met| met.substeps <= substeps);
         let hardest = (0..CRITERIA.len()).rev().find(meets);
         hardest.map_or(self.verdict.outcome(), |i| CRITERIA[i].outcome())
     }
 
-    /// Searches the margins of the criterion with this index, if the method meets it.
+    /// Searches the margins for the criterion with this index, if the method meets it.
     pub fn search_margins(&mut self, adviser: &Adviser, criterion: usize) {
         block_on(adviser.search_margins(self, criterion));
     }
@@ -68,9 +68,9 @@ impl MethodAdvice {
 pub enum CriterionResult {
     /// It does, in this way.
     With(CriterionMet),
-    /// It does not with 8 substeps or fewer, nor with [`MAX_ADVISED_SUBSTEPS`]; what lies between is not searched then.
+    /// It fails with up to 8 substeps and with [`MAX_ADVISED_SUBSTEPS`]. Numbers in between are then not searched.
     No,
-    /// Not known: it takes too much work, or there is no truth.
+    /// Unknown: it takes too much work, or there is no truth.
     Unknown,
 }
 
@@ -84,13 +84,13 @@ impl CriterionResult {
     }
 }
 
-/// Judges methods on a scene at one tick rate. Shared results are computed once, and several threads may use it at the
-/// same time.
+/// Judges methods on a scene at one tick rate. Shared results are computed once, and several threads may use it at
+/// the same time.
 pub struct Adviser {
     scene: Scene,
     judge: Judge,
     tick_hz: TickRate,
-    /// Judges of the scene made stiffer, by the index of their [factor](fine_factor); `None` if no scene can be so stiff.
+    /// Judges of stiffer scenes, by the index of their [factor](fine_factor); `None` if no scene can be that stiff.
     stiffer: [Once<Option<Judge>>; FINE_FACTORS],
 }
 
@@ -100,18 +100,18 @@ impl Adviser {
         Self::within(u64::MAX, scene, tick_hz.into())
     }
 
-    /// As [`Self::new`], and with this work in all, in the unit of [`MAX_WORK`]: what it does not reach is not known.
+    /// As [`Self::new`], with a limit on the total work in the unit of [`MAX_WORK`]. Results beyond it are unknown.
     pub(super) fn within(max_work: u64, scene: &Scene, tick_hz: TickRate) -> Self {
         let meter = Meter::within(max_work).into();
         block_on(Self::find(scene.clone(), FULL_THROTTLE, tick_hz, meter))
     }
 
-    /// Whether no work is left.
+    /// Whether the work limit is reached.
     fn is_spent(&self) -> bool {
         self.judge.meter().budget_left() == 0
     }
 
-    /// As [`Self::new`], with its work counted by `meter`.
+    /// As [`Self::new`], counting its work with `meter`.
     pub(super) async fn find(
         scene: Scene,
         throttle: f64,
@@ -137,12 +137,12 @@ impl Adviser {
         self.tick_hz
     }
 
-    /// The verdict on a lane at that rate.
+    /// The verdict on a lane at the requested rate.
     pub fn verdict(&self, spec: LaneSpec) -> Verdict {
         self.judge.verdict(spec, self.tick_hz)
     }
 
-    /// Whether a method meets a criterion, with how many substeps, and its margins. The substeps of `spec` are ignored.
+    /// Whether a method meets a criterion, its fewest substeps, and its margins. The substeps of `spec` are ignored.
     pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
         let mut result = block_on(self.fewest_substeps(spec, criterion));
         if let CriterionResult::With(met) = &mut result {
@@ -151,8 +151,8 @@ impl Adviser {
         result
     }
 
-    /// The lane of `methods` that is recommended for a criterion, with its fewest substeps. It is [`recommended`], found
-    /// without judging dearer ones.
+    /// The method recommended for a criterion, with its fewest substeps. The result is [`recommended`], found without
+    /// judging more expensive methods.
     pub fn cheapest(
         &self,
         criterion: Criterion,
@@ -192,7 +192,7 @@ impl Adviser {
         }
     }
 
-    /// The verdict on a lane, and whether its method meets each criterion, with how many substeps. No margin is searched.
+    /// The verdict on a lane, and for each criterion the fewest substeps that meet it. Margins are not searched.
     pub fn judged(&self, spec: LaneSpec) -> MethodAdvice {
         block_on(self.advice_on(spec))
     }
@@ -201,7 +201,8 @@ impl Adviser {
     pub(super) async fn advice_on(&self, spec: LaneSpec) -> MethodAdvice {
         let verdict = self.judge.verdict_within(MAX_WORK, spec, self.tick_hz).await;
         let mut met = [const { CriterionResult::Unknown }; CRITERIA.len()];
-        // What takes too much work in one step a tick does in each run for a criterion, and with more substeps.
+        // A method that takes too much work with one step per tick also does with more substeps, and in each run for
+        // a criterion.
         if spec.substeps > 1 || verdict.finding != Finding::NotJudged(NotJudged::TooMuchWork) {
             for (met, criterion) in met.iter_mut().zip(CRITERIA) {
                 *met = self.fewest_substeps(spec, criterion).await;
@@ -210,8 +211,8 @@ impl Adviser {
         MethodAdvice { spec, verdict, met }
     }
 
-    /// The margins that decide what is [`recommended`] and are not searched: each the index of a method in
-    /// `advised` and of a criterion that it meets. Once they are, more may be to be searched.
+    /// Unsearched margins that affect which method is [`recommended`], as indices of a method in `advised` and of a
+    /// criterion that it meets. Searching them may make further margins relevant.
     pub fn undecided_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
         if self.is_spent() {
             return Vec::new();
@@ -220,7 +221,7 @@ impl Adviser {
         (0..CRITERIA.len()).flat_map(of).collect()
     }
 
-    /// Searches margins until it is decided what is recommended.
+    /// Searches margins until the recommendation is certain.
     pub fn decide(&self, advised: &mut [MethodAdvice]) {
         loop {
             let undecided = self.undecided_margins(advised);
@@ -233,8 +234,8 @@ impl Adviser {
         }
     }
 
-    /// The margins that are worth a search and are not searched, as [`Self::undecided_margins`]. With a body of more than
-    /// eight coordinates they are those of the methods that cost at most four times the least.
+    /// Unsearched margins worth a search, as indices like those of [`Self::undecided_margins`]. For a body with more
+    /// than eight coordinates, only methods that cost at most four times the least are included.
     pub fn worth_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
         if self.is_spent() {
             return Vec::new();
@@ -272,13 +273,13 @@ impl Adviser {
         met.are_margins_searched = true;
     }
 
-    /// Whether a method meets a criterion, and with how many substeps: with one fewer it does not.
+    /// Whether a method meets a criterion, and with how many substeps. With one fewer it does not.
     async fn fewest_substeps(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
         let with = |substeps: u32| LaneSpec { substeps, ..spec };
         let tried = |substeps| self.judge.meets(criterion, with(substeps), self.tick_hz);
         let (mut fails, mut holds, mut with_most) = (0, None, None);
         for substeps in (0..).map(tried_substeps).take_while(|&n| n <= MAX_ADVISED_SUBSTEPS) {
-            // What fails with the most substeps is not searched.
+            // If even the most substeps fail, the numbers in between are not searched.
             if substeps > FEW_SUBSTEPS && with_most.is_none() {
                 with_most = Some(tried(MAX_ADVISED_SUBSTEPS).await);
                 if matches!(with_most, Some(CriterionFinding::Fails { .. })) {
@@ -321,20 +322,20 @@ impl Adviser {
         })
     }
 
-    /// The lowest rate in Hz of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion; `None` if
-    /// it meets it at no rate.
+    /// The lowest of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion, in Hz; `None`
+    /// if it meets it at no rate.
     pub fn slowest(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
         RateSearch::run(|hz| block_on(self.judge.meets(criterion, spec, hz.into())).holds())
     }
 
-    /// The lowest whole rate, going down from the requested one, at which the lane still meets the criterion: one hertz lower
-    /// it does not, or no tick fits into the horizon. `None` if that is not known.
+    /// The lowest whole rate that a search down from the requested one finds to meet the criterion. One hertz lower
+    /// the lane fails, or no tick fits into the horizon. `None` if this is unknown.
     async fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
-        // The runs of a net are dear, and so are the modes of a method with memory.
+        // Runs of a net are expensive, and so are the modes of a method with memory.
         let is_dear = spec.method.restart.is_some()
             || self.scene.bodies.iter().any(|body| body.kind.net().is_some());
         let strides = if is_dear { 6 } else { 60 };
-        // The last miss of the search is that next to its result.
+        // The last miss of the search is adjacent to its result.
         let mut is_known = true;
         let mut search = RatesDown::from(self.tick_hz.hz().ceil() as u32, strides);
         while let Some(hz) = search.next() {
@@ -348,8 +349,8 @@ impl Adviser {
         is_known.then_some(search.held_hz)
     }
 
-    /// The largest of [`FACTORS`] by which every body may be stiffer, as it may by each below, and the parameter that
-    /// limits it; `None` if it is not known whether the criterion holds with the next.
+    /// The largest of [`FACTORS`] by which every body may be stiffer, if it and all smaller factors meet the
+    /// criterion. Also the parameter that limits it. `None` if the result for the next factor is unknown.
     async fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> Option<(f64, String)> {
         let (mut held, mut last_miss) = (0, None);
         let has_hairs = criterion == Criterion::Accurate && self.judge.has_bumps();
@@ -382,7 +383,7 @@ impl Adviser {
         Some((FACTORS[held], self.stiffness_name(culprit.unwrap_or(0))))
     }
 
-    /// Each body with the index of its leading parameter.
+    /// Each body's index, with the index of its leading parameter.
     fn stiff_bodies(&self) -> impl Iterator<Item = (usize, usize)> {
         self.scene.bodies.iter().enumerate().filter_map(|(body, of)| {
             let (leads, _) = of.kind.parameter(&of.kind.leading)?;
@@ -390,7 +391,7 @@ impl Adviser {
         })
     }
 
-    /// The name of the parameter that makes a body stiffer.
+    /// Name of the parameter that makes a body stiffer.
     fn stiffness_name(&self, body: usize) -> String {
         let body = &self.scene.bodies[body];
         let (_, leading) =
@@ -413,7 +414,7 @@ impl Adviser {
         self.stiffer[index].get(find).await.as_ref()
     }
 
-    /// Whether a lane is accurate on the scene of this factor, and not by a hair.
+    /// Whether a lane is accurate on the scene with this factor, with a margin.
     async fn spares(&self, spec: LaneSpec, factor: usize) -> bool {
         match self.stiffer(factor).await {
             Some(judge) => judge.is_accurate_sparing(SPARE_WHEN_STIFFER, spec, self.tick_hz).await,
@@ -441,18 +442,18 @@ fn ranking(advised: &[MethodAdvice], criterion: usize) -> Ranking<'_> {
     )
 }
 
-/// The recommended method for a criterion, by its index in `advised`. Margins that are not searched count as no reserve.
+/// Index in `advised` of the method recommended for a criterion. Margins that are not searched count as no reserve.
 pub fn recommended(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
     ranking(advised, criterion).first()
 }
 
-/// The methods that meet a criterion, by their indices in `advised`, whoever asks and in whatever order they stand: the
-/// [`recommended`] one, then the others from the least cost on. The listings as printed are left out.
+/// Indices in `advised` of the methods that meet a criterion: the [`recommended`] one, then the others by increasing
+/// cost. The order of `advised` does not matter. Listings as printed are left out.
 pub fn ranked(advised: &[MethodAdvice], criterion: usize) -> Vec<usize> {
     ranking(advised, criterion).indices()
 }
 
-/// The cheapest method, by its index in `advised`, if it is passed over for the [`recommended`] one for want of a reserve.
+/// Index in `advised` of the cheapest method, if it loses to the [`recommended`] one for lack of a reserve.
 pub(super) fn passed_over(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
     ranking(advised, criterion).passed_over()
 }

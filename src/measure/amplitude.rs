@@ -1,14 +1,14 @@
-//! The change of an amplitude within the horizon, and the quantity of which it is one.
+//! Trend of an amplitude within the horizon, and the quantity that it measures.
 
 use super::criterion::VISIBLE;
 
 /// A change of the amplitude by this factor counts even if it happens at once and then stops.
 const LEAP: f64 = 1.5;
 
-/// The change of the amplitude within the horizon.
+/// Change of an amplitude within the horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Trend {
-    /// Less than can be seen.
+    /// Too small to see.
     None,
     /// It grows.
     Grows,
@@ -23,7 +23,8 @@ pub enum Measure {
     Swing,
     /// The swing of several modes of a linear body: the root of their energy.
     Modes,
-    /// The largest distance of any coordinate from its centre, in its amplitudes: of several that swing together.
+    /// Largest distance of any coordinate from its centre in units of its amplitude, for coordinates that swing
+    /// together.
     Reach,
     /// The distance from a motion that does not swing.
     #[default]
@@ -42,7 +43,7 @@ impl Measure {
 }
 
 impl Trend {
-    /// The change of a swing whose amplitude has changed by this factor.
+    /// Trend of a swing whose amplitude has changed by this factor.
     pub(super) fn of(amplitude: f64) -> Self {
         match amplitude {
             a if a >= 1.0 + VISIBLE => Trend::Grows,
@@ -51,8 +52,8 @@ impl Trend {
         }
     }
 
-    /// The change of a swing whose amplitude, in units of the initial one, is `first` in the first quarter and `last` in
-    /// the last. A change that happens at once and then stops does not count, unless it is a [leap](LEAP).
+    /// Trend of a swing with the amplitudes `first` in the first quarter and `last` in the last one, in units of the
+    /// initial amplitude. A change that happens at once and then stops does not count, unless it is a [leap](LEAP).
     pub(super) fn between(first: f64, last: f64) -> Self {
         let trend = Trend::of(last / first);
         match Trend::of(last) {
@@ -63,7 +64,7 @@ impl Trend {
     }
 }
 
-/// The amplitude, in units of the initial one, of a swing whose energy has changed by this part.
+/// Amplitude of a swing, in units of the initial one, after a relative change of its energy.
 pub(super) fn amplitude(energy_change: f64) -> f64 {
     (1.0 + energy_change).max(0.0).sqrt()
 }
@@ -85,7 +86,7 @@ mod tests {
             (1.0, 0.96, Trend::None),
             (0.69, 0.67, Trend::None),
             (0.69, 0.66, Trend::Dies),
-            // What grows first and then dies has not grown.
+            // A swing that grows first and then shrinks has not grown.
             (2.0, 1.2, Trend::None),
         ] {
             assert_eq!(Trend::between(first, last), change, "{first} to {last}");

@@ -1,5 +1,5 @@
-//! The verdict on a body that has no reference solution, because that would take too much work: it rests on
-//! the energy of the run, which nothing but a method adds to, and on the spectral radius of a tick.
+//! The verdict on a body without a reference solution, which would take too much work. It rests on the energy of the
+//! run, which only the method's error can raise, and on the spectral radius of a tick.
 
 use std::ops::ControlFlow;
 
@@ -14,14 +14,14 @@ use crate::scene::LaneSpec;
 use crate::sim::TickRate;
 use crate::sim::stability::{PowerIteration, Tick};
 
-/// The part of the work of a run that the spectral radius may take too.
+/// Divisor of a run's work limit that gives the limit for the spectral radius.
 const WORK_OF_RADIUS: u64 = 12;
 
-/// A run without a truth.
+/// Result of a run without a truth.
 pub(super) struct EnergyRun {
     pub(super) finding: EnergyFinding,
     pub(super) failure: Option<RunFailure>,
-    /// Whether the run was stopped within the horizon because it took too much work.
+    /// Whether too much work stopped the run within the horizon.
     pub(super) is_too_much: bool,
     pub(super) evaluations: u64,
     pub(super) seconds: f64,
@@ -34,7 +34,7 @@ impl EnergyRun {
     }
 }
 
-/// Runs `truth`'s body under `spec` over the horizon, with its inputs.
+/// Runs the body of `truth` under `spec` over the horizon, with its inputs.
 pub(super) async fn follow_energy(
     truth: &BodyTruth,
     spec: LaneSpec,
@@ -48,7 +48,7 @@ pub(super) async fn follow_energy(
     let spectral_radius = spectral_radius(truth, &mut followed.body, spec, tick_hz, max_work).await;
     let (mut seconds, mut evaluations) = (0.0, 0);
     let mut means = Means::over(horizon);
-    // The largest kinetic energy, and the most that was lost and gained, in joules.
+    // Largest kinetic energy, energy loss and energy gain, in joules.
     let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);
     let see = |body: &FollowedBody, tick: u64| {
         (seconds, evaluations) = (tick_hz.seconds(tick), body.stepper.evaluations());
@@ -89,7 +89,7 @@ pub(super) async fn follow_energy(
     }
 }
 
-/// The spectral radius of a tick about the state of `body`, if it is finite.
+/// Spectral radius of a tick about the state of `body`, if it is finite.
 async fn spectral_radius(
     truth: &BodyTruth,
     body: &mut FollowedBody,

@@ -1,4 +1,4 @@
-//! The change of a body's amplitude, within the horizon and in the long run, from a run.
+//! The change of a body's amplitude in a run, within the horizon and in the long run.
 
 use super::amplitude::{Trend, amplitude};
 use super::frequency::{FrequencyError, frequency_error};
@@ -7,31 +7,30 @@ use super::truth::{BodyTruth, Swing};
 use super::verdict::LongTerm;
 use crate::sim::stability::FOREVER_S;
 
-/// The relative growth of the swing over the second half of the long run above which it counts as growth.
+/// Relative growth of the swing over the second half of the long run above which it counts as growth.
 const GROWTH_SEEN: f64 = 2e-3;
 
-/// How alike the gains of energy from quarter to quarter of the long run are where they are steady, smallest to largest.
+/// Gains of energy are steady if the smallest quarter's gain is at least this fraction of the largest.
 const STEADY: f64 = 0.5;
 
-/// How the amplitude, the energy and the frequency of a motion change.
+/// Changes of a motion's amplitude, energy and frequency.
 pub(super) struct MotionChange {
     pub(super) long_term: LongTerm,
-    /// The change of the amplitude within the horizon.
+    /// Change of the amplitude within the horizon.
     pub(super) within: Trend,
     pub(super) energy_change: Option<f64>,
     pub(super) frequency_error: Option<f64>,
-    /// By how many seconds the motion is early at the end of the horizon.
+    /// Seconds by which the motion is early at the end of the horizon.
     pub(super) early_s: Option<f64>,
-    /// The widest swing in units of the true one, where modes tell it.
+    /// Widest swing relative to the true one, if modes determine it.
     pub(super) width: Option<f64>,
 }
 
 impl MotionChange {
-    /// The change of the motion in a run.
     pub(super) fn of_run(truth: &BodyTruth, run: &JudgedRun, horizon_s: f64) -> Self {
         let period = truth.swing.as_ref().map_or(horizon_s, Swing::period);
         let end = run.followed_s;
-        // The swing stays small for some turns, after so many turns that the time of halving is sharp.
+        // The swing stays small for some turns, after enough turns to make the time of halving precise.
         let died = |t: f64| end - t >= 4.0 * period && t >= 10.0 * period;
         let long_term = LongTerm {
             measure: truth.measure(),
@@ -63,7 +62,7 @@ impl MotionChange {
     }
 }
 
-/// Whether the amplitude of a body stays bounded by the true one; `None` if the run did not get to its end.
+/// Whether the amplitude of a body stays bounded by the true one; `None` if the run did not reach its end.
 pub(super) fn bounded(truth: &BodyTruth, run: &JudgedRun) -> Option<bool> {
     let failed = run.failure.is_some() || run.later.is_some();
     if failed || run.doubled_at.is_some() || run.velocity_doubled_at.is_some() {
@@ -77,8 +76,8 @@ pub(super) fn bounded(truth: &BodyTruth, run: &JudgedRun) -> Option<bool> {
     Some(!grows && steadily_doubles_in_s(truth, run).is_none())
 }
 
-/// When the amplitude of a linear oscillator doubles that gains as much energy in each quarter of the long run as in the
-/// one before, up to [`FOREVER_S`]: its swing grows at a constant rate. `None` of any other body or run.
+/// Doubling time of the amplitude of a linear oscillator that gains similar energy in each quarter of the long run,
+/// so that its swing grows at a constant rate. `None` beyond [`FOREVER_S`], and for any other body or run.
 fn steadily_doubles_in_s(truth: &BodyTruth, run: &JudgedRun) -> Option<f64> {
     let [first, early, middle, late] = run.long_quarters;
     let gains = [early - first, middle - early, late - middle];

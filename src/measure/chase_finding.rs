@@ -1,4 +1,4 @@
-//! What a verdict says of a body that follows a target: its half-life, its overshoot, and its stability.
+//! Findings on a body that follows a target: its half-life, its overshoot and its stability.
 
 use std::fmt;
 
@@ -9,27 +9,27 @@ use crate::sim::number::{round, significant};
 use crate::sim::numerics::bisect;
 use crate::sim::{Solver, TickRate};
 
-/// How a body closes on a target that stays, under a method and in truth.
+/// How a body closes in on a fixed target, under a method and in truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChaseFinding {
-    /// The time in seconds in which it covers half of the way; `None` if it does not.
+    /// Time in seconds to cover half of the way; `None` if it does not.
     pub half_life_s: Option<f64>,
-    /// The same in truth.
+    /// The half-life in truth.
     pub true_half_life_s: Option<f64>,
-    /// How far it goes beyond the target, in percent of the way.
+    /// Distance beyond the target, in percent of the way.
     pub overshoot_percent: f64,
-    /// The rate times the length of a step, if that is above the limit of the method, and that limit.
+    /// Rate times step length and the method's limit for it, if the limit is exceeded.
     pub beyond_limit: Option<[f64; 2]>,
 }
 
-/// Moments at which the true half-life is looked for before it is narrowed down. It is the first: a true follower does
-/// not turn round.
+/// Number of moments that a search for the true half-life samples before narrowing it down. The first crossing is the
+/// only one, since a true follower does not turn back.
 const LOOKS: u32 = 1 << 10;
 
-/// A relative error of the half-life below this is not told.
+/// Smaller relative errors of the half-life are not mentioned.
 const SLIGHT: f64 = 0.01;
 
-/// An overshoot below this percentage is not told.
+/// Smaller overshoots in percent are not mentioned.
 const FAINT_PERCENT: f64 = 0.1;
 
 impl ChaseFinding {
@@ -52,7 +52,7 @@ impl ChaseFinding {
     }
 }
 
-/// The true half-life in seconds, if it is within the horizon.
+/// True half-life in seconds, if it is within the horizon.
 fn true_half_life_s(truth: &BodyTruth) -> Option<f64> {
     let start = truth.start(Solver::Truth);
     let target = start.pursuit(0.0)?.target;
@@ -68,7 +68,7 @@ fn true_half_life_s(truth: &BodyTruth) -> Option<f64> {
 }
 
 impl ChaseFinding {
-    /// The half-life in seconds and in words: the one number of a body that closes on its target.
+    /// The half-life in seconds and in words, which is the key figure of a body that closes in on a target.
     pub(super) fn number(&self) -> Option<(f64, String)> {
         let half = self.half_life_s.filter(|_| self.beyond_limit.is_none())?;
         Some((half, format!("half-life {}", milliseconds(half))))

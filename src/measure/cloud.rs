@@ -1,6 +1,6 @@
-//! A cloud: many starts about the state of a body, stepped by one method, and what becomes of their area.
+//! Clouds: many starts around the state of a body, stepped by one method, and the change of the area they cover.
 //!
-//! A method is a map of the phase plane. What it does to an area is its character: it keeps it, spreads it, shrinks it or
+//! A method is a map of the phase plane. Its effect on an area is its character: it preserves, spreads, shrinks or
 //! tears it.
 
 use crate::sim::batch::{Batch, InstructionSet, OneCoordinate, Ticks};
@@ -31,7 +31,7 @@ pub use running::CloudWorker;
 use crate::run::race::{ESCAPE, Fnv};
 use crate::scene::LaneSpec;
 
-/// The points of a cloud that does not say how many.
+/// Default number of points of a cloud.
 pub const USUAL_POINTS: usize = 100_000;
 
 /// Why there is no cloud.
@@ -42,26 +42,26 @@ pub enum NoCloud {
         "a cloud is of one coordinate and its velocity, and {body} has {coordinates} coordinates"
     )]
     SeveralCoordinates {
-        /// Its name.
+        /// Name of the body.
         body: String,
-        /// How many.
+        /// Number of its coordinates.
         coordinates: usize,
     },
-    /// A custom body has its coordinate in another type than `f64`.
+    /// The coordinate of a custom body has another type than `f64`.
     #[error("{body} is a custom body whose coordinate is no f64")]
     Custom {
-        /// Its name.
+        /// Name of the body.
         body: String,
     },
-    /// The points do not fit into memory under all methods at once.
+    /// The points of all methods together do not fit into memory.
     #[error("{points} points do not fit into memory; give fewer")]
     TooMany {
-        /// How many.
+        /// Number of points per cloud.
         points: usize,
     },
 }
 
-/// A body that a cloud is made of.
+/// A body to make a cloud of.
 #[derive(Clone, Copy)]
 pub struct CloudBody<'a> {
     /// Its name, for errors.
@@ -72,22 +72,23 @@ pub struct CloudBody<'a> {
     pub body: &'a dyn Stepper,
 }
 
-/// Where a cloud starts.
+/// Start of a cloud.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloudStart {
     /// Its shape.
     pub shape: CloudShape,
-    /// When, in seconds: of forces that depend on time.
+    /// Start time in seconds, for forces that depend on time.
     pub t: f64,
-    /// The middle: coordinate and velocity.
+    /// Coordinate and velocity of the middle.
     pub middle: [f64; 2],
-    /// How far it reaches in the coordinate and in the velocity.
+    /// Half-width in the coordinate and in the velocity.
     pub reach: [f64; 2],
 }
 
 impl CloudStart {
-    /// A cloud about the state of a body at time 0. `size` is its reach in the unit of the coordinate, by default a quarter
-    /// of the swing; in the velocity it reaches as far by the rate of the body's motion there.
+    /// A cloud around the state of a body at time 0. `size` is its half-width in the unit of the coordinate, by
+    /// default a quarter of the swing. The half-width in velocity is `size` times the rate of the body's motion
+    /// there.
     ///
     /// # Errors
     /// If the body has several coordinates.
@@ -109,7 +110,7 @@ impl CloudStart {
         Ok(Self::around(middle, force, shape, size))
     }
 
-    /// A cloud about a state with this force per unit mass at its velocity.
+    /// A cloud around a state, where `force` is the force per unit mass at its velocity.
     fn around(
         middle: [f64; 2],
         force: impl Fn(f64) -> f64,
@@ -134,16 +135,18 @@ impl CloudStart {
     }
 }
 
-/// What has become of a cloud.
+/// Measurements of a cloud.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloudMeasure {
-    /// The points that are still there; the others blew up.
+    /// Number of points left; the others blew up.
     pub points: usize,
-    /// The area over that at the start; `None` if no point is left, or the cloud is too fine, folded or torn to measure.
+    /// Area relative to the start; `None` if no point is left, or if the cloud is too fine, folded or torn to
+    /// measure.
     pub area_ratio: Option<f64>,
-    /// The mean distance of the points from their middle, root mean square, over that at the start.
+    /// RMS distance of the points from their middle, relative to the start.
     pub spread: Option<f64>,
-    /// The states to the bit: as those of a [race](crate::run::Race::lane_hashes), 64-bit FNV-1a with -0 as 0.
+    /// Hash of the exact states, like the [lane hashes](crate::run::Race::lane_hashes) of a race: 64-bit FNV-1a with
+    /// -0 as 0.
     pub hash: u64,
 }
 
@@ -155,33 +158,35 @@ pub struct Cloud {
     spread: f64,
 }
 
-/// What an area is measured by.
+/// How the area is measured.
 enum Area {
-    /// The corners of the lozenges about some points.
+    /// By lozenges around some points; the course steps their corners.
     Lozenges(Course),
-    /// All of it, where near points take steps of their own: the map is too rough for small areas.
+    /// By the border of the whole cloud, if near points take different steps, so that the map is too rough for small
+    /// areas.
     Border(CloudBorder),
 }
 
-/// An area is on its way back if its change was this many times that of now and this much more, as natural logarithms.
+/// The area is recovering if its log change once exceeded `BACK` × the current one + `LITTLE_BACK`.
 const BACK: f64 = 1.1;
 const LITTLE_BACK: f64 = 0.01;
 
-/// A change of the area, as a logarithm, that may be its measure: by determinants, where it may also be this many standard
-/// errors of their mean, and by a border.
+/// Log changes of an area below which it counts as preserved, for lozenges and for a border. For lozenges a larger
+/// change counts as zero too if it is within this number of standard errors of the mean.
 const UNKNOWN: f64 = 1e-6;
 const UNKNOWN_ERRORS: f64 = 3.0;
 const UNKNOWN_BY_BORDER: f64 = 2e-3;
-/// A change that is told as a part of the area, and not as a rate, is smaller than this.
+/// Smaller changes are reported as a percentage of the area, not as a rate.
 const SLIGHT: f64 = 1e-2;
 
-/// The mean of areas is not known if its standard error is more than this part of it: a few far points then decide it.
+/// If the relative standard error of the mean area exceeds this, the mean is unknown: a few far points then decide
+/// it.
 const UNEVEN: f64 = 0.1;
 
-/// The least part of the points beyond the axes that is told.
+/// Smaller fractions of points beyond the axes are not mentioned.
 const HIDDEN: f64 = 0.1;
 
-/// The most sampled points, and the points of a cloud for each.
+/// Maximum number of sampled points, and number of a cloud's points per sample.
 const MAX_SAMPLES: usize = 256;
 const POINTS_TO_A_SAMPLE: usize = 16;
 
@@ -198,10 +203,10 @@ impl Cloud {
         Batch::find_room(points, solvers).map_err(|_| NoCloud::TooMany { points })
     }
 
-    /// A cloud of `points` starts of `body`, named `name`, under a lane of a race at this tick rate.
+    /// A cloud of `points` starts of a body, under a lane of a race at this tick rate.
     ///
     /// # Errors
-    /// Why the body has none.
+    /// The reason if the body has no cloud.
     pub fn new(
         of: CloudBody<'_>,
         spec: &LaneSpec,
@@ -214,7 +219,7 @@ impl Cloud {
         Self::of_subject(subject, of.body.is_linear(), spec, start, points, tick_hz.into())
     }
 
-    /// A cloud of `points` starts of a custom body about a start, a quarter of its swing wide.
+    /// A cloud of `points` starts of a custom body around a start. Its half-width is a quarter of the swing.
     ///
     /// ```
     /// use regatta::measure::cloud::{Cloud, CloudShape};
@@ -299,7 +304,7 @@ impl Cloud {
         Ok(cloud)
     }
 
-    /// The same cloud, which keeps states of earlier ticks to go back to.
+    /// The same cloud, storing earlier states so that it can go back.
     pub fn rewindable(self) -> Self {
         let area = match self.area {
             Area::Lozenges(corners) => Area::Lozenges(corners.rewindable()),
@@ -308,13 +313,13 @@ impl Cloud {
         Self { course: self.course.rewindable(), area, ..self }
     }
 
-    /// Steps all points.
+    /// Steps all points forward.
     pub fn advance(&mut self, ticks: u64) {
         self.go_to(self.tick() + ticks);
     }
 
-    /// Steps all points to a tick. An earlier one has the bits that it had; only a [rewindable](Self::rewindable) cloud
-    /// goes there.
+    /// Steps all points to a tick. Only a [rewindable](Self::rewindable) cloud can return to an earlier tick, where
+    /// its states are the same to the bit.
     pub fn go_to(&mut self, tick: u64) {
         self.course.go_to(tick);
         match &mut self.area {
@@ -323,8 +328,8 @@ impl Cloud {
         }
     }
 
-    /// The coordinates and velocities of all points so many ticks after the start. Between two ticks they are on the line
-    /// through their states, and the cloud is at the later one then.
+    /// Coordinates and velocities of all points at this number of ticks after the start. Between two ticks they are
+    /// interpolated linearly, and the cloud moves to the later tick.
     pub fn states_at(&mut self, ticks: f64) -> [Vec<f64>; 2] {
         let part = ticks.fract();
         self.go_to(ticks as u64);
@@ -338,22 +343,22 @@ impl Cloud {
         states
     }
 
-    /// The tick reached.
+    /// The current tick.
     pub fn tick(&self) -> u64 {
         self.course.tick()
     }
 
-    /// The coordinates of the points.
+    /// Coordinates of the points.
     pub fn q(&self) -> &[f64] {
         self.course.q()
     }
 
-    /// Their velocities.
+    /// Velocities of the points.
     pub fn v(&self) -> &[f64] {
         self.course.v()
     }
 
-    /// How the area is measured.
+    /// How the area is measured, in words.
     pub fn measured_in_words(&self) -> String {
         match &self.area {
             Area::Border(_) => "measured by its border".into(),
@@ -364,24 +369,25 @@ impl Cloud {
         }
     }
 
-    /// What has become of it.
+    /// Measures the cloud at its current tick.
     pub fn measure(&self) -> CloudMeasure {
         let area_ratio = self.area_ratio();
         let mut hash = Fnv::new();
         for &number in self.q().iter().chain(self.v()) {
-            // What is not a number has bits that depend on the processor.
+            // The bits of a NaN depend on the processor.
             hash.number(if number.is_nan() { f64::NAN } else { number });
         }
         let spread = self.distance().map(|distance| distance / self.spread);
         CloudMeasure { points: self.points_left(), area_ratio, spread, hash: hash.0 }
     }
 
-    /// The points that are still there; the others blew up.
+    /// Number of points left; the others blew up.
     pub fn points_left(&self) -> usize {
         self.present().count()
     }
 
-    /// The area over that at the start; `None` if no point is left, or the cloud is too fine, folded or torn to measure.
+    /// Area relative to the start; `None` if no point is left, or if the cloud is too fine, folded or torn to
+    /// measure.
     pub fn area_ratio(&self) -> Option<f64> {
         self.present().next()?;
         match &self.area {
@@ -396,7 +402,7 @@ impl Cloud {
         }
     }
 
-    /// What the area has become, in words. `before` are the areas on the way, over that at the start: an area on its way back
+    /// Change of the area in words. `before` yields earlier areas relative to the start: an area that is recovering
     /// has no rate.
     pub fn in_words(
         &self,
@@ -429,7 +435,7 @@ impl Cloud {
         }
     }
 
-    /// What of a change of the area, as a logarithm, may be its measure.
+    /// Log change of the area below which it may be a measurement error.
     fn unknown(&self) -> f64 {
         match &self.area {
             Area::Border(_) => UNKNOWN_BY_BORDER,
@@ -441,7 +447,7 @@ impl Cloud {
         }
     }
 
-    /// The points left that are beyond the axes of a picture.
+    /// Number of points left that lie beyond the axes of a picture.
     pub fn hidden(&self, picture: &Density) -> usize {
         // The margin of an axis may show points that blew up.
         self.points_left().saturating_sub(picture.points())
@@ -453,7 +459,7 @@ impl Cloud {
         self.q().iter().zip(self.v()).map(|(&q, &v)| [q, v]).filter(is_there)
     }
 
-    /// The root mean square distance of the points from their middle, in units of the reach; `None` without points.
+    /// RMS distance of the points from their middle, in units of the half-width; `None` without points.
     fn distance(&self) -> Option<f64> {
         let reach = self.start.reach;
         let states = || self.present().map(|state| [state[0] / reach[0], state[1] / reach[1]]);
@@ -468,13 +474,13 @@ impl Cloud {
     }
 }
 
-/// What part of a cloud of so many points is beyond the axes, in words; `None` of little.
+/// Percentage of points beyond the axes, in words; `None` if it is small.
 pub fn hidden_in_words(hidden: usize, points: usize) -> Option<String> {
     let part = hidden as f64 / points as f64;
     (part >= HIDDEN).then(|| format!("{} % off the picture", significant(100.0 * part, 2)))
 }
 
-/// The mean of areas, and its standard error.
+/// Mean of areas and its standard error.
 fn mean_and_error(areas: &[f64]) -> [f64; 2] {
     let count = areas.len() as f64;
     let mean = areas.iter().sum::<f64>() / count;
@@ -482,7 +488,7 @@ fn mean_and_error(areas: &[f64]) -> [f64; 2] {
     [mean, (squares.sum::<f64>() / (count * (count - 1.0).max(1.0))).sqrt()]
 }
 
-/// The sampled points of a cloud of so many.
+/// Number of sampled points in a cloud of `points`.
 fn samples(points: usize) -> usize {
     (points / POINTS_TO_A_SAMPLE).clamp(POINTS_TO_A_SAMPLE / 2, MAX_SAMPLES)
 }

@@ -1,4 +1,5 @@
-//! What a developer may require of a method, the errors that count as visible, and by how much a method meets it.
+//! The criteria that a developer may require, the sizes of visible errors, and the margins with which a method meets
+//! a criterion.
 
 use crate::sim::TickRate;
 use crate::sim::number::round;
@@ -58,7 +59,7 @@ impl Criterion {
     }
 }
 
-/// The largest factor by which bodies are made stiffer.
+/// Largest factor by which bodies are made stiffer.
 pub(super) const MAX_STIFFER: f64 = 10.0;
 
 /// The fewest substeps with which a method meets a criterion, and its margins.
@@ -66,34 +67,35 @@ pub(super) const MAX_STIFFER: f64 = 10.0;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct CriterionMet {
-    /// The requested tick rate in Hz, at which it meets it.
+    /// Requested tick rate in Hz, at which the criterion is met.
     pub tick_hz: TickRate,
     /// Steps per tick.
     pub substeps: u32,
-    /// Evaluations of all bodies' accelerations per simulated second, of a method of equal steps in the long run.
+    /// Evaluations of all bodies' accelerations per simulated second, in the long run for a method of equal steps.
     pub evaluations_per_s: f64,
-    /// These evaluations times [what one costs](crate::sim::integrators::Method::evaluation_cost): methods are ranked by it first.
+    /// These evaluations times [the cost of one](crate::sim::integrators::Method::evaluation_cost), which is the
+    /// first key of the ranking.
     pub cost_per_s: f64,
-    /// Whether the margins have been searched. Where that is dear, they are for methods of about the least cost only.
+    /// Whether the margins have been searched. Where a search is expensive, only cheap methods get one.
     #[cfg_attr(feature = "serde", serde(rename = "margins_searched"))]
     pub are_margins_searched: bool,
-    /// The lowest whole tick rate in Hz, going down from the requested one rounded up, at which the criterion still holds
-    /// with as many substeps, as it does at all rates between that were tried; `None` if one hertz lower it is not known,
-    /// for want of a truth or for too much work.
+    /// Lowest whole tick rate in Hz at which the criterion still holds with the same number of substeps. The search
+    /// goes down from the requested rate, rounded up, and all rates tried on the way hold as well. `None` if the
+    /// result one hertz lower is unknown, for lack of a truth or for too much work.
     pub slowest_hz: Option<u32>,
-    /// The largest factor by which the bodies may be stiffer, 1 to 10, to two digits: the criterion holds with every
-    /// factor up to it that is tried, each at most a tenth above the one before. `None` if it is not known whether it
-    /// holds with the next.
+    /// Largest factor by which the bodies may be stiffer, 1 to 10, to two digits. The criterion holds with every
+    /// factor tried up to it, each at most a tenth above the one before. `None` if the result for the next factor is
+    /// unknown.
     pub stiffness_factor: Option<f64>,
-    /// The parameter that the factor multiplies, of the body that fails first beyond it; `None` if the factor is.
+    /// The parameter that the factor multiplies, for the body that fails first beyond it; `None` if the factor is.
     pub limited_by: Option<String>,
 }
 
-/// Said of a margin that leaves nothing.
+/// Marks a zero margin.
 const NO_RESERVE: &str = "(no reserve)";
 
 impl CriterionMet {
-    /// Its margins, or that they are not known, as a part of a sentence.
+    /// Its margins in words, as part of a sentence, or that they are unknown.
     pub fn margins(&self) -> String {
         if !self.are_margins_searched {
             return "how much slower or stiffer, has not been searched".into();
@@ -110,19 +112,19 @@ impl CriterionMet {
         }
     }
 
-    /// The rate down to which it holds; `None` if it is not known.
+    /// Lowest rate at which the criterion holds; `None` if unknown.
     pub fn slowest(&self) -> Option<TickRate> {
         self.slowest_hz.map(|hz| TickRate::whole(hz).min(self.tick_hz))
     }
 
-    /// The rate down to which it holds, in words; `None` if it is not known.
+    /// Lowest rate at which the criterion holds, in words; `None` if unknown.
     pub fn slower(&self) -> Option<String> {
         let hz = self.slowest()?;
         let mark = if self.has_no_slower() { format!(" {NO_RESERVE}") } else { String::new() };
         Some(format!("{hz:.3} Hz{mark}"))
     }
 
-    /// The factor and the parameter up to which it holds, in words; `None` if they are not known.
+    /// Largest stiffness factor with its parameter, in words; `None` if unknown.
     pub fn stiffer(&self) -> Option<String> {
         let factor = self.stiffness_factor?;
         let more = if factor >= MAX_STIFFER { "more than " } else { "" };
@@ -130,37 +132,38 @@ impl CriterionMet {
         Some(format!("{more}{} × {}{mark}", round(factor, 3), self.limited_by.as_deref()?))
     }
 
-    /// Its reserve: the factor, 1 to 10, by which the bodies may be stiffer at this rate, or at once as much slower. It is the
-    /// lesser of the two margins that are known, and `None` if neither is.
+    /// The reserve: a factor, 1 to 10, by which the bodies may be stiffer at this rate, or equivalently the rate
+    /// lower. It is the smaller of the known margins, and `None` if neither is known.
     ///
-    /// Both are factors of stiffness: a spring of f times the stiffness takes steps of the same angle at √f times the rate,
-    /// so that a rate counts by its square. At 1 Hz, below which none is searched, the stiffness decides alone.
+    /// Both margins are factors of stiffness. A spring with f times the stiffness takes steps of the same angle at √f
+    /// times the rate, so the ratio of rates is squared. At 1 Hz no lower rate is searched, and only the stiffness
+    /// counts.
     pub fn reserve(&self) -> Option<f64> {
         let of_rate = self.slowest().filter(|_| self.tick_hz > 1).map(|slowest| {
             let ratio = self.tick_hz.hz() / slowest.hz();
-            // To one digit after the point, as factors are tried.
+            // Rounded down to one decimal, like the factors tried.
             libm::floor(10.0 * ratio * ratio) / 10.0
         });
         let least = [of_rate, self.stiffness_factor].into_iter().flatten().reduce(f64::min)?;
         Some(least.min(MAX_STIFFER))
     }
 
-    /// Whether one of its margins leaves nothing: the next rate or the next factor that was tried fails.
+    /// Whether a margin is zero: the next rate or the next factor tried fails.
     pub fn has_no_reserve(&self) -> bool {
         self.has_no_slower() || self.stiffness_factor.is_some_and(|factor| factor <= 1.0)
     }
 
-    /// Whether the next lower rate fails. Below 1 Hz none is searched.
+    /// Whether the next lower rate fails. No rate below 1 Hz is searched.
     fn has_no_slower(&self) -> bool {
         self.tick_hz > 1 && self.slowest().is_some_and(|slowest| slowest >= self.tick_hz)
     }
 }
 
-/// The largest error that counts as accurate, in amplitudes: about the smallest that can be seen.
+/// Largest error that counts as accurate, in amplitudes: about the smallest that a person sees.
 pub const TOLERANCE: f64 = 0.01;
 
-/// The smallest relative change of an amplitude that can be seen.
+/// Smallest relative change of an amplitude that a person sees.
 pub const VISIBLE: f64 = 0.05;
 
-/// The largest relative frequency error that looks right.
+/// Largest relative frequency error that looks right.
 pub const FREQUENCY_TOLERANCE: f64 = 0.01;

@@ -3,23 +3,23 @@
 use super::truth::BodyTruth;
 use crate::sim::Stepper;
 
-/// A swing that loses more than this part of its amplitude over the second half of the long run counts as losing.
+/// Relative loss of amplitude over the second half of the long run above which a swing counts as losing.
 const LOSING: f64 = 0.01;
 
-/// The change of a body's energy since the start, in units of the largest true kinetic energy.
+/// Change of a body's energy since the start, in units of the largest true kinetic energy.
 pub(super) struct Energy {
     start: f64,
     scale: Option<f64>,
     /// The unit in percent of the energy that the true motion exchanges.
     pub(super) percent: Option<f64>,
-    /// The means over the quarters of the horizon.
+    /// Means over the quarters of the horizon.
     pub(super) horizon: Means,
-    /// The means over the quarters of the long run.
+    /// Means over the quarters of the long run.
     pub(super) long: Means,
 }
 
 impl Energy {
-    /// The energy of `stepper` at its start, for a horizon and a long run that end at ticks `horizon` and `end`.
+    /// The initial energy of `stepper`, for a horizon and a long run that end at the ticks `horizon` and `end`.
     pub(super) fn of(stepper: &dyn Stepper, truth: &BodyTruth, horizon: u64, end: u64) -> Self {
         let start = stepper.energy().unwrap_or(0.0);
         Self {

@@ -1,4 +1,4 @@
-//! What the energy and the spectral radius of a tick say of a body that has no reference solution.
+//! Findings from the energy and the spectral radius of a tick, for a body without a reference solution.
 
 use std::fmt;
 
@@ -7,23 +7,23 @@ use super::outcome::Outcome;
 use crate::sim::bodies::Truth;
 use crate::sim::number::round;
 
-/// A radius above this is growth: the power iteration tells it to some thousandths.
+/// A radius above this counts as growth, since the power iteration is accurate to some thousandths.
 const GROWING_RADIUS: f64 = 1.01;
 
-/// What the energy and the spectral radius say of a lane.
+/// Findings on a lane from its energy and the spectral radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyFinding {
-    /// The mean change of the kinetic and potential energy in the last quarter of the run, in units of the
-    /// largest kinetic energy or of the most that was lost. What an input brings does not count.
+    /// Mean change of kinetic and potential energy in the last quarter of the run, without the energy that an input
+    /// adds. The unit is the largest kinetic energy, or the largest loss if that is more.
     pub change: f64,
-    /// How the energy changes.
+    /// Trend of the energy.
     pub trend: Trend,
-    /// The change of a conserved energy of largest magnitude, in percent of the unit of `change`.
+    /// Extreme change of a conserved energy, in percent of the unit of `change`.
     pub drift_percent: Option<f64>,
-    /// Whether the body conserves its energy, so that a loss is the method's too.
+    /// Whether the body conserves its energy, so that a loss is an error of the method too.
     pub is_conserved: bool,
-    /// The spectral radius of a tick about the start, of state and memory; `None` for a method that chooses its
-    /// substeps, for an implicit one with memory, and where it takes too much work.
+    /// Spectral radius of a tick around the start, for state and memory. `None` for a method that chooses its
+    /// substeps, for an implicit one with memory, and if it takes too much work.
     pub spectral_radius: Option<f64>,
 }
 
@@ -41,17 +41,17 @@ impl EnergyFinding {
         self.trend != Trend::Grows && !self.has_growing_deviations()
     }
 
-    /// Whether a small deviation grows, as far as the radius is known.
+    /// Whether a small deviation is known to grow.
     fn has_growing_deviations(&self) -> bool {
         self.spectral_radius.is_some_and(|radius| radius >= GROWING_RADIUS)
     }
 
-    /// What becomes of the energy where it neither grows nor is lost in a way that can be seen.
+    /// The behaviour of an energy that shows no visible growth or loss.
     pub(super) fn word(&self) -> &'static str {
         if self.is_conserved { "keeps energy" } else { "gains no energy" }
     }
 
-    /// Within how much it keeps it, if it should.
+    /// Relative change of a conserved energy, in words.
     pub(super) fn number(&self) -> Option<String> {
         self.is_conserved.then(|| format!("within {} %", round(100.0 * self.change.abs(), 2)))
     }

@@ -4,16 +4,16 @@ use super::run::JudgedRun;
 use super::truth::{BodyTruth, Swing};
 use crate::sim::numerics::bisect;
 
-/// The fewest crossings by which a frequency is measured: those of two whole turns.
+/// Minimum number of crossings for a frequency, which is two whole turns.
 const FEWEST_CROSSINGS: usize = 3;
 
-/// The relative frequency error of a lane, positive if it is too fast: over all its turns and over each half of them.
+/// Relative frequency error of a lane, positive if it is too fast, over all its turns and over each half of them.
 pub(super) struct FrequencyError {
     pub(super) error: f64,
-    /// By how many seconds it is early at the end of the horizon; `None` if that is uncertain by a tenth.
+    /// Seconds by which it is early at the end of the horizon; `None` if this is uncertain by a tenth.
     pub(super) early_s: Option<f64>,
     halves: [f64; 2],
-    /// The uncertainty of the error, from interpolating between ticks.
+    /// Uncertainty of the error, from interpolation between ticks.
     blur: f64,
 }
 
@@ -43,7 +43,7 @@ pub(super) fn frequency_error(truth: &BodyTruth, run: &JudgedRun) -> Option<Freq
     let middle = count / 2;
     let span = lane[count - 1].at - lane[0].at;
     let halves = [error(0, middle), error(middle, count - 1)];
-    // Either may have crossings more before the first that both have.
+    // Either series may have extra crossings before the first common one.
     let more = (h * lane[0].at - swing.crossings[0]) / swing.period();
     let [skipped, skipped_of_lane] = [more, -more].map(|more| libm::round(more.max(0.0)) as usize);
     let mut pairs = swing.crossings.iter().skip(skipped).zip(lane.iter().skip(skipped_of_lane));
@@ -58,10 +58,10 @@ pub(super) fn frequency_error(truth: &BodyTruth, run: &JudgedRun) -> Option<Freq
     })
 }
 
-/// Where a series crosses a level upwards, counted in samples.
+/// The place where a series crosses a level upwards, counted in samples.
 struct Crossing {
     at: f64,
-    /// The uncertainty of `at`.
+    /// Uncertainty of `at`.
     blur: f64,
 }
 
@@ -78,7 +78,7 @@ fn crossings(series: &[f64], level: f64) -> Vec<Crossing> {
         .collect()
 }
 
-/// The cubic through values at -1, 0, 1 and 2, evaluated at `s`.
+/// Evaluates at `s` the cubic through values at -1, 0, 1 and 2.
 fn cubic(y: &[f64; 4], s: f64) -> f64 {
     let [a, b, c, d] = y;
     -s * (s - 1.0) * (s - 2.0) / 6.0 * a + (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0 * b
@@ -87,20 +87,20 @@ fn cubic(y: &[f64; 4], s: f64) -> f64 {
 }
 
 impl Swing {
-    /// The relative frequency error of a swing that crosses its centre upwards at these times (s), over all its turns;
-    /// positive if it is too fast. `None` if one of the two makes too few turns.
+    /// Relative frequency error, over all turns, of a swing that crosses its centre upwards at these times (s). It is
+    /// positive if that swing is too fast, and `None` if one of the two makes too few turns.
     pub(super) fn frequency_error(&self, crossings: &[f64]) -> Option<f64> {
         let count = crossings.len().min(self.crossings.len());
         let span = |crossings: &[f64]| crossings[count - 1] - crossings[0];
         (count >= FEWEST_CROSSINGS).then(|| span(&self.crossings) / span(crossings) - 1.0)
     }
 
-    /// Whether it has crossings enough for its frequency.
+    /// Whether it has enough crossings for a frequency.
     pub(super) fn has_a_frequency(&self) -> bool {
         self.crossings.len() >= FEWEST_CROSSINGS
     }
 
-    /// The mean time from one crossing to the next, in seconds.
+    /// Mean time between two crossings, in seconds.
     pub(super) fn period(&self) -> f64 {
         let turns = self.crossings.len() - 1;
         (self.crossings[turns] - self.crossings[0]) / turns as f64

@@ -1,5 +1,5 @@
-//! A fan of futures: the next second of a body under each method of the scene, and in truth, from where it is now. It is
-//! taken on copies, so that the run is not disturbed.
+//! A fan of futures: the next second of a body under each method of the scene, and in truth, from its current state.
+//! It is computed on copies and leaves the run undisturbed.
 
 use glam::DVec2;
 
@@ -7,38 +7,38 @@ use crate::run::race::LaneBody;
 use crate::scene::LaneSpec;
 use crate::sim::{Solver, Stepper, TickRate};
 
-/// How long it is, in seconds, and the most ticks that it has.
+/// Length of a future in seconds, and its maximum number of ticks.
 const LENGTH_S: f64 = 1.0;
 const MAX_TICKS: u32 = 1000;
-/// Steps of the truth between two ticks at least, and in all: enough for it to look smooth.
+/// Steps of the truth per second, rounded up to whole steps per tick: enough for a smooth curve.
 const EXACT_STEPS: u32 = 120;
-/// The most methods, and the most coordinates of a body: each frame steps all of them.
+/// Maximum number of methods, and of coordinates of a body, since each frame steps all of them.
 const MAX_METHODS: usize = 9;
 const MAX_COORDINATES: usize = 8;
 
 /// A moment of a future.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FutureMoment {
-    /// When, in seconds of the run.
+    /// Time in seconds of the run.
     pub t: f64,
-    /// Where the body is, in metres.
+    /// Position of the body in metres.
     pub at: DVec2,
     /// The plotted coordinate and its velocity.
     pub state: [f64; 2],
 }
 
-/// What becomes of a body.
+/// The future of a body under one method, or in truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Future {
-    /// The method, by its index on the menu; `None` in truth.
+    /// Index of the method on the menu; `None` for the truth.
     pub entry: Option<usize>,
-    /// A moment for each tick, and more in truth; up to where the method fails.
+    /// A moment for each tick, and more for the truth, until the method fails.
     pub moments: Vec<FutureMoment>,
 }
 
-/// The next second of a body after time `t` (s) at this tick rate: under each of these methods, by index, and last in truth.
-/// `held` is the state in which a person holds it, `plotted` the coordinate of the moments' states. Empty if the body has
-/// halted, or has too many coordinates.
+/// Computes the second after time `t` (s) of a body at a tick rate, under each of `methods` and last in truth. `held`
+/// is the state in which a person holds the body, and `plotted` the coordinate in the moments' states. Empty if the
+/// body has halted or has too many coordinates.
 pub(crate) fn futures(
     of: &LaneBody,
     t: f64,

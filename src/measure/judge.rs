@@ -1,8 +1,8 @@
-//! The verdict on a lane on a scene, from a run compared with the truth tick by tick.
+//! The verdict on a lane on a scene, from a tick-by-tick comparison with the truth.
 //!
-//! A scene is judged from its start, at one tick rate, with the inputs of its script, each body by itself.
-//! A linear body under a method of equal steps has one map from tick to tick, whose modes give its motion at all later
-//! times. Any other body is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and its verdict claims nothing
+//! A scene is judged from its start, at one tick rate, with the inputs of its script, each body separately. A linear
+//! body under a method of equal steps has one map from tick to tick, whose modes give its motion at all later times.
+//! Any other body is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and its verdict claims nothing
 //! beyond that.
 
 use std::sync::Arc;
@@ -25,24 +25,25 @@ mod criteria;
 pub(super) use criteria::CriterionFinding;
 use criteria::CriterionMiss;
 
-/// The longest horizon in simulated seconds. A shorter scene is judged over its whole length.
+/// Maximum horizon in simulated seconds. A shorter scene is judged over its whole length.
 pub const MAX_HORIZON_S: f64 = 60.0;
 
-/// The true motion of a scene, with which lanes are compared.
+/// The true motion of a scene, for comparison with its lanes.
 pub struct Judge {
     horizon_s: f64,
     throttle: f64,
     max_work: u64,
     truths: Vec<BodyTruth>,
-    /// The same of bodies that make too few swings within the horizon, over their first swings, once that is asked for.
+    /// Truths over their first swings, for bodies that make too few within the horizon. Each is computed on first
+    /// use.
     of_swings: Vec<Once<BodyTruth>>,
     meter: Arc<Meter>,
 }
 
-/// What a scene is judged under, unless another throttle is asked for.
+/// Default throttle for judging a scene.
 pub(super) const FULL_THROTTLE: f64 = 1.0;
 
-/// The horizon of a scene in simulated seconds.
+/// Horizon of a scene in simulated seconds.
 pub(super) fn horizon_s(scene: &Scene) -> f64 {
     scene.seconds.min(MAX_HORIZON_S)
 }
@@ -58,7 +59,8 @@ impl Judge {
         Self::over(scene, horizon_s(scene))
     }
 
-    /// As [`Judge::new`], over `horizon_s` simulated seconds, which is positive and may exceed the scene's length.
+    /// As [`Judge::new`], over `horizon_s` simulated seconds, which must be positive and may exceed the scene's
+    /// length.
     pub fn over(scene: &Scene, horizon_s: f64) -> Self {
         block_on(Self::find(scene, FULL_THROTTLE, horizon_s, Arc::default()))
     }
@@ -73,7 +75,7 @@ impl Judge {
         block_on(Self::find(scene, throttle, horizon_s(scene), Arc::default()))
     }
 
-    /// As [`Self::over`], with its work counted by `meter`.
+    /// As [`Self::over`], counting its work with `meter`.
     pub(super) async fn find(
         scene: &Scene,
         throttle: f64,
@@ -89,13 +91,13 @@ impl Judge {
         Self { horizon_s, throttle, max_work: MAX_WORK, truths, of_swings, meter }
     }
 
-    /// Limits the work of each run to less than [`MAX_WORK`]; what takes more is not known.
+    /// Limits the work of each run to less than [`MAX_WORK`]. Results beyond the limit are unknown.
     pub(super) fn within(mut self, max_work: u64) -> Self {
         self.max_work = max_work;
         self
     }
 
-    /// Whether a body is not linear, so that its errors may have bumps.
+    /// Whether a body is nonlinear, so that its errors may have bumps.
     pub(super) fn has_bumps(&self) -> bool {
         self.truths.iter().any(|truth| truth.modes.is_none())
     }
@@ -115,17 +117,17 @@ impl Judge {
         self.horizon_s
     }
 
-    /// The verdict on a lane at this tick rate: that of its worst body.
+    /// The verdict on a lane at this tick rate, which is that on its worst body.
     pub fn verdict(&self, spec: LaneSpec, tick_hz: impl Into<TickRate>) -> Verdict {
         block_on(self.verdict_within(self.max_work, spec, tick_hz.into()))
     }
 
-    /// What counts its work.
+    /// The meter that counts its work.
     pub(super) fn meter(&self) -> &Arc<Meter> {
         &self.meter
     }
 
-    /// The verdict on a lane, whose run on each body takes at most this work, or is not judged.
+    /// The verdict on a lane. A body whose run exceeds the work limit is not judged.
     pub(super) async fn verdict_within(
         &self,
         max_work: u64,
@@ -139,7 +141,7 @@ impl Judge {
         Self::of_all(verdicts)
     }
 
-    /// The verdict on a lane, from those on all its bodies.
+    /// Combines the verdicts on a lane's bodies into one.
     fn of_all(verdicts: Vec<Verdict>) -> Verdict {
         let evaluations = verdicts.iter().map(|verdict| verdict.evaluations).sum();
         let bounded = verdicts.iter().map(|verdict| verdict.long_term.is_bounded);
@@ -163,7 +165,8 @@ impl Judge {
     ) -> Verdict {
         let truth = &self.truths[body];
         if truth.is_too_dear() {
-            // A tick of a large body may take seconds, and growth beyond the horizon tells nobody anything.
+            // A tick of a large body may take seconds, so its run ends with the horizon; later growth would matter to
+            // nobody.
             return match self.not_judged(tick_hz, max_work == 0) {
                 Some(why) => self.verdict_with(body, Finding::NotJudged(why), LongTerm::default()),
                 None => self.by_energy(
@@ -184,7 +187,7 @@ impl Judge {
         self.compared(body, spec, tick_hz, &run, by_modes).await
     }
 
-    /// The verdict on a body from its run beside the truth, and from its modes if they tell.
+    /// The verdict on a body from a run alongside the truth, and from its modes if they determine the motion.
     async fn compared(
         &self,
         body: usize,
@@ -197,7 +200,7 @@ impl Judge {
         let are_swings_known = by_modes.is_some() && truth.inputs.is_empty();
         let MotionChange { long_term, within, energy_change, frequency_error, early_s, width } =
             by_modes.unwrap_or_else(|| MotionChange::of_run(truth, run, self.horizon_s));
-        // A motion that grew once and stays within bounds is bounded; one that has yet to grow is not.
+        // A motion that grew once but stays bounded is bounded; one that has yet to grow is not.
         let change = match (within, long_term.is_bounded) {
             (Trend::Grows, Some(true)) => Trend::None,
             (Trend::None, Some(false)) => Trend::Grows,
@@ -206,7 +209,7 @@ impl Judge {
         let swing = truth.swing.as_ref();
         // Peaks lie between ticks, so that only an excess is certain.
         let too_wide = swing.map(|swing| run.widest / swing.widest()).filter(|&width| width > 1.0);
-        // A shift in time that makes less than half of the error is not its cause.
+        // A time shift that explains less than half of the error is not its cause.
         let is_of_phase =
             |early_s: f64| swing.is_some_and(|swing| swing.error_when(early_s) >= run.error / 2.0);
         let truth_error = truth.gap(run.seconds, tick_hz).await;
@@ -244,7 +247,7 @@ impl Judge {
         Verdict { chase, evaluations: run.evaluations, seconds: run.seconds, ..verdict }
     }
 
-    /// The verdict on a body that has no reference solution.
+    /// The verdict on a body without a reference solution.
     fn by_energy(&self, body: usize, tick_hz: TickRate, run: EnergyRun) -> Verdict {
         let found = run.finding;
         let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {
@@ -259,7 +262,7 @@ impl Judge {
         Verdict { evaluations: run.evaluations, seconds: run.seconds, ..verdict }
     }
 
-    /// Why a run at this rate is not judged, if it is not.
+    /// The reason if a run at this rate is not judged.
     fn not_judged(&self, tick_hz: TickRate, is_cut_short: bool) -> Option<NotJudged> {
         match self.has_ticks(tick_hz) {
             false => Some(NotJudged::ShorterThanATick),

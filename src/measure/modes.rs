@@ -13,22 +13,22 @@ use crate::sim::numerics::bisect;
 use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, unforced};
 use crate::sim::{Stepper, TickRate};
 
-/// Finding the modes would take more work than a run may.
+/// Finding the modes would exceed the work limit of a run.
 pub(super) struct TooMuch;
 
-/// The moments at which the amplitude is compared with the true one.
+/// Number of moments at which the amplitude is compared with the true one.
 const ENVELOPE_MOMENTS: u32 = 256;
 
-/// The steps from which a mode's map is computed: three from each of two states.
+/// Steps to compute a mode's map: three from each of two states.
 pub(super) const STEPS_PER_MODE: u64 = 6;
 
-/// The step from which its curve is.
+/// Steps to compute a mode's curve.
 const STEPS_PER_CURVE: u64 = 1;
 
 /// The normal modes of a linear body, and their stability under a method of equal steps.
 pub(super) struct Modes<'a> {
     modes: Vec<SteppedMode<'a>>,
-    /// A step of the method, in seconds.
+    /// Step length of the method, in seconds.
     step_s: f64,
 }
 
@@ -36,8 +36,8 @@ pub(super) struct Modes<'a> {
 struct SteppedMode<'a> {
     moved: &'a MovedMode,
     stability: Stability,
-    /// The true curve, and that on which the states of the method lie, in units of the true amplitude at the start; `None` if
-    /// it does not swing under both.
+    /// The true curve, and the curve through the method's states, in units of the true initial amplitude. `None`
+    /// unless the mode swings under both.
     curves: Option<[SwingCurve; 2]>,
 }
 
@@ -46,7 +46,7 @@ impl SteppedMode<'_> {
         &self.moved.mode
     }
 
-    /// Its energy after `t` seconds, in units of that of the true motion at the start.
+    /// Energy after `t` seconds, relative to that of the true motion at the start.
     fn energy(&self, t: f64) -> f64 {
         let width = self.curves.map_or(1.0, |[_, own]| own.width());
         width * width * self.moved.energy(self.stability.growth_per_s, t)
@@ -54,16 +54,16 @@ impl SteppedMode<'_> {
 }
 
 impl MovedMode {
-    /// Its share of the energy after it has grown at this rate for `t` seconds.
+    /// Its share of the energy after `t` seconds of growth at this rate.
     fn energy(&self, growth_per_s: f64, t: f64) -> f64 {
         self.share * libm::exp(2.0 * growth_per_s * t)
     }
 
-    /// Its true curve, and its curve under the method of `stepper`, from one `step`: both begin in the same state, and a curve
-    /// through the first two states of the method is that of all its states. `None` if it does not swing under both.
+    /// Its true curve, and its curve under the method of `stepper` from one `step`. Both begin in the same state. The
+    /// curve through the method's first two states contains all later ones. `None` unless the mode swings under both.
     ///
     /// # Errors
-    /// The failure of the method in the step.
+    /// If the method fails in the step.
     fn curves(
         &self,
         stepper: &mut dyn Stepper,
@@ -95,14 +95,14 @@ impl MovedMode {
 }
 
 impl<'a> Modes<'a> {
-    /// The true modes, on each of which the method acts alone.
+    /// The true modes, if the method acts on each of them separately.
     fn modes_of(truth: &BodyTruth, spec: LaneSpec) -> Option<&Vec<MovedMode>> {
         let chooses = spec.method.tolerance.is_some() || !spec.method.keeps_time;
         let is_follower = spec.method.family == Family::Follower;
         truth.modes.as_ref().filter(|_| !chooses && !is_follower)
     }
 
-    /// Whether the modes tell how wide the body swings: no input changes that.
+    /// Whether the modes determine the width of the swing, which requires that there is no input.
     pub(super) fn tell_the_width(truth: &BodyTruth, spec: LaneSpec) -> bool {
         Self::modes_of(truth, spec).is_some() && truth.inputs.is_empty()
     }
@@ -110,7 +110,7 @@ impl<'a> Modes<'a> {
     /// `None` if the body is not linear, or if the method chooses its own steps, follows a target or fails.
     ///
     /// # Errors
-    /// If that takes too much work.
+    /// If it takes too much work.
     pub(super) async fn of(
         truth: &'a BodyTruth,
         spec: LaneSpec,
@@ -153,19 +153,20 @@ impl<'a> Modes<'a> {
         swinging.max_by(|a, b| a.moved.share.total_cmp(&b.moved.share))
     }
 
-    /// The frequency error of the main mode.
+    /// Frequency error of the main mode.
     pub(super) fn frequency_error(&self) -> Option<f64> {
         self.main()?.stability.frequency_error
     }
 
-    /// The true curve of the main mode, and its own.
+    /// The true curve of the main mode, and the curve under the method.
     fn main_curves(&self) -> Option<&[SwingCurve; 2]> {
         self.main()?.curves.as_ref()
     }
 
-    /// Whether the amplitude stays within [`VISIBLE`] of the true one for `seconds`. That of one mode is compared half turn by
-    /// half turn. That of several is the root of their energies, each with its own width at the start and its own rate of
-    /// growth or decay. `None` if no mode moves.
+    /// Whether the amplitude stays within [`VISIBLE`] of the true one for `seconds`. `None` if no mode moves.
+    ///
+    /// With one mode, half turns are compared. With several, the amplitude is the root of their total energy, each
+    /// with its own initial width and rate of growth or decay.
     pub(super) fn are_as_wide(&self, seconds: f64) -> Option<bool> {
         let moving = || self.modes.iter().filter(|mode| mode.moved.share > 0.0);
         moving().next()?;
@@ -188,7 +189,8 @@ impl<'a> Modes<'a> {
         self.modes.iter().all(|mode| is_conserved(mode.mode()))
     }
 
-    /// The amplitude after `t` seconds, in units of the initial one. Modes that decay in truth contribute their growth only.
+    /// Amplitude after `t` seconds, relative to the initial one. Modes that decay in truth contribute only their
+    /// growth.
     fn amplitude(&self, t: f64) -> f64 {
         let conserved = self.are_conserved();
         let energy = self.modes.iter().map(|SteppedMode { moved, stability, .. }| {
@@ -203,7 +205,7 @@ impl<'a> Modes<'a> {
         energy.sum::<f64>().sqrt()
     }
 
-    /// The first time, up to [`FOREVER_S`], at which `is_past` is true of the amplitude.
+    /// First time, up to [`FOREVER_S`], at which the amplitude satisfies `is_past`.
     fn reaches(&self, is_past: impl Fn(f64) -> bool) -> Option<f64> {
         let (mut low, mut high) = (0.0, FIRST_LOOK_S);
         while !is_past(self.amplitude(high)) {
@@ -233,7 +235,7 @@ impl<'a> Modes<'a> {
                 measure,
                 doubles_in_s,
                 halves_in_s: reaches(is_conserved, |amplitude| amplitude <= 0.5),
-                // A mode that has no energy at the start grows out of rounding.
+                // A mode without initial energy grows out of rounding.
                 parasite_doubles_in_s: worst
                     .filter(|&worst| doubles_in_s.is_none_or(|all| worst < all / 2.0)),
                 is_bounded: Some(self.are_bounded()),
@@ -249,6 +251,6 @@ impl<'a> Modes<'a> {
     }
 }
 
-/// The first time at which the amplitude is evaluated, in seconds, and the ratio of each later time to the one before.
+/// First time at which the amplitude is evaluated, in seconds, and ratio of successive times.
 const FIRST_LOOK_S: f64 = 1e-9;
 const LOOKS_APART: f64 = 1.05;

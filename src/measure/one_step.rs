@@ -1,5 +1,5 @@
-//! The anatomy of the selected method's next tick: where it evaluates the force, what it finds there, where it lands, and
-//! where the true motion from the same state lands. It is taken on copies, so that the run is not disturbed.
+//! The anatomy of the selected method's next tick: its force evaluations, its landing point, and the landing point of
+//! the true motion from the same state. It is computed on copies and leaves the run undisturbed.
 
 use crate::run::race::LaneBody;
 use crate::scene::LaneSpec;
@@ -7,10 +7,10 @@ use crate::sim::Solver;
 use crate::sim::numerics::bisect;
 use crate::sim::stability::Tick;
 
-/// Points on the true motion over the tick: enough for it to look smooth if it makes less than a turn.
+/// Points on the true motion over the tick: enough for a smooth curve if it makes less than a turn.
 const EXACT_POINTS: u32 = 48;
 
-/// Points of an orbit across a plot, and how often the place is halved at which it turns.
+/// Points of an orbit across a plot, and number of bisections to find a turning point.
 const ORBIT_POINTS: u32 = 96;
 const HALVINGS: u32 = 40;
 
@@ -19,44 +19,45 @@ const HALVINGS: u32 = 40;
 pub struct OneStep {
     /// The method with its substeps.
     pub spec: LaneSpec,
-    /// The number of the tick at its start.
+    /// Index of the tick at its start.
     pub tick: u64,
-    /// Its length in seconds.
+    /// Length of the tick in seconds.
     pub h: f64,
-    /// The present state.
+    /// The current state.
     pub from: [f64; 2],
     /// Every evaluation of the force, in order.
     pub evaluations: Vec<Slope>,
-    /// Where the method lands; `None` if it fails.
+    /// The state after the tick; `None` if the method fails.
     pub landing: Option<[f64; 2]>,
-    /// The true motion from the present state, up to the end of the tick; empty if it is not known.
+    /// The true motion from the current state to the end of the tick; empty if unknown.
     pub exact: Vec<[f64; 2]>,
-    /// The weighted slopes added up, from the present state to the landing; empty if the landing is no such sum.
+    /// The running sum of the weighted slopes, from the current state to the landing; empty if the landing is not
+    /// such a sum.
     pub chain: Vec<[f64; 2]>,
-    /// The change of the swing by the tick, as a part of it: of one tick, and of the same tick in twice as many steps.
-    /// `None` unless the body is linear, swings about 0 and conserves its energy.
+    /// Relative change of the swing by the tick, and by the same tick in twice as many steps. `None` unless the body
+    /// is linear, swings about 0 and conserves its energy.
     pub growth: Option<[f64; 2]>,
 }
 
 /// An evaluation of the force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slope {
-    /// When, as a part of the tick.
+    /// Time as a fraction of the tick.
     pub when: f64,
-    /// The state in which the force was evaluated.
+    /// State in which the force was evaluated.
     pub at: [f64; 2],
-    /// The derivative there, per second.
+    /// Derivative of that state, per second.
     pub slope: [f64; 2],
 }
 
 impl OneStep {
-    /// Where the true motion lands.
+    /// End of the true motion.
     pub fn exact_landing(&self) -> Option<[f64; 2]> {
         self.exact.last().copied()
     }
 }
 
-/// The tick of this number of a body of a lane. `None` if the body has halted.
+/// Anatomy of the tick with this number; `None` if the body has halted.
 pub(crate) fn one_step(
     body: &LaneBody,
     spec: LaneSpec,
@@ -88,7 +89,7 @@ pub(crate) fn one_step(
     Some(step)
 }
 
-/// The change of the swing by a tick; see [`OneStep::growth`].
+/// Relative change of the swing by a tick; see [`OneStep::growth`].
 fn growth(body: &LaneBody, spec: LaneSpec, Tick { t, h, substeps }: Tick) -> Option<[f64; 2]> {
     let stepper = &body.stepper;
     let mut at_rest = [0.0];
@@ -106,8 +107,8 @@ fn growth(body: &LaneBody, spec: LaneSpec, Tick { t, h, substeps }: Tick) -> Opt
     Some([by(substeps)?, by(2 * substeps)?])
 }
 
-/// Lines through the states of a body that have the energy of the state `through`, with coordinates from `low` to `high`.
-/// Empty if the body has several coordinates, or conserves no energy.
+/// Lines through the states with the same energy as `through`, for coordinates from `low` to `high`. Empty if the
+/// body has several coordinates or conserves no energy.
 pub(crate) fn orbit(
     body: &LaneBody,
     t: f64,
@@ -133,7 +134,7 @@ pub(crate) fn orbit(
         let Some(v) = speed(part(i)) else { return Vec::new() };
         let was_seen = !piece.is_empty();
         if i > 0 && was_seen != v.is_finite() {
-            // It turns between these two.
+            // The orbit turns between these two.
             let ends = if was_seen { [i - 1, i] } else { [i, i - 1] };
             let is_inside = |q: f64| speed(q).is_some_and(f64::is_finite);
             let [inside, _] = bisect(ends.map(part), HALVINGS, is_inside);
@@ -151,7 +152,7 @@ pub(crate) fn orbit(
     pieces.into_iter().chain(below).filter(|line| line.len() > 1).collect()
 }
 
-/// The true motion from the present state.
+/// The true motion from the current state.
 fn exact(body: &LaneBody, tick: Tick) -> Vec<[f64; 2]> {
     let mut truth = body.stepper.with_solver(Solver::Truth, tick.t);
     let part = tick.h / f64::from(EXACT_POINTS);
@@ -165,7 +166,7 @@ fn exact(body: &LaneBody, tick: Tick) -> Vec<[f64; 2]> {
     points
 }
 
-/// The present state with one weighted slope after the other added.
+/// The running sum of the weighted slopes, from the current state.
 fn chain(step: &OneStep) -> Vec<[f64; 2]> {
     let weights = step.spec.method.weights;
     if step.spec.substeps != 1 || weights.is_empty() || weights.len() != step.evaluations.len() {

@@ -15,13 +15,13 @@ pub enum Outcome {
     LooksRight,
     /// Judging takes too much work, or the scene is shorter than a tick.
     NotJudged,
-    /// The truth is not known, or not precisely enough.
+    /// The truth is unknown, or not precise enough.
     NoTruth,
     /// It neither grows nor dies away, and looks wrong.
     Bounded,
-    /// The amplitude decreases, and in truth it does not.
+    /// The amplitude decreases, unlike in truth.
     DiesAway,
-    /// The amplitude grows, and in truth it does not.
+    /// The amplitude grows, unlike in truth.
     Grows,
     /// The method's solver failed.
     GaveUp,
@@ -44,12 +44,12 @@ impl Outcome {
         Self::BlewUp,
     ];
 
-    /// That of a body that halted.
+    /// Outcome of a body that halted.
     pub fn of_halt(halt: &Halt) -> Self {
         if halt.is_blow_up() { Self::BlewUp } else { Self::GaveUp }
     }
 
-    /// Its name in output: that for people, in kebab case.
+    /// Its name in output: the name for people, in kebab case.
     pub fn id(self) -> &'static str {
         match self {
             Outcome::Rounding | Outcome::Accurate => "accurate",
@@ -126,7 +126,7 @@ impl Outcome {
 }
 
 impl Criterion {
-    /// The outcome of a lane that meets it, and no harder one.
+    /// The outcome of a lane that meets this criterion and no harder one.
     pub fn outcome(self) -> Outcome {
         match self {
             Criterion::Bounded => Outcome::Bounded,
@@ -139,9 +139,9 @@ impl Criterion {
 /// The shape that distinguishes verdicts without their colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
-    /// Accurate, or, in a lighter colour, it looks right.
+    /// Accurate or, in a lighter colour, looks right.
     Disc,
-    /// Bounded, and no more.
+    /// Only bounded.
     Diamond,
     /// It grows.
     Rising,
@@ -149,7 +149,7 @@ pub enum Sign {
     Falling,
     /// It is lost.
     Cross,
-    /// Not known.
+    /// Unknown.
     Ring,
 }
 
@@ -170,13 +170,13 @@ impl Sign {
 /// How bad a verdict is for a developer. Each severity has one colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// No error can be seen.
+    /// The error is invisible.
     Fine,
-    /// An error can be measured, and hardly be seen.
+    /// The error is measurable, but hardly visible.
     Fair,
-    /// The error can be seen on a closer look.
+    /// The error is visible on a closer look.
     Doubtful,
-    /// The error is seen at once.
+    /// The error is obvious.
     Bad,
     /// Nothing is known.
     Unknown,

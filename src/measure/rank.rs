@@ -1,16 +1,16 @@
-//! The order in which methods that meet a criterion are recommended: the one rule of command, library and window.
+//! The order in which methods that meet a criterion are recommended, shared by command, library and window.
 //!
-//! The least [cost](CriterionMet::cost_per_s) comes first; of equal costs the larger [reserve](CriterionMet::reserve); of
-//! equal reserves the fewest substeps; then the place in the table of methods. A method whose reserve is below
-//! [`LITTLE_RESERVE`] is passed over where another of up to [`TIMES_ITS_COST`] its cost has a larger one.
+//! The lowest [cost](CriterionMet::cost_per_s) comes first. Ties go to the larger [reserve](CriterionMet::reserve),
+//! then to the fewest substeps, then to the place in the table of methods. A method with a reserve below
+//! [`LITTLE_RESERVE`] is passed over if another has a larger one at up to [`TIMES_ITS_COST`] its cost.
 
 use super::criterion::{CriterionMet, MAX_STIFFER};
 use crate::sim::integrators::{METHODS, Method};
 
-/// A reserve below this is little: a body half as stiff again is as much as a designer changes in an afternoon.
+/// A reserve below this is little: a designer may well make a body half as stiff again in an afternoon.
 const LITTLE_RESERVE: f64 = 1.5;
 
-/// How much more a larger reserve may cost: that of one substep more for most methods.
+/// Largest relative cost of a larger reserve: that of one more substep, for most methods.
 const TIMES_ITS_COST: f64 = 2.0;
 
 /// The methods that meet a criterion, in order. Margins that are not searched count as no reserve.
@@ -22,7 +22,7 @@ struct Ranked<'a> {
     index: usize,
     met: &'a CriterionMet,
     reserve: f64,
-    /// What decides between equal costs and reserves: substeps, the place in the table, the index.
+    /// Key for equal costs and reserves: substeps, place in the table, index.
     ties: (u32, usize, usize),
 }
 
@@ -36,7 +36,7 @@ impl Ranked<'_> {
 }
 
 impl<'a> Ranking<'a> {
-    /// The ranking of these methods, each with its index and how it meets the criterion.
+    /// Ranks these methods, each with its index and how it meets the criterion.
     pub(super) fn new(
         methods: impl Iterator<Item = (usize, (&'static Method, &'a CriterionMet))>,
     ) -> Self {
@@ -58,31 +58,30 @@ impl<'a> Ranking<'a> {
         Self { all }
     }
 
-    /// The least cost.
     pub(super) fn least_cost(&self) -> Option<f64> {
         Some(self.all.first()?.met.cost_per_s)
     }
 
-    /// The index of the method that is recommended.
+    /// Index of the recommended method.
     pub(super) fn first(&self) -> Option<usize> {
         let is_outdone = |one: &Ranked| self.all.iter().any(|other| one.is_outdone_by(other));
         self.all.iter().find(|one| !is_outdone(one)).map(|one| one.index)
     }
 
-    /// All indices: the method that is recommended, then the others in order.
+    /// All indices: the recommended method, then the others in order.
     pub(super) fn indices(&self) -> Vec<usize> {
         let first = self.first();
         let rest = self.all.iter().map(|it| it.index).filter(|&index| Some(index) != first);
         first.into_iter().chain(rest).collect()
     }
 
-    /// The index of the cheapest method, if it is passed over.
+    /// Index of the cheapest method, if it is passed over.
     pub(super) fn passed_over(&self) -> Option<usize> {
         let cheapest = self.all.first()?.index;
         (self.first() != Some(cheapest)).then_some(cheapest)
     }
 
-    /// The most that a method may cost to come before the first that was judged: another that costs more changes nothing.
+    /// Highest cost at which another method could still become the recommended one.
     pub(super) fn most_cost_of_a_rival(&self) -> f64 {
         let first = self.first();
         let taken = self.all.iter().find(|it| Some(it.index) == first);
@@ -92,13 +91,13 @@ impl<'a> Ranking<'a> {
         })
     }
 
-    /// The methods whose margins are to be searched next, by their indices, until it is known which is recommended. They cost
-    /// the same: dearer ones are searched only if the reserve of these is little.
+    /// Indices of the methods whose margins to search next; empty once the recommendation is certain. They all cost
+    /// the same: more expensive ones follow only if the reserve of these is little.
     pub(super) fn undecided(&self) -> Vec<usize> {
         let is_open = |it: &&Ranked| !it.met.are_margins_searched;
         let cost = |it: &Ranked| it.met.cost_per_s;
         for alike in self.all.chunk_by(|a, b| cost(a) == cost(b)) {
-            // No reserve is above the largest that is searched for.
+            // No reserve exceeds the search limit.
             let best = &alike[0];
             let may_win = |it: &&Ranked| best.reserve < MAX_STIFFER || it.ties < best.ties;
             let mut open: Vec<usize> =

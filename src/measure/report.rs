@@ -1,4 +1,4 @@
-//! Advice on a custom body as a value: to print, to test, or to write as JSON.
+//! Advice on a custom body as a value, to print, test or write as JSON.
 
 use std::fmt;
 
@@ -16,11 +16,11 @@ use crate::sim::{State, System, TickRate, Vector};
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
 pub struct Criteria<T> {
-    /// Of [`Criterion::Bounded`].
+    /// Value for [`Criterion::Bounded`].
     pub bounded: T,
-    /// Of [`Criterion::LooksRight`].
+    /// Value for [`Criterion::LooksRight`].
     pub looks_right: T,
-    /// Of [`Criterion::Accurate`].
+    /// Value for [`Criterion::Accurate`].
     pub accurate: T,
 }
 
@@ -30,7 +30,7 @@ impl<T> Criteria<T> {
         Self { bounded, looks_right, accurate }
     }
 
-    /// The value of a criterion.
+    /// The value for a criterion.
     pub fn get(&self, criterion: Criterion) -> &T {
         match criterion {
             Criterion::Bounded => &self.bounded,
@@ -40,27 +40,27 @@ impl<T> Criteria<T> {
     }
 }
 
-/// What is advised for a body at a tick rate.
+/// The advice on a body at a tick rate.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Report {
-    /// The body's name.
+    /// Name of the body.
     pub name: String,
-    /// The tick rate in Hz.
+    /// Tick rate in Hz.
     pub tick_hz: TickRate,
-    /// The simulated seconds over which the methods were judged.
+    /// Simulated seconds over which the methods were judged.
     pub horizon_s: f64,
-    /// Every method, in the order of the table or as they were given.
+    /// Every method, in the order of the table or as given.
     pub methods: Vec<MethodReport>,
-    /// The method to take for each criterion, as [`ranked`](super::ranked) has it; `None` if none meets it, or if it is not
-    /// known.
+    /// The method recommended for each criterion, in the order of [`ranked`](super::ranked); `None` if none meets it,
+    /// or if this is unknown.
     pub recommended: Criteria<Option<Recommendation>>,
-    /// Ids of the methods with an unknown result: no truth, or too much work.
+    /// Ids of methods with an unknown result: no truth, or too much work.
     pub not_known: Criteria<Vec<&'static str>>,
 }
 
-/// What is found of one method.
+/// The results for one method.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -69,11 +69,11 @@ pub struct MethodReport {
     pub method: &'static str,
     /// The verdict, displayed as a sentence.
     pub verdict: Verdict,
-    /// How it meets each criterion with the fewest substeps; `None` if it does not, or if it is not known.
+    /// How it meets each criterion with the fewest substeps; `None` if it does not, or if this is unknown.
     pub criteria: Criteria<Option<CriterionMet>>,
 }
 
-/// A cheaper method that is not recommended for want of a reserve.
+/// A cheaper method that is not recommended for lack of a reserve.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -84,11 +84,11 @@ pub struct PassedOver {
     pub substeps: u32,
     /// Its [cost](CriterionMet::cost_per_s).
     pub cost_per_s: f64,
-    /// Its [reserve](CriterionMet::reserve); `None` if it is not known.
+    /// Its [reserve](CriterionMet::reserve); `None` if unknown.
     pub reserve: Option<f64>,
 }
 
-/// The reason, as a part of a sentence.
+/// The reason, as part of a sentence.
 impl fmt::Display for PassedOver {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} ×{} costs less, but its reserve is ", self.method, self.substeps)?;
@@ -99,17 +99,17 @@ impl fmt::Display for PassedOver {
     }
 }
 
-/// A method for a criterion.
+/// The method recommended for a criterion.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Recommendation {
-    /// The method's id.
+    /// Id of the method.
     pub method: &'static str,
     /// How it meets the criterion.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub with: CriterionMet,
-    /// The cheapest method that has too little reserve, if it is taken instead of that.
+    /// The cheapest method, if it is passed over for its small reserve.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub instead_of: Option<PassedOver>,
 }
@@ -136,7 +136,7 @@ impl Recommendation {
     }
 }
 
-/// One line, for a design note.
+/// One line for a design note.
 impl fmt::Display for Recommendation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { method, with, instead_of } = self;
@@ -149,8 +149,8 @@ impl fmt::Display for Recommendation {
     }
 }
 
-/// Judges methods on a body that moves as `system` does, from `start`, and recommends one. Costs are counted in
-/// evaluations of the acceleration, and so is the [work](Options::max_work) of the advice.
+/// Judges methods on a body that moves according to `system` from `start`, and recommends one. Costs and the [work
+/// limit](Options::max_work) are counted in evaluations of the acceleration.
 ///
 /// ```
 /// use regatta::prelude::*;
@@ -176,7 +176,7 @@ impl fmt::Display for Recommendation {
 /// ```
 ///
 /// # Panics
-/// If an option cannot be; [`try_advise`] returns an error instead.
+/// If an option is invalid; [`try_advise`] returns an error instead.
 #[track_caller]
 pub fn advise<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Report
 where
@@ -191,7 +191,7 @@ where
 /// As [`advise`].
 ///
 /// # Errors
-/// If an option cannot be, as of [`Scene::of`].
+/// If an option is invalid, as for [`Scene::of`].
 pub fn try_advise<S>(
     system: &S,
     start: State<S::Vector>,
@@ -205,13 +205,13 @@ where
 }
 
 impl Report {
-    /// The advice on a scene at its tick rate, under full throttle: on the [lanes](Scene::advised_lanes) that command and
-    /// window judge too.
+    /// The advice on a scene at its tick rate, under full throttle, for the same [lanes](Scene::advised_lanes) that
+    /// command and window judge.
     pub fn of_scene(scene: &Scene) -> Self {
         Self::within(u64::MAX, scene)
     }
 
-    /// As [`Self::of_scene`], with about this [work](Options::max_work) in all.
+    /// As [`Self::of_scene`], with a limit of about `max_work` on the total [work](Options::max_work).
     pub fn within(max_work: u64, scene: &Scene) -> Self {
         let adviser = Adviser::within(max_work, scene, scene.tick_hz);
         let mut judged: Vec<MethodAdvice> =

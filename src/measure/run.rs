@@ -1,4 +1,4 @@
-//! One body under one method, stepped tick by tick and compared with its truth.
+//! Steps one body under one method and compares it with its truth, tick by tick.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -13,14 +13,14 @@ pub use crate::scene::custom::MAX_WORK;
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Stepper, TickRate};
 
-/// A swing of this many true amplitudes has grown, and a swing below the inverse has died away.
+/// A swing of this many true amplitudes has grown, and one below the inverse has died away.
 const TWICE: f64 = 2.0;
 
-/// A swing that is [losing](Energy::is_losing) at the end of the long run is followed this many times as far: a shrinking
-/// orbit may still be ejected.
+/// A swing that is [losing](Energy::is_losing) at the end of the long run is followed this many times as far, since a
+/// shrinking orbit may still be ejected.
 const FOLLOWED_ON: u64 = 100;
 
-/// A swing below this part of the true one has come to rest.
+/// A swing below this fraction of the true one has come to rest.
 const AT_REST: f64 = 0.02;
 
 /// When a run ends.
@@ -41,52 +41,52 @@ pub(super) enum Until {
 /// The measurements of one body followed under one method.
 #[derive(Clone, Debug, Default)]
 pub(super) struct JudgedRun {
-    /// The largest error of a coordinate or a velocity over the horizon, in amplitudes, and its time. Infinite if the body
+    /// Largest error of a coordinate or velocity over the horizon, in amplitudes, and its time. Infinite if the body
     /// failed.
     pub(super) error: f64,
     pub(super) error_at_s: f64,
-    /// The largest error in the last twentieth of the horizon.
+    /// Largest error in the last twentieth of the horizon.
     pub(super) last_error: f64,
-    /// The energy drift of largest magnitude over the horizon, in percent of the energy in motion.
+    /// Energy drift of largest magnitude over the horizon, in percent of the energy in motion.
     pub(super) energy_drift: Option<f64>,
-    /// The failure of the body within the horizon.
+    /// Failure of the body within the horizon.
     pub(super) failure: Option<RunFailure>,
-    /// Why the truth failed, if it did.
+    /// Failure of the truth.
     pub(super) no_truth: Option<StepFailure>,
-    /// Whether the run was stopped because it took too much work.
+    /// Whether too much work stopped the run.
     pub(super) is_too_much: bool,
     pub(super) evaluations: u64,
-    /// The simulated seconds within the horizon.
+    /// Simulated seconds within the horizon.
     pub(super) seconds: f64,
     /// All simulated seconds.
     pub(super) followed_s: f64,
     /// The horizon in seconds, in whole ticks.
     pub(super) horizon_s: f64,
-    /// The failure of the body after the horizon.
+    /// Failure of the body after the horizon.
     pub(super) later: Option<RunFailure>,
-    /// The largest distance of a coordinate from its centre after a tick of the horizon, in amplitudes.
+    /// Largest distance of a coordinate from its centre after a tick of the horizon, in amplitudes.
     pub(super) widest: f64,
     /// When a coordinate, and when a velocity, first reached twice its true amplitude.
     pub(super) doubled_at: Option<f64>,
     pub(super) velocity_doubled_at: Option<f64>,
-    /// Since when the swing stays below half the true amplitude.
+    /// Time since which the swing stays below half the true amplitude.
     pub(super) halved_at: Option<f64>,
-    /// Whether the swing was losing and was followed beyond the long run; and whether it came to rest there.
+    /// Whether the swing was losing and was followed beyond the long run, and whether it came to rest there.
     pub(super) is_losing: bool,
     pub(super) has_come_to_rest: bool,
-    /// The mean change of the energy in the quarters of the horizon and of the long run, in units of the largest true
+    /// Mean change of the energy in the quarters of the horizon and of the long run, in units of the largest true
     /// kinetic energy.
     pub(super) quarters: [f64; 4],
     pub(super) long_quarters: [f64; 4],
-    /// How the body closes on a target that stays, up to the first input.
+    /// How the body closes in on a fixed target, up to the first input.
     pub(super) chase: Option<Chase>,
     /// The swinging coordinate after each tick of the horizon.
     pub(super) series: Vec<f64>,
-    /// The swings within the horizon, if they were to be measured and the body swings.
+    /// The swings within the horizon, if they were measured and the body swings.
     pub(super) swings: Option<Swings>,
 }
 
-/// Runs `truth`'s body under `spec` from its start.
+/// Runs the body of `truth` under `spec` from its start.
 pub(super) async fn follow(
     truth: &BodyTruth,
     spec: LaneSpec,
@@ -99,7 +99,7 @@ pub(super) async fn follow(
         Until::Error(_) | Until::Horizon | Until::Swings => horizon,
         Until::Grown | Until::LongRun => ticks(LONG_RUN * truth.horizon_s, tick_hz).max(horizon),
     };
-    // A run that is judged without its error needs no truth.
+    // A run that is not judged by its error needs no truth.
     let max_work = max_work.min(truth.meter.budget_left());
     let series = match until {
         Until::Grown => None,
@@ -142,7 +142,7 @@ pub(super) async fn follow(
     measured.end(stop, followed.ticks(), followed.t())
 }
 
-/// What is measured on a run on its way.
+/// Measurements of a run in progress.
 struct Measured {
     run: JudgedRun,
     energy: Energy,
@@ -150,12 +150,12 @@ struct Measured {
     until: Until,
     horizon: u64,
     tick_hz: TickRate,
-    /// How long it is followed as it closes on a target, in seconds.
+    /// Time in seconds for which a body that closes in on a target is followed.
     chased_s: f64,
 }
 
 impl Measured {
-    /// Measures the body after `tick` ticks, and breaks off where the rest is not needed.
+    /// Adds the body's state after `tick` ticks, and stops the run when the rest is not needed.
     fn take_in(&mut self, truth: &BodyTruth, body: &FollowedBody, tick: u64) -> ControlFlow<()> {
         let (stepper, horizon) = (&*body.stepper, self.horizon);
         let t = self.tick_hz.seconds(tick);
@@ -200,7 +200,7 @@ impl Measured {
         if is_needed { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }
 
-    /// The run, which has stopped after so many ticks, at time `t` (s).
+    /// Completes the run, which has stopped after `ticks` at time `t` (s).
     fn end(self, stop: StopReason, ticks: u64, t: f64) -> JudgedRun {
         let Self { mut run, energy, horizon, .. } = self;
         (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
@@ -240,7 +240,7 @@ impl JudgedRun {
         let values = stepper.q().iter().chain(stepper.v());
         let parts = values.zip(exact).zip(&truth.amplitudes);
         let parts = parts.map(|((x, exact), amplitude)| (x - exact).abs() / amplitude);
-        // Written so that NaN is kept.
+        // Written so that NaN propagates.
         let off = parts.fold(0.0, |off, part| if part <= off { off } else { part });
         if off.is_nan() || off > self.error {
             (self.error, self.error_at_s) = (off, t);
@@ -287,12 +287,12 @@ impl JudgedRun {
         self.doubled_at.is_some() || self.velocity_doubled_at.is_some()
     }
 
-    /// Whether a swing that is losing neither grows nor has come to rest.
+    /// Whether a losing swing has neither grown nor come to rest.
     fn is_undecided(&mut self, stepper: &dyn Stepper, truth: &BodyTruth) -> bool {
         !self.has_grown() && !self.rests(stepper, truth)
     }
 
-    /// Whether coordinates and velocities are all near their values at rest.
+    /// Whether all coordinates and velocities are near their values at rest.
     fn rests(&mut self, stepper: &dyn Stepper, truth: &BodyTruth) -> bool {
         let parts =
             [truth.reach.of_coordinates(stepper.q()), truth.reach.of_velocities(stepper.v())];

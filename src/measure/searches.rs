@@ -11,7 +11,7 @@ pub(super) fn tried_substeps(index: u32) -> u32 {
     }
 }
 
-/// The factors that are tried by which bodies are made stiffer: each at most a tenth above the one before, to two digits.
+/// Stiffness factors to try, to two digits, each at most a tenth above the one before.
 pub(super) const FACTORS: [f64; 30] = [
     1.0,
     1.1,
@@ -45,13 +45,13 @@ pub(super) const FACTORS: [f64; 30] = [
     MAX_STIFFER,
 ];
 
-/// The parts into which a stride between two of these factors is divided where what holds at both holds by a hair.
+/// Number of subdivisions of a stride between two factors, if the results at both are borderline.
 pub(super) const PARTS_OF_STRIDE: usize = 5;
 
-/// The number of factors, those within strides counted.
+/// Number of factors, including those within strides.
 pub(super) const FINE_FACTORS: usize = PARTS_OF_STRIDE * (FACTORS.len() - 1) + 1;
 
-/// The factor with this index, [`PARTS_OF_STRIDE`] to a stride.
+/// The factor with this index, counting [`PARTS_OF_STRIDE`] per stride.
 pub(super) fn fine_factor(index: usize) -> f64 {
     let (stride, part) = (index / PARTS_OF_STRIDE, index % PARTS_OF_STRIDE);
     if part == 0 {
@@ -61,13 +61,13 @@ pub(super) fn fine_factor(index: usize) -> f64 {
     FACTORS[stride] + part * (FACTORS[stride + 1] - FACTORS[stride])
 }
 
-/// A search for the lowest rate, going down from one at which a property is true. Each stride is the rate divided by
-/// `strides`, and the last of them is gone hertz by hertz: no rate that was tried above the one found has failed.
+/// A search for the lowest rate, down from a rate at which a property holds. Each stride is the rate divided by
+/// `strides`, and the last stride is searched hertz by hertz. No rate tried above the result has failed.
 pub(super) struct RatesDown {
-    /// The lowest rate in Hz, so far, at which the property is true.
+    /// Lowest rate so far at which the property holds, in Hz.
     pub(super) held_hz: u32,
     strides: u32,
-    /// The highest rate at which it is not.
+    /// Highest rate at which it fails.
     failed_hz: Option<u32>,
 }
 
@@ -76,7 +76,6 @@ impl RatesDown {
         Self { held_hz: hz, strides, failed_hz: None }
     }
 
-    /// The next rate to try.
     pub(super) fn next(&self) -> Option<u32> {
         let stride =
             if self.failed_hz.is_some() { 1 } else { (self.held_hz / self.strides).max(1) };
@@ -84,7 +83,7 @@ impl RatesDown {
         (next > self.failed_hz.unwrap_or(0)).then_some(next)
     }
 
-    /// Takes note of whether the property is true at the rate that was tried.
+    /// Records whether the property holds at a rate.
     pub(super) fn note(&mut self, hz: u32, holds: bool) {
         if holds {
             self.held_hz = hz;
@@ -128,10 +127,10 @@ mod tests {
                 }
             }
         }
-        // A gap of 3 Hz is seen where the strides are as short.
+        // The search finds a gap of 3 Hz if its strides are as short.
         assert_eq!(slowest_down(60, 60, |hz| !(40..43).contains(&hz)), 43);
         assert_eq!(slowest_down(150, 60, |hz| !(110..113).contains(&hz)), 113);
-        // The last stride ends at a failure, and a gap within it is seen, too.
+        // The last stride ends at a failure, and a gap within it is found, too.
         assert_eq!(slowest_down(60, 6, |hz| hz > 44 && hz != 47), 48);
     }
 

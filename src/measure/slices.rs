@@ -1,5 +1,5 @@
-//! Long work in slices: an `async` function counts its work on a [`Meter`] as it goes, and pauses where the slice is over,
-//! or where another seeks a value that it needs. It needs no runtime: what goes on with it polls it.
+//! Long work in slices. An `async` function counts its work on a [`Meter`] and pauses when the slice is over, or
+//! while another function computes a value that it needs. No runtime is necessary: the caller polls it.
 
 use std::future::{Future, poll_fn};
 use std::mem;
@@ -9,38 +9,38 @@ use std::sync::{Arc, OnceLock};
 use std::task::{Context, Poll, Waker};
 use std::thread;
 
-/// Work in evaluations of one coordinate, as it is done.
+/// Counts work in evaluations of one coordinate.
 #[derive(Debug)]
 pub(super) struct Meter {
     counted: AtomicU64,
-    /// With what is not counted, by which a slice is limited all the same.
+    /// All work, including work outside the budget, since it uses up the slice too.
     passed: AtomicU64,
-    /// What has passed at the end of the slice.
+    /// Value of `passed` at which the slice ends.
     end: AtomicU64,
-    /// The most that may be counted.
+    /// Maximum of `counted`.
     budget: u64,
 }
 
 impl Default for Meter {
-    /// A meter of work without slices and without end.
+    /// A meter without slices or budget.
     fn default() -> Self {
         Self::within(u64::MAX)
     }
 }
 
 impl Meter {
-    /// A meter of work without slices, of which `budget` may be counted. What is under way looks at it before each run.
+    /// A meter without slices that allows `budget` of counted work. Work in progress checks it before each run.
     pub(super) fn within(budget: u64) -> Self {
         let [counted, passed] = [AtomicU64::new(0), AtomicU64::new(0)];
         Self { counted, passed, end: AtomicU64::new(u64::MAX), budget }
     }
 
-    /// The work left of the budget.
+    /// Remaining budget.
     pub(super) fn budget_left(&self) -> u64 {
         self.budget.saturating_sub(self.counted())
     }
 
-    /// The work that was counted so far.
+    /// Work counted so far.
     pub(super) fn counted(&self) -> u64 {
         self.counted.load(Ordering::Relaxed)
     }
@@ -51,19 +51,19 @@ impl Meter {
         self.passed.load(Ordering::Relaxed)
     }
 
-    /// The work left in the slice.
+    /// Work left in the slice.
     pub(super) fn left(&self) -> u64 {
         let passed = self.passed.load(Ordering::Relaxed);
         self.end.load(Ordering::Relaxed).saturating_sub(passed)
     }
 
-    /// Counts work that was done, and pauses if the slice is over.
+    /// Counts work against the budget, and pauses if the slice is over.
     pub(super) async fn count(&self, work: u64) {
         self.counted.fetch_add(work, Ordering::Relaxed);
         self.yield_after(work).await;
     }
 
-    /// Pauses if the slice is over after work that is not counted.
+    /// Adds work outside the budget, and pauses if the slice is over.
     pub(super) async fn yield_after(&self, work: u64) {
         self.passed.fetch_add(work, Ordering::Relaxed);
         if self.left() == 0 {
@@ -72,21 +72,20 @@ impl Meter {
     }
 }
 
-/// Ends the present poll, and goes on with the next.
+/// Returns `Pending` once.
 async fn pause() {
     let mut goes_on = false;
     poll_fn(|_| if mem::replace(&mut goes_on, true) { Poll::Ready(()) } else { Poll::Pending })
         .await;
 }
 
-/// Work that is done slice by slice. Dropped, it is given up.
+/// Work that proceeds slice by slice. Dropping it cancels the work.
 pub(super) struct Sliced<T> {
     meter: Arc<Meter>,
     work: Pin<Box<dyn Future<Output = T> + Send>>,
 }
 
 impl<T> Sliced<T> {
-    /// Work that is counted on this meter.
     pub(super) fn new(meter: Arc<Meter>, work: impl Future<Output = T> + Send + 'static) -> Self {
         Self { meter, work: Box::pin(work) }
     }
@@ -96,7 +95,7 @@ impl<T> Sliced<T> {
         &self.meter
     }
 
-    /// Goes on for about this much work, and returns what it leads to once that is found.
+    /// Continues for about this much work, and returns the result when it is complete.
     pub(super) fn resume(&mut self, work: u64) -> Option<T> {
         let end = self.meter.passed.load(Ordering::Relaxed).saturating_add(work);
         self.meter.end.store(end, Ordering::Relaxed);
@@ -106,14 +105,14 @@ impl<T> Sliced<T> {
     }
 }
 
-/// Does all of the work.
+/// Completes all of the work.
 pub(super) fn block_on<T>(work: impl Future<Output = T>) -> T {
     let mut work = pin!(work);
     loop {
         if let Some(found) = poll(work.as_mut()) {
             return found;
         }
-        // What it waits for is found on another thread.
+        // Another thread computes the value that this work waits for.
         thread::yield_now();
     }
 }
@@ -125,7 +124,7 @@ fn poll<T>(work: Pin<&mut (impl Future<Output = T> + ?Sized)>) -> Option<T> {
     }
 }
 
-/// A value that is found once: by the first who asks for it, while others pause.
+/// A value that is computed once, by the first caller, while other callers pause.
 pub(super) struct Once<T> {
     found: OnceLock<T>,
     is_sought: AtomicBool,
@@ -138,12 +137,11 @@ impl<T> Default for Once<T> {
 }
 
 impl<T> Once<T> {
-    /// The value, if it was found.
     pub(super) fn found(&self) -> Option<&T> {
         self.found.get()
     }
 
-    /// The value; `find` finds it if it is not known.
+    /// The value, which `find` computes if it is unknown.
     pub(super) async fn get(&self, find: impl Future<Output = T>) -> &T {
         while self.found().is_none() && self.is_sought.swap(true, Ordering::Acquire) {
             pause().await;
@@ -157,7 +155,7 @@ impl<T> Once<T> {
     }
 }
 
-/// The turn of the one who seeks the value. It is over when this is dropped, in the midst of work that is given up as well.
+/// Marks the caller that computes the value. Dropping it gives up the claim, also when the work is cancelled.
 struct Turn<'a, T>(&'a Once<T>);
 
 impl<T> Drop for Turn<'_, T> {

@@ -1,8 +1,8 @@
-//! The stability map: for each method the tick rates and the values of a parameter at which it is stable on a body.
+//! The stability map: the tick rates and parameter values at which each method is stable on a body.
 //!
-//! A method is stable on a linear body if it is stable on each of its normal modes, and each of those is a spring. Where
-//! damping couples the modes, the map of a step of the whole body decides. A nonlinear body is linearised about rest. A
-//! method that chooses its own steps has no region: no tick rate bounds it.
+//! A method is stable on a linear body if it is stable on each of its normal modes, which are springs. If damping
+//! couples the modes, the map of a step of the whole body decides. A nonlinear body is linearised about rest. A
+//! method that chooses its own steps has no region, since no tick rate bounds it.
 
 use std::sync::Arc;
 
@@ -25,39 +25,39 @@ mod contour;
 mod seen;
 mod words;
 
-/// The tick rates of a map in Hz: those of the keys. A present rate outside widens the map.
+/// Tick rates of a map in Hz, those that keys can set. A current rate outside widens the map.
 const RATES_HZ: [f64; 2] = [2.0, 1000.0];
-/// A map reaches over this many powers of ten of the parameter.
+/// Number of decades of the parameter that a map covers.
 const DECADES: f64 = 5.0;
-/// The values of a parameter that is 0 in the scene, which says nothing of its size.
+/// Values of a parameter that is 0 in the scene, so that its scale is unknown.
 const FROM_NOTHING: [f64; 2] = [0.01, 1000.0];
-/// Points at which a method is tried, along the rates and along the values. Boundaries between them are bisected, so
-/// that more points only find narrower regions.
+/// Number of points at which a method is tried, along the rates and along the values. Boundaries are bisected between
+/// them, so that more points only find narrower regions.
 const CORNERS: [usize; 2] = [37, 33];
-/// The same for a body of many coupled coordinates: a region takes tens of milliseconds with 2, and would take seconds
-/// with 16.
+/// The same for a body with many coupled coordinates. A region takes tens of milliseconds with 2 coordinates, and
+/// would take seconds with 16.
 const FEWER_CORNERS: [usize; 2] = [19, 17];
-/// From this many coupled coordinates on.
+/// Number of coupled coordinates from which on [`FEWER_CORNERS`] is used.
 const MANY_COUPLED: usize = 9;
-/// The work of the eigenvalues of a motion, in evaluations of one coordinate, by the cube of its coordinates.
+/// Work of a motion's eigenvalues, in evaluations of one coordinate, per cube of the number of coordinates.
 const ROOTS_PER_CUBE: u64 = 50;
 
-/// A stability map that is wanted.
+/// A request for a stability map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapRequest {
-    /// The body's index in the scene.
+    /// Index of the body in the scene.
     pub body: usize,
-    /// The index of the mapped parameter among those of the body's kind.
+    /// Index of the mapped parameter among those of the body's kind.
     pub parameter: usize,
-    /// The methods, with their indices on the list.
+    /// The methods, with their indices in the list.
     pub specs: Vec<(usize, LaneSpec)>,
-    /// The present tick rate.
+    /// The current tick rate.
     pub tick_hz: TickRate,
-    /// The present parameters of the body.
+    /// The current parameters of the body.
     pub(super) values: Vec<f64>,
-    /// The rates at the left and at the right end, in Hz.
+    /// Rates at the left and right end, in Hz.
     pub rates_hz: [f64; 2],
-    /// The values of the parameter at the lower and at the upper end.
+    /// Values of the parameter at the lower and upper end.
     pub range: [f64; 2],
 }
 
@@ -82,12 +82,12 @@ impl MapRequest {
         }
     }
 
-    /// The present value of the mapped parameter.
+    /// The current value of the mapped parameter.
     pub fn value(&self) -> f64 {
         self.values[self.parameter]
     }
 
-    /// Whether both have the same regions: the present point does not change them.
+    /// Whether both requests have the same regions, which do not depend on the current point.
     fn has_regions_of(&self, other: &Self) -> bool {
         let fixed = |request: &Self| {
             let mut fixed = request.clone();
@@ -99,7 +99,7 @@ impl MapRequest {
     }
 }
 
-/// Whole powers of ten around the value that the scene has, and around the present one.
+/// Whole decades around the scene's value and the current one.
 fn range(opened: f64, present: f64) -> [f64; 2] {
     let [low, high] = if opened > 0.0 {
         let low = libm::pow(10.0, (libm::log10(opened) - 1.5).round());
@@ -114,7 +114,8 @@ fn range(opened: f64, present: f64) -> [f64; 2] {
     [low.min(decade(libm::floor)), high.max(decade(libm::ceil))]
 }
 
-/// Where a method is stable. Points are the common logarithms of the rate in Hz and of the parameter's value.
+/// The region in which a method is stable. Points are the common logarithms of the rate in Hz and of the parameter's
+/// value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     /// How much of the map it covers.
@@ -123,14 +124,14 @@ pub struct Region {
     pub pieces: Vec<Vec<[f64; 2]>>,
     /// Its boundary, as lines through these points.
     pub boundary: Vec<Vec<[f64; 2]>>,
-    /// The ω h of a tick at the boundary, where the method's card tells it: nothing on the map may be damped.
+    /// The ω h of a tick at the boundary, if the method's card states it and no motion on the map is damped.
     pub limit: Option<f64>,
-    /// Lines along which a player sees the same damping; of an engine whose joint the body is.
+    /// Lines of equal damping as a player sees it, for an engine that models the body as its joint.
     pub seen: Vec<SeenLine>,
 }
 
 impl Region {
-    /// Whether this point is in one of its pieces.
+    /// Whether a point is in one of its pieces.
     pub fn contains(&self, [x, y]: [f64; 2]) -> bool {
         let is_left = |(a, b): (&[f64; 2], &[f64; 2])| {
             (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) >= 0.0
@@ -146,13 +147,13 @@ pub enum Coverage {
     Everywhere,
     /// None of it.
     Nowhere,
-    /// A part of it.
+    /// Part of it.
     Part,
     /// The method chooses its own steps, so that no tick rate bounds it.
     OwnSteps,
 }
 
-/// What a method does at the present point.
+/// Stability of a method at the current point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Here {
     /// It is stable.
@@ -163,37 +164,37 @@ pub enum Here {
     OwnSteps,
 }
 
-/// The stability map of a body, as far as it has been found.
+/// The stability map of a body, with the results so far.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
-    /// What it is a map of.
+    /// The request.
     pub request: MapRequest,
-    /// The regions of the leading methods of the request.
+    /// Regions of the request's methods, from the first; later ones are not known yet.
     pub regions: Vec<Region>,
-    /// What each method of the request does at the present point; empty until it is known.
+    /// Stability of each method of the request at the current point; empty until known.
     pub here: Vec<Here>,
-    /// Why the body cannot be mapped, if it is neither linear nor can be linearised about rest.
+    /// Why the body cannot be mapped, if it is neither linear nor linearisable about rest.
     pub refused: Option<NoSmallMotion>,
     /// Whether the body is linear, so that the map holds at any amplitude.
     pub is_linear: bool,
-    /// Whether the true motion grows at the present point. Such growth is not counted against a method.
+    /// Whether the true motion grows at the current point. Such growth does not count against a method.
     pub truth_grows: bool,
 }
 
-/// What a method is tried on.
+/// The motion on which a method is tried.
 enum TestProblem {
     /// The normal modes, the fastest first.
     Uncoupled(Uncoupled),
-    /// All coordinates together: damping couples the modes, or one grows.
+    /// All coordinates together, since damping couples the modes or one of them grows.
     Coupled(CoupledMotion),
 }
 
 /// The normal modes of a body.
 struct Uncoupled {
     modes: Vec<NormalMode>,
-    /// What an engine integrates itself.
+    /// The forces that an engine integrates itself.
     settings: EngineSettings,
-    /// The same modes for an engine that holds the whole force of such a body.
+    /// The coupled motion, for an engine that keeps such a body's whole force constant over a step.
     held: Option<CoupledMotion>,
 }
 
@@ -210,7 +211,7 @@ impl TestProblem {
         small.coupled().map(Self::Coupled)
     }
 
-    /// What a method is tried on: each of these modes, or all coordinates together.
+    /// The modes on which a method is tried, or else the coupled motion.
     fn tried(&self, spec: &LaneSpec) -> (&[NormalMode], Option<&CoupledMotion>) {
         match self {
             Self::Uncoupled(Uncoupled { held: Some(held), .. }) if spec.method.is_engine() => {
@@ -221,7 +222,7 @@ impl TestProblem {
         }
     }
 
-    /// The stability of a method on each mode, or on all together. `None` where the method fails.
+    /// Stability of a method on each mode or on the coupled motion; `None` where the method fails.
     fn under<'a>(
         &'a self,
         spec: &'a LaneSpec,
@@ -242,7 +243,7 @@ impl TestProblem {
         self.under(spec, hz).all(|found| found.is_some_and(|stability| stability.is_bounded()))
     }
 
-    /// About the work of a point under a method: steps from each of two states a coordinate, and the roots of their map.
+    /// Approximate work of a point under a method: steps from two states per coordinate, and the roots of their map.
     fn work(&self, spec: &LaneSpec) -> u64 {
         let steps = |n: u64| {
             let evaluations = u64::from(spec.method.evaluations.unwrap_or(n as u32));
@@ -258,13 +259,12 @@ impl TestProblem {
         matches!(self, Self::Uncoupled(Uncoupled { modes, .. }) if modes.iter().all(NormalMode::is_conserved))
     }
 
-    /// Whether the true motion grows.
     fn grows(&self) -> bool {
         matches!(self, Self::Coupled(coupled) if coupled.grows())
     }
 }
 
-/// What the points of a map are tried on.
+/// The body and the grid that a map is made of.
 struct Plane {
     kind: Arc<Kind>,
     values: Vec<f64>,
@@ -285,12 +285,12 @@ impl Plane {
         (self.kind.build)(&values, Solver::Truth)
     }
 
-    /// About the work of finding a motion.
+    /// Approximate work of finding a motion.
     fn work_of_motion(&self) -> u64 {
         work_of_roots(self.kind.coordinates(&self.values).len() as u64)
     }
 
-    /// What each method does at a value and a rate, and whether the true motion grows there.
+    /// Stability of each method at a value and a rate, and whether the true motion grows there.
     async fn here(&self, specs: &[(usize, LaneSpec)], value: f64, hz: f64) -> (Vec<Here>, bool) {
         let motion = self.motion_at(value);
         self.meter.yield_after(self.work_of_motion()).await;
@@ -346,15 +346,15 @@ impl Plane {
 
 type Rows = Vec<Option<TestProblem>>;
 
-/// A map being computed: what the methods do at the present point, and then region by region.
+/// A map in progress: first the current point, then region by region.
 pub(super) struct MapWork {
     plane: Arc<Plane>,
     map: StabilityMap,
     rows: Option<Arc<Rows>>,
-    /// What is being found of the present point, and of the regions.
+    /// Work in progress on the current point, and on the rows or a region.
     here: Option<Sliced<(Vec<Here>, bool)>>,
     part: Option<Sliced<Part>>,
-    /// Whether the last slice found nothing yet.
+    /// Whether the last slice ended without a new result.
     is_within_a_part: bool,
 }
 
@@ -390,7 +390,7 @@ impl MapWork {
         Self { plane, map, rows: None, here: None, part: None, is_within_a_part: false }
     }
 
-    /// Replaces the request. Regions that answer the new one too are kept, also one that is being found.
+    /// Replaces the request. Regions that also answer the new request are kept, including one in progress.
     pub(super) fn set_request(&mut self, request: MapRequest) {
         if !request.has_regions_of(&self.map.request) {
             *self = Self::new(self.plane.kind.clone(), request);
@@ -416,18 +416,18 @@ impl MapWork {
             || self.map.here.len() == wanted && self.map.regions.len() == wanted
     }
 
-    /// Whether the last slice was within a part, so that nothing more is known than before.
+    /// Whether the last slice ended within a part, without a new result.
     pub(super) fn is_within_a_part(&self) -> bool {
         self.is_within_a_part
     }
 
-    /// What counts the work on it.
+    /// The meter that counts its work.
     #[cfg(test)]
     pub(super) fn meter(&self) -> &Arc<Meter> {
         &self.plane.meter
     }
 
-    /// Goes on for about this much work, in evaluations of one coordinate.
+    /// Continues for about this much work, in evaluations of one coordinate.
     pub(super) fn advance(&mut self, work: u64) {
         let request = &self.map.request;
         if self.is_done() {
@@ -457,7 +457,7 @@ impl MapWork {
         self.is_within_a_part = self.part.is_some();
     }
 
-    /// What the next region needs, or that.
+    /// The work for the next region, or for the rows that it needs first.
     fn next_part(&self) -> Sliced<Part> {
         let (plane, meter) = (self.plane.clone(), self.plane.meter.clone());
         let (_, spec) = self.map.request.specs[self.map.regions.len()];
@@ -470,7 +470,7 @@ impl MapWork {
     }
 }
 
-/// The work of the eigenvalues of two values for each of `n` coordinates.
+/// Work of the eigenvalues of two values for each of `n` coordinates.
 fn work_of_roots(n: u64) -> u64 {
     ROOTS_PER_CUBE * n * n * n
 }
@@ -479,8 +479,8 @@ fn chooses_steps(spec: &LaneSpec) -> bool {
     spec.method.tolerance.is_some() || !spec.method.keeps_time
 }
 
-/// Stability on one mode, measured on a body of one coordinate that has it: a spring; for a follower method a follower; for
-/// an engine on a body without a joint a ship. `None` if the method fails.
+/// Stability on one mode, measured on a body with one coordinate and this mode. It is a spring, but a follower for a
+/// follower method, and a ship for an engine without a joint for the body. `None` if the method fails.
 fn stability(spec: &LaneSpec, has_joint: bool, mode: &NormalMode, hz: f64) -> Option<Stability> {
     let NormalMode { omega_squared, damping_per_s, .. } = *mode;
     let body = match spec.method.law_order() {

@@ -4,7 +4,7 @@ use crate::run::race::hermite;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 
-/// The parts into which a step is divided to find an extreme.
+/// Number of parts of a step that are searched for an extreme.
 const BETWEEN: u32 = 4;
 
 /// A moment of the true motion.
@@ -26,13 +26,13 @@ impl TruthNode {
         Self { t, x, slope }
     }
 
-    /// Component `i` at the part `s` of the way to `next`, by the cubic through both.
+    /// Component `i` at the fraction `s` of the way to `next`, on the cubic through both.
     pub(super) fn between(&self, next: &Self, i: usize, s: f64) -> f64 {
         let h = next.t - self.t;
         hermite(s, h, [self.x[i], next.x[i]], [self.slope[i], next.slope[i]])
     }
 
-    /// `body` advanced between these times.
+    /// Advances `body` between these times.
     ///
     /// # Errors
     /// If it fails or is not finite.

@@ -1,34 +1,34 @@
-//! The swing of a linear body of one coordinate as a curve, by which its peaks are known exactly.
+//! The swing of a linear body with one coordinate as a curve, which gives its peaks exactly.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The curve e^(gt) (q cos ωt + b sin ωt) about the place of rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SwingCurve {
-    /// Where it begins.
+    /// Initial distance from the place of rest.
     pub(super) q: f64,
-    /// The part that is a quarter of a turn ahead.
+    /// Amplitude of the sine part, a quarter of a turn ahead.
     pub(super) b: f64,
-    /// g, per second: negative if it dies away.
+    /// g, per second: negative for a decaying swing.
     pub(super) growth_per_s: f64,
     /// ω, in radians per second; positive.
     pub(super) frequency: f64,
 }
 
 impl SwingCurve {
-    /// Its amplitude at the start, if it were at a peak there.
+    /// Amplitude at the start, as if it were at a peak there.
     pub(super) fn width(&self) -> f64 {
         libm::hypot(self.q, self.b)
     }
 
-    /// By how many seconds it is ahead of `other` after `seconds`, in turns of `other`.
+    /// Seconds by which it leads `other` after `seconds`, measured in turns of `other`.
     pub(super) fn lead_s(&self, other: &Self, seconds: f64) -> f64 {
         let phase = |curve: &Self| libm::atan2(curve.b, curve.q);
         let at_start = libm::remainder(phase(other) - phase(self), 2.0 * PI);
         (at_start + (self.frequency - other.frequency) * seconds) / other.frequency
     }
 
-    /// The angle, in 0 to π, at which it first passes the place of rest.
+    /// Angle of the first passage through the place of rest, in 0 to π.
     fn first_passage(&self) -> f64 {
         let angle = libm::atan2(self.b, self.q);
         [-FRAC_PI_2, FRAC_PI_2, PI + FRAC_PI_2]
@@ -38,13 +38,13 @@ impl SwingCurve {
             .unwrap_or(PI)
     }
 
-    /// The half turns that are complete after `seconds`; the first begins at the start.
+    /// Number of complete half turns after `seconds`; the first begins at the start.
     fn half_turns(&self, seconds: f64) -> f64 {
         let turned = self.frequency * seconds - self.first_passage();
         (libm::floor(turned / PI) + 1.0).max(0.0)
     }
 
-    /// Its largest distance from the place of rest in the half turn with this index.
+    /// Largest distance from the place of rest in the half turn with this index.
     fn reach(&self, half_turn: f64) -> f64 {
         let slope = self.growth_per_s / self.frequency;
         let peak = self.first_passage() - FRAC_PI_2 + libm::atan(slope);
@@ -56,12 +56,13 @@ impl SwingCurve {
         }
     }
 
-    /// Its largest distance from the place of rest, if it does not grow.
+    /// Largest distance from the place of rest, if the swing does not grow.
     pub(super) fn widest(&self) -> f64 {
         self.reach(0.0).max(self.reach(1.0))
     }
 
-    /// As [`Self::reach`] of the first half turn, of states `step_s` apart: a first step that turns back at once shows no peak.
+    /// As [`Self::reach`] for the first half turn, from states `step_s` apart. A first step that turns back at once
+    /// shows no peak.
     fn first_reach(&self, step_s: f64) -> f64 {
         let (sin, cos) = libm::sincos(self.frequency * step_s);
         let next = libm::exp(self.growth_per_s * step_s) * (self.q * cos + self.b * sin);
@@ -69,16 +70,17 @@ impl SwingCurve {
         if turns_back { self.q.abs() } else { self.reach(0.0) }
     }
 
-    /// The largest difference in width between a half turn of this curve and the same of `other`, whose states are `step_s`
-    /// apart, within `seconds`, as a part of the widest of this one. What does not decay swings as wide in each half turn, and
-    /// the first, which begins in its midst, is not compared.
+    /// Largest difference in width between half turns of this curve and of `other` within `seconds`, relative to this
+    /// curve's widest. The states of `other` are `step_s` apart.
+    ///
+    /// Without decay all half turns are equally wide, and the incomplete first one is not compared.
     pub(super) fn misfit(&self, other: &Self, step_s: f64, seconds: f64) -> f64 {
         let last = self.half_turns(seconds).min(other.half_turns(seconds)).max(1.0) - 1.0;
         let first = match self.growth_per_s {
             0.0 => 0.0,
             _ => (self.reach(0.0) - other.first_reach(step_s)).abs(),
         };
-        // From the second half turn on each is a geometric sequence, and their difference has one extreme.
+        // From the second half turn on, both widths are geometric sequences, and their difference has one extreme.
         let [own, others] = [self, other].map(|curve| {
             let decay = curve.growth_per_s * PI / curve.frequency;
             (libm::log(curve.reach(1.0).max(f64::MIN_POSITIVE) * decay.abs()) - decay, decay)
@@ -97,7 +99,7 @@ impl SwingCurve {
 mod tests {
     use super::*;
 
-    /// The largest distance in each complete half turn, by small steps.
+    /// Largest distance in each complete half turn, from small steps.
     fn stepped(curve: &SwingCurve, seconds: f64) -> Vec<f64> {
         let at = |t: f64| {
             let turned = curve.frequency * t;
@@ -172,7 +174,7 @@ mod tests {
                 );
             }
         }
-        // The difference of two decays is largest on the way: (r/s)^(s/(s-r)) - (r/s)^(r/(s-r)) of the start.
+        // The difference of two decays has its maximum in between: (r/s)^(s/(s-r)) - (r/s)^(r/(s-r)) of the start.
         let slow = SwingCurve { q: 1.0, b: 0.0, growth_per_s: -0.1, frequency: 100.0 };
         let fast = SwingCurve { growth_per_s: -0.15, ..slow };
         let wanted = libm::pow(2.0 / 3.0, 2.0) - libm::pow(2.0 / 3.0, 3.0);
@@ -184,7 +186,7 @@ mod tests {
         let (b, q) = libm::sincos(0.3);
         let truth = SwingCurve { q, b, growth_per_s: -0.01, frequency: 1.0 };
         let gap = 1.0 - libm::cos(0.3);
-        // After 0.6 s it has come back to where it began.
+        // After 0.6 s the swing is back where it began.
         assert!(truth.misfit(&truth, 0.55, 60.0) < 1e-12);
         assert!((truth.misfit(&truth, 0.61, 60.0) - gap).abs() < 0.005);
         let kept = SwingCurve { growth_per_s: 0.0, ..truth };

@@ -1,30 +1,32 @@
-//! How a body swings under a method: its width in each half turn, and its passages through its centre, found between the
-//! steps of the method.
+//! The swings of a body under a method: its width in each half turn, and its passages through its centre, both found
+//! between the method's steps.
 
 use crate::run::race::hermite;
 use crate::sim::Stepper;
 use crate::sim::numerics::bisect;
 
-/// The parts of a step at which its curve is evaluated for a peak. They miss 0.2 % of a peak in a step of a third of a turn.
+/// Number of parts of a step at which its curve is evaluated for a peak. In a step of a third of a turn, they miss
+/// 0.2 % of a peak.
 const PARTS: u32 = 16;
 
 /// Measures a run step by step.
 ///
-/// The motion between two steps is the polynomial of degree five through the coordinates, velocities and accelerations at
-/// both. It finds a peak to 0.2 % in steps of up to a quarter of a turn, and to 0.7 % in steps of a third.
+/// The motion between two steps is the polynomial of degree five through the coordinates, velocities and
+/// accelerations at both. It finds a peak to 0.2 % in steps of up to a quarter of a turn, and to 0.7 % in steps of a
+/// third.
 #[derive(Clone, Debug)]
 pub(super) struct Swings {
     /// The coordinate whose passages through its centre divide the half turns.
     coordinate: usize,
     centres: Vec<f64>,
     amplitudes: Vec<f64>,
-    /// The last three states, oldest first, while a step is added; otherwise the last is a buffer.
+    /// The last three states, oldest first, while a step is added; otherwise the last one is a buffer.
     nodes: [Node; 3],
     /// Whether the oldest state precedes the next by one step: false at the start and after an input.
     has_before: bool,
-    /// The largest distance of any coordinate from its centre in each half turn so far, in amplitudes.
+    /// Largest distance of any coordinate from its centre in each half turn so far, in amplitudes.
     pub(super) half_turns: Vec<f64>,
-    /// When the coordinate crossed its centre upwards, in seconds.
+    /// Times at which the coordinate crossed its centre upwards, in seconds.
     pub(super) crossings: Vec<f64>,
 }
 
@@ -34,9 +36,9 @@ struct Node {
     t: f64,
     q: Vec<f64>,
     v: Vec<f64>,
-    /// The acceleration, once it is evaluated.
+    /// The acceleration, once evaluated.
     a: Option<Vec<f64>>,
-    /// The index of its half turn.
+    /// Index of its half turn.
     half_turn: usize,
 }
 
@@ -49,7 +51,6 @@ impl Node {
         (self.t, self.a, self.half_turn) = (t, None, half_turn);
     }
 
-    /// The acceleration of coordinate `i`.
     fn acceleration(&mut self, stepper: &dyn Stepper, i: usize) -> f64 {
         let Self { t, q, v, a, .. } = self;
         let all = a.get_or_insert_with(|| {
@@ -62,7 +63,7 @@ impl Node {
 }
 
 impl Swings {
-    /// Those of a run from the state of `stepper`, about these centres, in these amplitudes, one of each per coordinate.
+    /// Starts with the state of `stepper`, with a centre and an amplitude for each coordinate.
     pub(super) fn new(
         coordinate: usize,
         centres: Vec<f64>,
@@ -83,12 +84,12 @@ impl Swings {
         swings
     }
 
-    /// The distance of a coordinate from its centre in one of the states.
+    /// Distance of a coordinate from its centre in one of the states.
     fn distance(&self, node: usize, i: usize) -> f64 {
         self.nodes[node].q[i] - self.centres[i]
     }
 
-    /// Widens the half turn of one of the states to reach it.
+    /// Widens a state's half turn to include the state.
     fn cover(&mut self, node: usize) {
         let part = |i: usize| self.distance(node, i).abs() / self.amplitudes[i];
         let reached = (0..self.centres.len()).map(part).fold(0.0, f64::max);
@@ -115,7 +116,7 @@ impl Swings {
         self.has_before = true;
     }
 
-    /// Begins another half turn with the newest state if that is past the centre.
+    /// Starts a new half turn if the newest state has passed the centre.
     fn divide(&mut self) {
         let is_below = |node| self.distance(node, self.coordinate) < 0.0;
         if is_below(1) != is_below(2) {
@@ -134,7 +135,7 @@ impl Swings {
         }
     }
 
-    /// Goes on from the state after an input, at time `t` (s).
+    /// Continues from the state after an input, at time `t` (s).
     pub(super) fn go_on(&mut self, stepper: &dyn Stepper, t: f64) {
         self.nodes[2].set(stepper, t, self.half_turns.len() - 1);
         self.divide();
@@ -142,7 +143,7 @@ impl Swings {
         self.has_before = false;
     }
 
-    /// The time in seconds at which the swinging coordinate crosses its centre in the newest step.
+    /// Time in seconds at which the swinging coordinate crosses its centre in the newest step.
     fn crossing(&self) -> f64 {
         let ([from, to], i) = ([&self.nodes[1], &self.nodes[2]], self.coordinate);
         let h = to.t - from.t;
@@ -151,7 +152,7 @@ impl Swings {
         from.t + part * h
     }
 
-    /// Widens half turns by the peak of coordinate `i` between a state and the next.
+    /// Widens half turns to include the peak of coordinate `i` between a state and the next.
     fn find_peak(&mut self, stepper: &dyn Stepper, from: usize, i: usize) {
         let q = [self.distance(from, i), self.distance(from + 1, i)];
         let ends = [from, from + 1].map(|node| &self.nodes[node]);
@@ -166,7 +167,7 @@ impl Swings {
                 false => part < 0.5,
             };
             let widest = &mut self.half_turns[half_turns[usize::from(!is_first)]];
-            // A NaN is no peak.
+            // `max` ignores a NaN.
             *widest = widest.max(distance.abs() / self.amplitudes[i]);
         }
     }
@@ -181,15 +182,15 @@ struct Step {
 }
 
 impl Step {
-    /// The velocities of some methods belong to other moments than their coordinates: those of semi-implicit Euler are half a
-    /// step late. Both are shifted alike, so that they lead from one coordinate to the other.
+    /// Some methods have velocities at other times than coordinates: those of semi-implicit Euler are half a step
+    /// late. Both velocities are shifted by the same amount, so that they lead from one coordinate to the other.
     fn new(h: f64, q: [f64; 2], v: [f64; 2], a: [f64; 2]) -> Self {
         let mean = (q[1] - q[0]) / h - h * (a[0] - a[1]) / 12.0;
         let shift = mean - (v[0] + v[1]) / 2.0;
         Self { h, q, v: v.map(|v| v + shift), a }
     }
 
-    /// The coordinate at a part of the step.
+    /// The coordinate at a fraction of the step.
     fn at(&self, part: f64) -> f64 {
         let Self { h, q, v, a } = *self;
         let side = |s: f64, q: f64, v: f64, a: f64| {

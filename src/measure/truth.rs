@@ -1,4 +1,4 @@
-//! What is known of the true motion of one body before any method is compared with it.
+//! The true motion of one body, determined before any method is compared with it.
 
 use std::sync::Arc;
 
@@ -24,10 +24,10 @@ pub(super) use series::TruthSeries;
 use series::TruthSeriesByRate;
 pub(super) use swing::Swing;
 
-/// How many horizons the long run of a nonlinear body takes.
+/// Length of a nonlinear body's long run, in horizons.
 pub const LONG_RUN: f64 = 20.0;
 
-/// The swings over which a body is followed that makes too few for its frequency within the horizon.
+/// Number of swings over which a body is followed if it makes too few for a frequency within the horizon.
 const FOLLOWED_SWINGS: u32 = 4;
 
 /// Limits of [`BodyTruth::walk`], in moments and in products of the exact flow, n² for a chain of n masses.
@@ -36,11 +36,11 @@ const MAX_REFERENCE_MOMENTS: usize = 20_000;
 const MIN_MOMENTS: usize = 512;
 const MAX_PRODUCTS: usize = 40_000_000;
 
-/// The tolerance within which a body without a closed form is followed over the long run, absolute and relative.
+/// Absolute and relative tolerance over the long run, for a body without a closed form.
 const LONG_RUN_TOLERANCE: f64 = 1e-9;
 
-/// The work of one moment of an exact flow and of a reference solution, in evaluations of one coordinate, and the products
-/// of a flow's matrix that take as much as one.
+/// Work of a moment of an exact flow and of a reference solution, in evaluations of one coordinate, and matrix
+/// products of a flow per evaluation.
 const WORK_OF_MOMENT: u64 = 64;
 const WORK_OF_REFERENCE_MOMENT: u64 = 256;
 const PRODUCTS_PER_EVALUATION: u64 = 4;
@@ -54,35 +54,36 @@ pub(super) struct BodyTruth {
     /// The script's later actions on the body within the horizon, in order.
     pub(super) inputs: Vec<Scripted>,
     pub(super) horizon_s: f64,
-    /// The amplitude of each component of the state, coordinates first.
+    /// Amplitude of each component of the state, coordinates first.
     pub(super) amplitudes: Vec<f64>,
-    /// The centre of each coordinate's swing: the middle of its range, or the place of rest if it loses energy.
+    /// Centre of each coordinate's swing: the middle of its range, or the place of rest if it loses energy.
     pub(super) centres: Vec<f64>,
-    /// How far it reaches over the long run, or until the truth fails.
+    /// Reach over the long run, or until the truth fails.
     pub(super) reach: Reach,
-    /// The normal modes of a linear body with its last parameters, and what the motion after the last input has of each.
+    /// The normal modes of a linear body with its last parameters, and the part of the motion after the last input in
+    /// each.
     pub(super) modes: Option<Vec<MovedMode>>,
-    /// The largest kinetic energy in joules, which is all the energy of an oscillator. `None` if energy is not conserved
-    /// or nothing moves.
+    /// Largest kinetic energy in joules, which is the total energy of an oscillator. `None` if energy is not
+    /// conserved or nothing moves.
     pub(super) energy_scale: Option<f64>,
     /// The energy that the motion exchanges, in joules, as the metric `energy_drift` defines it.
     pub(super) exchanged_j: Option<f64>,
     pub(super) swing: Option<Swing>,
-    /// How long it takes for its first swings, in seconds, if it makes too few for its frequency within the horizon, and
-    /// nothing disturbs them.
+    /// Duration of the first swings in seconds. It is set if the body makes too few for a frequency within the
+    /// horizon, and nothing disturbs them.
     pub(super) first_swings_s: Option<f64>,
-    /// Why the truth is not known over the whole horizon; `None` if it is known.
+    /// Why the truth is unknown over the whole horizon; `None` if it is known.
     pub(super) failure: Option<StepFailure>,
-    /// Whether it fails before anything has moved: no other walk gets further, and each would pay for it again.
+    /// Whether it fails before anything has moved. Another walk would cost the same again and get no further.
     fails_at_start: bool,
     series_by_rate: TruthSeriesByRate,
-    /// What counts the work on it.
+    /// The meter that counts its work.
     pub(super) meter: Arc<Meter>,
 }
 
 impl BodyTruth {
-    /// The amplitude of a component is half its true range, or that of the component of the same unit with the largest
-    /// range. The amplitude of a constant component is its value.
+    /// Computes the truth. The amplitude of a component is half the largest true range among components of the same
+    /// unit. For constant components, it is their largest value.
     pub(super) async fn find(
         body: &SceneBody,
         inputs: &[Scripted],
@@ -123,18 +124,17 @@ impl BodyTruth {
         stepper
     }
 
-    /// The script's actions on the body at the start.
     pub(super) fn inputs_at_start(&self) -> Vec<Scripted> {
         let input = |action: &Action| Scripted { at_s: 0.0, action: action.clone() };
         self.at_start.iter().map(input).collect()
     }
 
-    /// When the last input comes, in seconds; 0 without one.
+    /// Time of the last input in seconds; 0 without one.
     pub(super) fn last_input_s(&self) -> f64 {
         self.inputs.last().map_or(0.0, |input| input.at_s)
     }
 
-    /// The true state after the last input, or after the last that could be reached.
+    /// The true state after the last input that can be reached.
     async fn after_inputs(&self) -> Box<dyn Stepper> {
         let mut body = self.start(Solver::Truth);
         let mut t = 0.0;
@@ -149,7 +149,7 @@ impl BodyTruth {
         body
     }
 
-    /// The body in its initial state, with the parameters that are in force after the last input.
+    /// The body in its initial state, with the parameters in force after the last input.
     pub(super) fn with_last_parameters(&self) -> Box<dyn Stepper> {
         let mut body = self.start(Solver::Truth);
         let is_parameter = |input: &&Scripted| matches!(input.action, Action::Set { .. });
@@ -164,7 +164,7 @@ impl BodyTruth {
         self.body.kind.coordinates(&self.body.values)
     }
 
-    /// The work of one moment of the true motion, in evaluations of one coordinate.
+    /// Work of one moment of the true motion, in evaluations of one coordinate.
     pub(super) fn work_of_moment(&self) -> u64 {
         let n = self.coordinates().len() as u64;
         match self.body.kind.truth {
@@ -190,7 +190,7 @@ impl BodyTruth {
         extent.cover(0.0, body.kinetic_energy());
         let conserves = body.energy().is_some() && self.inputs.is_empty();
         let mut has_moved = false;
-        // A reference is dear: what was seen of it is kept.
+        // A reference is expensive, so its moments are kept.
         let mut seen = (self.body.kind.truth == Truth::Reference).then(Vec::new);
         let see = |from: &TruthNode, to: &TruthNode| {
             has_moved = true;
@@ -218,7 +218,7 @@ impl BodyTruth {
         let returns = self.swing.as_ref().is_some_and(|swing| swing.crossings.len() > 2);
         let mut first_swings_s = self.first_swings_of_modes_s();
         if !self.is_oscillator() && !returns && !self.fails_at_start {
-            // Other motions are followed beyond the horizon, as far as the truth goes.
+            // Other motions are followed beyond the horizon, as far as the truth reaches.
             let is_close = self.body.kind.truth == Truth::Reference && self.failure.is_none();
             let close = match is_close {
                 true => self.long_run(close_solver(), most).await.ok(),
@@ -235,7 +235,7 @@ impl BodyTruth {
                 self.centres = long.means;
             }
         }
-        // What is knocked away from a target that stays does not swing about it.
+        // A body that is knocked away from a fixed target does not swing about it.
         let is_chase = body.pursuit(0.0).is_some_and(|pursuit| pursuit.is_still);
         if self.failure.is_none() && self.energy_scale.is_none() && !is_chase {
             self.swing = self.watch(&self.centres, seen.as_deref(), most).await;
@@ -247,7 +247,7 @@ impl BodyTruth {
             first_swings_s.filter(|&s| is_short && is_left_alone && s > self.horizon_s);
     }
 
-    /// How long the slowest mode of an undamped linear body that moves takes for its first swings, in seconds.
+    /// Duration in seconds of the first swings of the slowest moving mode of an undamped linear body.
     fn first_swings_of_modes_s(&self) -> Option<f64> {
         let modes = self.modes.iter().flatten().filter(|moved| moved.share > 0.0);
         let slowest = modes.filter_map(|moved| moved.mode.swing()).min_by(f64::total_cmp)?;
@@ -258,7 +258,7 @@ impl BodyTruth {
     /// The motion over the long run under this solver.
     ///
     /// # Errors
-    /// If the solver fails: the motion up to there.
+    /// The motion so far, if the solver fails.
     async fn long_run(&self, solver: Solver, most: usize) -> Result<LongRun, LongRun> {
         let mut body = self.start(solver);
         let mut reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
@@ -287,7 +287,7 @@ impl BodyTruth {
         if walked.is_ok() { Ok(long) } else { Err(long) }
     }
 
-    /// Whether a reference solution would take too much work, so that there is none.
+    /// Whether there is no reference solution because it would take too much work.
     pub(super) fn is_too_dear(&self) -> bool {
         matches!(self.failure, Some(StepFailure::ReferenceTooExpensive { .. }))
     }
@@ -300,17 +300,16 @@ impl BodyTruth {
     }
 }
 
-/// The motion over the long run.
 struct LongRun {
     reach: ReachSoFar,
-    /// The mean of each coordinate; empty if it was not followed.
+    /// Mean of each coordinate; empty if the motion was not followed.
     means: Vec<f64>,
     /// When a coordinate has turned back twice for each of the first swings, in seconds.
     first_swings_s: Option<f64>,
 }
 
-/// The solver of highest order among those that choose their steps, at [`LONG_RUN_TOLERANCE`]: how far a motion reaches in
-/// the long run, and where it rests, needs no reference, which takes ten times the work.
+/// The adaptive solver of highest order, at [`LONG_RUN_TOLERANCE`]. It suffices for the reach of a motion and its
+/// place of rest in the long run, at a tenth of the work of a reference.
 fn close_solver() -> Solver {
     let adaptive = GENERAL_METHODS.iter().filter(|method| method.tolerance.is_some());
     let method = adaptive.max_by_key(|method| method.order).expect("a method is adaptive");
@@ -330,17 +329,17 @@ fn fastest(from: &TruthNode, to: &TruthNode) -> Vec<TruthNode> {
     steps.map(at).collect()
 }
 
-/// A normal mode and what a motion has of it.
+/// A normal mode and the part of a motion in it.
 pub(super) struct MovedMode {
     pub(super) mode: NormalMode,
-    /// The distance from its equilibrium and the velocity at which the motion begins.
+    /// Initial distance from the mode's equilibrium, and initial velocity.
     pub(super) q: f64,
     pub(super) v: f64,
     /// Its share of the energy of the motion.
     pub(super) share: f64,
 }
 
-/// What the motion of `body` from its present state has of each of its `modes`.
+/// Splits the motion of `body` from its current state into its `modes`.
 fn moved(body: &dyn Stepper, modes: Vec<NormalMode>) -> Vec<MovedMode> {
     let n = body.q().len();
     let mut push = vec![0.0; n];

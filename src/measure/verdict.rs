@@ -17,20 +17,20 @@ mod words;
 
 pub use words::VerdictNumber;
 
-/// The largest error in amplitudes that counts as rounding.
+/// Largest error in amplitudes that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// Why and when a body's run ended early.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunFailure {
-    /// When, in simulated seconds.
+    /// Time in simulated seconds.
     pub t: f64,
-    /// Why.
+    /// The cause.
     pub cause: StepFailure,
 }
 
 impl RunFailure {
-    /// That of a run that stopped at `t` (s), if it failed.
+    /// The failure of a run that stopped at `t` (s), if it failed.
     pub(super) fn of(stop: StopReason, t: f64) -> Option<Self> {
         match stop {
             StopReason::Failed(cause) => Some(Self { t, cause }),
@@ -52,7 +52,7 @@ impl RunFailure {
 pub enum NoTruth {
     /// The exact solution or the reference has failed.
     Failed(StepFailure),
-    /// Its error may be as large as this part of the amplitude.
+    /// The error of the truth may be as large as this fraction of the amplitude.
     Vague(f64),
 }
 
@@ -66,24 +66,24 @@ pub enum NotJudged {
     ShorterThanATick,
 }
 
-/// What is found of a run on a body.
+/// The findings of a run on a body.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {
-    /// It is compared with the truth over the horizon.
+    /// A comparison with the truth over the horizon.
     Compared(Comparison),
-    /// Its energy tells, as a reference solution would take too much work.
+    /// Findings from the energy, because a reference solution would take too much work.
     ByEnergy(EnergyFinding),
-    /// It ended early.
+    /// The run ended early.
     Failed {
         /// Why and when.
         failure: RunFailure,
-        /// What its energy said up to then, if there is no reference solution.
+        /// Findings from the energy up to then, if there is no reference solution.
         by_energy: Option<EnergyFinding>,
     },
     /// There is no truth to compare it with.
     NoTruth(NoTruth),
-    /// It is not judged.
+    /// The run is not judged.
     NotJudged(NotJudged),
 }
 
@@ -91,31 +91,31 @@ pub enum Finding {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Comparison {
-    /// The largest error of a coordinate or a velocity.
+    /// Largest error of a coordinate or a velocity.
     pub error: f64,
-    /// The time of the largest error, in seconds.
+    /// Time of the largest error in seconds.
     pub error_at_s: f64,
-    /// The largest error in the last twentieth of the horizon.
+    /// Largest error in the last twentieth of the horizon.
     pub last_error: f64,
-    /// The largest error of the truth itself.
+    /// Largest error of the truth itself.
     pub truth_error: f64,
-    /// How the amplitude changes, within the horizon and, where it grows or stays bounded, beyond it.
+    /// Trend of the amplitude within the horizon and, if it grows or stays bounded, beyond it.
     pub change: Trend,
-    /// Whether it meets [`Criterion::LooksRight`](super::Criterion::LooksRight); `None` if that is not known.
+    /// Whether it meets [`Criterion::LooksRight`](super::Criterion::LooksRight); `None` if unknown.
     pub looks_right: Option<bool>,
-    /// The widest swing in units of the true one; `None` if nothing swings. Of a body that is not linear it is known at ticks
-    /// only, and `None` where it is not wider.
+    /// Widest swing relative to the true one; `None` if nothing swings. For a nonlinear body it is known only at
+    /// ticks, and `None` unless the swing is wider.
     pub width: Option<f64>,
-    /// By how many seconds the motion is early at the end of the horizon, negative if it is late. `None` if this is not the
-    /// cause of most of the error.
+    /// Seconds by which the motion is early at the end of the horizon, negative if it is late. `None` if this does
+    /// not cause most of the error.
     pub early_s: Option<f64>,
-    /// The change of the energy, in units of the largest true kinetic energy; `None` if energy is not conserved.
+    /// Change of the energy, in units of the largest true kinetic energy; `None` if energy is not conserved.
     pub energy_change: Option<f64>,
-    /// The energy drift of largest magnitude, in percent of the energy that the motion exchanges; `None` if energy is not
+    /// Energy drift of largest magnitude, in percent of the energy that the motion exchanges; `None` if energy is not
     /// conserved.
     pub energy_drift_percent: Option<f64>,
-    /// The relative frequency error, positive if the body swings too fast; of several modes, that of the one with the most
-    /// energy. `None` if nothing swings or the error is not steady.
+    /// Relative frequency error, positive if the body swings too fast. With several modes, it is that of the mode
+    /// with the most energy. `None` if nothing swings or the error is not steady.
     pub frequency_error: Option<f64>,
 }
 
@@ -132,55 +132,57 @@ impl Comparison {
     }
 }
 
-/// How the amplitude changes beyond the horizon: its doubling and halving times are in seconds, and the energy doubles and
+/// The change of the amplitude beyond the horizon. Doubling and halving times are in seconds; the energy doubles and
 /// halves in half the time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LongTerm {
     /// The quantity that doubles and halves.
     pub measure: Measure,
-    /// The time in which the amplitude doubles, if it does not in truth; `None` if it does not double within a year or if
-    /// that is not known.
+    /// Doubling time of the amplitude, if it does not double in truth; `None` if it does not double within a year or
+    /// this is unknown.
     pub doubles_in_s: Option<f64>,
-    /// The time in which the amplitude halves, if it is constant in truth; `None` if it does not halve within a year or if
-    /// that is not known.
+    /// Halving time of the amplitude, if it is constant in truth; `None` if it does not halve within a year or this
+    /// is unknown.
     pub halves_in_s: Option<f64>,
-    /// The doubling time of a mode that has next to no energy at the start.
+    /// Doubling time of a mode with almost no initial energy.
     pub parasite_doubles_in_s: Option<f64>,
-    /// Whether nothing grows that does not grow in truth; `None` if that is not known.
+    /// Whether nothing grows that does not grow in truth; `None` if unknown.
     pub is_bounded: Option<bool>,
 }
 
-/// The verdict on a lane over a horizon; displayed as one line. With the feature `serde` it is written as one flat object,
-/// by the commands too: `word` is the id of its outcome, `text` the line, and `quantity`, `value` and `unit` the number in it.
-/// A field without a meaning is null.
+/// The verdict on a lane over a horizon, displayed as one line.
+///
+/// With the feature `serde` it serializes as one flat object, which the commands write too. In it, `word` is the id
+/// of the outcome, `text` the line, and `quantity`, `value` and `unit` the number in the line. A field without a
+/// meaning is null.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Verdict {
-    /// What is found of the worst body, which the verdict is about.
+    /// The finding on the worst body, which is the subject of the verdict.
     pub finding: Finding,
-    /// What becomes of its amplitude; of all bodies, whether they stay bounded.
+    /// The long-term change of its amplitude. `is_bounded` is about all bodies.
     pub long_term: LongTerm,
-    /// How the body closes on a target that stays; `None` if it follows none.
+    /// How the body closes in on a fixed target; `None` if it follows none.
     pub chase: Option<ChaseFinding>,
-    /// The body's index in the scene.
+    /// Index of the body in the scene.
     pub body: usize,
-    /// The body's name.
+    /// Name of the body.
     pub body_name: String,
     /// Evaluations of all bodies' accelerations over the horizon.
     pub evaluations: u64,
-    /// The simulated seconds that the body got through.
+    /// Simulated seconds that the body completed.
     pub seconds: f64,
     /// The horizon in simulated seconds.
     pub horizon_s: f64,
-    /// The time of the run, in seconds, at which the judged part begins: 0, or that of a person's last kick or placement.
-    /// The other times count from there; the displayed moments are times of the run.
+    /// Time of the run, in seconds, at which the judged part begins: 0, or the time of a person's last kick or
+    /// placement. Other times count from there, but displayed moments are times of the run.
     pub starts_at_s: f64,
-    /// The verdicts on the bodies of the scene, in its order; empty in one of those.
+    /// The verdicts on the bodies of the scene, in its order; empty within one of those.
     pub of_bodies: Vec<Verdict>,
 }
 
 impl Verdict {
-    /// What it comes to.
+    /// The outcome.
     pub fn outcome(&self) -> Outcome {
         match &self.finding {
             Finding::Compared(comparison) => comparison.outcome(),
@@ -196,7 +198,8 @@ impl Verdict {
         if let Finding::Compared(comparison) = &self.finding { Some(comparison) } else { None }
     }
 
-    /// The largest error of a coordinate or a velocity, in amplitudes; `None` without a comparison over the whole horizon.
+    /// Largest error of a coordinate or a velocity, in amplitudes; `None` without a comparison over the whole
+    /// horizon.
     pub fn error(&self) -> Option<f64> {
         self.comparison().map(|comparison| comparison.error)
     }
@@ -206,7 +209,7 @@ impl Verdict {
         if let Finding::Failed { failure, .. } = &self.finding { Some(failure) } else { None }
     }
 
-    /// What the energy says, if there is no reference solution.
+    /// Findings from the energy, if there is no reference solution.
     pub fn by_energy(&self) -> Option<&EnergyFinding> {
         match &self.finding {
             Finding::ByEnergy(found) => Some(found),
@@ -215,9 +218,9 @@ impl Verdict {
         }
     }
 
-    /// The energy drift of largest magnitude, in percent of the energy that the motion exchanges, or without a reference
-    /// solution of the lane's largest kinetic energy or of the most that was lost; `None` if energy is not conserved, or if
-    /// the run ended early.
+    /// Energy drift of largest magnitude, in percent of the energy that the motion exchanges. Without a reference
+    /// solution the unit is the lane's largest kinetic energy, or its largest loss. `None` if energy is not
+    /// conserved, or if the run ended early.
     pub fn energy_drift_percent(&self) -> Option<f64> {
         match &self.finding {
             Finding::Compared(comparison) => comparison.energy_drift_percent,
@@ -226,18 +229,18 @@ impl Verdict {
         }
     }
 
-    /// What it lacks, if it rests on the energy for want of a reference solution: `no reference`.
+    /// The missing kind of truth, `no reference`, if the verdict rests on the energy for lack of it.
     pub fn missing_truth(&self) -> Option<&'static str> {
         self.by_energy().map(|_| Truth::Reference.missing())
     }
 
-    /// The same verdict on a part of a run that begins at this time of the run, in seconds.
+    /// The same verdict for a part of a run that begins at this time of the run, in seconds.
     pub(super) fn starting_at(self, starts_at_s: f64) -> Self {
         let of_bodies = self.of_bodies.into_iter().map(|of_body| of_body.starting_at(starts_at_s));
         Self { starts_at_s, of_bodies: of_bodies.collect(), ..self }
     }
 
-    /// By which of two verdicts the larger is the worse.
+    /// Sort key: the larger is the worse.
     pub(crate) fn badness(&self) -> (Outcome, f64) {
         (self.outcome(), self.error().unwrap_or(f64::INFINITY))
     }

@@ -1,5 +1,5 @@
-//! Computes verdicts and advice in small steps, so that it can run on another thread than the race: an
-//! [`AnalysisRequest`] goes there, and [`Findings`] come back.
+//! Computes verdicts and advice in small steps, so that this can happen off the race's thread: an [`AnalysisRequest`]
+//! goes in, and [`Findings`] come back.
 
 use std::sync::Arc;
 
@@ -13,18 +13,17 @@ use crate::run::race::Interventions;
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::TickRate;
 
-/// The bodies of a scene that advice is about.
+/// The bodies of a scene that advice covers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AdvisedBodies {
     /// All of them, under one method.
     #[default]
     All,
-    /// The body at this index of the scene, alone.
+    /// The body with this index in the scene, alone.
     One(usize),
 }
 
 impl AdvisedBodies {
-    /// The scene of these bodies alone.
     fn of(self, scene: Scene) -> Scene {
         match self {
             AdvisedBodies::All => scene,
@@ -33,21 +32,21 @@ impl AdvisedBodies {
     }
 }
 
-/// The verdicts and the advice that a studio wants. Two requests of one [`Studio`](crate::studio::Studio) are equal if they have the
-/// same answer.
+/// The verdicts and the advice that a studio requests. Two requests of one [`Studio`](crate::studio::Studio) are
+/// equal if they have the same answer.
 #[derive(Clone, Debug)]
 pub struct AnalysisRequest {
     pub(crate) scene: Arc<Scene>,
     /// The lanes to judge.
     pub(crate) entries: Vec<LaneSpec>,
-    /// How many of them, from the first, share all the work that a bounded worker may do; the others have what is left.
+    /// Number of lanes, from the first, that share the work limit of a bounded worker. The others get the rest.
     pub(crate) first: usize,
     pub(crate) tick_hz: TickRate,
-    /// What has changed in the run that is judged.
+    /// Edits to the judged run.
     pub(crate) by_hand: Interventions,
-    /// The bodies that advice is wanted on, if it is wanted.
+    /// The bodies to give advice on, if it is requested.
     pub(crate) advice: Option<AdvisedBodies>,
-    /// The stability map, if it is wanted.
+    /// The stability map, if it is requested.
     pub(crate) map: Option<MapRequest>,
 }
 
@@ -59,12 +58,12 @@ impl PartialEq for AnalysisRequest {
 }
 
 impl AnalysisRequest {
-    /// Whether it is about this instance of the scene: an equal copy is another scene.
+    /// Whether it is about this instance of the scene. An equal copy counts as another scene.
     pub(crate) fn is_of(&self, scene: &Arc<Scene>) -> bool {
         Arc::ptr_eq(&self.scene, scene)
     }
 
-    /// Whether it is about the same, whichever lanes are judged.
+    /// Whether both requests are alike, apart from the lanes to judge.
     fn is_alike(&self, other: &Self) -> bool {
         self.is_of(&other.scene)
             && self.tick_hz == other.tick_hz
@@ -78,7 +77,7 @@ impl AnalysisRequest {
 #[derive(Clone, Debug)]
 pub struct Findings {
     pub(crate) request: AnalysisRequest,
-    /// The last verdict on each method of the list. It may be of an earlier request about the same scene.
+    /// The last verdict on each method of the list. It may answer an earlier request about the same scene.
     pub(crate) verdicts: Vec<Option<Verdict>>,
     pub(crate) advice: Option<Advice>,
     pub(crate) map: Option<StabilityMap>,
@@ -87,49 +86,49 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Whether they answer `request` in full: they may be of more lanes.
+    /// Whether they answer `request` in full. They may cover more lanes.
     pub(crate) fn answer(&self, request: &AnalysisRequest) -> bool {
         let are_judged = self.request.entries.starts_with(&request.entries);
         self.complete && are_judged && self.request.is_alike(request)
     }
 }
 
-/// The advice on every method on a scene.
+/// The advice on every method for a scene.
 #[derive(Clone, Debug)]
 pub struct Advice {
-    /// The bodies that it is about.
+    /// The bodies that it covers.
     pub bodies: AdvisedBodies,
     /// The requested rate in Hz.
     pub tick_hz: TickRate,
-    /// The number of methods to judge.
+    /// Number of methods to judge.
     pub wanted: usize,
     /// The advice on the methods judged so far.
     pub advised: Vec<MethodAdvice>,
 }
 
-/// The most work of a bounded worker on all verdicts together, the truth's included: a second or two.
+/// Work limit of a bounded worker for all verdicts together, including the truth: a second or two.
 const MAX_WORK_OF_ALL: u64 = MAX_WORK;
 
-/// About the work of one step: some milliseconds.
+/// Approximate work of one step: some milliseconds.
 const WORK_OF_STEP: u64 = 1_000_000;
 
-/// Works on one [`AnalysisRequest`] at a time, beside the run.
+/// Answers one [`AnalysisRequest`] at a time, in the background.
 pub struct AnalysisWorker {
-    /// The most work on all verdicts.
+    /// Work limit for all verdicts.
     max_work: u64,
     request: AnalysisRequest,
     judge: Option<Arc<Judge>>,
     verdicts: Vec<Option<Verdict>>,
-    /// The number of leading verdicts that answer the present request.
+    /// Number of leading verdicts that answer the current request.
     judged: usize,
     advising: Option<AdviceInProgress>,
-    /// The last map that was wanted.
+    /// The last requested map.
     mapping: Option<MapWork>,
-    /// The part of the answer that is being found.
+    /// The part of the answer in progress.
     part: Option<Sliced<Part>>,
 }
 
-/// A part of the answer, found in slices.
+/// A part of the answer, computed in slices.
 enum Part {
     Judge(Arc<Judge>),
     Verdict(Box<Verdict>),
@@ -138,14 +137,14 @@ enum Part {
     Advised(usize, Box<MethodAdvice>),
 }
 
-/// Advice being computed: the methods are judged one by one, and then margins are searched one by one.
+/// Advice in progress: the methods are judged one by one, then margins are searched one by one.
 struct AdviceInProgress {
     bodies: AdvisedBodies,
     adviser: Arc<Adviser>,
-    /// What is advised on.
+    /// The lanes to advise on.
     lanes: Vec<LaneSpec>,
     advised: Vec<MethodAdvice>,
-    /// The margins that are still to be searched, the first one last; `None` until all methods are judged.
+    /// Margins that remain to be searched, the first one last; `None` until all methods are judged.
     margins: Option<Vec<(usize, usize)>>,
 }
 
@@ -154,7 +153,7 @@ impl AdviceInProgress {
         let scene = adviser.scene();
         let place = |spec: &LaneSpec| scene.lanes.iter().position(|l| l.method == spec.method);
         let mut lanes = scene.advised_lanes();
-        // Those that race come first: they are what a person sees.
+        // Racing methods come first, since a person sees them.
         lanes.sort_by_key(|spec| place(spec).unwrap_or(usize::MAX));
         let (advised, margins) = (Vec::new(), None);
         Self { bodies, adviser, lanes, advised, margins }
@@ -193,7 +192,7 @@ impl AdviceInProgress {
         }
     }
 
-    /// The margins to search next, the first one last: those that decide what is recommended come before the others.
+    /// The margins to search next, the first one last. Margins that affect the recommendation precede the others.
     fn next_margins(&self) -> Vec<(usize, usize)> {
         let mut margins = self.adviser.undecided_margins(&self.advised);
         if margins.is_empty() {
@@ -224,12 +223,12 @@ impl AnalysisWorker {
         }
     }
 
-    /// The same worker, which does a stated amount of work only: what is left then is not judged, and no advice is given.
+    /// The same worker with a work limit. It does not judge the lanes beyond the limit.
     pub(crate) fn bounded(self) -> Self {
         Self { max_work: MAX_WORK_OF_ALL, ..self }
     }
 
-    /// Replaces the request. Results that answer the new one too are kept; a part that is being found is given up.
+    /// Replaces the request. Results that also answer the new request are kept; a part in progress is dropped.
     pub fn set_request(&mut self, request: AnalysisRequest) {
         self.set_map(&request);
         self.part = None;
@@ -266,13 +265,13 @@ impl AnalysisWorker {
         }
     }
 
-    /// Does one step: goes on for a slice with the map or, if that is found, with the next part of the answer: the truths,
-    /// a missing verdict or, if none is missing, a method or a margin of the advice. Returns whether there is more to do.
+    /// Does one slice of work, on the map first and then on the next part of the answer. The parts are the truths, a
+    /// missing verdict or, if none is missing, a method or a margin of the advice. Returns whether work remains.
     pub fn work(&mut self) -> bool {
         if let Some(wanted) = &self.request.map
             && !self.is_mapped()
         {
-            // Before the verdicts, because it takes less time than one of them may.
+            // The map precedes the verdicts, since each of them may take longer.
             let kind = &self.request.scene.bodies[wanted.body].kind;
             let new = || MapWork::new(kind.clone(), wanted.clone());
             self.mapping.get_or_insert_with(new).advance(WORK_OF_STEP);
@@ -297,7 +296,7 @@ impl AnalysisWorker {
                     Part::Judge(Judge::find(&scene, 1.0, horizon_s, meter).await.into())
                 }));
             };
-            // Work that earlier verdicts did not use is for the later ones.
+            // Work that earlier verdicts did not use is left for later ones.
             let left = self.max_work.saturating_sub(judge.meter().counted());
             let sharers = if self.judged < *first { *first } else { entries.len() };
             let share = (left / (sharers - self.judged) as u64).min(MAX_WORK);
@@ -334,19 +333,19 @@ impl AnalysisWorker {
         }
     }
 
-    /// Whether it is within a part of the answer: its findings are those of some steps ago.
+    /// Whether a part of the answer is in progress, so that the findings are some steps old.
     pub fn is_within_a_part(&self) -> bool {
         let mapping = self.mapping.as_ref().filter(|_| self.request.map.is_some());
         self.part.is_some() || mapping.is_some_and(MapWork::is_within_a_part)
     }
 
-    /// Does all steps.
+    /// Works until the request is answered in full.
     pub fn finish(mut self) -> Findings {
         while self.work() {}
         self.findings()
     }
 
-    /// Whether the map is found, if it is wanted.
+    /// Whether the map is complete, if it is requested.
     fn is_mapped(&self) -> bool {
         self.request.map.is_none() || self.mapping.as_ref().is_some_and(MapWork::is_done)
     }

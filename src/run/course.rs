@@ -1,27 +1,27 @@
-//! A run from its start to the last tick reached: its present, its observations, its snapshots and its events.
+//! The course of a run from its start to the last tick reached: session, observations, snapshots and events.
 
 use super::observations::ObservationsMark;
 use super::race::{Done, Journal, Observer, Race};
 use super::{Event, EventKind, Observations, Session};
 use crate::scene::{Action, LaneId};
 
-/// A run from its start to the last tick reached, wherever it is now. A restart replaces it, and an undo of the restart brings
-/// it back.
+/// A run from its start to the last tick reached, wherever the present is. A restart replaces it, and undoing the
+/// restart brings it back.
 pub(super) struct Course {
     pub(super) session: Session,
     pub(super) seen: Observations,
     pub(super) noted: Noted,
 }
 
-/// How far a run has come, and what was noted on its way, which can be made again.
+/// The record of a run's progress; replaying the run rebuilds it.
 #[derive(Default)]
 pub(super) struct Noted {
-    /// The last tick reached.
+    /// Last tick reached.
     pub(super) end: u64,
-    /// By tick; of a whole run the first is the start.
+    /// In order of ticks. In a whole run, the first one is the start.
     pub(super) snapshots: Vec<Snapshot>,
     pub(super) halts: Vec<Event>,
-    /// By tick, as ticks were first made.
+    /// In the order in which the run first reached their ticks.
     pub(super) hashes: Vec<Hashes>,
 }
 
@@ -47,7 +47,7 @@ impl Course {
         self.session.race.catch_up(&mut (&mut self.seen, observer));
     }
 
-    /// Makes a tick. The first time that it is made, its halts and hashes are noted.
+    /// Makes a tick. When the run reaches it for the first time, notes its halts and hashes.
     pub(super) fn tick(&mut self, observer: &mut dyn Observer) {
         self.session.tick(&mut (&mut self.seen, observer));
         let (race, noted) = (&self.session.race, &mut self.noted);
@@ -58,7 +58,7 @@ impl Course {
         }
     }
 
-    /// Goes back to before the first tick, and begins other observations there, of these coordinates.
+    /// Returns to the start, and begins new observations of these coordinates there.
     pub(super) fn begin(&mut self, coordinates: Vec<usize>) {
         self.session.race = self.noted.snapshots[0].race.clone();
         let (race, span_s) = (&self.session.race, self.session.scene().seconds);
@@ -75,10 +75,10 @@ impl Course {
 }
 
 impl Noted {
-    /// Splits off what the actions at `tick` decide.
+    /// Splits off every record that depends on the actions at `tick`.
     pub(super) fn split_off(&mut self, tick: u64) -> Self {
         let Self { end, snapshots, halts, hashes } = self;
-        // A snapshot holds the session as it reached a tick, before the actions there, and so do hashes.
+        // Snapshots and hashes show a tick as the session reached it, before its actions; so those at `tick` stay.
         let later = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick);
         let snapshots = snapshots.split_off(later);
         let later = halts.partition_point(|event| event.tick < tick);
@@ -88,7 +88,7 @@ impl Noted {
         Self { end: std::mem::replace(end, tick), snapshots, halts, hashes }
     }
 
-    /// Adds what was split off.
+    /// Appends a record that [`Self::split_off`] returned.
     pub(super) fn extend(&mut self, other: Self) {
         let Self { end, snapshots, halts, hashes } = other;
         self.end = end;
@@ -98,7 +98,7 @@ impl Noted {
     }
 }
 
-/// The halts in the last tick of a race that nobody has foreseen.
+/// Halts in the last tick, except those of a reference that was declined beforehand.
 fn halts(race: &Race) -> impl Iterator<Item = Event> {
     let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
     halts.map(|(entrant, halt)| {
@@ -108,25 +108,25 @@ fn halts(race: &Race) -> impl Iterator<Item = Event> {
     })
 }
 
-/// A session at a tick.
+/// A session at one tick.
 pub(super) struct Snapshot {
-    /// Without a journal, which the run has.
+    /// Has no journal; the run holds it.
     pub(super) race: Race,
     pub(super) mark: ObservationsMark,
     pub(super) bytes: usize,
 }
 
-/// The most hashes that are noted: more than a recording keeps as checks.
+/// Most hashes kept: more than a recording needs as checks.
 const MAX_NOTED: usize = 32_000;
 
-/// The tolerance in seconds for the end of a second: times may be off by their last bits.
+/// Tolerance (s) for the end of a second: times may be off by their last bits.
 const ON_TIME_S: f64 = 1e-6;
 
-/// The hash of each lane of a run at a tick.
+/// The hash of each lane at a tick.
 #[derive(Clone)]
 pub(super) struct Hashes {
     pub(super) tick: u64,
-    /// The second that has begun last.
+    /// Full seconds up to this tick.
     second: f64,
     pub(super) of_lanes: Vec<(LaneId, u64)>,
 }
@@ -139,7 +139,7 @@ impl Hashes {
     }
 }
 
-/// Notes the hashes of a race at a tick that it has just made first, once a second; of a long run, at fewer.
+/// Notes the hashes of a tick just reached, once per second. In a long run, drops every other one.
 pub(super) fn note_hashes(hashes: &mut Vec<Hashes>, race: &Race) {
     let last = hashes.last().map_or(0.0, |last| last.second);
     if race.t() + ON_TIME_S < last + 1.0 {

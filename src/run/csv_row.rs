@@ -1,8 +1,8 @@
-//! Comma-separated values, a line at a time.
+//! Writes comma-separated values, one line at a time.
 
 use std::fmt::{Display, Write};
 
-/// A line of comma-separated values with its end. Those with commas, quotes or ends of lines are quoted.
+/// A line of comma-separated values with its line end. Quotes values that contain commas, quotes or line ends.
 pub(crate) fn csv_row(values: &[&dyn Display]) -> String {
     let mut row = String::new();
     for (column, value) in values.iter().enumerate() {

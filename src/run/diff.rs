@@ -1,10 +1,12 @@
-//! Where two runs first differ, and how the difference grows.
+//! Finds where two runs first differ, and how the difference grows.
 //!
-//! A run is a table: columns that say which row it is (`tick`, or else `t`, or else its place, with `lane`, `body` and
-//! `coordinate` where they are there; or those that are [chosen](Chosen)), `t` and `method`, which are not compared, and columns
-//! of values. A column is of numbers or, once a cell of it is none, of text as a whole. Rows of one name are compared wherever
-//! they stand, up to [`MAX_WAITING`] rows apart, so that memory does not grow with the rows. It
-//! grows with their names, up to a bound.
+//! A run is a table. Key columns identify a row: `tick`, or else `t`, or else its position, with `lane`, `body` and
+//! `coordinate` where present. A caller may name [other key columns](Chosen). By default, `t` and `method` are not
+//! compared, and all other columns hold values.
+//!
+//! A column is numeric until one of its cells is not a number; then all of it is text. Rows with equal keys pair up
+//! across at most [`MAX_WAITING`] rows, so memory does not grow with the number of rows. It grows with the number of
+//! distinct keys, up to a bound.
 
 use std::collections::HashMap;
 use std::collections::hash_map::DefaultHasher;
@@ -31,33 +33,34 @@ pub use number::{distance_ulps, is_same_number};
 use number::{hide_a_difference, is_text, parsed, relative};
 use side::{Place, Side, Waiting};
 
-/// The relative differences whose first ticks are told.
+/// Relative differences whose first ticks a comparison reports.
 pub const LEVELS: [f64; 5] = [1e-12, 1e-9, 1e-6, 1e-3, 1.0];
-/// The most rows of a side that wait for the row of their name on the other. A row that waits longer counts as missing there.
+/// Most rows of one side that may wait for their counterparts. A row that waits longer counts as missing on the other
+/// side.
 pub const MAX_WAITING: usize = 1 << 16;
-/// The most bytes of the cells of such rows, which long rows reach first.
+/// Most bytes of the waiting rows; long rows reach this limit first.
 const MAX_WAITING_BYTES: usize = 64 << 20;
-/// The most bytes of what is kept for the names of rows: 256 MiB, of a million names with few columns.
+/// Most bytes kept for distinct keys: 256 MiB, enough for a million keys with few columns.
 const MAX_NAME_BYTES: usize = 256 << 20;
-/// What a name takes beside its cells and values: its entry in a table and the heads of its lists.
+/// Bytes of a key besides its cells and values: its table entry and the heads of its lists.
 const NAME_BYTES: usize = 192;
 
-/// The rows of a run, one after the other.
+/// A run as a sequence of rows.
 pub trait Records {
-    /// Why the next row cannot be had.
+    /// Why a row cannot be read.
     type Error;
 
-    /// The names of the columns.
+    /// Names of the columns.
     fn header(&self) -> &ByteRecord;
 
-    /// Reads the next row, with the cells of the header; `false` after the last.
+    /// Reads the next row, with one cell for each column of the header; returns `false` after the last.
     ///
     /// # Errors
-    /// Whatever keeps it from being read.
+    /// If the row cannot be read.
     fn next(&mut self, row: &mut ByteRecord) -> Result<bool, Self::Error>;
 }
 
-/// Whether the columns of a run can be called so: several names, none of them a number.
+/// Whether a row can be a header: several names, none of them a number.
 pub fn is_header(row: &ByteRecord) -> bool {
     let is_name = |cell: &[u8]| {
         !cell.trim_ascii().is_empty() && number(cell, Decimal::PointOrComma).is_none()
@@ -65,10 +68,10 @@ pub fn is_header(row: &ByteRecord) -> bool {
     row.len() > 1 && row.iter().all(is_name)
 }
 
-/// The table in this text.
+/// Reads `text` as a table.
 ///
 /// # Errors
-/// What keeps its header from being read.
+/// If its header cannot be read.
 pub fn table(text: &str) -> Result<TableReader<&[u8]>, TableError> {
     TableReader::begin(text.as_bytes(), Reading::default(), is_header)
 }
@@ -80,53 +83,54 @@ impl<R: BufRead> Records for TableReader<R> {
         self.header()
     }
 
-    /// Numbers have decimal points.
+    /// Returns numbers with decimal points.
     fn next(&mut self, row: &mut ByteRecord) -> Result<bool, TableError> {
         Ok(self.next_with_points(row)?.is_some())
     }
 }
 
-/// What counts as equal: two numbers within either bound. By default they must be the same number, as two NaN and zeros of
-/// two signs are.
+/// Bounds within which two numbers count as equal; one of the two is enough. By default only identical numbers do,
+/// where NaN equals NaN and 0 equals −0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tolerance {
-    /// The most doubles from one to the other.
+    /// Largest distance, counted in doubles.
     pub ulps: u64,
-    /// The largest difference as a part of the larger of both.
+    /// Largest difference relative to the larger number.
     pub relative: f64,
 }
 
-/// The rows of one name: a coordinate of a body of a lane.
+/// The rows with one key, such as a coordinate of a body in a lane.
 struct Stream {
-    /// Its cells of the key columns, with a zero after each.
+    /// Cells of the key columns, each followed by a zero byte.
     key: Vec<u8>,
-    /// Of each value column: the first value that is finite, or NaN, and the largest size so far.
+    /// First finite value (or NaN) and largest size so far, for each value column.
     values: Vec<[f64; 2]>,
-    /// Of each value column that may be a clock's: how it goes.
+    /// Course of each value column that may be a clock.
     courses: Vec<Course>,
-    /// Of each value column of text: the hash of the first cell.
+    /// Hash of the first cell, for each text column.
     texts: Vec<Option<u64>>,
 }
 
-/// What is known of a value column.
+/// Findings about one value column.
 #[derive(Clone, Debug, Default)]
 struct ColumnState {
-    /// The largest relative difference.
+    /// Largest relative difference.
     worst: f64,
-    /// How far it went from its first value.
+    /// Largest distance from its first value.
     moved: f64,
-    /// The first tick of each of [`LEVELS`].
+    /// First tick at each of [`LEVELS`].
     reaches: [Option<u64>; LEVELS.len()],
-    /// Its place in the courses of a stream, as long as it may be a clock's.
+    /// Index into a stream's courses, while the column may still be a clock.
     course: Option<usize>,
-    /// Whether a cell of it was no number.
+    /// Whether any cell was not a number.
     is_text: bool,
-    /// Whether its text changes in the rows of one name.
+    /// Whether the text changes between rows with the same key.
     changes: bool,
-    /// Where it first differs, and in how many rows.
+    /// Order and number of the first row that differs.
     first: Option<(u64, u64)>,
     rows: u64,
-    /// The same for cells that are written differently and are equal as numbers, which differ if they are text.
+    /// The first difference in spelling between numbers that count as equal. It counts once the column turns out to
+    /// be text.
     hidden: Option<((u64, u64), Difference)>,
     hidden_rows: u64,
 }
@@ -134,7 +138,7 @@ struct ColumnState {
 /// Compares two runs.
 ///
 /// # Errors
-/// The first row that cannot be read, or the reason why these are not two tables of a kind.
+/// If a row cannot be read, or if the tables do not fit together.
 pub fn diff<A, B, E>(
     a: &mut A,
     b: &mut B,
@@ -167,7 +171,7 @@ where
                 work.pair(one, number, [&rows[0], &rows[1]]);
                 places = [None; 2];
             }
-            // The one behind goes on alone, so that both are side by side again after a row that one lacks.
+            // Advance only the side that is behind. Then both line up again after a row that one side lacks.
             [one, other] => {
                 let order =
                     |it: Option<(Place, u64)>| it.map_or(u64::MAX, |(place, _)| place.order);
@@ -183,7 +187,7 @@ where
     Ok(work.close())
 }
 
-/// A comparison on its way.
+/// A comparison in progress.
 struct Work {
     layout: Layout,
     tolerance: Tolerance,
@@ -192,12 +196,12 @@ struct Work {
     key: Vec<u8>,
     sides: [Side; 2],
     found: Comparison,
-    /// Whether rows go back: then the like of one that has waited too long may be still to come.
+    /// Whether rows are out of order. Then the counterpart of a row that waited too long may still follow.
     is_out_of_order: bool,
-    /// Where the first difference is.
+    /// Order and number of the first row that differs.
     first: Option<(u64, u64)>,
     columns: Vec<ColumnState>,
-    /// How many columns have a course, and the bytes of the names.
+    /// Number of columns that started as possible clocks.
     course_count: usize,
     name_bytes: usize,
     growth: Growth,
@@ -232,7 +236,7 @@ impl Work {
         }
     }
 
-    /// Where a row of a side belongs, and its number there.
+    /// The place of a row, and its number on its side.
     fn place(&mut self, side: usize, row: &ByteRecord) -> Result<(Place, u64), NotComparable> {
         self.key.clear();
         for key in &self.layout.keys {
@@ -274,7 +278,7 @@ impl Work {
         Ok((Place { order, stream }, number))
     }
 
-    /// Compares a row with one that waits on the other side, or lets it wait.
+    /// Pairs a row with its counterpart on the other side, or queues it.
     fn wait(&mut self, side: usize, place: Place, number: u64, row: &mut ByteRecord) {
         if let Some(other) = self.sides[1 - side].remove(&place) {
             self.found.displaced += 1;
@@ -296,7 +300,7 @@ impl Work {
         }
     }
 
-    /// Counts a row that a side lacks.
+    /// Counts a row that `side` lacks.
     fn lack(&mut self, side: usize, place: Place, number: u64) {
         self.found.missing[side] += 1;
         let tick = self.layout.tick(place.order, number);
@@ -304,7 +308,7 @@ impl Work {
         *first = Some(first.map_or(tick, |first| first.min(tick)));
     }
 
-    /// Compares two rows of one place; `number` is that of the first side's.
+    /// Compares two rows at one place; `number` counts on the first side.
     fn pair(&mut self, place: Place, number: u64, rows: [&ByteRecord; 2]) {
         self.found.rows += 1;
         let tick = self.layout.tick(place.order, number);
@@ -375,7 +379,7 @@ impl Work {
         }
     }
 
-    /// Takes a column for text from its first row on: what counted as the same number is another text.
+    /// Treats a column as text from its first row on. Equal numbers in different spelling now differ.
     fn turn_into_text(&mut self, column: usize) {
         let state = &mut self.columns[column];
         state.is_text = true;
@@ -388,7 +392,7 @@ impl Work {
         }
     }
 
-    /// Notes whether the text of a column changes in the rows of one name.
+    /// Notes whether the text of a column changes between rows with the same key.
     fn note_text(&mut self, place: Place, column: usize, cells: [&[u8]; 2]) {
         let moves = self.layout.values[column].moves;
         if matches!(moves, Moves::Never | Moves::Back) {
@@ -402,7 +406,7 @@ impl Work {
         }
     }
 
-    /// Adds the values of a column of a stream, and returns the largest size so far.
+    /// Adds a column's values to its stream, and returns their largest size so far.
     fn note(
         &mut self,
         place: Place,
@@ -437,7 +441,8 @@ impl Work {
         stream.values[column][1]
     }
 
-    /// Notes cells of a column that differ by more than the tolerance; `far` is how far, in doubles and as a part.
+    /// Records cells that differ by more than the tolerance; `far` is their distance in ulps and relative to the
+    /// larger.
     fn differs(
         &mut self,
         place: Place,
@@ -457,7 +462,7 @@ impl Work {
         }
     }
 
-    /// Keeps cells that are written differently and equal as numbers, for the case that their column is text.
+    /// Keeps cells that differ only in spelling, in case their column turns out to be text.
     fn hide(&mut self, place: Place, number: u64, row: (&ByteRecord, usize), cells: [&[u8]; 2]) {
         let at = (place.order, number);
         let (row, column) = row;
@@ -470,7 +475,7 @@ impl Work {
         }
     }
 
-    /// The difference of two cells at a place; a cell is `None` where its side has no such column.
+    /// The difference between two cells; a cell is `None` if its side lacks the column.
     fn difference(
         &self,
         (order, number): (u64, u64),
@@ -523,7 +528,7 @@ impl Work {
         self.found
     }
 
-    /// Whether the changes of a value column are a motion, and not a clock's.
+    /// Whether a value column moves like a coordinate, and not like a clock.
     fn is_motion(&self, column: usize) -> bool {
         let moves = self.layout.values[column].moves;
         let goes_as_a_clock = self.columns[column].course.is_some_and(|course| {

@@ -1,43 +1,43 @@
-//! What happened in a run, as data and in words.
+//! Events of a run, as data and in words.
 
 use super::race::Author;
 use crate::scene::{Action, LaneId, Scene};
 use crate::sim::number::{counted, round};
 
-/// Something that happened in a run.
+/// An event in a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
-    /// When.
+    /// Tick of the event.
     pub tick: u64,
-    /// What.
+    /// Kind of the event.
     pub kind: EventKind,
 }
 
-/// What happened in a run.
+/// Kinds of events in a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EventKind {
-    /// An action was performed.
+    /// Someone performed an action.
     Done {
         /// The action.
         action: Action,
-        /// Who did it.
+        /// Its author.
         author: Author,
         /// The only lane of the run; `None` in a race.
         solo: Option<LaneId>,
     },
     /// A body halted.
     Halted {
-        /// Its lane; `None` for the truth.
+        /// Lane of the body; `None` for the truth.
         lane: Option<LaneId>,
-        /// The body's index in the scene.
+        /// Index of the body in the scene.
         body: usize,
-        /// Whether a value left its range, rather than the solver failing.
+        /// Whether a value left its range; otherwise the solver failed.
         is_blow_up: bool,
     },
 }
 
 impl EventKind {
-    /// What happened in this scene and by whom, for people: `stiffness of buoy = 90 N/m, by hand`.
+    /// Describes the event and its author for people: `stiffness of buoy = 90 N/m, by hand`.
     pub fn words(&self, scene: &Scene) -> String {
         match self {
             Self::Done { action, author, solo } => {

@@ -1,5 +1,5 @@
-//! A run in an address: the text of its recording, compressed, after `#v1.`, where no server sees it; or a built-in scene by its
-//! name, as `#scene=spring&method=rk4`.
+//! A run in an address. After `#v1.` follows the compressed text of its recording, where no server sees it. A
+//! built-in scene goes by name, as in `#scene=spring&method=rk4`.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -15,69 +15,70 @@ use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, SCENES, Scen
 use crate::sim::TickRate;
 use crate::sim::integrators::{METHODS, Method, method};
 
-/// What begins a link.
+/// First letter of a link.
 const MARK: char = '#';
-/// What stands before the version of a packed run, which ends at a point.
+/// Letter before the version of a packed run; a point ends the version.
 const VERSION_MARK: char = 'v';
-/// The version that is written, and the newest that is read.
+/// The version written, and the newest one read.
 const VERSION: u32 = 1;
-/// What ends a packed run, and each setting.
+/// Ends a packed run and each setting.
 const END: char = '&';
-/// The settings by which a link names a run, as the options of `regatta play`.
+/// Settings that name a run, like the options of `regatta play`.
 const SCENE: &str = "scene";
 const METHOD: &str = "method";
 const TICK_HZ: &str = "tick-hz";
 const RACE: &str = "race";
-/// The settings of a page, which no run has.
+/// Settings of a page, which belong to no run.
 const OF_A_PAGE: [&str; 6] = ["tick", "play", "panels", "theme", "instrument", "loop"];
-/// The most letters of an unknown word that a message quotes.
+/// Most letters of an unknown word that a message quotes.
 const QUOTED: usize = 40;
-/// How hard it is compressed, 0 to 10.
+/// Compression level, 0 to 10.
 const LEVEL: u8 = 10;
 
-/// The most letters of a link that every system takes as an argument, roughly. A field of the window takes no more.
+/// Roughly the longest link (letters) that every system accepts as an argument. The window's field accepts no longer
+/// one.
 pub const MAX_LETTERS: usize = 100_000;
 
 /// Why a link leads to no run.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {
-    /// It was made by a newer release.
+    /// A newer release made the link.
     #[error(
         "the link is of {}, and this release reads up to {VERSION}; update regatta",
         format_name(*version)
     )]
     Newer {
-        /// Its format; the largest stands for those beyond.
+        /// Its format, or [`u32::MAX`] for any beyond.
         version: u32,
     },
-    /// A part of it is missing or was changed.
+    /// Some of the link is missing or was changed.
     #[error("the link is broken; copy it whole, from #v to its end")]
     Broken,
-    /// It unpacks to more than a scene file may have.
+    /// The link unpacks to more bytes than a scene file may have.
     #[error(
         "the link unpacks to more than {MAX_FILE_BYTES} bytes, the most of a scene file; make a shorter run"
     )]
     TooLong,
-    /// It names something that is not there.
+    /// The link contains an unknown name.
     #[error("the link asks for {thing} {written:?}, and there is none; {remedy}")]
     Unknown {
-        /// The kind of thing: a setting, or the setting that has the name as its value.
+        /// The kind of name: a setting, or the setting whose value it is.
         thing: String,
-        /// The name, as it is written.
+        /// The name as written.
         written: String,
-        /// What to write.
+        /// The remedy.
         remedy: String,
     },
-    /// It names a method that does not step its scene.
+    /// The link names a method that cannot step its scene.
     #[error("the link names a method in vain: {reason}; name another")]
     Refused {
-        /// Why the method does not.
+        /// Why the method cannot.
         reason: String,
     },
 }
 
 impl LinkError {
-    /// The error for a name that is none of `known`.
+    /// The error for a name that is missing from `known`.
     pub fn unknown(thing: &str, written: &str, known: &[&str]) -> Self {
         let remedy = match nearest(written, known.iter().map(|name| (*name, *name))) {
             Some(meant) => format!("did you mean {meant:?}?"),
@@ -105,14 +106,14 @@ pub fn is_link(written: &str) -> bool {
     fragment.split(END).any(|part| packed(part).is_some() || is_named(part))
 }
 
-/// A link that is taken apart.
+/// A parsed link.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Link {
-    /// Behind its mark, without what stood around it.
+    /// The text after the mark, without the text around it.
     fragment: String,
-    /// The version and the letters of a packed run.
+    /// Version and letters of a packed run.
     packed: Option<(u32, String)>,
-    /// The settings that name a run, and those of a page, in order: each by its key and its value.
+    /// Keys and values of the settings that name a run, and below of those for the page, in order.
     names: Vec<(String, String)>,
     settings: Vec<(String, String)>,
 }
@@ -120,7 +121,7 @@ pub struct Link {
 /// A run that a link names.
 #[derive(Clone, Debug)]
 pub struct Named {
-    /// The scene, with the lanes of several methods and the tick rate.
+    /// The scene; several methods make its lanes, and it has the link's tick rate.
     pub scene: Scene,
     /// The methods, in order.
     pub methods: Vec<&'static Method>,
@@ -129,15 +130,15 @@ pub struct Named {
 }
 
 impl Link {
-    /// Takes apart a link, or an address that ends in one: of an address without one, nothing. Percent codes are decoded, and
-    /// punctuation at the end, as of a sentence around the address, is left out.
+    /// Parses a link, or an address that ends in one. An address without a link yields an empty link. Decodes percent
+    /// codes, and strips punctuation from the end, as of a sentence around the address.
     ///
     /// # Errors
-    /// If it has a setting that is not known, or no run after its version.
+    /// If a setting is unknown, or no run follows the version.
     pub fn read(written: &str) -> Result<Self, LinkError> {
         let written = decoded(written);
         let fragment = written.rsplit_once(MARK).map_or("", |(_, fragment)| fragment);
-        // No letter of a run, and no setting, ends in one of these.
+        // No run and no setting ends in one of these letters.
         let is_around = |end: char| !(end.is_ascii_alphanumeric() || end == '-' || end == '_');
         let fragment = fragment.trim_end_matches(is_around);
         let mut link = Self { fragment: fragment.to_owned(), ..Self::default() };
@@ -163,38 +164,38 @@ impl Link {
             .push((key.to_owned(), value.trim().to_owned()));
         }
         match link.names.first().filter(|_| link.packed.is_some()) {
-            // The run has a scene and methods of its own.
+            // A packed run already has its scene and methods.
             Some((name, _)) => Err(LinkError::unknown("setting", name, &OF_A_PAGE)),
             None => Ok(link),
         }
     }
 
-    /// The settings of a page, in order: each by its key and its value.
+    /// Keys and values of the page's settings, in order.
     pub fn settings(&self) -> impl Iterator<Item = (&str, &str)> {
         self.settings.iter().map(|(key, value)| (&**key, &**value))
     }
 
-    /// The tick that is to be looked at, while time stands still; `None` of a run that begins, or goes on by itself.
+    /// The tick at which to pause; `None` for a run that starts or resumes by itself.
     pub fn tick(&self) -> Option<u64> {
         let value =
             |wanted| self.settings().find(|(key, _)| *key == wanted).map(|(_, value)| value);
         value("tick").filter(|_| value("play").is_none())?.parse().ok()
     }
 
-    /// Whether it holds a whole run.
+    /// Whether the link holds a whole run.
     pub fn is_packed(&self) -> bool {
         self.packed.is_some()
     }
 
-    /// Whether it opens the lanes of a race by name.
+    /// Whether the link names lanes that race.
     pub fn asks_to_race(&self) -> bool {
         self.names.iter().any(|(key, _)| key == RACE)
     }
 
-    /// The run that it names: without a scene, the first of [`SCENES`].
+    /// The run that the link names; the default scene is the first of [`SCENES`].
     ///
     /// # Errors
-    /// If there is no such scene, method or rate, or if a method does not step the scene.
+    /// If the scene, a method or the rate is unknown, or if a method cannot step the scene.
     pub fn named(&self) -> Result<Named, LinkError> {
         let of = |wanted| self.names.iter().filter(move |(key, _)| key == wanted);
         let values = |wanted| of(wanted).flat_map(|(_, value)| value.split(','));
@@ -218,10 +219,10 @@ impl Link {
         Ok(Named { scene: scene.with_methods(&methods), methods, races })
     }
 
-    /// The text of the scene file that it holds, or of the run that it names.
+    /// Text of the scene file in the link, or of the run that it names.
     ///
     /// # Errors
-    /// Why it holds none. It never unpacks more than a scene file may have.
+    /// If the link is broken, too new or too long. It never unpacks more than a scene file may have.
     pub fn text(&self) -> Result<String, LinkError> {
         let Some((version, run)) = &self.packed else { return Ok(self.named()?.alone().to_toml()) };
         match *version {
@@ -247,7 +248,7 @@ impl fmt::Display for Link {
 }
 
 impl Named {
-    /// The scene as one that opens so by itself.
+    /// The scene with the opening method and mode that the link asks for.
     fn alone(self) -> Scene {
         let Self { mut scene, methods, races } = self;
         scene.opens_as_race |= races;
@@ -257,22 +258,22 @@ impl Named {
             if scene.lanes.iter().all(|lane| lane.method != method) {
                 scene.lanes.push(LaneSpec::plain(method));
             }
-            // The scene's hint is of the method that it opened with.
+            // The scene's hint is about its former opening method.
             (scene.opening_method, scene.hint) = (Some(method), None);
         }
         scene
     }
 }
 
-/// The version of a packed run, and its letters.
+/// Version and letters of a packed run.
 fn packed(part: &str) -> Option<(u32, &str)> {
     let (version, run) = part.strip_prefix(VERSION_MARK)?.split_once('.')?;
     let is_version = !version.is_empty() && version.bytes().all(|digit| digit.is_ascii_digit());
-    // A version of many digits is newer, whichever it is.
+    // A version with too many digits is newer, too.
     is_version.then(|| (version.parse().unwrap_or(u32::MAX), run))
 }
 
-/// A text without its percent codes, as a messenger may write them.
+/// Decodes the percent codes that a messenger may add.
 fn decoded(written: &str) -> String {
     let mut parts = written.split('%');
     let mut bytes = parts.next().unwrap_or_default().as_bytes().to_vec();
@@ -286,7 +287,7 @@ fn decoded(written: &str) -> String {
     String::from_utf8(bytes).unwrap_or_else(|_| written.to_owned())
 }
 
-/// The ticks of a run's checks that a link keeps: few that are early too, for a motion may have come to rest at the end.
+/// Ticks of the checks that a link keeps. Early ones matter, since a motion may rest at the end.
 fn kept(scene: &Scene) -> Vec<u64> {
     let mut ticks: Vec<u64> = scene.checks.iter().map(|check| check.tick).collect();
     ticks.sort_unstable();
@@ -298,8 +299,8 @@ fn kept(scene: &Scene) -> Vec<u64> {
     }
 }
 
-/// The link to a run, `#v1.` and letters that an address may have: its scene with its script, and some of its checks, each
-/// lane's last among them.
+/// The link to a run: `#v1.` and letters that an address may have. It holds the scene with its script, and a few of
+/// its checks, among them the last of each lane.
 ///
 /// # Errors
 /// If its text is longer than a scene file may be.
@@ -327,7 +328,7 @@ pub fn to(scene: &Scene) -> Result<String, LinkError> {
     if text.len() > MAX_FILE_BYTES {
         return Err(LinkError::TooLong);
     }
-    // With a checksum: a letter that was changed must not be another run.
+    // The checksum keeps a changed letter from opening another run.
     let packed = compress_to_vec_zlib(text.as_bytes(), LEVEL);
     Ok(format!("{MARK}{VERSION_MARK}{VERSION}.{}", URL_SAFE_NO_PAD.encode(packed)))
 }
@@ -337,8 +338,8 @@ pub fn to_built_in(name: &str) -> String {
     format!("{MARK}{SCENE}={name}")
 }
 
-/// The link that names a run, from its start to whatever tick it has reached: that of a built-in scene which nobody has changed,
-/// under methods, and at a rate, that a link can name. `None` for any other.
+/// The link that names a run from its start, at any present tick; `None` if it needs a packed run. Only an unedited
+/// built-in scene has such a link, under methods and at a rate that a link can name.
 pub fn naming(session: &Session) -> Option<String> {
     let (scene, start) = (session.scene(), session.start());
     let built_in = Scene::built_in(&scene.name).filter(|_| scene.in_rust().is_none())?;
@@ -395,10 +396,10 @@ pub fn naming(session: &Session) -> Option<String> {
     Some(link)
 }
 
-/// The text of the scene file that a [link](is_link) holds, or an address that ends in one.
+/// Text of the scene file in a [link](is_link), or in an address that ends in one.
 ///
 /// # Errors
-/// Why it holds none. It never unpacks more than a scene file may have.
+/// If there is no link, or if it is broken, too new or too long. It never unpacks more than a scene file may have.
 pub fn text(written: &str) -> Result<String, LinkError> {
     if is_link(written) { Link::read(written)?.text() } else { Err(LinkError::Broken) }
 }
@@ -419,7 +420,7 @@ mod tests {
         session.run(1);
         let recording = session.recording(session.race().tick());
         let link = to(&recording).unwrap();
-        // A minute, with a kick five times a second.
+        // A minute with five kicks per second.
         assert!(link.len() < 8_000, "{} bytes", link.len());
         let around = format!("https://example.org/play/{link}&panels=off&play");
         for end in ["", ")", ").", ",", ">", " ", "\u{201d}"] {
@@ -444,7 +445,7 @@ mod tests {
         let far = far.unwrap_err().to_string();
         assert!(far.starts_with("the link is of a much newer format, and this"), "{far}");
         assert!(text(&format!("https://x.org/#video/{link}")).is_ok());
-        // Whichever letter is another, it is no other run.
+        // No single changed letter opens another run.
         for place in "#v1.".len()..link.len() {
             let other = if link.as_bytes()[place] == b'A' { "B" } else { "A" };
             let mut changed = link.clone();
@@ -462,7 +463,7 @@ mod tests {
         assert!(!is_link("a#b.toml") && !is_link("spring") && is_link("x#v9.y"));
     }
 
-    /// A run of a built-in scene from its start, solo under the method with this index on its list, or in a race.
+    /// A built-in scene's run at its start: solo under the method with this menu index, or a race.
     fn begun(name: &str, entry: Option<usize>) -> Session {
         let scene = Scene::built_in(name).unwrap();
         match entry {
@@ -479,7 +480,7 @@ mod tests {
             for entry in solos.chain([None]) {
                 let run = begun(built_in.name, entry);
                 let Some(link) = naming(&run) else {
-                    // Lanes that race at equal cost, or twice under one method, have no name.
+                    // Lanes at equal cost, or two of one method, have no name.
                     assert!(entry.is_none() || scene.lanes.len() > 1, "{}", built_in.name);
                     continue;
                 };

@@ -3,13 +3,13 @@
 use super::race::{Done, Race, Switch};
 use crate::scene::{LaneId, LaneSpec};
 
-/// The methods that digits, rows and colours refer to by their index: the scene's lanes, then all other methods that fit
-/// its bodies, each with the substeps and the tolerance with which a lane flies it now or flew it last. It follows the
-/// switches of a run, and is not part of it.
+/// The methods to which digits, rows and colours refer by index: the scene's lanes, then all other methods that fit
+/// its bodies. Each entry has the substeps and tolerance that its lane uses, or used last. The menu follows the
+/// switches of a run, without being part of it.
 #[derive(Clone, Debug)]
 pub struct Menu {
     specs: Vec<LaneSpec>,
-    /// The index of what each lane of the race flies.
+    /// Menu index of each lane in the race.
     flown: Vec<(LaneId, usize)>,
 }
 
@@ -32,15 +32,15 @@ impl Menu {
         &self.specs
     }
 
-    /// The index of the method of a lane that is in the race.
+    /// Menu index of a lane in the race.
     ///
     /// # Panics
-    /// If it is not.
+    /// If the lane is not in the race.
     pub fn entry(&self, lane: LaneId) -> usize {
         self.known_entry(lane).expect("it is in the race")
     }
 
-    /// The first lane under the method with this index; `None` if no lane flies it.
+    /// First lane under the method with this index; `None` if no lane uses it.
     pub fn lane(&self, entry: usize) -> Option<LaneId> {
         self.flown.iter().find(|(_, flown)| *flown == entry).map(|(lane, _)| *lane)
     }
@@ -49,12 +49,12 @@ impl Menu {
         self.flown.iter().find(|(known, _)| *known == lane).map(|(_, entry)| *entry)
     }
 
-    /// Its heap memory in bytes.
+    /// Heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         size_of_val(&self.specs[..]) + size_of_val(&self.flown[..])
     }
 
-    /// Follows an action: a lane that it switches flies another entry, and lanes that have left the race fly none.
+    /// Follows an action: a switched lane takes another entry, and lanes that left the race release theirs.
     pub(super) fn follow(&mut self, race: &Race, done: &Done) {
         if let Some(Switch { lane, spec, .. }) = done.switch {
             let entry = self.entry_for(lane, spec);
@@ -63,8 +63,8 @@ impl Menu {
         self.flown.retain(|(lane, _)| race.entrant(*lane).is_some());
     }
 
-    /// The index for a lane that switches to `spec`: that of `spec`, or else one of its method that no other lane flies, which
-    /// becomes `spec`, or else a new one. So the menu has what every lane flies.
+    /// The index for a lane that switches to `spec`, so that the menu lists every lane's method. Prefers the entry
+    /// equal to `spec`. Otherwise changes an entry of the same method that no other lane uses, or adds one.
     fn entry_for(&mut self, lane: LaneId, spec: LaneSpec) -> usize {
         if let Some(known) = self.specs.iter().position(|known| *known == spec) {
             return known;

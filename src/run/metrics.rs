@@ -8,9 +8,9 @@ use crate::sim::bodies::{Coordinate, Truth};
 /// How a metric is plotted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// As its decimal logarithm.
+    /// By its decimal logarithm.
     Log,
-    /// As it is.
+    /// By its value.
     Linear,
 }
 
@@ -19,7 +19,7 @@ pub enum Scale {
 pub enum Unit {
     /// None: a pure number.
     One,
-    /// Percent of what the metric says.
+    /// Percent of the metric's reference.
     Percent,
     /// Seconds.
     Seconds,
@@ -27,14 +27,14 @@ pub enum Unit {
     Milliseconds,
     /// The amplitude of the body's motion.
     Amplitudes,
-    /// The unit of the body's first coordinate. Coordinates in another unit are left out.
+    /// Unit of the body's first coordinate. Coordinates in other units are left out.
     Coordinate,
-    /// The unit of the body's first coordinate per second.
+    /// Unit of the body's first coordinate per second.
     Velocity,
 }
 
 impl Unit {
-    /// The unit on a body with this coordinate.
+    /// The unit for a body with this coordinate.
     pub fn on(self, coordinate: &Coordinate) -> String {
         match self {
             Unit::Coordinate => coordinate.shown_unit().into(),
@@ -65,36 +65,36 @@ pub struct Metric {
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
-    /// The text shown if no lane has a value.
+    /// Text shown if no lane has a value.
     pub absent: &'static str,
-    /// Its unit.
+    /// Unit of its values.
     pub unit: Unit,
-    /// How it is plotted.
+    /// Scale on which it is plotted.
     pub scale: Scale,
     /// Whether it compares the lane with the truth.
     pub is_comparison: bool,
-    /// Whether it is about the energy that a body conserves: the energy instrument shows it.
+    /// Whether it measures the energy that a body conserves; the energy instrument shows it.
     pub is_of_energy: bool,
-    /// What it is, in one line.
+    /// Description in one line.
     pub about: &'static str,
-    /// The value for a body in a lane and the same body in truth; `None` where it is undefined. A comparison is undefined
-    /// once either body has halted.
+    /// The value for a body in a lane, given the same body in truth; `None` where undefined. A comparison is
+    /// undefined once either body has halted.
     pub measure: fn(lane: &LaneBody, truth: &LaneBody) -> Option<f64>,
 }
 
 impl Metric {
     /// The index of the position error in [`METRICS`].
     pub const POSITION_ERROR: usize = place_of("position_error");
-    /// The index of the velocity error.
+    /// The index of the velocity error in [`METRICS`].
     pub const VELOCITY_ERROR: usize = place_of("velocity_error");
-    /// The index of the energy drift.
+    /// The index of the energy drift in [`METRICS`].
     pub const ENERGY_DRIFT: usize = place_of("energy_drift");
-    /// The index of the half-life.
+    /// The index of the half-life in [`METRICS`].
     pub const HALF_LIFE: usize = place_of("half_life");
-    /// The index of the overshoot.
+    /// The index of the overshoot in [`METRICS`].
     pub const OVERSHOOT: usize = place_of("overshoot");
 
-    /// The text shown if no lane has a value on this body, which is the one in truth.
+    /// Text shown if no lane has a value for this body; `truth` is the same body in truth.
     pub fn absent_on(&self, truth: &LaneBody) -> &'static str {
         if self.is_of_energy && truth.false_claims().energy {
             "No drift to show: with these constants the body's `energy` is not conserved."
@@ -111,7 +111,6 @@ impl Metric {
     }
 }
 
-/// The index of the metric with this id.
 const fn place_of(id: &str) -> usize {
     let mut index = 0;
     while !is_same(METRICS[index].id.as_bytes(), id.as_bytes()) {
@@ -128,7 +127,7 @@ const fn is_same(a: &[u8], b: &[u8]) -> bool {
     }
 }
 
-/// Every metric, the one that lanes are ranked by first.
+/// Every metric. The first one ranks the lanes.
 pub const METRICS: &[Metric] = &[
     Metric {
         id: "position_error",
@@ -234,9 +233,9 @@ pub const METRICS: &[Metric] = &[
     },
 ];
 
-/// The energy that a body in a lane has more than in truth, in percent of what the exact motion exchanges, or where it
-/// conserves or exchanges none of the most that it had; `None` where its energies are not known, or have no zero of their own
-/// to be held against: those of a body that is not linear.
+/// Energy of a body in a lane above that in truth, in percent of the energy that the exact motion exchanges. A linear
+/// body that exchanges or conserves none is measured against the most energy that it had. `None` if its energies are
+/// unknown, or if it is not linear, so that its energy has no natural zero.
 pub fn energy_gained_percent(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
     let of_swing = (METRICS[Metric::ENERGY_DRIFT].measure)(lane, truth);
     of_swing.or_else(|| {
@@ -246,13 +245,13 @@ pub fn energy_gained_percent(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
     })
 }
 
-/// The energy that a body in a lane has more than in truth, in joules; `None` where its energies are not known.
+/// Energy of a body in a lane above that in truth, in joules; `None` if either is unknown.
 pub fn energy_gained_j(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
     let [lane, exact] = both(lane, truth)?.map(energy_j);
     known(lane? - exact?)
 }
 
-/// The kinetic and potential energy of a body, in joules; `None` where they are not known, and of one that has halted.
+/// Kinetic plus potential energy of a body, in joules; `None` if unknown, or once the body has halted.
 pub fn energy_j(body: &LaneBody) -> Option<f64> {
     let stepper = &body.stepper;
     let parts = || Some(stepper.mechanical_energy()?.iter().sum());
@@ -266,7 +265,7 @@ fn both<'a>(lane: &'a LaneBody, truth: &'a LaneBody) -> Option<[&'a LaneBody; 2]
     go_on.then_some([lane, truth])
 }
 
-/// A value, unless it is undefined.
+/// The value, if it is finite.
 fn known(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
@@ -290,7 +289,7 @@ mod tests {
         METRICS.iter().find(|metric| metric.id == id).unwrap()
     }
 
-    /// A scene of one spring of 2 kg, 8 N/m and a kick of 4 N s, at 100 Hz, and its race under `id`.
+    /// A race under `id` at 100 Hz, of one spring with 2 kg, 8 N/m and a kick of 4 N s.
     fn race(id: &str, [x0, v0]: [f64; 2]) -> Race {
         let text = format!(
             "title = 'x'\ntick_hz = 100\nseconds = 10\nmethods = ['{id}']\n\
@@ -348,7 +347,7 @@ mod tests {
         // The first tick of explicit Euler adds (ω h)² of the energy, here (2 π / 60)².
         let first = gained("harbour", "explicit-euler", 1, 0).unwrap();
         assert!((first - 1.0966).abs() < 1e-3, "{first}");
-        // Kinetic alone: after many time constants that of the last speed, under any method.
+        // All its energy is kinetic. After many time constants it is that of the last speed, under any method.
         let ship = gained("harbour", "explicit-euler", 60 * 200, 1).unwrap();
         assert!(ship.abs() < 1e-6, "{ship}");
         let damped = gained("damped", "explicit-euler", 600, 0).unwrap();

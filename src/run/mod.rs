@@ -1,9 +1,11 @@
-//! A run: lanes racing against the truth, a person's actions on them, its drawn past, and its text.
+//! A run: lanes that race against the truth, a person's actions on them, its drawn past, and its text.
 //!
-//! A [`race`] ticks its lanes and performs the actions of its journal; a [`Session`] is a race of a scene as a plain value. A
-//! [`Run`] goes back and forth in time, and takes back what a person did. [`Observations`] follow its race: the [`Menu`], the
-//! checkpoints from which verdicts restart, and the drawn [`past`]. [`METRICS`] are read at each tick, a [`trace`] is the table
-//! of all, and [`diff`] compares two of those. A [`link`] is a run in an address.
+//! A [`race`] ticks its lanes and performs the actions of its journal; a [`Session`] is a scene's race as a plain
+//! value. A [`Run`] moves back and forth in time, and undoes edits. [`Observations`] follow its race: the [`Menu`],
+//! the checkpoints from which verdicts restart, and the drawn [`past`].
+//!
+//! Each tick updates the [`METRICS`]. A [`trace`] tabulates them, and [`diff`] compares two such tables. A [`link`]
+//! is a run in an address.
 
 use std::mem::{replace, swap};
 
@@ -42,27 +44,27 @@ pub use recording::{Reached, RecordingError, Replay, text as recording_text};
 pub use session::Session;
 pub(crate) use start::StartSettings;
 
-/// The memory that snapshots and the drawn pasts of kept runs may take unless it is set, in bytes.
+/// Default memory limit (bytes) for snapshots and the drawn pasts of kept runs.
 pub const SNAPSHOT_BYTES: usize = 64 << 20;
 
-/// The initial spacing of snapshots in ticks, which are repeated in less than a frame.
+/// Initial spacing of snapshots (ticks): few enough to repeat in less than a frame.
 const SPACING: u64 = 32;
 
-/// The most work of a run that is repeated to record another coordinate: evaluations of accelerations, times the
-/// coordinates of a body and [`WORK_OF_AN_EVALUATION`]. It takes about a second.
+/// Most work that recording another coordinate may repeat, about a second. Work is evaluations of accelerations,
+/// times a body's coordinates plus [`WORK_OF_AN_EVALUATION`].
 const MAX_REPEATED_WORK: u64 = 10_000_000;
 
-/// What an evaluation costs beside its coordinates, in the cost of one.
+/// Fixed cost of an evaluation, in units of the cost per coordinate.
 const WORK_OF_AN_EVALUATION: u64 = 4;
 
-/// A session that can go back and forth in time, with its drawn past and the settings of its next restart.
+/// A session that moves back and forth in time, with its drawn past and the settings of its next restart.
 ///
-/// It keeps snapshots of the session at regular ticks, and reaches any tick from the nearest snapshot before it by
-/// repeating the journal's actions. When the snapshots reach their memory limit, their spacing doubles. What a person does
-/// can be undone, and done again.
+/// It keeps snapshots of the session at regular ticks. It reaches any tick from the nearest earlier snapshot by
+/// repeating the journal's actions. When the snapshots reach their memory limit, their spacing doubles. A person's
+/// edits can be undone and redone.
 pub struct Run {
     course: Course,
-    /// The settings of the next restart.
+    /// Settings of the next restart.
     next: StartSettings,
     spacing: u64,
     limit: usize,
@@ -95,11 +97,11 @@ impl Run {
     pub fn session(&self) -> &Session {
         &self.course.session
     }
-    /// The settings of the next restart: those of this start, with a person's edits since.
+    /// Settings of the next restart: those of this start, plus a person's edits since.
     pub(crate) fn next(&self) -> &StartSettings {
         &self.next
     }
-    /// The settings of the next restart, to be set in a way that is not undone.
+    /// The settings of the next restart, for changes that undo should skip.
     pub(crate) fn next_mut(&mut self) -> &mut StartSettings {
         &mut self.next
     }
@@ -107,7 +109,7 @@ impl Run {
     pub fn start(&self) -> &Race {
         self.course.session.start()
     }
-    /// The time of every tick, by the performed and the pending changes of the tick rate.
+    /// The time of every tick, from past and pending changes of the tick rate.
     pub fn times(&self) -> TimeScale {
         let rows = self.course.session.journal().rows().iter();
         let changes = rows.filter_map(|row| Some((row.tick, row.action.tick_hz()?)));
@@ -117,11 +119,11 @@ impl Run {
     pub fn race(&self) -> &Race {
         self.course.race()
     }
-    /// The recorded past that is drawn.
+    /// The drawn past.
     pub fn past(&self) -> &Past {
         self.course.seen.past()
     }
-    /// The methods that digits and rows refer to.
+    /// The methods to which digits and rows refer.
     pub fn menu(&self) -> &Menu {
         self.course.seen.menu()
     }
@@ -137,29 +139,29 @@ impl Run {
     pub fn is_in_past(&self) -> bool {
         self.race().tick() < self.course.noted.end
     }
-    /// The memory that snapshots take, and the drawn pasts of the runs before a restart, in bytes.
+    /// Memory (bytes) of the snapshots, and of the drawn pasts from before restarts.
     pub fn bytes(&self) -> usize {
         let all = self.course.noted.snapshots.iter().chain(self.changes.snapshots());
         all.map(|snapshot| snapshot.bytes).sum::<usize>() + self.changes.past_bytes()
     }
-    /// The memory that [`Run::bytes`] may be.
+    /// Limit for [`Run::bytes`].
     pub fn limit(&self) -> usize {
         self.limit
     }
-    /// Sets the memory that [`Run::bytes`] may be; it holds from the next snapshot on.
+    /// Sets the limit for [`Run::bytes`], effective from the next snapshot.
     pub fn set_limit(&mut self, limit: usize) {
         self.limit = limit;
     }
-    /// What [`Run::undo`] would take back, for people; `None` if there is nothing.
+    /// Description of the change that [`Run::undo`] would take back; `None` if there is none.
     pub fn undoes(&self) -> Option<&str> {
         self.changes.done.last().map(|change| &change.what[..])
     }
-    /// What [`Run::redo`] would do again, for people; `None` if there is nothing.
+    /// Description of the change that [`Run::redo`] would repeat; `None` if there is none.
     pub fn redoes(&self) -> Option<&str> {
         self.changes.undone.last().map(|change| &change.what[..])
     }
 
-    /// The events up to the last tick reached, by tick.
+    /// Events up to the last tick reached, in order.
     pub fn events(&self) -> Vec<Event> {
         let rows = self.course.session.journal().rows().iter();
         let is_solo = self.start().mode() == Mode::Solo;
@@ -176,7 +178,7 @@ impl Run {
         events
     }
 
-    /// Adds the present to what is drawn, even if no sample is due.
+    /// Extends the drawn past to the present, even if no sample is due.
     pub fn show_present(&mut self) {
         self.course.seen.show_present(self.course.session.race());
     }
@@ -186,7 +188,7 @@ impl Run {
         self.course.catch_up(observer);
     }
 
-    /// Makes a tick before the eyes of an observer; in the past it repeats the tick that was made.
+    /// Makes a tick and notifies the observer; in the past, repeats the recorded tick.
     pub fn tick(&mut self, observer: &mut dyn Observer) {
         self.course.tick(observer);
         if self.race().tick().is_multiple_of(self.spacing) {
@@ -194,15 +196,15 @@ impl Run {
         }
     }
 
-    /// Performs an action at the present tick, like [`Session::act`], as a change that [`Run::undo`] takes back. In the past,
-    /// another future begins with it. Returns whether it changed anything.
+    /// Performs an action at the present tick, like [`Session::act`], as a change that [`Run::undo`] takes back. In
+    /// the past, it begins another future. Returns whether it changed anything.
     pub fn act(&mut self, action: Action) -> bool {
         self.close_change();
         self.act_within(action, &mut ()).is_some()
     }
 
-    /// Performs an action as a part of the present change, unless that is closed. A choice of a person is kept for the next
-    /// restart. `None`: it changes nothing.
+    /// Performs an action as part of the open change, or of a new one. Edits also apply to the next restart. Returns
+    /// `None` if the action changes nothing.
     pub(crate) fn act_within(
         &mut self,
         action: Action,
@@ -217,7 +219,7 @@ impl Run {
         let rows = journal.tail_beside(self.course.session.journal(), added);
         let noted = self.course.noted.split_off(tick);
         let what = format!("{} (tick {tick})", done.action.in_words(self.course.session.scene()));
-        // A change that was made in the past has a future of its own to bring back.
+        // A change in the past has its own future to bring back.
         if was_past || !self.changes.has_future() {
             let replaced = Replaced::Future(Future { tick, rows, noted });
             self.changes.push(Change { what, next: self.next.clone(), replaced });
@@ -228,8 +230,8 @@ impl Run {
         Some(done)
     }
 
-    /// Changes a setting of the next start, as a part of the present change unless that is closed. `set` returns whether it
-    /// changed anything, as this does.
+    /// Changes a setting of the next start, as part of the open change, or of a new one. Like this function, `set`
+    /// returns whether it changed anything.
     pub(crate) fn set_next(
         &mut self,
         what: &str,
@@ -244,8 +246,8 @@ impl Run {
         is_changed
     }
 
-    /// Begins a run with the settings of the next start, after `set` has set them. The present run is kept for
-    /// [`Run::undo`] of the change `kept`, and lost if there is none.
+    /// Applies `set` to the next start's settings and begins a run with them. With a description in `kept`,
+    /// [`Run::undo`] can bring back the present run; otherwise it is lost.
     pub(crate) fn restart(&mut self, kept: Option<&str>, set: impl FnOnce(&mut StartSettings)) {
         let before = self.next.clone();
         set(&mut self.next);
@@ -259,18 +261,18 @@ impl Run {
         self.spacing = SPACING;
     }
 
-    /// Ends the present change: what a person does next is undone by itself.
+    /// Closes the open change, so that undo handles the next edit separately.
     pub(crate) fn close_change(&mut self) {
         self.changes.close();
     }
 
-    /// Makes all that was done part of the start: nothing of it can be undone.
+    /// Clears the undo stack: all edits so far become part of the start.
     pub(crate) fn forget_changes(&mut self) {
         self.changes = UndoStack::default();
     }
 
-    /// Takes back the newest change, and goes to the tick at which it was made; the run before a restart comes back where
-    /// it was. Returns whether there was a change.
+    /// Takes back the newest change, and returns to its tick. Undoing a restart brings back the earlier run at its
+    /// former tick. Returns whether there was a change.
     pub fn undo(&mut self) -> bool {
         let Some(mut change) = self.changes.done.pop() else { return false };
         self.exchange(&mut change);
@@ -278,7 +280,7 @@ impl Run {
         true
     }
 
-    /// Makes the change again that was undone last, and goes to its tick. Returns whether there was one.
+    /// Repeats the change that was undone last, and moves to its tick. Returns whether there was one.
     pub fn redo(&mut self) -> bool {
         let Some(mut change) = self.changes.undone.pop() else { return false };
         self.exchange(&mut change);
@@ -286,7 +288,7 @@ impl Run {
         true
     }
 
-    /// Goes to the other side of a change, which becomes the way back.
+    /// Swaps in the other side of a change, and leaves this side there.
     fn exchange(&mut self, change: &mut Change) {
         self.changes.close();
         swap(&mut self.next, &mut change.next);
@@ -300,14 +302,14 @@ impl Run {
                 journal.swap_tail(rows);
                 self.course.session.follow(journal);
                 self.restore(*tick);
-                // The recorded future is the one that has just been left.
+                // The recorded future belongs to the side just left.
                 self.course.seen.forget_future();
                 self.catch_up(&mut ());
             }
         }
     }
 
-    /// Goes to a tick, at most the last reached, in the state before the actions at that tick.
+    /// Moves to a tick, at most the last one reached, in the state before its actions.
     pub fn seek(&mut self, tick: u64) {
         let tick = tick.min(self.course.noted.end);
         if tick != self.race().tick() {
@@ -315,8 +317,8 @@ impl Run {
         }
     }
 
-    /// Records of each body the coordinate with this index from now on, and from the start of the run by running it
-    /// again to the present tick. Returns whether it does: a run that takes more than a second or so keeps its record.
+    /// Records these coordinates, one index per body, from now on, and from the start by repeating the run. Returns
+    /// `false` and keeps its record if that would take more than about a second.
     pub fn record_coordinates(&mut self, coordinates: &[usize]) -> bool {
         if self.past().coordinates().eq(coordinates.iter().copied()) {
             return true;
@@ -330,7 +332,7 @@ impl Run {
         }
         let (tick, journal) = (self.race().tick(), self.course.session.journal().clone());
         let done = self.race().done();
-        // The other snapshots are marks of a past that was recorded otherwise.
+        // The other snapshots mark a past with other coordinates.
         self.course.noted.snapshots.truncate(1);
         self.changes.clear_futures();
         self.course.begin(coordinates.to_vec());
@@ -343,12 +345,12 @@ impl Run {
         true
     }
 
-    /// The hashes that were noted as ticks were first made, by tick.
+    /// The hashes noted so far, in order of ticks.
     fn hashes(&self) -> &[Hashes] {
         &self.course.noted.hashes
     }
 
-    /// The race at the last tick reached, before the actions at it.
+    /// The race at the last tick reached, before its actions.
     fn race_at_end(&self) -> Race {
         let Course { session, noted: Noted { snapshots, end, .. }, .. } = &self.course;
         let before = session.journal().rows().partition_point(|row| row.tick < *end);
@@ -362,13 +364,13 @@ impl Run {
         race
     }
 
-    /// Goes to `tick` from a snapshot.
+    /// Moves to `tick` from a snapshot.
     fn restore(&mut self, tick: u64) {
         let Course { session, seen, noted: Noted { snapshots, .. } } = &mut self.course;
         let nearest = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick) - 1;
         let is_ahead = (snapshots[nearest].race.tick()..tick).contains(&session.race.tick());
         if !is_ahead {
-            // Starts so far back that the drawn past is complete again.
+            // Start far enough back to complete the drawn past again.
             let wanted = &snapshots[nearest].mark;
             let fills = |snapshot: &&Snapshot| seen.fills(&snapshot.mark, wanted);
             let from = snapshots[..=nearest].iter().rfind(fills);
@@ -385,14 +387,14 @@ impl Run {
         self.repeat_to(tick);
     }
 
-    /// Makes the ticks up to `tick` again.
+    /// Repeats the ticks up to `tick`.
     fn repeat_to(&mut self, tick: u64) {
         while self.race().tick() < tick {
             self.tick(&mut ());
         }
     }
 
-    /// Adds a snapshot of the present if there is none, and thins the snapshots to their memory limit.
+    /// Adds a snapshot of the present unless there is one, and thins the snapshots to their memory limit.
     fn take_snapshot(&mut self) {
         let tick = self.race().tick();
         let index =
@@ -410,7 +412,8 @@ impl Run {
         self.fit();
     }
 
-    /// Thins the snapshots to the memory limit, of which drawn pasts have at most half, and then forgets changes.
+    /// Thins the snapshots to the memory limit, and then forgets changes. Drawn pasts may take up to half of the
+    /// limit.
     fn fit(&mut self) {
         while self.bytes() > self.limit {
             if self.changes.past_bytes() <= self.limit / 2

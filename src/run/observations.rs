@@ -1,4 +1,4 @@
-//! All that follows a race while it runs, and is no part of its bits: the menu, the checkpoints and the drawn past.
+//! Everything that follows a race without being part of its state: the menu, the checkpoints and the drawn past.
 
 use super::Menu;
 use super::past::{Past, PastMark};
@@ -11,7 +11,7 @@ pub struct Observations {
     past: Past,
 }
 
-/// The observations at some tick, to which they can be [rewound](Observations::rewind).
+/// The observations at some tick, for [rewinding](Observations::rewind).
 #[derive(Clone, Debug)]
 pub(super) struct ObservationsMark {
     menu: Menu,
@@ -20,21 +20,21 @@ pub(super) struct ObservationsMark {
 }
 
 impl ObservationsMark {
-    /// Its heap memory in bytes.
+    /// Heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.menu.heap_bytes() + self.starts.heap_bytes() + self.past.heap_bytes()
     }
 }
 
 impl Observations {
-    /// Observations from the present of `race` on, with a drawn past of `span_s` seconds of the coordinates that plots show
-    /// unless a person chooses others.
+    /// Observations from the present of `race` on. The drawn past covers `span_s` seconds of the coordinates that
+    /// plots show by default.
     pub fn new(race: &Race, span_s: f64) -> Self {
         let menu = Menu::new(race);
         Self { past: Past::new(race, span_s, &menu), starts: Starts::default(), menu }
     }
 
-    /// Like [`Observations::new`], of the coordinates with these indices, one for each body.
+    /// Like [`Observations::new`], with the coordinate to record for each body.
     pub(super) fn of_coordinates(
         race: &Race,
         span_s: f64,
@@ -60,7 +60,7 @@ impl Observations {
         &self.past
     }
 
-    /// Adds the present of `race` to the drawn past, even if no sample is due. Never allocates.
+    /// Extends the drawn past to the present of `race`, even if no sample is due. Never allocates.
     pub fn show_present(&mut self, race: &Race) {
         self.past.show_present(race, &self.menu);
     }
@@ -70,12 +70,12 @@ impl Observations {
         ObservationsMark { menu: menu.clone(), starts: starts.clone(), past: past.mark() }
     }
 
-    /// Whether a run repeated from the mark `from` will be drawn at `mark` as it was drawn then.
+    /// Whether a repetition from the mark `from` restores the drawn past at `mark`.
     pub(super) fn fills(&self, from: &ObservationsMark, mark: &ObservationsMark) -> bool {
         self.past.fills(&from.past, &mark.past)
     }
 
-    /// Goes back to a mark, or forward to one in the recorded future: that of the present of `race`.
+    /// Rewinds to a mark of the present of `race`, which may also lie in the recorded future.
     pub(super) fn rewind(&mut self, mark: &ObservationsMark, race: &Race) {
         self.menu = mark.menu.clone();
         self.starts = mark.starts.clone();

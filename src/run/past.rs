@@ -1,7 +1,7 @@
-//! The recorded past of a race for drawing: the recent samples of every body in every lane, and the truth as a curve.
+//! The recorded past of a race for drawing: recent samples of every body in every lane, and the truth as a curve.
 //!
-//! It follows a race and is not part of it: a copy of the race has none. A race that goes back in time is drawn from it
-//! as it was drawn then. Samples name the method that flew a lane by its index on the [`Menu`].
+//! It follows a race without being part of it, so a copy of the race has none. A race that returns to an earlier tick
+//! shows the same past as it did then. Samples name a lane's method by its index on the [`Menu`].
 
 use super::Menu;
 use super::race::{Done, Entrant, Race, Resumed, ResumedFrom, Switch};
@@ -21,38 +21,38 @@ pub use sample::{CAPACITY, Energies, Sample, Summary, SweptRange};
 use truth_curve::TruthMark;
 pub use truth_curve::{TruthCurve, TruthSample};
 
-/// A motion has only begun for this part of the duration shown: two swings of the harbour's 1 Hz spring. Its first
-/// samples would make axes too narrow for it.
+/// Share of the duration shown during which a motion counts as just begun: two swings of the harbour's 1 Hz spring.
+/// Axes that fit its first samples alone would be too narrow.
 const BEGUN: f64 = 0.1;
 
-/// The most memory of the histories in bytes: room for 130 of [`CAPACITY`] samples. Those of more lanes and bodies
-/// are coarser.
+/// Most memory of the histories in bytes: room for 130 with [`CAPACITY`] samples each. With more lanes and bodies,
+/// histories are coarser.
 const MAX_BYTES: usize = 64 << 20;
 
-/// The capacity with which so many histories fit into [`MAX_BYTES`].
+/// Capacity at which this number of histories fits into [`MAX_BYTES`].
 fn capacity_of(histories: usize) -> usize {
-    // In 64 bits, since in a browser a product in a `usize` is cut to 32.
+    // The product needs 64 bits; in a browser, `usize` has 32.
     let all = CAPACITY as u64 * (MAX_BYTES / histories.max(1)) as u64;
     CAPACITY.min((all / History::heap_bytes(CAPACITY) as u64) as usize)
 }
 
 /// The recent past of a race.
 pub struct Past {
-    /// One for each body, for each lane, in the order of the race.
+    /// One history per body for each lane, in the order of the race.
     histories: Vec<(LaneId, Vec<History>)>,
-    /// One for each body.
+    /// One per body.
     truth_curves: Vec<TruthCurve>,
-    /// The duration of the histories in seconds.
+    /// Duration of the histories (s).
     span_s: f64,
-    /// The most samples of a history.
+    /// Most samples of a history.
     capacity: usize,
-    /// When a body was last placed or a parameter last set, in seconds; before the start if neither was done.
+    /// Time (s) of the last placement or parameter change; before the start if there was none.
     changed_s: f64,
-    /// When bodies were last kicked or changed so.
+    /// Time (s) of the last kick, placement or parameter change.
     swings_since_s: f64,
 }
 
-/// The end of the recorded past at some tick, to which it can be [rewound](Past::rewind).
+/// The end of the recorded past at some tick, for [rewinding](Past::rewind).
 #[derive(Clone, Debug)]
 pub(super) struct PastMark {
     /// By lane and body.
@@ -63,7 +63,7 @@ pub(super) struct PastMark {
 }
 
 impl PastMark {
-    /// Its heap memory in bytes.
+    /// Heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         let row = |(_, marks): &(LaneId, Box<[HistoryMark]>)| size_of_val(&marks[..]);
         size_of_val(&self.histories[..])
@@ -73,14 +73,14 @@ impl PastMark {
 }
 
 impl Past {
-    /// A past of `span_s` seconds that begins with the present of `race`. It records of each body the coordinate that
-    /// plots show unless a person chooses another.
+    /// A past of `span_s` seconds that begins at the present of `race`. It records the coordinate of each body that
+    /// plots show by default.
     pub(super) fn new(race: &Race, span_s: f64, menu: &Menu) -> Self {
         let bodies = race.truth().bodies().iter();
         Self::of_coordinates(race, span_s, menu, bodies.map(|body| body.plotted_coordinate()))
     }
 
-    /// Like [`Past::new`], of the coordinates with these indices, one for each body.
+    /// Like [`Past::new`], with the coordinate to record for each body.
     pub(super) fn of_coordinates(
         race: &Race,
         span_s: f64,
@@ -104,17 +104,17 @@ impl Past {
         past
     }
 
-    /// Its heap memory in bytes.
+    /// Heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         let histories: usize = self.histories.iter().map(|(_, histories)| histories.len()).sum();
         histories * History::heap_bytes(self.capacity)
             + self.truth_curves.iter().map(TruthCurve::heap_bytes).sum::<usize>()
     }
 
-    /// The histories of the bodies of a lane that is in the race.
+    /// The histories of the bodies of a lane in the race.
     ///
     /// # Panics
-    /// If it is not.
+    /// If the lane is not in the race.
     pub fn histories(&self, lane: LaneId) -> &[History] {
         &self.histories[self.index(lane).expect("it is in the race")].1
     }
@@ -133,36 +133,36 @@ impl Past {
         self.truth_curves.iter().map(TruthCurve::coordinate)
     }
 
-    /// The recorded coordinate of the body with this index in the scene, and its index.
+    /// The recorded coordinate of the body with this index in the scene, and the coordinate's index.
     pub fn coordinate(&self, race: &Race, body: usize) -> (Coordinate, usize) {
         let index = self.truth_curves[body].coordinate();
         (race.truth().bodies()[body].coordinates().at(index), index)
     }
 
-    /// The time (s) of the last placement of a body or change of a parameter; before the start if there was none.
+    /// Time (s) of the last placement or parameter change; before the start if there was none.
     pub fn changed_s(&self) -> f64 {
         self.changed_s
     }
 
-    /// The time (s) from which on bodies swing as they do: the last kick or [change](Self::changed_s).
+    /// Time (s) of the last kick or [change](Self::changed_s), since when bodies swing as they do.
     pub fn swings_since_s(&self) -> f64 {
         self.swings_since_s
     }
 
-    /// The time (s) from which on the past tells at `t` how far bodies swing: the last [change](Self::changed_s), or
-    /// before the start while the motion after it has only begun.
+    /// Start (s) of the samples that show at `t` how far bodies swing. This is the last [change](Self::changed_s), or
+    /// before the start while the motion after it has just begun.
     pub fn swing_since_s(&self, t: f64) -> f64 {
         let has_just_begun = t - self.changed_s < BEGUN * self.span_s;
         if has_just_begun { f64::NEG_INFINITY } else { self.changed_s }
     }
 
-    /// The true coordinates and velocities of the body with this index in the scene within the last tick of `race`, in which
-    /// `part` goes from 0 to 1, or beyond it.
+    /// True coordinates and velocities of the body with this index in the scene, within or beyond the last tick of
+    /// `race`. During the tick, `part` runs from 0 to 1.
     pub fn truth_between(&self, race: &Race, body: usize, part: f64) -> (Vec<f64>, Vec<f64>) {
         self.truth_curves[body].state(&race.truth().bodies()[body], race.last_tick(), part)
     }
 
-    /// Adds the present of `race` until the next sample, so that the drawn past reaches the present. Never allocates.
+    /// Shows the present of `race` until the next sample, so that the drawn past reaches it. Never allocates.
     pub(super) fn show_present(&mut self, race: &Race, menu: &Menu) {
         self.each(race, menu, History::record_passing);
     }
@@ -227,7 +227,7 @@ impl Past {
         }
     }
 
-    /// Whether a run repeated from the mark `from` will be drawn at `mark` as it was drawn then.
+    /// Whether a repetition from the mark `from` restores the drawn past at `mark`.
     pub(super) fn fills(&self, from: &PastMark, mark: &PastMark) -> bool {
         let histories = mark.histories.iter().all(|(lane, marks)| {
             let begun = from.histories.iter().find(|(other, _)| other == lane);
@@ -240,13 +240,13 @@ impl Past {
         histories && curves.all(|(curve, (&begun, &mark))| curve.fills(begun, mark))
     }
 
-    /// Goes back to a mark, or forward to one in the recorded future: that of the present of `race`.
+    /// Rewinds to a mark of the present of `race`, which may also lie in the recorded future.
     pub(super) fn rewind(&mut self, mark: &PastMark, race: &Race) {
         (self.changed_s, self.swings_since_s) = (mark.changed_s, mark.swings_since_s);
         self.leave_with(race);
         for (lane, marks) in &mark.histories {
             let index = self.index(*lane).unwrap_or_else(|| {
-                // A lane that has left the race comes back.
+                // A lane that had left the race returns.
                 let index = race.entrants().iter().position(|entrant| entrant.id == *lane);
                 let index = index.expect("a mark is of the lanes that the race then had");
                 let histories = marks.iter().map(|_| History::new(self.capacity));
@@ -269,7 +269,7 @@ impl Past {
         self.truth_curves.iter_mut().for_each(TruthCurve::forget_future);
     }
 
-    /// An action is about to change the race.
+    /// Prepares for an action that is about to change the race.
     pub(super) fn before(&mut self, race: &Race, menu: &Menu, done: &Done) {
         for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
             curve.refresh(body, race.t());
@@ -307,7 +307,7 @@ impl Past {
         }
     }
 
-    /// An action has changed the race, and `menu` has followed it.
+    /// Follows an action after it has changed the race and `menu`.
     pub(super) fn after(&mut self, race: &Race, menu: &Menu, done: &Done) {
         match &done.action {
             Action::Throttle(_) | Action::Rudder(_) | Action::Kick(_) => {
@@ -349,7 +349,7 @@ impl Past {
         }
     }
 
-    /// A tick was completed.
+    /// Records a completed tick.
     pub(super) fn ticked(&mut self, race: &Race, menu: &Menu) {
         let tick = race.last_tick();
         for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
@@ -387,7 +387,7 @@ mod tests {
         (race, seen)
     }
 
-    /// Runs the race for these seconds, and returns the times of the samples.
+    /// Runs the race for this duration, and returns the times of the samples.
     fn sampled((race, seen): &mut (Race, Observations), seconds: f64) -> Vec<f64> {
         let end = race.t() + seconds - 1e-9;
         while race.t() < end {

@@ -1,8 +1,8 @@
 //! All lanes and the truth, stepped tick by tick in integer time, with the actions on them.
 //!
-//! A [`Race`] ticks its [`Entrant`]s and performs the actions of its [`Journal`]; an [`Observer`] sees both. A [`Lane`] is
-//! one method on its own copy of the scene's bodies. Outside a run a [`Follow`] ticks one. An [`Interpolation`] draws a body
-//! between two ticks.
+//! A [`Race`] ticks its [`Entrant`]s and performs the actions of its [`Journal`], and notifies an [`Observer`] of
+//! both. A [`Lane`] is one method on its own copy of the scene's bodies. A [`Follow`] ticks a single lane outside a
+//! run. An [`Interpolation`] draws a body between two ticks.
 
 use std::sync::Arc;
 
@@ -42,14 +42,14 @@ use run_start::{BodyStart, RunStart};
 /// One method at a time, or all of them at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// One lane, whose method is switched in flight.
+    /// One lane, whose method can be switched in flight.
     Solo,
-    /// A lane for every method that the scene lists, and one for the method last flown solo.
+    /// A lane for every method that the scene lists, and one for the method last used solo.
     Race,
 }
 
 impl Mode {
-    /// The mode in which a scene opens itself.
+    /// The mode in which a scene opens.
     pub fn opening(scene: &Scene) -> Self {
         if scene.opens_as_race { Mode::Race } else { Mode::Solo }
     }
@@ -58,16 +58,16 @@ impl Mode {
 /// The last tick of a race.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LastTick {
-    /// When it began, in seconds.
+    /// Time (s) at which it began.
     pub(crate) from_s: f64,
-    /// When it ended.
+    /// Time (s) at which it ended.
     pub(crate) to_s: f64,
 }
 
 /// A lane in a race, with its identity and its method.
 #[derive(Clone)]
 pub struct Entrant {
-    /// Which lane it is, from the race's start on.
+    /// Identity of the lane, fixed at the race's start.
     pub id: LaneId,
     /// Its method, substeps and tolerance.
     pub spec: LaneSpec,
@@ -75,31 +75,31 @@ pub struct Entrant {
     pub lane: Lane,
 }
 
-/// Lanes against the truth. In solo mode there is one.
+/// Lanes against the truth; in solo mode, one lane.
 #[derive(Clone)]
 pub struct Race {
     mode: Mode,
     truth: Lane,
     entrants: Vec<Entrant>,
-    /// What an action can name by its method alone.
+    /// Lane settings for actions that name only a method.
     methods: Arc<[LaneSpec]>,
-    /// The present parameters of each body.
+    /// Present parameters of each body.
     values: Vec<Vec<f64>>,
     throttle: f64,
     rudder: f64,
     tick: u64,
-    /// The ticks since the present tick rate was set. Time is counted from there, never summed.
+    /// Ticks since the last change of the tick rate. Time counts from there, and is never a running sum.
     piece: Piece,
-    /// The length of the last tick, in seconds.
+    /// Length of the last tick (s).
     last_step_s: f64,
     journal: Journal,
-    /// The number of rows of the journal that have been performed.
+    /// Number of journal rows already performed.
     done: usize,
 }
 
 impl Race {
-    /// The race of a body that moves as `system` does, from `start`: a lane for each method of the options, and the
-    /// truth.
+    /// The race of a body that moves as `system` does, from `start`: the truth, and a lane for each method in the
+    /// options.
     ///
     /// ```
     /// use regatta::prelude::*;
@@ -120,7 +120,7 @@ impl Race {
     /// ```
     ///
     /// # Panics
-    /// If an option cannot be; [`Scene::of`] returns an error instead.
+    /// If an option is invalid; [`Scene::of`] returns an error instead.
     #[track_caller]
     pub fn of<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Self
     where
@@ -129,16 +129,16 @@ impl Race {
         Self::of_scene(&custom::scene(system, start, options))
     }
 
-    /// The tick nearest to `seconds` of simulated time, by the changes of the tick rate that are known to come; the present
-    /// tick if they have passed already.
+    /// The tick nearest to `seconds` of simulated time, given the pending changes of the tick rate. The present tick
+    /// if that time has passed.
     pub fn nearest_tick(&self, seconds: f64) -> u64 {
         TimeScale::new((self.tick(), self.t()), self.tick_hz(), self.rates_to_come())
             .nearest_tick(seconds)
     }
 
     /// The race of all the scene's lanes at its start. Each [`step`](Self::step) performs the script's actions at its
-    /// tick, except for a method without a lane, as each lane keeps its method. It is the race that
-    /// `regatta capture --race` draws:
+    /// tick. Each lane keeps its method, so actions that name a method without a lane have no effect. `regatta
+    /// capture --race` draws this race:
     ///
     /// ```
     /// use regatta::run::Race;
@@ -161,12 +161,12 @@ impl Race {
         Self { journal: Journal::of_script(script, self.tick_hz()), ..self }
     }
 
-    /// The scene at its start without its script, with these lanes.
+    /// The scene at its start with these lanes, and without its script.
     pub fn new(scene: &Scene, lanes: impl IntoIterator<Item = LaneSpec>) -> Self {
         Self::with_methods(scene, scene.method_list(), lanes)
     }
 
-    /// Like [`Race::new`], with substeps and tolerances of its own for what an action names by its method alone.
+    /// Like [`Race::new`], with `methods` as the settings for actions that name only a method.
     pub(crate) fn with_methods(
         scene: &Scene,
         methods: Vec<LaneSpec>,
@@ -193,25 +193,25 @@ impl Race {
         }
     }
 
-    /// The scene at its start without its script, with one lane: that with this index among `methods`, which begin with the
-    /// scene's lanes.
+    /// The scene at its start without its script, with one lane. `index` is the lane's index in `methods`, which
+    /// begin with the scene's lanes.
     pub(crate) fn solo(scene: &Scene, methods: Vec<LaneSpec>, index: usize) -> Self {
         let spec = methods[index];
         let mut race = Self::with_methods(scene, methods, [spec]);
         race.mode = Mode::Solo;
-        // The number that the lane has in a race, if it is in one.
+        // The lane keeps the number that it would have in a race.
         if index < scene.lanes.len() {
             race.entrants[0].id = LaneId::of_index(index);
         }
         race
     }
 
-    /// The same race at its start, without its script, at this tick rate.
+    /// The same race at its start, at this tick rate and without its script.
     pub(crate) fn at_rate(self, tick_hz: TickRate) -> Self {
         Self { piece: Piece::first(tick_hz), journal: Journal::default(), ..self }
     }
 
-    /// Whether there is one lane, which is switched from method to method, or one for each method.
+    /// Whether the run is solo or a race.
     pub fn mode(&self) -> Mode {
         self.mode
     }
@@ -227,15 +227,15 @@ impl Race {
     pub fn t(&self) -> f64 {
         self.piece.t(self.tick)
     }
-    /// The length of the last tick in seconds, at whatever rate it was; 0 at the start.
+    /// Length of the last tick (s) at its own rate; 0 at the start.
     pub fn last_step_s(&self) -> f64 {
         self.last_step_s
     }
-    /// The throttle, -1 to 1.
+    /// Throttle, from -1 to 1.
     pub fn throttle(&self) -> f64 {
         self.throttle
     }
-    /// The rudder, from -1, hard right, to 1, hard left.
+    /// Rudder, from -1 (hard right) to 1 (hard left).
     pub fn rudder(&self) -> f64 {
         self.rudder
     }
@@ -247,17 +247,17 @@ impl Race {
     pub fn entrants(&self) -> &[Entrant] {
         &self.entrants
     }
-    /// The scene's lanes, then all other methods that fit its bodies, as they are at the start: what
-    /// [`Action::Method`](crate::scene::Action::Method) puts a lane under.
+    /// The scene's lanes at the start, then all other methods that fit its bodies.
+    /// [`Action::Method`](crate::scene::Action::Method) takes the lane's settings from here.
     pub fn methods(&self) -> &[LaneSpec] {
         &self.methods
     }
-    /// The present parameters of the body at this index of the scene, in the order of
+    /// Present parameters of the body with this index in the scene, in the order of
     /// [`Kind::build`](crate::sim::bodies::Kind::build).
     pub fn values(&self, body: usize) -> &[f64] {
         &self.values[body]
     }
-    /// The bodies that halted in the last tick, each with its entrant. The bodies of the truth come first, with `None`.
+    /// Bodies that halted in the last tick, each with its entrant. The truth's bodies come first, with `None`.
     pub fn just_halted(&self) -> impl Iterator<Item = (Option<&Entrant>, &Halt)> {
         let lanes = self.entrants.iter().map(|entrant| (Some(entrant), &entrant.lane));
         std::iter::once((None, &self.truth)).chain(lanes).flat_map(|(entrant, lane)| {
@@ -265,31 +265,31 @@ impl Race {
             halts.map(move |halt| (entrant, halt))
         })
     }
-    /// The entrant that is this lane; `None` where it has left the race.
+    /// The entrant in this lane; `None` if it has left the race.
     pub fn entrant(&self, lane: LaneId) -> Option<&Entrant> {
         self.entrants.iter().find(|entrant| entrant.id == lane)
     }
-    /// The [hash](Self::lane_hashes) of this lane; `None` where it has left the race.
+    /// The [hash](Self::lane_hashes) of this lane; `None` if it has left the race.
     pub fn lane_hash(&self, lane: LaneId) -> Option<u64> {
         let index = self.entrants.iter().position(|entrant| entrant.id == lane)?;
         self.lane_hashes().nth(index)
     }
-    /// The performed and the pending actions.
+    /// Performed and pending actions.
     pub fn journal(&self) -> &Journal {
         &self.journal
     }
-    /// The number of rows of the journal that have been performed.
+    /// Number of journal rows already performed.
     pub(crate) fn done(&self) -> usize {
         self.done
     }
 
-    /// The changes of the tick rate that are still to come: each with its tick, and the new rate in Hz.
+    /// Pending changes of the tick rate, each with its tick.
     pub fn rates_to_come(&self) -> impl Iterator<Item = (u64, TickRate)> {
         let pending = self.journal.rows()[self.done..].iter();
         pending.filter_map(|row| Some((row.tick, row.action.tick_hz()?)))
     }
 
-    /// Replaces the journal by one in which as many rows have been performed.
+    /// Replaces the journal. The new one must begin with as many performed rows.
     pub(crate) fn set_journal(&mut self, journal: Journal) {
         self.journal = journal;
     }
@@ -299,7 +299,7 @@ impl Race {
         LastTick { from_s: to_s - self.last_step_s, to_s }
     }
 
-    /// An upper bound of its memory in bytes, without the journal and the methods, which copies share.
+    /// An upper bound of the memory in bytes, without the journal and the methods, which copies share.
     pub(crate) fn bytes(&self) -> usize {
         let lanes = self.entrants.iter().map(|entrant| &entrant.lane).chain([&self.truth]);
         let values =
@@ -310,7 +310,7 @@ impl Race {
             + lanes.map(Lane::heap_bytes).sum::<usize>()
     }
 
-    /// Performs the journal's actions at this tick, and steps every lane and the truth to the next, before the eyes of an
+    /// Performs the journal's actions at this tick, steps every lane and the truth to the next, and notifies the
     /// observer. Allocates for actions only.
     pub fn step(&mut self, observer: &mut dyn Observer) {
         self.catch_up(observer);
@@ -329,8 +329,8 @@ impl Race {
         (0..ticks).for_each(|_| self.step(&mut ()));
     }
 
-    /// A hash of the tick and of the bits of every lane's state, without the truth: equal for equal physics on every
-    /// platform and in every build. It is 64-bit FNV-1a over little-endian words, with -0 as 0.
+    /// A hash of the tick and of the state bits in every lane, without the truth. Equal physics has equal hashes on
+    /// every platform and in every build. The hash is 64-bit FNV-1a over little-endian words, with -0 as 0.
     pub fn state_hash(&self) -> u64 {
         let mut hash = Fnv::new();
         hash.word(self.tick);
@@ -338,7 +338,7 @@ impl Race {
         hash.0
     }
 
-    /// For each lane the [`Race::state_hash`] of a race of this lane alone.
+    /// For each lane, the [`Race::state_hash`] of a race of this lane alone.
     pub fn lane_hashes(&self) -> impl Iterator<Item = u64> {
         self.entrants.iter().map(|entrant| {
             let mut hash = Fnv::new();
@@ -358,7 +358,7 @@ impl Race {
     }
 }
 
-/// The hash so far.
+/// The state of a 64-bit FNV-1a hash.
 pub(crate) struct Fnv(pub(crate) u64);
 
 impl Fnv {
@@ -373,7 +373,7 @@ impl Fnv {
         }
         for halt in lane.halts() {
             self.word(halt.tick);
-            // Where there is one body, it is that one.
+            // A single body needs no index.
             if lane.bodies().len() > 1 {
                 self.word(halt.body as u64);
             }
@@ -424,7 +424,7 @@ mod tests {
             t = race.t();
         }
         assert_eq!(race.tick(), 27);
-        // The truth is where the time is, whatever the rates were.
+        // The truth matches the time at any sequence of rates.
         let swing = libm::cos(std::f64::consts::TAU * race.t());
         let truth = race.truth().bodies()[0].stepper.q()[0];
         assert!((truth - swing).abs() < 1e-11, "{truth}, {swing}");

@@ -1,4 +1,4 @@
-//! A run as a scene: its start, its actions, and its states as checks; and such a scene run again past them.
+//! A run as a scene: its start, its actions, and its states as checks. [`Replay`] repeats such a scene and compares.
 
 use std::sync::Arc;
 
@@ -7,24 +7,24 @@ use super::race::{Done, Mode, Observer, Race, Switch};
 use super::{Run, Session};
 use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
 
-/// The most checks of a recording, so that its file is not too large to read. A long run has fewer than one per second.
+/// Most checks of a recording, to keep its file readable. A long run has fewer than one per second.
 const MAX_CHECKS: usize = 8_000;
 
 /// Why a run cannot be recorded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RecordingError {
-    /// It is too long to be read as a scene.
+    /// Its scene file would be too long to read.
     #[error(
         "this run has so many actions that its file would be {bytes} bytes long, and a scene file may be at most {MAX_FILE_BYTES}; record a shorter run"
     )]
     TooLong {
-        /// The size of its file.
+        /// Size of its file in bytes.
         bytes: usize,
     },
-    /// It has a body or a method that is written in Rust.
+    /// It has a body or a method written in Rust.
     #[error("{what} is written in Rust, and a scene file cannot hold it; compare hashes instead")]
     InRust {
-        /// The name of the body, or the id of the method.
+        /// Name of the body, or id of the method.
         what: String,
     },
 }
@@ -33,13 +33,13 @@ impl Session {
     /// The text of the [recording](Session::recording) to tick `end`.
     ///
     /// # Errors
-    /// If it is too long for a scene file, or if a file cannot say what it is of.
+    /// If it is too long for a scene file, or if the run has a body or a method written in Rust.
     pub fn recording_text(&self, end: u64) -> Result<String, RecordingError> {
         text(&self.recording(end))
     }
 
-    /// A scene whose race repeats this run to the bit, from its start to tick `end`: see [`Run::recording`]. Makes the
-    /// ticks again.
+    /// A scene whose race repeats this run to the bit, from its start to tick `end`: see [`Run::recording`]. Repeats
+    /// the ticks.
     pub fn recording(&self, end: u64) -> Scene {
         let mut run = Run::new(self.before_its_first_tick());
         (0..end).for_each(|_| run.tick(&mut ()));
@@ -50,7 +50,7 @@ impl Session {
 /// The text of a recording, in the words of its scene's author.
 ///
 /// # Errors
-/// If it is too long for a scene file, or if a file cannot say what it is of.
+/// If it is too long for a scene file, or if the run has a body or a method written in Rust.
 pub fn text(recording: &Scene) -> Result<String, RecordingError> {
     if let Some(what) = recording.in_rust() {
         return Err(RecordingError::InRust { what: what.to_owned() });
@@ -61,12 +61,13 @@ pub fn text(recording: &Scene) -> Result<String, RecordingError> {
 }
 
 impl Run {
-    /// A scene whose race repeats this run to the bit, from its start to the last tick reached: as long as that, or as the
-    /// scene if no tick has been made; with its initial parameters, lanes and rate, all its actions as script, and a [`Check`]
-    /// of every lane at every second and at the end. A recorded race [opens as a race](Scene::opens_as_race).
+    /// A scene whose race repeats this run to the bit, from its start to the last tick reached.
     ///
-    /// An action that names a method without a lane is recorded as a switch of its lane, so that it takes effect in a race
-    /// too.
+    /// It lasts that long, or as long as the scene if no tick was made. It has the run's initial parameters, lanes
+    /// and rate, and all its actions as script. A [`Check`] covers every lane at every second and at the end. A
+    /// recorded race [opens as a race](Scene::opens_as_race).
+    ///
+    /// An action that names a method without a lane becomes a switch of its lane, so that it works in a race, too.
     pub fn recording(&self) -> Scene {
         let (session, start, end) = (self.session(), self.start(), self.end());
         let lanes = start.entrants().iter().map(|entrant| entrant.id).collect();
@@ -98,9 +99,9 @@ impl Run {
     }
 }
 
-/// A solo recording with its lane as one of `lanes`, so that whoever opens it meets the methods that were on the menu: it opens
-/// with its own, and its script and its checks are that lane's. Where that cannot be told from another by its method, it
-/// stays alone.
+/// A solo recording with its lane among `lanes`, so that the menu offers the same methods as before. It opens with
+/// its own method, and its script and checks refer to that lane. If `lanes` has another spec for its method, the
+/// recording stays unchanged.
 pub(crate) fn among(recording: Scene, lanes: &[LaneSpec]) -> Scene {
     let ([flown], false) = (&recording.lanes[..], recording.opens_as_race) else {
         return recording;
@@ -120,13 +121,13 @@ pub(crate) fn among(recording: Scene, lanes: &[LaneSpec]) -> Scene {
 
 /// Records the actions on a race as the script of a scene.
 struct ScriptRecorder {
-    /// The lanes at the start. In the scene they are counted from 1.
+    /// The lanes at the start. The scene numbers them from 1.
     lanes: Vec<LaneId>,
     script: Vec<Scripted>,
 }
 
 impl ScriptRecorder {
-    /// Which lane of the scene this lane of the run is.
+    /// The scene's number for this lane of the run.
     fn lane(&self, id: LaneId) -> LaneId {
         let index = self.lanes.iter().position(|lane| *lane == id);
         LaneId::of_index(index.expect("a lane is there from the start"))
@@ -147,23 +148,23 @@ impl Observer for ScriptRecorder {
 /// A check, and the state of its lane as the race reached it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reached {
-    /// Its index among the scene's checks.
+    /// Index of the check in the scene.
     pub row: usize,
-    /// The simulated time, in seconds.
+    /// Simulated time in seconds.
     pub t: f64,
-    /// The hash of its lane; `None` where the lane has left the race.
+    /// Hash of its lane; `None` if the lane has left the race.
     pub hash: Option<u64>,
 }
 
 /// The race of a scene, run past all its checks in the order of their ticks.
 pub struct Replay {
     session: Session,
-    /// The checks that are not reached, the next one last.
+    /// Indices of the checks still ahead, the next one last.
     rows: Vec<usize>,
 }
 
 impl Replay {
-    /// At the start of the race.
+    /// A replay at the start of the race.
     pub fn new(scene: Arc<Scene>) -> Self {
         let mut rows: Vec<usize> = (0..scene.checks.len()).rev().collect();
         rows.sort_by_key(|&row| std::cmp::Reverse(scene.checks[row].tick));
@@ -175,13 +176,13 @@ impl Replay {
         self.session.scene()
     }
 
-    /// Whether all checks are reached.
+    /// Whether the replay has reached all checks.
     pub fn is_over(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// Goes on to the next check, seen by an observer, for at most this many ticks. Returns `None` if it is further, or if
-    /// the last is reached.
+    /// Runs to the next check, for at most this number of ticks, and notifies the observer. Returns `None` if the
+    /// check is farther away, or if there is none.
     pub fn go_on(&mut self, ticks: u64, observer: &mut dyn Observer) -> Option<Reached> {
         let row = *self.rows.last()?;
         let Check { tick, lane, .. } = self.session.scene().checks[row];

@@ -36,21 +36,20 @@ impl Session {
         Self::new(scene, race)
     }
 
-    /// A run at its start.
     pub(crate) fn new(scene: Arc<Scene>, race: Race) -> Self {
         let mut start = race.clone();
         start.set_journal(Journal::default());
         Self { scene, race, start: Box::new(start) }
     }
 
-    /// The scene at its start with one lane, under the method at place `entry` of the scene's [list](Scene::method_list).
-    /// The scene's script may switch it.
+    /// The scene at its start with one lane, under the method with index `entry` in the scene's
+    /// [list](Scene::method_list). The scene's script may switch it.
     pub fn solo(scene: Arc<Scene>, entry: usize) -> Self {
         let race = Race::solo(&scene, scene.method_list(), entry).with_script(&scene.script);
         Self::new(scene, race)
     }
 
-    /// The same run before its first tick, with all its actions to come.
+    /// The same run before its first tick, with all its actions pending.
     pub(crate) fn before_its_first_tick(&self) -> Self {
         let mut race = self.start().clone();
         race.set_journal(self.journal().clone());
@@ -70,27 +69,27 @@ impl Session {
     pub fn race(&self) -> &Race {
         &self.race
     }
-    /// Whether there is one lane, which is switched from method to method, or one for each method.
+    /// Whether the run is solo or a race.
     pub fn mode(&self) -> Mode {
         self.race.mode()
     }
-    /// The performed and the pending actions.
+    /// Performed and pending actions.
     pub fn journal(&self) -> &Journal {
         self.race.journal()
     }
 
-    /// Replaces the journal by one with the same rows up to the present: from a copy of this run, or from a file.
+    /// Replaces the journal by one with the same rows up to the present, from a copy of this run or from a file.
     pub fn follow(&mut self, journal: Journal) {
         self.race.set_journal(journal);
     }
 
-    /// Performs an action at the present tick, after the journal's actions at it. Later actions by hand are removed from the
-    /// journal; the script's stay. Returns whether the action changed anything: if not, it is not in the journal.
+    /// Performs an action at the present tick, after the journal's actions there. Removes later actions by hand from
+    /// the journal; the script's stay. Returns whether the action changed anything; if not, the journal omits it.
     pub fn act(&mut self, action: Action) -> bool {
         self.race.act(action, &mut ()).is_some()
     }
 
-    /// Performs the journal's actions at this tick, and steps to the next, before the eyes of an observer. Allocates for
+    /// Performs the journal's actions at this tick, steps to the next, and notifies the observer. Allocates for
     /// actions only.
     pub fn tick(&mut self, observer: &mut dyn Observer) {
         self.race.step(observer);

@@ -1,4 +1,4 @@
-//! The settings with which a run starts: a scene as a person has edited it, and the chosen methods, lanes and tick rate.
+//! The settings with which a run starts: a scene with a person's edits, and the chosen methods, lanes and tick rate.
 
 use std::sync::Arc;
 
@@ -15,14 +15,14 @@ use crate::sim::integrators::Method;
 pub(crate) struct StartSettings {
     /// The scene as it was opened.
     pub(crate) opened: Arc<Scene>,
-    /// The scene with the parameters and the length that the person has set.
+    /// The scene with the person's parameters and length.
     pub(crate) scene: Arc<Scene>,
-    /// The methods with the substeps and tolerances that the person has set.
+    /// The methods with the person's substeps and tolerances.
     pub(crate) list: Vec<LaneSpec>,
     pub(crate) mode: Mode,
-    /// The methods of the lanes of a race, by their indices on the list.
+    /// Indices in `list` of a race's lanes.
     lanes: Vec<usize>,
-    /// The method in solo mode, which is in a race too, by its index on the list.
+    /// Index in `list` of the solo method, which also joins a race.
     pub(crate) entry: usize,
     pub(crate) tick_hz: TickRate,
     /// The lanes before equal cost was switched on; `None` while it is off.
@@ -62,8 +62,8 @@ impl StartSettings {
         }
     }
 
-    /// Has a method by a person's own lines race beside the others, and selects it. It takes the place of one of its id.
-    /// Returns whether there is a lane for it.
+    /// Adds a person's own method to the race, in place of one with the same id, and selects it. Returns whether
+    /// there is a lane for it.
     pub(crate) fn race_own(&mut self, method: &'static Method) -> bool {
         let spec = LaneSpec::plain(method);
         let known = self.list.iter().position(|listed| listed.method.id == method.id);
@@ -90,7 +90,7 @@ impl StartSettings {
         true
     }
 
-    /// A run at its start.
+    /// The run at its start.
     pub(crate) fn session(&self) -> Session {
         let race = match self.mode {
             Mode::Solo => Race::solo(&self.scene, self.list.clone(), self.entry),
@@ -105,7 +105,7 @@ impl StartSettings {
         Session::new(Arc::clone(&self.scene), race)
     }
 
-    /// Sets the scene's length in seconds, if it is in the allowed range. Returns whether that changes it.
+    /// Sets the scene's length (s), if it is in the allowed range. Returns whether it changed.
     pub(crate) fn set_seconds(&mut self, seconds: f64) -> bool {
         let changes =
             (MIN_SECONDS..=MAX_SECONDS).contains(&seconds) && seconds != self.scene.seconds;
@@ -115,7 +115,8 @@ impl StartSettings {
         changes
     }
 
-    /// Sets a parameter that acts at the start, if it is in its range and fits the others. Returns whether that changes it.
+    /// Sets a parameter that acts at the start, if the value is in range and fits the others. Returns whether it
+    /// changed.
     pub(crate) fn set(&mut self, body: usize, parameter: usize, value: f64) -> bool {
         let SceneBody { kind, values, .. } = &self.scene.bodies[body];
         if values[parameter] != value
@@ -127,7 +128,7 @@ impl StartSettings {
         false
     }
 
-    /// Keeps the choice of a person's action in `race` for the next restart.
+    /// Applies a person's action in `race` to the next restart.
     pub(super) fn keep(&mut self, done: &Done, race: &Race, menu: &Menu) {
         match done.action {
             Action::TickHz(_) => self.tick_hz = race.tick_hz(),
@@ -146,7 +147,7 @@ impl StartSettings {
     }
 }
 
-/// What each lane flies, by its index on the menu.
+/// Menu index of each lane's method.
 fn entries(race: &Race, menu: &Menu) -> Vec<usize> {
     race.entrants().iter().map(|entrant| menu.entry(entrant.id)).collect()
 }

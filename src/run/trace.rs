@@ -18,19 +18,19 @@ pub const COLUMNS: [&str; 8] = ["tick", "t", "lane", "method", "body", "coordina
 pub struct TraceRow<'a> {
     /// The lane's number from 1; 0 is the truth.
     pub lane: usize,
-    /// The id of its method.
+    /// Id of its method.
     pub method: &'static str,
-    /// The name of the body.
+    /// Name of the body.
     pub body: &'a str,
-    /// The name of the coordinate, or the id of a metric.
+    /// Name of the coordinate, or id of a metric.
     pub coordinate: &'a str,
     /// The coordinate in metres or radians, or the metric.
     pub q: f64,
-    /// The velocity, per second; `None` of a metric.
+    /// Velocity per second; `None` for a metric.
     pub v: Option<f64>,
 }
 
-/// Goes through the present of the truth and of every lane, but of bodies that have halted.
+/// Passes the present of the truth and of every lane to `row`, without bodies that have halted.
 ///
 /// # Errors
 /// The first that `row` returns.
@@ -63,21 +63,21 @@ pub fn each_row<E>(
     Ok(())
 }
 
-/// The id of the method of a body in a lane: of the truth's, its kind.
+/// Id of a lane's method; for a body of the truth, its kind of truth.
 pub(crate) fn method_id(solver: Solver, body: &LaneBody) -> &'static str {
     solver.method().map_or(body.truth().id(), |method| method.id)
 }
 
-/// Rows that are made here, tick by tick.
+/// The rows of a run that is computed tick by tick.
 pub struct Made {
     header: ByteRecord,
     rows: std::vec::IntoIter<ByteRecord>,
-    /// The rows of the next tick; `None` after the last.
+    /// Returns the rows of the next tick; `None` after the last.
     tick: Box<dyn FnMut() -> Option<Vec<ByteRecord>>>,
 }
 
 impl Made {
-    /// The rows that `tick` gives at each call, until it gives none.
+    /// Collects rows from `tick` until it returns `None`.
     pub fn new(tick: impl FnMut() -> Option<Vec<ByteRecord>> + 'static) -> Self {
         let header = ByteRecord::from(&COLUMNS[..]);
         Self { header, rows: Vec::new().into_iter(), tick: Box::new(tick) }
@@ -119,7 +119,7 @@ impl Records for Made {
     }
 }
 
-/// A row of these cells: tick, time, lane and method, and then of a coordinate.
+/// A row of these cells: tick, time, lane and method, then those of a coordinate.
 pub(crate) fn row(at: [&str; 4], body: &str, coordinate: &str, [q, v]: [f64; 2]) -> ByteRecord {
     let mut row = ByteRecord::new();
     at.iter().chain([&body, &coordinate]).for_each(|cell| row.push_field(cell.as_bytes()));
@@ -127,13 +127,12 @@ pub(crate) fn row(at: [&str; 4], body: &str, coordinate: &str, [q, v]: [f64; 2])
     row
 }
 
-/// The tick at which a scene or a recording is over: its end, or its last check.
+/// The last tick of a scene or a recording: its end, or its last check.
 pub fn last_tick(scene: &Scene) -> u64 {
     let checked = scene.checks.iter().map(|check| check.tick).max().unwrap_or(0);
     Race::of_scene(scene).nearest_tick(scene.seconds).max(checked)
 }
 
-/// The rows of a run's present.
 fn present(race: &Race, scene: &Scene) -> Vec<ByteRecord> {
     let (tick, t) = (race.tick().to_string(), format!("{:?}", race.t()));
     let mut rows = Vec::new();

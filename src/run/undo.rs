@@ -1,27 +1,27 @@
-//! The changes of a person that can be undone, and those that can be done again: one stack for all of them.
+//! One stack of all edits that can be undone or redone.
 
 use super::course::{Course, Noted, Snapshot};
 use super::race::JournalTail;
 use super::start::StartSettings;
 
-/// The most changes that can be undone.
+/// Most changes that can be undone.
 const MAX_CHANGES: usize = 200;
 
-/// The most runs before a restart that are kept.
+/// Most runs kept from before a restart.
 const MAX_RUNS: usize = 4;
 
-/// A change of a person, with what is on its other side.
+/// An edit by a person, with the state on its other side.
 pub(super) struct Change {
-    /// Its name for people.
+    /// Description for people.
     pub(super) what: String,
-    /// The settings of the next start.
+    /// Settings of the next start on the other side.
     pub(super) next: StartSettings,
     pub(super) replaced: Replaced,
 }
 
 /// The state on the other side of a change.
 pub(super) enum Replaced {
-    /// Nothing of the run: the change was one of the next start.
+    /// The run did not change, only the next start.
     Nothing,
     Future(Future),
     Course(Box<Course>),
@@ -29,9 +29,9 @@ pub(super) enum Replaced {
 
 /// The future of a run from a tick on.
 pub(super) struct Future {
-    /// The tick of the change. Up to it, before its actions, both futures are the same.
+    /// Tick of the change. Until then, before its actions, both futures are the same.
     pub(super) tick: u64,
-    /// Its rows of the journal: not the whole, which grows for as long as a run is steered.
+    /// Its own rows of the journal. The whole journal grows for as long as a person steers the run.
     pub(super) rows: JournalTail,
     pub(super) noted: Noted,
 }
@@ -46,17 +46,17 @@ impl Replaced {
     }
 }
 
-/// The changes of a person, newest last.
+/// Edits by a person, newest last.
 #[derive(Default)]
 pub(super) struct UndoStack {
     pub(super) done: Vec<Change>,
     pub(super) undone: Vec<Change>,
-    /// Whether what a person does next belongs to the newest change.
+    /// Whether the next edit joins the newest change.
     is_open: bool,
 }
 
 impl UndoStack {
-    /// Adds a change. Those that were undone cannot be done again.
+    /// Adds a change, and drops all undone ones.
     pub(super) fn push(&mut self, change: Change) {
         self.undone.clear();
         self.done.push(change);
@@ -69,23 +69,23 @@ impl UndoStack {
         }
     }
 
-    /// Names the newest change by what it has come to.
+    /// Renames the newest change after its latest edit.
     pub(super) fn rename_newest(&mut self, what: String) {
         self.done.last_mut().expect("a change is open").what = what;
     }
 
-    /// Whether an action now belongs to the newest change, which already has the future before it.
+    /// Whether an action would join the newest change, and that change already holds its future.
     pub(super) fn has_future(&self) -> bool {
         let newest = self.done.last().filter(|_| self.is_open);
         newest.is_some_and(|change| matches!(change.replaced, Replaced::Future(_)))
     }
 
-    /// Whether a change of the next start now belongs to the newest change.
+    /// Whether an edit of the next start would join the newest change.
     pub(super) fn is_open(&self) -> bool {
         self.is_open
     }
 
-    /// Ends the newest change: what a person does next is another.
+    /// Closes the newest change, so that the next edit starts another.
     pub(super) fn close(&mut self) {
         self.is_open = false;
     }
@@ -94,17 +94,17 @@ impl UndoStack {
         self.done.iter().chain(&self.undone)
     }
 
-    /// What was noted of all that was replaced.
+    /// The records of all replaced futures and runs.
     fn noted(&self) -> impl Iterator<Item = &Noted> {
         self.changes().filter_map(|change| change.replaced.noted())
     }
 
-    /// The snapshots of all that was replaced.
+    /// The snapshots of all replaced futures and runs.
     pub(super) fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
         self.noted().flat_map(|noted| &noted.snapshots)
     }
 
-    /// The memory of the drawn pasts of the runs that are kept, in bytes.
+    /// Memory (bytes) of the drawn pasts of the kept runs.
     pub(super) fn past_bytes(&self) -> usize {
         let pasts = self.changes().filter_map(|change| match &change.replaced {
             Replaced::Course(course) => Some(course.seen.past().heap_bytes()),
@@ -113,12 +113,12 @@ impl UndoStack {
         pasts.sum()
     }
 
-    /// The last tick of all that was replaced.
+    /// Last tick of all replaced futures and runs.
     pub(super) fn end(&self) -> u64 {
         self.noted().map(|noted| noted.end).max().unwrap_or(0)
     }
 
-    /// Drops the snapshots that do not stay.
+    /// Drops the snapshots for which `stays` is false.
     pub(super) fn retain(&mut self, stays: impl Fn(&Snapshot) -> bool) {
         for change in self.done.iter_mut().chain(&mut self.undone) {
             match &mut change.replaced {
@@ -129,7 +129,7 @@ impl UndoStack {
         }
     }
 
-    /// Drops the snapshots of all replaced futures, whose past was recorded otherwise than it now is.
+    /// Drops the snapshots of all replaced futures, whose past recorded other coordinates.
     pub(super) fn clear_futures(&mut self) {
         for change in self.done.iter_mut().chain(&mut self.undone) {
             if let Replaced::Future(future) = &mut change.replaced {
@@ -138,8 +138,8 @@ impl UndoStack {
         }
     }
 
-    /// Drops the change that would be undone last, or else the one that would be done again last. Returns whether there was
-    /// one.
+    /// Drops the change that undo would reach last, or else the one that redo would reach last. Returns whether there
+    /// was one.
     pub(super) fn drop_last(&mut self) -> bool {
         let from = if self.done.is_empty() { &mut self.undone } else { &mut self.done };
         let is_there = !from.is_empty();

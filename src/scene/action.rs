@@ -1,4 +1,4 @@
-//! The actions on a run, which a person, a script, a recording and a test have in common.
+//! The actions on a run, shared by people, scripts, recordings and tests.
 
 use super::Scene;
 use super::lane_spec::{LaneId, LaneSpec};
@@ -12,8 +12,8 @@ use crate::sim::{Stepper, TickRate};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Action {
-    /// Solo: puts the bodies under this method, with its substeps and tolerance [at the start](crate::run::Race::methods). Race:
-    /// does nothing, as each lane keeps its method.
+    /// In solo, puts the bodies under this method, with its substeps and tolerance [at the
+    /// start](crate::run::Race::methods). In a race it does nothing, because each lane keeps its method.
     Method(&'static Method),
     /// Puts a lane under this method, with these substeps and this tolerance.
     Lane {
@@ -50,7 +50,7 @@ pub enum Action {
         body: usize,
         /// The parameter's index among those of its kind.
         parameter: usize,
-        /// Its value.
+        /// The new value.
         value: f64,
     },
     /// Puts a body into a state, in every lane and in truth.
@@ -70,7 +70,7 @@ pub enum Action {
 }
 
 impl Action {
-    /// The tick rate that it sets, if it sets one.
+    /// The tick rate that it sets, if any.
     pub(crate) fn tick_hz(&self) -> Option<TickRate> {
         match *self {
             Action::TickHz(tick_hz) => Some(tick_hz),
@@ -78,7 +78,7 @@ impl Action {
         }
     }
 
-    /// Whether it changes the body at this index of the scene, if that takes it.
+    /// Whether it changes the body at this index of the scene, provided that the body takes it.
     pub(crate) fn acts_on(&self, body: usize) -> bool {
         match self {
             Action::Set { body: changed, .. } | Action::Place { body: changed, .. } => {
@@ -103,7 +103,7 @@ impl Action {
         }
     }
 
-    /// The input that it gives to the bodies, if it gives one.
+    /// The input that it gives to the bodies, if any.
     pub fn input(&self) -> Option<Input> {
         match *self {
             Action::Throttle(part) => Some(Input::Throttle(part.clamp(-1.0, 1.0))),
@@ -113,7 +113,7 @@ impl Action {
         }
     }
 
-    /// What it changes in `scene`, for people: of a parameter its new value.
+    /// The changed quantity in `scene`, for people. For a parameter, also its new value.
     pub(crate) fn in_words(&self, scene: &Scene) -> String {
         let &Action::Set { body, parameter, value } = self else { return self.noun().into() };
         let parameter = &scene.bodies[body].kind.parameters[parameter];
@@ -121,7 +121,7 @@ impl Action {
         words.trim_end().to_owned()
     }
 
-    /// What it is, for people.
+    /// A noun for the action, for people.
     pub(crate) fn noun(&self) -> &'static str {
         match self {
             Action::Method(_) | Action::Lane { .. } => "the switch",
@@ -137,7 +137,7 @@ impl Action {
         }
     }
 
-    /// The control that it sets; `None` if it does not set one.
+    /// The control that it sets, if any.
     pub(crate) fn control(&self) -> Option<Control> {
         match *self {
             Action::Method(_)
@@ -153,7 +153,7 @@ impl Action {
     }
 }
 
-/// A value that both a script and a person can set. Once a person has set it, the script does not.
+/// A value that scripts and people can set. Once a person has set it, the script leaves it alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Control {
     Method,

@@ -1,4 +1,5 @@
-//! What a picture of a body needs beyond its state: how its author draws it, and where it goes in its first seconds.
+//! The data that a picture of a body needs besides its state: its author's drawing, and the range of its first
+//! seconds.
 
 use std::any::Any;
 use std::fmt;
@@ -19,12 +20,12 @@ pub(super) use node_lines::NodeLine;
 /// Draws a system of a type known to its author, at these coordinates.
 pub(crate) type Drawing = dyn Fn(&dyn Any, &[f64]) -> Vec<Mark> + Send + Sync;
 
-/// How a body of a scene is drawn. The default is the usual look of its kind.
+/// The drawing of a scene's body. The default is the usual look of its kind.
 #[derive(Default)]
 pub struct Appearance {
-    /// How the author of a custom body draws it; `None` for the usual look.
+    /// The drawing by a custom body's author; `None` for the usual look.
     pub(crate) drawing: Option<Box<Drawing>>,
-    /// The last preview, and the values of the parameters that it is of.
+    /// The last preview, with its parameter values.
     preview: Mutex<Option<(Vec<f64>, Arc<Preview>)>>,
 }
 
@@ -34,49 +35,48 @@ impl fmt::Debug for Appearance {
     }
 }
 
-/// Where a body goes in its first seconds, found by a short run.
+/// The range of a body's motion in its first seconds, found by a short run.
 #[derive(Debug)]
 pub(crate) struct Preview {
-    /// The least and the largest value of each coordinate; of a net none are kept.
+    /// Least and largest value of each coordinate; empty for a net.
     pub(crate) ranges: Vec<(f64, f64)>,
-    /// The index of the coordinate that moves farthest.
+    /// Index of the coordinate that moves farthest.
     pub(crate) farthest: usize,
-    /// The lower left and the upper right corner of the rectangle that holds the nodes of a net, or the places of a law.
+    /// Lower left and upper right corner of the rectangle around the nodes of a net, or around the places of a law.
     pub(crate) corners: [DVec2; 2],
-    /// The springs of a net; of other bodies none.
+    /// The springs of a net; empty for other bodies.
     pub(crate) springs: Springs,
 }
 
-/// The springs of a net, as they are drawn.
+/// The springs of a net, as drawn.
 #[derive(Debug, Default)]
 pub(crate) struct Springs {
     /// Lines through the nodes.
     pub(crate) lines: Vec<NodeLine>,
-    /// Where the fixed nodes are.
+    /// Places of the fixed nodes.
     pub(crate) fixed: Vec<DVec2>,
-    /// The length of the shortest at the start, in metres.
+    /// Length of the shortest spring at the start, in metres.
     pub(crate) shortest: f64,
 }
 
-/// A coordinate has moved farther than another if by more than this part: nodes that mirror each other differ by
-/// rounding.
+/// A coordinate has moved farther than another if by more than this part, because mirrored nodes differ by rounding.
 const FARTHER: f64 = 1e-6;
 
 impl Appearance {
-    /// Of a custom body that its author draws.
+    /// The appearance of a custom body, with its author's drawing if there is one.
     pub(crate) fn drawn(drawing: Option<Box<Drawing>>) -> Self {
         Self { drawing, preview: Mutex::default() }
     }
 
-    /// Where a body of this `kind` goes from its start with its present parameters. A net keeps the preview of its first
-    /// ones, so that the stage stays as it is when a person edits them.
+    /// The range of a body of this `kind` from its start, with its present parameters. A net keeps the preview of its
+    /// first parameters, so that the stage stays still while a person edits them.
     ///
     /// # Panics
     /// If the kind is in the table of bodies.
     pub(crate) fn preview(&self, kind: &Kind, body: &dyn Any) -> Arc<Preview> {
         let (law, custom) = (body.downcast_ref::<Law>(), body.downcast_ref::<Custom>());
         let values = law.map(Law::values).or(custom.map(Custom::values)).unwrap_or_default();
-        // Not held while the motion is followed: a large net waits for other threads, which may want a preview too.
+        // The lock is free during the run: a large net waits for other threads, which may want a preview too.
         let last = || self.preview.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, preview)) = last().as_ref().filter(|(of, _)| of == values) {
             return preview.clone();
@@ -94,7 +94,7 @@ impl Appearance {
 }
 
 impl Preview {
-    /// The index of the coordinate with the widest range.
+    /// Index of the coordinate with the widest range.
     fn widest(&self) -> usize {
         let far = |index: usize| self.ranges[index].1 - self.ranges[index].0;
         let farther =
@@ -102,7 +102,7 @@ impl Preview {
         (0..self.ranges.len()).fold(0, farther)
     }
 
-    /// Of no motion yet.
+    /// A preview without any motion yet.
     fn new(coordinates: usize) -> Self {
         Self {
             ranges: vec![(f64::INFINITY, f64::NEG_INFINITY); coordinates],
@@ -121,7 +121,7 @@ impl Preview {
         self.corners = places.into_iter().fold(self.corners, hold);
     }
 
-    /// Of a net.
+    /// The preview of a net.
     fn of_net(net: &Net, plan: &NetPlan) -> Self {
         let fixed: Vec<DVec2> = plan.fixed_places().map(DVec2::from).collect();
         let mut state = net.start();
@@ -140,7 +140,7 @@ impl Preview {
         Self { springs, farthest: preview.widest(), ranges: Vec::new(), ..preview }
     }
 
-    /// Of a body whose coordinates are at these `places`, until it runs away.
+    /// The preview of a body with these `places` for its coordinates, followed until it runs away.
     fn of<B: Body<Vector = Vec<f64>>>(body: &B, places: impl Fn(&[f64]) -> Vec<DVec2>) -> Self {
         let mut state = body.start();
         let mut preview = Self::new(state.q.len());
@@ -168,23 +168,23 @@ impl Preview {
     }
 }
 
-/// How long the motion of a net is followed, in seconds: a hanging cloth has fallen by then, and swung back.
+/// Length of a net's run, in seconds: long enough for a hanging cloth to fall and swing back.
 const NET_S: f64 = 4.0;
 
-/// The most evaluations of its springs: some tens of milliseconds in an unoptimised build.
+/// Most evaluations of a net's springs: some tens of milliseconds in an unoptimised build.
 const MAX_SPRINGS: f64 = 3e6;
 
-/// The longest step in units of the fastest motion: half of what semi-implicit Euler bears.
+/// Longest step of a net's run, times its fastest rate: less than half the stability limit of semi-implicit Euler.
 const NET_STEP: f64 = 0.5;
 
-/// How long the motion of other bodies is followed, in ticks and seconds: as long as people look before they judge.
+/// Length of other runs, in ticks, and length of a tick in seconds: as long as people look before they judge.
 const TICKS: u32 = 1200;
 const TICK_S: f64 = 1.0 / 60.0;
 
-/// The most evaluations: a few milliseconds.
+/// Most evaluations in other runs: a few milliseconds.
 const MAX_EVALUATIONS: u64 = 30_000;
 
-/// A coordinate beyond this many times its reach in the first second has run away.
+/// A coordinate beyond this multiple of its reach in the first second has run away.
 const RUNAWAY: f64 = 1e4;
 
 #[cfg(test)]

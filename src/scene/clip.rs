@@ -1,24 +1,24 @@
 //! Shortens the text of a file or of an argument for messages.
 
-/// The most characters of a file's text in one message, so that it stays a line.
+/// Most characters of a file's text in one message, so that it stays a line.
 const MAX_QUOTED_CHARS: usize = 40;
 
-/// The most characters of a list of names from a file, such as a header.
+/// Most characters of a list of names from a file, such as a header.
 const MAX_LISTED_CHARS: usize = 200;
 
-/// Text for a message: shortened, and without control characters.
+/// Shortens a text for a message, and escapes its control characters.
 pub(crate) fn clip(text: &str) -> String {
     clip_to(MAX_QUOTED_CHARS, text)
 }
 
-/// Names from a file for a message, with commas between.
+/// Joins names from a file with commas, for a message.
 pub(crate) fn clip_list<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    // No more of a file's text than can be shown.
+    // Takes no more of a file's text than a message can show.
     let shown = names.take(MAX_LISTED_CHARS).map(clip).collect::<Vec<_>>().join(", ");
     clip_to(MAX_LISTED_CHARS, &shown)
 }
 
-/// The first characters of a text, with a sign where more follow.
+/// The first characters of a text, with a sign if more follow.
 pub(crate) fn cut(max_chars: usize, text: &str) -> String {
     match text.char_indices().nth(max_chars) {
         Some((end, _)) => format!("{}…", &text[..end]),

@@ -1,18 +1,18 @@
-//! What clouds of starts show: their shapes, or a section.
+//! The pictures of clouds of starts: their shapes, or a section.
 
 use std::f64::consts::TAU;
 
-/// What is shown of many starts.
+/// The picture of a cloud of starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CloudKind {
-    /// A shape at the start, and what becomes of it by the present tick.
+    /// A shape at the start, and its image at the present tick.
     Shape(CloudShape),
-    /// All places to which they come at each period of a drive, or at each tick where nothing drives them.
+    /// All places that the points reach at each period of a drive, or at each tick without a drive.
     Section,
 }
 
 impl CloudKind {
-    /// All, the usual one first.
+    /// All kinds; the usual one comes first.
     pub const ALL: [Self; 4] = {
         let [usual, second, third] = CloudShape::ALL;
         [Self::Shape(usual), Self::Shape(second), Self::Shape(third), Self::Section]
@@ -26,7 +26,7 @@ impl CloudKind {
         }
     }
 
-    /// The one of this name.
+    /// The kind with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
@@ -35,7 +35,7 @@ impl CloudKind {
 /// The shape of a cloud at its start, in the square from -1 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CloudShape {
-    /// The head of a cat, as Arnold drew it to show what a map does.
+    /// The head of a cat, as Arnold drew it to show the effect of a map.
     #[default]
     Cat,
     /// A disc.
@@ -46,19 +46,19 @@ pub enum CloudShape {
 
 /// The inner radius of the ring.
 const RING: f64 = 0.8;
-/// The head of the cat: its middle below the centre, and its radius.
+/// The head of the cat: the height of its middle, below the centre, and its radius.
 const HEAD: (f64, f64) = (-0.2, 0.8);
 /// The right ear: its corners, two of which lie within the head.
 const EAR: [[f64; 2]; 3] = [[0.1, 0.5], [0.75, 1.0], [0.78, -0.1]];
 /// The right eye: its middle, and its radius.
 const EYE: ([f64; 2], f64) = ([0.3, 0.05], 0.13);
 
-/// The parts of 1 that the coordinates of a point go on by: powers of the reciprocal of the plastic number, which fill a
-/// square evenly (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
+/// Steps of a point's coordinates, as parts of 1. They are powers of the reciprocal of the plastic number, which fill
+/// a square evenly (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
 const EVENLY: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 
 impl CloudShape {
-    /// All, the usual one first.
+    /// All shapes; the usual one comes first.
     pub const ALL: [Self; 3] = [Self::Cat, Self::Disc, Self::Ring];
 
     /// Its name on the command line.
@@ -70,7 +70,7 @@ impl CloudShape {
         }
     }
 
-    /// The first `count` points of an even cover. The same for ever.
+    /// The first `count` points of a sequence that covers the shape evenly. It is the same in every run.
     pub fn points(self, count: usize) -> impl Iterator<Item = [f64; 2]> {
         let square = (1_u64..).map(|n| EVENLY.map(|part| (n as f64 * part).fract() * 2.0 - 1.0));
         square.filter(move |&point| self.contains(point)).take(count)
@@ -96,7 +96,7 @@ impl CloudShape {
         }
     }
 
-    /// Its borders: closed lines of some `count` points together.
+    /// Its borders: closed lines with about `count` points in all.
     pub fn borders(self, count: usize) -> Vec<Vec<[f64; 2]>> {
         let arc = |[x, y]: [f64; 2], radius: f64, from: f64, to: f64, count: usize| {
             let angle = move |n| from + (to - from) * n as f64 / count as f64;
@@ -108,7 +108,8 @@ impl CloudShape {
             Self::Disc => vec![circle([0.0, 0.0], 1.0, count)],
             Self::Ring => [1.0, RING].map(|radius| circle([0.0, 0.0], radius, count / 2)).into(),
             Self::Cat => {
-                // From the outer foot of the right ear clockwise below to that of the left one, then over the ears.
+                // Counter-clockwise from the inner foot of the right ear: over the head, over the left ear, below the
+                // head to the right ear's outer foot, and over that ear.
                 let (middle, radius) = ([0.0, HEAD.0], HEAD.1);
                 let meets = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| {
                     let (dx, dy, fy) = (bx - ax, by - ay, ay - HEAD.0);

@@ -1,4 +1,4 @@
-//! An experiment on a custom body: a [`System`] and a start are enough.
+//! Makes a scene of a custom body: a [`System`] and a start are enough.
 
 use std::any::Any;
 use std::fmt;
@@ -13,31 +13,32 @@ use crate::sim::bodies::{CustomFault, Extras, custom_kind, incompatibility};
 use crate::sim::integrators::{METHODS, Method};
 use crate::sim::{State, System, TickRate, Vector};
 
-/// Draws a system whose coordinates are these, in metres, x right and y up.
+/// Draws a system at these coordinates, in metres, x right and y up.
 pub type Draw<S> = fn(&S, &<S as System>::Vector) -> Vec<Mark>;
 
-/// The most work of a run, in evaluations of one coordinate: a second or two.
+/// Most work of a run, in evaluations of one coordinate: a second or two.
 pub const MAX_WORK: u64 = 100_000_000;
 
-/// The experiment on a custom body. Every field has a [default](Options::default).
+/// Options of an experiment on a custom body. Every field has a [default](Options::default).
 #[derive(Clone)]
 pub struct Options<S: System> {
-    /// The name of the body, for people: at most [`MAX_NAME_CHARS`] characters. The default is `body`.
+    /// Name of the body, for people: at most [`MAX_NAME_CHARS`] characters. The default is `body`.
     pub name: &'static str,
     /// Ticks per second, in [`Clock::TICK_HZ`](crate::sim::Clock::TICK_HZ). The default is 60.
     pub tick_hz: TickRate,
-    /// How long it runs, in seconds, from [`MIN_SECONDS`] to [`MAX_SECONDS`]. The default is 20. Verdicts are
-    /// on the first minute.
+    /// Length of the run in seconds, from [`MIN_SECONDS`] to [`MAX_SECONDS`]. The default is 20. Verdicts are on the
+    /// first minute.
     pub seconds: f64,
-    /// The methods, at most [`MAX_LANES`], from [`METHODS`] or custom ones. Empty: all that step such a body.
+    /// The methods, at most [`MAX_LANES`], from [`METHODS`] or custom ones. If empty, all methods that step such a
+    /// body.
     pub methods: Vec<&'static Method>,
-    /// The most work of [advice](crate::advise), in evaluations of one coordinate, counted and therefore the same on every
-    /// machine: what it does not reach is not known. The default, [`MAX_WORK`], takes a second or
-    /// two; `u64::MAX` is no limit.
+    /// Most work of [advice](crate::advise), in evaluations of one coordinate. This count makes advice the same on
+    /// every machine; lanes beyond it stay unknown. The default, [`MAX_WORK`], takes a second or two; `u64::MAX` is
+    /// no limit.
     pub max_work: u64,
-    /// What is known of the body beyond its equation.
+    /// Facts about the body beyond its equation.
     pub extras: Extras<S>,
-    /// Draws the body. `None`: a bead in the plane, or one on a rail for each coordinate.
+    /// Draws the body. If `None`, a bead in the plane, or one on a rail for each coordinate.
     pub draw: Option<Draw<S>>,
 }
 
@@ -58,11 +59,11 @@ impl<S: System> Default for Options<S> {
 /// An invalid option, or a claim that the equation contradicts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OptionsError {
-    /// The field of [`Options`] or [`Extras`], `start`, or `acceleration`.
+    /// The field of [`Options`] or [`Extras`], or `start`, or `acceleration`.
     pub field: &'static str,
-    /// What is wrong.
+    /// The fault.
     pub what: String,
-    /// How to mend it.
+    /// The remedy.
     pub remedy: String,
 }
 
@@ -86,11 +87,11 @@ fn error(field: &'static str, what: String, remedy: impl Into<String>) -> Option
 }
 
 impl Scene {
-    /// The scene of one body that moves as `system` does, from `start`. It has all that a scene from a file has but a
-    /// text: it cannot be recorded.
+    /// The scene of one body that moves as `system` does, from `start`. It has no source text, so it cannot be
+    /// recorded.
     ///
     /// # Errors
-    /// If an option is out of its range or unfit, or if an energy or an exact solution is not one.
+    /// If an option is out of its range or unfit, or if the equation contradicts an energy or an exact solution.
     pub fn of<S>(
         system: &S,
         start: State<S::Vector>,
@@ -162,7 +163,7 @@ impl Scene {
 /// The scene of these options.
 ///
 /// # Panics
-/// If an option cannot be.
+/// If an option is invalid.
 #[track_caller]
 pub(crate) fn scene<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Scene
 where
@@ -200,7 +201,7 @@ fn check_methods(chosen: &[&'static Method]) -> Result<(), OptionsError> {
     Ok(())
 }
 
-/// The drawing function of a custom body.
+/// The drawing function of a custom body. `like` is a vector with its number of coordinates.
 fn drawing<S: System<Vector: Vector> + 'static>(draw: Draw<S>, like: S::Vector) -> Box<Drawing> {
     let like = Mutex::new(like);
     let draw = move |system: &dyn Any, q: &[f64]| {

@@ -1,4 +1,4 @@
-//! Reads the bodies of a scene file, and holds the methods that it names against them.
+//! Reads the bodies of a scene file, and checks the methods that it names against them.
 
 use std::ops::Range as Span;
 use std::sync::Arc;
@@ -23,17 +23,18 @@ pub(super) const NAME: Field = Field::optional(
 
 /// A body as the file describes it, faults included.
 pub(super) struct BodyDraft {
-    /// What it is; `None` for a law or a net with faults.
+    /// Its kind; `None` for a law or a net with faults.
     pub(super) kind: Option<Arc<Kind>>,
-    /// The name of its table array.
+    /// Name of its table array.
     id: &'static str,
     pub(super) name: Option<String>,
-    /// The bytes of the name, or of the table's header where it has none.
+    /// Bytes of the name, or of the table's header if it has no name.
     name_at: Span<usize>,
     pub(super) values: Option<Vec<f64>>,
 }
 
-/// The bodies in the order of the file. The claims of laws are held against their motion at the ticks of `horizon`.
+/// Reads the bodies in the order of the file. Checks the claims of laws against their motion at the ticks of
+/// `horizon`.
 pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<BodyDraft> {
     let mut rows: Vec<(&'static str, Table<'_>)> = Vec::new();
     for id in BODIES.iter().map(|kind| kind.id).chain([LAW, NET]) {
@@ -84,12 +85,12 @@ fn read_values(parameters: &'static [Parameter], row: &mut Table<'_>) -> Option<
         };
         given.or(default.map(|number| vec![number]))
     };
-    // All are read before any is missed, so that every fault is found.
+    // All values are read before a missing one ends the body, so that every fault is found.
     let values: Vec<_> = parameters.iter().map(read).collect();
     Some(values.into_iter().collect::<Option<Vec<_>>>()?.concat())
 }
 
-/// Reports names that several bodies have.
+/// Reports names that several bodies share.
 pub(super) fn check_names(text: &str, bodies: &[BodyDraft], top: &mut Table<'_>) {
     for (n, body) in bodies.iter().enumerate() {
         let Some(name) = &body.name else { continue };
@@ -101,7 +102,7 @@ pub(super) fn check_names(text: &str, bodies: &[BodyDraft], top: &mut Table<'_>)
     }
 }
 
-/// Names the nameless after their kind, numbered where the kind has several bodies.
+/// Names unnamed bodies after their kind, with a number if the kind has several bodies.
 pub(super) fn name_the_nameless(bodies: &mut [BodyDraft]) {
     let mut taken: Vec<String> = bodies.iter().filter_map(|body| body.name.clone()).collect();
     let ids: Vec<_> = bodies.iter().map(|body| body.id).collect();
@@ -117,7 +118,7 @@ pub(super) fn name_the_nameless(bodies: &mut [BodyDraft]) {
     }
 }
 
-/// The bodies that have all their parameters.
+/// The bodies with all their parameters.
 pub(super) fn finish_bodies(bodies: Vec<BodyDraft>) -> Vec<SceneBody> {
     let finish = |BodyDraft { kind, name, values, .. }| {
         Some(SceneBody::new(name.expect("each has one by now"), kind?, values?))

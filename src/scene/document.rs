@@ -1,4 +1,4 @@
-//! The keys at the top of a scene file, and how it is read into a [`Scene`].
+//! The keys at the top of a scene file, and the reader that turns the file into a [`Scene`].
 
 use std::ops::Range as Span;
 
@@ -25,16 +25,16 @@ use crate::sim::TickRate;
 use crate::sim::bodies::{BODIES, Range};
 use crate::sim::integrators::Method;
 
-/// The name of the table array of lanes.
+/// Name of the table array of lanes.
 pub(super) const LANE: &str = "lane";
 
-/// The most characters of a title, which is shown in the window's title bar.
+/// Most characters in a title, which appears in the window's title bar.
 const MAX_TITLE_CHARS: usize = 80;
 
-/// The most characters of `about`: a few lines of a panel.
+/// Most characters in `about`: a few lines of a panel.
 const MAX_ABOUT_CHARS: usize = 400;
 
-/// The most characters of a hint, which is the line under the stage.
+/// Most characters in a hint, the line under the stage.
 const MAX_HINT_CHARS: usize = 120;
 
 pub(super) const METHOD_LIST: Field = Field::optional(
@@ -52,7 +52,7 @@ const OPENING_BESIDE_OWN: Field = Field::optional(
 pub(super) const RACE_TABLE: Field =
     Field::optional("race", "how the lanes race", Wanted::Table("race"));
 
-/// A scene as far as it has been read, and the lanes that `methods` lists.
+/// A partly read scene, and the lanes listed by `methods`.
 pub(super) struct Draft {
     scene: Scene,
     listed: Option<Vec<(Span<usize>, &'static Method)>>,
@@ -152,13 +152,13 @@ pub(super) static TOP: [Key<Draft, Scene>; 10] = [
     },
 ];
 
-/// The method that a scene opens with, where this key is the one that can say it.
+/// The scene's opening method, if this key is the one that writes it.
 fn opening_method(scene: &Scene, is_plain: bool) -> Option<String> {
     let method = scene.opening_method.filter(|_| scene.own_methods.is_empty() == is_plain)?;
     Some(quoted(method.id))
 }
 
-/// What kind of clouds a scene opens with.
+/// Reads the kind of clouds that a scene opens with.
 fn read_clouds(top: &mut Table<'_>, field: &Field) -> Option<CloudKind> {
     let written = top.text(field)?;
     let found = CloudKind::named(&written);
@@ -188,19 +188,19 @@ pub(super) static RACE: [Key<Scene, Scene>; 2] = [
     },
 ];
 
-/// The key above the first table that is called so.
+/// The key above the first table with this name.
 fn at_top(key: &str) -> Option<&'static str> {
     TOP.iter().map(|it| it.field.key).find(|it| *it == key)
 }
 
-/// Reads the scene called `name`. Returns with it what its text says in a way that will not be read for long.
+/// Reads the scene called `name`, and returns it with warnings about deprecated syntax.
 ///
 /// # Errors
-/// Everything that is wrong with its text, in no particular order.
+/// All faults of the text, in no particular order.
 pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), Vec<SceneError>> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let mut errors = syntax::errors(text, errors);
-    // After a duplicate key the rest of the file can be read; after other syntax errors it cannot.
+    // After a duplicate key, the rest of the file can be read; after other syntax errors it cannot.
     if errors.iter().any(|error| !matches!(error.fault.kind, FaultKind::Duplicate { .. })) {
         return Err(errors);
     }
@@ -218,7 +218,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         title: String::new(),
         about: String::new(),
         hint: None,
-        // One without a rate is refused, whatever its laws claim.
+        // A placeholder. A scene without a rate is refused, even if its laws' claims hold.
         tick_hz: TickRate::whole(1),
         seconds: USUAL_SECONDS,
         lanes: Vec::new(),
@@ -308,7 +308,7 @@ fn read_lanes(
     every_lane(bodies, top.own())
 }
 
-/// A lane as a message names it.
+/// A lane in the words of a message.
 fn described(lane: &LaneSpec) -> String {
     let LaneSpec { method, substeps, tolerance, joint } = lane;
     let within = tolerance.map(|tolerance| format!(" and `tolerance = {tolerance:e}`"));
@@ -317,7 +317,7 @@ fn described(lane: &LaneSpec) -> String {
     format!("{:?} with `substeps = {substeps}`{beside}", method.id)
 }
 
-/// Complains of an opening method that no lane has, so that it does not race.
+/// Reports an opening method that no lane has, because it would not race.
 fn check_opening_method(Scene { lanes, opening_method, .. }: &Scene, top: &mut Table<'_>) {
     if let Some(method) = opening_method
         && !lanes.is_empty()

@@ -1,17 +1,17 @@
-//! A change of one value of a body, checked and refused as a scene file with that value would be.
+//! Edits one value of a body, with the checks and messages of a scene file with that value.
 
 use super::fault::{FaultKind, SceneFault};
 use super::wanted::Wanted;
 use crate::sim::TickRate;
 use crate::sim::bodies::{Fault, Kind, Parameter, Range};
 
-/// Why a parameter of a body cannot be set, and what to do about it, in one line.
+/// The reason why a parameter of a body cannot be set, and the remedy, in one line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(transparent)]
 pub struct EditError(#[from] SceneFault);
 
 impl EditError {
-    /// What is wrong with the values together, if that is it.
+    /// The fault of the values as a whole, if that is the reason.
     pub(super) fn fault(self) -> Option<Fault> {
         match self.0.kind {
             FaultKind::Values(fault) => Some(fault),
@@ -20,7 +20,7 @@ impl EditError {
     }
 }
 
-/// The `values` of a body of `kind`, as [`SceneBody::values`](super::SceneBody::values) has them, with `value` for
+/// The `values` of a body of `kind`, in the form of [`SceneBody::values`](super::SceneBody::values), with `value` for
 /// the parameter with this index.
 ///
 /// # Errors
@@ -49,13 +49,13 @@ pub fn edited_values(
     Ok(edited)
 }
 
-/// The least positive number and the largest one that a person may enter: products of several of them stay finite.
+/// Least positive and largest number that a person may enter: products of several of them stay finite.
 const ENTERED: [f64; 2] = [1e-12, 1e12];
 
-/// Finds whether a person may enter a number in this range. Files may hold numbers of more extreme sizes.
+/// Checks that a person may enter a number in this range. Files may hold more extreme numbers.
 ///
 /// # Errors
-/// The range that the number of this name must be in.
+/// A message with the name and its valid range.
 pub fn check_entered(name: &str, value: f64, range: Range) -> Result<(), String> {
     let [least, most] = ENTERED;
     let range = match range {
@@ -79,14 +79,14 @@ pub fn check_entered(name: &str, value: f64, range: Range) -> Result<(), String>
 /// The tick rate that a person enters in Hz, to nine digits after the point.
 ///
 /// # Errors
-/// The range that it must be in.
+/// A message with the valid range.
 pub fn entered_tick_rate(hz: f64) -> Result<TickRate, String> {
     let [least, most] = [TickRate::MIN, TickRate::MAX].map(TickRate::hz);
     check_entered("tick rate", hz, Range::Between(least, most))?;
     format!("{hz:.9}").parse()
 }
 
-/// A number as a person would type it.
+/// Formats a number as a person would type it.
 fn written(value: f64) -> String {
     let exact = format!("{value:?}");
     exact.strip_suffix(".0").map_or(exact.clone(), str::to_owned)
@@ -98,14 +98,15 @@ mod tests {
     use crate::scene::Scene;
     use crate::sim::bodies::{BODIES, MAX_VALUE, kind};
 
-    /// The values of the only body of a scene with this table, or what is wrong with it.
+    /// The values of the only body of a scene with this table, or the error message.
     fn parsed(table: &str) -> Result<Vec<f64>, String> {
         let text = format!("title = 'one'\ntick_hz = 60\nseconds = 1\n{table}");
         let scene = Scene::parse("one.toml", &text).map_err(|errors| errors.to_string())?;
         Ok(scene.bodies[0].values.clone())
     }
 
-    /// A table with what must be given, every number 1; with `value` for the parameter in an index.
+    /// A table with all required parameters, every number 1, and with the value of `edit` for the parameter at its
+    /// index.
     fn table(kind: &Kind, edit: Option<(usize, f64)>) -> String {
         let row = |(index, parameter): (usize, &Parameter)| {
             let Parameter { key, default, range, .. } = parameter;

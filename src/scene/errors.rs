@@ -1,4 +1,4 @@
-//! The faults of a scene file, or of the lines of a step, with their places.
+//! The errors of a scene file, or of the lines of a step, with their places.
 
 use std::fmt;
 use std::ops::Range;
@@ -8,35 +8,35 @@ use super::fault::SceneFault;
 use super::nearest::words;
 use crate::sim::law::ExpressionFault;
 
-/// How many errors of one file are shown: as many as a person mends before trying again.
+/// Number of errors shown for one file: as many as a person fixes before trying again.
 pub const MAX_SHOWN: usize = 10;
 
-/// A longer remedy, such as the list of all methods, stands once in the errors of a file.
+/// A longer remedy, such as the list of all methods, appears only once in the errors of a file.
 const MAX_REPEATED_BYTES: usize = 200;
 
-/// Everything that is wrong with one scene file. Its display has one line for each error.
+/// All errors of one scene file. Its display has one line for each error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneErrors {
-    /// The file's name, as it was given.
+    /// The file's name, as given.
     pub file: String,
     /// The text to which the errors' spans refer.
     pub text: String,
     /// The first [`MAX_SHOWN`] errors in the order of the text; at least one.
     pub errors: Vec<SceneError>,
-    /// How many more there are.
+    /// Number of further errors.
     pub more: usize,
 }
 
-/// What is wrong with a file, as it is shown.
+/// An error of a file, as shown to people.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
-    /// What is wrong, with its place.
+    /// The error message, with its place.
     pub message: String,
-    /// The lines of the file that the message is about, with marks; empty if there are none.
+    /// The lines of the file at fault, with marks; empty if there are none.
     pub quoted: String,
 }
 
-/// A mistake that is about no line of a file.
+/// A mistake without lines of a file.
 impl<T: Into<String>> From<T> for Mistake {
     fn from(message: T) -> Self {
         Self { message: message.into(), quoted: String::new() }
@@ -49,22 +49,22 @@ impl From<SceneErrors> for Vec<Mistake> {
     }
 }
 
-/// One thing that is wrong with a scene file.
+/// One error of a scene file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{fault}")]
 pub struct SceneError {
-    /// The bytes of the text at fault; where a key is missing, its table's header or nothing.
+    /// Bytes of the text at fault. For a missing key, the header of its table, or nothing at the top of the file.
     pub span: Range<usize>,
     pub(super) fault: SceneFault,
 }
 
 impl SceneError {
-    /// What is wrong, in lower case: the title of a longer message.
+    /// The fault, in lower case: the title of a longer message.
     pub fn what(&self) -> &str {
         &self.fault.what
     }
 
-    /// What to do about it: the label of the span in a longer message.
+    /// The remedy: the label of the span in a longer message.
     pub fn remedy(&self) -> &str {
         &self.fault.remedy
     }
@@ -88,14 +88,14 @@ impl SceneErrors {
         Self { file: file.into(), text: text.into(), errors, more }
     }
 
-    /// The error of a file that is larger than a scene file may be, whatever it holds.
+    /// The error for a file with more bytes than a scene file may have.
     pub fn too_large(file: &str) -> Self {
         let what = format!("the file holds more than {MAX_FILE_BYTES} bytes");
         let fault = SceneFault::new(what, "give a scene file, with a shorter script");
         Self::new(file, "", vec![SceneError { span: 0..0, fault }])
     }
 
-    /// The fault of the lines of a step, in the file or the argument of this name.
+    /// The error for a fault in the lines of a step. `file` names their file or argument.
     pub fn of_step(file: &str, text: &str, fault: ExpressionFault) -> Self {
         let ExpressionFault { span, what, remedy } = fault;
         let fault = SceneFault::new(what, words(remedy));
@@ -110,7 +110,7 @@ impl SceneErrors {
         Self::new(file, &text, vec![SceneError { span, fault }])
     }
 
-    /// A line for each of [`errors`](Self::errors), and one for those that are not among them if there are any.
+    /// A line for each of [`errors`](Self::errors), and one for the further errors if there are any.
     pub fn messages(&self) -> impl Iterator<Item = String> {
         let Self { file, errors, more, .. } = self;
         let message = move |error: &SceneError| {
@@ -121,7 +121,7 @@ impl SceneErrors {
         errors.iter().map(message).chain(rest)
     }
 
-    /// The line and the column of a byte of the text, both from 1, the column in characters.
+    /// Line and column of a byte of the text, both from 1. The column counts characters.
     pub fn position(&self, byte: usize) -> (usize, usize) {
         position(&self.text, byte)
     }

@@ -1,11 +1,11 @@
-//! A fault of a scene file: what is wrong, what to do about it, and the little that the reader asks of it.
+//! A fault of a scene file: its description, its remedy, and the kinds that the reader distinguishes.
 
 use super::clip::clip;
 use super::nearest::offer;
 use super::wanted::{Place, Wanted};
 use crate::sim::bodies::Fault;
 
-/// A fault of a scene file or of a value that is set.
+/// A fault of a scene file, or of an edited value.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{what}; {remedy}")]
 pub(super) struct SceneFault {
@@ -14,21 +14,21 @@ pub(super) struct SceneFault {
     pub(super) kind: FaultKind,
 }
 
-/// What the reader asks of a fault.
+/// The kinds of fault that the reader distinguishes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum FaultKind {
     Other,
-    /// A key or a table is given twice: the rest of the file can be read.
+    /// A repeated key or table. The rest of the file can be read.
     Duplicate {
         is_table: bool,
     },
-    /// There is no such key; this one is like it.
+    /// An unknown key, with the known one that is like it.
     Unknown(Option<String>),
-    /// A key of the top stands in a table.
+    /// A key of the top in a table.
     Misplaced(&'static str),
-    /// None of these keys is there.
+    /// None of these keys is present.
     Missing(Vec<&'static str>),
-    /// What may be meant as a body's table is none.
+    /// A value that may be meant as a body's table, but is none.
     NoTable,
     /// The values of a body do not go together.
     Values(Fault),
@@ -43,7 +43,7 @@ impl SceneFault {
         Self { kind, ..self }
     }
 
-    /// A key that is not known in a place where these are.
+    /// An unknown key, in a place for `known` keys.
     pub(super) fn unknown_key(
         key: &str,
         place: Place,

@@ -1,4 +1,4 @@
-//! A key of a scene file, with its reader and its writer, and the keys of a lane.
+//! Keys of a scene file, each with its reader and its writer; among them the keys of a lane.
 
 use super::nearest::listed;
 use super::table::Table;
@@ -9,38 +9,38 @@ use crate::sim::TickRate;
 use crate::sim::bodies::Range;
 use crate::sim::integrators::{METHODS, Method};
 
-/// A key whose value is read into a draft `D` and written of a `T`.
+/// A key with a reader into a draft `D` and a writer from a `T`.
 pub(super) struct Key<D: 'static, T: 'static> {
     pub(super) field: Field,
-    /// Keeps the value in the draft; one with a fault is left out.
+    /// Stores the value in the draft; a value with a fault is left out.
     pub(super) read: fn(&mut D, &mut Table<'_>, &Field),
     /// The value as TOML; `None` if the key is left out.
     pub(super) write: fn(&T) -> Option<String>,
 }
 
 impl<D, T> Key<D, T> {
-    /// Reads the values of these keys into a draft, whichever have faults.
+    /// Reads the values of these keys into a draft, even if some have faults.
     pub(super) fn read_all(keys: &'static [Self], draft: &mut D, table: &mut Table<'_>) {
         for Key { field, read, .. } in keys {
             read(draft, table, field);
         }
     }
 
-    /// A line for each of these keys that is not left out.
+    /// A line for each of these keys, except for keys left out.
     pub(super) fn lines(keys: &'static [Self], of: &T) -> String {
         let line = |key: &Self| Some(format!("{} = {}\n", key.field.key, (key.write)(of)?));
         keys.iter().filter_map(line).collect()
     }
 }
 
-/// Replaces a value by one that could be read.
+/// Replaces a value if a new one could be read.
 pub(super) fn keep<T>(value: &mut T, read: Option<T>) {
     if let Some(read) = read {
         *value = read;
     }
 }
 
-/// The shortest number that reads back as the same, with a point or an exponent, as TOML wants it.
+/// The shortest number that reads back as the same, with the point or exponent that TOML requires.
 pub(super) fn number(value: f64) -> String {
     format!("{value:?}")
 }
@@ -96,12 +96,12 @@ pub(super) fn rate(rate: TickRate) -> String {
     rate.decimal_hz().unwrap_or_else(|| quoted(&rate.to_string()))
 }
 
-/// The length of a tick as TOML, of a rate that only this says as a decimal.
+/// The length of a tick as TOML, if the length is a decimal number and the rate is not.
 pub(super) fn step_s(rate: TickRate) -> Option<String> {
     rate.decimal_step_s().filter(|_| rate.decimal_hz().is_none())
 }
 
-/// The line at the top of a scene that says its tick rate.
+/// The line at the top of a scene that sets its tick rate.
 pub(crate) fn tick_rate_line(rate: TickRate) -> String {
     let line = |key: &str, value| Some(format!("{key} = {}\n", value?));
     [line(TICK_HZ.key, tick_hz(rate)), line(STEP_S.key, step_s(rate))]
@@ -110,7 +110,7 @@ pub(crate) fn tick_rate_line(rate: TickRate) -> String {
         .collect()
 }
 
-/// A lane as far as it has been read.
+/// A partly read lane.
 #[derive(Default)]
 pub(super) struct SpecDraft {
     method: Option<&'static Method>,
@@ -120,7 +120,7 @@ pub(super) struct SpecDraft {
     joint_damping_ratio: Option<f64>,
 }
 
-/// The keys of a lane, which commands have too.
+/// The keys of a lane, which are also keys of commands.
 pub(super) static SPEC: [Key<SpecDraft, LaneSpec>; 5] = [
     Key {
         field: METHOD,
@@ -152,7 +152,7 @@ pub(super) static SPEC: [Key<SpecDraft, LaneSpec>; 5] = [
     },
 ];
 
-/// Reads a lane. Complains of what its method does not take.
+/// Reads a lane, and reports settings that its method does not take.
 pub(super) fn read_lane_spec(row: &mut Table<'_>) -> Option<LaneSpec> {
     let mut draft = SpecDraft::default();
     Key::read_all(&SPEC, &mut draft, row);
@@ -165,7 +165,7 @@ pub(super) fn read_lane_spec(row: &mut Table<'_>) -> Option<LaneSpec> {
     Some(LaneSpec { method, substeps, tolerance, joint })
 }
 
-/// Complains of a joint for a method that is told none, and of a damping ratio alone.
+/// Reports a joint for a method that has none, and a damping ratio without a frequency.
 fn check_joint(row: &mut Table<'_>, method: Option<&'static Method>) {
     let joint = [JOINT_HZ, JOINT_DAMPING_RATIO];
     let Some(Field { key, .. }) = joint.into_iter().find(|field| row.has(field.key)) else {
@@ -182,7 +182,7 @@ fn check_joint(row: &mut Table<'_>, method: Option<&'static Method>) {
     }
 }
 
-/// Reads a tolerance. If the lane's method is known, reports one that takes none.
+/// Reads a tolerance. If the lane's method is known and takes none, reports the tolerance.
 pub(super) fn read_tolerance(row: &mut Table<'_>, method: Option<&'static Method>) -> Option<f64> {
     let tolerance = row.number(&TOLERANCE);
     if let (Some(method), true) = (method, row.has(TOLERANCE.key))
@@ -195,7 +195,7 @@ pub(super) fn read_tolerance(row: &mut Table<'_>, method: Option<&'static Method
     tolerance
 }
 
-/// The ids of the methods that choose their own steps.
+/// Ids of the methods that choose their own steps.
 pub(super) fn adaptive_methods() -> String {
     methods(|method| method.tolerance.is_some())
 }

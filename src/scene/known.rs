@@ -1,4 +1,4 @@
-//! Every key of a scene file, for lists and the manual.
+//! Lists every key of a scene file, for commands and the manual.
 
 use super::described::{NAME, field_of};
 use super::document::{LANE, RACE, RACE_TABLE, TOP};
@@ -17,15 +17,15 @@ use crate::sim::bodies::Net;
 pub struct SceneKey {
     /// Its name.
     pub key: &'static str,
-    /// Whether it must be given, at least in its way of writing the table.
+    /// Whether it is required, at least in its way of writing the table.
     pub is_required: bool,
-    /// What it stands for.
+    /// Description for people.
     pub about: &'static str,
-    /// What value it takes.
+    /// Its valid values, in words.
     pub value: String,
 }
 
-/// The tables of a scene file, as the file writes their names, each with its keys in order. Bodies of the table
+/// The tables of a scene file, named as in the file, each with its keys in order. Bodies of the table
 /// [`BODIES`](crate::sim::bodies::BODIES) have a `name` and their parameters.
 pub fn scene_tables() -> Vec<(String, Vec<SceneKey>)> {
     let array = |name: &str| format!("[[{name}]]");

@@ -1,4 +1,4 @@
-//! A lane of a scene: which one it is, and its method with its substeps and its tolerance.
+//! The lanes of a scene: their numbers, and their methods with substeps, tolerance and joint.
 
 use std::fmt;
 
@@ -6,8 +6,8 @@ use crate::sim::integrators::{Method, Override};
 use crate::sim::number::round;
 use crate::sim::{Range, Solver};
 
-/// Which lane of a run is meant: its number, from 1 in the order of the scene. It stays the same when others leave the run or
-/// come back, and under whatever method the lane goes on.
+/// Number of a lane, from 1 in the order of the scene. It stays the same when other lanes leave the run or return,
+/// and when the lane changes its method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct LaneId(pub usize);
 
@@ -23,14 +23,14 @@ impl LaneId {
     }
 }
 
-/// Its number.
+/// Writes the number.
 impl fmt::Display for LaneId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
     }
 }
 
-/// The method of a lane, with its substeps and its tolerance.
+/// The method of a lane, with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaneSpec {
     /// The method of its bodies.
@@ -40,22 +40,22 @@ pub struct LaneSpec {
     /// Overrides the absolute and the relative tolerance of an adaptive method's card, within
     /// [`TOLERANCES`](super::TOLERANCES); `None` keeps the card's tolerance, and is the only value for other methods.
     pub tolerance: Option<f64>,
-    /// What an engine is told of every spring, in place of the body's own; `None` is the only value for methods without a
-    /// joint.
+    /// Joint settings that an engine uses for every spring, in place of the body's own. `None` is the only value for
+    /// methods without a joint.
     pub joint: Option<Swing>,
 }
 
-/// How a spring swings, whatever is on it.
+/// The swing of a spring, independent of the mass on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swing {
-    /// The frequency in hertz at which it would swing without its damping.
+    /// Frequency of the swing without damping, in hertz.
     pub frequency_hz: f64,
-    /// The damping as a part of what just lets it swing no more.
+    /// Damping ratio (1 = critical).
     pub damping_ratio: f64,
 }
 
 impl Swing {
-    /// The ranges of the frequency and the damping ratio.
+    /// Ranges of the frequency and the damping ratio.
     pub const RANGES: [Range; 2] = [Range::POSITIVE, Range::NON_NEGATIVE];
 
     /// Whether both are in their ranges.
@@ -64,7 +64,7 @@ impl Swing {
         Self::RANGES.into_iter().zip(both).all(|(range, value)| range.contains(value))
     }
 
-    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass.
+    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass.
     pub fn per_mass(self) -> [f64; 2] {
         let omega = std::f64::consts::TAU * self.frequency_hz;
         [omega * omega, 2.0 * self.damping_ratio * omega]
@@ -77,8 +77,7 @@ impl LaneSpec {
         Self { method, substeps: method.default_substeps, tolerance: None, joint: None }
     }
 
-    /// `name`, which is its method's, with its substeps or its tolerance after it where another of `lanes` has the method
-    /// with others.
+    /// The method's `name`, followed by each setting in which another of `lanes` with this method differs.
     pub fn distinct_name(&self, name: &str, lanes: &[LaneSpec]) -> String {
         let alike = || lanes.iter().filter(|other| other.method == self.method);
         let has_others = alike().any(|other| other.substeps != self.substeps);
@@ -89,14 +88,14 @@ impl LaneSpec {
         format!("{name}{times}{within}{}", self.told(lanes))
     }
 
-    /// What its engine is told, where another of `lanes` has the method and is told something else.
+    /// The joint's frequency as a suffix, if another of `lanes` with this method has another joint.
     fn told(&self, lanes: &[LaneSpec]) -> String {
         let mut alike = lanes.iter().filter(|other| other.method == self.method);
         let told = self.joint.filter(|_| alike.any(|other| other.joint != self.joint));
         told.map(|it| format!(", set to {} Hz", round(it.frequency_hz, 3))).unwrap_or_default()
     }
 
-    /// The method's name with the substeps, which are left out if there is one and no other of `lanes` has the method.
+    /// The method's name with the substeps, unless these are 1 and no other of `lanes` with this method has more.
     pub fn name_with_substeps(&self, lanes: &[LaneSpec]) -> String {
         let mut others = lanes.iter().filter(|other| other.method == self.method);
         let name = self.method.name;

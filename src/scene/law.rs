@@ -1,4 +1,4 @@
-//! Reads a `[[law]]`: an equation of motion that the scene writes itself.
+//! Reads a `[[law]]`: an equation of motion written in the scene.
 
 use std::ops::Range as Span;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ const UNIT: Field = Field::optional("unit", "its unit; metres if left out", Want
 const AT: Field =
     Field::optional("at", "where it is drawn in metres, of coordinates and constants", Wanted::At);
 
-/// The keys of `[[law]]` beside its name.
+/// The keys of `[[law]]` besides its name.
 pub(super) static LAW_KEYS: [Key<WrittenLaw, SceneBody>; 5] = [
     Key {
         field: CONSTANTS,
@@ -45,7 +45,7 @@ pub(super) static LAW_KEYS: [Key<WrittenLaw, SceneBody>; 5] = [
     Key {
         field: COORDINATES,
         read: |law, row, field| law.coordinates = read_coordinates(row, field),
-        // They have tables of their own.
+        // Coordinates have tables of their own.
         write: |_| None,
     },
     Key {
@@ -74,7 +74,7 @@ pub(super) static LAW_KEYS: [Key<WrittenLaw, SceneBody>; 5] = [
     },
 ];
 
-/// A coordinate with its numbers.
+/// A coordinate with its start, its velocity at the start, and its kick.
 pub(super) struct SetCoordinate {
     text: CoordinateText,
     start: f64,
@@ -135,7 +135,7 @@ pub(super) static COORDINATE_KEYS: [Key<WrittenCoordinate, SetCoordinate>; 7] = 
     },
 ];
 
-/// Replaces a number by the one that is given; by `None` if it has a fault.
+/// Replaces a number if its key is present; by `None` if the value has a fault.
 fn set(number: &mut Option<f64>, table: &mut Table<'_>, field: &Field) {
     let read = table.number(field);
     if table.has(field.key) {
@@ -143,14 +143,14 @@ fn set(number: &mut Option<f64>, table: &mut Table<'_>, field: &Field) {
     }
 }
 
-/// A name and its bytes in the file.
+/// A name with its bytes in the file.
 type WrittenName = (String, Span<usize>);
 
-/// A law as the file writes it.
+/// A law as written in the file.
 #[derive(Default)]
 pub(super) struct WrittenLaw {
     constants: Vec<WrittenName>,
-    /// The values of the constants, unless one has a fault.
+    /// Values of the constants; `None` if one has a fault.
     numbers: Option<Vec<f64>>,
     coordinates: Option<Vec<WrittenCoordinate>>,
     energy: Option<Written>,
@@ -170,8 +170,8 @@ pub(super) struct WrittenCoordinate {
     kick: Option<f64>,
 }
 
-/// The kind of a law and the values of its parameters; each is `None` where there is a fault. Its claims are held against
-/// the motion at the ticks of `horizon`.
+/// Reads the kind of a law and the values of its parameters; each is `None` if it has a fault. Checks the law's
+/// claims against its motion at the ticks of `horizon`.
 pub(super) fn read_law(
     row: &mut Table<'_>,
     horizon: ClaimHorizon,
@@ -197,7 +197,7 @@ pub(super) fn read_law(
     (Some(kind), values)
 }
 
-/// The names of the constants, and their values unless one has a fault.
+/// Reads the names of the constants and their values. The values are `None` if one has a fault.
 fn read_constants(row: &mut Table<'_>, field: &Field) -> (Vec<WrittenName>, Option<Vec<f64>>) {
     let entries = row.entries(field).unwrap_or_default();
     check_count(row, "constants", &entries, MAX_CONSTANTS);
@@ -316,7 +316,7 @@ fn read_layout(row: &mut Table<'_>, field: &Field, coordinates: &[WrittenCoordin
     Layout::default()
 }
 
-/// Refuses a `plane` or a `draw` beside places of coordinates.
+/// Refuses a `plane` or a `draw` in a law whose coordinates have an `at`.
 fn check_one_picture(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) {
     let has_places = coordinates.iter().any(|coordinate| coordinate.at.is_some());
     let other = [PLANE, DRAW].into_iter().find(|field| row.has(field.key));
@@ -347,7 +347,7 @@ impl WrittenLaw {
         self.coordinates.as_deref().unwrap_or_default()
     }
 
-    /// `None` if there is no coordinate, or if an acceleration is missing.
+    /// The text of the law; `None` if it has no coordinate or lacks an acceleration.
     fn text(&self) -> Option<LawText> {
         let text = |written: &Written| written.text.clone();
         let coordinate = |of: &WrittenCoordinate| {
@@ -382,7 +382,7 @@ impl WrittenLaw {
         Some([self.numbers.clone()?, starts, velocities, kicks].concat())
     }
 
-    /// Reports what is wrong with a part of the law at its place in the file.
+    /// Reports a fault of the law at its place in the file.
     fn complain(&self, row: &mut Table<'_>, refusal: LawFault) {
         let LawFault { part, span, what, remedy } = refusal;
         let within = |written: &Option<Written>| {

@@ -1,8 +1,9 @@
-//! A scene: what is simulated, and how. It is read from TOML text and checked as a whole.
+//! A scene: the bodies of a simulation, with the methods, the tick rate and the script of its run. It is read from
+//! TOML text and checked as a whole.
 //!
-//! Reading is driven by the tables of [methods](crate::sim::integrators::METHODS) and
-//! [bodies](crate::sim::bodies::BODIES): a scene may name whatever they list. All faults of a file are
-//! reported at once, each with its place and its remedy; a [`Scene`] has none.
+//! The tables of [methods](crate::sim::integrators::METHODS) and [bodies](crate::sim::bodies::BODIES) drive the
+//! reader: a scene may name any of their entries. The reader reports all faults of a file at once, each with its
+//! place and its remedy; a [`Scene`] has none.
 
 use std::path::Path;
 use std::sync::{Arc, LazyLock, OnceLock};
@@ -64,89 +65,89 @@ pub use refusal::Refusal;
 pub use time_scale::TimeScale;
 pub(crate) use time_scale::{Piece, nearest_tick};
 
-/// The largest scene file in bytes: tens of thousands of scripted commands. A file of nothing but
-/// mistakes takes the parser some hundred times its size in memory.
+/// Largest scene file in bytes: tens of thousands of scripted commands. For a file full of mistakes, the parser takes
+/// some hundred times its size in memory.
 pub const MAX_FILE_BYTES: usize = 1 << 20;
 
-/// The highest tick rate in Hz: ten times the finest rate of physics in games.
+/// Highest tick rate in Hz: ten times the finest rate of physics in games.
 pub const MAX_TICK_HZ: u32 = 10_000;
 
-/// The ticks of a scene of this length (s) and rate, at which the claims of its bodies are held against their motion.
+/// The ticks at which a scene of this length (s) and rate checks the claims of its bodies against their motion.
 pub(crate) fn claim_horizon(seconds: f64, tick_hz: TickRate) -> ClaimHorizon {
     ClaimHorizon { tick_hz, ticks: (seconds * tick_hz.hz()).round() as u64 }
 }
 
-/// The longest a scene may run, in seconds: a year. At [`MAX_TICK_HZ`] its last tick is far below
-/// 2⁵³, so that `tick / rate` is exact to the last bit of an f64.
+/// Longest run of a scene in seconds: a year. At [`MAX_TICK_HZ`] its last tick is far below 2⁵³, so that
+/// `tick / rate` is exact to the last bit of an f64.
 pub const MAX_SECONDS: f64 = 365.0 * 86_400.0;
 
-/// The shortest that a scene may run, in seconds: a tick at [`MAX_TICK_HZ`].
+/// Shortest run of a scene in seconds: a tick at [`MAX_TICK_HZ`].
 pub const MIN_SECONDS: f64 = 1.0 / MAX_TICK_HZ as f64;
 
-/// How long a scene runs that does not say so, in seconds: twenty swings of a spring at 1 Hz.
+/// Length in seconds of a scene that gives none: twenty swings of a spring at 1 Hz.
 pub const USUAL_SECONDS: f64 = 20.0;
 
 /// The last tick of the longest scene at the highest rate.
 pub const LAST_TICK: u64 = 365 * 86_400 * MAX_TICK_HZ as u64;
 
-/// The most bodies in a scene: more cells than this cannot be told apart on a stage.
+/// Most bodies in a scene: with more, the cells on a stage are indistinguishable.
 pub const MAX_BODIES: usize = 64;
 
-/// The most lanes in a scene: twice the number of colours that can be told apart.
+/// Most lanes in a scene: twice the number of distinguishable colours.
 pub const MAX_LANES: usize = 32;
 
-/// The most substeps in a tick of a lane.
+/// Most substeps in a tick of a lane.
 pub const MAX_SUBSTEPS: u32 = 1_000;
 
-/// The tolerances that a lane may be given: below the least, round-off alone is more; with the largest, an
-/// error may be as large as the value.
+/// Range of a lane's tolerance. Below it, round-off alone is larger; at its upper end, an error may be as large as
+/// the value.
 pub const TOLERANCES: (f64, f64) = (1e-14, 1.0);
 
-/// The largest magnitude of a coordinate that a body can be placed at. Beyond it bodies halt; see
+/// Largest magnitude of a coordinate at which a body can be placed. Bodies halt beyond it; see
 /// [`ESCAPE`](crate::run::race::ESCAPE).
 const MAX_COORDINATE: f64 = 1e38;
 
-/// The most characters in a body's name: it stands in one line beside its cell.
+/// Most characters in a body's name, which appears in one line beside its cell.
 pub const MAX_NAME_CHARS: usize = 64;
 
-/// What is simulated, and how.
+/// The bodies of a simulation, with the settings of its run.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Scene {
-    /// The built-in scene's name, or its file's name without directory and ending.
+    /// Name of the built-in scene, or of its file without directory and ending.
     pub name: String,
     /// The text that it was read from; `None` if there is none.
     pub source: Option<Arc<str>>,
     /// Its name for people.
     pub title: String,
-    /// What it shows; empty if the file does not say.
+    /// Description for people; empty if the file has none.
     pub about: String,
-    /// What to try, for the line under the stage.
+    /// A suggestion to try, for the line under the stage.
     pub hint: Option<String>,
     /// Ticks per second, in [`Clock::TICK_HZ`](crate::sim::Clock::TICK_HZ).
     pub tick_hz: TickRate,
-    /// How long it runs, from [`MIN_SECONDS`] to [`MAX_SECONDS`].
+    /// Length of its run in seconds, from [`MIN_SECONDS`] to [`MAX_SECONDS`].
     pub seconds: f64,
-    /// The methods by lines of its author's own, no two of one id.
+    /// Methods in the author's own lines, each with an id of its own.
     pub own_methods: Vec<&'static Method>,
     /// The methods that race, 1 to [`MAX_LANES`], no two alike.
     pub lanes: Vec<LaneSpec>,
-    /// The method that the program opens the scene with, one of the lanes'; `None` for the first lane's.
+    /// The method of the lane that the program opens the scene with; `None` for the first lane.
     pub opening_method: Option<&'static Method>,
-    /// Whether each lane gets as many substeps as bring its cost nearest to the dearest lane's.
+    /// Whether each lane gets the substeps that bring its cost nearest to the dearest lane's.
     pub equal_cost: bool,
-    /// Whether the program opens it as a race, and not under one method.
+    /// Whether the program opens it as a race rather than under one method.
     pub opens_as_race: bool,
-    /// The clouds of many starts that it opens with, in place of the bodies; `None` if it opens with those.
+    /// The clouds of many starts that it opens with; `None` if it opens with the bodies.
     pub clouds: Option<CloudKind>,
-    /// The bodies in the order of the file, 1 to [`MAX_BODIES`], no two of one name.
+    /// The bodies in the order of the file, 1 to [`MAX_BODIES`], each with a name of its own.
     pub bodies: Vec<SceneBody>,
-    /// The scripted commands by time, and those of one time in the order of the file.
+    /// The scripted commands by time. Commands with the same time keep the order of the file.
     pub script: Vec<Scripted>,
-    /// States that a race of the scene must reproduce, in the order of the file. A scene that has some is a recording, whose
-    /// file tells its script in ticks.
+    /// States that a race of the scene must reproduce, in the order of the file. A scene with checks is a recording,
+    /// and its file gives the script in ticks.
     pub checks: Vec<Check>,
-    /// What its file says in a way that will not be read for long, with the remedies; `None` if there is nothing.
+    /// Deprecated syntax in the file, with its replacement; `None` if there is none.
     pub outdated: Option<Arc<SceneErrors>>,
 }
 
@@ -154,37 +155,37 @@ pub struct Scene {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SceneBody {
-    /// Its name, not found on any other body of the scene.
+    /// Its name, unique in the scene.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: Arc<Kind>,
-    /// What [`Kind::build`] takes: one value for each of the kind's parameters, in their order, and for
-    /// a curve two for each point.
+    /// Argument of [`Kind::build`]: one value for each parameter of the kind, in their order, and two for each point
+    /// of a curve.
     pub values: Vec<f64>,
-    /// How it is drawn; shared by its copies.
+    /// Its drawing, shared with its copies.
     pub appearance: Arc<Appearance>,
 }
 
 impl SceneBody {
-    /// A body that is drawn as all of its kind are.
+    /// A body with the usual look of its kind.
     pub(crate) fn new(name: impl Into<String>, kind: Arc<Kind>, values: Vec<f64>) -> Self {
         Self { name: name.into(), kind, values, appearance: Arc::default() }
     }
 }
 
-/// A command of a scene's script.
+/// A command of a scene's script: an action and its time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scripted {
-    /// When it is done, in seconds, at most [`MAX_SECONDS`]: before the nearest tick at the rate in force, in every lane and
-    /// in the truth.
+    /// Time in seconds, at most [`MAX_SECONDS`]. The action comes before the nearest tick at the rate in force, in
+    /// every lane and in the truth.
     pub at_s: f64,
-    /// What is done.
+    /// The action.
     pub action: Action,
 }
 
 impl Scripted {
-    /// A script that is told in ticks, as a recording tells it: at this rate in Hz, and from a change of the rate on at the
-    /// new one. The ticks are in order.
+    /// Converts a script in ticks, such as that of a recording, to seconds. The ticks must be in order. They have the
+    /// rate `tick_hz` until an action sets another one.
     pub fn of_ticks(
         tick_hz: impl Into<TickRate>,
         rows: impl IntoIterator<Item = (u64, Action)>,
@@ -204,11 +205,11 @@ impl Scripted {
 /// The state that a lane must reach in a race of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Check {
-    /// When, at most [`LAST_TICK`].
+    /// The tick, at most [`LAST_TICK`].
     pub tick: u64,
     /// The lane.
     pub lane: LaneId,
-    /// Its [hash](crate::run::Race::lane_hashes) when the tick is reached, before the actions of that tick.
+    /// The lane's [hash](crate::run::Race::lane_hashes) when it reaches the tick, before the actions of that tick.
     pub hash: u64,
 }
 
@@ -216,7 +217,7 @@ impl Scene {
     /// Reads a scene from the bytes of a file; `file` is the file's name, for messages.
     ///
     /// # Errors
-    /// As [`Scene::parse`], and where the bytes are not UTF-8.
+    /// As [`Scene::parse`], and if the bytes are not UTF-8.
     pub fn from_bytes(file: &str, bytes: &[u8]) -> Result<Scene, SceneErrors> {
         if bytes.len() > MAX_FILE_BYTES {
             return Err(SceneErrors::too_large(file));
@@ -246,26 +247,27 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The script on the ticks of a run at the scene's rate: for each command its tick, and the time of that in seconds.
+    /// For each command of the script, its tick in a run at the scene's rate, and the tick's time in seconds.
     pub(crate) fn script_on_ticks(&self) -> impl Iterator<Item = (u64, f64)> {
         let script = self.script.iter().map(|row| (row.at_s, &row.action));
         Piece::first(self.tick_hz).put_on_ticks(script)
     }
 
-    /// The actions of the script with the times of their ticks in seconds, in order.
+    /// The actions of the script in order, each with its tick's time in seconds.
     pub(crate) fn timed_script(&self) -> impl Iterator<Item = (f64, &Action)> {
         let actions = self.script.iter().map(|row| &row.action);
         self.script_on_ticks().map(|(_, t)| t).zip(actions)
     }
 
-    /// The methods that digits and lanes refer to: the scene's lanes, then all others that step its bodies.
+    /// The methods that digits and lanes refer to: the scene's lanes, then plain lanes of all others that step its
+    /// bodies.
     pub fn method_list(&self) -> Vec<LaneSpec> {
         let is_listed = |method: &Method| self.lanes.iter().any(|spec| spec.method == method);
         let others = self.fitting_methods().filter(|method| !is_listed(method));
         self.lanes.iter().copied().chain(others.map(LaneSpec::plain)).collect()
     }
 
-    /// The scene with the body at this index alone. It has no checks: they are of all bodies.
+    /// The scene with the body at this index alone. It has no checks, because these cover all bodies.
     pub(crate) fn of_one_body(mut self, index: usize) -> Scene {
         self.bodies = vec![self.bodies.swap_remove(index)];
         self.checks.clear();
@@ -278,8 +280,8 @@ impl Scene {
         self
     }
 
-    /// The name of a body, or the id of a lane's method, that is written in Rust, so that no scene file holds it; `None`
-    /// if there is none.
+    /// Name of a body, or id of a lane's method, that is written in Rust and so cannot be in a scene file; `None` if
+    /// there is none.
     pub fn in_rust(&self) -> Option<&str> {
         let mut bodies =
             self.bodies.iter().filter(|body| matches!(body.kind.origin, Origin::Custom(_)));
@@ -288,7 +290,7 @@ impl Scene {
         body.or_else(|| lanes.next().map(|lane| lane.method.id))
     }
 
-    /// The scene of [`SCENES`] with this name. It is read once, and what is found out for drawing it is shared by all copies.
+    /// The scene of [`SCENES`] with this name. It is read once, and all copies share its drawing data.
     pub fn built_in(name: &str) -> Option<Scene> {
         static READ: LazyLock<Vec<OnceLock<Scene>>> =
             LazyLock::new(|| SCENES.iter().map(|_| OnceLock::new()).collect());
@@ -298,7 +300,7 @@ impl Scene {
         Some(READ[index].get_or_init(read).clone())
     }
 
-    /// The harbour with a second spring, for what concerns springs beside each other.
+    /// The harbour with a second spring, for tests on several springs.
     #[cfg(test)]
     pub(crate) fn with_two_springs() -> Scene {
         let [mut scene, mut damped] =
@@ -312,20 +314,20 @@ impl Scene {
 /// A scene that is part of the program.
 #[derive(Debug)]
 pub struct BuiltIn {
-    /// The name of its file in `assets/scenes`, without the ending.
+    /// Name of its file in `assets/scenes`, without the ending.
     pub name: &'static str,
-    /// Where it stands in menus and lists.
+    /// Its group in menus and lists.
     pub group: SceneGroup,
-    /// The file.
+    /// Text of the file.
     pub text: &'static str,
 }
 
-/// What a built-in scene is for.
+/// The group of a built-in scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SceneGroup {
     /// For the first minutes.
     StartHere,
-    /// What the chapter warns of, or is about.
+    /// On the chapter's topics and warnings.
     Chapter,
     /// Methods of physics engines.
     Engines,
@@ -334,7 +336,7 @@ pub enum SceneGroup {
 }
 
 impl SceneGroup {
-    /// All, in the order of menus.
+    /// All groups, in the order of menus.
     pub const ALL: [Self; 4] = [Self::StartHere, Self::Chapter, Self::Engines, Self::More];
 
     /// Its heading.
@@ -359,7 +361,7 @@ macro_rules! scenes {
     };
 }
 
-/// Every built-in scene, in menu order; the first is the one that the program opens with.
+/// Every built-in scene, in menu order. The program opens with the first.
 pub static SCENES: &[BuiltIn] = scenes! {
     StartHere: "harbour" "spring" "ship" "damped" "pendulum";
     Chapter: "stiff" "surge" "chain" "helm";

@@ -1,17 +1,16 @@
-//! Finds the known name that a misspelt one probably stands for.
+//! Finds the known name that a misspelt one probably means.
 
 use crate::sim::law::Remedy;
 
-/// How alike two spellings must be, from 0 to 1 after Jaro and Winkler, for one to be offered for the
-/// other: the tests below show what that lets through.
+/// Least Jaro-Winkler similarity, from 0 to 1, at which a known name is offered for a misspelt one. The tests below
+/// show its effect.
 const ALIKE: f64 = 0.8;
 
 /// Longer words are not compared: no known name comes near, and comparing takes time.
 const MAX_CHARS: usize = 64;
 
-/// The name that `written` is a part of, if of one only; else the name with the most similar spelling,
-/// if one is similar at all. A name may have several spellings; case, blanks and the kind of hyphen do
-/// not matter.
+/// The only name that contains `written`; if there is none or several, the name with the most similar spelling, if
+/// any is similar enough. A name may have several spellings. Case, blanks and the kind of hyphen do not matter.
 pub fn nearest<'n>(
     written: &str,
     names: impl Iterator<Item = (&'n str, &'n str)>,
@@ -30,7 +29,7 @@ pub fn nearest<'n>(
     {
         return Some(name);
     }
-    // A slip of the finger seldom hits the first letter; without this, `planet` is like `lane`.
+    // Typing errors seldom hit the first letter. Without this rule, `planet` would be like `lane`.
     let likely =
         names.iter().filter(|(spelling, _)| spelling.chars().next() == written.chars().next());
     likely
@@ -40,7 +39,7 @@ pub fn nearest<'n>(
         .map(|(_, name)| name)
 }
 
-/// The remedy for a name that is unknown.
+/// The remedy for an unknown name.
 pub(super) fn offer(nearest: Option<&str>, known: &[impl AsRef<str>], quote: char) -> String {
     match nearest {
         Some(name) => format!("did you mean {}?", listed(&[name], quote, "")),
@@ -48,7 +47,7 @@ pub(super) fn offer(nearest: Option<&str>, known: &[impl AsRef<str>], quote: cha
     }
 }
 
-/// The words of a remedy for an expression.
+/// The remedy for a fault of an expression, in words.
 pub(super) fn words(remedy: Remedy) -> String {
     match remedy {
         Remedy::Words(words) => words,
@@ -58,7 +57,7 @@ pub(super) fn words(remedy: Remedy) -> String {
     }
 }
 
-/// Names between quotes; `[` stands for the brackets of a table array.
+/// Puts names in quotes and joins them with `between`. The quote `[` writes a table array.
 pub(super) fn listed(names: &[impl AsRef<str>], quote: char, between: &str) -> String {
     let quoted = names.iter().map(AsRef::as_ref).map(|name| match quote {
         '[' => format!("`[[{name}]]`"),

@@ -36,7 +36,7 @@ const BETWEEN: Field =
     Field::required("between", "the numbers of the nodes at its ends, from 0", Wanted::Ends);
 const OWN: &str = "its own, in place of the net's";
 
-/// The keys of a net that is a grid.
+/// The keys of a net in the form of a grid.
 pub(super) static GRID_KEYS: [Key<Grid, Grid>; 5] = [
     Key {
         field: COLUMNS,
@@ -69,7 +69,7 @@ pub(super) static GRID_KEYS: [Key<Grid, Grid>; 5] = [
     },
 ];
 
-/// The keys of a net that is written as lists.
+/// The keys of a net in the form of lists.
 pub(super) static LIST_KEYS: [Key<(Lists, Spans), Lists>; 3] = [
     Key {
         field: NODES,
@@ -134,14 +134,14 @@ fn index(count: u32) -> usize {
     count as usize
 }
 
-/// Where the parts of a plan stand in the file.
+/// The places of a plan's parts in the file.
 #[derive(Default)]
 pub(super) struct Spans {
     fixed: Vec<Span<usize>>,
     springs: Vec<Span<usize>>,
 }
 
-/// The kind of a net; `None` where there is a fault.
+/// Reads the kind of a net; `None` if it has a fault.
 pub(super) fn read_net(row: &mut Table<'_>) -> Option<Arc<Kind>> {
     let of_grid: Vec<&str> = GRID_KEYS.iter().map(|it| it.field.key).collect();
     let of_lists: Vec<&str> = LIST_KEYS.iter().map(|it| it.field.key).collect();
@@ -201,7 +201,7 @@ fn read_ends(spring: &mut Table<'_>, field: &Field) -> Option<[usize; 2]> {
     None
 }
 
-/// Reports what is wrong with a part of the plan at its place in the file.
+/// Reports a fault of the plan at its place in the file.
 fn complain(row: &mut Table<'_>, spans: &Spans, are_lists: bool, fault: NetFault) {
     let NetFault { part, what, remedy } = fault;
     let at = match part {

@@ -1,4 +1,4 @@
-//! The outline of a body: its parts in metres, without colour, which the lane brings.
+//! The outline of a body: its parts in metres. Their colour comes from the lane.
 
 use glam::DVec2;
 
@@ -6,14 +6,14 @@ use glam::DVec2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Mark {
-    /// What the body hangs on, a line that does not move.
+    /// A wall that the body hangs on: a line that does not move.
     Wall {
         /// One end.
         from: DVec2,
         /// The other end.
         to: DVec2,
     },
-    /// A disc that does not move: a pivot, a planet.
+    /// A disc that does not move, such as a pivot or a target.
     Anchor {
         /// Its centre.
         centre: DVec2,
@@ -50,7 +50,7 @@ pub enum Mark {
         /// The other end.
         to: DVec2,
     },
-    /// A thin line that does not move, along which a bead goes.
+    /// A thin line that does not move, along which a bead slides.
     Rail {
         /// One end.
         from: DVec2,
@@ -64,12 +64,11 @@ pub enum Mark {
         /// Its radius.
         radius: f64,
     },
-    /// A block at [`Outline::at`] on a coil spring that is moored at the left. How large they are is the picture's
-    /// business.
+    /// A block at [`Outline::at`] on a coil spring moored at the left. The picture decides their size.
     Sprung,
     /// The hull of a ship at [`Outline::at`].
     Hull {
-        /// The direction of its bow, of length 1.
+        /// Direction of its bow, of length 1.
         bow: DVec2,
         /// Its length.
         length: f64,
@@ -81,23 +80,23 @@ pub enum Mark {
 pub struct Thread {
     /// The nodes, in metres.
     pub points: Vec<DVec2>,
-    /// Whether it is a part of the border, which is all that is drawn of a net behind.
+    /// Whether it belongs to the border. A net in the background shows only its border.
     pub is_border: bool,
 }
 
 /// The parts that show a body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline {
-    /// What is drawn, the first at the bottom.
+    /// Parts to draw, from bottom to top.
     pub marks: Vec<Mark>,
-    /// The names of rails, and where each is written: left of this point.
+    /// Names of rails. Each is written to the left of its point.
     pub names: Vec<(DVec2, String)>,
-    /// The threads of a net, below the marks.
+    /// Threads of a net, drawn below the marks.
     pub threads: Vec<Thread>,
-    /// Where the exact body will go if nothing intervenes: a closed course.
+    /// Closed course that the exact body will follow if nothing intervenes.
     pub course: Vec<DVec2>,
-    /// The moment shown, in seconds.
+    /// Time shown, in seconds.
     pub t: f64,
-    /// Where the body is, as its [`place`](crate::sim::bodies::Body::place) says.
+    /// Position of the body, by its [`place`](crate::sim::bodies::Body::place).
     pub at: DVec2,
 }

@@ -1,4 +1,4 @@
-//! Reads a `[[method]]`: a method by lines of its author's own.
+//! Reads a `[[method]]`: a method in its author's own lines.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::sim::integrators::Method;
 use crate::sim::law::{ExpressionFault, Remedy, StepText};
 use crate::sim::{MAX_OWN_ID_CHARS, TickRate, check_own_id, own_method, own_method_id, own_rule};
 
-/// The name of the table array. A key at the top is called so too, which names the method shown first.
+/// Name of the table array. The top of a file has a key of the same name, for the method shown first.
 pub(super) const OWN: &str = "method";
 
 const ID: Field = Field::required(
@@ -21,7 +21,7 @@ const ID: Field = Field::required(
     Wanted::Text(MAX_OWN_ID_CHARS),
 );
 
-/// An own method as far as it has been read.
+/// A partly read own method.
 #[derive(Default)]
 pub(super) struct OwnDraft {
     id: Option<String>,
@@ -53,8 +53,8 @@ pub(super) static OWN_KEYS: [Key<OwnDraft, Method>; 3] = [
 ];
 
 impl LaneSpec {
-    /// The lane of a method by a person's own lines, from the bytes of a file; `file` is the file's name, whose stem is the
-    /// method's.
+    /// The lane of a method in a person's own lines, from the bytes of a file. The method's name is the stem of
+    /// `file`.
     ///
     /// # Errors
     /// The first fault of the lines, or of the name.
@@ -97,7 +97,7 @@ pub(crate) fn own_table(method: &Method) -> String {
     format!("\n[[{OWN}]]\n{}", Key::lines(&OWN_KEYS, method))
 }
 
-/// Lines as a string of several lines.
+/// Writes lines as a TOML string of several lines.
 fn lines(text: &str) -> String {
     let escaped = |sign: char| match sign {
         '\\' => "\\\\".to_owned(),
@@ -108,7 +108,7 @@ fn lines(text: &str) -> String {
     format!("\"\"\"\n{}\"\"\"", text.chars().map(escaped).collect::<String>())
 }
 
-/// Reads the own methods of a file, which its other keys may name from then on.
+/// Reads a file's own methods, so that its other keys can name them.
 pub(super) fn read_own(text: &str, top: &mut Table<'_>) {
     if !top.has_tables(OWN) {
         return;

@@ -1,4 +1,4 @@
-//! Which methods a scene takes and refuses, and why, and the lanes that it has of them.
+//! Decides which methods can step a scene, and makes lanes of them.
 
 use super::{Scene, SceneBody};
 use crate::scene::{Action, LaneSpec};
@@ -6,20 +6,20 @@ use crate::sim::TickRate;
 use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{Family, METHODS, Method};
 
-/// Why a method cannot step a scene.
+/// The reason why a method cannot step a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{method} does not step the body {body:?}: {reason}")]
 pub struct Refusal {
-    /// The method's id.
+    /// Id of the method.
     pub method: &'static str,
-    /// The name of the first body that it refuses.
+    /// Name of the first body that it refuses.
     pub body: String,
-    /// Why, as on the method's card.
+    /// The reason, as on the method's card.
     pub reason: &'static str,
 }
 
 impl Scene {
-    /// Why `method` cannot step this scene; `None` if it steps every body.
+    /// The reason why `method` cannot step this scene; `None` if it steps every body.
     pub fn refusal(&self, method: &Method) -> Option<Refusal> {
         self.bodies.iter().find_map(|SceneBody { name, kind, values, .. }| {
             let reason = incompatibility(method, kind, values)?;
@@ -27,8 +27,8 @@ impl Scene {
         })
     }
 
-    /// The methods of the table that step every body of this scene, in its order, and then the scene's own. Those of engines
-    /// are among them only if the scene names one.
+    /// The methods of the table, in its order, and then the scene's own, if they step every body. Engines' methods
+    /// only appear if the scene names one.
     pub fn fitting_methods(&self) -> impl Iterator<Item = &'static Method> {
         let is_shown = |method: &&Method| !method.is_engine() || self.names_an_engine();
         let all = METHODS.iter().chain(self.own_methods.iter().copied());
@@ -40,8 +40,8 @@ impl Scene {
         self.fitting_methods().filter(|method| method.is_for_games())
     }
 
-    /// The lanes of these methods, substeps and all, in the order named, each once; a plain lane for a method that the scene
-    /// does not list.
+    /// The lanes of these methods in the order named, each method once. The scene's lanes keep their settings; a
+    /// method without one gets a plain lane.
     pub fn lanes_of(&self, methods: &[&'static Method]) -> Vec<LaneSpec> {
         let mut lanes: Vec<LaneSpec> = Vec::new();
         for &method in methods {
@@ -57,22 +57,22 @@ impl Scene {
         lanes
     }
 
-    /// The scene at this tick rate. Its hint, which is of the rate of its file, goes with another.
+    /// The scene at this tick rate. Its hint assumes the file's rate, so another rate drops it.
     pub fn at_tick_hz(self, tick_hz: impl Into<TickRate>) -> Self {
         let tick_hz = tick_hz.into();
         let hint = self.hint.filter(|_| tick_hz == self.tick_hz);
         Self { tick_hz, hint, ..self }
     }
 
-    /// The scene with the lanes of these methods, if there are several; one alone joins the others. Its hint, which is of its
-    /// own lanes, goes with others.
+    /// The scene with the lanes of these methods if there are several. A single method leaves the lanes alone, except
+    /// that an engine's method gets a lane. If the lanes change, the hint goes, because it is about the scene's own.
     pub fn with_methods(mut self, methods: &[&'static Method]) -> Self {
         let own = self.lanes.clone();
         if methods.len() > 1 {
             self.lanes = self.lanes_of(methods);
         }
         methods.iter().for_each(|method| self.know_own(method));
-        // The methods of engines are on the list of no scene that does not name one.
+        // Engines' methods only appear in scenes that name one, so they need a lane.
         for &method in methods.iter().filter(|method| method.is_engine()) {
             if self.lanes.iter().all(|lane| lane.method != method) {
                 self.lanes.push(LaneSpec::plain(method));
@@ -82,8 +82,8 @@ impl Scene {
         self
     }
 
-    /// Adds a method to the scene's [own](Scene::own_methods) if it is one by a person's lines. It takes the place of one of
-    /// its id.
+    /// Adds a method in a person's own lines to the scene's [own](Scene::own_methods). It replaces an earlier one
+    /// with the same id, in the lanes too.
     pub(crate) fn know_own(&mut self, method: &'static Method) {
         if method.own_text().is_none() {
             return;
@@ -98,14 +98,15 @@ impl Scene {
             self.opening_method.map(|opens| if opens.id == method.id { method } else { opens });
     }
 
-    /// The lane that the scene opens with if no method is named.
+    /// The lane that the scene opens with unless the user names a method.
     pub fn opening_lane(&self) -> &LaneSpec {
         let named = self.lanes.iter().find(|lane| Some(lane.method) == self.opening_method);
         named.or(self.lanes.first()).expect("a scene has a lane")
     }
 
-    /// The lanes that advice is on: those of a body that is written in Rust, and of any other scene each of the
-    /// [methods for games](Scene::methods_for_games), with its card's substeps.
+    /// The lanes that advice considers. For a scene with a source text, these are all its [methods for
+    /// games](Scene::methods_for_games), with the substeps of their cards; for a body written in Rust, the scene's
+    /// own lanes.
     pub fn advised_lanes(&self) -> Vec<LaneSpec> {
         match self.source {
             Some(_) => self.methods_for_games().map(LaneSpec::plain).collect(),
@@ -119,7 +120,7 @@ impl Scene {
         all.filter(|method| self.refusal(method).is_none())
     }
 
-    /// Whether a lane or an action of the script is under the method of an engine.
+    /// Whether a lane or a scripted action names an engine's method.
     fn names_an_engine(&self) -> bool {
         let mut lanes = self.lanes.iter().map(|lane| lane.method);
         let mut switches = self.script.iter().filter_map(|event| match &event.action {

@@ -1,4 +1,4 @@
-//! Saves a scene in the words of the file that it was read from.
+//! Saves a scene in the form of the file that it was read from.
 
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TableLike};
 
@@ -6,15 +6,15 @@ use super::Scene;
 use super::document::{LANE, METHOD_LIST};
 use super::script::COMMAND;
 
-/// The table arrays whose rows are written anew when they change: a key that a row leaves out may depend on another.
+/// Table arrays whose rows are rewritten if they change, because a key left out of a row may depend on another.
 const WRITTEN_ANEW: [&str; 2] = [LANE, COMMAND];
 
 impl Scene {
-    /// The text of a scene file that [reads](Scene::parse) as this scene. If the scene was read from a file, comments, order
-    /// and spelling are the author's, and only what has changed since differs. Lines end as on Unix.
+    /// The text of a scene file that [reads](Scene::parse) as this scene. If the scene was read from a file, the
+    /// author's comments, order and spelling stay, and only changed values differ. Lines end as on Unix.
     pub fn to_saved_toml(&self) -> String {
         let plain = self.to_toml();
-        // An author's text may say things in a way that is not known here.
+        // The author's text may have a form that the changes do not fit.
         let is_read = |saved: &String| {
             Scene::parse(&self.name, saved).is_ok_and(|read| read.to_toml() == plain)
         };
@@ -22,7 +22,8 @@ impl Scene {
     }
 }
 
-/// The author's text and the plain text of a scene as it was read; `None` without a file, or if its text is not known here.
+/// The author's text of a scene and the plain text of the scene as read. `None` without a file, or if its text is no
+/// longer readable.
 fn documents(scene: &Scene) -> Option<[DocumentMut; 2]> {
     let source = scene.source.as_deref()?.replace("\r\n", "\n");
     let scene = Scene::parse("", &source).ok()?;
@@ -33,11 +34,11 @@ fn documents(scene: &Scene) -> Option<[DocumentMut; 2]> {
     Some(documents)
 }
 
-/// The author's text of a scene with what is other in its `plain` text now than in that of the author's own.
+/// The author's text of a scene, with the differences between its own plain text and `plain`.
 fn changed_to(scene: &Scene, plain: &str) -> Option<String> {
     let [mut author, before] = documents(scene)?;
     let after = read(plain)?;
-    // Lanes that are plain may be given as tables too.
+    // Plain lanes may also be tables.
     let lanes = METHOD_LIST.key;
     if !is_same(before.get(lanes), after.get(lanes)) {
         author.remove(LANE);
@@ -50,13 +51,13 @@ fn read(text: &str) -> Option<DocumentMut> {
     text.parse().ok()
 }
 
-/// Makes the changes between two tables in the author's.
+/// Applies the changes between two tables to the author's.
 fn change(author: &mut dyn TableLike, before: &dyn TableLike, after: &dyn TableLike) {
     for (key, _) in before.iter().filter(|(key, _)| !after.contains_key(key)) {
         author.remove(key);
     }
     for (key, new) in after.iter().filter(|(key, new)| !is_same(before.get(key), Some(new))) {
-        // A key that becomes a table leaves its spaces behind.
+        // Removes a key that becomes a table, whose spaces would otherwise stay.
         if before.get(key).is_some_and(|old| old.is_value() != new.is_value()) {
             author.remove(key);
         }
@@ -91,7 +92,7 @@ fn change_item(key: &str, author: &mut Item, before: &Item, after: &Item) {
     }
 }
 
-/// The rows `after`, of which those that are in `before` are the author's.
+/// The rows `after`, with the author's own text for rows that were there before.
 fn with_known_rows(
     author: &ArrayOfTables,
     before: &ArrayOfTables,
@@ -114,7 +115,7 @@ fn with_known_rows(
     after.iter().map(row).collect()
 }
 
-/// An item whose tables stand behind all others.
+/// Moves the tables of an item behind all others.
 fn at_the_end(mut item: Item) -> Item {
     let rows = item.as_array_of_tables_mut().into_iter().flat_map(ArrayOfTables::iter_mut);
     rows.for_each(|row| row.set_position(Some(isize::MAX)));

@@ -1,12 +1,12 @@
-//! Which actions a scene file can say: what a run takes, so that every recording of it can be read back.
+//! Checks that a scene file can express an action, so that every recording of a run can be read back.
 
 use super::{MAX_COORDINATE, MAX_SUBSTEPS, TOLERANCES};
 use crate::scene::{Action, LaneSpec, Swing};
 use crate::sim::bodies::MAX_VALUE;
 
 impl Action {
-    /// The action as a run takes it, with throttle and rudder clamped to -1 to 1. `None` if a number is out of its range, so
-    /// that no scene file could say it.
+    /// The action with throttle and rudder clamped to -1 to 1. `None` if a number is out of its range, so that no
+    /// scene file could express it.
     pub fn checked(mut self) -> Option<Self> {
         if let Action::Throttle(part) | Action::Rudder(part) = &mut self {
             *part = part.clamp(-1.0, 1.0);

@@ -1,4 +1,4 @@
-//! Reads a scene's script and the hashes that its race has to reproduce: `[[command]]` and `[[check]]`.
+//! Reads a scene's script and the hashes that its race must reproduce: `[[command]]` and `[[check]]`.
 
 use std::ops::Range as Span;
 
@@ -53,7 +53,7 @@ const V: Field = Field::required("v", "the velocities", Wanted::Numbers(1));
 pub(super) static OF_A_BODY: [(&str, &[Field]); 2] =
     [("set", &[BODY, KEY, VALUE]), ("place", &[BODY, Q, V])];
 
-/// The keys of `[[check]]`, read with the number of lanes.
+/// The keys of `[[check]]`. The reader needs the number of lanes.
 pub(super) static CHECK: [Key<(Check, usize), Check>; 3] = [
     Key {
         field: Field::required(
@@ -76,9 +76,9 @@ pub(super) static CHECK: [Key<(Check, usize), Check>; 3] = [
     },
 ];
 
-/// The bodies and lanes that a script can refer to, and the rate by which its ticks are counted.
+/// The bodies and lanes that a script can name, and the tick rate at its start.
 pub(super) struct SceneContext<'d> {
-    /// Each with a name.
+    /// Each has a name.
     pub(super) bodies: &'d [BodyDraft],
     pub(super) lanes: &'d [LaneSpec],
     pub(super) tick_hz: TickRate,
@@ -87,13 +87,13 @@ pub(super) struct SceneContext<'d> {
 type Read = fn(&SceneContext<'_>, &mut Table<'_>, &Field) -> Option<Action>;
 type Write = fn(&Scene, &Action) -> Option<String>;
 
-/// A key of `[[command]]`, which stands for an action.
+/// A key of `[[command]]` with its action.
 pub(super) struct CommandKey {
     pub(super) field: Field,
-    /// Whether some body must take an input of this name for the action to have an effect.
+    /// Whether the action is an input: it has an effect only if some body takes an input of this name.
     is_input: bool,
     read: Read,
-    /// The value, if the action is this key's.
+    /// The value, if the action belongs to this key.
     write: Write,
 }
 
@@ -112,7 +112,7 @@ const fn input(
     CommandKey { is_input: true, ..command_key(field, read, write) }
 }
 
-/// The keys that change a lane; `lane` says which.
+/// The keys that change a lane, which `lane` selects.
 const OF_A_LANE: [&str; 3] = [METHOD.key, SUBSTEPS.key, TOLERANCE.key];
 
 pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
@@ -216,13 +216,13 @@ pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
     ),
 ];
 
-/// A table in braces.
+/// An inline table.
 fn inline(entries: &[(Field, String)]) -> String {
     let entries = entries.iter().map(|(field, value)| format!("{} = {value}", field.key));
     format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
 }
 
-/// A value of a parameter that is no curve.
+/// A parameter's value as TOML, if the parameter is not a curve.
 pub(super) fn parameter_value(range: Range, value: f64) -> String {
     match range {
         Range::Count(_) => format!("{}", value as u64),
@@ -230,7 +230,7 @@ pub(super) fn parameter_value(range: Range, value: f64) -> String {
     }
 }
 
-/// The tables of the commands of `scene`: told in ticks if it is a recording, else in seconds.
+/// The tables of the commands of `scene`, in ticks for a recording and in seconds otherwise.
 pub(super) fn command_tables(scene: &Scene) -> impl Iterator<Item = String> {
     let is_recording = !scene.checks.is_empty();
     scene.script.iter().zip(scene.script_on_ticks()).map(move |(row, (tick, _))| {
@@ -260,23 +260,24 @@ fn command_table(scene: &Scene, when: &str, action: &Action) -> String {
     text
 }
 
-/// When a command is done, as its table says it.
+/// The time of a command, in the unit of its table.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum When {
     Second(f64),
     Tick(u64),
 }
 
-/// A command as it is read.
+/// A command as read.
 struct Command {
     when: When,
     action: Action,
-    /// The bytes of what says when.
+    /// Bytes of the time.
     when_span: Span<usize>,
     tolerance_span: Span<usize>,
 }
 
-/// The scripted commands by time, and those of one time in the order of the file; with what a scene should not say of ticks.
+/// Reads the script, sorted by time; commands with the same time keep the order of the file. Also returns the
+/// warnings about deprecated ticks.
 pub(super) fn read(
     context: &SceneContext<'_>,
     top: &mut Table<'_>,
@@ -326,7 +327,7 @@ pub(super) fn read(
     (script, warnings)
 }
 
-/// When a command is done. Complains of a tick where `is_mixed` says that others are told in seconds.
+/// Reads the time of a command. Reports a tick if `is_mixed`, that is if other commands have seconds.
 fn read_when(row: &mut Table<'_>, is_mixed: bool) -> Option<When> {
     [AT_S, TICK].iter().for_each(|field| row.knows(field.key));
     if is_mixed && row.has(TICK.key) {
@@ -341,7 +342,7 @@ fn read_when(row: &mut Table<'_>, is_mixed: bool) -> Option<When> {
     }
 }
 
-/// What is wrong with a scene's command that is told in ticks, whose time is known.
+/// The warning about a tick in a scene, with the time in seconds as its remedy.
 fn outdated((Scripted { at_s, .. }, command): (&Scripted, &Command)) -> SceneError {
     let (tick, at_s) = (TICK.key, format!("`{} = {}`", AT_S.key, number(*at_s)));
     let what = format!(
@@ -351,8 +352,8 @@ fn outdated((Scripted { at_s, .. }, command): (&Scripted, &Command)) -> SceneErr
     SceneError { span: command.when_span.clone(), fault }
 }
 
-/// Complains of every tolerance for a lane whose method takes none at that time, whether the lane races or is flown
-/// solo. The span of a command is that of its `tolerance`.
+/// Reports every tolerance for a lane whose method takes none at that time, both in the race and in solo. Each
+/// command comes with the span of its `tolerance`.
 fn check_tolerances<'s>(
     lanes: &[LaneSpec],
     script: impl Iterator<Item = (&'s Scripted, Span<usize>)>,
@@ -360,7 +361,7 @@ fn check_tolerances<'s>(
 ) {
     let mut in_race: Vec<&Method> = lanes.iter().map(|spec| spec.method).collect();
     let mut in_solo = in_race.clone();
-    // A method given without a lane changes nothing while several race.
+    // A method without a lane changes nothing while several lanes race.
     let mut race_is_over = false;
     for (Scripted { at_s, action }, span) in script {
         match *action {
@@ -394,7 +395,7 @@ fn check_tolerances<'s>(
 
 fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action> {
     row.knows(LANE.key);
-    // Substeps and a tolerance may go with a method.
+    // Substeps and a tolerance may accompany a method.
     let goes_with = |key: &str| row.has(METHOD.key) && OF_A_LANE[1..].contains(&key);
     let given = COMMAND_KEYS.iter().filter(|it| row.has(it.field.key) && !goes_with(it.field.key));
     let found: Vec<_> = given.map(|command_key| command_key.field.key).collect();
@@ -404,7 +405,7 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
         if !found.contains(&field.key) {
             continue;
         }
-        // All are read, even if only one is allowed, so that all faults are found.
+        // Reads all of them, even if only one is allowed, to find all faults.
         action = read(context, row, field).or(action);
         let input = field.key;
         let takes =
@@ -441,13 +442,13 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
     action
 }
 
-/// The lane of this number, of so many.
+/// Reads the number of one of `lanes` lanes.
 fn read_number(row: &mut Table<'_>, field: &Field, lanes: usize) -> Option<LaneId> {
     let field = Field { wanted: Wanted::Whole(1..=lanes as u64), ..field.clone() };
     row.whole::<u32>(&field).map(|number| LaneId(number as usize))
 }
 
-/// The lane that a command is for. If the scene has one lane, it may be left out.
+/// Reads the lane of a command. A scene with one lane may leave it out.
 fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<LaneId> {
     if !row.has(LANE.key) {
         if context.lanes.len() != 1 {
@@ -472,7 +473,7 @@ fn read_method(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
     spec.map(|spec| Action::Method(spec.method))
 }
 
-/// The body that a table names, with its index in the scene.
+/// Reads the name of a body, and returns the body with its index in the scene.
 fn read_body<'d>(
     context: &SceneContext<'d>,
     table: &mut Table<'_>,
@@ -518,7 +519,7 @@ fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
         Range::Count(_) => f64::from(set.whole::<u32>(&field)?),
         _ => set.number(&field)?,
     };
-    // A fault with what the body has otherwise; where that was set before, it may be none.
+    // The other values are those of the body's table, even if an earlier command has changed them.
     if let Some(values) = values
         && let Err(error) = edited_values(kind, values, parameter, value)
         && let Some(fault) = error.fault()
@@ -538,7 +539,7 @@ fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Actio
     Some(Action::Place { body: at, q: q?.into(), v: v?.into() })
 }
 
-/// The states that lanes are known to reach.
+/// Reads the states that lanes must reach.
 pub(super) fn read_checks(context: &SceneContext<'_>, top: &mut Table<'_>) -> Vec<Check> {
     let mut checks: Vec<Check> = Vec::new();
     for mut row in top.rows(CHECKS) {

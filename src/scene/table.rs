@@ -1,4 +1,4 @@
-//! Reads a table of a scene file key by key; keys that are never asked for are reported as unknown.
+//! Reads a table of a scene file key by key, and reports keys that were never read as unknown.
 
 use std::ops::Range;
 
@@ -23,19 +23,19 @@ pub(super) use named::{Named, Written};
 pub(super) struct Table<'t> {
     text: &'t str,
     place: Place,
-    /// The key at the top of the file that is called so.
+    /// Finds the key at the top of the file with a given name.
     at_top: fn(&str) -> Option<&'static str>,
-    /// The methods that the file brings along.
+    /// The file's own methods.
     own: Vec<&'static Method>,
-    /// The ids of those that have faults.
+    /// Ids of the file's own methods with faults.
     faulty: Vec<String>,
-    /// The bytes of its header; none at the top.
+    /// Bytes of its header; empty at the top.
     pub(super) header: Range<usize>,
     entries: &'t DeTable<'t>,
     keys: Vec<&'static str>,
     arrays: Vec<&'static str>,
     errors: Vec<SceneError>,
-    /// The faults of the tables below it.
+    /// Faults of the tables below it.
     below: Vec<SceneError>,
 }
 
@@ -62,7 +62,7 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// A table in this file.
+    /// Another table of this file.
     fn other(&self, place: Place, header: Range<usize>, entries: &'t DeTable<'t>) -> Self {
         let (own, faulty) = (self.own.clone(), self.faulty.clone());
         Self { place, header, own, faulty, ..Self::top(self.text, self.at_top, entries) }
@@ -86,7 +86,7 @@ impl<'t> Table<'t> {
         self.errors.is_empty() && self.below.is_empty()
     }
 
-    /// The bytes of the value of `key`, or of the header if there is none.
+    /// Bytes of the value of `key`, or of the header if the key is absent.
     pub(super) fn span(&self, key: &str) -> Range<usize> {
         self.entries.get(key).map_or(self.header.clone(), Spanned::span)
     }
@@ -95,12 +95,13 @@ impl<'t> Table<'t> {
         self.entries.contains_key(key)
     }
 
-    /// The methods that the file brings along.
+    /// The file's own methods.
     pub(super) fn own(&self) -> &[&'static Method] {
         &self.own
     }
 
-    /// Has keys name a method that the file brings along; of one with faults no more is said.
+    /// Lets keys name a method of the file. If the method has faults, it is `None`, and keys that name it are not
+    /// reported.
     pub(super) fn bring(&mut self, id: &str, method: Option<&'static Method>) {
         match method {
             Some(method) => self.own.push(method),
@@ -113,7 +114,7 @@ impl<'t> Table<'t> {
         self.entries.get(key).is_some_and(|value| is_table(value.get_ref()))
     }
 
-    /// Notes that a key is allowed here.
+    /// Marks a key as allowed here.
     pub(super) fn knows(&mut self, key: &'static str) {
         if !self.keys.contains(&key) {
             self.keys.push(key);
@@ -158,11 +159,12 @@ impl<'t> Table<'t> {
         self.within(field, value, whole.and_then(|whole| T::try_from(whole).ok()))
     }
 
-    /// A tick rate of [`Wanted::TickRate`], or that of a [`Wanted::Step`]. A ratio of numbers is a string.
+    /// A tick rate, from [`Wanted::TickRate`] or from the length of a [`Wanted::Step`]. A ratio of numbers is a
+    /// string.
     pub(super) fn tick_rate(&mut self, field: &Field) -> Option<TickRate> {
         let value = self.value(field)?;
         let ratio = value.get_ref().as_str().filter(|text| text.contains('/')).map(str::to_owned);
-        // The shortest decimal of a number is what was written: no rate has as many digits as an `f64`.
+        // The shortest decimal of a number is the file's own: no rate has as many digits as an `f64`.
         let Some(written) = ratio.or_else(|| number(value).map(|number| number.to_string())) else {
             return self.wrong_type(field, value);
         };
@@ -243,7 +245,7 @@ impl<'t> Table<'t> {
         value.get_ref().as_bool().or_else(|| self.wrong_type(field, value))
     }
 
-    /// A hash, written as 16 hexadecimal digits.
+    /// A hash of 16 hexadecimal digits.
     pub(super) fn hash(&mut self, field: &Field) -> Option<u64> {
         let value = self.value(field)?;
         let (span, key) = (value.span(), field.key);
@@ -264,7 +266,7 @@ impl<'t> Table<'t> {
         self.below.extend(row.finish());
     }
 
-    /// All faults of the table, once all its keys have been asked for.
+    /// All faults of the table. Keys that were not read by now are unknown.
     pub(super) fn finish(mut self) -> Vec<SceneError> {
         let mut unknown = Vec::new();
         for (key, value) in self.entries {
@@ -273,7 +275,7 @@ impl<'t> Table<'t> {
                 unknown.push(SceneError { span, fault: self.unknown(key, value.get_ref()) });
             }
         }
-        // A misspelt or misplaced key is not reported as missing too.
+        // A misspelt or misplaced key is not also reported as missing.
         let misspelt = unknown.iter().filter_map(|error| match &error.fault.kind {
             FaultKind::Unknown(nearest) => nearest.as_deref(),
             _ => None,
@@ -323,7 +325,7 @@ impl<'t> Table<'t> {
         value
     }
 
-    /// A value that is a list, and its entries.
+    /// A list and its entries.
     fn list(
         &mut self,
         field: &Field,
@@ -408,7 +410,7 @@ fn is_table(value: &DeValue<'_>) -> bool {
     value.is_table() || first.is_some_and(|first| first.get_ref().is_table())
 }
 
-/// A number, whole or not. One that does not fit is out of every range.
+/// A number, whole or not. A number too large for its type is out of every range.
 fn number(value: &Spanned<DeValue<'_>>) -> Option<f64> {
     match value.get_ref() {
         DeValue::Integer(_) => Some(integer(value).map_or(f64::INFINITY, |whole| whole as f64)),

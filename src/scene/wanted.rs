@@ -1,4 +1,4 @@
-//! What a scene file should hold where it holds something else.
+//! The values that keys of a scene file take, with their wording in messages.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -9,10 +9,10 @@ use crate::sim::TickRate;
 use crate::sim::bodies::{self, Pin};
 use crate::sim::law::Layout;
 
-/// The most characters of the name of a layout or of a pin.
+/// Most characters in the name of a layout or a pin.
 const MAX_WORD_CHARS: usize = 16;
 
-/// Where a key stands.
+/// The place of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     /// Before the first table.
@@ -28,7 +28,7 @@ pub(super) enum Place {
 pub(super) struct Field {
     pub(super) key: &'static str,
     pub(super) is_required: bool,
-    /// What it stands for.
+    /// Description for people.
     pub(super) about: &'static str,
     pub(super) wanted: Wanted,
 }
@@ -54,7 +54,6 @@ pub(super) enum Wanted {
     TickRate,
     /// The length of a tick in seconds.
     Step,
-    /// A whole number.
     Whole(RangeInclusive<u64>),
     /// A list of points.
     Curve(bodies::Range),
@@ -68,11 +67,10 @@ pub(super) enum Wanted {
     Tables(&'static str),
     /// A table of this name.
     Table(&'static str),
-    /// A table of the numbers that expressions know by name.
+    /// A table of the numbers that expressions can name.
     Constants,
     /// A table of this name for each coordinate.
     Coordinates(&'static str),
-    /// An expression.
     Expression,
     /// The lines of a step.
     Lines,
@@ -92,7 +90,6 @@ pub(super) enum Wanted {
     Node,
     /// The numbers of two nodes.
     Ends,
-    /// A list of springs.
     Springs,
     /// A spring in such a list.
     Spring,
@@ -139,17 +136,17 @@ impl Wanted {
         matches!(self, Wanted::Whole(range) if range.contains(&whole))
     }
 
-    /// The most characters of a text.
+    /// Most characters of a text.
     pub(super) fn max_chars(&self) -> usize {
         if let Wanted::Text(most) = self { *most } else { MAX_WORD_CHARS }
     }
 
-    /// What to do where something else stands.
+    /// The remedy for any other value.
     pub(super) fn remedy(&self) -> String {
         format!("write {self}")
     }
 
-    /// What kind of value it is.
+    /// The kind of value, for messages.
     pub(super) fn noun(&self) -> &'static str {
         match self {
             Wanted::Text(_)

@@ -1,4 +1,4 @@
-//! Writes a scene as the text of a file, from which the same scene is read back, to the bit.
+//! Writes a scene as the text of a file that reads back as the same scene, to the bit.
 
 use toml::de::DeTable;
 
@@ -14,15 +14,15 @@ use crate::scene::LaneSpec;
 use crate::sim::bodies::{Form, NetPlan, Range};
 
 impl Scene {
-    /// Replaces the hashes in the checks of a scene file's `text`, in the order of the file. The rest of the text stays
-    /// the same. If there are fewer hashes than checks, the last checks keep theirs.
+    /// Replaces the hashes in the checks of a scene file's `text`, in the order of the file. The rest of the text
+    /// stays the same. If there are fewer hashes than checks, the last checks keep theirs.
     pub fn with_hashes(text: &str, hashes: &[u64]) -> String {
         let Ok(document) = DeTable::parse(text) else { return text.into() };
         let rows = document.get_ref().get(CHECKS).and_then(|checks| checks.get_ref().as_array());
         let rows = rows.into_iter().flatten().filter_map(|row| row.get_ref().as_table());
         let spans: Vec<_> = rows.filter_map(|row| Some(row.get("hash")?.span())).collect();
         let mut text = text.to_owned();
-        // From the end, so that the places before stay where they are.
+        // From the end, so that the earlier spans stay valid.
         for (span, hash) in spans.into_iter().zip(hashes).rev() {
             text.replace_range(span, &format!("\"{hash:016x}\""));
         }
@@ -31,7 +31,8 @@ impl Scene {
 
     /// The text of a scene file that [reads](Scene::parse) as this scene.
     ///
-    /// No text can say what a body or a method [in Rust](Scene::in_rust) is: that of such a scene cannot be read again.
+    /// No text can describe a body or a method [in Rust](Scene::in_rust), so the text of such a scene cannot be read
+    /// again.
     ///
     /// ```
     /// use regatta::scene::Scene;
@@ -57,14 +58,14 @@ impl Scene {
         text
     }
 
-    /// Whether each lane is its method's card and no more.
+    /// Whether each lane has the settings of its method's card.
     pub(super) fn has_plain_lanes(&self) -> bool {
         self.lanes.iter().all(|spec| *spec == LaneSpec::plain(spec.method))
     }
 }
 
 impl Check {
-    /// The check as a table of a scene file, with an empty line before it.
+    /// The check as a table of a scene file, after an empty line.
     pub fn to_toml(&self) -> String {
         format!("\n[[{CHECKS}]]\n{}", Key::lines(&CHECK, self))
     }

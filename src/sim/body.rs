@@ -1,4 +1,4 @@
-//! The trait that every body implements, the inputs a body can get, and the smooth pieces of its force law.
+//! The trait that every body implements, the inputs of a body, and the smooth pieces of its force law.
 
 use glam::DVec2;
 
@@ -6,9 +6,9 @@ use super::parameter::{self, ParameterOf};
 use super::state::Vector;
 use super::system::{BodyClass, StateOf, System};
 
-/// Something that moves by an equation of motion.
+/// A kind of body that moves by an equation of motion.
 pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
-    /// Its class for the methods that step [some](super::integrators::Only) bodies only.
+    /// Its class, for methods that step only [some](super::integrators::Only) bodies.
     const CLASS: BodyClass = BodyClass::Forced;
 
     /// The inputs that it accepts: `throttle`, `rudder`, `kick`.
@@ -21,8 +21,8 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// [`Kind::parameters`](super::bodies::Kind::parameters).
     const PARAMETERS: &'static [ParameterOf<Self>] = &[];
 
-    /// Returns the body with these values of its [parameters](Body::PARAMETERS), in order: one value
-    /// per parameter, and two per point of a curve.
+    /// Returns the body with these values of its [parameters](Body::PARAMETERS), in order: one value per parameter,
+    /// and two per point of a curve.
     ///
     /// # Panics
     /// If the number of values is wrong, or if no body of this kind can be built from them: see
@@ -45,7 +45,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         is_new
     }
 
-    /// Recomputes fields derived from the parameters. Called after parameters are written.
+    /// Recomputes fields derived from the parameters. Must be called after parameters are written.
     fn prepare(&mut self) {}
 
     /// Memory on the heap, in bytes.
@@ -56,13 +56,13 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// The state at tick 0.
     fn start(&self) -> StateOf<Self>;
 
-    /// Overwrites `to` with the exact flow over `dt` (s) from time `t` (s) under constant input, of a body that [has a closed
-    /// form](Body::HAS_EXACT). The truth of any other is a reference solution. Never allocates.
+    /// Overwrites `to` with the exact flow over `dt` (s) from time `t` (s) under constant input, for a body that [has
+    /// a closed form](Body::HAS_EXACT). The truth of any other body is a reference solution. Never allocates.
     fn exact_into(&self, _t: f64, _dt: f64, _from: &StateOf<Self>, _to: &mut StateOf<Self>) {
         unreachable!("a body with `HAS_EXACT` has a closed form");
     }
 
-    /// The state that [`Body::exact_into`] leads to from time 0; `None` without a closed form.
+    /// The state that [`Body::exact_into`] computes from time 0; `None` without a closed form.
     fn exact(&self, dt: f64, from: &StateOf<Self>) -> Option<StateOf<Self>> {
         Self::HAS_EXACT.then(|| {
             let mut to = from.clone();
@@ -71,15 +71,14 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         })
     }
 
-    /// Overwrites `to` with the exact state at time `t` (s) of a body that nobody has touched since the
-    /// start. Returns whether the body knows it. A body that knows [`Body::exact`] need not. Never
-    /// allocates.
+    /// Overwrites `to` with the exact state at time `t` (s) of a body untouched since the start. Returns whether the
+    /// body knows it; a body with [`Body::exact`] need not. Never allocates.
     fn exact_since_start(&self, _t: f64, _to: &mut StateOf<Self>) -> bool {
         false
     }
 
-    /// A bound on the rounding error of [`Body::exact_into`] over `dt` from `from` at time `_t` to `to`, for
-    /// exact arguments: of a coordinate and of a velocity.
+    /// A bound on the rounding error of [`Body::exact_into`] over `dt` from `from` at time `_t` to `to`, for exact
+    /// arguments: of a coordinate and of a velocity.
     fn exact_error(
         &self,
         _t: f64,
@@ -90,8 +89,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         [f64::INFINITY; 2]
     }
 
-    /// Whether the acceleration is a linear function of coordinates and velocities, apart from a
-    /// constant.
+    /// Whether the acceleration is a linear function of coordinates and velocities, plus a constant.
     fn is_linear(&self) -> bool {
         false
     }
@@ -101,13 +99,13 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         false
     }
 
-    /// How many parts of the force law have corners or jumps.
+    /// Number of parts of the force law with corners or jumps.
     fn switches(&self) -> usize {
         0
     }
 
-    /// The smooth piece of the force law at this time and state. A reference solution ends a step at
-    /// each boundary between pieces, so that no step contains a corner.
+    /// The smooth piece of the force law at this time and state. A reference solution ends a step at each boundary
+    /// between pieces, so that no step contains a corner.
     fn piece(&self, _t: f64, _state: &StateOf<Self>) -> Piece {
         Piece::FIRST
     }
@@ -122,13 +120,13 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         mode + 2 * side as i64 - 1
     }
 
-    /// Whether the force can jump at a boundary between pieces. If it has corners only, a boundary need
-    /// not be met to rounding.
+    /// Whether the force can jump at a boundary between pieces. If it only has corners, a step may miss a boundary by
+    /// more than rounding.
     fn has_jumps(&self) -> bool {
         false
     }
 
-    /// The acceleration by this piece of the force law, continued smoothly beyond its boundaries.
+    /// The acceleration of this piece of the force law, continued smoothly beyond its boundaries.
     #[inline]
     fn acceleration_on(
         &self,
@@ -146,24 +144,23 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         None
     }
 
-    /// The kinetic part of [`Body::energy`], in joules: the energy less that of the body at rest in the
-    /// same place. A body with coordinates on the heap overrides this so that it does not allocate.
+    /// The kinetic part of [`Body::energy`], in joules: the energy minus that of the body at rest in the same place. A
+    /// body with coordinates on the heap overrides this so that it does not allocate.
     fn kinetic_energy(&self, state: &StateOf<Self>) -> Option<f64> {
         let mut still = state.clone();
         still.v.components_mut().fill(0.0);
         Some(self.energy(state)? - self.energy(&still)?)
     }
 
-    /// The kinetic and the potential energy in joules, conserved or not; `None` if they are not known.
-    /// Damping can only decrease their sum.
+    /// The kinetic and the potential energy in joules, conserved or not; `None` if they are unknown. Damping can only
+    /// decrease their sum.
     fn mechanical_energy(&self, state: &StateOf<Self>) -> Option<[f64; 2]> {
         let kinetic = self.kinetic_energy(state)?;
         Some([kinetic, self.energy(state)? - kinetic])
     }
 
-    /// An estimate of the work of a reference solution: evaluations of the parts of the force law for each
-    /// simulated second. If it is above [`MAX_REFERENCE_WORK`](super::MAX_REFERENCE_WORK), the body has no
-    /// truth.
+    /// An estimate of the work of a reference solution: evaluations of the parts of the force law for each simulated
+    /// second. Above [`MAX_REFERENCE_WORK`](super::MAX_REFERENCE_WORK), the body has no truth.
     fn reference_work(&self) -> f64 {
         0.0
     }
@@ -171,8 +168,8 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Applies an input to the body or its state at once. Returns whether this kind of body accepts it.
     fn input(&mut self, input: Input, state: &mut StateOf<Self>) -> bool;
 
-    /// The position of the body in metres, to which the camera, trails and arrows refer.
-    /// By default its first coordinate lies to the right.
+    /// The position of the body in metres, which the camera, trails and arrows refer to. By default, the first
+    /// coordinate to the right.
     fn place(&self, q: &Self::Vector) -> DVec2 {
         DVec2::new(q.components()[0], 0.0)
     }
@@ -190,11 +187,11 @@ pub enum Input {
     Kick(f64),
 }
 
-/// The most switches of a body.
+/// The largest number of switches of a body.
 pub const MAX_SWITCHES: usize = 32;
 
-/// A smooth piece of a force law, named by the mode of each switch: a part of the law that has a corner
-/// or a jump. A body without switches has one piece.
+/// A smooth piece of a force law, named by the mode of each switch. A switch is a part of the law with a corner or a
+/// jump; a body without switches has one piece.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
     /// The modes, in the order of the switches; 0 beyond the last.
@@ -206,9 +203,9 @@ impl Piece {
     pub const FIRST: Self = Self { modes: [0; MAX_SWITCHES] };
 }
 
-/// Signed distances from a state to the boundaries of a piece: for each switch, to that with the mode
-/// below and to that with the mode above. A distance is negative if the state is beyond that boundary by
-/// more than rounding; it is infinite where there is no boundary.
+/// Signed distances from a state to the boundaries of a piece: for each switch, to the mode below and to the mode
+/// above. A distance is negative if the state is beyond the boundary by more than rounding, and infinite without a
+/// boundary.
 pub type Distances = [[f64; 2]; MAX_SWITCHES];
 
 /// No boundary anywhere.

@@ -29,7 +29,7 @@ pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
 }
 
 impl<B: Body> BodyAtState<B> {
-    /// Begins under the solver at time `t` (s).
+    /// Starts under the solver at time `t` (s).
     fn begin(self, t: f64) -> Box<dyn Stepper> {
         if let Some(method) = self.solver.method() {
             let coupling = self.body.coupling();
@@ -50,7 +50,7 @@ impl<B: Body> BodyAtState<B> {
         }
     }
 
-    /// A tick that `step` makes of a problem like the body, if it is of a method.
+    /// The recorded tick of `step`, made on a copy of the body; `None` if the solver is no method.
     fn recorded(&self, step: &TryStep<'_, B::Vector>) -> Option<RecordedTick> {
         let log = Rc::default();
         let system = problem(Logged { system: self.body.system.clone(), log: Rc::clone(&log) });
@@ -62,7 +62,7 @@ impl<B: Body> BodyAtState<B> {
     }
 }
 
-/// Steps a problem from a state; `None` of a truth.
+/// Steps a problem from a state; `None` for the truth.
 type TryStep<'a, V> = dyn Fn(&Problem<V>, &mut State<V>) -> Option<Stepped> + 'a;
 
 impl<B: Body> Construct<Counted<B>> for BodyAtState<B> {
@@ -80,7 +80,7 @@ impl<B: Body> Construct<Counted<B>> for BodyAtState<B> {
     }
 }
 
-/// The stepper of a body. Monomorphic, so that force law and method are compiled into one loop.
+/// The stepper of a body. It is monomorphic, so that force law and method compile into one loop.
 #[derive(Clone)]
 struct BodyStepper<B: Body, D> {
     placed: BodyAtState<B>,
@@ -140,7 +140,7 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
         let (body, q) = (&self.placed.body, self.placed.q());
         let kept =
             solver.method().map_or(0, |method| method.numbers_kept(q.len(), body.coupling()));
-        // All but the solver may be vectors.
+        // All fields but the solver may contain vectors.
         let others = size_of::<Self>() - size_of::<Solver>() + self.propagator.heap_bytes();
         size_of::<Solver>()
             + bytes_with_vectors(others, q)
@@ -158,13 +158,13 @@ struct BodyAtState<B: Body> {
     body: Counted<B>,
     state: StateOf<B>,
     solver: Solver,
-    /// The time in seconds that methods left out of their steps: those before the present solver, and all.
+    /// The time in seconds that methods left out of their steps: before the present solver, and in all.
     lost_before: f64,
     lost_time: f64,
 }
 
 impl<B: Body> Clone for BodyAtState<B> {
-    /// Apart from the methods, which would each have a copy of it.
+    /// Apart from the methods, each of which would otherwise inline a copy.
     #[inline(never)]
     fn clone(&self) -> Self {
         let Self { body, state, solver, lost_before, lost_time } = self;

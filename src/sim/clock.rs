@@ -1,8 +1,8 @@
-//! Frame durations in, whole ticks out, exactly: the heart of every loop with a fixed timestep.
+//! Converts frame durations into whole ticks, exactly: the heart of every loop with a fixed timestep.
 //!
-//! Owed time is an integer in nanoseconds × ticks × percent, where the rate is a ratio of ticks to seconds, so that any
-//! [`TickRate`] at any whole percentage of real time divides it without a remainder being rounded away: a day at 60 Hz is
-//! 5 184 000 ticks however the day is cut into frames, and a day at 59.94 Hz is 5 178 816.
+//! Owed time is an integer in nanoseconds × ticks × percent, where the rate is a ratio of ticks to seconds. Any
+//! [`TickRate`] at any whole percentage of real time divides it without rounding: however it is cut into frames, a day
+//! at 60 Hz is 5 184 000 ticks, and a day at 59.94 Hz is 5 178 816.
 
 use std::fmt;
 
@@ -13,16 +13,16 @@ const SECOND: i128 = 1_000_000_000 * 100;
 /// The largest `f64` below 1.
 const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
 
-/// Turns real time into ticks.
+/// Converts real time into ticks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clock {
     tick_hz: TickRate,
     speed_percent: u32,
-    /// It holds less than one tick.
+    /// Less than one tick.
     accumulator: Accumulator,
 }
 
-/// A tick rate in Hz that no clock runs at: it is not in [`Clock::TICK_HZ`].
+/// A tick rate in Hz outside [`Clock::TICK_HZ`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TickRateError(pub TickRate);
 
@@ -54,14 +54,14 @@ impl Clock {
     /// If the rate is not in [`Clock::TICK_HZ`]; [`Clock::try_new`] returns an error instead.
     #[track_caller]
     pub fn new(tick_hz: impl Into<TickRate>) -> Self {
-        // A closure would panic at its own line, and not at the caller's.
+        // A closure would panic at its own line, rather than at the caller's.
         match Self::try_new(tick_hz) {
             Ok(clock) => clock,
             Err(error) => panic!("{error}"),
         }
     }
 
-    /// A clock at full speed that owes nothing, at a rate that a file or a person gives.
+    /// A clock at full speed that owes nothing, at a rate from a file or a person.
     ///
     /// # Errors
     /// If the rate is not in [`Clock::TICK_HZ`].
@@ -88,7 +88,7 @@ impl Clock {
         SECOND * i128::from(self.tick_hz.ratio()[1])
     }
 
-    /// What a nanosecond adds to the owed time.
+    /// Owed time per nanosecond of real time.
     fn pace(&self) -> i128 {
         i128::from(self.tick_hz.ratio()[0]) * i128::from(self.speed_percent)
     }
@@ -98,7 +98,7 @@ impl Clock {
         self.speed_percent
     }
 
-    /// Changes the tick rate. The owed part of a tick stays the same part, so that nothing drawn jumps.
+    /// Changes the tick rate. The owed fraction of a tick stays the same, so that nothing drawn jumps.
     ///
     /// # Panics
     /// As [`Clock::new`].
@@ -120,19 +120,19 @@ impl Clock {
         max_ticks(self.tick_hz, self.speed_percent, MAX_FRAME_MS)
     }
 
-    /// Adds a frame of `frame_ns` nanoseconds and returns the ticks that are due. A negative duration counts as 0.
+    /// Adds a frame of `frame_ns` nanoseconds and returns the ticks due. A negative duration counts as 0.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
         let time = i128::from(frame_ns.max(0)) * self.pace();
         self.accumulator.advance(time, self.tick(), self.max_ticks())
     }
 
-    /// How far real time is into the next tick, in [0, 1).
+    /// The fraction of the next tick that has passed in real time, in [0, 1).
     pub fn alpha(&self) -> f64 {
         (self.accumulator.owed() as f64 / self.tick() as f64).min(BELOW_ONE)
     }
 
-    /// [`Clock::alpha`] as a fraction: numerator and denominator, the latter the same for all whole rates. It is exact at
-    /// rates of seven digits after the point at most, and else off by less than 2⁻⁶².
+    /// [`Clock::alpha`] as a numerator and a denominator, the latter the same for all whole rates. It is exact at
+    /// rates of at most seven digits after the point, and otherwise off by less than 2⁻⁶².
     pub fn alpha_fraction(&self) -> (u64, u64) {
         let unit = (self.tick() >> 63) + 1;
         ((self.accumulator.owed() / unit) as u64, (self.tick() / unit) as u64)
@@ -156,35 +156,36 @@ impl Clock {
     }
 }
 
-/// The longest real time for which one frame catches up, in milliseconds: 15 ticks at 60 Hz. With a longer one a slow
-/// machine falls further behind each frame; with a shorter one a hitch shows as slow motion.
+/// The longest real time that one frame catches up with, in milliseconds: 15 ticks at 60 Hz. If longer, a slow machine
+/// falls further behind each frame; if shorter, a hitch shows as slow motion.
 pub const MAX_FRAME_MS: u32 = 250;
 
 /// The ticks that a frame has to simulate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Due {
-    /// Ticks to step now.
+    /// Ticks to step in this frame.
     pub ticks: u32,
-    /// Ticks dropped because the frame was longer than the cap: the simulation falls behind real time.
+    /// Ticks dropped because the frame exceeded the cap: the simulation falls behind real time.
     pub dropped: u64,
 }
 
-/// Time that has passed and is less than a tick.
+/// Owed time, less than a tick.
 ///
-/// It is an integer in a unit that the caller chooses so that a tick is a whole number of them: nothing is ever rounded.
+/// It is an integer in a unit that the caller chooses so that a tick is a whole number of units: nothing is ever
+/// rounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Accumulator {
     owed: i128,
 }
 
 impl Accumulator {
-    /// The time that has passed since the last tick was due.
+    /// The time since the last tick was due.
     pub fn owed(&self) -> i128 {
         self.owed
     }
 
-    /// Adds `time`, which is not negative, and takes out the ticks of length `tick` that are due. Those beyond `most` are
-    /// dropped.
+    /// Adds `time`, which must not be negative, and removes the ticks of length `tick` that are due. Ticks beyond
+    /// `most` are dropped.
     pub fn advance(&mut self, time: i128, tick: i128, most: u32) -> Due {
         self.owed += time;
         let whole = u64::try_from(self.owed / tick).expect("a frame is at most 2^63 ns");
@@ -198,12 +199,12 @@ impl Accumulator {
         self.owed = tick - 1;
     }
 
-    /// Changes the unit: `parts` of the present one are `whole` of the next. What is less than a unit is dropped.
+    /// Changes the unit: `parts` present units become `whole` new ones. Drops fractions of a unit.
     fn scale(&mut self, whole: i128, parts: i128) {
         self.owed = self.owed / parts * whole + self.owed % parts * whole / parts;
     }
 
-    /// Forgets the time owed.
+    /// Sets the owed time to 0.
     pub fn clear(&mut self) {
         self.owed = 0;
     }

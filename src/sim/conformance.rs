@@ -1,7 +1,7 @@
-//! Holds the card of a method against measurements, each claim both ways.
+//! Checks the card of a method against measurements, each claim both ways.
 //!
-//! A method that does better than its card says is as wrong as one that does worse. What is measured are
-//! the [problems] with known solutions, and nothing is taken from the method's family.
+//! A method that beats its card is as wrong as one that falls short. The measurements run on [problems] with known
+//! solutions, and assume nothing from the method's family.
 
 use std::error::Error;
 use std::fmt;
@@ -22,14 +22,14 @@ mod tolerance;
 pub use order::orders_of;
 pub use stability::limits;
 
-/// A claim of a card, and what was measured.
+/// A claim of a card, and its measurement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Claim {
     /// The field of [`Method`].
     pub field: &'static str,
-    /// What the card says.
+    /// The claimed value.
     pub claimed: String,
-    /// What was measured, in words.
+    /// The measured value, in words.
     pub measured: String,
     /// Whether the two agree.
     pub holds: bool,
@@ -56,7 +56,7 @@ impl Conformance {
     }
 }
 
-/// A line for each claim.
+/// One line per claim.
 impl fmt::Display for Conformance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let broken = self.broken().count();
@@ -73,11 +73,11 @@ impl fmt::Display for Conformance {
     }
 }
 
-/// Measures every claim of a card: its orders, evaluations, stability limit, whether it is exact on linear
-/// systems, symplectic and reversible, its tolerance, its memory, and whether it keeps time. It takes about a second.
+/// Measures every claim of a card: its orders, evaluations and stability limit, its tolerance and its memory. Also
+/// whether it is exact on linear systems, symplectic and reversible, and whether it keeps time. Takes about a second.
 ///
-/// A method that steps some bodies [only](Method::only) cannot be measured on these problems, and its result
-/// says so: it does not hold.
+/// A method that steps [only](Method::only) some bodies cannot be measured on these problems; its result then says so
+/// and does not hold.
 ///
 /// ```
 /// use regatta::conformance::check;
@@ -94,7 +94,7 @@ pub fn check(method: &Method) -> Conformance {
             measured: format!("not measured: {}", only.reason),
             holds: false,
         }],
-        // Nothing can be built by such a card.
+        // Such a card cannot build an integrator.
         None if !is_listed(method) && !method.is_from_outside() => vec![named(method)],
         None => vec![
             named(method),
@@ -113,9 +113,9 @@ pub fn check(method: &Method) -> Conformance {
     Conformance { method: method.id, claims }
 }
 
-/// A card with what is measured of its method in place of its claims: orders, evaluations, stability limits, whether it is
-/// symplectic and reversible, its memory, and [what to expect](Method::about): its orders, the energy of a spring, and the
-/// built-in method that is nearest. What cannot be measured is not claimed: an order is then 0.
+/// The card of a method with measured values in place of its claims: orders, evaluations, stability limits,
+/// symplectic, reversible and memory. [`Method::about`] gets its orders, the energy of a spring, and the nearest
+/// built-in method. A claim that cannot be measured is left out, with an order of 0.
 pub fn measured(card: &'static Method) -> Method {
     let is_so = |found: Measured| found.is_ok_and(|(is_so, _)| is_so);
     let orders = orders_of(card);
@@ -158,7 +158,7 @@ fn is_listed(method: &Method) -> bool {
     METHODS.iter().any(|listed| listed.id == method.id)
 }
 
-/// Whether the card is distinguishable from others.
+/// Whether the id is well formed and unique, and the card has a name.
 fn named(method: &Method) -> Claim {
     let Method { id, name, .. } = *method;
     let is_kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
@@ -177,10 +177,10 @@ fn named(method: &Method) -> Claim {
     Claim { field: "id", claimed: id.to_owned(), measured, holds }
 }
 
-/// Whether a claim is so, and how that was seen; or why it was not seen.
+/// Whether a claim is true, with the evidence in words; or why it cannot be measured.
 type Measured = Result<(bool, String), Box<dyn Error>>;
 
-/// A yes-or-no claim; `found` has the measured answer and why.
+/// A yes-or-no claim; `found` has the measured answer and the evidence.
 fn yes_or_no(field: &'static str, claimed: bool, found: Measured) -> Claim {
     let word = if claimed { "yes" } else { "no" };
     let (measured, holds) = match found {

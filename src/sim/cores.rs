@@ -1,8 +1,9 @@
-//! Long loops over the numbers of one large body, shared by all cores. The shares are cut by size alone, and no sum
-//! passes from one to another, so that the number of threads changes no bit. Without the feature `batch` one does all.
+//! Long loops over the numbers of one large body, shared by all cores. The parts depend on size alone, and no sum
+//! passes from one to another, so that the number of threads changes no bit. Without the feature `batch`, one thread
+//! runs them.
 
-/// The numbers that a thread takes at a time, of vectors and of states: some ten microseconds of memory. Fewer are left to
-/// one thread.
+/// Numbers that a thread takes at a time, of vectors and of states: some ten microseconds of memory traffic. One
+/// thread handles fewer.
 #[cfg(feature = "batch")]
 pub(super) const GRAIN: usize = 1 << 15;
 
@@ -12,13 +13,13 @@ pub(super) fn is_large(coordinates: usize) -> bool {
     coordinates > GRAIN / 2
 }
 
-/// Runs `work` on a worker of rayon's pool, so that nested [`split`]s do not inject work, and allocate, from outside.
+/// Runs `work` on a worker of rayon's pool: nested [`split`]s from outside the pool would inject work, and allocate.
 #[cfg(feature = "lab")]
 pub(super) fn on_worker(work: &mut (dyn FnMut() + Send)) {
     rayon::join(work, || ());
 }
 
-/// Runs `work`, in halves for as long as `halve` finds any. A half goes to another core if one is free.
+/// Runs `work`, splitting it for as long as `halve` succeeds. A half moves to another core if one is free.
 #[cfg(feature = "batch")]
 pub(super) fn split<W: Send>(
     work: W,
@@ -33,10 +34,10 @@ pub(super) fn split<W: Send>(
     }
 }
 
-/// Checks that a vector of a system has the length that the system began with.
+/// Checks that a system's vector still has the length that the system started with.
 ///
 /// # Panics
-/// If it has not.
+/// If the lengths differ.
 #[inline]
 pub(super) fn assert_length(found: usize, wanted: usize) {
     if found != wanted {
@@ -52,7 +53,7 @@ fn other_length(found: usize, wanted: usize) -> ! {
     )
 }
 
-/// Does `work` on equal parts of vectors of one length: of those `to` write and `from` read.
+/// Runs `work` on equal parts of vectors of one length, which write `to` and read `from`.
 ///
 /// # Panics
 /// If their lengths differ.
@@ -71,7 +72,7 @@ pub(super) fn in_parts<const M: usize, const N: usize>(
     work(to, from);
 }
 
-/// Vectors that are written, and vectors that are read.
+/// Vectors to write, and vectors to read.
 #[cfg(feature = "batch")]
 type Vectors<'a, const M: usize, const N: usize> = ([&'a mut [f64]; M], [&'a [f64]; N]);
 

@@ -1,4 +1,4 @@
-//! A curve through points: straight between them, level beyond them.
+//! A curve through points: straight between them, constant beyond them.
 
 /// Points in order of rising x. Without points the curve is 0.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,7 +42,7 @@ impl Curve {
         (at(piece - 1), at(piece))
     }
 
-    /// The value by one piece, continued linearly beyond its boundaries.
+    /// The value of one piece, continued linearly beyond its boundaries.
     #[inline]
     pub(super) fn on(&self, piece: i64, x: f64) -> f64 {
         match self.ends(piece) {
@@ -70,8 +70,8 @@ impl Curve {
     }
 }
 
-/// Rounding of a value at a boundary, relative to the numbers that are compared. A smaller tolerance would take a
-/// rounded boundary for a crossing.
+/// Rounding of a value at a boundary, relative to the compared numbers. If smaller, a rounded boundary looks like a
+/// crossing.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The distance of `value` from the lower boundary `end`; negative below it by more than rounding.

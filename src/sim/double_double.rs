@@ -1,16 +1,14 @@
-//! Double-double arithmetic: the unevaluated sum of two `f64`, the second at most half a unit in the
-//! last place of the first.
+//! Double-double arithmetic: the unevaluated sum of two `f64`, the second at most half a unit in the last place of the
+//! first.
 //!
-//! The closed forms and the reference solution use it where plain `f64` would lose digits to
-//! cancellation. It uses only `+ - × ÷ √` and no fused multiply-add, so that the bits are the same on
-//! every platform. Dekker, *A floating-point technique for extending the available precision* (1971);
-//! Joldes, Muller & Popescu, *Tight and rigorous error bounds for basic building blocks of double-word
-//! arithmetic* (2017).
+//! The closed forms and the reference solution use it where plain `f64` would lose digits to cancellation. It uses
+//! only `+ - × ÷ √` and no fused multiply-add, so that the bits are the same on every platform. Dekker, *A
+//! floating-point technique for extending the available precision* (1971); Joldes, Muller & Popescu, *Tight and
+//! rigorous error bounds for basic building blocks of double-word arithmetic* (2017).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// `high + low`. Products of magnitudes from 1e-140 to 1e140 neither overflow nor lose their lower
-/// half.
+/// `high + low`. Products of magnitudes from 1e-140 to 1e140 neither overflow nor lose their lower half.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DoubleDouble {
     pub(super) high: f64,
@@ -43,7 +41,7 @@ impl DoubleDouble {
     }
 }
 
-/// For closed forms of bodies.
+/// For the closed forms of bodies.
 #[cfg(feature = "lab")]
 impl DoubleDouble {
     pub(super) const ONE: Self = Self { high: 1.0, low: 0.0 };

@@ -1,5 +1,5 @@
-//! The exact motion of a body that knows it from its start, but not from any other state: after an input, an edit or a
-//! placing elsewhere its truth is a reference solution.
+//! The exact motion of a body that knows it from its start only. After an input, an edit or a placement elsewhere its
+//! truth is a reference solution.
 
 use std::cell::RefCell;
 
@@ -7,24 +7,25 @@ use super::body::Body;
 use super::exact_flow::late_error;
 use super::state::{State, Vector, largest, nan_is_infinite};
 
-/// The rounding of a closed form whose operations are not known, relative to its value.
+/// The rounding of a closed form whose operations are unknown, relative to its value.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The exact motion since the start.
 #[derive(Clone, Debug)]
 pub(super) struct ExactSinceStart<V> {
-    /// Whether nobody has intervened since the start.
+    /// Whether the body is untouched since the start.
     pub(super) is_untouched: bool,
     /// The time of the current state, in seconds.
     t: f64,
-    /// Where the exact motion starts. Kept, for a change must not allocate.
+    /// The start of the exact motion, kept because a change must not allocate.
     pub(super) start: State<V>,
-    /// Scratch of the error, which is asked for at every tick.
+    /// Scratch for the error, which is read at every tick.
     a: RefCell<V>,
 }
 
 impl<V: Vector> ExactSinceStart<V> {
-    /// The motion of `body` in `state` at time `t` (s); `None` if that is not its start, or if it does not know its motion.
+    /// The motion of `body` in `state` at time `t` (s); `None` if that is not its start, or if the body has no exact
+    /// motion.
     pub(super) fn new<B: Body<Vector = V>>(
         body: &B,
         t: f64,
@@ -38,19 +39,19 @@ impl<V: Vector> ExactSinceStart<V> {
         })
     }
 
-    /// Overwrites `y` with the state at time `t` (s), if nobody has intervened. Returns whether it did.
+    /// Overwrites `y` with the state at time `t` (s), if the body is untouched. Returns whether it is.
     pub(super) fn step<B: Body<Vector = V>>(&mut self, body: &B, t: f64, y: &mut State<V>) -> bool {
         self.t = t;
         self.is_untouched && body.exact_since_start(t, y)
     }
 
-    /// Takes note that the body was changed, or only placed, into `state` at time `t` (s).
+    /// Records that the body was changed, or only placed elsewhere, into `state` at time `t` (s).
     pub(super) fn jump(&mut self, t: f64, is_placing: bool, state: &State<V>) {
         self.is_untouched = is_placing && is_start(&self.start, t, state);
         self.t = t;
     }
 
-    /// A bound on the error of the current `state`: of a coordinate and of a velocity.
+    /// A bound on the error of the current `state`, in a coordinate and in a velocity.
     pub(super) fn error<B: Body<Vector = V>>(&self, body: &B, state: &State<V>) -> [f64; 2] {
         let a = &mut *self.a.borrow_mut();
         body.acceleration(self.t, &state.q, &state.v, a);

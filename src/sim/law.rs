@@ -1,10 +1,10 @@
 //! Equations of motion as text: `z = "-k*z/m"`, compiled to a flat tape.
 //!
-//! The parser and the evaluator are our own. The crates that read expressions evaluate them with std's mathematics,
-//! which differs from platform to platform; here every function is `libm`'s. The order of the operations is that of
-//! the text: `a + b + c` is `(a + b) + c`. A whole exponent up to 16 is written out, so that `x^2` has the bits of
-//! `x*x` and `x^3` those of `x*x*x`, and `x^-2` those of `1/(x*x)`; any other exponent is `libm::pow`'s. The parser
-//! calls itself for brackets, signs and functions, at most [`MAX_DEPTH`] within each other.
+//! The parser and the evaluator are our own. Crates that read expressions evaluate them with std's mathematics, which
+//! differs from platform to platform; here every function is `libm`'s. Operations keep the order of the text:
+//! `a + b + c` is `(a + b) + c`. A whole exponent up to 16 becomes a product, so that `x^2` has the bits of `x*x`,
+//! `x^3` those of `x*x*x`, and `x^-2` those of `1/(x*x)`. Any other exponent is `libm::pow`'s. The parser recurses for
+//! brackets, signs and functions, at most [`MAX_DEPTH`] deep.
 
 use super::body::Distances;
 use compile::{Compiled, Compiler, check_names};
@@ -40,7 +40,7 @@ pub(crate) use step_text::{Frame, NO_RETURN, Powers, remembers_place};
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText, Layout};
 
-/// The most coordinates of a law: as many as are distinguishable on a stage.
+/// The most coordinates of a law: more are not distinguishable on a stage.
 pub const MAX_COORDINATES: usize = 16;
 
 /// The most constants of a law.
@@ -50,7 +50,7 @@ pub const MAX_CONSTANTS: usize = 64;
 pub const UNITS: [&str; 14] =
     ["m", "rad", "km", "cm", "mm", "deg", "kg", "N", "J", "V", "A", "C", "K", "1"];
 
-/// A unit for people: empty for that of a pure number.
+/// A unit as people read it: empty for a pure number.
 pub(in crate::sim) fn shown_unit(unit: &'static str) -> &'static str {
     if unit == "1" { "" } else { unit }
 }
@@ -60,7 +60,7 @@ pub fn operators() -> impl Iterator<Item = &'static str> {
     token::operator_signs().chain(op::OPERATOR_WORDS)
 }
 
-/// The functions of expressions, each as it is called: `min(a, b)`.
+/// The functions of expressions, each with its arguments: `min(a, b)`.
 pub fn functions() -> impl Iterator<Item = String> {
     function::FUNCTIONS.iter().map(function::Function::usage)
 }
@@ -72,8 +72,8 @@ pub fn values() -> impl Iterator<Item = &'static str> {
 
 /// A compiled law.
 ///
-/// Its inputs, in the order of their slots: the time, throttle and rudder, coordinates, velocities,
-/// constants, and the coordinates and velocities at the start.
+/// The slots of its inputs are, in order: the time, throttle and rudder, coordinates, velocities, constants, and the
+/// coordinates and velocities at the start.
 #[derive(Debug)]
 pub struct Equations {
     text: LawText,
@@ -96,7 +96,7 @@ impl Equations {
     /// Compiles a law.
     ///
     /// # Errors
-    /// All faults of the text, each with its place.
+    /// All faults of the text, each with its position.
     pub fn new(text: LawText) -> Result<Self, Vec<LawFault>> {
         let mut faults = check_names(&text);
         let compiler = Compiler { text: &text };
@@ -136,13 +136,13 @@ impl Equations {
         self.is_steered
     }
 
-    /// Whether the accelerations are linear in coordinates and velocities, apart from a constant.
+    /// Whether the accelerations are linear in coordinates and velocities, plus a constant.
     pub fn is_linear(&self) -> bool {
         self.is_linear
     }
 
-    /// Whether a full turn of this coordinate changes nothing: it is used as the argument of a sine, cosine
-    /// or tangent alone.
+    /// Whether a full turn of this coordinate changes nothing, because it is used only as the argument of a sine,
+    /// cosine or tangent.
     pub fn is_angle(&self, coordinate: usize) -> bool {
         self.angles[coordinate]
     }
@@ -160,18 +160,18 @@ impl Equations {
         }
     }
 
-    /// Whether the law says where coordinates are drawn.
+    /// Whether the law declares drawing positions.
     pub fn has_places(&self) -> bool {
         self.places.is_some()
     }
 
-    /// How many parts of the accelerations have a corner or a jump.
+    /// Number of parts of the accelerations with a corner or a jump.
     pub fn switches(&self) -> usize {
         self.motion.switches()
     }
 }
 
-/// A moment of a motion.
+/// A moment of a motion: its time, inputs and state.
 #[derive(Clone, Copy, Debug)]
 pub struct At<'a> {
     /// The time in seconds.
@@ -210,7 +210,7 @@ impl Equations {
         self.read(registers, a);
     }
 
-    /// Overwrites `a` with the accelerations by the piece of these modes, continued beyond its boundaries.
+    /// Overwrites `a` with the accelerations of the piece of these modes, continued beyond its boundaries.
     pub(super) fn accelerate_on(
         &self,
         modes: &[i64],
@@ -230,7 +230,7 @@ impl Equations {
         self.motion.write_modes(&registers.motion, modes);
     }
 
-    /// Overwrites the distances of this moment to the boundaries of the piece of these modes.
+    /// Overwrites `distances` with those of this moment to the boundaries of the piece of these modes.
     pub(super) fn write_distances(
         &self,
         modes: &[i64],
@@ -243,7 +243,7 @@ impl Equations {
         self.motion.write_distances(&registers.motion, modes, distances);
     }
 
-    /// The energy in joules, at rest without velocities; `None` if the law gives none. Never allocates.
+    /// The energy in joules; at rest if `v` is `None`. `None` if the law has no energy. Never allocates.
     pub fn energy(&self, registers: &mut Registers, q: &[f64], v: Option<&[f64]>) -> Option<f64> {
         let tape = self.energy.as_ref()?;
         let slots = &mut registers.energy[FIRST_COORDINATE..];
@@ -256,8 +256,8 @@ impl Equations {
         Some(registers.energy[*tape.outputs.first()? as usize])
     }
 
-    /// Passes the place of each coordinate that has one to `to`: x to the right and y up, in metres, in the order of the
-    /// coordinates. Never allocates.
+    /// Calls `to` with the drawing position of each coordinate that has one: x to the right and y up, in metres, in
+    /// the order of the coordinates. Never allocates.
     pub(super) fn place(&self, registers: &mut Registers, q: &[f64], mut to: impl FnMut([f64; 2])) {
         let Some(tape) = &self.places else { return };
         let slots = &mut registers.places;
@@ -268,8 +268,8 @@ impl Equations {
         }
     }
 
-    /// Passes the exact solution at time `t` (s) to `to`: each coordinate's index, and
-    /// its value, velocity and acceleration. Returns whether the law gives one. Never allocates.
+    /// Calls `to` with the exact solution at time `t` (s): each coordinate's index, and its value, velocity and
+    /// acceleration. Returns whether the law has one. Never allocates.
     pub(super) fn solve(
         &self,
         registers: &mut Registers,
@@ -286,7 +286,8 @@ impl Equations {
         true
     }
 
-    /// dE/dt split into ∂E/∂q·v and ∂E/∂v·a, in watts; their sum is 0 if energy is conserved. `None` if the law gives no energy.
+    /// dE/dt split into ∂E/∂q·v and ∂E/∂v·a, in watts; their sum is 0 if energy is conserved. `None` if the law has no
+    /// energy.
     pub(super) fn power(&self, registers: &Registers, [q, v, a]: [&[f64]; 3]) -> Option<[f64; 2]> {
         let tape = self.energy.as_ref()?;
         let n = q.len();
@@ -305,14 +306,14 @@ impl Equations {
 }
 
 impl Equations {
-    /// The fault of the first operation that makes an acceleration infinite or undefined in the last
-    /// evaluation; `None` if all accelerations are finite.
+    /// The fault of the first operation that makes an acceleration infinite or undefined in the last evaluation;
+    /// `None` if all accelerations are finite.
     pub(in crate::sim) fn not_finite(&self, registers: &Registers) -> Option<LawFault> {
         let value = |slot: u16| registers.motion[slot as usize];
         let mut slot = *self.motion.outputs.iter().find(|&&slot| !value(slot).is_finite())?;
         loop {
             let (op, operands, ..) = self.motion.operations().find(|(_, _, to, _)| *to == slot)?;
-            // Of a choice, the branch that was not taken does not matter.
+            // The untaken branch of a choice does not matter.
             let taken =
                 |n: &usize| op != Op::If || *n == if value(operands[0]) == 1.0 { 1 } else { 2 };
             let mut rows = (0..operands.len()).filter(taken).map(|n| operands[n]);

@@ -1,18 +1,18 @@
-//! The plan of a net: where its nodes stand at the start, which are fixed, and which springs join them.
+//! The plan of a net: the places of its nodes at the start, the fixed nodes, and the springs that join nodes.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::number::counted;
 
-/// The most nodes of a net: of a grid with shear two cores make a few hundred evaluations a second, so that a few lanes of
-/// explicit methods race at the rate of a display.
+/// The most nodes of a net. On a grid with shear of this size, two cores make a few hundred evaluations a second, so
+/// that a few lanes of explicit methods race at the rate of a display.
 pub const MAX_NODES: usize = 100_000;
 
-/// The most springs of a net: eight to a node, twice what a grid with shear has.
+/// The most springs of a net: eight per node, twice the springs of a grid with shear.
 pub const MAX_SPRINGS: usize = 8 * MAX_NODES;
 
-/// What a net is made of, as a scene writes it.
+/// The plan of a net, as a scene writes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetPlan {
     /// Its nodes and springs.
@@ -30,36 +30,36 @@ pub enum Form {
     Lists(Lists),
 }
 
-/// Nodes in rows and columns, each joined to the next in its row and in its column, unless both are
-/// fixed. They are numbered from 0 at the top left, row by row; the first stands at the origin.
+/// Nodes in rows and columns, each joined to the next in its row and in its column, unless both are fixed. Their
+/// numbers start from 0 at the top left and run row by row; the first node is at the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    /// How many columns there are.
+    /// Number of columns.
     pub columns: usize,
-    /// How many rows there are.
+    /// Number of rows.
     pub rows: usize,
-    /// The distance of neighbours, in metres.
+    /// The distance between neighbours, in metres.
     pub spacing: f64,
-    /// Whether springs join the corners of each square too.
+    /// Whether springs also run along the diagonals of each square.
     pub shear: bool,
-    /// Which nodes are fixed; `None` if all are free.
+    /// The fixed nodes; `None` if all are free.
     pub pin: Option<Pin>,
 }
 
 /// The fixed nodes of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pin {
-    /// The top row.
+    /// The whole top row.
     Top,
     /// The first and the last node of the top row.
     Corners,
 }
 
 impl Pin {
-    /// All of them.
+    /// All pins.
     pub const ALL: [Self; 2] = [Self::Top, Self::Corners];
 
-    /// Its name in scenes.
+    /// The name of the pin in scenes.
     pub fn id(self) -> &'static str {
         match self {
             Pin::Top => "top",
@@ -71,7 +71,7 @@ impl Pin {
 /// Nodes and springs one by one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lists {
-    /// Where each node stands at the start, in metres.
+    /// The place of each node at the start, in metres.
     pub nodes: Vec<[f64; 2]>,
     /// The numbers of the fixed nodes, from 0.
     pub fixed: Vec<usize>,
@@ -79,7 +79,7 @@ pub struct Lists {
     pub springs: Vec<PlannedSpring>,
 }
 
-/// A spring of a plan. What it does not give is as the net has it.
+/// A spring of a plan. Missing numbers default to those of the net.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlannedSpring {
     /// The numbers of the nodes at its ends.
@@ -92,12 +92,12 @@ pub struct PlannedSpring {
     pub rest: Option<f64>,
 }
 
-/// What is wrong with a plan.
+/// A fault of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetFault {
     /// The part of the plan at fault.
     pub part: NetPart,
-    /// What is wrong, in lower case.
+    /// The error message, in lower case.
     pub what: String,
     /// How to fix it.
     pub remedy: String,
@@ -108,7 +108,7 @@ pub struct NetFault {
 pub enum NetPart {
     /// The nodes or the counts of the grid.
     Nodes,
-    /// The distance of neighbours in the grid.
+    /// The distance between neighbours in the grid.
     Spacing,
     /// An entry of the fixed nodes.
     Fixed(usize),
@@ -120,11 +120,11 @@ pub enum NetPart {
     Kicked,
 }
 
-/// What is wrong with a net without a free node.
+/// The fault of a net without a free node.
 const ALL_FIXED: &str = "every node is fixed, so that nothing moves";
 
 impl NetPlan {
-    /// The nodes and the springs one by one.
+    /// The nodes and the springs as lists.
     pub fn lists(&self) -> Lists {
         match &self.form {
             Form::Grid(grid) => grid.lists(),
@@ -140,7 +140,7 @@ impl NetPlan {
         }
     }
 
-    /// Where the fixed nodes stand, in metres.
+    /// The places of the fixed nodes, in metres.
     pub fn fixed_places(&self) -> Box<dyn Iterator<Item = [f64; 2]> + '_> {
         match &self.form {
             Form::Grid(grid) => {
@@ -151,7 +151,7 @@ impl NetPlan {
         }
     }
 
-    /// One fault of the net as a whole, else all of its entries; empty if a net can be built.
+    /// One fault of the net as a whole, or else the faults of all its entries; empty if a net can be built.
     pub fn faults(&self) -> Vec<NetFault> {
         let faults = match &self.form {
             Form::Grid(grid) => grid.fault().into_iter().collect(),
@@ -180,12 +180,12 @@ impl NetPlan {
     }
 }
 
-/// The fault of a node number that is out of range, and its remedy.
+/// The message and the remedy for a node number out of range.
 fn unknown(node: usize, nodes: usize) -> (String, String) {
     (format!("node {node} does not exist"), format!("write a number from 0 to {}", nodes - 1))
 }
 
-/// The fault of a net of too few or too many nodes.
+/// The fault of too few or too many nodes, if there is one.
 fn fault_of_count(nodes: usize) -> Option<NetFault> {
     if (2..=MAX_NODES).contains(&nodes) {
         return None;
@@ -216,7 +216,7 @@ impl Grid {
         Some(NetFault { part, what, remedy })
     }
 
-    /// The nodes and the springs one by one.
+    /// The nodes and the springs as lists.
     pub fn lists(&self) -> Lists {
         let nodes = (0..self.nodes()).map(|node| self.place(node)).collect();
         let fixed = (0..self.columns).filter(|&node| self.is_fixed(node)).collect();
@@ -232,12 +232,12 @@ impl Grid {
         (0..self.rows).flat_map(of_row).map(spring)
     }
 
-    /// How many nodes there are.
+    /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.columns * self.rows
     }
 
-    /// Where a node stands at the start, in metres.
+    /// The place of a node at the start, in metres.
     pub fn place(&self, node: usize) -> [f64; 2] {
         let (column, row) = (node % self.columns, node / self.columns);
         [column as f64 * self.spacing, -(row as f64) * self.spacing]
@@ -263,7 +263,7 @@ impl Grid {
         }
     }
 
-    /// The number of free nodes before a node.
+    /// Number of free nodes before a node.
     #[inline]
     pub(super) fn free_before(&self, node: usize) -> usize {
         let fixed = match self.pin {
@@ -276,7 +276,7 @@ impl Grid {
         node - fixed
     }
 
-    /// The free node that `before` free ones precede.
+    /// The free node after `before` other free nodes.
     pub(super) fn free_node(&self, before: usize) -> usize {
         let fixed = match self.pin {
             None => 0,
@@ -286,8 +286,8 @@ impl Grid {
         before + fixed
     }
 
-    /// The springs that begin in a row, each with the column that it is [right or below](Way) of. Those between fixed nodes
-    /// are left out.
+    /// The springs that begin in a row, each with the column that it starts [right or below](Way) of. Leaves out
+    /// springs between fixed nodes.
     pub(super) fn springs(&self, row: usize) -> impl Iterator<Item = (usize, Way)> + use<> {
         let grid = *self;
         let ways = move |column: usize| {
@@ -327,10 +327,10 @@ pub(super) enum Way {
 }
 
 impl Way {
-    /// In the order of the springs of a plan.
+    /// All directions, in the order of a plan's springs.
     const ALL: [Self; 4] = [Self::Right, Self::Down, Self::Falling, Self::Rising];
 
-    /// How many columns the ends are right of the column of the spring, and how many rows it goes down.
+    /// The columns of both ends, relative to the spring's column, and the number of rows it goes down.
     #[inline(always)]
     pub(super) const fn ends(self) -> ([usize; 2], usize) {
         match self {
@@ -342,13 +342,13 @@ impl Way {
     }
 }
 
-/// The distance of two places, in metres.
+/// The distance between two places, in metres.
 pub(super) fn distance([[ax, ay], [bx, by]]: [[f64; 2]; 2]) -> f64 {
     ((bx - ax) * (bx - ax) + (by - ay) * (by - ay)).sqrt()
 }
 
 impl Lists {
-    /// The distance of the ends of a spring at the start, in metres.
+    /// The length of a spring at the start, in metres.
     pub fn length(&self, [a, b]: [usize; 2]) -> f64 {
         distance([self.nodes[a], self.nodes[b]])
     }
@@ -410,7 +410,7 @@ impl Lists {
         Some(NetFault { part, what, remedy })
     }
 
-    /// What is wrong with a spring between these nodes, and its remedy; `None` if nothing is.
+    /// The message and the remedy for a spring between these nodes; `None` without a fault.
     fn fault_of_ends(&self, [a, b]: [usize; 2], is_fixed: &[bool]) -> Option<(String, String)> {
         let (what, remedy) =
             if let Some(end) = [a, b].into_iter().find(|&end| end >= is_fixed.len()) {

@@ -1,4 +1,4 @@
-//! Numbers for people: a few significant digits, a true minus sign, powers of ten where they help.
+//! Numbers for people: a few significant digits, a true minus sign, and powers of ten for very large or small values.
 
 /// `value` with `digits` significant digits; from 10⁵ up and below 10⁻³ as a power of ten.
 pub fn significant(value: f64, digits: usize) -> String {
@@ -30,8 +30,8 @@ pub fn round(value: f64, digits: usize) -> String {
     }
 }
 
-/// The factor that enlarges a distance to fill `room`: 1, 2 or 5 times a power of ten; `None` if it fills half
-/// of it already, or is nothing but rounding.
+/// The factor that enlarges a distance to fill `room`: 1, 2 or 5 times a power of ten. `None` if the distance already
+/// fills half of it, or is only rounding.
 pub fn enlargement(distance: f64, room: f64) -> Option<f64> {
     /// A distance that is invisible at this magnification is rounding.
     const MAX: f64 = 1e10;
@@ -47,7 +47,7 @@ pub fn counted(number: impl TryInto<u64>, thing: &str) -> String {
     format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }
 
-/// A whole number with its thousands apart, between which no line breaks.
+/// A whole number with its thousands separated by spaces that do not break lines.
 pub fn grouped(number: u64) -> String {
     match number {
         ..1000 => number.to_string(),
@@ -72,7 +72,7 @@ pub fn duration(seconds: f64) -> String {
     in_unit(seconds, |value| round(value, 3))
 }
 
-/// A duration with `written` of its number in the unit that fits its length.
+/// A duration in the unit that fits its length; `written` formats its number.
 pub(crate) fn in_unit(seconds: f64, written: impl Fn(f64) -> String) -> String {
     const MINUTE: f64 = 60.0;
     const HOUR: f64 = 60.0 * MINUTE;

@@ -1,11 +1,11 @@
-//! Numerical procedures that know neither bodies nor methods: difference quotients, bisection, least squares, and numbers
-//! that look random.
+//! Numerical procedures independent of bodies and methods: difference quotients, bisection, least squares, and
+//! pseudo-random numbers.
 
 #[cfg(feature = "lab")]
 use nalgebra::{DMatrix, DVector};
 
-/// A difference quotient, whose step the caller chooses and argues: overwrites the values `ahead` with their differences
-/// from those `behind`, per unit of the `distance` between the two.
+/// A difference quotient: overwrites the values `ahead` with their differences from `behind`, per unit of the
+/// `distance` between the two. The caller must justify its choice of distance.
 #[inline]
 pub(super) fn quotient(ahead: &mut [f64], behind: &[f64], distance: f64) {
     for (ahead, behind) in ahead.iter_mut().zip(behind) {
@@ -13,18 +13,19 @@ pub(super) fn quotient(ahead: &mut [f64], behind: &[f64], distance: f64) {
     }
 }
 
-/// Where [`fourth_order`] takes values, in steps.
+/// The offsets of the values for [`fourth_order`], in steps.
 #[cfg(feature = "lab")]
 pub(super) const OFFSETS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 
-/// The derivative by a central difference of fourth order, from the values at [`OFFSETS`] of a step `h`.
+/// The derivative by a central difference of fourth order, from the values at the [`OFFSETS`] with step `h`.
 #[cfg(feature = "lab")]
 pub(super) fn fourth_order([far_behind, behind, ahead, far_ahead]: [f64; 4], h: f64) -> f64 {
     (8.0 * (ahead - behind) - far_ahead + far_behind) / (12.0 * h)
 }
 
-/// Finds where a condition changes: halves the interval from `low`, which `is_low`, to `high`, which is not, `halvings`
-/// times. Returns the ends of what is left, in that order; `low` may be the greater.
+/// Bisects for the point at which a condition changes: halves the interval from `low`, which `is_low`, to `high`,
+/// which is not, `halvings` times. Returns the ends of the remaining interval, in that order; `low` may be the
+/// greater.
 #[cfg(feature = "lab")]
 pub(crate) fn bisect(
     [mut low, mut high]: [f64; 2],
@@ -38,8 +39,8 @@ pub(crate) fn bisect(
     [low, high]
 }
 
-/// Linear least squares: the coefficients with which the sum of these columns comes nearest to `right`, in the mean of
-/// squares. Columns that depend on others get the smallest coefficients that do.
+/// Linear least squares: the coefficients whose sum of these columns is closest to `right` in mean square. Among
+/// equally close ones, those with the smallest squares.
 ///
 /// `None` if there are fewer rows than columns, or if a number is not finite.
 #[cfg(feature = "lab")]
@@ -57,18 +58,18 @@ pub fn least_squares(columns: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     Some(found.iter().copied().collect())
 }
 
-/// Numbers that look random and are the same on every run, from a seed that is not 0: Marsaglia's xorshift with 13, 7 and 17.
+/// Pseudo-random numbers, the same on every run for a nonzero seed: Marsaglia's xorshift with 13, 7 and 17.
 #[cfg(feature = "lab")]
 pub(super) struct XorShift(u64);
 
 #[cfg(feature = "lab")]
 impl XorShift {
-    /// The sequence of this seed.
+    /// The sequence with this seed.
     pub(super) fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// From -1 to below 1.
+    /// The next number, from -1 to below 1.
     pub(super) fn next(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;

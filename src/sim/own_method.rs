@@ -1,4 +1,4 @@
-//! Methods by lines of a person's own, with cards that are measured.
+//! Methods made of a person's own lines, with measured cards.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -10,14 +10,14 @@ use super::tick_rate::TickRate;
 /// The most characters of the id of an own method.
 pub(crate) const MAX_OWN_ID_CHARS: usize = 64;
 
-/// Every method that was made, so that equal lines under one id are one method.
+/// Every method made so far, so that equal lines under one id are one method.
 static KNOWN: Mutex<Vec<&'static Method>> = Mutex::new(Vec::new());
 
-/// The method of these lines under this id. Its card is measured by [`conformance`], once in a process: a fraction of a
-/// second. Equal lines have one card, which is kept for as long as the process lives.
+/// The method of these lines under this id. [`conformance`] measures its card once per process, in a fraction of a
+/// second. Equal lines share one card, which lives as long as the process.
 ///
 /// # Errors
-/// The first fault of the lines, or that they call no acceleration.
+/// The first fault of the lines, or that they do not call the acceleration.
 ///
 /// ```
 /// use regatta::sim::own_method;
@@ -130,8 +130,8 @@ fn card(id: &str, own: OwnLines) -> Method {
     Method { id: name, name, formula: formula.leak(), own: Some(own), ..Family::Explicit.card() }
 }
 
-/// The id of the method in a file whose name without its ending is this: its letters and digits in lower case, with hyphens
-/// for all others.
+/// The method id for a file with this name without its extension: letters and digits in lower case, and hyphens for
+/// all other characters.
 pub fn own_method_id(stem: &str) -> String {
     let mut id = String::new();
     for letter in stem.chars() {
@@ -144,10 +144,10 @@ pub fn own_method_id(stem: &str) -> String {
     id.trim_end_matches('-').to_owned()
 }
 
-/// What is wrong with the id of an own method, and how to mend it.
+/// Checks the id of an own method. The error is a message and a remedy.
 ///
 /// # Errors
-/// If it is none, or one of [`METHODS`] has it.
+/// If it is no valid id, or if one of [`METHODS`] has it.
 pub fn check_own_id(id: &str) -> Result<(), [String; 2]> {
     if id.is_empty() || own_method_id(id) != id || id.len() > MAX_OWN_ID_CHARS {
         let remedy = format!(

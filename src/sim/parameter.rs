@@ -1,14 +1,14 @@
-//! The parameters of a body: one description each, shared by the scene file, the help, the sliders and
-//! the body itself.
+//! The parameters of a body: one description each, shared by the scene file, the help, the sliders and the body
+//! itself.
 //!
-//! The file of a body lists its parameters once, as [`ParameterOf`] that body: each with the field of
-//! the struct that holds its value. A [`Kind`](super::bodies::Kind) has the same list as plain
-//! [`Parameter`]s, for code that does not know the struct.
+//! The file of a body lists its parameters once, as [`ParameterOf`] that body: each with the struct field of its
+//! value. A [`Kind`](super::bodies::Kind) has the same list as plain [`Parameter`]s, for code that does not know the
+//! struct.
 
 use std::borrow::Cow;
 use std::fmt;
 
-/// Text that a table spells, or that a kind made from a scene owns.
+/// Text from a static table, or owned by a kind made from a scene.
 pub type Text = Cow<'static, str>;
 
 /// The largest magnitude of a body's parameter; products in the force laws overflow beyond it.
@@ -26,7 +26,7 @@ pub struct Parameter {
     pub name: Option<&'static str>,
     /// Its letter in the equation of motion, if it has one.
     pub symbol: Option<&'static str>,
-    /// What it is.
+    /// Its description.
     pub about: &'static str,
     /// The symbol of the unit that ends the key, such as `N/m`; empty if the key names none.
     pub unit: Text,
@@ -45,7 +45,7 @@ impl Parameter {
         Self { key, name: None, symbol: None, about, unit, default: None, range, acts }
     }
 
-    /// What it is, after its letter: `m, the mass`.
+    /// Its description after its letter: `m, the mass`.
     pub fn described(&self) -> String {
         self.symbol.map_or_else(|| self.about.into(), |symbol| format!("{symbol}, {}", self.about))
     }
@@ -70,7 +70,7 @@ pub enum Acts {
 }
 
 impl Acts {
-    /// Its name in output.
+    /// The name in output.
     pub fn id(self) -> &'static str {
         match self {
             Acts::AtOnce => "at-once",
@@ -91,8 +91,8 @@ pub enum Range {
     Within(f64),
     /// Whole numbers from 1 to this.
     Count(u32),
-    /// A curve of 2 to [`MAX_POINTS`] points `[x, y]` with rising x, each number from minus
-    /// [`MAX_VALUE`] to that. Only a kind's last parameter can be one.
+    /// A curve of 2 to [`MAX_POINTS`] points `[x, y]` with rising x, each number from minus to plus [`MAX_VALUE`].
+    /// Only a kind's last parameter can be one.
     Curve {
         /// The unit of x.
         x: &'static str,
@@ -141,25 +141,25 @@ impl fmt::Display for Range {
     }
 }
 
-/// An error in the values of several parameters together. Messages are in lower case.
+/// An error in a combination of several parameters. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The key of the value to change.
     pub key: Text,
-    /// What is wrong.
+    /// The error message.
     pub what: String,
     /// How to fix it.
     pub remedy: String,
 }
 
-/// A parameter of bodies of type `B`, with the field that holds its value.
+/// A parameter of bodies of type `B`, with the field of its value.
 #[derive(Clone)]
 pub struct ParameterOf<B> {
     parameter: Parameter,
     slot: Slot<B>,
 }
 
-/// The field of a body that holds a parameter's value.
+/// The field of a parameter's value in a body.
 #[derive(Clone)]
 enum Slot<B> {
     Number(fn(&mut B) -> &mut f64),
@@ -188,8 +188,8 @@ impl<B> ParameterOf<B> {
         Self::new(key, Range::Count(most), Acts::AtStart, Slot::Count(field))
     }
 
-    /// A curve through points in the units `x` and `y`, without a default, that acts at the start.
-    /// `write` stores points in rising order in the body.
+    /// A curve through points in the units `x` and `y`, without a default, that acts at the start. `write` stores
+    /// points in rising order in the body.
     pub const fn curve(
         key: &'static str,
         [x, y]: [&'static str; 2],
@@ -204,7 +204,7 @@ impl<B> ParameterOf<B> {
         self
     }
 
-    /// Sets the letter that stands for it in the equation of motion.
+    /// Sets its letter in the equation of motion.
     pub const fn symbol(mut self, symbol: &'static str) -> Self {
         self.parameter.symbol = Some(symbol);
         self
@@ -222,7 +222,7 @@ impl<B> ParameterOf<B> {
         self
     }
 
-    /// Makes the number part of the initial state: it acts at the start.
+    /// Makes the number part of the initial state, so that it acts at the start.
     pub const fn at_start(mut self) -> Self {
         self.parameter.acts = Acts::AtStart;
         self
@@ -257,15 +257,13 @@ impl<B> ParameterOf<B> {
     }
 }
 
-/// Writes `values`, in the order of `parameters`, into the fields of `body`. A curve uses all remaining
-/// values.
+/// Writes `values`, in the order of `parameters`, into the fields of `body`. A curve uses all remaining values.
 pub(super) fn write<B>(body: &mut B, parameters: &[ParameterOf<B>], values: &[f64]) {
     let left = parameters.iter().fold(values, |values, parameter| parameter.write(body, values));
     assert!(left.is_empty(), "values without a parameter: {left:?}");
 }
 
-/// Suffixes of keys and the symbols of the units they name. A suffix comes before any shorter suffix
-/// that ends it.
+/// Suffixes of keys, each with the symbol of its unit. A suffix comes before any shorter suffix that ends it.
 const UNITS: [(&str, &str); 15] = [
     ("_kg_m2", "kg·m²"),
     ("_n_s_per_m", "N·s/m"),

@@ -1,20 +1,18 @@
-//! What advances a body, a method or a truth, and how it reacts when the body jumps.
+//! The propagator of a body, a method or a truth, and its reaction when the body jumps.
 //!
 //! # When something jumps
 //!
-//! Memory carried from step to step is valid only while the motion is smooth. Each kind of jump is
-//! detected in one place:
+//! Memory carried from step to step is valid only while the motion is smooth. One place detects each kind of jump:
 //!
-//! - The *state or the forces* jump when the body is placed, given an input or edited. A stepper owns
-//!   its body and state, and makes every such change within [`Propagator::jump`]. A method is
-//!   [reset](Integrator::reset) there. The exact flow starts again from the new state and keeps the
-//!   error of the old one, which it computes with the body as it was before the change.
-//! - The *length of the step* is an argument of every step. A method with memory compares it with the
-//!   length of its last step, so nobody has to announce a change.
-//! - A state *outside a stepper* can be changed by any caller. The method that
-//!   [`integrator`](super::integrators::integrator) returns therefore compares the state with the one
-//!   it returned last, and resets itself if they differ. A stepper skips this comparison, which would
-//!   cost time at every tick.
+//! - The *state or the forces* jump when the body is placed, given an input or edited. A stepper owns its body and
+//!   state, and makes every such change within [`Propagator::jump`]. A method is [reset](Integrator::reset) there. The
+//!   exact flow restarts from the new state, and keeps the error of the old one, computed with the body before the
+//!   change.
+//! - The *length of the step* is an argument of every step. A method with memory compares it with the length of its
+//!   last step, so nobody has to announce a change.
+//! - Any caller can change a state *outside a stepper*. The method that [`integrator`](super::integrators::integrator)
+//!   returns therefore compares the state with the one it returned last, and resets itself if they differ. A stepper
+//!   skips this comparison, which would cost time at every tick.
 
 use super::body::Body;
 use super::integrators::{AnyIntegrator, AnySystem, Integrator, Problem, Stepped};
@@ -27,8 +25,8 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
     /// Advances the state `y` from `t` to `t + h` (s). A method takes `n` equal steps; a truth ignores `n`.
     fn step(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut StateOf<B>) -> Stepped;
 
-    /// Applies `change` to the body and its state at time `t` (s), and restarts from the result. If nothing
-    /// changed, the propagator keeps its memory. Returns whether anything changed.
+    /// Applies `change` to the body and its state at time `t` (s), and restarts from the result. If nothing changed,
+    /// the propagator keeps its memory. Returns whether anything changed.
     fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
         let is_changed = change.apply(body, state);
         if is_changed {
@@ -37,10 +35,10 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
         is_changed
     }
 
-    /// What [`Propagator::jump`] does after a change; `is_placing` as [`Change::is_placing`].
+    /// Restarts after a change by [`Propagator::jump`]; `is_placing` as [`Change::is_placing`].
     fn restart(&mut self, _t: f64, _is_placing: bool, _body: &B, _state: &StateOf<B>) {}
 
-    /// Steps a problem from the state `y` as a copy of the method steps the body; `None` of a truth.
+    /// Steps a problem from the state `y`, with a copy of the method that steps the body; `None` for a truth.
     fn try_step(
         &self,
         _of: &Problem<B::Vector>,
@@ -56,7 +54,7 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
         false
     }
 
-    /// The error of a truth at the current `state`: of a coordinate and of a velocity.
+    /// The error of a truth at the current `state`, in a coordinate and in a velocity.
     fn truth_error(&self, _body: &Counted<B>, _state: &StateOf<B>) -> Option<[f64; 2]> {
         None
     }
@@ -72,7 +70,7 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
     }
 }
 
-/// A method, compiled once for the type of the body's vector.
+/// A method, compiled once for each vector type.
 #[derive(Clone)]
 pub(super) struct AnyMethod<V>(pub(super) Box<dyn AnyIntegrator<V>>);
 
@@ -110,7 +108,7 @@ impl<V: Vector, B: Body<Vector = V>> Propagator<B> for AnyMethod<V> {
 pub(super) struct MethodPropagator<I>(pub(super) I);
 
 impl<I: Clone> Clone for MethodPropagator<I> {
-    /// Apart from the bodies, which would each have a copy of it.
+    /// Apart from the bodies, each of which would otherwise inline a copy.
     #[inline(never)]
     fn clone(&self) -> Self {
         Self(self.0.clone())

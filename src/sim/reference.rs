@@ -1,8 +1,7 @@
-//! The reference solution, the truth of a body without a closed form: Bulirsch and Stoer's
-//! extrapolation to round-off, and a second solution with other steps. The difference of the two
-//! estimates the error.
+//! The reference solution, the truth of a body without a closed form: Bulirsch and Stoer's extrapolation to round-off,
+//! and a second solution with other steps. The difference of the two estimates the error.
 //!
-//! It is not a method of the table: it chooses its own substeps, and its evaluations are not counted.
+//! It is not a method of the table: it chooses its own substeps, and its evaluations do not count.
 
 use super::body::Body;
 use super::exact_since_start::ExactSinceStart;
@@ -17,38 +16,37 @@ use trajectory::{Ended, StepControl, Trajectory};
 mod extrapolation;
 mod trajectory;
 
-/// The accuracy that a reference solution aims at: its error over the duration of a built-in scene,
-/// relative to the largest coordinate and to the largest velocity. `tests/library/bodies/reference.rs` compares
-/// it with a closed form and with Runge-Kutta at a fine step, to a tighter bound.
-/// `truth_error` of a [`Stepper`](super::Stepper) estimates the error of each run. A motion that
-/// amplifies its initial deviations, such as a pendulum started upright, amplifies this error too.
+/// The accuracy that a reference solution aims at: its error over the duration of a built-in scene, relative to the
+/// largest coordinate and to the largest velocity. `tests/library/bodies/reference.rs` compares it with a closed form
+/// and with Runge-Kutta at a fine step, to a tighter bound. `truth_error` of a [`Stepper`](super::Stepper) estimates
+/// the error of each run. A motion that amplifies its initial deviations, such as a pendulum started upright,
+/// amplifies this error too.
 pub const REFERENCE_ACCURACY: f64 = 1e-10;
 
-/// The ratio of the error estimate to the difference of the two solutions, which is only one sample of
-/// their errors. `tests/library/bodies/fifty_digits.rs` measures the estimate.
+/// The ratio of the error estimate to the difference of the two solutions, which is only one sample of their errors.
+/// `tests/library/bodies/fifty_digits.rs` measures the estimate.
 const MARGIN: f64 = 8.0;
 
-/// The evaluations granted per call, in addition to those saved: about the work of 30 calls of a
-/// built-in scene. With fewer, a stiff body would have no truth at a coarse tick; with many more, the
-/// judge would wait long for a hopeless one.
+/// Evaluations granted per call, in addition to the saved ones: about the work of 30 calls of a built-in scene. With
+/// fewer, a stiff body would have no truth at a coarse tick; with many more, the judge would wait long for a hopeless
+/// one.
 const EVALUATIONS_PER_CALL: u64 = 6_000;
 
-/// The largest number of evaluations saved for hard stretches, all available at the start: some tenths
-/// of a second of work.
+/// The most evaluations saved for hard stretches, all available at the start: some tenths of a second of work.
 const MAX_SAVED_EVALUATIONS: u64 = 4_000_000;
 
-/// The most [work](Body::reference_work) for which a body has a reference solution, per simulated second:
-/// about as long as the second itself in an unoptimised build, and a tenth of that in an optimised one.
+/// The most [work](Body::reference_work) of a body with a reference solution, per simulated second. It takes about as
+/// long as the second itself in an unoptimised build, and a tenth of that in an optimised one.
 pub const MAX_REFERENCE_WORK: f64 = 1e6;
 
-/// The evaluations that a reference solution may use.
+/// The evaluation budget of a reference solution.
 #[derive(Clone, Copy, Debug)]
 struct Allowance {
-    /// Left to spend.
+    /// Evaluations left to spend.
     saved: u64,
-    /// Granted per call.
+    /// Evaluations granted per call.
     per_call: u64,
-    /// The most that are saved; all of them at the start.
+    /// The most evaluations to save; all of them are available at the start.
     most: u64,
 }
 
@@ -58,7 +56,7 @@ impl Allowance {
     }
 }
 
-/// A reference solution, or the exact motion as long as the body knows it.
+/// A reference solution, or the exact motion while the body knows it.
 #[derive(Clone, Debug)]
 pub(super) struct Reference<V> {
     /// `None` if the body does not know its motion from the start, or did not begin there.
@@ -71,7 +69,7 @@ pub(super) struct Reference<V> {
     failed: Option<StepFailure>,
     /// Simulated seconds since the body was placed.
     elapsed: f64,
-    /// Since then, the largest difference of the two solutions, in coordinates and in velocities.
+    /// The largest difference of the two solutions since then, in coordinates and in velocities.
     largest_difference: [f64; 2],
     /// The largest velocity and the largest acceleration since then.
     fastest: [f64; 2],
@@ -106,7 +104,7 @@ pub(super) fn is_beyond_reference<B: Body>(body: &B) -> bool {
 impl<V: Vector> Reference<V> {
     /// The truth of `body` from `state` at time `t` (s).
     pub(super) fn new<B: Body<Vector = V>>(body: &B, state: &State<V>, t: f64) -> Self {
-        // Made here where they are needed, so that no tick allocates.
+        // Allocated here if needed, so that no tick allocates.
         let solutions = (!is_beyond_reference(body)).then(|| Solutions::new(state));
         let allowance = Allowance::new(EVALUATIONS_PER_CALL, MAX_SAVED_EVALUATIONS);
         let exact = ExactSinceStart::new(body, t, state);
@@ -180,13 +178,13 @@ impl<V: Vector> Reference<V> {
         Ok(())
     }
 
-    /// Estimates the error of the current state `y`: of a coordinate and of a velocity.
+    /// Estimates the error of the current state `y`, in a coordinate and in a velocity.
     fn error(&self, y: &State<V>) -> [f64; 2] {
         if self.failed.is_some() {
             return [f64::INFINITY; 2];
         }
-        // Both solutions share the rounding of the time and of the force law's constants, which shifts
-        // the motion in time, and the rounding of the result.
+        // Both solutions share the rounding of the result, of the time and of the force law's constants. The latter
+        // two shift the motion in time.
         let late = f64::EPSILON * self.elapsed;
         let sizes = [size(&y.q), size(&y.v)];
         let fastest = [self.fastest[0].max(sizes[1]), self.fastest[1]];
@@ -196,7 +194,7 @@ impl<V: Vector> Reference<V> {
     }
 }
 
-/// For claims of laws and custom bodies, which are checked within a budget.
+/// For claims of laws and custom bodies, checked within a budget.
 #[cfg(feature = "lab")]
 impl<V: Vector> Reference<V> {
     /// A reference that fails after about this many evaluations in all.
@@ -204,7 +202,7 @@ impl<V: Vector> Reference<V> {
         Self::with_allowance(Some(Solutions::new(like)), Allowance::new(0, evaluations))
     }
 
-    /// The evaluations that it may still use.
+    /// Evaluations that it may still use.
     pub(super) fn saved_evaluations(&self) -> u64 {
         self.allowance.saved
     }

@@ -1,13 +1,13 @@
-//! Stability of a method on a body: the map of a step about rest, its growth and its frequencies, compared with the true
-//! motion.
+//! Stability of a method on a body: the map of a step about rest, its growth and its frequencies, compared with the
+//! true motion.
 //!
-//! The acceleration of a body is linearised about rest, which changes nothing of a linear body. Where damping does not
-//! couple its normal modes, a method acts on each of them alone; otherwise all coordinates are taken together. The map of
-//! a step, of the state and of what the method carries from step to step, is found from the method's own steps, never
-//! from a formula, so that it holds for any method with equal steps. Growth that the true motion has too, such as
-//! the fall of an upright pendulum, is not counted against a method.
+//! The acceleration is linearised about rest, which leaves a linear body unchanged. If damping does not couple its
+//! normal modes, a method acts on each of them alone; otherwise all coordinates are analysed together. The map of a
+//! step covers the state and the method's memory. It comes from the method's own steps, never from a formula, so that
+//! it is valid for any method with equal steps. Growth that the true motion shares, such as the fall of an upright
+//! pendulum, does not count against a method.
 //!
-//! Of a body of many coordinates the spectral radius alone is found, about its present state, by power iteration.
+//! For a body of many coordinates, power iteration about its present state finds only the spectral radius.
 
 use super::integrators::Method;
 
@@ -32,13 +32,13 @@ pub struct Tick {
     pub t: f64,
     /// Its length, in seconds.
     pub h: f64,
-    /// Equal steps in it.
+    /// Number of equal steps.
     pub substeps: u32,
 }
 
 impl Tick {
-    /// The step that a method repeats in this tick, as a tick of its own, and how often: an engine's substeps share one
-    /// force, so that its whole tick is one step.
+    /// The step that a method repeats in this tick, as a tick of its own, and the number of repetitions. An engine's
+    /// substeps share one force, so that its whole tick is one step.
     pub fn repeated(self, method: Option<&Method>) -> (Tick, u32) {
         if method.is_some_and(Method::is_engine) {
             return (self, 1);

@@ -1,12 +1,12 @@
-//! Coordinate vectors, and the state that a body is in.
+//! Coordinate vectors, and the state of a body.
 
 use super::cores::in_parts;
 
-/// Numbers that are added and scaled each by itself: what the formula of a method with fixed steps does with coordinates.
+/// Numbers that are added and scaled one by one, which is all that the formula of a method with fixed steps needs.
 ///
-/// The numbers may be the [components](Vector) of one body, or one coordinate of each of several bodies, which are stepped
-/// together and must not mix: each then has the bits that it has alone. A method that looks across components, for a
-/// norm, a limit or a solution, steps one body, and says so by the bound `System<Vector: Vector>`:
+/// The numbers may be the [components](Vector) of one body, or one coordinate of each of several bodies stepped
+/// together, which must not mix: each then has the same bits as alone. A method that looks across components, for a
+/// norm, a limit or a solution, steps a single body. It must declare this by the bound `System<Vector: Vector>`:
 ///
 /// ```compile_fail,E0277
 /// # use regatta::sim::{Elementwise, System, integrators::{Integrator, LinearlyImplicitEuler}};
@@ -26,7 +26,7 @@ use super::cores::in_parts;
     note = "a vector is f64, DVec2, DVec3, DVec4, [f64; N] or Vec<f64>: two bodies in the plane are one [f64; 4]"
 )]
 pub trait Elementwise: Clone + Send + Sync + 'static {
-    /// Copies `from`, which has as many numbers. Never allocates.
+    /// Copies `from`, which must have the same length. Never allocates.
     fn assign(&mut self, from: &Self);
     /// `self += h x`, rounded after the product and after the sum.
     fn add_scaled(&mut self, h: f64, x: &Self);
@@ -38,22 +38,20 @@ pub trait Elementwise: Clone + Send + Sync + 'static {
         v.add_scaled(k, a);
         q.add_scaled(h, v);
     }
-    /// `self += h1 x1 + h2 x2 …`, term by term in this order, each rounded after the product and after the
-    /// sum.
+    /// `self += h1 x1 + h2 x2 …`, term by term in this order, each rounded after the product and after the sum.
     #[inline(always)]
     fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
         for (h, x) in terms {
             self.add_scaled(h, x);
         }
     }
-    /// `self = x + h d`, rounded after the product and after the sum, for an `x` with as many numbers.
-    /// Never allocates.
+    /// `self = x + h d`, rounded after the product and after the sum; `x` must have the same length. Never allocates.
     #[inline(always)]
     fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
         self.assign(x);
         self.add_scaled(h, d);
     }
-    /// `self = h x`, for an `x` with as many numbers. Never allocates.
+    /// `self = h x`; `x` must have the same length. Never allocates.
     #[inline(always)]
     fn assign_scaled(&mut self, h: f64, x: &Self) {
         self.assign(x);
@@ -63,17 +61,17 @@ pub trait Elementwise: Clone + Send + Sync + 'static {
 
 /// The coordinates of one body.
 ///
-/// `f64` is for bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] for motion in a plane or
-/// in space, `[f64; N]` and [`glam::DVec4`] for a few coordinates, such as those of two bodies in the plane,
-/// `Vec<f64>` for many. A method is written once over this trait; it compiles to registers for the small types and to
-/// loops for `Vec`.
+/// `f64` is for bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] for motion in a plane or in space.
+/// `[f64; N]` and [`glam::DVec4`] are for a few coordinates, such as those of two bodies in the plane, `Vec<f64>` for
+/// many. A method is written once over this trait; it compiles to registers for the small types and to loops for
+/// `Vec`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no vector of one body's coordinates",
     note = "a vector is f64, DVec2, DVec3, DVec4, [f64; N] or Vec<f64>: two bodies in the plane are one [f64; 4]"
 )]
 pub trait Vector: Elementwise {
     /// Whether the coordinates fit into registers, so that each method is compiled for each body of this type. For all
-    /// bodies of another it is compiled once.
+    /// bodies of any other type it is compiled only once.
     const IS_SMALL: bool = false;
     /// The components in order.
     fn components(&self) -> &[f64];
@@ -122,7 +120,7 @@ small! {
     glam::DVec4: AsRef::<[f64; 4]>::as_ref, AsMut::<[f64; 4]>::as_mut;
 }
 
-/// Coordinates of one body, or one coordinate of each of `W`.
+/// Coordinates of one body, or one coordinate of each of `W` bodies.
 impl<const W: usize> Elementwise for [f64; W] {
     #[inline(always)]
     fn assign(&mut self, from: &Self) {
@@ -152,7 +150,7 @@ impl<const N: usize> Vector for [f64; N] {
     }
 }
 
-/// Long ones are shared by all cores.
+/// All cores share long vectors.
 impl Elementwise for Vec<f64> {
     #[inline]
     fn assign(&mut self, from: &Self) {
@@ -220,7 +218,8 @@ impl Vector for Vec<f64> {
     }
 }
 
-/// Upper bound on the memory of values of this inline `size` in bytes: one heap vector as long as `like` for every 24 of them.
+/// An upper bound on the memory of values with this inline `size` in bytes: one heap vector as long as `like` for
+/// every 24 bytes.
 pub(in crate::sim) fn bytes_with_vectors(size: usize, like: &[f64]) -> usize {
     size + size / size_of::<Vec<f64>>() * size_of_val(like)
 }
@@ -228,9 +227,9 @@ pub(in crate::sim) fn bytes_with_vectors(size: usize, like: &[f64]) -> usize {
 /// The largest magnitude; NaN if a component is NaN.
 #[inline]
 pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>) -> f64 {
-    // The bits of magnitudes are in the order of the magnitudes, those of a NaN above all others.
+    // The bits of magnitudes have the order of the magnitudes; those of a NaN are above all others.
     let mut bits = components.into_iter().map(|component| component.abs().to_bits());
-    // Four maxima in turn, of which none waits for the last.
+    // Four maxima in turn, so that none waits for the last.
     let mut most = [0; 4];
     while let Some(a) = bits.next() {
         most[0] = a.max(most[0]);
@@ -244,7 +243,7 @@ pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>)
     f64::from_bits(most.into_iter().fold(0, u64::max))
 }
 
-/// An error or a size; infinite if it is not a number, so that no comparison loses it.
+/// An error or a size; infinite if it is NaN, so that no comparison loses it.
 #[inline]
 pub(in crate::sim) fn nan_is_infinite(error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
@@ -260,7 +259,7 @@ pub struct State<V> {
     pub v: V,
 }
 
-/// Of coordinates and velocities.
+/// Pairs coordinates and velocities.
 impl<V> From<(V, V)> for State<V> {
     fn from((q, v): (V, V)) -> Self {
         Self { q, v }

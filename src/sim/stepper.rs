@@ -1,4 +1,4 @@
-//! An object-safe stepper: a body, what advances it and its state behind one dynamic call per tick.
+//! An object-safe stepper: a body, its solver and its state behind one dynamic call per tick.
 
 use std::any::Any;
 use std::ops::Deref;
@@ -10,12 +10,12 @@ use super::integrators::{Method, Override, StepFailure, Stepped};
 use super::state::Vector;
 use super::system::{Coupling, EngineSettings, Evaluation, Pursuit, StateOf};
 
-/// What a body is advanced by: a method, or the truth.
+/// The solver of a body: a method, or the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
     /// A method from the table.
     Method(&'static Method),
-    /// A method from the table, with its card's tolerance or the body's joint replaced. A method without a tolerance,
+    /// A method from the table that overrides its card's tolerance or the body's joint. A method without a tolerance,
     /// and an engine on a body without a joint, ignore it.
     With(&'static Method, Override),
     /// The exact flow from the last jump; for a body without a closed form, a reference solution.
@@ -32,18 +32,18 @@ impl Solver {
     }
 }
 
-/// A tick that was taken on a copy of a body.
+/// A tick on a copy of a body, recorded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordedTick {
     /// Every evaluation of the acceleration, in the order of the method.
     pub evaluations: Vec<Evaluation>,
-    /// The coordinates and the velocities at the end, or why there are none.
+    /// The coordinates and the velocities at the end, or the failure of the step.
     pub landing: Result<[Vec<f64>; 2], StepFailure>,
 }
 
 /// A body under a solver. The layers above this one see bodies only through `dyn Stepper`.
 ///
-/// Only what depends on body *and* solver is here: it is compiled for each pair of them. The trait
+/// This trait has only the functions that depend on body *and* solver: it is compiled for each pair of them. It
 /// dereferences to the [body at its state](PlacedBody), which is compiled for each body.
 pub trait Stepper: Send {
     /// Advances from `t` to `t + h` (s). A method takes `substeps` equal steps.
@@ -52,25 +52,23 @@ pub trait Stepper: Send {
     /// As [`Integrator::step`](super::integrators::Integrator::step).
     fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped;
 
-    /// Changes the body or its state at time `t` (s), and restarts the solver there. Returns whether anything
-    /// changed.
+    /// Changes the body or its state at time `t` (s), and restarts the solver there. Returns whether anything changed.
     fn change(&mut self, t: f64, change: Change<'_>) -> bool;
 
     /// The body at its state.
     fn placed(&self) -> &(dyn PlacedBody + 'static);
 
-    /// What [`Stepper::advance`] would do with the method's present memory, on a copy. The body and its
-    /// counts are unchanged. `None` unless the body is under `method`.
+    /// Records a [`Stepper::advance`] with the method's present memory, on a copy. The body and its counts are
+    /// unchanged. `None` unless the body is under `method`.
     fn recorded(&self, method: &Method, t: f64, h: f64, substeps: u32) -> Option<RecordedTick>;
 
-    /// Whether the current state is that of a closed form; `false` under a reference solution or a method. A body
-    /// that knows its exact motion from the start only has none after an input, an edit or a placing.
+    /// Whether the current state is that of a closed form; `false` under a reference solution or a method. A body that
+    /// knows its exact motion only from the start has no closed form after an input, an edit or a placement.
     fn is_closed_form(&self) -> bool;
 
-    /// The error of the truth at the current state: the largest of a coordinate and of a velocity, in
-    /// their own units. For a closed form it is a bound on rounding; for a reference solution it is an
-    /// estimate from a second solution with other steps. Infinite if nothing is known. `None` under a
-    /// method.
+    /// The error of the truth at the current state: the largest of a coordinate and of a velocity, in their own units.
+    /// For a closed form it is a bound on rounding. For a reference solution it is an estimate from a second solution
+    /// with other steps. Infinite if unknown; `None` under a method.
     fn truth_error(&self) -> Option<[f64; 2]>;
 
     /// An upper bound on its memory under its `solver`, in bytes.
@@ -100,9 +98,9 @@ impl dyn Stepper + '_ {
     }
 
     /// Sets a parameter of the body at time `t` (s), by its index in the kind's
-    /// [`parameters`](super::bodies::Kind::parameters). The state is unchanged. Returns whether the
-    /// body changed: it does not if the value is equal to the old one, or if the parameter [acts at the
-    /// start](super::bodies::Acts). `value` must be in the parameter's range and pass the kind's check.
+    /// [`parameters`](super::bodies::Kind::parameters). The state is unchanged. Returns whether the body changed: it
+    /// does not if the value equals the old one, or if the parameter [acts at the start](super::bodies::Acts). `value`
+    /// must be in the parameter's range and pass the kind's check.
     pub fn set_parameter(&mut self, t: f64, index: usize, value: f64) -> bool {
         self.change(t, Change::Parameter { index, value })
     }
@@ -114,19 +112,19 @@ impl Clone for Box<dyn Stepper> {
     }
 }
 
-/// What can happen to a body between ticks.
+/// A change of a body between ticks.
 #[derive(Clone, Copy, Debug)]
 pub enum Change<'a> {
-    /// Puts it into a state that is known exactly, unrelated to the one before.
+    /// Puts it into a state known exactly, unrelated to the one before.
     State {
         /// The coordinates.
         q: &'a [f64],
         /// The velocities.
         v: &'a [f64],
     },
-    /// An input changes its state or its forces.
+    /// Applies an input to its state or its forces.
     Input(Input),
-    /// A parameter is edited.
+    /// Edits a parameter.
     Parameter {
         /// Its index in the kind's [`parameters`](super::bodies::Kind::parameters).
         index: usize,
@@ -136,7 +134,7 @@ pub enum Change<'a> {
 }
 
 impl Change<'_> {
-    /// Changes `body` or its `state`. Returns whether it did.
+    /// Changes `body` or its `state`. Returns whether anything changed.
     pub(super) fn apply<B: Body>(self, body: &mut B, state: &mut StateOf<B>) -> bool {
         match self {
             Change::State { q, v } => {
@@ -149,7 +147,7 @@ impl Change<'_> {
         }
     }
 
-    /// Whether the change removes the error so far.
+    /// Whether the change removes the accumulated error.
     pub(super) fn is_placing(self) -> bool {
         matches!(self, Change::State { .. })
     }
@@ -157,27 +155,26 @@ impl Change<'_> {
 
 /// The body of a [`Stepper`] at its state, independent of the solver.
 pub trait PlacedBody {
-    /// The coordinates, in the order of the body kind's
-    /// [`coordinates`](super::bodies::Kind::coordinates).
+    /// The coordinates, in the order of the body kind's [`coordinates`](super::bodies::Kind::coordinates).
     fn q(&self) -> &[f64];
     /// Their velocities.
     fn v(&self) -> &[f64];
 
-    /// Overwrites `a` with the acceleration at the given state under the current input. The evaluation
-    /// is not counted.
+    /// Overwrites `a` with the acceleration at the given state under the current input. Does not count as an
+    /// evaluation.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
 
-    /// Evaluations of the acceleration by all methods since the start. The truth is not counted.
+    /// Evaluations of the acceleration by all methods since the start, without those of the truth.
     fn evaluations(&self) -> u64;
     /// The time in seconds that methods left out of their steps since the start.
     fn lost_time(&self) -> f64;
-    /// Whether the equation of motion is linear apart from a constant.
+    /// Whether the equation of motion is linear, apart from a constant.
     fn is_linear(&self) -> bool;
     /// Whether this coordinate is an angle, so that a full turn leaves the body unchanged.
     fn is_angle(&self, coordinate: usize) -> bool;
     /// Whether a reference solution would take more than [`MAX_REFERENCE_WORK`](super::MAX_REFERENCE_WORK).
     fn is_beyond_reference(&self) -> bool;
-    /// Which coordinates act on which.
+    /// The dependence between coordinates.
     fn coupling(&self) -> Coupling;
     /// Whether implicit methods solve the body's equations without a matrix.
     fn is_sparse(&self) -> bool {
@@ -188,19 +185,19 @@ pub trait PlacedBody {
     /// The kinetic part of [`PlacedBody::energy`], in joules. Never allocates.
     fn kinetic_energy(&self) -> Option<f64>;
 
-    /// The kinetic and the potential energy in joules, conserved or not; `None` if the body does not know
-    /// them. Never allocates.
+    /// The kinetic and the potential energy in joules, conserved or not; `None` if the body does not know them. Never
+    /// allocates.
     fn mechanical_energy(&self) -> Option<[f64; 2]>;
 
-    /// What the body follows at time `t` (s), in its first coordinate; `None` if it follows nothing. It is not
-    /// counted as an evaluation.
+    /// The target of the body at time `t` (s), in its first coordinate; `None` if it follows none. Does not count as
+    /// an evaluation.
     fn pursuit(&self, t: f64) -> Option<Pursuit<f64>>;
-    /// The joint and damping settings of the body in a physics engine. It is not counted as an evaluation.
+    /// The joint and damping settings of the body in a physics engine. Does not count as an evaluation.
     fn engine_settings(&self, t: f64) -> EngineSettings;
 
-    /// Where the body is, in metres. Never allocates.
+    /// The position of the body, in metres. Never allocates.
     fn place(&self) -> DVec2;
-    /// The body with its current parameters; its type is the one that the kind builds.
+    /// The body with its current parameters, of the type that the kind builds.
     fn body(&self) -> &dyn Any;
 
     /// A copy of the body under another solver, with the same input and the same state to the bit.

@@ -10,8 +10,8 @@ use super::state::{Elementwise, State, Vector};
 ///
 /// It stays second order because symplectic methods need the split into `q` and `v`.
 pub trait System {
-    /// The body's natural coordinates. The [`Vector`] of one body is stepped by every method, and what is merely
-    /// [`Elementwise`] by those that do not look across components.
+    /// The body's natural coordinates. Every method steps a [`Vector`], the coordinates of one body. Only methods that
+    /// do not look across components step a mere [`Elementwise`].
     type Vector: Elementwise;
 
     /// Overwrites `a` with the acceleration at time `t` (s). Uses only `+ - × ÷ √` and `libm`.
@@ -25,13 +25,13 @@ pub trait System {
     }
 
     /// Answers an optional query at time `t` (s). Returns `false` if the system has no answer. A system that wraps
-    /// another forwards this, the coupling and the acceleration, and nothing else.
+    /// another must forward this, the coupling and the acceleration, and nothing else.
     #[inline]
     fn query(&self, _t: f64, _question: Query<'_, Self::Vector>) -> bool {
         false
     }
 
-    /// Which coordinates act on which. A system that wraps another forwards this.
+    /// The dependence between coordinates. A system that wraps another must forward this.
     #[inline]
     fn coupling(&self) -> Coupling {
         Coupling::All
@@ -41,17 +41,18 @@ pub trait System {
 /// The state of a system.
 pub type StateOf<S> = State<<S as System>::Vector>;
 
-/// What is asked of a system. [`Counted`] counts an answer as an evaluation.
+/// A query to a system. [`Counted`] counts an answer as an evaluation.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Query<'a, V> {
-    /// The derivative of the acceleration at a state in the direction `along`. Methods take differences without it.
+    /// The derivative of the acceleration at a state in the direction `along`. Without an answer, methods use
+    /// differences.
     Slope {
         /// The state.
         state: &'a State<V>,
         /// The direction.
         along: &'a State<V>,
-        /// Where to write the derivative.
+        /// Receives the derivative.
         slope: &'a mut V,
     },
     /// The target that the body follows: see [`Pursuit::of`].
@@ -60,27 +61,28 @@ pub enum Query<'a, V> {
     Engine {
         /// The state.
         state: &'a State<V>,
-        /// Where to write what the engine integrates itself; [`EngineSettings::NONE`] before.
+        /// Receives the settings that the engine integrates itself; [`EngineSettings::NONE`] before.
         settings: &'a mut EngineSettings,
-        /// Where to write the remaining force per unit mass.
+        /// Receives the remaining force per unit mass.
         force: &'a mut V,
     },
 }
 
-/// Which coordinates and velocities the acceleration of a coordinate depends on. Implicit methods choose their linear
-/// algebra by it.
+/// The coordinates and velocities that the acceleration of a coordinate depends on. Implicit methods choose their
+/// linear algebra by it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coupling {
-    /// Any: the whole Jacobian is factored.
+    /// Any coordinate: the whole Jacobian is factored.
     All,
-    /// Those whose index differs by at most this: the Jacobian is a band, and is factored.
+    /// Coordinates whose index differs by at most this: the Jacobian is a band, and is factored.
     Band(usize),
-    /// Few, at any index: equations are solved by iteration, without a matrix.
+    /// Few coordinates, at any index: equations are solved by iteration, without a matrix.
     Few,
 }
 
 impl Coupling {
-    /// How far from the diagonal the entries of a Jacobian of `size` rows lie; `None` if it is not to be formed.
+    /// The largest distance from the diagonal of an entry of a Jacobian of `size` rows; `None` if it should not be
+    /// formed.
     #[inline]
     pub(super) fn reach(self, size: usize) -> Option<usize> {
         match self {
@@ -91,7 +93,7 @@ impl Coupling {
     }
 }
 
-/// A system behind a pointer: what methods do with one of any type is compiled once for each type of vector.
+/// A system behind a pointer: methods on systems of any type are compiled only once for each vector type.
 impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
     type Vector = S::Vector;
 
@@ -113,7 +115,7 @@ impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
 pub struct Pursuit<V> {
     /// The target, in the units of the coordinates.
     pub target: V,
-    /// The rate k of a law of first order or ω of one of second order, per second; positive.
+    /// The rate k of a first-order law or ω of a second-order one, per second; positive.
     pub rate: f64,
     /// The order of the law: 1 or 2.
     pub order: u32,
@@ -122,8 +124,8 @@ pub struct Pursuit<V> {
 }
 
 impl<V: Elementwise> Pursuit<V> {
-    /// What `system` follows at time `t` (s), which counts as an evaluation; `None` if it follows nothing. A
-    /// [follower](super::integrators::Family::Follower) steps by this alone.
+    /// The target and the law of `system` at time `t` (s), which counts as an evaluation; `None` if it follows
+    /// nothing. A [follower](super::integrators::Family::Follower) steps by this alone.
     #[inline]
     pub fn of(system: &(impl System<Vector = V> + ?Sized), t: f64) -> Option<Self> {
         let mut pursuit = None;
@@ -132,8 +134,8 @@ impl<V: Elementwise> Pursuit<V> {
     }
 }
 
-/// The part of an acceleration that an engine's joint and its damping take over: `-(K q + c v) - C v`, the same for
-/// every coordinate, with the spring at rest where `q` is 0.
+/// The part of an acceleration that an engine's joint and its damping replace: `-(K q + c v) - C v`, the same for
+/// every coordinate, with the spring at rest at `q` = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EngineSettings {
     /// K, the stiffness of the joint per unit mass, in 1/s².
@@ -145,11 +147,11 @@ pub struct EngineSettings {
 }
 
 impl EngineSettings {
-    /// Everything is a force of user code.
+    /// No joint and no damping: everything is a force of user code.
     pub const NONE: Self = Self { stiffness: 0.0, damping: 0.0, drag: 0.0 };
 
-    /// The settings of `system` in a physics engine. Writes the remaining force per unit mass to `force`: all of it if the
-    /// system says nothing of settings. It counts as an evaluation.
+    /// The settings of `system` in a physics engine. Writes the remaining force per unit mass to `force`: all of it if
+    /// the system gives no settings. Counts as an evaluation.
     #[inline]
     pub fn of<V: Elementwise>(
         system: &(impl System<Vector = V> + ?Sized),
@@ -170,23 +172,23 @@ impl EngineSettings {
         self.stiffness != 0.0 || self.damping != 0.0
     }
 
-    /// `D = 1 + h c + h² K`, by which an implicit solve of a step of `h` (s) divides.
+    /// `D = 1 + h c + h² K`, the divisor of an implicit solve of a step of `h` (s).
     #[inline]
     pub fn resistance(&self, h: f64) -> f64 {
         1.0 + h * self.damping + h * h * self.stiffness
     }
 }
 
-/// The class of a kind of body for the methods that step [some](super::integrators::Only) only.
+/// The class of a kind of body, for methods that step only [some](super::integrators::Only).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyClass {
-    /// It moves by a force, which an engine holds for a tick, and a drag, which the engine integrates itself.
+    /// Moves by a force, which an engine holds for a tick, and a drag, which the engine integrates itself.
     Forced,
-    /// A spring, which an engine has as a joint.
+    /// A spring, which an engine represents as a joint.
     Joint,
-    /// It moves by a force, and an engine cannot express it. Why: a clause in lower case that follows a colon.
+    /// Moves by a force that an engine cannot express. The reason is a clause in lower case that follows a colon.
     NoEngine(&'static str),
-    /// It follows a target by a rule. Why an engine cannot express it, as above.
+    /// Follows a target by a rule. The reason why an engine cannot express it is a clause as above.
     Follower(&'static str),
 }
 
@@ -203,13 +205,13 @@ impl BodyClass {
 /// A system that counts evaluations. A clone continues from the same count.
 #[derive(Clone, Debug)]
 pub struct Counted<S> {
-    /// The system counted.
+    /// The inner system.
     pub system: S,
     evaluations: Cell<u64>,
 }
 
 impl<S> Counted<S> {
-    /// Wraps `system`, with nothing counted.
+    /// Wraps `system`, with its count at 0.
     pub fn new(system: S) -> Self {
         Self { system, evaluations: Cell::new(0) }
     }
@@ -251,11 +253,11 @@ pub struct Evaluation {
     pub q: Vec<f64>,
     /// The velocities.
     pub v: Vec<f64>,
-    /// The acceleration found.
+    /// The computed acceleration.
     pub a: Vec<f64>,
 }
 
-/// A system that keeps every evaluation in a log, in order. It allocates.
+/// A system that appends every evaluation to a log. It allocates.
 pub(super) struct Logged<S> {
     pub(super) system: S,
     pub(super) log: Rc<RefCell<Vec<Evaluation>>>,
@@ -274,7 +276,7 @@ impl<S: System<Vector: Vector>> System for Logged<S> {
         self.log.borrow_mut().push(Evaluation { t, q, v, a });
     }
 
-    /// Kept as an evaluation: a slope and settings at their state, and a target at rest in it.
+    /// Logs an answer as an evaluation: a slope and settings at their state, and a target at rest in it.
     fn query(&self, t: f64, query: Query<'_, S::Vector>) -> bool {
         match query {
             Query::Slope { state, .. } | Query::Engine { state, .. } => {

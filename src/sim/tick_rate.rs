@@ -7,14 +7,15 @@ use std::str::FromStr;
 /// The most digits after the point of a rate or a step: a nanosecond.
 const MAX_DIGITS: usize = 9;
 
-/// The largest term of a ratio that is read: all rates of [`MAX_DIGITS`] digits have smaller ones, an `f64` holds it
-/// exactly, and the [`Clock`](super::Clock)'s integers have room for it times the longest frame at the highest speed.
+/// The largest term of a ratio read from text; all rates of [`MAX_DIGITS`] digits have smaller ones. An `f64`
+/// represents it exactly, and the [`Clock`](super::Clock)'s integers have room for it times the longest frame at the
+/// highest speed.
 const MAX_TERM: u64 = 100_000_000_000_000;
 
 /// Ticks per second: `ticks / seconds`, in lowest terms.
 ///
-/// Any whole number of hertz is one, also 0, which no clock runs at; a rate that is [read](FromStr) is in the range of a
-/// clock.
+/// Any whole number of hertz is a rate, also 0, which no clock runs at. A rate [read](FromStr) from text is in the
+/// range of a clock.
 ///
 /// ```
 /// use regatta::sim::TickRate;
@@ -31,7 +32,7 @@ pub struct TickRate {
 }
 
 impl TickRate {
-    /// The lowest rate of a clock: a tick in 100 seconds.
+    /// The lowest rate of a clock: one tick in 100 seconds.
     pub const MIN: Self = Self { ticks: 1, seconds: 100 };
     /// The highest rate of a clock: 10 000 Hz.
     pub const MAX: Self = Self::whole(10_000);
@@ -41,11 +42,11 @@ impl TickRate {
         Self { ticks: hz as u64, seconds: 1 }
     }
 
-    /// Reads the length of a tick in seconds: a decimal or a ratio of two, such as `0.015` or `1/66.667`. It may end in
-    /// `s` or `ms`.
+    /// Reads the length of a tick in seconds: a decimal or a ratio of two, such as `0.015` or `1/66.667`, optionally
+    /// with `s` or `ms` at the end.
     ///
     /// # Errors
-    /// What to write in its place.
+    /// An error message that says how to write it.
     pub fn of_step(written: &str) -> Result<Self, String> {
         let (number, per_second) = match written.strip_suffix('s') {
             Some(number) => number.strip_suffix('m').map_or((number, 1), |number| (number, 1000)),
@@ -71,18 +72,18 @@ impl TickRate {
         Self { ticks: term(ticks), seconds: term(seconds) }
     }
 
-    /// The ratio that was read, if a clock runs at it.
+    /// The ratio, if a clock runs at it.
     fn checked(ticks: u128, seconds: u128) -> Option<Self> {
         let rate = Self::reduced(ticks, seconds);
         (rate.ticks.max(rate.seconds) <= MAX_TERM && rate.is_in_range()).then_some(rate)
     }
 
-    /// Whether a clock runs at it.
+    /// Whether a clock runs at this rate.
     pub fn is_in_range(self) -> bool {
         self.seconds > 0 && (Self::MIN..=Self::MAX).contains(&self)
     }
 
-    /// This rate times `times / parts`, which need not be in the range of a clock.
+    /// This rate times `times / parts`. The result need not be in the range of a clock.
     pub fn scaled(self, times: u32, parts: u32) -> Self {
         Self::reduced(
             u128::from(self.ticks) * u128::from(times),
@@ -90,7 +91,7 @@ impl TickRate {
         )
     }
 
-    /// The ticks in a whole number of seconds, and that number: in lowest terms.
+    /// The rate in lowest terms: ticks, and the whole seconds they take.
     pub fn ratio(self) -> [u64; 2] {
         [self.ticks, self.seconds]
     }
@@ -110,12 +111,12 @@ impl TickRate {
         self.seconds as f64 / self.ticks as f64
     }
 
-    /// How long this many ticks last, in seconds.
+    /// The duration of this many ticks, in seconds.
     pub fn seconds(self, ticks: u64) -> f64 {
         self.seconds_of(ticks as f64)
     }
 
-    /// How long this many ticks and parts of one last, in seconds.
+    /// The duration of this many ticks, including fractions, in seconds.
     pub fn seconds_of(self, ticks: f64) -> f64 {
         ticks * self.seconds as f64 / self.ticks as f64
     }
@@ -125,7 +126,7 @@ impl TickRate {
         decimal(self.ticks, self.seconds)
     }
 
-    /// The length of a tick in seconds as such a decimal, if it has one.
+    /// The length of a tick in seconds as a decimal, if it has one of at most nine digits after the point.
     pub fn decimal_step_s(self) -> Option<String> {
         decimal(self.seconds, self.ticks)
     }
@@ -137,7 +138,7 @@ impl From<u32> for TickRate {
     }
 }
 
-/// In Hz.
+/// The rate in Hz.
 impl From<TickRate> for f64 {
     fn from(rate: TickRate) -> Self {
         rate.hz()
@@ -169,8 +170,8 @@ impl PartialOrd<u32> for TickRate {
     }
 }
 
-/// A text that is read back as the same rate: `66.667`, or `1/0.015` where only the step is a decimal, or `60000/1001`.
-/// With a precision, as in `{:.3}`, the nearest decimal of at most so many digits, for people.
+/// A text that reads back as the same rate: `66.667`, or `1/0.015` if only the step is a decimal, or `60000/1001`.
+/// With a precision, as in `{:.3}`, the nearest decimal with at most that many digits, for people.
 impl fmt::Display for TickRate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(digits) = f.precision() {
@@ -202,7 +203,7 @@ impl FromStr for TickRate {
     }
 }
 
-/// A number of a file, whose shortest decimal is what was written.
+/// A number from a file. Its shortest decimal is the text in the file.
 impl TryFrom<f64> for TickRate {
     type Error = String;
 

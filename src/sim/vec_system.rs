@@ -6,7 +6,7 @@ use super::cores::assert_length;
 use super::state::{State, Vector};
 use super::system::{Coupling, Pursuit, Query, System};
 
-/// A system as one of a `Vec`.
+/// Presents a system as one with its coordinates in a `Vec`.
 pub(super) struct VecSystem<'a, S: System> {
     system: &'a S,
     scratch: RefCell<&'a mut Scratch<S::Vector>>,
@@ -18,7 +18,7 @@ impl<'a, S: System> VecSystem<'a, S> {
     }
 }
 
-/// The coordinates in the system's own vectors: a state, a direction, and what the system writes.
+/// Scratch in the system's own vectors: a state, a direction, and the result.
 #[derive(Clone)]
 pub(super) struct Scratch<V> {
     state: State<V>,
@@ -27,13 +27,13 @@ pub(super) struct Scratch<V> {
 }
 
 impl<V: Vector> Scratch<V> {
-    /// For coordinates shaped `like` these.
+    /// Scratch for coordinates shaped `like` these.
     pub(super) fn new(like: &V) -> Self {
         let state = State { q: like.clone(), v: like.clone() };
         Self { along: state.clone(), result: like.clone(), state }
     }
 
-    /// The state with these coordinates and velocities; at rest without them.
+    /// The state with these coordinates and velocities; at rest without velocities.
     pub(super) fn state(&mut self, q: &[f64], v: Option<&[f64]>) -> &State<V> {
         self.state.q.components_mut().copy_from_slice(q);
         let own = self.state.v.components_mut();

@@ -1,4 +1,4 @@
-//! How high a body went that comes down to its ground again, and how high it should have gone.
+//! Compares the height of a jump with that of the exact motion.
 
 use glam::DVec2;
 
@@ -9,13 +9,13 @@ use crate::run::past::SweptRange;
 use crate::run::race::Entrant;
 use crate::sim::number::significant;
 
-/// Half the width of the mark at a height, in points.
+/// Half the width of a height mark, in points.
 const APEX: f32 = 34.0;
-/// The room between the mark and its words, and the width of a letter of these, in points.
+/// Gap between the mark and its words, and width of a letter, in points.
 const GAP: f32 = 8.0;
 const LETTER: f32 = 7.0;
 
-/// The height to which a body went before it came down again, of what it swept between these samples, in metres.
+/// Height (m) of the last jump in the swept ranges; `None` until the body has come down again.
 fn apex(swept: impl Iterator<Item = SweptRange>) -> Option<f64> {
     let (mut most_m, mut is_down) = (0.0, false);
     for SweptRange { least, greatest } in swept {
@@ -27,8 +27,7 @@ fn apex(swept: impl Iterator<Item = SweptRange>) -> Option<f64> {
     (is_down && most_m > 0.0).then_some(most_m)
 }
 
-/// Marks how high a body went that comes down to its ground again, and how high it should have gone, and says by how much
-/// they differ, with as many words as there is room for.
+/// Marks the height of a body's jump and that of the exact one, and writes the difference in the words that fit.
 pub(super) fn draw(
     picture: &mut Picture,
     camera: &Camera,

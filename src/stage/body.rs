@@ -1,4 +1,4 @@
-//! A body in front, behind, or exact: how each part of its outline is drawn.
+//! A body in front, behind, or exact: draws each part of its outline.
 
 use super::coil::{Span, coil, silhouette, strut};
 use super::hull::{self, ShipPose};
@@ -7,7 +7,7 @@ use super::{Align, Label, Picture, captions, mass};
 use crate::look::palette::{Palette, Rgba, faded, is_bright, mixed};
 use crate::scene::{Mark, Outline, Thread};
 
-/// The width of a thread of a net in front, in points: of the border, and within it.
+/// Width of a net's threads in front, in points: on the border, and within it.
 const BORDER: f32 = 2.2;
 const THREAD: f32 = 1.1;
 
@@ -19,14 +19,14 @@ pub(super) struct OutlineView<'a> {
     pub(super) palette: &'static Palette,
 }
 
-/// A part that moves as the body does, in points.
+/// A part that moves with the body, in points.
 enum Part {
     /// Its ends.
     Rod([[f32; 2]; 2]),
     /// Its centre and radius.
     Disc([f32; 2], f32),
     Sprung(Span),
-    /// Two corners.
+    /// Two opposite corners.
     Block([[f32; 2]; 2]),
     Hull(ShipPose),
 }
@@ -45,14 +45,13 @@ impl OutlineView<'_> {
         }
     }
 
-    /// The corners of a block.
     fn box_of(&self, centre: glam::DVec2, half: glam::DVec2) -> [[f32; 2]; 2] {
         let [x, y] = self.camera.points(centre);
         let [w, h] = [self.camera.length(half.x), self.camera.length(half.y)];
         [[x - w, y - h], [x + w, y + h]]
     }
 
-    /// What does not move, of a body that is not seen.
+    /// Draws only the fixed parts, for a body that is not shown.
     pub(super) fn still(&self, picture: &mut Picture) {
         let is_still = |mark: &&Mark| {
             use Mark::{Anchor, Planet, Rail, Wall};
@@ -65,7 +64,7 @@ impl OutlineView<'_> {
         OutlineView { outline: &outline, ..*self }.carried(picture, nothing);
     }
 
-    /// Writes a lane's number on its body of this colour, if that is one thing and has room.
+    /// Writes a lane's number on a body of this colour, if the body is a single part with enough room.
     pub(super) fn number(&self, picture: &mut Picture, number: usize, on: Rgba) {
         let mut sizes = self.outline.marks.iter().filter_map(|mark| match *mark {
             Mark::Sprung => Some(0.42 * self.camera.block),
@@ -82,7 +81,7 @@ impl OutlineView<'_> {
         picture.labels.push(label.strong());
     }
 
-    /// What carries the body: springs, rods, and what does not move, with names. It is drawn below the exact solution.
+    /// Draws the parts below the exact solution: springs, rods and fixed parts, with names.
     pub(super) fn carried(&self, picture: &mut Picture, style: LaneStyle) {
         let camera = self.camera;
         let pen = &mut picture.pen(camera.rect);
@@ -124,7 +123,7 @@ impl OutlineView<'_> {
         self.names(picture);
     }
 
-    /// Writes the names of the rails, at their left ends.
+    /// Writes the names of the rails at their left ends.
     fn names(&self, picture: &mut Picture) {
         for (at, text) in &self.outline.names {
             let [x, y] = self.camera.points(*at);
@@ -134,7 +133,7 @@ impl OutlineView<'_> {
         }
     }
 
-    /// The parts that move as the body does, where this camera sees them.
+    /// The moving parts as this camera sees them.
     fn parts(&self) -> impl Iterator<Item = Part> {
         self.outline.marks.iter().filter_map(|mark| {
             Some(match *mark {
@@ -154,13 +153,13 @@ impl OutlineView<'_> {
         })
     }
 
-    /// The body itself, in front of everything.
+    /// Draws the body itself, in front of everything.
     pub(super) fn front(&self, picture: &mut Picture, LaneStyle { colour, .. }: LaneStyle) {
         let camera = self.camera;
         let pen = &mut picture.pen(camera.rect);
         for part in self.parts() {
             match part {
-                // It carries the body.
+                // Drawn below the exact solution.
                 Part::Rod(_) => {}
                 Part::Disc(at, radius) => mass::ball(pen, at, radius, colour),
                 Part::Sprung(span) => mass::block(pen, span.block, camera.block, colour),
@@ -170,11 +169,11 @@ impl OutlineView<'_> {
         }
     }
 
-    /// A lane behind, hollow: what tells where it is, and nothing of what does not move.
+    /// Draws a lane behind as hollow outlines, without fixed parts.
     pub(super) fn behind(&self, picture: &mut Picture, style: LaneStyle) {
         let camera = self.camera;
         let pen = &mut picture.pen(camera.rect);
-        // Something small has its pattern at half the length.
+        // A small part has its pattern at half the length.
         let [drawn, gap] = style.dash;
         let dash = if gap > 0.0 { [(drawn / 2.0).max(2.0), 2.5] } else { style.dash };
         let short = LaneStyle { dash, ..style };
@@ -197,7 +196,7 @@ impl OutlineView<'_> {
         }
     }
 
-    /// The exact solution: one line round it.
+    /// Outlines the exact solution.
     pub(super) fn ghost(&self, picture: &mut Picture) {
         let (camera, palette) = (self.camera, self.palette);
         let pen = &mut picture.pen(camera.rect);

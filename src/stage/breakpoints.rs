@@ -1,4 +1,5 @@
-//! From which width or height on, in points, there is room for what on the stage: with less it is left out, or laid out closer.
+//! Smallest widths and heights (points) at which the stage shows its elements. With less room it omits them or moves
+//! them closer.
 
 // Widths of the stage.
 pub(super) const LANE_NAMES: f32 = 520.0;
@@ -16,13 +17,13 @@ pub(super) const MARKS: f32 = 330.0;
 
 // Heights of a cell, or of a band of the loop lab.
 pub(super) const CHIP: f32 = 90.0;
-/// The path of the frames below the body.
+/// Path of the frames below the body.
 pub(super) const PATH: f32 = 90.0;
 pub(super) const SCALE_BAR: f32 = 64.0;
 pub(super) const LINE_OF_WORDS: f32 = 46.0;
 
-/// The width and the height of a cell.
+/// Width and height of a cell.
 pub(super) const CAPTION: [f32; 2] = [70.0, 30.0];
-/// The length of a hull with a deck and a house, and of one whose planks are seen.
+/// Length of a hull that shows a deck and a house, and of one that shows planks.
 pub(super) const DECK: f32 = 22.0;
 pub(super) const PLANKS: f32 = 70.0;

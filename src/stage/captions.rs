@@ -1,4 +1,4 @@
-//! Words and marks on the stage: who, where, how far, and what became of it.
+//! Words and marks on the stage: names, distances, verdicts and halts.
 
 use glam::DVec2;
 
@@ -14,25 +14,27 @@ use crate::sim::number::{round, significant};
 use crate::studio::Studio;
 use crate::studio::{shown_state, shown_truth};
 
-/// Room that a scale bar may take at the right of a cell, in points.
+/// Room of a scale bar at the right of a cell, in points.
 const BAR_MARGIN: f32 = 130.0;
-/// The height of a chip, in points.
+/// Height of a chip, in points.
 const CHIP: f32 = 27.0;
-/// At least the mean width of a letter of a body's name, of a verdict, and of other words at a cell's head, in points.
+/// Upper bounds of the mean letter width (points): in a body's name, in a verdict, and in other words at a cell's
+/// head.
 const NAME_LETTER: f32 = 8.5;
 const VERDICT_LETTER: f32 = 7.6;
 const LETTER: f32 = 6.7;
-/// The column of lane names at the left of a race, in points: at least so wide where names fit, and where only numbers do.
+/// Least width (points) of the column of lane names at the left of a race: where names fit, and where only numbers
+/// do.
 const LANES: (f32, f32) = (124.0, 18.0);
-/// The part of the stage that they may take.
+/// Largest share of the stage for lane names.
 const MAX_FOR_LANES: f32 = 0.28;
-/// How far the name of a lane keeps from the left edge of its column, in points.
+/// Distance (points) of a lane's name from the left edge of its column.
 const LANE_INSET: f32 = 8.0;
-/// The room of a ghost's name besides its letters, in points.
+/// Room (points) of a ghost's name besides its letters.
 const BESIDE_NAME: f32 = 18.0;
-/// How far the lines of an answer are above the foot of a cell, over what halted there, in points.
+/// Height (points) of an answer's lines above the foot of a cell, clear of the halts there.
 const ANSWER: [f32; 2] = [60.0, 44.0];
-/// How far captions keep from the left edge of a wide cell, in points.
+/// Distance (points) of captions from the left edge of a wide cell.
 const WIDE_INSET: f32 = 62.0;
 
 /// Text on the water.
@@ -52,7 +54,7 @@ fn lane_name(studio: &Studio, entrant: &Entrant) -> String {
     format!("{} {}", entry + 1, studio.lane_name(entry))
 }
 
-/// The width of the column at the left of a stage this wide in which [`lane`] names each of these, in points.
+/// Width (points) of the left column in which [`lane`] names these entrants, on a stage of width `stage`.
 pub(super) fn lanes_width(studio: &Studio, entrants: &[&Entrant], stage: f32) -> f32 {
     let width =
         |lane: &&Entrant| LANE_INSET + LETTER * lane_name(studio, lane).chars().count() as f32;
@@ -60,7 +62,7 @@ pub(super) fn lanes_width(studio: &Studio, entrants: &[&Entrant], stage: f32) ->
     if stage >= breakpoints::LANE_NAMES { widest.min(MAX_FOR_LANES * stage) } else { LANES.1 }
 }
 
-/// Names a lane at the left of its row, with a bar where it is selected.
+/// Names a lane at the left of its row, and marks the selected one with a bar.
 pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, entrant: &Entrant) {
     let studio = moment.studio;
     let entry = studio.entry(entrant);
@@ -72,7 +74,7 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
         let x = rect.min[0] + 2.5;
         picture.pen(rect).line([x, top], [x, bottom.max(top)], 3.0, colour);
     }
-    // Of many lanes a row is lower than a line of the usual size.
+    // With many lanes, a row is lower than a line of the usual size.
     let size = (0.78 * (rect.max[1] - rect.min[1])).min(12.0);
     let mut write = |y, colour, words: String| {
         let at = [left, y];
@@ -83,12 +85,12 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
         write(middle, colour, format!("{}", entry + 1));
         return;
     }
-    // Half a point, for a column of just the width of its widest name.
+    // The extra half point allows for a column exactly as wide as its widest name.
     let letters = ((right - left + 0.5) / LETTER) as usize;
     if name.chars().count() > letters {
         name = name.chars().take(letters - 1).chain(['…']).collect();
     }
-    // Of several bodies, each has its own cell to say so in.
+    // In a scene of several bodies, each body's cell reports its halt.
     let alone = match entrant.lane.bodies() {
         [body] => body.halted(),
         _ => None,
@@ -100,7 +102,7 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
     }
 }
 
-/// What became of a body, and when, if this width has room for that.
+/// The end of a body and its time, or only the end if the width is too small.
 fn fate_within(halt: &Halt, width: f32) -> String {
     let fate = halt.fate();
     if LETTER * fate.chars().count() as f32 <= width {
@@ -109,11 +111,11 @@ fn fate_within(halt: &Halt, width: f32) -> String {
     halt.how().into()
 }
 
-/// What the stage says of a body whose truth is not tried.
+/// Caption for a body whose exact motion would take too much work.
 const NO_COMPARISON: &str = "Too many springs for an exact comparison; judged by its energy.";
 
-/// Says at the foot of a cell what no longer goes on in it: bodies, where the lane's name does not say so, and
-/// the truth.
+/// Reports at the foot of a cell which bodies halted, and whether the truth did. The caller leaves out bodies whose
+/// halt shows beside the lane's name.
 pub(super) fn halts<'h>(
     picture: &mut Picture,
     rect: Rect,
@@ -142,7 +144,7 @@ pub(super) fn halts<'h>(
     }
 }
 
-/// How far captions keep from the left edge of a wide cell: there the quay may be.
+/// Distance of captions from the left edge of a wide cell, where the quay may be.
 fn inset(rect: Rect) -> f32 {
     let is_wide = rect.max[0] - rect.min[0] > breakpoints::NUMBERS;
     if is_wide { (WIDE_INSET - rect.min[0]).max(6.0) } else { 0.0 }
@@ -158,7 +160,7 @@ pub(super) fn name(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
     }
 }
 
-/// The room of the name of a body at the head of its cell, if it is named there.
+/// The room of a body's name at the head of its cell, if the cell has one.
 pub(super) fn name_room(rect: Rect, moment: &DrawContext<'_>, index: usize) -> Option<Rect> {
     let [x, y] = caption_place(rect)?;
     let letters = moment.studio.scene().bodies[index].name.chars().count();
@@ -170,7 +172,8 @@ fn capitalised(name: &str) -> String {
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// Says beside a body's name what it should do, and at the right what the method does instead. If both do not fit, only that.
+/// Writes the expected motion beside a body's name, and the method's fault at the right. If both do not fit, only the
+/// fault.
 pub(super) fn head(
     picture: &mut Picture,
     rect: Rect,
@@ -189,7 +192,7 @@ pub(super) fn head(
     let room_for = |from: f32| rect.max[0] - 10.0 - from;
     let beside_both = chip.as_ref().and_then(|chip| chip.within(room_for(right)));
     let alone = chip.as_ref().and_then(|chip| chip.within(room_for(left)));
-    // The chip of a body that halted says so already.
+    // The chip of a halted body already reports the halt.
     if right <= rect.max[0] && (beside_both.is_some() && body.halted().is_none() || alone.is_none())
     {
         let at = [left, y + 0.5];
@@ -200,7 +203,8 @@ pub(super) fn head(
     }
 }
 
-/// What became of a body, where it is while a person holds it, or else what it should do, and the colour of that.
+/// Words beside a body's name, and their colour: its halt, its place while a person holds it, or else its expected
+/// motion.
 fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (String, Rgba) {
     let (studio, palette) = (moment.studio, moment.palette);
     if let Some(halt) = body.halted() {
@@ -213,7 +217,7 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
             let place = significant(held.q[plotted], 4);
             format!("{} = {place} {}", coordinate.name, coordinate.shown_unit())
         }
-        // The promise may answer a stop of the guide.
+        // The expected motion may give away the answer at a stop of the guide.
         None if studio.viewer.is_asked() => String::new(),
         None => {
             let truth = &studio.race().truth().bodies()[index];
@@ -224,7 +228,7 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
     (words, palette.dim)
 }
 
-/// The speed of a ship on a straight course, ahead of its bow, where nothing else is said.
+/// Writes the speed of a ship on a straight course ahead of its bow, where no other words are.
 pub(super) fn speed(
     picture: &mut Picture,
     camera: &Camera,
@@ -255,7 +259,7 @@ pub(super) fn speed(
     }
 }
 
-/// From where to where about a label reaches, in points.
+/// Approximate left and right end of a label, in points.
 fn span(label: &Label) -> [f32; 2] {
     let width = LETTER / 12.5 * label.size * label.text.chars().count() as f32;
     let left = match label.align {
@@ -271,18 +275,18 @@ fn caption_place(rect: Rect) -> Option<[f32; 2]> {
     fits.then_some([rect.min[0] + 9.0 + inset(rect), rect.min[1] + 13.0])
 }
 
-/// What the stage says of the method, on one line.
+/// The verdict on the method, on one line.
 struct Chip {
     sign: &'static str,
-    /// The colour of the sign, and of the rim.
+    /// Colours of the sign and of the rim.
     colours: [Rgba; 2],
     verdict: String,
-    /// The same in fewer words.
+    /// A shorter version.
     brief: Option<String>,
 }
 
 impl Chip {
-    /// The chip of a body whose method is not accurate.
+    /// The chip of a body whose method is inaccurate.
     fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
         let entry = moment.studio.entry(entrant);
         let verdict = moment.studio.viewer.verdict(entry)?;
@@ -293,7 +297,7 @@ impl Chip {
         if verdict.body != index || matches!(severity, Severity::Fine | Severity::Unknown) {
             return None;
         }
-        // The run on the screen is another than the judged one.
+        // The run on the screen differs from the judged one.
         let is_other = moment.studio.deck.is_judged_apart();
         Some(Self {
             sign: outcome.sign().glyph(),
@@ -311,7 +315,7 @@ impl Chip {
         34.0 + VERDICT_LETTER * self.verdict.chars().count() as f32
     }
 
-    /// As much of the chip as this width takes.
+    /// The longest version of the chip that fits into this width.
     fn within(&self, width: f32) -> Option<Self> {
         let said = [Some(&self.verdict), self.brief.as_ref()].into_iter().flatten();
         let mut chips = said.map(|verdict| Self { verdict: verdict.clone(), brief: None, ..*self });
@@ -343,7 +347,7 @@ pub(super) fn compared(picture: &mut Picture, rect: Rect, lines: [String; 2], pa
     }
 }
 
-/// Names a ghost in its colour, `beside` points from its middle: at a side below it where no other words are, or else above it.
+/// Names a ghost in its colour, `beside` points from its middle: below it at a free side, or else above it.
 pub(super) fn ghost_name(
     picture: &mut Picture,
     camera: &Camera,
@@ -382,7 +386,7 @@ pub(super) fn ghost_name(
     }
 }
 
-/// The line of the course of a ship `beam` points wide, with distance marks whose numbers are beside the ship.
+/// Draws the course line of a ship `beam` points wide, with distance marks whose numbers keep clear of the ship.
 pub(super) fn course(picture: &mut Picture, camera: &Camera, beam: f32, palette: &Palette) {
     let Rect { min, max } = camera.rect;
     let y = camera.points(DVec2::new(0.0, camera.centre_m.y))[1];
@@ -433,7 +437,7 @@ pub(super) fn plate(
     pen.ring(&shape, 1.6, rim);
 }
 
-/// A line of this width from side to side, with a stroke across each of its ends that reaches so far up and down.
+/// A line of this width from side to side, with a stroke across each end that extends `reach` points up and down.
 pub(super) fn span_line(
     picture: &mut Picture,
     ([left, right], y): ([f32; 2], f32),
@@ -447,7 +451,7 @@ pub(super) fn span_line(
     }
 }
 
-/// How long a round number of metres is.
+/// Draws a round number of metres to scale.
 pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     let Rect { min, max } = camera.rect;
     if max[0] - min[0] < BAR_MARGIN || max[1] - min[1] < breakpoints::SCALE_BAR {
@@ -457,7 +461,7 @@ pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palett
     let (right, y, colour) = (max[0] - 10.0, max[1] - 8.0, palette.dim);
     let left = right - camera.length(length_m);
     let at = [(left + right) / 2.0, y - 10.0];
-    // In a low cell a badge of a body beyond the edge needs the room.
+    // In a low cell, the badge of a body beyond the edge needs the room.
     let is_taken =
         |label: &Label| (label.at[1] - at[1]).abs() < 16.0 && (label.at[0] - at[0]).abs() < 60.0;
     if picture.labels.iter().any(is_taken) {
@@ -475,7 +479,7 @@ mod tests {
     use crate::stage::compose;
     use crate::studio::{HeldBody, RunCommand, StageCommand, ViewCommand};
 
-    /// What is said beside the name of the one body, and where it ends: before the chip.
+    /// The words beside the body's name. Asserts that they end before the chip.
     fn beside_name_of(studio: &Studio, width: f32) -> Option<String> {
         let picture = compose(studio, [width, 460.0]);
         let chip = picture.labels.iter().find(|label| label.text == "▲").expect("a chip");

@@ -1,4 +1,4 @@
-//! The sea that the bodies are on, drawn as a chart: depth contours, waves, the quay, and rulers.
+//! The sea under the bodies, drawn as a chart: depth contours, waves, the quay, and rulers.
 
 use std::f32::consts::TAU;
 use std::sync::LazyLock;
@@ -10,17 +10,16 @@ use super::{Align, Label, Picture, Rect, Sea};
 use crate::look::palette::{Palette, faded, mixed};
 use crate::sim::number::round;
 
-/// The height of the ruler along the top of the stage, in points.
+/// Height of the ruler along the top of the stage, in points.
 pub(super) const RULER: f32 = 24.0;
-/// How far apart the numbers of a ruler are at least, as a part of its length.
+/// Least distance between the numbers of a ruler, relative to its length.
 const NAMED_APART: f64 = 0.19;
-/// The height of its striped bar.
+/// Height of its striped bar, in points.
 const STRIPES: f32 = 6.0;
-/// The waves of a stage of the usual size, and its area in square points.
+/// Number of waves on a stage of the usual size, and the area of such a stage in square points.
 const USUAL_WAVES: u16 = 150;
 const AREA_OF_USUAL_WAVES: f32 = 800.0 * 480.0;
 
-/// The sea of the stage.
 pub(super) fn sea(picture: &mut Picture, stage: Rect, palette: &Palette) {
     picture.sea = Some(Sea { rect: stage, colours: palette.sea });
     let pen = &mut picture.pen(stage);
@@ -28,7 +27,7 @@ pub(super) fn sea(picture: &mut Picture, stage: Rect, palette: &Palette) {
     waves(pen, stage, palette);
 }
 
-/// Lines of equal depth round a shoal, from its middle, in widths of the stage.
+/// Lines of equal depth around a shoal, relative to its middle, in widths of the stage.
 static CONTOURS: LazyLock<[[[f32; 2]; 57]; 8]> = LazyLock::new(|| {
     std::array::from_fn(|n| {
         let number = n as f32;
@@ -55,15 +54,15 @@ fn contours(pen: &mut Pen<'_>, stage: Rect, palette: &Palette) {
 
 /// A short stroke on the water.
 struct Wave {
-    /// Where it begins, in widths and heights of the stage.
+    /// Its start, in widths and heights of the stage.
     at: [f32; 2],
-    /// In points.
+    /// Length in points.
     length: f32,
-    /// How much of its colour it has.
+    /// Opacity.
     strength: f32,
 }
 
-/// Waves, scattered in the same way on every stage; a small one has fewer.
+/// Waves in the same scatter on every stage; a small stage shows fewer.
 static WAVES: LazyLock<Vec<Wave>> = LazyLock::new(|| {
     let mut dice = 0x9E37_79B9_u32;
     let mut roll = || {
@@ -93,7 +92,7 @@ fn waves(pen: &mut Pen<'_>, stage: Rect, palette: &Palette) {
     }
 }
 
-/// The quay to the left of a camera's cell, between these heights, with its shadow on the water.
+/// Draws the quay at the left of a camera's cell, with its shadow on the water.
 pub(super) fn quay(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     const SLAB: f32 = 36.0;
     let clip = camera.rect;
@@ -119,7 +118,7 @@ pub(super) fn quay(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     pen.line([edge - 3.0, top], [edge - 3.0, bottom], 5.0, rim);
 }
 
-/// The ring on the quay that a spring is moored to.
+/// Draws the ring on the quay to which a spring is moored.
 pub(super) fn mooring(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     let pen = &mut picture.pen(camera.rect);
     let [x, y] = camera.points(DVec2::new(camera.quay_m, 0.0));
@@ -131,7 +130,7 @@ pub(super) fn mooring(picture: &mut Picture, camera: &Camera, palette: &Palette)
     pen.line(at, [x + 2.0, y], 0.4 * radius, mixed(rim, palette.text, 0.4));
 }
 
-/// A ruler along the top of the stage, in the metres that the camera shows below it.
+/// Draws a ruler along the top of the stage, in the metres of the camera below it.
 pub(super) fn ruler(picture: &mut Picture, strip: Rect, camera: &Camera, palette: &Palette) {
     let Rect { min, max } = strip;
     picture.pen(strip).fill(
@@ -145,7 +144,7 @@ pub(super) fn ruler(picture: &mut Picture, strip: Rect, camera: &Camera, palette
     let light = mixed(palette.panel, palette.text, 0.75);
     let first = libm::floor(2.0 * left / step_m) as i64;
     let last = libm::ceil(2.0 * right / step_m) as i64;
-    // Beyond 10¹⁸ of them both ends are the last whole number.
+    // Beyond 10¹⁸ marks, both ends saturate at the last whole number.
     let last = last.min(first.saturating_add(400));
     for i in first..last {
         let shade = if i.rem_euclid(2) == 0 { light } else { palette.line };

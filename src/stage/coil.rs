@@ -1,39 +1,39 @@
-//! A coil spring between the quay and a block: a wire round a drum, seen from the side.
+//! A coil spring between the quay and a block: a wire around a drum, seen from the side.
 
 use std::f32::consts::{PI, TAU};
 
 use super::sketch::{Pen, rounded};
 use crate::look::palette::{Palette, Rgba, faded};
 
-/// Turns of the wire. They stay as many; the pitch stretches.
+/// Turns of the wire. Their number is fixed; the pitch stretches.
 const TURNS: u16 = 13;
-/// The radius of the drum, and the straight wire at either end, in blocks.
+/// Radius of the drum, and length of the straight wire at either end, in blocks.
 const RADIUS: f32 = 0.35;
 const LEAD: f32 = 0.09;
-/// Points of half a turn.
+/// Segments per half turn.
 const PIECES: u16 = 7;
-/// Below this length a spring is not drawn, in points: its block is at the quay or beyond.
+/// Least drawn length of a spring, in points. A shorter one has its block at the quay or beyond.
 const MIN_LENGTH: f32 = 6.0;
 
-/// Where a spring is, in points.
+/// Ends of a spring, in points.
 #[derive(Clone, Copy)]
 pub(super) struct Span {
     pub(super) quay: f32,
-    /// The middle of the block.
+    /// Middle of the block.
     pub(super) block: [f32; 2],
-    /// The side of the block.
+    /// Side of the block.
     pub(super) size: f32,
 }
 
 impl Span {
-    /// Where the wire begins to turn and where it ends.
+    /// Where the turns begin and end.
     fn ends(self) -> Option<(f32, f32)> {
         let lead = LEAD * self.size;
         let (from, to) = (self.quay + lead, self.block[0] - self.size / 2.0 - lead);
         (to - from >= MIN_LENGTH).then_some((from, to))
     }
 
-    /// A point of the wire, which has made this turn, in radians.
+    /// The point of the wire at this angle (radians) from its first turn.
     fn wire(self, (from, to): (f32, f32), angle: f32) -> [f32; 2] {
         let (pitch, radius) = ((to - from) / f32::from(TURNS), RADIUS * self.size);
         let lean = (0.22 * pitch).min(0.34 * radius);
@@ -42,7 +42,7 @@ impl Span {
     }
 }
 
-/// The spring, in metal.
+/// Draws the spring in metal.
 pub(super) fn coil(pen: &mut Pen<'_>, span: Span, palette: &Palette) {
     let Some(ends) = span.ends() else { return };
     let thick = (span.size / 60.0).clamp(0.25, 1.0);
@@ -68,7 +68,7 @@ pub(super) fn coil(pen: &mut Pen<'_>, span: Span, palette: &Palette) {
     layer(false, 1.5, gleam);
 }
 
-/// A spring between two points, seen from the side, with turns of this radius.
+/// Draws a spring between two points, seen from the side, with turns of this radius.
 pub(super) fn strut(pen: &mut Pen<'_>, [from, to]: [[f32; 2]; 2], radius: f32, palette: &Palette) {
     const BENDS: u8 = 12;
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
@@ -90,7 +90,7 @@ pub(super) fn strut(pen: &mut Pen<'_>, [from, to]: [[f32; 2]; 2], radius: f32, p
     }
 }
 
-/// The silhouette of a spring and its block, in one line round both.
+/// Draws the silhouette of a spring and its block, with one line around both.
 pub(super) fn silhouette(pen: &mut Pen<'_>, span: Span, palette: &Palette) {
     let half = span.size / 2.0 + 1.5;
     let [x, y] = span.block;
@@ -108,7 +108,7 @@ pub(super) fn silhouette(pen: &mut Pen<'_>, span: Span, palette: &Palette) {
             let bulge = libm::fabsf(libm::sinf(PI * f32::from(i) / 4.0));
             [left + part * (right - left), y + side * (edge - swell + swell * bulge)]
         };
-        // The corners of the block begin at its upper right and go round to its upper left.
+        // The corners of the block start at the upper right and go clockwise to the upper left.
         let upper = (0..=4 * TURNS).map(|i| scallop(i, -1.0));
         let lower = (0..=4 * TURNS).rev().map(|i| scallop(i, 1.0));
         let (right_side, left_side) = round.split_at(round.len() / 2);

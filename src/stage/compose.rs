@@ -21,26 +21,26 @@ use crate::scene::{Mark, Outline};
 use crate::studio::{Arrangement, Studio, ZoomPan};
 use crate::studio::{DIGITS, shown_state, shows_futures};
 
-/// The most lanes of which each body has its number on it.
+/// Most lanes for which each body shows its lane's number.
 const MAX_NUMBERED: usize = 9;
 
-/// The head of a cell in which its lane is named, and may have halted, in points.
+/// Height (points) of the head of a cell with a lane's name and a possible halt.
 const CAPTION: f32 = 32.0;
-/// Where badges begin at the earliest, in points below the top of a cell.
+/// Highest start of badges, in points below the top of a cell.
 const BADGES: f32 = 30.0;
-/// How much is seen of a body where it was taken from, while it is held.
+/// Opacity of a held body at the place from which it was taken.
 const LEFT_BEHIND: f32 = 0.35;
 /// Widths of trails in points.
 const TRAIL_IN_FRONT: f32 = 2.4;
 const TRAIL_BEHIND: f32 = 1.3;
 const TRAIL_OF_TRUTH: f32 = 1.5;
-/// How much of its colour fills a lane behind, of few.
+/// Opacity of the fill of a lane behind, when there are few.
 const FILL: f32 = 0.2;
-/// How much of its colour has the body of a lane behind.
+/// Opacity of a body in a lane behind.
 const BODY_BEHIND: f32 = 0.9;
-/// How much of its colour has the trail of a lane behind.
+/// Opacity of the trail of a lane behind.
 const FAINT: f32 = 0.45;
-/// How far a trail may be drawn from the true one, in points: less than anybody sees.
+/// Largest deviation of a drawn trail from the true one, in points: less than anybody sees.
 const TOLERANCE: f64 = 0.15;
 
 /// The picture of the studio on a stage of `size` points.
@@ -66,7 +66,7 @@ pub fn compose(studio: &Studio, size: [f32; 2]) -> Picture {
     picture
 }
 
-/// All lanes of a body on one band of the stage, the selected one in front.
+/// Draws all lanes of a body on one band of the stage, the selected one in front.
 fn overlay(
     picture: &mut Picture,
     moment: &DrawContext<'_>,
@@ -121,7 +121,7 @@ fn overlay(
     }
 }
 
-/// Each lane in cells of its own.
+/// Draws each lane in its own cells.
 fn side_by_side(
     picture: &mut Picture,
     moment: &DrawContext<'_>,
@@ -169,19 +169,19 @@ fn side_by_side(
     }
 }
 
-/// A thin line round a cell.
+/// Draws a thin line around a cell.
 fn frame(picture: &mut Picture, Rect { min, max }: Rect, colour: Rgba) {
     let corners = [min, [max[0], min[1]], max, [min[0], max[1]], min];
     let everywhere = Rect { min: [min[0] - 1.0, min[1] - 1.0], max: [max[0] + 1.0, max[1] + 1.0] };
     picture.pen(everywhere).path(corners, 1.0, colour);
 }
 
-/// One body of the scene in one cell: its ghost, and some lanes' bodies.
+/// One body of the scene in one cell: its ghost, and the bodies of some lanes.
 struct BodyCell<'a> {
     moment: &'a DrawContext<'a>,
     index: usize,
     ghost: &'a Ghost,
-    /// What the camera shows, of the ghost's world and of others that are seen with it.
+    /// The view of the camera, shared with the other bodies on the same stage.
     view: &'a BodyView,
     camera: Camera,
     lanes: &'a [&'a Entrant],
@@ -265,7 +265,7 @@ impl BodyCell<'_> {
             shown.carried(picture, style);
             self.draw_ghost(picture, shows_ghost);
             shown.front(picture, style);
-            // Those behind would be hidden by it.
+            // The body in front would hide those behind.
             for (outline, style) in rivals.drain(..) {
                 OutlineView { outline: &outline, ..shown }.behind(picture, style);
             }
@@ -273,9 +273,9 @@ impl BodyCell<'_> {
                 let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
                 picture.pen(camera.rect).line(handle, hand, 1.0, palette.text);
             }
-            // Flags of many lanes reach over the bodies.
+            // With many lanes, flags overlap the bodies.
             if self.lanes.len() <= MAX_NUMBERED {
-                // Alone, a body has a number only where a key picks its method.
+                // In solo mode, a body has a number only if a key picks its method.
                 if studio.mode() == Mode::Race || entry < DIGITS {
                     shown.number(picture, entry + 1, colour);
                 }
@@ -289,7 +289,7 @@ impl BodyCell<'_> {
             Framing::Recorder { .. } => 0.72 * camera.block,
             Framing::Follow { .. } | Framing::Fixed { .. } => 22.0,
         };
-        // Below the row of a chart recorder's bodies, where they cover none of them.
+        // Below the row of a chart recorder's bodies, badges cover none of them.
         let below = match framing {
             Framing::Recorder { .. } => camera.at[1] - camera.rect.min[1] + 0.6 * camera.block,
             Framing::Follow { .. } | Framing::Fixed { .. } => BADGES,
@@ -337,13 +337,13 @@ impl BodyCell<'_> {
         picture.cells.push(cell);
     }
 
-    /// How much of its colour fills a lane behind: the less, the more of them may lie over each other.
+    /// Opacity of the fill of a lane behind. It is lower with more lanes, since they may overlap.
     fn fill(&self) -> f32 {
         const FEW: f32 = 4.0;
         FILL * (FEW / self.lanes.len() as f32).min(1.0)
     }
 
-    /// Where a body can be seen: the cell, and of one with a quay what is beside that.
+    /// The part of the cell in which a body is visible: all except the quay.
     fn room(&self) -> Rect {
         let mut room = self.camera.rect;
         if let Framing::Recorder { .. } = self.view.framing {
@@ -357,13 +357,13 @@ impl BodyCell<'_> {
         lane.id == self.front.id
     }
 
-    /// Whether the futures of the body are drawn, in place of where it has been.
+    /// Whether the cell shows the body's futures instead of its trail.
     fn shows_futures(&self) -> bool {
         let is_afloat = matches!(self.view.framing, Framing::Follow { .. });
         shows_futures(self.moment.studio) && !is_afloat
     }
 
-    /// What lies under the bodies: the quay, a course, the exact trail, and how far the exact body swings.
+    /// Draws everything below the bodies: the mooring, a course, the exact trail, and the range of the exact swing.
     fn ground(&self, picture: &mut Picture, shows_ghost: bool) {
         let Self { moment, index, ghost, view, ref camera, .. } = *self;
         let framing = view.framing;
@@ -400,7 +400,7 @@ impl BodyCell<'_> {
         }
     }
 
-    /// Draws the body of a recording that the run was compared with, hollow and named, and the answer of the comparison.
+    /// Draws the body of a compared recording, hollow and named, and the answer of the comparison.
     fn draw_compared(&self, picture: &mut Picture, lift: f32) {
         let Self { moment, index, ref camera, front, .. } = *self;
         let (deck, palette) = (&moment.studio.deck, moment.palette);
@@ -419,8 +419,8 @@ impl BodyCell<'_> {
         captions::ghost_name(picture, camera, (outline.at, lift), named, palette);
     }
 
-    /// Draws where a lane's body has been, which is now at `from`; nothing of one that was beyond the cell. Returns what
-    /// is to be told of that one under this flag.
+    /// Draws the trail of a lane's body that is now at `from`, unless the trail leaves the cell. Returns the badge
+    /// for a body that is, or was, beyond it.
     fn trail(
         &self,
         picture: &mut Picture,
@@ -445,7 +445,7 @@ impl BodyCell<'_> {
         let mut legs = moment.legs(from, history, trail_s);
         let places = legs.iter().flatten().map(|place| place.at);
         let away = Lost::of(flag, camera, self.room(), std::iter::once(from).chain(places));
-        // A person who zooms in has chosen what to see.
+        // A person who zooms in has chosen the view, so the trail stays.
         let is_fitted = moment.studio.view().zoom_pan(view.zoomed_as) == ZoomPan::default();
         if is_fitted && away.is_some() {
             return away;
@@ -469,7 +469,7 @@ impl BodyCell<'_> {
     }
 }
 
-/// How far back the trail of a body reaches that is framed like this, in seconds; ships leave a wake.
+/// Duration (s) of a body's trail in this framing; `None` for ships, which leave a wake.
 fn trail_s(framing: Framing, moment: &DrawContext<'_>) -> Option<f64> {
     match framing {
         Framing::Follow { .. } => None,
@@ -478,7 +478,7 @@ fn trail_s(framing: Framing, moment: &DrawContext<'_>) -> Option<f64> {
     }
 }
 
-/// Dotted lines at the largest swing of the truth: a mass beyond them has gained energy.
+/// Draws dotted lines at the largest swing of the truth. A mass beyond them has gained energy.
 fn envelope(picture: &mut Picture, camera: &Camera, swing_m: f64, colour: Rgba) {
     let (top, bottom) = (camera.rect.min[1] + 4.0, camera.rect.max[1] - 4.0);
     for x in [-swing_m, swing_m] {

@@ -7,36 +7,36 @@ use super::{Align, Label, Picture, Rect};
 use crate::look::palette::{Palette, Rgba, faded, mixed};
 use crate::sim::number::{significant, superscript};
 
-/// The height of a flag and its least width, and the least gap between two, in points.
+/// Height and least width of a flag, and least gap between two, in points.
 const FLAG: f32 = 18.0;
 const GAP: f32 = 3.0;
-/// With more flags than this, those that point at places nearer than this to each other, in points, become one.
+/// With more than `MANY` flags, those within `NEAR` points of each other share one.
 const MANY: usize = 8;
 const NEAR: f32 = 9.0;
-/// The most numbers on one flag.
+/// Most numbers on one flag.
 const MAX_NUMBERS: usize = 3;
-/// How often flags are pushed apart, for each of them.
+/// Rounds of pushing flags apart, per flag.
 const PUSHES: usize = 3;
-/// The height of a badge, the least width of one with words, and the width of one without.
+/// Height of a badge, least width of one with words, and width of one without.
 const BADGE: f32 = 24.0;
 const WIDE_BADGE: f32 = 92.0;
 const NARROW_BADGE: f32 = 26.0;
-/// What a badge has beside its words, and at least the mean width of their letters, in points.
+/// Width of a badge besides its words, and upper bound of the mean width of their letters, in points.
 const BESIDE_WORDS: f32 = 40.0;
 const LETTER: f32 = 7.3;
-/// From this value on, places are told as powers of ten.
+/// From this value on, badges show places as powers of ten.
 const FAR_AWAY: f64 = 1e4;
 
-/// A lane's number at a place of the stage.
+/// The number of a lane, with its place on the stage.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Flag {
-    /// What it points at, in points.
+    /// The place that the flag marks, in points.
     pub(super) at: [f32; 2],
     pub(super) number: usize,
     pub(super) colour: Rgba,
 }
 
-/// Lifts the flags that would lie over the number of the body in front, at `front`, as high as that body's own would be.
+/// Lifts flags that would cover the number of the front body at `front`, to the height of its own flag.
 pub(super) fn clear_number(flags: &mut [Flag], front: [f32; 2], lift: f32) {
     for flag in flags {
         let [across, down] = [flag.at[0] - front[0], flag.at[1] - lift - front[1]];
@@ -46,8 +46,8 @@ pub(super) fn clear_number(flags: &mut [Flag], front: [f32; 2], lift: f32) {
     }
 }
 
-/// Flags over these places, within `room` and beside the `name` of their body, pushed apart where they would cover each
-/// other. Of many, those that point at one place share one.
+/// Draws flags over these places, within `room` and beside the `name` of their body, and pushes overlapping ones
+/// apart. With many flags, those at one place share one.
 pub(super) fn flags(
     picture: &mut Picture,
     flags: &[Flag],
@@ -97,12 +97,12 @@ pub(super) fn flags(
     }
 }
 
-/// The width of a row of flags over one place, in points.
+/// Width of a row of flags over one place, in points.
 pub(super) fn row_width(count: usize) -> f32 {
     (FLAG + GAP) * count.min(MANY) as f32
 }
 
-/// Pushes two flags apart along the row that they share, if they do.
+/// Pushes two flags apart if they overlap in one row.
 fn push_apart(
     places: &mut [[f32; 2]],
     widths: &[f32],
@@ -114,7 +114,7 @@ fn push_apart(
     let apart = (widths[first] + widths[second]) / 2.0 + GAP;
     let lack = apart - (a[0] - b[0]).abs();
     if lack > 0.0 && (a[1] - b[1]).abs() < FLAG + GAP {
-        // What one cannot move at the edge, the other moves more.
+        // If one flag cannot move at the edge, the other moves more.
         let moved = (places[high][0] + lack / 2.0).min(right) - places[high][0];
         let back = (places[low][0] - (lack - moved)).max(lefts[low]);
         let rest = lack - moved - (places[low][0] - back);
@@ -123,8 +123,8 @@ fn push_apart(
     }
 }
 
-/// Ends what pushing has left over: from left to right none begins before the last one of its row has ended, then from
-/// right to left none lies beyond the edge.
+/// Resolves the remaining overlaps. From left to right, each flag starts after its predecessor in the row. Then from
+/// right to left, none crosses the edge.
 fn space_out(places: &mut [[f32; 2]], widths: &[f32], right: f32) {
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|a, b| places[*a][0].total_cmp(&places[*b][0]));
@@ -147,7 +147,7 @@ fn space_out(places: &mut [[f32; 2]], widths: &[f32], right: f32) {
     }
 }
 
-/// What stands on the flag of some lanes.
+/// Text on the flag of some lanes.
 fn text(flags: &[Flag]) -> String {
     let numbers = flags.iter().map(|flag| flag.number.to_string());
     match flags.len() {
@@ -161,7 +161,7 @@ fn width(flags: &[Flag]) -> f32 {
     (FLAG - 9.0 + 8.0 * letters as f32).max(FLAG)
 }
 
-/// Words in a box.
+/// Draws words in a box.
 fn board(
     picture: &mut Picture,
     [x, y]: [f32; 2],
@@ -178,16 +178,16 @@ fn board(
     picture.labels.push(Label::new([x, y], Align::Centre, 0.68 * FLAG, colour, text).strong());
 }
 
-/// What a badge says.
+/// Selects the words of a badge.
 type Worded = fn(&Lost) -> &str;
 
 /// A lane whose body is beyond the edge of its cell, or comes and goes.
 #[derive(Clone, Debug)]
 pub(super) struct Lost {
     flag: Flag,
-    /// Whether it is told of at the right edge.
+    /// Whether its badge is at the right edge.
     is_right: bool,
-    /// Whether it left across that edge or the other, and not above or below.
+    /// Whether the body left through the left or right edge, rather than above or below.
     is_beside: bool,
     words: String,
 }
@@ -197,20 +197,20 @@ impl Lost {
         &self.words
     }
 
-    /// What is told of it from its number on.
+    /// Its words from the number on.
     fn figure(&self) -> &str {
         let begins = |letter: char| letter.is_ascii_digit() || ['±', '−'].contains(&letter);
         self.words.find(begins).map_or(&self.words, |from| &self.words[from..])
     }
 
-    /// A body that was at these places, newest first, if at any of them it was outside `room`.
+    /// The badge for a body at these places, newest first; `None` if it was always inside `room`.
     pub(super) fn of(
         flag: Flag,
         camera: &Camera,
         room: Rect,
         places: impl Iterator<Item = DVec2> + Clone,
     ) -> Option<Self> {
-        // On which side of the room a place is, along each axis.
+        // Side of the room for a place, along each axis: -1, 0 or 1.
         let side = |place: DVec2| {
             let at = camera.points(place);
             [0, 1].map(|i| i32::from(at[i] > room.max[i]) - i32::from(at[i] < room.min[i]))
@@ -230,7 +230,7 @@ impl Lost {
         let (newest, furthest) = (places.clone().next()?, furthest?);
         let is_beside = axis == 0;
         let told = |value: f64, digits| format!("{} {}", distance(value, digits), camera.unit);
-        // No arrow says so of what is above or below.
+        // No arrow points up or down, so the words do.
         let way = |value: f64| match (is_beside, value < 0.0) {
             (true, _) => "out",
             (false, true) => "down",
@@ -263,8 +263,8 @@ fn distance(value: f64, digits: usize) -> String {
     format!("{sign}10{}", superscript(libm::floor(libm::log10(value.abs())) as i32))
 }
 
-/// Badges at the edges of a cell, one below the other, for the lanes that leave it: from the first of these heights on
-/// from which they fit one below the other, in points below its top. Returns what they leave free.
+/// Draws badges at the edges of a cell, in a column, for the lanes that leave it. The column starts at the first
+/// height in `tops` (points below the cell's top) from which it fits. Returns the area that stays free.
 pub(super) fn badges(
     picture: &mut Picture,
     camera: &Camera,
@@ -275,7 +275,7 @@ pub(super) fn badges(
     let clip = camera.rect;
     let mut free = clip;
     let (width, height) = (clip.max[0] - clip.min[0], clip.max[1] - clip.min[1]);
-    // In a low cell a badge is as high as that.
+    // In a low cell, a badge is as high as the cell.
     let high = BADGE.min(height).max(1.0);
     let scale = high / BADGE;
     for is_right in [false, true] {
@@ -288,7 +288,7 @@ pub(super) fn badges(
             let letters = of_side.iter().map(|badge| words(badge).chars().count()).max();
             (BESIDE_WORDS + LETTER * letters.unwrap_or(0) as f32).max(WIDE_BADGE)
         };
-        // In a narrow cell a badge has its number alone.
+        // In a narrow cell, a badge shows only its number.
         let worded: [(Worded, f32); 2] = [(Lost::words, 3.0), (Lost::figure, 1.6)];
         let worded = worded.map(|(words, times)| (words, widest(words), times));
         let worded = worded
@@ -342,7 +342,8 @@ mod tests {
     use crate::stage::compose;
     use crate::studio::{StageCommand, Studio};
 
-    /// What is told of a body that was at these places in a cell that shows 5 m to each side, and whether at the right.
+    /// Words of the badge for a body at these places, in a cell that shows 5 m to each side, and whether it is at the
+    /// right.
     fn told(places: &[[f64; 2]]) -> Option<(String, bool)> {
         let rect = Rect { min: [0.0; 2], max: [100.0, 50.0] };
         let camera = Camera { points_per_metre: 10.0, ..Camera::of(rect, 10.0) };

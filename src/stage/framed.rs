@@ -1,4 +1,4 @@
-//! What a camera shows of a body's world: the room that the true motion takes, and in solo the lane's too.
+//! The view of a body's world: room for the true motion, and in solo mode for the lane's.
 
 use glam::DVec2;
 
@@ -10,42 +10,42 @@ use crate::look::{Framing, drawn_unit};
 use crate::run::race::Entrant;
 use crate::studio::Motion;
 
-/// The head of a cell that a body with a fixed camera leaves to the caption, in points.
+/// Height (points) at the head of a cell that a fixed camera leaves to the caption.
 const HEAD: f64 = 36.0;
-/// How wide the quay is that springs are moored to, as a part of the cell, and at most in points.
+/// Width of the quay to which springs are moored, relative to the cell, and at most in points.
 const QUAY: f32 = 0.07;
 const MAX_QUAY: f32 = 56.0;
-/// The side of a block as a part of its cell's height, its least and its greatest in points, and the part of the height
-/// that it never exceeds.
+/// Side of a block relative to its cell's height, its least and greatest size in points, and its largest share of the
+/// height.
 const BLOCK: f32 = 0.31;
 const BLOCKS: (f32, f32) = (12.0, 88.0);
 const MAX_BLOCK: f32 = 0.65;
-/// How much further than the true one a lane's motion may be for the camera to show it, in solo: along a chart
-/// recorder, and where the body moves both across and up.
+/// In solo mode, the largest motion of a lane that the camera still shows, relative to the true one. The first
+/// applies along a chart recorder, the second to bodies that move across and up.
 const MAX_SWING: f64 = 2.3;
 const MAX_ROOM: f64 = 5.0;
-/// How far from the true body a ship may be before the stage zooms out, as a part of what is seen.
+/// Largest distance of a ship from the true body before the stage zooms out, relative to the view.
 const STRAYED: f64 = 0.35;
-/// Chart recorders whose scales differ by less than this factor have one scale.
+/// Chart recorders share one scale if theirs differ by less than this factor.
 const ALIKE: f64 = 5.0;
 
-/// What a camera fits into its cell.
+/// The part of the world that a camera fits into its cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BodyView {
     pub(super) framing: Framing,
-    /// Where the camera looks that follows its body, in metres.
+    /// Place (m) at which a camera looks if it follows its body.
     pub(super) followed: DVec2,
-    /// How far a body goes from what its camera looks at, along x and along y, in metres.
+    /// Largest distance of a body from the camera's centre, along x and along y, in metres.
     pub(super) reach_m: DVec2,
     pub(super) turns: bool,
-    /// The body whose zoom and pan it is seen with, by its index in the scene.
+    /// Index in the scene of the body whose zoom and pan apply.
     pub(super) zoomed_as: usize,
-    /// How many times more it shows because a lane has outgrown the stage.
+    /// Factor by which the view has grown because a lane outgrew the stage.
     pub(super) grown: f64,
 }
 
-/// The views of the bodies of a scene that share a stage. Where a lane is alone on it they have room for that lane. Chart
-/// recorders are moored to one quay, and are zoomed as one; those of about one scale have one scale.
+/// The views of a scene's bodies that share a stage. A lane alone on it gets enough room. Chart recorders share one
+/// quay and one zoom; those of similar scales share one scale.
 pub(super) fn on_one_stage(
     moment: &DrawContext<'_>,
     mut views: Vec<BodyView>,
@@ -74,7 +74,7 @@ pub(super) fn on_one_stage(
     views
 }
 
-/// Gives the chart recorders that are alike the scale of the widest of them.
+/// Gives similar chart recorders the scale of the widest.
 fn share(views: &mut [BodyView], is_alike: &[bool]) {
     let alike = views.iter().zip(is_alike).filter(|(_, is_alike)| **is_alike);
     let widest_m = alike.filter_map(|(view, _)| view.recorded_m()).fold(0.0, f64::max);
@@ -86,7 +86,7 @@ fn share(views: &mut [BodyView], is_alike: &[bool]) {
 }
 
 impl BodyView {
-    /// Half the width that a chart recorder shows, in metres.
+    /// Half the width (m) that a chart recorder shows.
     pub(super) fn recorded_m(&self) -> Option<f64> {
         match self.framing {
             Framing::Recorder { half_width_m } => Some(half_width_m.max(1.1 * self.reach_m.x)),
@@ -94,7 +94,7 @@ impl BodyView {
         }
     }
 
-    /// Half of what it shows, in metres: across, or up where that is more.
+    /// Half the size (m) of the view, along the larger axis.
     fn half_m(&self) -> f64 {
         match self.framing {
             Framing::Recorder { half_width_m } => half_width_m.max(1.1 * self.reach_m.x),
@@ -103,8 +103,8 @@ impl BodyView {
         }
     }
 
-    /// Makes room for how far a lane goes, which is alone on the stage: some times further than the truth, or for a person
-    /// who watches as far as it goes.
+    /// Makes room for the lane alone on the stage: up to some times the true motion, or without limit for a person
+    /// who watches.
     fn widened(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
         if moment.studio.display().motion != Motion::Recorded {
             return self.outgrown(moment, lane, body);
@@ -129,7 +129,7 @@ impl BodyView {
         self
     }
 
-    /// Makes room for all of a lane's motion, in steps where little is to move.
+    /// Makes room for all of a lane's motion; with reduced motion, in steps.
     fn outgrown(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
         let is_stepped = moment.studio.display().motion == Motion::Reduced;
         let taken = |room: Room| match is_stepped {
@@ -158,13 +158,13 @@ impl BodyView {
     }
 }
 
-/// The width of the quay at the left of a cell, in points.
+/// Width of the quay at the left of a cell, in points.
 pub(super) fn quay_width(cell: Rect) -> f32 {
     (QUAY * cell.size()[0] as f32).min(MAX_QUAY)
 }
 
 impl DrawContext<'_> {
-    /// The camera of a cell that shows the body at this index of the scene, zoomed and panned as a person has it.
+    /// The camera of a cell for the body with this index in the scene, with the person's zoom and pan.
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &BodyView) -> Camera {
         let unit = drawn_unit(&self.studio.race().truth().bodies()[index].kind);
         let camera = Camera { unit, ..self.fitted(rect, view) }.grown(view.grown);
@@ -181,12 +181,12 @@ impl DrawContext<'_> {
                 let centre_m = if self.studio.display().motion != Motion::Reduced {
                     view.followed
                 } else {
-                    // In pages, so that nothing but the ship moves.
+                    // The view moves page by page, so that only the ship moves.
                     let (page, leaf) = (0.6 * width_m, 0.5 * height_m);
                     let x = (libm::floor(view.followed.x / page) + 0.5) * page;
                     DVec2::new(x, libm::round(view.followed.y / leaf) * leaf)
                 };
-                // On a straight course some way ahead of the middle leaves room for the wake.
+                // On a straight course, a place ahead of the middle leaves room for the wake.
                 let ahead = if view.turns { 0.0 } else { 0.1 };
                 let at = [middle[0] + ahead * width as f32, middle[1] + 0.06 * height as f32];
                 let points_per_metre = (width / width_m).min(height / height_m);
@@ -213,8 +213,8 @@ impl DrawContext<'_> {
         }
     }
 
-    /// The width and height, in metres, of what is to be seen of a body that is alone in its scene and
-    /// moves both across and up. Other bodies move along rows.
+    /// Width and height (m) of the view, for the only body of a scene that moves across and up. Other bodies move
+    /// along rows.
     pub(super) fn shape(&self, view: &BodyView) -> Option<DVec2> {
         let [body] = self.studio.race().truth().bodies() else { return None };
         match view.framing {

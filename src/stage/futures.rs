@@ -1,5 +1,5 @@
-//! The fan of futures on the stage: a thread for each method's next second, with a dot a tick, the exact one in white. On a
-//! chart recorder it hangs from the mass in place of the trail.
+//! The fan of futures on the stage: one thread for each method's next second with a dot per tick, and a white one for
+//! the exact motion. On a chart recorder it hangs from the mass in place of the trail.
 
 use super::moment::DrawContext;
 use super::sketch::Camera;
@@ -11,10 +11,10 @@ use crate::studio::futures;
 /// Half the width of a thread, and of the exact one, in points.
 const THREAD: f32 = 1.7;
 const EXACT: f32 = 1.5;
-/// The radius of a dot, and how far apart dots are at least, in points.
+/// Radius of a dot, and least distance between dots, in points.
 const DOT: f32 = 2.6;
 const APART: f32 = 7.0;
-/// How far apart the digits at the ends of threads are, in points.
+/// Least distance between the digits at the ends of threads, in points.
 const DIGITS: f32 = 15.0;
 
 /// Draws the futures of a body.

@@ -1,4 +1,4 @@
-//! The truth as the stage shows it: where the ghost is, where it has been, and how far it goes.
+//! The truth on the stage: the ghost's place, its trail, and the range of its swing.
 
 use glam::DVec2;
 
@@ -13,19 +13,18 @@ use crate::studio::shown_truth;
 
 /// The true motion of one body at the moment drawn.
 pub(super) struct Ghost {
-    /// What part of the body's world is shown.
+    /// The part of the body's world that the cell shows.
     pub(super) view: BodyView,
-    /// Its coordinates there.
+    /// Coordinates at that moment.
     pub(super) q: Vec<f64>,
-    /// What it looks like there.
+    /// Outline at that moment.
     pub(super) outline: Outline,
-    /// How far to each side it swings, in metres: as far as it has since it was last changed, and will; `None` while that is not
-    /// known.
+    /// Largest swing (m) to either side since the last change, including the motion ahead; `None` if unknown.
     pub(super) swing_m: Option<f64>,
 }
 
 impl Ghost {
-    /// The ghost of the body at this index of the scene: the exact flow at the moment drawn, which is that of the lanes.
+    /// The ghost of the body with this index in the scene, on the exact flow at the moment drawn for the lanes.
     pub(super) fn new(moment: &DrawContext<'_>, index: usize) -> Self {
         let race = moment.studio.race();
         let body = &race.truth().bodies()[index];
@@ -33,7 +32,8 @@ impl Ghost {
         let curve = &remembered.truth_curves()[index];
         let look = Look::of(body);
         let framing = look.framing();
-        // To find the truth between ticks, a body is copied. One that is not drawn is wanted only where the view follows it.
+        // The truth between ticks takes a copy of the body. If no ghost is drawn, only a view that follows the body
+        // needs it.
         let is_needed = moment.studio.display().ghost || matches!(framing, Framing::Follow { .. });
         let (q, v) = match is_needed {
             true => shown_truth(&moment.studio.deck, &moment.studio.viewer, index),
@@ -59,7 +59,7 @@ impl Ghost {
         Self { view, q, outline, swing_m }
     }
 
-    /// Where it has been in the last `trail_s` seconds, newest first, within this tolerance in metres.
+    /// Its trail of the last `trail_s` seconds, newest first, within this tolerance in metres.
     pub(super) fn past(
         &self,
         moment: &DrawContext<'_>,
@@ -92,7 +92,7 @@ fn past(
     std::iter::once(now).chain(moments.take_while(move |moment| moment.age < trail_s))
 }
 
-/// The same trail with fewer moments, and none where it is as good as straight.
+/// Drops points where the trail is straight within the tolerance.
 fn thinned(trail: impl Iterator<Item = Place> + Clone, tolerance_m: f64) -> Vec<Place> {
     let mut moments = trail.clone();
     let mut kept: Vec<Place> = moments.next().into_iter().collect();
@@ -103,7 +103,7 @@ fn thinned(trail: impl Iterator<Item = Place> + Clone, tolerance_m: f64) -> Vec<
         if let (Some(before), Some(next)) = (before, next) {
             bend_m += (before.at - 2.0 * this.at + next.at).length();
         }
-        // Of a parabola through evenly spaced moments, the height above its chord.
+        // Height of a parabola above its chord, if it passes through evenly spaced moments.
         if next.is_none() || left_out * bend_m / 8.0 > tolerance_m {
             kept.push(this);
             (left_out, bend_m) = (0.0, 0.0);
@@ -120,7 +120,7 @@ mod tests {
     use crate::stage::compose;
     use crate::studio::{RunCommand, StageCommand, Studio};
 
-    /// How far the marks of the spring are from its rest, and the number that its caption names, in metres.
+    /// Distance (m) of the spring's marks from rest, and the number in its caption.
     fn marked_and_said(studio: &Studio) -> (f64, f64) {
         let marked = Ghost::new(&DrawContext::of(studio), 0).swing_m.expect("a spring has marks");
         let mut labels = compose(studio, [780.0, 460.0]).labels.into_iter();

@@ -1,4 +1,4 @@
-//! The cells of a picture, for a pointer over them: what can be taken hold of, and where in its world a hand is.
+//! The cells of a picture for a pointer: handles that a hand can take, and the hand's place in a body's world.
 
 use glam::DVec2;
 
@@ -8,56 +8,56 @@ use crate::look::{Look, Pull};
 use crate::scene::LaneId;
 use crate::studio::{HeldBody, Studio};
 
-/// How close to the middle of a small handle a hand can take hold of it, in points: as close as people aim.
+/// Least radius (points) of a handle: as close as people aim.
 const MIN_RADIUS: f32 = 14.0;
 
 /// One body's cell of one lane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
-    /// Where it is.
+    /// Rectangle on the stage.
     pub rect: Rect,
     /// The lane in front.
     pub lane: LaneId,
-    /// The place of the lane's method on the list.
+    /// Menu index of the lane's method.
     pub entry: usize,
-    /// The body's index in the scene.
+    /// Index of the body in the scene.
     pub body: usize,
-    /// The body whose zoom and pan it is seen with, by its index in the scene: with those on one ruler that of the first.
+    /// Index in the scene of the body whose zoom and pan apply; bodies on one ruler use those of the first.
     pub zoomed_as: usize,
-    /// The bodies that can be taken hold of, with their coordinates as they are drawn.
+    /// Bodies that a hand can take, with their coordinates as drawn.
     pub(super) seen: Vec<(Whose, Vec<f64>)>,
     pub(super) camera: Camera,
 }
 
-/// Where a body can be taken hold of.
+/// A handle of a body on the stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grip {
-    /// The middle of what is taken hold of, in points.
+    /// Middle of the handle, in points.
     pub at: [f32; 2],
-    /// How far from there a hand takes hold of it, in points.
+    /// Radius within which a hand takes it, in points.
     pub radius: f32,
-    /// Its place among the body's handles.
+    /// Index among the body's handles.
     pub handle: usize,
-    /// Whose body it is.
+    /// Owner of the body.
     pub whose: Whose,
 }
 
-/// Whose body is seen in a cell.
+/// The owner of a body in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Whose {
-    /// A lane's.
+    /// A lane.
     Lane {
-        /// Which.
+        /// The lane.
         lane: LaneId,
-        /// The place of its method on the list.
+        /// Menu index of its method.
         entry: usize,
     },
-    /// The truth's: a ghost.
+    /// The truth, whose body is a ghost.
     Truth,
 }
 
 impl Cell {
-    /// Where the bodies can be taken hold of.
+    /// The handles of the bodies in this cell.
     pub fn grips(&self, studio: &Studio) -> impl Iterator<Item = Grip> {
         let look = Look::of(&studio.race().truth().bodies()[self.body]);
         let is_recorder = self.camera.quay_m != 0.0;
@@ -70,8 +70,8 @@ impl Cell {
         })
     }
 
-    /// What a hand at this point of the stage takes hold of: of what it touches the nearest, another lane's body or a
-    /// ghost only where that of the cell's own lane is out of reach.
+    /// The handle under a hand at this point of the stage: the nearest one that it touches. Another lane's body or a
+    /// ghost counts only if the body of the cell's own lane is out of reach.
     pub fn grip_at(&self, studio: &Studio, at: [f32; 2]) -> Option<Grip> {
         if !self.rect.contains(at) {
             return None;
@@ -86,12 +86,12 @@ impl Cell {
         touched.min_by(|a, b| rank(a).cmp(&rank(b)).then(away(a).total_cmp(&away(b))))
     }
 
-    /// Where a point of the stage is in the body's world, in metres.
+    /// The place (m) in the body's world of a point on the stage.
     pub fn metres(&self, at: [f32; 2]) -> DVec2 {
         self.camera.metres(at)
     }
 
-    /// Where a point of the stage is in the cell: across and down from its middle, in its widths and heights.
+    /// A point of the stage relative to the cell's middle: across and down, in widths and heights of the cell.
     pub fn part(&self, at: [f32; 2]) -> [f64; 2] {
         self.rect.part(at)
     }
@@ -108,7 +108,8 @@ pub struct Grasp {
 }
 
 impl Grasp {
-    /// Takes hold of the body in `cell` by `grip`, with the hand at this point of the stage.
+    /// Takes the body in `cell` by `grip`, with the hand at this point of the stage. `None` if the lane has left the
+    /// race.
     pub fn new(studio: &Studio, cell: &Cell, grip: &Grip, hand: [f32; 2]) -> Option<Self> {
         let race = studio.race();
         let lane = match grip.whose {
@@ -137,8 +138,7 @@ impl Grasp {
         Some(grasp)
     }
 
-    /// Brings the hand to a point of the stage, where it moves with this velocity in points per second of simulated
-    /// time, y down.
+    /// Moves the hand to a point of the stage, with this velocity in points per second of simulated time, y down.
     pub fn pull(&mut self, studio: &Studio, hand: [f32; 2], velocity: [f64; 2]) {
         let Self { cell, handle, offset_m, held } = self;
         let body = &studio.race().truth().bodies()[cell.body];
@@ -150,7 +150,7 @@ impl Grasp {
         held.handle = look.handles(&held.q)[*handle].at;
     }
 
-    /// The body as it is held.
+    /// The body in the hand.
     pub fn held(&self) -> &HeldBody {
         &self.held
     }

@@ -10,19 +10,19 @@ use crate::look::palette::{BLACK, Palette, Rgba, WHITE, faded, mixed};
 /// Planks of the deck, in the light and in the shade.
 const DECK: [Rgba; 2] = [[236, 220, 184, 255], [206, 186, 146, 255]];
 const HATCH: Rgba = [138, 160, 112, 255];
-/// The beam of a ship as a part of its length.
+/// Beam of a ship relative to its length.
 pub(super) const BEAM: f32 = 0.26;
 
-/// Where a ship is and how it lies, in points.
+/// Place and direction of a ship, in points.
 #[derive(Clone, Copy)]
 pub(super) struct ShipPose {
     pub(super) at: [f32; 2],
-    /// The direction of the bow, of length 1, y down.
+    /// Unit vector towards the bow, y down.
     pub(super) bow: [f32; 2],
     pub(super) length: f32,
 }
 
-/// Places along a hull from its stern, in parts of its length, and half its width there, in lengths.
+/// Places along a hull from its stern, and half its width there, in lengths of the ship.
 static WIDTHS: LazyLock<[[f32; 2]; 23]> = LazyLock::new(|| {
     std::array::from_fn(|i| {
         let part = i as f32 / 22.0;
@@ -35,14 +35,14 @@ static WIDTHS: LazyLock<[[f32; 2]; 23]> = LazyLock::new(|| {
 });
 
 impl ShipPose {
-    /// A place on the ship: so far from its middle to the bow and to starboard, in lengths.
+    /// A place on the ship, ahead of its middle and to starboard, in lengths.
     fn place(self, ahead: f32, aside: f32) -> [f32; 2] {
         let [bx, by] = self.bow;
         let (ahead, aside) = (ahead * self.length, aside * self.length);
         [self.at[0] + ahead * bx - aside * by, self.at[1] + ahead * by + aside * bx]
     }
 
-    /// The corners of the hull, drawn in by this many points.
+    /// Corners of the hull, inset by this many points.
     pub(super) fn hull(self, inset: f32) -> Vec<[f32; 2]> {
         let inset = inset / self.length;
         let side = |sign: f32| {
@@ -61,7 +61,7 @@ impl ShipPose {
     }
 }
 
-/// The ship itself.
+/// Draws the ship.
 pub(super) fn ship(pen: &mut Pen<'_>, pose: ShipPose, colour: Rgba, palette: &Palette) {
     let part = (pose.length / 150.0).clamp(0.2, 2.0);
     // Water that the bow throws aside.
@@ -107,7 +107,7 @@ pub(super) fn ship(pen: &mut Pen<'_>, pose: ShipPose, colour: Rgba, palette: &Pa
     pen.line(stem[0], stem[1], 1.2 * part, faded(WHITE, 0.6));
 }
 
-/// The seams of the deck, its rail and its hatches.
+/// Draws the seams of the deck, its rail and its hatches.
 fn planks(pen: &mut Pen<'_>, pose: ShipPose, deck: &[[f32; 2]]) {
     let part = (pose.length / 150.0).clamp(0.2, 2.0);
     for seam in -4..=4_i8 {

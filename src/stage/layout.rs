@@ -1,21 +1,21 @@
-//! How the stage is cut into cells.
+//! Divides the stage into cells.
 
 use glam::DVec2;
 
 use super::Rect;
 
-/// Space round the stage and between its cells, in points, and the largest part of the room for a cell that it takes.
+/// Space around the stage and between its cells, in points, and its largest share of a cell's room.
 const MARGIN: f32 = 6.0;
 const MAX_MARGIN: f32 = 0.15;
 
-/// The stage in bands, one below the other, of these parts of its height.
+/// Divides the stage into bands, one below the other, with heights in these proportions.
 pub(super) fn bands(stage: Rect, heights: &[f32]) -> Vec<Rect> {
     let (room, all) = ((stage.max[1] - stage.min[1]).max(0.0), heights.iter().sum::<f32>());
     let mut top = stage.min[1];
     let band = heights.iter().map(|height| {
         let min = [stage.min[0], top];
         top += room * height / all;
-        // Not beyond the stage by a rounding.
+        // Rounding must not exceed the stage.
         Rect { min, max: [stage.max[0], top.min(stage.min[1] + room)] }
     });
     band.collect()
@@ -40,7 +40,7 @@ pub(super) fn grid(stage: Rect, rows: usize, columns: usize) -> Vec<Rect> {
     (0..rows).flat_map(|row| (0..columns).map(move |column| cell(row, column))).collect()
 }
 
-/// `count` cells in rows, cut so that a picture of this `shape` is as large as possible in each.
+/// `count` cells in rows, divided so that a picture of this `shape` is as large as possible in each.
 pub(super) fn mosaic(stage: Rect, count: usize, shape: DVec2) -> Vec<Rect> {
     let scale = |cells: &Vec<Rect>| {
         let Rect { min, max } = cells[0];

@@ -1,5 +1,5 @@
-//! The stage of the loop lab: a band for each loop, with the frame that the display holds, the frames before it, and the
-//! exact solution at the moment of display.
+//! The stage of the loop lab. Each loop has a band with its frame on display, the frames before it, and the exact
+//! solution at the moment of display.
 
 use glam::DVec2;
 
@@ -13,26 +13,26 @@ use crate::scene::Outline;
 use crate::sim::number::round;
 use crate::studio::Studio;
 
-/// How many frames before the present one are seen.
+/// Number of earlier frames shown.
 const FRAMES_BEFORE: usize = 14;
-/// How strong the first of them is, and the last.
+/// Opacity of the nearest earlier frame, and of the last.
 const STRENGTHS: (f32, f32) = (0.5, 0.06);
-/// The side of a block, as a part of the band's height, at most in points.
+/// Side of a block relative to the band's height, and its limit in points.
 const BLOCK: f32 = 0.27;
 const MAX_BLOCK_POINTS: f32 = 44.0;
-/// The width of the words on a frame's latency, in points.
+/// Width of the words on a frame's latency, in points.
 const LATENESS: f32 = 112.0;
-/// The foot of a band, in which its loop is named, in points.
+/// Height (points) of a band's foot, which names its loop.
 const FOOT: f32 = 30.0;
-/// The height of a line where several loops are named below each other, in points.
+/// Height of a line where several loops are named below each other, in points.
 const LINE: f32 = 18.0;
-/// The width of a letter of a loop's name and of its verdict, and the least room between the two, in points.
+/// Letter widths of a loop's name and of its verdict, and the least gap between the two, in points.
 const NAME_LETTER: f32 = 8.0;
 const VERDICT_LETTER: f32 = 6.4;
 const GAP: f32 = 12.0;
-/// How long the path of frames is, in seconds of the display.
+/// Length of the path of frames, in seconds of the display.
 const PATH_S: f64 = 0.16;
-/// How much of the swing the stage shows beside it.
+/// Width of the stage relative to the swing.
 const MARGIN: f64 = 1.22;
 
 /// The picture of the loop lab on a stage of `size` points.
@@ -55,7 +55,7 @@ pub(super) fn compose(studio: &Studio, loops: &LoopLab, size: [f32; 2]) -> Pictu
     picture
 }
 
-/// Draws a band for each loop on the stage. Returns the camera of the first, if it stays where it is.
+/// Draws a band for each loop on the stage. Returns the camera of the first, if it is fixed.
 fn side_by_side(
     picture: &mut Picture,
     studio: &Studio,
@@ -79,8 +79,8 @@ fn side_by_side(
     ruled
 }
 
-/// Draws all loops on the stage over each other, the selected one in front, and names them below. Returns the camera, if
-/// it stays where it is.
+/// Draws all loops on the stage over each other, the selected one in front, and names them below. Returns the camera,
+/// if it is fixed.
 fn overlay(
     picture: &mut Picture,
     studio: &Studio,
@@ -135,7 +135,7 @@ fn overlay(
     front.is_recorded().then_some(camera)
 }
 
-/// How far a frame is behind.
+/// Describes the latency of a frame.
 fn lateness(loops: &LoopLab, frame: &LoopFrame) -> String {
     match loops.late_ms(frame) {
         late if late.abs() < 0.05 => "on time".into(),
@@ -144,13 +144,12 @@ fn lateness(loops: &LoopLab, frame: &LoopFrame) -> String {
     }
 }
 
-/// The band of one loop.
 struct LoopBand<'a> {
     loops: &'a LoopLab,
     lane: &'a LoopLane,
     place: usize,
     rect: Rect,
-    /// The room for names at its foot, in points.
+    /// Height of the foot with the names, in points.
     foot: f32,
     colour: Rgba,
     palette: &'static Palette,
@@ -163,7 +162,7 @@ impl<'a> LoopBand<'a> {
         Self { loops, lane, place, rect, foot, colour, palette: theme.palette() }
     }
 
-    /// The frames up to the one that the display holds, if there is one.
+    /// The frames up to the one on display, if there is one.
     fn frames(&self) -> Option<&'a [LoopFrame]> {
         let present = self.lane.frame_at(self.loops.now_ns())?;
         Some(&self.lane.frames()[..=present])
@@ -197,7 +196,7 @@ impl<'a> LoopBand<'a> {
         self.outline(frame.displayed_ns as f64 / 1e9, &frame.exact)
     }
 
-    /// What the band shows of the body's world.
+    /// The camera of the band.
     fn camera(&self, exact: DVec2) -> Camera {
         let [width, height] = self.size().map(f64::from);
         let plain = Camera::of(self.rect, (BLOCK * height as f32).min(MAX_BLOCK_POINTS));
@@ -225,7 +224,7 @@ impl<'a> LoopBand<'a> {
         self.is_recorded() && self.size()[1] >= breakpoints::PATH
     }
 
-    /// Draws the band. Returns its camera, if that stays where it is.
+    /// Draws the band. Returns its camera, if it is fixed.
     fn draw(&self, picture: &mut Picture, shows_ghost: bool) -> Option<Camera> {
         let Some((frame, frames)) = self.frames().and_then(|all| Some((all.last()?, all))) else {
             self.title(picture);
@@ -251,7 +250,7 @@ impl<'a> LoopBand<'a> {
         OutlineView { outline, camera, palette: self.palette }
     }
 
-    /// The frames before the one that the display holds.
+    /// Draws the frames before the one on display.
     fn before(&self, picture: &mut Picture, camera: &Camera, frames: &[LoopFrame]) {
         for (strength, before) in distinct_before(frames) {
             let outline = self.shown(before);
@@ -275,7 +274,7 @@ impl<'a> LoopBand<'a> {
         seen.front(picture, style());
     }
 
-    /// Where the frames have shown the body, as a staircase in time, beside where it was.
+    /// Draws the body's places in the frames as a staircase in time, next to its exact motion.
     fn path(&self, picture: &mut Picture, camera: &Camera, frames: &[LoopFrame]) {
         let now_ns = frames[frames.len() - 1].displayed_ns;
         let [top, bottom] = [camera.at[1] + 0.8 * camera.block, self.rect.max[1] - self.foot];
@@ -286,7 +285,7 @@ impl<'a> LoopBand<'a> {
         let since =
             frames.partition_point(|frame| (now_ns - frame.displayed_ns) as f64 > PATH_S * 1e9);
         let frames = &frames[since..];
-        // Where a body is does not depend on the moment.
+        // The place of a body does not depend on the time.
         let x = |q: &[f64]| camera.points(self.outline(0.0, q).at)[0];
         let mut held = Vec::new();
         for pair in frames.windows(2) {
@@ -304,7 +303,7 @@ impl<'a> LoopBand<'a> {
         captions::text(self.palette, at, align, size, self.palette.text, text)
     }
 
-    /// The loop's name at this height, and as much of its verdict as there is room for.
+    /// Writes the loop's name at this height, and the longest wording of its verdict that fits.
     fn name(&self, picture: &mut Picture, y: f32, name: &str) {
         let [left, right] = [self.rect.min[0] + 14.0, self.rect.max[0] - 14.0];
         let room = right - left - GAP - NAME_LETTER * name.chars().count() as f32;
@@ -323,7 +322,7 @@ impl<'a> LoopBand<'a> {
         }
     }
 
-    /// The loop's name with its method, and a mark if it is selected.
+    /// Writes the loop's name with its method, and marks it if selected.
     fn title(&self, picture: &mut Picture) {
         if self.loops.selected() == self.place {
             let [top, bottom] = [self.rect.min[1] + 4.0, self.rect.max[1] - 4.0];
@@ -358,7 +357,7 @@ impl<'a> LoopBand<'a> {
     }
 }
 
-/// The frames before the last that show another moment, each with its strength, the furthest first.
+/// Earlier frames that show other moments than their successors, each with its opacity, the furthest first.
 fn distinct_before(frames: &[LoopFrame]) -> Vec<(f32, &LoopFrame)> {
     let mut distinct: Vec<&LoopFrame> = Vec::new();
     let mut shown = frames.last().map(|frame| frame.shown_ms);

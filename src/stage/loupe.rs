@@ -1,4 +1,4 @@
-//! A loupe in the corner of a cell, for lanes that lie so close to the truth that no eye could tell them apart.
+//! A loupe in the corner of a cell, for lanes too close to the truth for the eye.
 
 use glam::DVec2;
 
@@ -11,29 +11,29 @@ use crate::run::past::History;
 use crate::run::race::Entrant;
 use crate::sim::number::{enlargement, round};
 
-/// Its radius, how far it keeps from the edges of its cell, and the height of the number in it, in points.
+/// Its radius, its distance from the edges of the cell, and the height of its number, in points.
 const RADIUS: f32 = 36.0;
 const INSET: f32 = 10.0;
 const NUMBER: f32 = 10.5;
-/// The least size of a cell that it does not crowd, in points.
+/// Least size (points) of a cell with room for it.
 const ROOM: [f32; 2] = [360.0, 118.0];
-/// The part of its radius that the furthest lane reaches.
+/// Distance of the furthest lane, relative to the radius.
 const REACH: f64 = 0.5;
-/// Lanes further from the truth than this can be seen beside it, in points.
+/// Distance (points) from the truth at which a lane is visible without it.
 const SEEN: f64 = 2.0;
-/// It shows lanes that were close to the truth for this long, in seconds: a swing of the harbour's spring.
+/// Time (s) for which lanes must have been close to the truth: a swing of the harbour's spring.
 const LATELY_S: f64 = 1.0;
-/// Lanes nearer to the truth than this part of how far it goes differ by rounding, or by a motion that has died away.
+/// Below this share of the truth's reach, lanes differ by rounding, or by a motion that has died away.
 const ROUNDING: f64 = 1e-9;
-/// The radius of a lane in it, in points.
+/// Radius of a lane in it, in points.
 const LANE: f32 = 4.0;
-/// The corners with which a circle looks round.
+/// Corners of a polygon that looks round.
 const ROUND: u8 = 48;
 
 /// A lane under the loupe.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LoupeLane<'h> {
-    /// How far it is from the truth at the present tick, in metres.
+    /// Offset from the truth at the present tick, in metres.
     off_m: DVec2,
     history: &'h History,
     colour: Rgba,
@@ -46,16 +46,16 @@ impl<'h> LoupeLane<'h> {
         Self { off_m: place - truth, history: moment.history(lane, body), colour }
     }
 
-    /// The furthest that it was from the truth since `t` (s), in metres.
+    /// Largest distance from the truth since `t` (s), in metres.
     fn furthest_m(&self, t: f64) -> f64 {
         let errors = self.history.since(t).map(|sample| sample.metrics[Metric::POSITION_ERROR]);
         errors.fold(self.off_m.length(), f64::max)
     }
 }
 
-/// Draws the lanes about the truth, which goes `reach_m` far, in the upper right corner of `room`, unless what is `busy`
-/// reaches there, if all of them are too close to the truth to be seen and have been for a while. The one in front is the
-/// last.
+/// Draws the lanes around the truth in the upper right corner of `room`, if all of them are, and lately were, too
+/// close to it to be seen. Skips the loupe if it would cover `busy`. `reach_m` is the truth's reach; the front lane
+/// comes last.
 pub(super) fn draw(
     picture: &mut Picture,
     moment: &DrawContext<'_>,
@@ -84,7 +84,7 @@ pub(super) fn draw(
     let rim = circle(at, RADIUS, ROUND);
     let pen = &mut picture.pen(camera.rect);
     pen.fill(&rim, faded(palette.panel, 0.94));
-    // The number stands below.
+    // The number is below.
     let middle = y - 5.0;
     let hair = faded(palette.exact, 0.45);
     let reach = RADIUS - 12.0;
@@ -108,7 +108,7 @@ mod tests {
     use crate::stage::compose;
     use crate::studio::{StageCommand, Studio};
 
-    /// What the loupes on the stage are labelled with after some seconds of a race of the methods with these ids.
+    /// The labels of the loupes on the stage after some seconds of a race between these methods.
     fn labels(scene: &str, methods: &[&str], seconds: u32) -> Vec<String> {
         let mut scene = Scene::built_in(scene).unwrap();
         let all = Studio::new(scene.clone()).entries().to_vec();

@@ -3,18 +3,18 @@
 use super::sketch::{Pen, circle, rounded};
 use crate::look::palette::{BLACK, Rgba, WHITE, faded, mixed};
 
-/// A planet: its air, its water by day and by night, its land.
+/// Colours of a planet: its air, its water by day and by night, its land.
 const AIR: Rgba = [150, 200, 240, 255];
 const OCEAN: [Rgba; 2] = [[84, 156, 214, 255], [12, 34, 66, 255]];
 const LAND: Rgba = [112, 158, 104, 255];
 
-/// The outline of a square with round corners.
+/// Outline of a square with round corners.
 pub(super) fn square([x, y]: [f32; 2], side: f32, radius: f32) -> Vec<[f32; 2]> {
     let half = side / 2.0;
     rounded([x - half, y - half], [x + half, y + half], radius)
 }
 
-/// A block of this side, with a pen below it.
+/// Draws a block of this side, with a pen below it.
 pub(super) fn block(pen: &mut Pen<'_>, at: [f32; 2], side: f32, colour: Rgba) {
     let [x, y] = at;
     let part = side / 60.0;
@@ -44,7 +44,7 @@ pub(super) fn block(pen: &mut Pen<'_>, at: [f32; 2], side: f32, colour: Rgba) {
     pen.ring(&inset, (1.2 * part).max(0.5), faded(BLACK, 0.25));
 }
 
-/// A ball with a light on it.
+/// Draws a ball with a highlight.
 pub(super) fn ball(pen: &mut Pen<'_>, at: [f32; 2], radius: f32, colour: Rgba) {
     let [x, y] = at;
     let part = (radius / 12.0).clamp(0.2, 2.0);
@@ -58,13 +58,13 @@ pub(super) fn ball(pen: &mut Pen<'_>, at: [f32; 2], radius: f32, colour: Rgba) {
     }
 }
 
-/// The corners of a box between its upper left and its lower right, grown by this many points.
+/// Outline of a rounded box between its upper left and its lower right, grown by this many points.
 pub(super) fn box_round([min, max]: [[f32; 2]; 2], by: f32) -> Vec<[f32; 2]> {
     let radius = 0.3 * (max[1] - min[1]);
     rounded([min[0] - by, min[1] - by], [max[0] + by, max[1] + by], radius + by)
 }
 
-/// A block that is wider than high, with the light from above.
+/// Draws a block that is wider than high, with the light from above.
 pub(super) fn slab(pen: &mut Pen<'_>, at: [[f32; 2]; 2], colour: Rgba) {
     let [min, max] = at;
     let face = box_round(at, 0.0);
@@ -79,7 +79,7 @@ pub(super) fn slab(pen: &mut Pen<'_>, at: [[f32; 2]; 2], colour: Rgba) {
     pen.ring(&face, 1.5, mixed(colour, BLACK, 0.55));
 }
 
-/// A planet with its air, the light from the upper left.
+/// Draws a planet with its air, the light from the upper left.
 pub(super) fn planet(pen: &mut Pen<'_>, at: [f32; 2], radius: f32) {
     for (size, part) in [(1.3, 0.06), (1.18, 0.1), (1.08, 0.16)] {
         pen.disc(at, size * radius, faded(AIR, part));
@@ -98,7 +98,7 @@ pub(super) fn planet(pen: &mut Pen<'_>, at: [f32; 2], radius: f32) {
     pen.ring(&face, (0.04 * radius).max(0.8), faded(AIR, 0.8));
 }
 
-/// The outline of a disc, with as many corners as show a body round.
+/// Outline of a disc, with enough corners to look round.
 pub(super) fn round(at: [f32; 2], radius: f32) -> Vec<[f32; 2]> {
     circle(at, radius, 28)
 }

@@ -1,7 +1,7 @@
-//! What the stage shows, as plain data: the last f64 become f32 here, after the camera is subtracted.
+//! The contents of the stage as plain data. The last f64 become f32 here, after subtracting the camera.
 //!
-//! Lengths are logical points from the stage's top left corner, y down; colours are straight sRGB with
-//! alpha. Everything in a [`Picture`] is finite and within [`FAR`] of the stage, whatever the lanes do.
+//! Lengths are logical points from the stage's top left corner, y down; colours are straight sRGB with alpha.
+//! Everything in a [`Picture`] is finite and within [`FAR`] of the stage, for any state of the lanes.
 
 mod apex;
 mod body;
@@ -31,14 +31,14 @@ pub use grasp::{Cell, Grasp, Grip, Whose};
 
 use crate::look::palette::{Palette, Rgba, faded};
 
-// What the view, which sees nothing of `sim`, names of it.
+// The items of `sim` that the view names; it has no other access to `sim`.
 #[cfg(feature = "view")]
 pub(crate) use crate::sim::{
     bodies::{Acts, Coordinate, Parameter, Range},
     number,
 };
 
-/// The largest coordinate in a picture, in points: far outside any stage, and exact in an f32.
+/// Largest coordinate in a picture, in points: far outside any stage, and exact in an f32.
 pub const FAR: f32 = 1e5;
 
 /// An upright rectangle in points.
@@ -51,12 +51,12 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// Whether a point is in it.
+    /// Whether a point is inside.
     pub fn contains(&self, at: [f32; 2]) -> bool {
         (0..2).all(|axis| (self.min[axis]..=self.max[axis]).contains(&at[axis]))
     }
 
-    /// Where a point is in it: across and down from its middle, in its widths and heights.
+    /// A point relative to the middle: across and down, in widths and heights.
     fn part(&self, at: [f32; 2]) -> [f64; 2] {
         [0, 1].map(|axis| {
             let middle = f64::from(self.min[axis] + self.max[axis]) / 2.0;
@@ -64,7 +64,7 @@ impl Rect {
         })
     }
 
-    /// Width and height, at least a point.
+    /// Width and height, each at least 1.
     fn size(&self) -> [f64; 2] {
         [0, 1].map(|axis| f64::from(self.max[axis] - self.min[axis]).max(1.0))
     }
@@ -75,13 +75,13 @@ impl Rect {
 pub struct Picture {
     /// The background.
     pub sea: Option<Sea>,
-    /// Everything drawn on it, the first at the bottom.
+    /// Shapes on it, the first at the bottom.
     pub shapes: Vec<Shape>,
     /// Text over it.
     pub labels: Vec<Label>,
-    /// What a pointer is over: one for each body, or where lanes have cells of their own, for each body of each lane.
+    /// Cells for the pointer: one for each body, or one for each body of each lane if lanes have their own cells.
     pub cells: Vec<Cell>,
-    /// Where the verdict on the method is said.
+    /// The verdict on the method.
     pub chip: Option<Rect>,
 }
 
@@ -98,13 +98,13 @@ impl Picture {
 /// The background of the stage: water, lighter towards the horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sea {
-    /// Where it is.
+    /// Area on the stage.
     pub rect: Rect,
-    /// Its colours at the top and at the bottom.
+    /// Colours at the top and at the bottom.
     pub colours: [Rgba; 2],
 }
 
-/// Something drawn on the sea.
+/// A shape on the sea.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A line, or a dot.
@@ -113,39 +113,39 @@ pub enum Shape {
     Fill(Fill),
 }
 
-/// A line through points, with a width and a colour at each, and round ends; one that goes nowhere is a disc. One that
-/// comes back to its first point has no ends.
+/// A line through points, with a width and a colour at each, and round ends. A line without length is a disc. A line
+/// that returns to its first point has no ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    /// The points, at least two, of which many may lie in one pixel.
+    /// At least two points; many may lie in one pixel.
     pub points: Vec<PathPoint>,
     /// Drawn length and gap in points; a gap of 0 is solid.
     pub dash: [f32; 2],
-    /// Nothing is drawn outside this.
+    /// Limits of the drawing.
     pub clip: Rect,
 }
 
 /// A point of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathPoint {
-    /// Where.
+    /// Place on the stage.
     pub at: [f32; 2],
     /// Half the width there.
     pub radius: f32,
-    /// The colour there.
+    /// Colour there.
     pub colour: Rgba,
 }
 
-/// A filled outline: one that can be seen whole from the mean of its points.
+/// A filled outline that is visible as a whole from the mean of its points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fill {
-    /// The corners, each with the colour there, in either direction.
+    /// The corners with their colours, in either direction.
     pub corners: Vec<([f32; 2], Rgba)>,
-    /// Nothing is drawn outside this.
+    /// Limits of the drawing.
     pub clip: Rect,
 }
 
-/// How a label's text lies to its point.
+/// Alignment of a label's text to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
     /// The text begins at the point.
@@ -156,37 +156,37 @@ pub enum Align {
     Right,
 }
 
-/// A line of text, its point at mid height.
+/// A line of text whose point is at mid height.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// Where.
+    /// The point.
     pub at: [f32; 2],
-    /// How the text lies to it.
+    /// Alignment of the text to the point.
     pub align: Align,
     /// Height of the type in points.
     pub size: f32,
-    /// Colour.
+    /// Colour of the type.
     pub colour: Rgba,
     /// Whether it is semibold.
     pub is_strong: bool,
-    /// The colour of the halo that keeps it apart from what lies under it.
+    /// Colour of the halo that separates it from the shapes below.
     pub halo: Rgba,
-    /// What it says.
+    /// The text.
     pub text: String,
 }
 
 impl Label {
-    /// Text of a usual weight without a halo.
+    /// Text of normal weight without a halo.
     fn new(at: [f32; 2], align: Align, size: f32, colour: Rgba, text: String) -> Self {
         Self { at, align, size, colour, is_strong: false, halo: [0; 4], text }
     }
 
-    /// The same, semibold.
+    /// The same label in semibold.
     fn strong(self) -> Self {
         Self { is_strong: true, ..self }
     }
 
-    /// The same, kept apart from what lies on the water under it.
+    /// The same label with a halo that separates it from the water.
     fn on_water(self, palette: &Palette) -> Self {
         Self { halo: faded(palette.sea[1], 0.85), ..self }
     }

@@ -1,23 +1,23 @@
-//! The moment that is drawn: where every body is between two ticks.
+//! The moment to draw, which may lie between two ticks.
 
 use crate::look::palette::{Palette, Rgba};
 use crate::run::past::History;
 use crate::run::race::{Entrant, LaneBody};
 use crate::studio::{Studio, shown_s};
 
-/// The part of a scene's duration that a chart recorder's paper holds: three swings of the harbour's
-/// 1 Hz spring, and no more of a faster one than can be told apart.
+/// Duration of a chart recorder's paper, relative to the scene: three swings of the harbour's 1 Hz spring. The swings
+/// of a faster one would merge on longer paper.
 const PAPER: f64 = 0.15;
-/// The most that the paper holds, in seconds.
+/// Most seconds on the paper.
 const MAX_PAPER_S: f64 = 3.0;
 
-/// The moment that is drawn.
+/// The moment to draw, with the studio and its palette.
 pub(super) struct DrawContext<'a> {
     pub(super) studio: &'a Studio,
     pub(super) palette: &'static Palette,
-    /// The moment in seconds.
+    /// Time of the moment (s).
     pub(super) t: f64,
-    /// How far a chart recorder's trail reaches back, in seconds.
+    /// Duration of a chart recorder's trail (s).
     pub(super) paper_s: f64,
 }
 
@@ -29,25 +29,25 @@ impl<'a> DrawContext<'a> {
             t: shown_s(&studio.deck, &studio.viewer),
             paper_s: match studio.scene().checks.is_empty() {
                 true => (PAPER * studio.scene().seconds).min(MAX_PAPER_S),
-                // A recording is as long as somebody had time.
+                // The length of a recording is arbitrary.
                 false => MAX_PAPER_S,
             },
         }
     }
 
-    /// The colour and the dash pattern of the lane on this index of the list.
+    /// Colour and dash pattern of the lane with this menu index.
     pub(super) fn style(&self, entry: usize) -> (Rgba, [f32; 2]) {
         let lanes = self.studio.entries();
         self.studio.display().theme.lane_style(lanes, &lanes[entry])
     }
 
-    /// What is remembered of a body in a lane.
+    /// The recent past of a body in a lane.
     pub(super) fn history(&self, entrant: &Entrant, body: usize) -> &'a History {
         &self.studio.past().histories(entrant.id)[body]
     }
 }
 
-/// Whether a body leaves the line that it starts on: the one coordinate of the others is along it.
+/// Whether a body moves in more than one coordinate, and so may leave a line.
 pub(super) fn turns(body: &LaneBody) -> bool {
     body.coordinates().len() > 1
 }
@@ -62,7 +62,7 @@ mod tests {
         RunCommand, StageCommand, Step, Studio, ViewCommand, shown_s, shown_state,
     };
 
-    /// A spring and a ship under RK4 at a rate at which a tick can be seen.
+    /// A spring and a ship under RK4, at a rate with visible ticks.
     fn studio() -> Studio {
         let scene = Scene { tick_hz: 5.into(), ..Scene::built_in("harbour").unwrap() };
         let mut studio = Studio::new(scene);
@@ -71,8 +71,8 @@ mod tests {
         studio
     }
 
-    /// Where the mass of the spring and its ghost are drawn, then the ship and its ghost, in metres, and the speed that the
-    /// stage tells of the ship.
+    /// The drawn places (m) of the spring's mass and its ghost, then of the ship and its ghost, and the ship's speed
+    /// on the stage.
     fn drawn(studio: &Studio) -> ([[f64; 2]; 2], String) {
         let picture = compose(studio, [780.0, 500.0]);
         let places = [0, 1].map(|body| {

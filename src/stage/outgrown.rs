@@ -1,5 +1,5 @@
-//! How far a lane goes beyond what the stage shows. A stage that is watched zooms out after it. That follows from the run and
-//! the moment shown: what is gone back to looks the same again.
+//! How far a lane exceeds the view. A stage that a person watches zooms out after it. The zoom depends only on the
+//! run and the moment shown, so rewinding shows the same view again.
 
 use glam::DVec2;
 
@@ -10,29 +10,29 @@ use crate::run::past::{History, Sample};
 use crate::run::race::Entrant;
 use crate::scene::Outline;
 
-/// For how long the zoom is evened out, in seconds: a swing of the harbour's spring; and in how many parts.
+/// Duration (s) over which the zoom is smoothed, a swing of the harbour's spring, and number of samples in it.
 const EVENED_S: f64 = 1.0;
 const PARTS: u32 = 12;
-/// How much more room than it takes an even growth gets.
+/// Room for an even growth, relative to its size.
 const MARGIN: f64 = 1.15;
-/// No cubic between two ticks goes further than a line between its ends does that is so many times ahead, from where each
-/// end is with so much of a tick's motion more.
+/// Bounds of a cubic between two ticks. It stays within a line that runs ahead by the factor `AHEAD`, between ends
+/// extended by the part `OVERSHOT` of a tick's motion.
 const AHEAD: f64 = 1.125;
 const OVERSHOT: f64 = 0.25;
-/// For how long it is remembered how far a lane strayed, in seconds: longer than a swing that anybody waits for.
+/// Time (s) for which a ship's straying counts: longer than any swing that people wait for.
 const REMEMBERED_S: f64 = 2.0;
 
-/// Where a lane moves: the room that the stage has for it, and for how long it stays.
+/// The room of a lane on the stage, and the time for which a swing needs it.
 pub(super) struct Room {
     pub(super) centre_m: DVec2,
-    /// How far the stage reaches without the lane, across and up, in metres.
+    /// Reach of the stage without the lane, across and up, in metres.
     pub(super) base_m: DVec2,
-    /// For how long a swing needs its room, in seconds: as long as its trail shows.
+    /// Time (s) for which a swing needs its room: as long as its trail.
     pub(super) window_s: f64,
 }
 
 impl Room {
-    /// How far the stage reaches with the lane, across and up, in metres.
+    /// Reach of the stage with the lane, across and up, in metres.
     pub(super) fn taken(&self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> DVec2 {
         let history = moment.history(lane, body);
         let furthest = |t: f64| self.furthest(history, [t - self.window_s, t]);
@@ -47,7 +47,8 @@ impl Room {
         evened.max(furthest(moment.t)).max(self.present(moment, lane, body))
     }
 
-    /// The same in steps that double it, and back to its base with the next swing only: between two steps the stage rests.
+    /// The same reach in steps of a factor of 2. It returns to the base only at the next edit or placement, so the
+    /// stage rests between steps.
     pub(super) fn taken_in_steps(
         &self,
         moment: &DrawContext<'_>,
@@ -56,7 +57,8 @@ impl Room {
     ) -> DVec2 {
         let since_s = moment.studio.past().swing_since_s(moment.studio.race().t());
         let is_alone = lane.lane.bodies()[body].coordinates().len() == 1;
-        // With what it went over between samples: else the stage would shrink when a peak is between two.
+        // Include the range swept between samples. Otherwise the stage would shrink whenever a peak falls between
+        // two.
         let reach = |sample: &Sample| {
             let place = sample.at - self.centre_m;
             let [low, high] = sample.swept.ends().map(|q| (q - sample.q).abs());
@@ -72,7 +74,7 @@ impl Room {
         self.base_m * DVec2::new(in_steps(times.x), in_steps(times.y))
     }
 
-    /// How far a body went within a time in seconds.
+    /// Largest distance of a body within a time span (s).
     fn furthest(&self, history: &History, [from, to]: [f64; 2]) -> DVec2 {
         let samples = history.samples().rev().skip_while(|sample| sample.t > to);
         let samples = samples.take_while(|sample| sample.t >= from);
@@ -80,7 +82,7 @@ impl Room {
         places.filter(|place| place.is_finite()).fold(DVec2::ZERO, DVec2::max)
     }
 
-    /// How far the parts of a body are now, at most.
+    /// Upper bound of the present distance of a body's parts.
     fn present(&self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> DVec2 {
         let body = &lane.lane.bodies()[body];
         let look = Look::of(body);
@@ -102,13 +104,13 @@ impl Room {
     }
 }
 
-/// The next power of two that is below `times` by no more than rounding.
+/// The smallest power of two that is at least `times`, within rounding, and at least 1.
 pub(super) fn in_steps(times: f64) -> f64 {
     const ROUNDING: f64 = 1e-9;
     libm::exp2(libm::ceil(libm::log2(times.max(1.0)) - ROUNDING))
 }
 
-/// The places of what moves of a body.
+/// Places of a body's moving parts.
 fn parts(outline: &Outline) -> impl Iterator<Item = DVec2> {
     use crate::scene::Mark::Disc;
     let discs = outline.marks.iter().filter_map(|mark| match mark {
@@ -119,7 +121,7 @@ fn parts(outline: &Outline) -> impl Iterator<Item = DVec2> {
     discs.chain(nodes).chain([outline.at])
 }
 
-/// How far from the truth a lane has been lately, in metres.
+/// Largest recent distance (m) of a lane from the truth.
 pub(super) fn strayed_m(moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> f64 {
     let lately = moment.history(lane, body).since(moment.t - REMEMBERED_S);
     let errors = lately.map(|sample| sample.metrics[Metric::POSITION_ERROR]);
@@ -140,7 +142,7 @@ mod tests {
         studio
     }
 
-    /// Whether the lane's body is on the stage, and how many points a metre has there.
+    /// Whether the lane's body is on the stage, and the points per metre there.
     fn hero(studio: &Studio) -> (bool, f64) {
         let picture = compose(studio, SIZE);
         let cell = &picture.cells[0];
@@ -162,7 +164,7 @@ mod tests {
             last = scale;
         }
         assert!(last < first / 20.0, "{first} to {last} points per metre");
-        // The swing that another method keeps has the stage that it found.
+        // A method that keeps the swing keeps the stage at its size.
         studio.apply(StageCommand::Pick(1));
         (0..300).for_each(|_| _ = studio.advance(16_666_667));
         let (is_seen, held) = hero(&studio);

@@ -8,31 +8,30 @@ use super::{FAR, Fill, Path, PathPoint, Picture, Rect, Shape};
 use crate::look::palette::{Palette, Rgba, faded};
 use crate::studio::ZoomPan;
 
-/// From the middle of a block to the point of the pen under it, in blocks.
+/// From the middle of a block to the tip of the pen under it, in blocks.
 pub(super) const PEN: f32 = 0.66;
-/// The room for digits below threads, in points.
+/// Room for digits below threads, in points.
 const FOOT: f64 = 22.0;
 
-/// Looks at one body's world through one cell of the stage.
+/// Maps one body's world to one cell of the stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Camera {
-    /// The cell.
     pub(super) rect: Rect,
-    /// The place in the world, in metres, that is seen at `at`.
+    /// Place in the world (m) that appears at `at`.
     pub(super) centre_m: DVec2,
     /// The point of the stage that shows `centre_m`.
     pub(super) at: [f32; 2],
     /// Points for one metre.
     pub(super) points_per_metre: f64,
-    /// How long a chart recorder's paper is from the body down, in points.
+    /// Length of a chart recorder's paper from the body down, in points.
     pub(super) paper: f64,
-    /// How many times larger than life bodies are drawn: on a stage that has zoomed out far they would vanish.
+    /// Magnification of bodies. They would vanish on a stage that has zoomed out far.
     pub(super) magnified: f64,
-    /// The side of a block on a spring, in points.
+    /// Side of a block on a spring, in points.
     pub(super) block: f32,
-    /// Where the edge of the quay is, at which springs are moored, in metres.
+    /// Edge of the quay to which springs are moored, in metres.
     pub(super) quay_m: f64,
-    /// What a metre of the picture stands for: the unit of its scale.
+    /// Unit of the scale, for one metre of the picture.
     pub(super) unit: &'static str,
 }
 
@@ -52,10 +51,9 @@ impl Camera {
         }
     }
 
-    /// The same camera, of a stage that has grown so many times larger: bodies become smaller with it, and more slowly the
-    /// further it goes.
+    /// The same camera for a stage that has grown by the factor `times`. Bodies shrink too, but ever more slowly.
     pub(super) fn grown(self, times: f64) -> Self {
-        /// The least part of its size that a body keeps.
+        /// Least share of its size that a body keeps.
         const MIN: f64 = 0.4;
         let size = (1.0 / libm::sqrt(times)).max(MIN);
         Self { magnified: times * size, block: self.block * demote(size), ..self }
@@ -77,19 +75,19 @@ impl Camera {
         }
     }
 
-    /// The place in the world that a point shows.
+    /// Place in the world at a point.
     pub(super) fn metres(&self, at: [f32; 2]) -> DVec2 {
         let [x, y] = [0, 1].map(|axis| f64::from(at[axis] - self.at[axis]));
         self.centre_m + DVec2::new(x, -y) / self.points_per_metre
     }
 
-    /// The point that shows a place in the world.
+    /// Point of a place in the world.
     pub(super) fn points(&self, place_m: DVec2) -> [f32; 2] {
         let offset = (place_m - self.centre_m) * self.points_per_metre;
         [demote(f64::from(self.at[0]) + offset.x), demote(f64::from(self.at[1]) - offset.y)]
     }
 
-    /// The point on a chart recorder's paper, which holds a second, for a place so many seconds from now.
+    /// Point on a chart recorder's paper of one second, for a place at `seconds` from now.
     pub(super) fn ahead(&self, place_m: DVec2, seconds: f64) -> [f32; 2] {
         let ([x, y], pen) = (self.points(place_m), f64::from(PEN * self.block));
         [x, demote(f64::from(y) + pen + seconds * (self.paper - pen - FOOT).max(0.0))]
@@ -99,18 +97,18 @@ impl Camera {
         demote(metres * self.points_per_metre)
     }
 
-    /// How large a part of a body of this size is drawn.
+    /// Drawn length of a part of a body, in points.
     pub(super) fn size(&self, metres: f64) -> f32 {
         self.length(self.magnified * metres)
     }
 
-    /// The least and the greatest x in view, in metres.
+    /// Least and greatest x in view, in metres.
     pub(super) fn span_m(&self) -> (f64, f64) {
         let metres = |x: f32| self.centre_m.x + f64::from(x - self.at[0]) / self.points_per_metre;
         (metres(self.rect.min[0]), metres(self.rect.max[0]))
     }
 
-    /// A round length of 1, 2 or 5 times a power of ten metres that shows as at least `points`.
+    /// The round length, 1, 2 or 5 times a power of ten metres, that shows as at least `points`.
     pub(super) fn round_length_m(&self, points: f64) -> f64 {
         let least = points / self.points_per_metre;
         let decade = libm::pow(10.0, libm::floor(libm::log10(least)));
@@ -128,20 +126,20 @@ pub(super) fn demote(x: f64) -> f32 {
     if x.is_nan() { FAR } else { x.clamp(-far, far) as f32 }
 }
 
-/// The dash pattern of an unbroken line.
+/// Dash pattern of an unbroken line.
 pub(super) const SOLID: [f32; 2] = [1.0, 0.0];
 
-/// How a lane looks.
+/// The style of a lane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LaneStyle {
     pub(super) colour: Rgba,
     /// Drawn length and gap in points; a gap of 0 is solid.
     pub(super) dash: [f32; 2],
-    /// How much of its colour fills it, where it is behind.
+    /// Opacity of its fill when behind.
     pub(super) fill: f32,
 }
 
-/// Draws shapes over those of a picture, and nothing outside a rectangle. Widths and radii are in points.
+/// Draws shapes over those of a picture, clipped to a rectangle. Widths and radii are in points.
 pub(super) struct Pen<'a> {
     shapes: &'a mut Vec<Shape>,
     clip: Rect,
@@ -155,17 +153,17 @@ impl Picture {
 }
 
 impl Pen<'_> {
-    /// A straight line.
+    /// Draws a straight line.
     pub(super) fn line(&mut self, from: [f32; 2], to: [f32; 2], width: f32, colour: Rgba) {
         self.path([from, to], width, colour);
     }
 
-    /// A disc.
+    /// Draws a disc.
     pub(super) fn disc(&mut self, at: [f32; 2], radius: f32, colour: Rgba) {
         self.line(at, at, 2.0 * radius, colour);
     }
 
-    /// A line through points.
+    /// Draws a line through points.
     pub(super) fn path(
         &mut self,
         points: impl IntoIterator<Item = [f32; 2]>,
@@ -175,7 +173,7 @@ impl Pen<'_> {
         self.dashed(points, width, colour, SOLID);
     }
 
-    /// A line through points, of this dash pattern.
+    /// Draws a dashed line through points.
     pub(super) fn dashed(
         &mut self,
         points: impl IntoIterator<Item = [f32; 2]>,
@@ -187,7 +185,7 @@ impl Pen<'_> {
         self.course(points.into_iter().map(point), dash);
     }
 
-    /// A line of one colour through points, with half its width at each.
+    /// Draws a line of one colour through points, with half its width at each.
     pub(super) fn taper(
         &mut self,
         points: impl IntoIterator<Item = ([f32; 2], f32)>,
@@ -197,18 +195,18 @@ impl Pen<'_> {
         self.course(points.into_iter().map(point), SOLID);
     }
 
-    /// A line of this dash pattern through points with a width and a colour each.
+    /// Draws a dashed line through points with a width and a colour each.
     pub(super) fn course(&mut self, points: impl Iterator<Item = PathPoint>, dash: [f32; 2]) {
         let path = Path { points: points.collect(), dash, clip: self.clip };
         self.shapes.push(Shape::Path(path));
     }
 
-    /// A line round the outline through these corners.
+    /// Draws a line around the outline through these corners.
     pub(super) fn ring(&mut self, corners: &[[f32; 2]], width: f32, colour: Rgba) {
         self.dashed_ring(corners, width, colour, SOLID);
     }
 
-    /// A line round the outline through these corners, of this dash pattern.
+    /// Draws a dashed line around the outline through these corners.
     pub(super) fn dashed_ring(
         &mut self,
         corners: &[[f32; 2]],
@@ -219,37 +217,37 @@ impl Pen<'_> {
         self.dashed(corners.iter().chain(corners.first()).copied(), width, colour, dash);
     }
 
-    /// A filled outline of one colour.
+    /// Fills an outline with one colour.
     pub(super) fn fill(&mut self, corners: &[[f32; 2]], colour: Rgba) {
         self.shaded(corners, |_| colour);
     }
 
-    /// A filled outline with a colour for each place.
+    /// Fills an outline with a colour for each place.
     pub(super) fn shaded(&mut self, corners: &[[f32; 2]], colour: impl Fn([f32; 2]) -> Rgba) {
         let corners = corners.iter().map(|&at| (at, colour(at))).collect();
         self.shapes.push(Shape::Fill(Fill { corners, clip: self.clip }));
     }
 
-    /// The outline of a body of a lane behind.
+    /// Draws the outline of a body in a lane behind.
     pub(super) fn hollow(&mut self, outline: &[[f32; 2]], width: f32, style: LaneStyle) {
         self.fill(outline, faded(style.colour, style.fill));
         self.dashed_ring(outline, width, style.colour, style.dash);
     }
 
-    /// The outline of a body of the exact solution.
+    /// Draws the outline of a body of the exact solution.
     pub(super) fn ghost(&mut self, outline: &[[f32; 2]], palette: &Palette) {
         self.fill(outline, faded(palette.exact, 0.12));
         self.ghost_rim(outline, palette);
     }
 
-    /// The line round a body of the exact solution.
+    /// Draws the line around a body of the exact solution.
     pub(super) fn ghost_rim(&mut self, outline: &[[f32; 2]], palette: &Palette) {
         self.ring(outline, 4.0, faded(palette.sea[1], 0.6));
         self.ring(outline, 1.8, faded(palette.exact, 0.95));
     }
 }
 
-/// So many places on a circle.
+/// Evenly spaced corners on a circle.
 pub(super) fn circle([x, y]: [f32; 2], radius: f32, corners: u8) -> Vec<[f32; 2]> {
     let corner = |i: u8| {
         let angle = std::f32::consts::TAU * f32::from(i) / f32::from(corners);
@@ -258,7 +256,7 @@ pub(super) fn circle([x, y]: [f32; 2], radius: f32, corners: u8) -> Vec<[f32; 2]
     (0..corners).map(corner).collect()
 }
 
-/// The cosines and the sines of four pieces of each quarter of a turn.
+/// Cosines and sines of the ends of four pieces, for each quarter of a turn.
 static QUARTERS: LazyLock<[[[f32; 2]; 5]; 4]> = LazyLock::new(|| {
     std::array::from_fn(|turn| {
         std::array::from_fn(|piece| {
@@ -269,7 +267,7 @@ static QUARTERS: LazyLock<[[[f32; 2]; 5]; 4]> = LazyLock::new(|| {
     })
 });
 
-/// The outline of an upright rectangle with round corners.
+/// Outline of an upright rectangle with round corners.
 pub(super) fn rounded(min: [f32; 2], max: [f32; 2], radius: f32) -> Vec<[f32; 2]> {
     let radius = radius.min((max[0] - min[0]) / 2.0).min((max[1] - min[1]) / 2.0).max(0.0);
     let centres = [

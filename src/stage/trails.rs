@@ -1,4 +1,4 @@
-//! Where bodies have been: the trace of a mass, the wake of a ship.
+//! Trails of bodies: the trace of a mass, the wake of a ship.
 
 use glam::{DVec2, Vec2};
 
@@ -10,38 +10,38 @@ use crate::look::palette::{Rgba, faded, mixed};
 use crate::run::past::{History, Sample};
 use crate::studio::Motion;
 
-/// The most points in a lane's trail: more would not show.
+/// Most points in a lane's trail: more would not show.
 const TRAIL_POINTS: usize = 720;
-/// How fast the arms of a bow wave leave the course, in lengths along it, and the distance of two strokes of an arm, in
-/// sixtieths of the width shown.
+/// Slope of the bow wave's arms away from the course, and spacing of the strokes in an arm, in sixtieths of the width
+/// shown.
 const BOW_SLOPE: f64 = 0.16;
 const FEATHER: f64 = 1.1;
-/// The most strokes of an arm: as many as fit on a stage.
+/// Most strokes of an arm: as many as fit on a stage.
 const MAX_FEATHERS: usize = 60;
-/// The time between the eddies of a wake, in seconds, and how many there are at a time.
+/// Time (s) between the eddies of a wake, and number of eddies at a time.
 const EDDY_S: f64 = 0.2;
 const EDDIES: u8 = 3;
-/// From this distance on, in points, samples of a trail can be told apart, and have dots of this radius.
+/// From this spacing on, in points, samples of a trail are distinct and get dots of this radius.
 const SPARSE: f32 = 6.0;
 const DOT_RADIUS: f32 = 1.7;
 
-/// Where a body was.
+/// A past place of a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
-    /// How long ago, in seconds.
+    /// Age in seconds.
     pub(super) age: f64,
-    /// Where the body was, in metres.
+    /// Place in metres.
     pub(super) at: DVec2,
-    /// The colour of what got it there.
+    /// Colour of the method that moved the body there.
     pub(super) colour: Rgba,
 }
 
 impl DrawContext<'_> {
-    /// The last `trail_s` seconds of a body that is now at `from`, newest first, thinned to what shows and cut where its
-    /// method was switched, each part beginning where the one before ends.
+    /// The last `trail_s` seconds of a body that is now at `from`, newest first, in one leg per method. Each leg
+    /// starts at the end of the one before. Drops points that would not show.
     pub(super) fn legs(&self, from: DVec2, history: &History, trail_s: f64) -> Vec<Vec<Place>> {
         let shown = self.t;
-        // A body that was put elsewhere did not move there.
+        // No path leads to a placement.
         let mut has_jumped = false;
         let recent = move |s: &&Sample| {
             let goes_on = !has_jumped && shown - s.t < trail_s;
@@ -74,7 +74,8 @@ impl DrawContext<'_> {
         }
     }
 
-    /// Where a place lies on a chart recorder's paper: older is further down, from the pen under the block on.
+    /// Point of a place on a chart recorder's paper, which starts at the pen under the block; older places are
+    /// further down.
     fn on_paper(&self, camera: &Camera, place: &Place) -> [f32; 2] {
         let pen = f64::from(PEN * camera.block);
         let drop = (camera.paper - pen).max(0.0) / self.paper_s;
@@ -82,7 +83,7 @@ impl DrawContext<'_> {
         [x, demote(f64::from(y) + pen + place.age * drop)]
     }
 
-    /// Where a body has been, drawn as its camera has it.
+    /// Draws a trail in its camera's framing.
     pub(super) fn trail(
         &self,
         picture: &mut Picture,
@@ -115,8 +116,8 @@ impl DrawContext<'_> {
         }
     }
 
-    /// A dot on each sample of a lane's trail that is far enough from the next one for the line between
-    /// them to be taken for motion. The first place of a leg is no sample.
+    /// Draws a dot on each sample of a lane's trail that is far from the next one, so that nobody takes the line
+    /// between them for motion. The first place of a leg is not a sample.
     pub(super) fn dots(
         &self,
         picture: &mut Picture,
@@ -143,8 +144,8 @@ impl DrawContext<'_> {
         }
     }
 
-    /// Foam behind the hull, wider and fainter with age, the eddies in it, and the two feathered arms of the bow wave. The
-    /// wake is as wide as the hull, which is as long as the view makes it.
+    /// Draws foam behind the hull, wider and fainter with age, its eddies, and the two feathered arms of the bow
+    /// wave. The wake is as wide as the hull, whose length follows the view.
     pub(super) fn wake(
         &self,
         picture: &mut Picture,
@@ -171,7 +172,7 @@ impl DrawContext<'_> {
         for ends in course.windows(2) {
             let [newer, older] = [ends[0], ends[1]];
             let Some(ahead) = (newer.at - older.at).try_normalize() else { continue };
-            // By the moment at which the hull was there: eddies stay where they are in the water.
+            // Keyed by the moment at which the hull passed, so that eddies stay fixed in the water.
             let moment = |place: Place| libm::floor((self.t - place.age) / EDDY_S);
             if moment(newer) == moment(older) {
                 continue;
@@ -194,7 +195,7 @@ impl DrawContext<'_> {
         }
     }
 
-    /// The crest that the bow throws to one side, by the sign of `unit`, in strokes that lean outwards.
+    /// Draws the crest that the bow throws to one side, given by the sign of `unit`, in strokes that lean outwards.
     fn bow_wave(
         &self,
         picture: &mut Picture,

@@ -1,5 +1,5 @@
-//! The ruler of the universe: what one knows, lying on the water at the scale of a stage that zooms out after a runaway
-//! body, and a sentence that says how far that has got.
+//! The ruler of the universe. When a stage zooms out after a runaway body, familiar things appear on the water at its
+//! scale, and a sentence states how far the body has gone.
 
 use glam::DVec2;
 
@@ -14,9 +14,9 @@ use crate::sim::number::{round, significant, superscript};
 use crate::studio::Motion;
 use Part::{Disc, Outline, Ring};
 
-/// Something that one knows the size of.
+/// A thing of familiar size.
 struct Landmark {
-    /// As it is called, and so many of them.
+    /// Name in the singular with its article, and in the plural.
     names: [&'static str; 2],
     length_m: f64,
     length: &'static str,
@@ -29,12 +29,12 @@ enum Part {
     Disc([f32; 2], f32),
     /// Centre and radius.
     Ring([f32; 2], f32),
-    /// Corners, all of which are visible from their mean.
+    /// Corners, all visible from their mean.
     Outline(&'static [[f32; 2]]),
 }
 
 impl Landmark {
-    /// How far it reaches up and down from its middle, in its lengths.
+    /// Largest extent up or down from its middle, in its lengths.
     fn half_height(&self) -> f32 {
         let highest = |part: &Part| match part {
             Disc([_, y], radius) | Ring([_, y], radius) => y.abs() + radius,
@@ -53,9 +53,9 @@ const fn known(
     Landmark { names, length_m, length, silhouette }
 }
 
-/// From small to large. The tower's height is that since 2022, the ship is of the longest of their kind, the island's length
-/// is along its longest street; the Sun and the light year are the IAU's, the orbit is twice 30.07 au, the Galaxy 100 000
-/// light years and the observable universe 93 billion.
+/// From small to large. The tower has its height since 2022, the ship is among the longest of its kind, and the
+/// island's length is along its longest street. The Sun and the light year are the IAU's. The orbit is twice 30.07
+/// au, the Galaxy 100 000 light years and the observable universe 93 billion.
 #[rustfmt::skip]
 static LANDMARKS: [Landmark; 11] = [
     known(["a person", "people"], 1.75, "1.75 m", &[
@@ -108,31 +108,31 @@ static LANDMARKS: [Landmark; 11] = [
     ]),
 ];
 
-/// From how many times its size on a stage says how far its body has got.
+/// Growth of the stage at which the sentence appears.
 const GROWN: f64 = 3.0;
-/// The longest and the shortest that a landmark lies there, as parts of the width; near both it fades.
+/// Greatest and least length of a landmark, relative to the width; near both it fades.
 const LENGTHS: [f32; 2] = [0.42, 0.035];
-/// How far it may reach up and down, as a part of the height of the cell.
+/// Largest extent up and down, relative to the height of the cell.
 const HEIGHT: f32 = 0.3;
-/// How far landmarks keep from the middle, where the true body is, and their middles, their measures and the sentence from
-/// the foot of the cell, in points.
+/// Distance (points) of landmarks from the middle, where the true body is; and heights of their middles, their
+/// measures and the sentence above the foot of the cell.
 const ASIDE: f32 = 16.0;
 const FEET: [f32; 3] = [92.0, 52.0, 4.0];
-/// The height of the sentence in its frame, and the mean width of its letters, in points.
+/// Height of the sentence's frame, and mean width of its letters, in points.
 const SENTENCE: f32 = 26.0;
 const LETTER: f32 = 7.1;
 
-/// Whether the stage has zoomed out so far, for a person who watches, that it is to be said how far.
+/// Whether the stage, for a person who watches, has zoomed out far enough for landmarks.
 pub(super) fn is_shown(moment: &DrawContext<'_>, view: &BodyView, camera: &Camera) -> bool {
     let is_zooming = moment.studio.display().motion == Motion::Live && view.grown >= GROWN;
     is_zooming && camera.unit == "m" && view.recorded_m().is_some()
 }
 
-/// Lays what is about as long as the stage is wide on the water: the largest right of the middle, the next left of it.
+/// Draws landmarks about as long as the stage is wide: the largest right of the middle, the next left of it.
 pub(super) fn landmarks(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     let [width, height] = camera.rect.size().map(|side| side as f32);
     let fits = |landmark: &&Landmark| {
-        // One that is high must have room for that.
+        // A high one needs enough height, too.
         let most = LENGTHS[0].min(HEIGHT * height / (landmark.half_height() * width));
         (LENGTHS[1] * width..most * width).contains(&camera.length(landmark.length_m))
     };
@@ -146,7 +146,7 @@ pub(super) fn landmarks(picture: &mut Picture, camera: &Camera, palette: &Palett
     }
 }
 
-/// Lays one from this point to the right, in so much of its colour, with its length below it.
+/// Draws a landmark from this point to the right with this opacity, and its length below it.
 fn lay(
     picture: &mut Picture,
     camera: &Camera,
@@ -175,7 +175,7 @@ fn lay(
     picture.labels.push(text(palette, at, Align::Centre, 12.0, colour, words));
 }
 
-/// Says how far a lane's body has got that should swing so far, in a frame of the lane's colour.
+/// Writes how far a lane's body has gone instead of its swing, in a frame of the lane's colour.
 pub(super) fn sentence(
     picture: &mut Picture,
     camera: &Camera,
@@ -206,7 +206,7 @@ pub(super) fn sentence(
     };
     let palette = moment.palette;
     let wide = LETTER * words.chars().count() as f32 + 32.0;
-    // On a narrow stage it would reach beyond one side, or both.
+    // On a narrow stage, the full size would cross one side, or both.
     let smaller = ((camera.rect.max[0] - camera.rect.min[0]) / wide).min(1.0);
     let half = smaller * wide / 2.0;
     let [least, most] = [camera.rect.min[0] + half, camera.rect.max[0] - half];
@@ -220,7 +220,7 @@ pub(super) fn sentence(
     picture.labels.push(Label::new(at, Align::Centre, size, palette.text, words).strong());
 }
 
-/// A number of things, in words where it is small.
+/// A number in words if it is small.
 fn counted(times: f64) -> String {
     const WORDS: &str = "two three four five six seven eight nine ten";
     let whole = libm::round(times);

@@ -30,7 +30,7 @@ pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {
     let (done, mut told) = deck.watched(|run, notices| run.act_within(action, notices));
     let Some(done) = done else { return viewer.tell(told) };
     deck.edits += 1;
-    // What a person does at rest is to be seen.
+    // Run, so that the person sees the effect of an input at rest.
     deck.running |= is_input && rests;
     if let Action::Lane { .. } = done.action {
         deck.run.next_mut().entry = deck.active();
@@ -57,7 +57,7 @@ pub(super) fn pick(deck: &mut Deck, viewer: &mut Viewer, entry: usize) {
     deck.run.next_mut().entry = entry;
 }
 
-/// The index of a method on the list. If it is not there, a notice says why.
+/// Menu index of a method. If the menu lacks it, a notice explains why.
 pub(super) fn listed(deck: &mut Deck, viewer: &mut Viewer, method: &Method) -> Option<usize> {
     let listed = deck.entries().iter().position(|spec| spec.method == method);
     if listed.is_none() {
@@ -72,7 +72,7 @@ pub(super) fn listed(deck: &mut Deck, viewer: &mut Viewer, method: &Method) -> O
     listed
 }
 
-/// Gives a method of the list new substeps and a new tolerance, switches its lane in a race to them, and picks it. A race
+/// Gives a menu method new substeps and a new tolerance, switches its racing lane to them, and picks it. A race
 /// without the method restarts with it.
 pub(super) fn set_lane(deck: &mut Deck, viewer: &mut Viewer, spec: LaneSpec) {
     let Some(entry) = listed(deck, viewer, spec.method) else { return };
@@ -99,7 +99,7 @@ pub(super) fn set_lane(deck: &mut Deck, viewer: &mut Viewer, spec: LaneSpec) {
     }
 }
 
-/// Picks the next index on the list that can be picked, cyclically, that way.
+/// Picks the next available menu entry in this direction, cyclically.
 pub(super) fn pick_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step) {
     let count = deck.entries().len();
     let beside = |entry: &usize| Some(step.around(*entry, count));
@@ -143,7 +143,7 @@ pub(super) fn toggle_equal_cost(deck: &mut Deck, viewer: &mut Viewer) {
     viewer.set_notice(notice);
 }
 
-/// Pauses and goes `ticks` ticks forward, or back if negative.
+/// Pauses and moves `ticks` ticks forward, or back if negative.
 pub(super) fn step_by(deck: &mut Deck, viewer: &mut Viewer, ticks: i64) {
     deck.running = false;
     let tick = deck.race().tick().saturating_add_signed(ticks);
@@ -154,7 +154,7 @@ pub(super) fn step_by(deck: &mut Deck, viewer: &mut Viewer, ticks: i64) {
     deck.run.show_present();
 }
 
-/// Says how far the run has got, if that is before this tick.
+/// Reports how far the run has come, if that is before this tick.
 pub(super) fn tell_of_the_future(deck: &mut Deck, viewer: &mut Viewer, tick: u64) {
     let (end, times) = (deck.run.end(), deck.run.times());
     if tick > end {
@@ -169,7 +169,7 @@ pub(super) fn seek(deck: &mut Deck, viewer: &mut Viewer, tick: u64) {
     follow(deck, viewer, Jump::ToAnotherTick);
 }
 
-/// What is told of an action with a number that is out of its range.
+/// Notice for an action whose number is out of range.
 fn out_of_range(noun: &str) -> String {
     format!("out of range, so that nothing was changed: {noun}")
 }

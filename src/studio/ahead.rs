@@ -1,4 +1,4 @@
-//! The next moments of the selected lane: the anatomy of its next tick, and a fan of futures.
+//! The near future of the selected lane: the anatomy of its next tick, and a fan of futures.
 
 use super::Studio;
 use super::deck::Deck;
@@ -7,8 +7,8 @@ use crate::measure;
 use crate::measure::{Future, OneStep};
 use crate::sim::stability::Tick;
 
-/// The anatomy of the next tick of the displayed body in the selected lane, without its end while a person is
-/// [asked](Viewer::is_asked). `None` if the body has halted.
+/// The anatomy of the next tick of the displayed body in the selected lane. `None` if the body has halted. While a
+/// person is [asked](Viewer::is_asked) for a prediction, it omits the end.
 pub fn one_step(deck: &Deck, viewer: &Viewer) -> Option<OneStep> {
     let (entrant, race) = (deck.selected(), deck.race());
     let spec = entrant.spec;
@@ -22,7 +22,7 @@ pub fn one_step(deck: &Deck, viewer: &Viewer) -> Option<OneStep> {
     })
 }
 
-/// Lines through the states of the displayed body that have the energy of the state `through`, with coordinates in
+/// Lines of constant energy in the displayed body's phase plane, through the state `through`, for coordinates in
 /// `range`. Empty if the body has several coordinates, or conserves no energy.
 pub fn orbit(
     deck: &Deck,
@@ -34,15 +34,15 @@ pub fn orbit(
     measure::orbit(body, deck.race().t(), through, range)
 }
 
-/// Whether futures are shown: while a person drags the tick rate, and if they are asked for while time stands still.
+/// Whether the stage shows futures: while a person drags the tick rate, or on request while time stands still.
 pub fn shows_futures(studio: &Studio) -> bool {
     let is_dragged = studio.viewer.hz_at_press.is_some_and(|hz| hz != studio.deck.race().tick_hz());
     studio.loop_lab().is_none()
         && (is_dragged || studio.viewer.display().futures && !studio.deck.time_runs())
 }
 
-/// The next second of the body at this index of the scene in the selected lane, the truth last; empty if it has halted, or
-/// has too many coordinates.
+/// The next second of the body with this index in the scene, in the selected lane; the truth comes last. Empty if the
+/// body has halted, or has too many coordinates.
 pub fn futures(deck: &Deck, body: usize) -> Vec<Future> {
     let of = &deck.selected().lane.bodies()[body];
     let held = deck.held().filter(|held| held.body == body);

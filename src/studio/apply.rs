@@ -1,4 +1,4 @@
-//! Commands: each goes to the part of the studio that it is for.
+//! Passes each command to the part of the studio that executes it.
 
 use std::mem::take;
 
@@ -17,11 +17,11 @@ use super::restarting::plot_coordinate;
 use super::viewer::{Dialog, Viewer};
 use crate::loops::loop_lab::LoopCommand;
 
-/// What is asked before a run that is not saved is lost.
+/// Asked before quitting with unsaved edits.
 const QUIT_QUESTION: &str = "what you did in this run is not saved: F5 saves it, Esc again quits";
 
 impl Studio {
-    /// Carries out a command. Returns what the driver has to do for it, if anything.
+    /// Executes a command. Returns the driver's part of it, if any.
     pub fn apply(&mut self, command: impl Into<Command>) -> Option<DriverRequest> {
         let command = command.into();
         self.viewer.hints.see(&command, self.deck.run.next().scene.hint.as_deref());
@@ -140,14 +140,14 @@ impl Studio {
                 return if self.escape() { None } else { quit(&mut self.deck, &mut self.viewer) };
             }
         }
-        // A stop of the guide is a scene with a run of its own.
+        // A stop of the guide opens a scene with its own run.
         if self.deck.openings != openings {
             self.loops = None;
         }
         None
     }
 
-    /// Closes the foremost of what is open. Returns whether anything was.
+    /// Closes the foremost open thing. Returns whether there was one.
     fn escape(&mut self) -> bool {
         self.deck.held.take().is_some()
             || self.viewer.dialog.take().is_some()
@@ -158,7 +158,7 @@ impl Studio {
             || leave_loop_lab(self)
     }
 
-    /// Closes the guide, and the loop lab on the motion of its stop. Returns whether there was anything to close.
+    /// Closes the guide, and the loop lab on the motion of its stop. Returns whether the guide was open.
     fn close_guide(&mut self) -> bool {
         let is_closed = close_guide(&mut self.deck, &mut self.viewer);
         self.loops.take_if(|_| is_closed);
@@ -166,7 +166,7 @@ impl Studio {
     }
 }
 
-/// The request, unless there is nothing for the driver to copy.
+/// The request, unless the driver would have nothing to copy.
 fn possible(deck: &Deck, viewer: &Viewer, request: DriverRequest) -> Option<DriverRequest> {
     match request {
         DriverRequest::CopyMethod(entry) => deck.entries().get(entry).map(|_| request),
@@ -175,7 +175,7 @@ fn possible(deck: &Deck, viewer: &Viewer, request: DriverRequest) -> Option<Driv
     }
 }
 
-/// Quits; while there is something to lose, at the second time of asking.
+/// Quits. With unsaved edits, asks first and quits at the second request.
 fn quit(deck: &mut Deck, viewer: &mut Viewer) -> Option<DriverRequest> {
     let is_asked = viewer.notice.as_deref() == Some(QUIT_QUESTION);
     if is_asked || deck.edits == deck.saved_edits || viewer.preferences.is_recorded {

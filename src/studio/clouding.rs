@@ -1,4 +1,4 @@
-//! The clouds of the studio: which it wants, and how it takes them in.
+//! The clouds of the studio: which ones to compute, and which results to accept.
 
 use std::sync::Arc;
 
@@ -9,9 +9,9 @@ use super::viewer::Viewer;
 use crate::measure::cloud::{CloudKind, CloudRequest, CloudWorker, FoundCloud, NoCloud};
 use crate::run::race::Interventions;
 
-/// The clouds that the studio wants at present, for a [`CloudWorker`]: those of its lanes, about the start of the run or where
-/// a person or the script last acted on the bodies. `None` while the instrument is another, or the displayed body has no
-/// cloud.
+/// The clouds that the studio needs now, for a [`CloudWorker`]. They surround its lanes from the start of the run, or
+/// from the last action on the bodies by a person or the script. `None` while another instrument is shown, or if the
+/// displayed body has no cloud.
 pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
     let Studio { deck, viewer, loops } = studio;
     let is_shown = viewer.display().instrument == Instrument::Cloud && loops.is_none();
@@ -20,7 +20,7 @@ pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
     }
     let changes = Interventions::all(deck.run().starts());
     let (tick_hz, choice) = (deck.clock.tick_hz(), viewer.display().cloud);
-    // The points of later ticks may answer a stop of the guide.
+    // The points of later ticks may give away the answer at a stop of the guide.
     let seconds = match viewer.is_asked() {
         true => 0.0,
         false => (deck.race().t() - changes.starts_at_s()).max(0.0),
@@ -48,23 +48,23 @@ pub fn cloud_refusal(deck: &Deck, viewer: &Viewer) -> Option<NoCloud> {
     (coordinates > 1).then(|| NoCloud::SeveralCoordinates { body: name(), coordinates })
 }
 
-/// The clouds, as far as they have been [found](accept_cloud), at a tick near the present one; `None` while none
-/// are, or they are not shown.
+/// The latest [accepted](accept_cloud) clouds, at a tick near the present one. `None` while there are none, or if
+/// they are not shown.
 pub fn shown_cloud(studio: &Studio) -> Option<&FoundCloud> {
     let wanted = cloud_request(studio)?;
     studio.viewer.cloud.as_ref().filter(|found| found.request.is_alike(&wanted))
 }
 
-/// Keeps clouds, unless they are of another run.
+/// Accepts clouds, unless they belong to another run.
 pub fn accept_cloud(studio: &mut Studio, found: FoundCloud) {
     if cloud_request(studio).is_some_and(|wanted| wanted.is_alike(&found.request)) {
         studio.viewer.cloud = Some(found);
     }
 }
 
-/// Steps the clouds to the present tick, now, with a worker that may know earlier ones; `stop` ends it early.
+/// Steps the clouds to the present tick, now, with a worker that may hold earlier ones. `stop` ends the work early.
 pub fn complete_clouds(studio: &mut Studio, worker: &mut CloudWorker, stop: impl Fn() -> bool) {
-    // Whoever waits for them has all their points.
+    // A caller that waits gets all points.
     let wanted = cloud_request(studio).map(|wanted| CloudRequest { in_time: false, ..wanted });
     worker.set_request(wanted.map(Arc::new));
     let mut last = None;

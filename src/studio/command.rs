@@ -16,18 +16,19 @@ use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 use crate::tools::source_code::Language;
 
-/// A command of a person. A command on the run becomes an [`Action`], which states the new value rather than a change.
+/// A command of a person. A command on the run becomes an [`Action`], which states the new value rather than a
+/// change.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Acts on the run, or on what shows it alone: the loop lab has none of it.
+    /// Commands on the run and its displays; the loop lab refuses them.
     Run(RunCommand),
-    /// Acts on what the stage shows: the run, or the loop lab while it is open.
+    /// Commands on the run, or on the loop lab while it is open.
     Stage(StageCommand),
-    /// Opens or leaves the loop lab, or changes it.
+    /// Opens, leaves or changes the loop lab.
     Loop(LoopCommand),
-    /// Acts on the window around the stage, and on the whole program.
+    /// Commands on the window around the stage, and on the whole program.
     View(ViewCommand),
-    /// Asks the driver. The loop lab has no run to record.
+    /// Requests to the driver. The loop lab has no run to record.
     Ask(DriverRequest),
 }
 
@@ -44,21 +45,22 @@ from_each! {
     Run: RunCommand, Stage: StageCommand, Loop: LoopCommand, View: ViewCommand, Ask: DriverRequest
 }
 
-/// What acts on the run, or on what shows it alone.
+/// Commands on the run and its displays.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RunCommand {
     /// Performs this action on the run.
     Act(Action),
-    /// Sets the substeps and the tolerance of this method of the list, and switches to it like [`StageCommand::Method`]. A lane
-    /// that races keeps its state.
+    /// Sets the substeps and the tolerance of this menu method, and switches to it like [`StageCommand::Method`]. A
+    /// racing lane keeps its state.
     SetLane(LaneSpec),
-    /// Pauses and goes to this tick, at most the last tick reached: a later one is told to be still to come.
+    /// Pauses and moves to this tick, at most the last one reached. For a later tick, a notice reports how far the
+    /// run has come.
     Seek(u64),
-    /// Goes back to before the selected lane blew up, and runs on.
+    /// Rewinds to before the selected lane blew up, and runs.
     WatchAgain,
-    /// Takes back the last change to the run or to its next start.
+    /// Undoes the last edit of the run or of its next start.
     Undo,
-    /// Makes the change again that was undone last.
+    /// Redoes the edit that was undone last.
     Redo,
     /// Sets the speed in percent of real time.
     SpeedPercent(u32),
@@ -70,58 +72,59 @@ pub enum RunCommand {
     RudderLeft,
     /// A tenth more rudder to the right.
     RudderRight,
-    /// The next [way](crate::run::race::Interpolation::ALL) of drawing between ticks.
+    /// Selects the next [interpolation](crate::run::race::Interpolation::ALL) between ticks.
     NextInterpolation,
     /// Shows this parameter of the displayed body on the stability map, by its index.
     MapParameter(usize),
     /// Chooses the clouds of the cloud instrument.
     Cloud(CloudChoice),
-    /// Holds a body; time stands still until it is released. To place it is an [`Action`].
+    /// Holds a body; time stands still until its release. Placing it is an [`Action`].
     Hold(HeldBody),
     /// Opens or closes the inspector.
     ToggleInspector,
-    /// Sets how long the scene is, in seconds, within
-    /// [`MIN_SECONDS`](crate::scene::MIN_SECONDS) and [`MAX_SECONDS`](crate::scene::MAX_SECONDS): plots and verdicts cover it.
+    /// Sets the length of the scene in seconds, within [`MIN_SECONDS`](crate::scene::MIN_SECONDS) and
+    /// [`MAX_SECONDS`](crate::scene::MAX_SECONDS). Plots and verdicts cover it.
     Seconds(f64),
-    /// Switches equal cost on or off: each lane has as many substeps as bring its cost nearest to the dearest lane's.
+    /// Switches equal cost on or off. With it, substeps bring the cost of each lane nearest to that of the most
+    /// expensive one.
     ToggleEqualCost,
 }
 
-/// What acts on what the stage shows: the run, or the loop lab while it is open.
+/// Commands on the run, or on the loop lab while it is open.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StageCommand {
     /// Solo: switches the bodies to this method in flight. Race: selects its lane.
     Method(&'static Method),
-    /// Solo: switches to the method with this index in the lane list, from 0. Race: selects that lane.
+    /// Solo: switches to the method with this menu index, from 0. Race: selects its lane.
     Pick(usize),
-    /// The next or the previous method or lane on the list, cyclically.
+    /// Selects the next or the previous menu entry, cyclically.
     MethodBeside(Step),
-    /// Solo to race, from the start line; race to solo, with the selected lane as it is.
+    /// Solo to race, from the start line; race to solo, in the present state of the selected lane.
     ToggleRace,
-    /// Pauses and goes one tick forward or back.
+    /// Pauses and moves one tick forward or back.
     Tick(Step),
-    /// Pauses and goes one second forward or back.
+    /// Pauses and moves one second forward or back.
     Second(Step),
-    /// Back to tick 0, the bodies at their start and the script from its top. The method and the tick
-    /// rate that a person chose stay; a script's do not.
+    /// Returns to tick 0, with the bodies at their start and the script at its beginning. A person's choice of method
+    /// and tick rate stays; a script's does not.
     Restart,
     /// Sets the tick rate in Hz.
     TickHz(TickRate),
-    /// The next higher or lower rate of [`TICK_LADDER`].
+    /// Sets the next higher or lower rate of [`TICK_LADDER`].
     TickRate(Step),
-    /// The next higher or lower speed of [`SPEED_LADDER`].
+    /// Sets the next higher or lower speed of [`SPEED_LADDER`].
     Speed(Step),
     /// Opens the scene at this index of the [list](super::SceneList), from 0.
     Scene(usize),
-    /// The next or the previous scene of the list, cyclically.
+    /// Opens the next or the previous scene of the list, cyclically.
     SceneBeside(Step),
-    /// Opens that spring as a scene, with advice on it.
+    /// Opens the spring of the dialog as a scene, with advice on it.
     OpenSpring,
-    /// Race: lanes over each other, or side by side.
+    /// Race: toggles between overlaid lanes and lanes side by side.
     ToggleArrangement,
     /// Shows this instrument.
     Instrument(Instrument),
-    /// The next or the previous instrument, cyclically.
+    /// Shows the next or the previous instrument, cyclically.
     InstrumentBeside(Step),
     /// Shows the metric with this index in [`METRICS`](crate::run::METRICS) in the error instrument.
     Metric(usize),
@@ -129,16 +132,16 @@ pub enum StageCommand {
     Body(usize),
 }
 
-/// What acts on the window around the stage, and on the whole program.
+/// Commands on the window around the stage, and on the whole program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ViewCommand {
     /// Runs or pauses.
     TogglePause,
-    /// The pointer's button goes down or up. All changes while it is down are undone as one.
+    /// The pointer's button goes down or up. Undo treats all edits while it is down as one.
     PointerDown(bool),
     /// Opens a field for the path of a scene file.
     AskForPath,
-    /// Opens the same field for a recording that is to be compared with the run.
+    /// Opens the same field for a recording to compare with the run.
     AskForRun,
     /// Sets the text of that field.
     TypePath(String),
@@ -146,25 +149,25 @@ pub enum ViewCommand {
     AskForSpring,
     /// Sets those numbers.
     DescribeSpring(MySpring),
-    /// Sets the tick rate at which the spring of the dialog is to run, in Hz.
+    /// Sets the tick rate (Hz) for the spring of the dialog.
     SpringTickHz(TickRate),
     /// Closes the open dialog.
     CloseDialog,
-    /// Puts instruments, table and timeline round the stage, or lets the stage fill the window.
+    /// Puts instruments, table and timeline around the stage, or lets the stage fill the window.
     ToggleMeasure,
-    /// Puts the boundaries between stage, instruments and table here, as far as they go.
+    /// Moves the boundaries between stage, instruments and table, within their limits.
     Split(Splits),
     /// Shows the next second under each method, and pauses for it; or hides it.
     ToggleFutures,
     /// Shows or hides the exact ghost.
     ToggleGhost,
-    /// The dark theme or the light one.
+    /// Toggles between the dark and the light theme.
     ToggleTheme,
-    /// The next larger or smaller size of type and panels of [`SCALE_LADDER`].
+    /// Sets the next larger or smaller size of type and panels from [`SCALE_LADDER`].
     Scale(Step),
-    /// The usual size of type and panels.
+    /// Sets the usual size of type and panels.
     UsualScale,
-    /// Shows this quantity in the motion instrument; `None` for that which is usual for each body.
+    /// Shows this quantity in the motion instrument; `None` restores each body's default.
     Quantity(Option<Quantity>),
     /// Shows this coordinate of a body in the plots.
     Coordinate {
@@ -177,23 +180,24 @@ pub enum ViewCommand {
     PlotRanges(BTreeMap<String, [f64; 2]>),
     /// Shows the instrument over the stage, or beside it again.
     ToggleEnlarged,
-    /// Copies the method of the lane that is [pointed at](ViewCommand::PointAt) as source code in the language of the last
-    /// copy; of an engine's the lines that tell it the displayed spring; or else the instrument's values.
+    /// Copies the method of the lane that is [pointed at](ViewCommand::PointAt) as source code, in the language of
+    /// the last copy. For an engine, copies the lines that set the displayed spring; without a lane, the instrument's
+    /// values.
     Copy,
-    /// Has the next method be copied in this language.
+    /// Sets the language of the next copied method.
     Language(Language),
     /// Copies a method as source code.
     CopyMethod {
-        /// Its index in the list of lanes.
+        /// Menu index of the method.
         entry: usize,
         /// The language.
         language: Language,
     },
-    /// The pointer or the keyboard's focus comes to the lane at this index of the list, or leaves the list.
+    /// The pointer or the keyboard's focus moves to the lane at this menu index, or leaves the list.
     PointAt(Option<usize>),
-    /// Has the advice be about the displayed body alone, or about all bodies.
+    /// Limits the advice to the displayed body, or extends it to all bodies.
     AdviseOnOneBody(bool),
-    /// Releases the held body, which goes on from where it was grabbed.
+    /// Releases the held body, which resumes from where it was taken.
     LetGo,
     /// Zooms and pans a body's part of the stage.
     ZoomPan {
@@ -204,30 +208,29 @@ pub enum ViewCommand {
     },
     /// Opens or closes the help overlay.
     ToggleHelp,
-    /// Opens the guide where it was left, or closes it.
+    /// Opens the guide where the person left it, or closes it.
     ToggleGuide,
     /// Opens this stop of the guide, from 0.
     GoToStop(usize),
     /// Opens the next or the previous stop of the guide, if the guide is open and has one.
     StopBeside(Step),
-    /// Predicts this choice of the guide's stop, from 0.
+    /// Predicts this choice at the guide's stop, from 0.
     Predict(usize),
-    /// Releases the held body, else closes the overlay, else the guide, else shrinks the
-    /// instrument, else closes the inspector, else leaves the loop lab, else quits: at the second time, if the run has
-    /// something to lose.
+    /// Releases or closes the first of these: held body, overlay, guide, enlarged instrument, inspector, loop lab.
+    /// Otherwise quits; with unsaved edits, at the second time.
     Escape,
 }
 
-/// The tick rates of the bracket keys in Hz: the usual ones of games and screens, and 49 and 50 next to the limit of the
+/// Tick rates of the bracket keys in Hz: the usual ones of games and screens, and 49 and 50 next to the limit of the
 /// stiff spring.
 pub const TICK_LADDER: [u32; 14] = [2, 5, 10, 15, 20, 30, 49, 50, 60, 100, 120, 144, 240, 1000];
 
-/// The speeds of the keys `-` and `=`, in percent of real time.
+/// Speeds of the keys `-` and `=`, in percent of real time.
 pub const SPEED_LADDER: [u32; 6] = [25, 50, 100, 200, 400, 1600];
 
-/// The sizes of type and panels of the keys `Ctrl +` and `Ctrl −`, in percent of the usual one: type is legible from the
-/// smallest on, and the panels fit a screen of 1920 × 1080 up to the largest.
+/// Sizes of type and panels for the keys `Ctrl +` and `Ctrl −`, in percent of the usual one. Type is legible at the
+/// smallest, and the panels fit a screen of 1920 × 1080 up to the largest.
 pub const SCALE_LADDER: [u32; 8] = [75, 90, 100, 110, 125, 150, 175, 200];
 
-/// The size of type and panels that nobody chose, in percent.
+/// Default size of type and panels, in percent.
 pub(super) const USUAL_SCALE_PERCENT: u32 = 100;

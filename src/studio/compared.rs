@@ -1,14 +1,14 @@
-//! A recording that the run is compared with: its own run, which goes to each tick with the run, as a ghost on the stage.
+//! A recording to compare with the run. It plays as a run beside the person's, and the stage shows it as a ghost.
 
 use crate::run::diff::Difference;
 use crate::run::race::{LaneBody, Mode};
 use crate::run::{Run, StartSettings};
 use crate::scene::{LaneSpec, Scene};
 
-/// The most ticks in one go of the recording's run: an hour at 60 Hz, which takes about a second.
+/// Most ticks that the recording advances at a time: an hour at 60 Hz, which takes about a second.
 const MAX_TICKS: u64 = 60 * 3600;
 
-/// A recording beside the run that it differs from.
+/// A recording next to the run from which it differs.
 pub struct Compared {
     name: String,
     first: Difference,
@@ -23,17 +23,17 @@ impl Compared {
         Self { name: name.to_owned(), first, run: Run::starting_with(start) }
     }
 
-    /// The recording's name.
+    /// Name of the recording.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The tick of the first difference.
+    /// Tick of the first difference.
     pub fn tick(&self) -> u64 {
         self.first.tick
     }
 
-    /// The answer in two lines: where the first difference is, and how large.
+    /// The place and the size of the first difference, on one line each.
     pub fn lines(&self) -> [String; 2] {
         // Lane 0 of a trace is the truth.
         let place = self.first.place(|lane| match lane {
@@ -43,8 +43,8 @@ impl Compared {
         [format!("first difference: {place}"), self.first.size()]
     }
 
-    /// The recording's body at this index, at the tick of the run: in the lane of the same method as `lane`, or else in the
-    /// first. `None` if it is of another kind than in the scene of the run.
+    /// The recording's body with this index, at the tick of the run. Takes the lane with the method of `lane`, or
+    /// else the first. `None` if the body has halted, or differs in kind from the one in `scene`.
     pub fn body(&self, scene: &Scene, lane: &LaneSpec, index: usize) -> Option<&LaneBody> {
         let own = self.run.session().scene().bodies.get(index)?;
         let lanes = self.run.race().entrants();
@@ -53,7 +53,7 @@ impl Compared {
         (own.kind.id == scene.bodies[index].kind.id && body.halted().is_none()).then_some(body)
     }
 
-    /// Goes to a tick of the run, forward for at most an hour of ticks.
+    /// Moves to a tick of the run, forward by at most an hour of ticks.
     pub(super) fn go_to(&mut self, tick: u64) {
         self.run.seek(tick);
         let ahead = tick.saturating_sub(self.run.race().tick()).min(MAX_TICKS);

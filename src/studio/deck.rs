@@ -1,4 +1,4 @@
-//! The deck from which a person steers: a run, the clock that drives it, the selected lane, and a body in hand.
+//! A person's controls for a run: the run, its clock, the selected lane, and a body in hand.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::run::{Menu, RecordingError, Run, StartSettings, link, recording_among
 use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::sim::Clock;
 
-/// A run in a person's hands.
+/// A run under a person's control.
 pub struct Deck {
     pub(super) scene_list: SceneList,
     pub(super) run: Run,
@@ -23,25 +23,25 @@ pub struct Deck {
     pub(super) running: bool,
     /// The body that the person holds.
     pub(super) held: Option<HeldBody>,
-    /// The lane selected in a race: it stays selected, whatever method it is put under.
+    /// Lane selected in a race; it stays selected through switches of method.
     pub(super) selected: LaneId,
     /// Whether a person, a script or a verdict has selected it.
     pub(super) is_selected: bool,
-    /// How many methods of the menu a person has met: all up to the last that was active.
+    /// Number of menu methods that the person has seen: all up to the last active one.
     met: usize,
     pub(super) dropped: u64,
-    /// How many scenes were opened, of which a driver leaves the time out that it takes.
+    /// Number of scenes opened so far. A driver does not count the time of an opening.
     pub(super) openings: u64,
-    /// The number of edits, and how many of them a file has.
+    /// Number of edits, and how many are saved.
     pub(super) edits: u64,
     pub(super) saved_edits: u64,
-    /// The recording that the run was compared with, if they differ.
+    /// The recording to which the run was compared, if they differ.
     pub(super) compared: Option<Box<Compared>>,
-    /// The run that a person left for the guide, while a stop's is on the stage.
+    /// The run that a person left for the guide, while a stop is on the stage.
     pub(super) left: Option<Box<LeftRun>>,
 }
 
-/// A run that a person left for the guide, and how it was looked at.
+/// A run that a person left for the guide, with its view.
 pub(super) struct LeftRun {
     pub(super) deck: Deck,
     pub(super) view: View,
@@ -49,7 +49,7 @@ pub(super) struct LeftRun {
 }
 
 impl Deck {
-    /// A run at its start, which is running.
+    /// A run at its start, not paused.
     pub(super) fn new(scene_list: SceneList, run: Run) -> Self {
         let clock = Clock::new(run.start().tick_hz());
         let selected = run.race().entrants()[0].id;
@@ -71,7 +71,7 @@ impl Deck {
         }
     }
 
-    /// The open scene with the parameters and the length that a person has set.
+    /// The open scene with the person's parameters and length.
     pub fn scene(&self) -> &Scene {
         &self.run.next().scene
     }
@@ -96,18 +96,18 @@ impl Deck {
         self.run.past()
     }
 
-    /// The methods that digits and rows refer to: those of the [menu](crate::run::Menu).
+    /// The methods to which digits and rows refer: those of the [menu](crate::run::Menu).
     pub fn entries(&self) -> &[LaneSpec] {
         self.run().menu().specs()
     }
 
-    /// The name of the method with this index on the menu, told apart from others of the same method.
+    /// Name of the method with this menu index, with its settings if another entry has the same method.
     pub fn lane_name(&self, entry: usize) -> String {
         let spec = &self.entries()[entry];
         spec.distinct_name(spec.method.name, self.entries())
     }
 
-    /// How many methods of the menu a person meets at first: the scene's, and all up to the last that was active.
+    /// Number of menu methods to show at first: the scene's, and all up to the last active one.
     pub fn offered(&self) -> usize {
         let met = self.met.max(self.active() + 1);
         self.scene().lanes.len().max(met).min(self.entries().len())
@@ -118,17 +118,17 @@ impl Deck {
         self.race().mode()
     }
 
-    /// The method in solo mode, or of the selected lane in a race, by its index on the menu.
+    /// Menu index of the solo method, or of the selected lane's in a race.
     pub fn active(&self) -> usize {
         self.entry(self.selected())
     }
 
-    /// The method of a lane, by its index on the menu.
+    /// Menu index of a lane's method.
     pub fn entry(&self, entrant: &Entrant) -> usize {
         self.run().menu().entry(entrant.id)
     }
 
-    /// The lane under the method with this index on the menu, if one flies it.
+    /// The lane under the method with this menu index, if there is one.
     pub fn flown(&self, entry: usize) -> Option<&Entrant> {
         self.race().entrant(self.run().menu().lane(entry)?)
     }
@@ -139,7 +139,7 @@ impl Deck {
         self.race().entrant(self.selected).unwrap_or(&lanes[0])
     }
 
-    /// The lane that a pick of this index of the menu selects: in solo mode the only one.
+    /// The lane that a pick of this menu index selects; in solo mode, the only one.
     pub(super) fn picked(&self, entry: usize) -> Option<LaneId> {
         let picked = match self.mode() {
             Mode::Solo => self.race().entrants().first().filter(|_| entry < self.entries().len()),
@@ -153,17 +153,17 @@ impl Deck {
         &self.clock
     }
 
-    /// Whether it is not paused.
+    /// Whether the run is not paused.
     pub fn running(&self) -> bool {
         self.running
     }
 
-    /// Whether time runs: it is not paused, and no body is in hand.
+    /// Whether time runs: the run is not paused, and no body is in hand.
     pub fn time_runs(&self) -> bool {
         self.running && self.held.is_none()
     }
 
-    /// The simulated time in seconds with the owed part of a tick. It advances evenly with real time, while the race
+    /// Simulated time (s) including the pending part of a tick. It advances evenly with real time, while the race
     /// advances by ticks.
     pub fn time_with_owed_s(&self) -> f64 {
         self.race().t() + self.clock.tick_hz().seconds_of(self.clock.alpha())
@@ -174,12 +174,12 @@ impl Deck {
         self.dropped
     }
 
-    /// The scenes that were opened, or read again, in place of others.
+    /// Number of scenes opened or read again so far.
     pub fn openings(&self) -> u64 {
         self.openings
     }
 
-    /// The scenes that can be opened.
+    /// The scenes of the list.
     pub fn scene_list(&self) -> &SceneList {
         &self.scene_list
     }
@@ -190,32 +190,32 @@ impl Deck {
         listed.unwrap_or_else(|| self.scene().name.clone())
     }
 
-    /// The recording that the run was [compared](super::show_comparison) with; `None` if none was or both are equal, or if
-    /// another run has begun.
+    /// The recording to which the run was [compared](super::show_comparison). `None` if there was none, if they are
+    /// equal, or if another run has begun.
     pub fn compared(&self) -> Option<&Compared> {
         self.compared.as_deref()
     }
 
-    /// Takes a recording that the run is compared with to the tick of the run.
+    /// Moves the compared recording to the tick of the run.
     pub(super) fn follow_with_compared(&mut self) {
         if let Some(compared) = &mut self.compared {
             compared.go_to(self.run.race().tick());
         }
     }
 
-    /// Whether a person has acted since the start, so that the run from the start is another.
+    /// Whether a person has acted after the start, so that a restart would run differently.
     pub(crate) fn was_changed_on_the_way(&self) -> bool {
         let race = self.race();
         let rows = &race.journal().rows()[..race.done()];
         rows.iter().any(|row| row.tick > 0 && row.author == Author::Person)
     }
 
-    /// Whether the run on the screen is another than the judged one: it was changed since on its way.
+    /// Whether the verdicts describe another run than the one on the screen, which has changed since.
     pub fn is_judged_apart(&self) -> bool {
         self.run().starts().was_changed_since_judged(self.race())
     }
 
-    /// The indices on the list of the lanes that have a cloud: all, or the first and the selected one of very many.
+    /// Menu indices of the lanes with a cloud: all, or with very many lanes, the first ones and the selected one.
     pub(super) fn clouded_lanes(&self) -> impl Iterator<Item = usize> {
         let lanes = self.race().entrants();
         let selected = lanes.iter().position(|lane| self.entry(lane) == self.active()).unwrap_or(0);
@@ -224,8 +224,8 @@ impl Deck {
         (0..lanes.len()).filter(is_shown).map(|index| self.entry(&lanes[index]))
     }
 
-    /// The evaluations in the next tick under the method with this index on the menu: of its lane, or else of the selected
-    /// one if that is put under it.
+    /// Evaluations in the next tick under the method with this menu index. Takes its lane, or else switches a copy of
+    /// the selected one.
     pub fn evaluations_of_next_tick(&self, entry: usize) -> u64 {
         let (race, spec) = (self.race(), &self.entries()[entry]);
         let mut lane = self.flown(entry).unwrap_or(self.selected()).lane.clone();
@@ -237,7 +237,7 @@ impl Deck {
         lane.evaluations() - before
     }
 
-    /// The file name of a recording.
+    /// File name of a recording.
     pub fn recording_file_name(&self) -> String {
         format!("regatta-{}-recording.toml", self.scene().name)
     }
@@ -250,7 +250,7 @@ impl Deck {
         recording_text(&self.recorded())
     }
 
-    /// The run up to the last tick reached as a scene, with the methods that stand on the menu beside it.
+    /// The run up to the last tick reached as a scene, together with the methods on the menu.
     pub fn recorded(&self) -> Scene {
         let menu = Menu::new(self.run.start());
         let start = menu.entry(self.run.start().entrants()[0].id) + 1;
@@ -258,7 +258,8 @@ impl Deck {
         recording_among(self.run.recording(), &menu.specs()[..offered])
     }
 
-    /// The link to the run up to the last tick reached, with the methods that stand beside it: by name if nobody has changed it.
+    /// The link to the run up to the last tick reached, with the methods on the menu. An unchanged built-in scene is
+    /// linked by name.
     ///
     /// # Errors
     /// As [`Session::recording_text`](crate::run::Session::recording_text).
@@ -267,23 +268,23 @@ impl Deck {
             return Ok(named);
         }
         let recording = self.recorded();
-        // What no file can hold, no link can.
+        // A link holds only runs that fit into a scene file.
         recording_text(&recording)?;
         link::to(&recording)
             .map_err(|_| RecordingError::TooLong { bytes: recording.to_toml().len() })
     }
 
-    /// Sets the memory in bytes that a run may take to be rewound; see [`Run`].
+    /// Sets the memory limit (bytes) for rewinding the run; see [`Run`].
     pub fn set_rewind_bytes(&mut self, bytes: usize) {
         self.run.set_limit(bytes);
     }
 
-    /// Notes that a file has what a person did in the run so far.
+    /// Notes that a file holds all edits so far.
     pub fn note_saved(&mut self) {
         self.saved_edits = self.edits;
     }
 
-    /// Makes what was done so far part of the start, so that none of it can be undone.
+    /// Clears the undo stack: all edits so far become part of the start.
     pub fn forget_changes(&mut self) {
         self.run.forget_changes();
         self.note_saved();
@@ -295,9 +296,9 @@ impl Deck {
         self.selected = picked.unwrap_or(self.race().entrants()[0].id);
     }
 
-    /// Lets time run on from the moment that was shown at rest.
+    /// Runs time from the moment shown at rest.
     pub(super) fn run_on(&mut self, interpolation: Interpolation) {
-        // Where bodies are drawn a tick late, the tick reached is shown when the next one is due.
+        // If bodies are drawn a tick late, the present tick appears only when the next one is due.
         match interpolation {
             Interpolation::Raw | Interpolation::Extrapolated => self.clock.restart(),
             Interpolation::Linear | Interpolation::Hermite | Interpolation::Monotone => {
@@ -306,12 +307,12 @@ impl Deck {
         }
     }
 
-    /// Changes a setting of the next start by hand. `set` returns whether it changed anything.
+    /// Edits a setting of the next start. `set` returns whether it changed anything.
     pub(super) fn set_start(&mut self, what: &str, set: impl FnOnce(&mut StartSettings) -> bool) {
         self.edits += u64::from(self.run.set_next(what, set));
     }
 
-    /// Applies `change` to the run, and returns its result with the parts of a notice about it, if there is one.
+    /// Applies `change` to the run, and returns its result with the parts of a notice about it.
     pub(super) fn watched<T>(
         &mut self,
         change: impl FnOnce(&mut Run, &mut Notices<'_>) -> T,
@@ -327,7 +328,7 @@ impl Deck {
         (changed, told)
     }
 
-    /// In a race, selects the lane of the method that the script named after the first `done` rows of the journal.
+    /// In a race, selects the lane whose method the script named after the first `done` rows of the journal.
     fn select_as_scripted(&mut self, done: usize) {
         let race = self.run.race();
         if race.mode() == Mode::Solo || race.done() <= done {
@@ -349,20 +350,20 @@ impl Deck {
     }
 }
 
-/// A body that the pointer holds in a place. Time stands still until it is released: otherwise the body would move on
+/// A body that the pointer holds in place. Time stands still until its release. Otherwise the body would move
 /// meanwhile, and the lanes of a race would diverge before they start from the new state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeldBody {
-    /// The lane in whose cell it is held.
+    /// Lane in whose cell it is held.
     pub lane: LaneId,
-    /// The body's index in the scene.
+    /// Index of the body in the scene.
     pub body: usize,
-    /// The coordinates with which it would be released.
+    /// Coordinates at its release.
     pub q: Box<[f64]>,
-    /// The velocities with which it would be released.
+    /// Velocities at its release.
     pub v: Box<[f64]>,
-    /// The place of the pointer, in metres.
+    /// Place of the pointer, in metres.
     pub hand: DVec2,
-    /// The place of the held point of the body, in metres: as near to the pointer as the body can be.
+    /// Place (m) of the held point of the body: as near to the pointer as the body can be.
     pub handle: DVec2,
 }

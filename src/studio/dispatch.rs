@@ -1,4 +1,4 @@
-//! Commands on the run and on the stage while the run is on it: each is carried out by the function that owns it.
+//! Passes commands on the run, and on the stage while it shows the run, to the functions that execute them.
 
 use super::acting::{
     act, listed, pick, pick_beside, seek, set_lane, step_by, tell_of_the_future, toggle_equal_cost,
@@ -81,7 +81,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
         }
         StageCommand::Restart => {
             viewer.view.zoom_pans.clear();
-            // A hint leads on; the old run is a click away on the timeline.
+            // The hint has the next step; the old run is a click away on the timeline.
             if restart_keeping_run(deck, viewer) && hint(deck, viewer, false).is_none() {
                 viewer.set_notice("restarted: Ctrl Z brings the run back");
             }
@@ -104,8 +104,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
     }
 }
 
-/// Goes from solo to a race, or back. The mode is a person's choice for the scenes to come, unless a stop of the guide
-/// asks for it.
+/// Switches between solo and race. Later scenes open in the chosen mode, unless the guide made the choice.
 fn toggle_race(deck: &mut Deck, viewer: &mut Viewer) {
     match deck.mode() {
         Mode::Solo => {
@@ -116,7 +115,7 @@ fn toggle_race(deck: &mut Deck, viewer: &mut Viewer) {
             let lane = deck.selected().id;
             act(deck, viewer, Action::Solo { lane });
             deck.run.next_mut().mode = Mode::Solo;
-            // It may be about a lane that has left the race.
+            // The notice may be about a lane that has left the race.
             viewer.notice = None;
         }
     }

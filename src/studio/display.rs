@@ -1,4 +1,4 @@
-//! How a studio is displayed, and what it requests of its driver.
+//! The display settings of a studio, and its requests to the driver.
 
 use std::collections::BTreeMap;
 
@@ -9,79 +9,79 @@ use crate::measure::cloud::CloudChoice;
 use crate::run::past::Quantity;
 use crate::run::race::Interpolation;
 
-/// How the lanes of a race share the stage.
+/// Arrangement of a race's lanes on the stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Arrangement {
     /// All lanes of a body over each other, the selected one in front.
     #[default]
     Overlay,
-    /// Each lane in cells of its own.
+    /// Each lane in its own cells.
     SideBySide,
 }
 
-/// What moves on a stage besides the bodies.
+/// Motion on the stage besides that of the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// As little as can be, for a person who watches: trails do not fade, the camera turns pages, and the stage zooms out
-    /// after a lane that outgrows it in steps.
+    /// The least for a person who watches: trails do not fade, the camera turns pages, and the stage zooms out in
+    /// steps.
     Reduced,
     /// Trails fade, and the camera follows bodies smoothly.
     Recorded,
-    /// The stage also zooms out evenly after a lane that outgrows it, while time slows down, and a run rests where the scene
-    /// or its bodies end: for a person who watches.
+    /// The most for a person who watches: the stage also zooms out evenly after a lane that outgrows it, while time
+    /// slows down. A run rests at the end of its scene or bodies.
     Live,
 }
 
-/// How the studio is displayed, whatever the scene is. It does not affect the physics.
+/// Display settings, independent of the scene. They do not affect the physics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Display {
-    /// Whether instruments, table and timeline stand round the stage; otherwise it fills the window, over the methods.
+    /// Whether instruments, table and timeline surround the stage; otherwise it fills the window, above the methods.
     pub measure: bool,
-    /// Where a person has put the boundaries between stage, instruments and table.
+    /// Boundaries between stage, instruments and table as the person set them.
     pub splits: Splits,
-    /// Whether the next second under each method is drawn while time stands still.
+    /// Whether the stage shows the next second under each method while time stands still.
     pub futures: bool,
-    /// Whether the exact ghost is drawn.
+    /// Whether the stage shows the exact ghost.
     pub ghost: bool,
     /// How bodies are drawn between ticks.
     pub interpolation: Interpolation,
-    /// What the panel beside the stage shows.
+    /// Instrument in the panel beside the stage.
     pub instrument: Instrument,
-    /// Whether the instrument covers the stage too.
+    /// Whether the instrument covers the stage, too.
     pub enlarged: bool,
-    /// What the motion instrument shows of every body; `None` for what is [usual](Quantity::usual).
+    /// Quantity of every body in the motion instrument; `None` for the [usual](Quantity::usual) one.
     pub quantity: Option<Quantity>,
-    /// The metric of the error instrument, by its index in [`METRICS`](crate::run::METRICS).
+    /// Metric of the error instrument, by its index in [`METRICS`](crate::run::METRICS).
     pub metric: usize,
-    /// Whether the advice is about the [displayed body](View::body) alone, and not about all.
+    /// Whether the advice covers only the [displayed body](View::body).
     pub advises_on_one_body: bool,
     /// The clouds of the cloud instrument.
     pub cloud: CloudChoice,
-    /// How the lanes of a race share the stage.
+    /// Arrangement of a race's lanes on the stage.
     pub arrangement: Arrangement,
     /// A dark or a light chart.
     pub theme: Theme,
-    /// The size of type and panels in percent of the usual one, as a person chose it.
+    /// Chosen size of type and panels, in percent of the usual one.
     pub scale_percent: u32,
     /// Whether the help overlay is open.
     pub help: bool,
     /// Whether the inspector is open.
     pub inspector: bool,
-    /// What moves besides the bodies.
+    /// Motion besides that of the bodies.
     pub motion: Motion,
 }
 
-/// The parts of the window that instruments and table have, in percent; `None` as it is usual.
+/// Shares of the window for instruments and table, in percent; `None` for the usual share.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Splits {
-    /// The width of the instruments, from 20 to 70.
+    /// Width of the instruments, from 20 to 70.
     pub instruments: Option<u32>,
-    /// The height of the table, from 8 to 60.
+    /// Height of the table, from 8 to 60.
     pub table: Option<u32>,
 }
 
 impl Splits {
-    /// The same, each within its range.
+    /// Clamps both to their ranges.
     pub fn within(self) -> Self {
         Self {
             instruments: self.instruments.map(|percent| percent.clamp(20, 70)),
@@ -90,20 +90,19 @@ impl Splits {
     }
 }
 
-/// Where a person looks in a scene. It ends with the scene.
+/// The person's view of one scene, discarded with it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct View {
     /// The body of the plots and the lane list, by its index in the scene.
     pub body: usize,
-    /// The coordinate of each body that a person has chosen for the plots, by its index; a body beyond the end has the
-    /// [usual one](crate::run::race::LaneBody::plotted_coordinate).
+    /// Chosen coordinate of each body in the plots, by its index. A body beyond the end has the [usual
+    /// one](crate::run::race::LaneBody::plotted_coordinate).
     pub coordinates: Vec<Option<usize>>,
-    /// The body and its parameter that a person has chosen for the stability map, by their indices.
+    /// Indices of the body and its parameter chosen for the stability map.
     pub mapped_parameter: Option<(usize, usize)>,
-    /// What a person has zoomed and panned the plots to: a range of each axis, by its name. An axis without a range is
-    /// fitted.
+    /// Ranges to which the person zoomed and panned the plots' axes, by name. An axis without a range is fitted.
     pub plot_ranges: BTreeMap<String, [f64; 2]>,
-    /// The zoom and the pan of each body, by its index in the scene; a body beyond the end is fitted.
+    /// Zoom and pan of each body, by its index in the scene; a body beyond the end is fitted.
     pub zoom_pans: Vec<ZoomPan>,
 }
 
@@ -128,7 +127,7 @@ impl View {
     }
 }
 
-/// The pace of a driver in real time, as the driver measures it.
+/// Real-time pace of a driver, by its own measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
     /// Time has not run long enough for a measurement.
@@ -142,7 +141,7 @@ pub enum Pace {
     },
 }
 
-/// What a command requests of the driver, because the studio cannot do it.
+/// The part of a command that only the driver can execute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DriverRequest {
     /// Save a screenshot to a file.
@@ -153,18 +152,18 @@ pub enum DriverRequest {
     CopyLink,
     /// Copy the instrument's values to the clipboard.
     CopyInstrument,
-    /// Copy the method with this index in the list to the clipboard, as source code in the viewer's
+    /// Copy the method with this menu index to the clipboard, as source code in the viewer's
     /// [language](super::Viewer::language).
     CopyMethod(usize),
-    /// Copy the lines of code that tell the engine with this index in the list the displayed body's spring.
+    /// Copy the lines of code that set the displayed body's spring in the engine with this menu index.
     CopyJoint(usize),
     /// Save the instrument as a picture, a drawing and a table.
     ExportInstrument,
     /// Enter or leave full screen.
     ToggleFullScreen,
-    /// Open the scene file at the path that was typed.
+    /// Open the scene file at the typed path.
     OpenTypedPath,
-    /// Complete the typed path as far as it is unambiguous.
+    /// Complete the typed path up to its first ambiguity.
     CompletePath,
     /// End the program.
     Quit,

@@ -1,5 +1,5 @@
-//! Time in a studio: the ticks that are due in a frame, the moment that is shown between two of them, and how much slower time
-//! runs while a lane outgrows the stage too fast to see.
+//! Time in a studio: the ticks due in a frame, and the moment shown between two of them. Time slows down while a lane
+//! outgrows the stage too fast to see.
 
 use super::Motion;
 use super::deck::Deck;
@@ -10,16 +10,17 @@ use crate::loops::Due;
 use crate::run::past::History;
 use crate::run::race::{Interpolation, LaneBody, Mode, Observer};
 
-/// The fastest zoom that can be watched, in powers of ten per second of real time.
+/// Fastest zoom that people can follow, in powers of ten per second of real time.
 const MAX_ZOOM: f64 = 6.0;
-/// The least part of its speed to which time slows down, in percent.
+/// Slowest slow motion, in percent of the speed.
 const MIN_PERCENT: u32 = 6;
-/// The newest samples of a motion, by which its growth is measured, and the time in seconds for which it is remembered where
-/// the body has been: longer than a swing that anybody waits for.
+/// Number of newest samples that measure a motion's growth, and time (s) for which its past reach counts: longer than
+/// any swing that people wait for.
 const MEASURED: usize = 4;
 const REMEMBERED_S: f64 = 2.0;
 
-/// Adds a frame of `frame_ns` nanoseconds of real time to a run: see [`Studio::advance_in_time`](super::Studio::advance_in_time).
+/// Adds a frame of `frame_ns` nanoseconds of real time to a run: see
+/// [`Studio::advance_in_time`](super::Studio::advance_in_time).
 pub(super) fn advance(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -41,7 +42,7 @@ pub(super) fn advance(
         if last == u64::MAX && deck.comes_to_rest(viewer.motion()) {
             due.ticks = made;
             deck.running = false;
-            // What to do next is told as a hint.
+            // A hint suggests the next step instead.
             viewer.notice = None;
             break;
         }
@@ -76,17 +77,17 @@ fn note_frame(deck: &mut Deck, viewer: &mut Viewer, duration_ns: i64, due: Due) 
     viewer.live.add(frame, shown_s, speed);
 }
 
-/// How bodies are drawn now: at rest as they are at the tick, however they are drawn between ticks.
+/// Present interpolation: raw at rest, so that bodies appear at their tick.
 fn drawn(deck: &Deck, viewer: &Viewer) -> Interpolation {
     if deck.time_runs() { viewer.display().interpolation } else { Interpolation::Raw }
 }
 
-/// The moment shown, in ticks from the one reached.
+/// The moment shown, in ticks from the last one.
 fn shown_ticks(deck: &Deck, viewer: &Viewer) -> f64 {
     drawn(deck, viewer).shown(deck.clock.alpha())
 }
 
-/// The moment shown, in seconds. Everything on the stage, and what is said of it, is of this moment.
+/// The moment shown (s). Everything on the stage, numbers included, belongs to this moment.
 pub fn shown_s(deck: &Deck, viewer: &Viewer) -> f64 {
     deck.race().t() + deck.race().last_step_s() * shown_ticks(deck, viewer)
 }
@@ -97,18 +98,18 @@ pub fn shown_tick(deck: &Deck, viewer: &Viewer) -> u64 {
     deck.race().tick().saturating_sub(u64::from(is_before))
 }
 
-/// The coordinates and the velocities of a lane's body at the moment shown.
+/// Coordinates and velocities of a lane's body at the moment shown.
 pub fn shown_state(deck: &Deck, viewer: &Viewer, body: &LaneBody) -> (Vec<f64>, Vec<f64>) {
     let (drawn, alpha, h) = (drawn(deck, viewer), deck.clock.alpha(), deck.race().last_step_s());
     (drawn.coordinates(body, alpha, h), drawn.velocities(body, alpha))
 }
 
-/// The true coordinates and velocities of the body at this index of the scene at the moment shown.
+/// True coordinates and velocities, at the moment shown, of the body with this index in the scene.
 pub fn shown_truth(deck: &Deck, viewer: &Viewer, body: usize) -> (Vec<f64>, Vec<f64>) {
     deck.past().truth_between(deck.race(), body, 1.0 + shown_ticks(deck, viewer))
 }
 
-/// How fast time runs so that a lane which outgrows the stage can be watched, in percent of the speed that is set.
+/// Speed at which a person can follow a lane that outgrows the stage, in percent of the speed set.
 pub(super) fn slow_motion_percent(deck: &Deck, viewer: &Viewer) -> u32 {
     if viewer.display().motion == Motion::Recorded || deck.mode() != Mode::Solo {
         return 100;
@@ -131,7 +132,7 @@ pub(super) fn slow_motion_percent(deck: &Deck, viewer: &Viewer) -> u32 {
     }
 }
 
-/// How fast a body goes beyond this distance and beyond where it has been, in powers of ten per simulated second.
+/// Rate at which a body exceeds both this distance and its own past reach, in powers of ten per simulated second.
 fn decades_per_s(history: &History, base_m: f64) -> f64 {
     let newest = history.samples().rev();
     let Some(now) = newest.clone().next() else { return 0.0 };

@@ -1,9 +1,9 @@
-//! The names of the files that a driver saves. They say what is in them.
+//! Names of the files that a driver saves, after their contents.
 
 use super::Studio;
 use crate::run::race::Mode;
 
-/// Of a picture of the frame, without its ending.
+/// Name of a picture of the frame, without its extension.
 pub fn picture_file_name(studio: &Studio) -> String {
     let scene = &studio.deck.scene().name;
     if let Some(loops) = studio.loop_lab() {
@@ -17,7 +17,7 @@ pub fn picture_file_name(studio: &Studio) -> String {
     format!("regatta-{scene}-{method}-tick-{}", studio.deck.race().tick())
 }
 
-/// Of the instrument's picture and values, without its ending.
+/// Name of the instrument's picture and values, without an extension.
 pub fn instrument_file_name(studio: &Studio) -> String {
     let (scene, instrument) = (&studio.deck.scene().name, studio.viewer.display().instrument.id());
     match studio.loop_lab() {

@@ -1,4 +1,4 @@
-//! The verdicts and the advice of a studio: what it requests, and how it takes the findings in.
+//! The verdicts and the advice of a studio: which ones to compute, and which findings to accept.
 
 use std::sync::Arc;
 
@@ -10,13 +10,12 @@ use crate::run::race::{Entrant, Interventions, Mode};
 use crate::scene::SceneBody;
 use crate::sim::bodies::{Acts, Parameter, Range};
 
-/// The verdicts and the advice that the studio wants at present, for a [`AnalysisWorker`]: a verdict at the present tick
-/// rate on each method that is [offered](Deck::offered), in a race also on all others of the menu, and advice while it is
-/// shown.
+/// The verdicts and the advice that the studio needs now, for an [`AnalysisWorker`]. It judges each
+/// [offered](Deck::offered) method at the present tick rate, in a race also the rest of the menu. Advice is included
+/// while it is shown.
 ///
-/// They are of the scene from its start, with what a person has set since and the parameters that the script has set
-/// by the present tick. If a person has placed or kicked a body, they are of the run from there: from the true state
-/// right after it.
+/// They apply to the scene from its start, with a person's settings and the parameters that the script has set by the
+/// present tick. If a person has placed or kicked a body, they start at the true state right after that.
 pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     let flown = deck.race().entrants().iter().map(|lane| deck.entry(lane) + 1);
     let first = flown.max().unwrap_or_default().max(deck.offered());
@@ -57,8 +56,8 @@ fn map_request(deck: &Deck, viewer: &Viewer) -> Option<MapRequest> {
     Some(MapRequest::new((body, parameter), opened, values, deck.clock.tick_hz(), specs))
 }
 
-/// The parameters of the displayed body that a stability map can show, by their indices: those that act at once and
-/// are not negative, so that they have a logarithmic scale.
+/// Indices of the displayed body's parameters that a stability map can show. They act at once and cannot be negative,
+/// so they have a logarithmic scale.
 pub fn mappable_parameters(deck: &Deck, viewer: &Viewer) -> impl Iterator<Item = usize> {
     let SceneBody { kind, values, .. } = &deck.scene().bodies[viewer.view.body];
     let parameters = kind.parameters.iter();
@@ -72,8 +71,8 @@ pub fn mappable_parameters(deck: &Deck, viewer: &Viewer) -> impl Iterator<Item =
     parameters.enumerate().filter(is_mappable).map(|(index, _)| index)
 }
 
-/// The parameter that the stability map shows: the one chosen for the displayed body, or else the one that makes it
-/// stiffer. `None` if the body has none.
+/// The parameter on the stability map: the one chosen for the displayed body, or else the one that makes it stiffer.
+/// `None` if the body has none.
 pub fn mapped_parameter(deck: &Deck, viewer: &Viewer) -> Option<usize> {
     let body = viewer.view.body;
     let chosen = viewer.view.mapped_parameter.filter(|(of, _)| *of == body);
@@ -87,7 +86,7 @@ pub fn mapped_parameter(deck: &Deck, viewer: &Viewer) -> Option<usize> {
     )
 }
 
-/// Keeps findings, unless they are about another scene.
+/// Accepts findings, unless they are about another scene.
 pub fn accept_findings(deck: &mut Deck, viewer: &mut Viewer, findings: Findings) {
     if findings.request.is_of(&deck.run.next().scene) {
         viewer.findings = Some(findings);
@@ -95,8 +94,8 @@ pub fn accept_findings(deck: &mut Deck, viewer: &mut Viewer, findings: Findings)
     }
 }
 
-/// Selects the best lane of a race once all are judged, if nobody has selected one, nor the scene that opens as a race:
-/// the first may be the first that leaves the stage.
+/// Selects the best lane of a race once all are judged, since the first may be the first to leave the stage. Skips
+/// this if anybody, or a scene that opens as a race, has selected one.
 pub(super) fn select_best(deck: &mut Deck, viewer: &mut Viewer) {
     let lanes = deck.race().entrants();
     let scene = deck.scene();
@@ -116,9 +115,9 @@ pub(super) fn select_best(deck: &mut Deck, viewer: &mut Viewer) {
     deck.is_selected = true;
 }
 
-/// Computes what is requested, the verdicts within a stated amount of work, beyond which they are not judged: what a
-/// capture waits for before each frame. `finish` has the worker do all its steps; it returns `None` if it was
-/// interrupted, and this returns `false` then.
+/// Computes the present request, as a capture does before each frame. Verdicts that exceed a fixed amount of work
+/// stay unjudged. `finish` runs the worker to its end; if it is interrupted, it returns `None` and this function
+/// `false`.
 pub fn analyse_bounded(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -129,7 +128,7 @@ pub fn analyse_bounded(
     found.map(|findings| accept_findings(deck, viewer, findings)).is_some()
 }
 
-/// The verdicts and advice that are wanted, unless the findings answer them in full.
+/// The present request for verdicts and advice, unless the findings answer it in full.
 pub fn unanswered_request(deck: &Deck, viewer: &Viewer) -> Option<AnalysisRequest> {
     let request = analysis_request(deck, viewer);
     let known = &viewer.findings;

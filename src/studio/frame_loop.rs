@@ -1,21 +1,22 @@
 //! The loop of a driver, without a clock and without a screen: commands → ticks → picture → commands.
 //!
-//! A driver gives the time in nanoseconds since any moment of its own. It begins a frame, carries out the requests of the
-//! commands, lets time pass, draws, and ends the frame with the commands of the panels.
+//! A driver counts time in nanoseconds from any origin. For each frame it calls [`begin`](FrameLoop::begin), executes
+//! the requests, calls [`pass`](FrameLoop::pass), draws, and calls [`end`](FrameLoop::end) with the commands of the
+//! panels.
 
 use super::pace::PaceMeter;
 use super::{Command, DriverRequest, Studio, ViewCommand};
 
-/// The longest time that a frame simulates, in nanoseconds: the ticks of a race that needs more are dropped, so that the driver
-/// still answers.
+/// Most time that a frame spends on simulation, in nanoseconds. A race that needs more drops ticks, so that the
+/// driver stays responsive.
 const MAX_SIMULATION_NS: u64 = 50_000_000;
 
 /// A task that a command leaves to the driver.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ToDo {
-    /// The studio has carried out the command, and this is left to do.
+    /// The studio has executed the command up to this request.
     Request(DriverRequest),
-    /// The driver carries out this command itself.
+    /// The driver executes this command itself.
     Own(Command),
 }
 
@@ -23,25 +24,25 @@ pub enum ToDo {
 pub struct FrameLoop {
     /// The studio.
     pub studio: Studio,
-    /// The commands that a driver carries out itself.
+    /// Whether the driver executes a command itself.
     is_own: fn(&Command) -> bool,
-    /// Commands that the next frame carries out before time passes, the next one first.
+    /// Commands for the next frame to execute before time passes, the next one first.
     asked: Vec<Command>,
-    /// A tick to go to before time passes, and whether time runs from there.
+    /// Tick to reach before time passes, and whether time then runs.
     goal: Option<(u64, bool)>,
-    /// When the last frame began; `None` if time did not run, or stood still for something that took long.
+    /// Start of the last frame; `None` after a pause or after skipped time.
     last_frame_ns: Option<u64>,
-    /// When time passed last, whether it ran or not.
+    /// Real time of the last [`pass`](Self::pass).
     passed_ns: u64,
-    /// The scenes that the studio had opened when time passed last.
+    /// Number of openings when time last passed.
     openings: u64,
-    /// Whether the next frame to be drawn takes longer than others, as the first of a scene does.
+    /// Whether the next frame takes longer to draw, as the first of a scene does.
     draws_long: bool,
     meter: PaceMeter,
 }
 
 impl FrameLoop {
-    /// A loop whose driver carries out the commands that `is_own` itself.
+    /// A loop whose driver executes the commands that `is_own` selects.
     pub fn new(studio: Studio, is_own: fn(&Command) -> bool, now_ns: u64) -> Self {
         Self {
             openings: studio.deck.openings(),
@@ -56,23 +57,23 @@ impl FrameLoop {
         }
     }
 
-    /// Has the next frame carry out these commands.
+    /// Queues commands for the next frame.
     pub fn ask(&mut self, commands: impl IntoIterator<Item = Command>) {
         self.asked.extend(commands);
     }
 
-    /// The commands that the next frame carries out, in order.
+    /// The commands queued for the next frame, in order.
     pub fn asked(&self) -> &[Command] {
         &self.asked
     }
 
-    /// Goes to this tick before time passes; `runs`: whether it then runs.
+    /// Moves to this tick before time passes; `runs` is whether time then runs.
     pub fn go_to(&mut self, tick: u64, runs: bool) {
         self.goal = Some((tick, runs));
     }
 
-    /// Begins a frame: carries out the commands up to the first that asks something of the driver, which calls it again
-    /// when that is done. `None`: all are carried out.
+    /// Begins a frame: executes commands up to the first that needs the driver. The driver does its task and calls
+    /// this again, until it returns `None`.
     pub fn begin(&mut self) -> Option<ToDo> {
         while !self.asked.is_empty() {
             let command = self.asked.remove(0);
@@ -86,8 +87,8 @@ impl FrameLoop {
         None
     }
 
-    /// Lets the time since the last frame pass, for a frame that began at `now_ns`: makes the ticks that are due, at most up to
-    /// tick `last` and for as long as the driver still answers by its `clock`.
+    /// Passes the time since the last frame, for a frame that began at `now_ns`. Makes the ticks due, up to tick
+    /// `last`, while `clock` shows that the driver stays responsive.
     pub fn pass(&mut self, now_ns: u64, last: u64, clock: &dyn Fn() -> u64) {
         // Building another scene takes no time of its run.
         if std::mem::replace(&mut self.openings, self.studio.deck.openings())
@@ -109,7 +110,7 @@ impl FrameLoop {
         self.studio.viewer.pace = Some(self.meter.pace());
     }
 
-    /// Goes on to the goal, if there is one. Returns whether it is reached.
+    /// Ticks towards the goal, if there is one. Returns whether it is reached.
     fn reach_goal(&mut self, is_time_left: &mut dyn FnMut() -> bool) -> bool {
         let Some((goal, runs)) = self.goal else { return true };
         while self.studio.race().tick() < goal {
@@ -126,8 +127,8 @@ impl FrameLoop {
         true
     }
 
-    /// Ends a frame that began at `now_ns` and is on the screen since `shown_ns`, with the commands of its panels. Returns the
-    /// nanoseconds after which the next one is due, as far as the studio knows: 0 while time runs.
+    /// Ends a frame that began at `now_ns` and was displayed at `shown_ns`, and queues the commands of its panels.
+    /// Returns the nanoseconds until the studio needs the next frame: 0 while time runs.
     pub fn end(&mut self, now_ns: u64, shown_ns: u64, commands: Vec<Command>) -> u64 {
         if std::mem::take(&mut self.draws_long) {
             self.stand_still(shown_ns);
@@ -141,19 +142,19 @@ impl FrameLoop {
         notice.map_or(u64::MAX, |notice| notice.left_ns().unsigned_abs())
     }
 
-    /// The frame could not be drawn: until the first of a scene is, no time passes in its run.
+    /// Call this if the frame could not be drawn: until the first of a scene is, no time passes in its run.
     pub fn not_drawn(&mut self) {
         if self.draws_long {
             self.last_frame_ns = None;
         }
     }
 
-    /// Leaves the time up to `now_ns` out of the run, after work of the driver that took long.
+    /// Excludes the time up to `now_ns` from the run, after long work of the driver.
     pub fn stand_still(&mut self, now_ns: u64) {
         self.last_frame_ns = self.last_frame_ns.map(|_| now_ns);
     }
 
-    /// Leaves the time up to the next frame out of the run, and the time to draw that frame.
+    /// Excludes the time up to the next frame from the run, and the time to draw that frame.
     pub fn skip_time(&mut self) {
         (self.draws_long, self.last_frame_ns) = (true, None);
     }
@@ -208,7 +209,7 @@ mod tests {
         for command in [StageCommand::SceneBeside(Step::Previous), StageCommand::Restart] {
             let is_opened = command != StageCommand::Restart;
             frames.ask([command.into()]);
-            // The frame before took long, as the next one does if a scene was opened.
+            // The frame before takes long, and so does the next one if a scene was opened.
             now_ns += 10 * FRAME_NS;
             frame(&mut frames, now_ns, Vec::new());
             assert_eq!(frames.studio.race().tick(), if is_opened { 0 } else { 10 });
@@ -228,7 +229,7 @@ mod tests {
         assert_eq!(frames.studio.race().tick(), 0);
         for n in 5..8 {
             frame(&mut frames, n * FRAME_NS, Vec::new());
-            // A surface that is gone for a moment stops nothing.
+            // A surface that is lost for a moment does not stop time.
             frames.not_drawn();
         }
         assert_eq!(frames.studio.race().tick(), 2);

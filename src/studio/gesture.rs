@@ -1,11 +1,11 @@
-//! What the mouse does, for the help overlay.
+//! The gestures of the mouse, for the help overlay.
 
 /// A gesture of the mouse.
 #[derive(Debug)]
 pub struct Gesture {
-    /// As the help shows it.
+    /// The gesture, as the help shows it.
     pub shown: &'static str,
-    /// What it does, for people.
+    /// Its effect, for people.
     pub about: &'static str,
 }
 

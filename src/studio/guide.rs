@@ -1,7 +1,8 @@
-//! The guide: the chapter in stops. Each stop opens a scene, asks for a prediction and for a key, and answers when the
-//! person has done it. And the hints under the stage, which lead on after the scene's own.
+//! The guide: the chapter in stops. Each stop opens a scene, asks for a prediction and for a key, and shows its
+//! answer when the person has done the task. After the scene's own hint, further hints under the stage show the next
+//! steps.
 //!
-//! What the stops claim is measured by `tests/library/guide.rs`.
+//! `tests/library/guide.rs` measures the claims of the stops.
 
 use super::display::Display;
 use super::instrument::Instrument;
@@ -20,71 +21,71 @@ pub use stops::STOPS;
 /// A stop of the guide.
 #[derive(Debug)]
 pub struct Stop {
-    /// What it is about.
+    /// The topic.
     pub title: &'static str,
     /// The built-in scene that it opens.
     pub scene: &'static str,
-    /// The method that it opens the scene with, by its id.
+    /// Id of the method with which it opens the scene.
     pub method: &'static str,
     /// Ticks per second.
     pub tick_hz: u32,
     /// Solo or a race.
     pub mode: Mode,
-    /// The instrument that it opens, in which the answer is seen.
+    /// The instrument that it opens, which shows the answer.
     pub instrument: Instrument,
-    /// The quantity that *Motion* shows, and whose error *Error* shows.
+    /// The quantity in *Motion*, and of the error in *Error*.
     pub quantity: Quantity,
-    /// What happens here, and the question. Keys stand between backticks.
+    /// The situation and the question. Keys stand between backticks.
     pub question: &'static str,
     /// The predictions to choose from.
     pub choices: &'static [&'static str],
-    /// The right one, by its index.
+    /// Index of the right one.
     pub right: usize,
-    /// Which key to press.
+    /// The task, with its key.
     pub task: &'static str,
-    /// The keys that do the task.
+    /// The keys that perform the task.
     pub keys: &'static [Key],
-    /// When it is done.
+    /// When the task is done.
     pub goal: Goal,
-    /// What the person has seen.
+    /// The explanation afterwards.
     pub answer: &'static str,
 }
 
-/// What a person has to bring about at a stop.
+/// The state that ends a stop's task.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
-    /// The lane flies this method.
+    /// The lane uses this method.
     Method(&'static str),
-    /// The ticks have at least this rate, in Hz.
+    /// The tick rate is at least this, in Hz.
     TickHzFrom(u32),
-    /// The ticks have at most this rate, in Hz.
+    /// The tick rate is at most this, in Hz.
     TickHzTo(u32),
-    /// Time runs at this many percent of real time or more.
+    /// The speed is at least this, in percent of real time.
     SpeedFrom(u32),
     /// Time stands still after the start.
     Paused,
     /// Time stands still at this tick or a later one. Such a stop opens paused, and a person steps to the tick.
     SteppedTo(u64),
-    /// This instrument is shown.
+    /// The display shows this instrument.
     Instrument(Instrument),
     /// The loop lab is open.
     LoopLab,
     /// All methods race.
     Race,
-    /// Bodies are drawn so between ticks.
+    /// Bodies are drawn with this interpolation between ticks.
     Interpolation(Interpolation),
 }
 
-/// What a studio is doing, as far as a goal or a hint asks.
+/// The state of a studio that goals and hints depend on.
 pub(super) struct Situation<'a> {
     pub(super) scene: &'a Scene,
     pub(super) race: &'a Race,
-    /// The menu, and the index on it of the method of the selected lane.
+    /// The menu, and the index on it of the selected lane's method.
     pub(super) menu: &'a [LaneSpec],
     pub(super) active: usize,
-    /// Whether all parameters have the values that the scene was opened with.
+    /// Whether all parameters have the values of the scene as opened.
     pub(super) has_own_values: bool,
-    /// Whether the run is what it would be from its start: nobody has changed it on the way.
+    /// Whether nobody has changed the run on the way, so that a restart would run alike.
     pub(super) is_from_the_start: bool,
     pub(super) speed_percent: u32,
     /// Whether a person has paused it.
@@ -117,7 +118,7 @@ impl Goal {
     }
 }
 
-/// A person's way through the stops.
+/// A person's progress through the stops.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tour {
     stop: usize,
@@ -126,16 +127,16 @@ pub struct Tour {
 }
 
 impl Tour {
-    /// At this stop, with nothing done there.
+    /// At this stop, before the prediction and the task.
     pub(super) fn at(stop: usize) -> Self {
         Self { stop: stop.min(STOPS.len() - 1), guess: None, is_done: false }
     }
 
-    /// The stop.
+    /// The present stop.
     pub fn stop(&self) -> &'static Stop {
         &STOPS[self.stop]
     }
-    /// The stop's index, from 0.
+    /// Index of the stop, from 0.
     pub fn index(&self) -> usize {
         self.stop
     }
@@ -148,7 +149,7 @@ impl Tour {
         self.is_done
     }
 
-    /// Whether it waits for a prediction.
+    /// Whether the stop waits for a prediction.
     pub fn is_asking(&self) -> bool {
         self.guess.is_none() && !self.is_done
     }
@@ -159,8 +160,8 @@ impl Tour {
         }
     }
 
-    /// Notes that the task is done if it is: of a stop that asks for `Home`, once the run has begun as it is now. Once done,
-    /// it stays so.
+    /// Marks the task as done if its goal is met. If the stop asks for `Home`, the run must also be unchanged since
+    /// its start. A task once done stays done.
     pub(super) fn look(&mut self, now: &Situation<'_>) {
         let is_begun = now.is_from_the_start || !self.stop().keys.contains(&Key::Home);
         self.is_done |= is_begun && self.stop().goal.is_met(now);

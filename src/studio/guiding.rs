@@ -1,4 +1,4 @@
-//! The guide and the hints of a studio: how a stop is opened, and when its task is done.
+//! The guide and the hints of a studio: opens stops, and notes when their tasks are done.
 
 use super::deck::{Deck, LeftRun};
 use super::display::Display;
@@ -13,7 +13,7 @@ use crate::run::past::Quantity;
 use crate::run::race::Interpolation;
 use crate::scene::{SCENES, SceneBody};
 
-/// The index of the metric that compares this quantity with the truth's.
+/// Index of the metric that compares this quantity with the truth's.
 fn error_of(quantity: Quantity) -> usize {
     match quantity {
         Quantity::Position => Metric::POSITION_ERROR,
@@ -21,7 +21,7 @@ fn error_of(quantity: Quantity) -> usize {
     }
 }
 
-/// What it is doing, as far as goals and hints ask.
+/// The studio's state for goals and hints.
 fn situation<'a>(deck: &'a Deck, viewer: &'a Viewer, is_in_loop_lab: bool) -> Situation<'a> {
     let own = &deck.scene_as_opened().bodies;
     let has_own_values = |(index, body): (usize, &SceneBody)| {
@@ -41,7 +41,7 @@ fn situation<'a>(deck: &'a Deck, viewer: &'a Viewer, is_in_loop_lab: bool) -> Si
     }
 }
 
-/// Opens the guide where it was left, or closes it.
+/// Opens the guide where the person left it, or closes it.
 pub(super) fn toggle_guide(deck: &mut Deck, viewer: &mut Viewer) {
     if viewer.close_guide() {
         return_from_guide(deck, viewer);
@@ -50,13 +50,13 @@ pub(super) fn toggle_guide(deck: &mut Deck, viewer: &mut Viewer) {
     }
 }
 
-/// Closes the guide, and brings back the run that was left for it. Returns whether there was either.
+/// Closes the guide, and brings back the run that the person left for it. Returns whether there was either.
 pub(super) fn close_guide(deck: &mut Deck, viewer: &mut Viewer) -> bool {
     let was_open = viewer.close_guide();
     return_from_guide(deck, viewer) || was_open
 }
 
-/// Brings back the run that was left for the guide, as it was looked at. Returns whether there was one.
+/// Brings back the run that the person left for the guide, with its view. Returns whether there was one.
 pub(super) fn return_from_guide(deck: &mut Deck, viewer: &mut Viewer) -> bool {
     let Some(left) = deck.left.take() else { return false };
     let LeftRun { deck: own, view, display: before } = *left;
@@ -82,7 +82,7 @@ pub(super) fn return_from_guide(deck: &mut Deck, viewer: &mut Viewer) -> bool {
     true
 }
 
-/// Opens the stop this many further on, if the guide is open and has one.
+/// Opens the next or the previous stop, if the guide is open and has one.
 pub(super) fn go_to_stop_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step) {
     let Some(tour) = &viewer.tour else { return };
     let index =
@@ -92,8 +92,8 @@ pub(super) fn go_to_stop_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step
     }
 }
 
-/// Opens this stop of the guide: its scene at the start under its method and rate, and its instrument. Time stands until
-/// the person predicts.
+/// Opens this stop of the guide: its scene at the start under its method and rate, and its instrument. Time stands
+/// still until the person predicts.
 pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     let (view, display) = (viewer.view.clone(), viewer.preferences.display.clone());
     let hints = viewer.hints.clone();
@@ -115,7 +115,7 @@ pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     });
     deck.clock.set_speed_percent(100);
     deck.running = false;
-    // A scene of clouds opens with them in the place of the stage.
+    // A scene of clouds opens with the cloud in place of the stage.
     viewer.preferences.display.enlarged = false;
     viewer.preferences.display.instrument = instrument;
     viewer.preferences.display.quantity = Some(quantity);
@@ -124,8 +124,8 @@ pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     viewer.tour = Some(tour);
 }
 
-/// Notes whether the task of the guide's stop is done. Time begins once a stop that asked before the command, as `was_asked`
-/// says, asks no more, unless the person is to step.
+/// Marks the stop's task as done if it is. Time starts when a stop that asked before the command (`was_asked`) has
+/// its prediction, unless its task is to step.
 pub(super) fn look_at_goal(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -139,7 +139,7 @@ pub(super) fn look_at_goal(
     viewer.tour = Some(tour);
 }
 
-/// What to try next: the scene's own hint, then what follows on it. Keys stand between backticks.
+/// The next thing to try: the scene's own hint, then a later one. Keys stand between backticks.
 pub(super) fn hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option<String> {
     if let Some(rest) = rest_hint(deck, viewer) {
         return Some(rest);

@@ -1,9 +1,9 @@
-//! The instruments beside the stage: one table from which the tabs, the keys and the tests are made.
+//! The instruments beside the stage. One table defines the tabs, the keys and the tests.
 
-/// An instrument: what the panel beside the stage shows.
+/// An instrument in the panel beside the stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Instrument {
-    /// Every body's first coordinate over time.
+    /// A coordinate of every body, or its velocity, over time.
     Motion,
     /// The chosen metric over time.
     Error,
@@ -13,39 +13,39 @@ pub enum Instrument {
     Phase,
     /// The tick rates and the values of a parameter at which each method is stable.
     StabilityMap,
-    /// What the selected method does in the next tick.
+    /// The anatomy of the selected method's next tick.
     OneStep,
-    /// What each method does to the area of many starts.
+    /// The effect of each method on the area of many starts.
     Cloud,
     /// Advice on methods and rates.
     Advice,
-    /// What game loops show, and what this program's own loop does.
+    /// The moments that game loops show, and the timing of this program's own loop.
     Loop,
-    /// What a tick of each lane costs.
+    /// The cost of each lane's tick.
     Cost,
 }
 
 /// The groups of tabs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstrumentGroup {
-    /// What the run does.
+    /// Shows the run.
     See,
-    /// Why it does it.
+    /// Explains it.
     Why,
-    /// What to do about it.
+    /// Suggests a remedy.
     Do,
 }
 
-/// One line of the table of instruments.
+/// An entry in the table of instruments.
 #[derive(Debug)]
 pub struct InstrumentCard {
     /// The instrument.
     pub instrument: Instrument,
-    /// The group of its tab.
+    /// Group of its tab.
     pub group: InstrumentGroup,
-    /// The text of its tab.
+    /// Text of its tab.
     pub name: &'static str,
-    /// What it measures, and how to read it.
+    /// Its measurement, and how to read it.
     pub about: &'static str,
 }
 
@@ -146,29 +146,29 @@ impl Instrument {
         INSTRUMENTS.iter().map(|card| card.instrument)
     }
 
-    /// Its line of the table.
+    /// Its entry in the table.
     pub fn card(self) -> &'static InstrumentCard {
         let card = INSTRUMENTS.iter().find(|card| card.instrument == self);
         card.expect("every instrument has a line in the table")
     }
 
-    /// The text of its tab.
+    /// Text of its tab.
     pub fn name(self) -> &'static str {
         self.card().name
     }
 
-    /// Its name on the command line and in the names of files.
+    /// Its name on the command line and in file names.
     pub fn id(self) -> String {
         self.name().to_lowercase().replace(' ', "-")
     }
 
-    /// The instrument of this [id](Self::id), or of the one that it had before.
+    /// The instrument with this [id](Self::id), or with this former id.
     pub fn of_id(id: &str) -> Option<Self> {
         let id = if id == "phase-portrait" { "phase" } else { id };
         Self::all().find(|instrument| instrument.id() == id)
     }
 
-    /// Whether the loop lab has it: each of its loops has a motion, and they have one method in common.
+    /// Whether the loop lab has it. Its loops have different motions, but share one method.
     pub fn is_in_loop_lab(self) -> bool {
         match self {
             Self::Motion | Self::Error | Self::Energy | Self::Phase | Self::Loop => true,
@@ -176,7 +176,7 @@ impl Instrument {
         }
     }
 
-    /// The instrument of the tab beside, cyclically.
+    /// The instrument of the next or previous tab, cyclically.
     pub(super) fn beside(self, step: Step) -> Self {
         let index = Self::all().position(|instrument| instrument == self).unwrap_or(0);
         INSTRUMENTS[step.around(index, INSTRUMENTS.len())].instrument

@@ -1,4 +1,4 @@
-//! A spring of a studio's scene as engines are told it.
+//! A spring of a studio's scene as the joint of an engine.
 
 use super::deck::Deck;
 use super::viewer::Viewer;
@@ -9,9 +9,9 @@ use crate::tools::port::{Setup, setups};
 /// A spring, by the indices and the values of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpringJoint {
-    /// The index of its body in the scene.
+    /// Index of its body in the scene.
     pub body: usize,
-    /// The indices of mass, stiffness and damping among the parameters of the body.
+    /// Indices of mass, stiffness and damping among the parameters of the body.
     indices: [usize; 3],
     /// The mass in kg.
     pub mass_kg: f64,
@@ -23,7 +23,7 @@ pub struct SpringJoint {
 const KEYS: [&str; 3] = ["mass_kg", "stiffness_n_per_m", "damping_n_s_per_m"];
 
 impl SpringJoint {
-    /// What makes this setting of a mode `value`: the other setting stays.
+    /// The actions that set this setting of a mode to `value`; the other setting stays.
     pub fn set(&self, setup: Setup, setting: usize, value: f64) -> [Action; 2] {
         let mut values = setup.mode.values(self.joint, self.mass_kg);
         values[setting] = value;
@@ -37,7 +37,7 @@ impl SpringJoint {
 }
 
 impl Deck {
-    /// A body of the scene that is a spring which engines can be told, as it is now.
+    /// The body's present spring settings, if an engine's joint can represent it.
     pub fn spring_joint(&self, body: usize) -> Option<SpringJoint> {
         let LaneBody { kind, stepper, .. } = &self.race().truth().bodies()[body];
         let joint = kind.joint(&**stepper)?;
@@ -52,8 +52,8 @@ impl Deck {
     }
 }
 
-/// The lines of code that tell the engine with this index in the list the displayed body's spring. `None` if it is no
-/// engine with a joint, or the body no spring.
+/// The lines of code that set the displayed body's spring in the engine with this menu index. `None` if that is not
+/// an engine with a joint, or if the body is not a spring.
 pub fn joint_code(deck: &Deck, viewer: &Viewer, entry: usize) -> Option<String> {
     let spring = deck.spring_joint(viewer.view.body)?;
     let spec = deck.entries().get(entry)?;
@@ -102,7 +102,7 @@ mod tests {
         studio.apply(ViewCommand::PointAt(Some(entry)));
         assert_eq!(studio.apply(ViewCommand::Copy), Some(DriverRequest::CopyMethod(entry)));
         assert_eq!(studio.apply(DriverRequest::CopyJoint(entry)), None);
-        // An engine that is told other numbers has those.
+        // An engine lane with its own spring settings copies those.
         let alike = Studio::new(Scene::built_in("alike").unwrap());
         let told = [0, 3].map(|entry| joint_code(&alike.deck, &alike.viewer, entry).unwrap());
         assert!(told[0].contains("= 1.5;") && told[1].contains("= 1.50169895;"), "{told:?}");

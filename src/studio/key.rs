@@ -1,5 +1,4 @@
-//! The keys that commands are bound to: [`KEYS`] is the one table from which the window, the help overlay and
-//! `regatta list keys` are made.
+//! The keys and their commands. [`KEYS`] is the one table for the window, the help overlay and `regatta list keys`.
 
 use std::fmt;
 
@@ -10,12 +9,12 @@ use super::step::Step;
 use crate::loops::loop_lab::LoopCommand;
 use crate::scene::Action;
 
-/// A key that a command can be bound to.
+/// A key that can have a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Key {
-    /// A digit by its place on the keyboard, so that it works unshifted on every layout.
+    /// A digit by its position on the keyboard, so that it works unshifted on every layout.
     Digit(u8),
-    /// A lower-case letter or a sign, as the layout gives it.
+    /// A lower-case letter or a sign, as the layout produces it.
     Sign(char),
     /// The same letter with Shift held.
     ShiftSign(char),
@@ -47,7 +46,7 @@ pub enum Key {
     Function(u8),
 }
 
-/// As people call it.
+/// Its name for people.
 impl fmt::Display for Key {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -72,8 +71,8 @@ impl fmt::Display for Key {
 }
 
 impl Key {
-    /// Whether a browser has a use for it that a visitor expects of every page: to load it again, to look behind it, to fill
-    /// the screen, and to enlarge it. A page leaves it to the browser.
+    /// Whether browsers use the key in a way that visitors expect on every page: reload, developer tools, full
+    /// screen, zoom. A page leaves it to the browser.
     pub fn is_browsers(self) -> bool {
         matches!(
             self,
@@ -82,23 +81,23 @@ impl Key {
     }
 }
 
-/// One line of the key table.
+/// An entry of the key table.
 #[derive(Debug)]
 pub struct Binding {
-    /// As the help shows it.
+    /// The keys, as the help shows them.
     pub shown: &'static str,
-    /// What it does, for people.
+    /// Their effect, for people.
     pub about: &'static str,
-    /// The same on a page, where that is something else.
+    /// Their effect on a page, if it differs.
     pub about_on_page: Option<&'static str>,
-    /// The keys, each with what it does.
+    /// The keys, each with its command.
     pub keys: &'static [(Key, Command)],
     /// Whether holding the key repeats it.
     pub repeats: bool,
 }
 
 impl Binding {
-    /// The keys as the help of a page shows them, and what they do there; `None` if all are the browser's.
+    /// The keys and their effect, as the help of a page shows them; `None` if all belong to the browser.
     pub fn on_page(&self) -> Option<(String, &'static str)> {
         let about = self.about_on_page.unwrap_or(self.about);
         let own = self.keys.iter().map(|(key, _)| key).filter(|key| !key.is_browsers());
@@ -111,8 +110,8 @@ impl Binding {
     }
 }
 
-/// A table of lines: how often, the keys as shown, what they do, also on a page where that is something else, and each key with
-/// its command.
+/// Builds the table. An entry has `once` or `repeating`, the keys as shown, their effect, optionally that on a page,
+/// and each key with its command.
 macro_rules! keys {
     ($($often:ident $shown:literal $about:literal $(or $page:literal)?: $($key:ident $(($of:literal))? => $command:expr),+;)+) => {
         &[$(Binding {
@@ -124,7 +123,7 @@ macro_rules! keys {
     (@page $page:literal) => { Some($page) };
 }
 
-/// How many methods a digit picks: 1 to 9, and 0.
+/// Number of methods that digits pick: 1 to 9, and 0.
 pub const DIGITS: usize = 10;
 
 /// Every key and its command.
@@ -224,7 +223,7 @@ pub static KEYS: &[Binding] = keys! {
         Escape => View(ViewCommand::Escape);
 };
 
-/// A line whose keys do nothing more while they are held.
+/// An entry whose keys do not repeat while held.
 const fn once(
     shown: &'static str,
     about: &'static str,
@@ -233,7 +232,7 @@ const fn once(
     Binding { shown, about, about_on_page: None, keys, repeats: false }
 }
 
-/// A line whose keys repeat while they are held.
+/// An entry whose keys repeat while held.
 const fn repeating(
     shown: &'static str,
     about: &'static str,
@@ -242,7 +241,7 @@ const fn repeating(
     Binding { repeats: true, ..once(shown, about, keys) }
 }
 
-/// What `key` does, if anything.
+/// The command of `key`, with its entry in the table.
 pub fn command_for(key: Key) -> Option<(Command, &'static Binding)> {
     KEYS.iter().find_map(|binding| {
         let (_, command) = binding.keys.iter().find(|(bound, _)| *bound == key)?;

@@ -1,4 +1,4 @@
-//! The loop lab as a mode of the studio: opening and leaving it, and what commands do in it.
+//! The loop lab as a mode of the studio: opens and leaves it, and executes commands in it.
 
 use std::sync::Arc;
 
@@ -16,11 +16,11 @@ use crate::loops::loop_lab::{FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopW
 use crate::scene::SceneBody;
 use crate::sim::integrators::{Method, method};
 
-/// The method of the body at first: none that adds much of its own.
+/// Initial method of the body: one with a small error.
 const METHOD_AT_FIRST: &str = "rk4";
 
-/// Why the loop lab does not take the displayed body: a net, because what is made ready for every loop would take too
-/// long. `None` if it does.
+/// Why the loop lab refuses the displayed body: preparing a net for every loop would take too long. `None` if it
+/// accepts the body.
 pub fn loop_lab_refusal(deck: &Deck, viewer: &Viewer) -> Option<String> {
     let SceneBody { name, kind, .. } = &deck.scene().bodies[viewer.view.body];
     let refusal = "is a net, which the loop lab does not take; open another scene";
@@ -51,8 +51,8 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
     studio.deck.running = true;
 }
 
-/// Leaves the loop lab; the run goes on as it did before, or the one that was left for a guide closed since. Returns whether
-/// it was open.
+/// Leaves the loop lab. The run resumes or stays paused as before; if a guide was closed meanwhile, the run that the
+/// person left for it returns. Returns whether the loop lab was open.
 pub(super) fn leave_loop_lab(studio: &mut Studio) -> bool {
     let Some(loops) = studio.loops.take() else { return false };
     studio.deck.running = loops.run_goes_on;
@@ -93,20 +93,20 @@ pub fn open_traces(studio: &mut Studio, traces: Vec<FrameTrace>) {
     }
 }
 
-/// The loops that the open loop lab wants at present, for a [`LoopWorker`]; `None` if it has all, or is closed.
+/// The loops that the open loop lab needs now, for a [`LoopWorker`]; `None` if it has all, or is closed.
 pub fn loop_request(studio: &Studio) -> Option<Arc<LoopRequest>> {
     let loops = studio.loop_lab().filter(|loops| !loops.is_complete());
     loops.map(|loops| Arc::clone(loops.request()))
 }
 
-/// Shows a loop that was run, if it is still wanted.
+/// Shows a finished loop, if the loop lab still needs it.
 pub fn accept_loop(studio: &mut Studio, found: FoundLoop) {
     if let Some(loops) = &mut studio.loops {
         loops.accept(found);
     }
 }
 
-/// Runs all loops that the open loop lab wants, now.
+/// Runs all loops that the open loop lab needs, now.
 pub fn run_loops(studio: &mut Studio) {
     let mut worker = LoopWorker::default();
     worker.set_request(loop_request(studio));
@@ -115,7 +115,7 @@ pub fn run_loops(studio: &mut Studio) {
     }
 }
 
-/// Carries out a command on the stage while the loop lab is on it.
+/// Executes a command on the stage while the loop lab is on it.
 pub(super) fn carry_out_in_loop_lab(studio: &mut Studio, command: StageCommand) {
     let Some(loops) = &mut studio.loops else { return };
     let tick_hz = loops.scene().tick_hz;
@@ -178,7 +178,7 @@ pub(super) fn carry_out_in_loop_lab(studio: &mut Studio, command: StageCommand) 
     }
 }
 
-/// Says that the loop lab takes no command on the run.
+/// Notes that the loop lab accepts no command on the run.
 pub(super) fn refuse_in_loop_lab(viewer: &mut Viewer, loops: &mut LoopLab) {
     viewer.set_notice("not in the loop lab: L leaves it");
     loops.end_opening();

@@ -1,9 +1,9 @@
-//! A person at a run: the studio, with the run and its past, the clock that drives it, and its display. Commands come in;
+//! A person's control of a run: the studio, with the run and its past, its clock, and its display. Commands come in;
 //! state goes out.
 //!
-//! A [`Studio`] obeys [`Command`]s, to which [`KEYS`] and [`GESTURES`] lead. What it cannot do itself is a
-//! [`DriverRequest`]. What a person looks at is in its [`Viewer`]: the [`Preferences`], which survive the scene, and the
-//! [`View`], which does not. [`INSTRUMENTS`] stand beside the stage, and the [`guide`] leads through the scenes.
+//! A [`Studio`] executes [`Command`]s, which [`KEYS`] and [`GESTURES`] produce. It passes anything beyond its means
+//! to the driver as a [`DriverRequest`]. Its [`Viewer`] holds the [`Preferences`], which survive the scene, and the
+//! [`View`], which does not. [`INSTRUMENTS`] surround the stage, and the [`guide`] leads through the scenes.
 
 use crate::loops::Due;
 use crate::loops::loop_lab::LoopLab;
@@ -92,26 +92,25 @@ pub use viewer::{Dialog, Preferences, Viewer};
 pub use work::{CurrentRequest, Found, Work};
 pub use zoom_pan::ZoomPan;
 
-/// A scene being run and looked at.
+/// A running scene with its display.
 pub struct Studio {
     /// The run, its clock and the selected lane.
     pub deck: Deck,
-    /// The view of a person, and the texts beside it.
+    /// A person's view, and the texts beside it.
     pub viewer: Viewer,
     /// The loop lab, while it is on the stage and the run waits.
     pub(super) loops: Option<Box<LoopLab>>,
 }
 
 impl Studio {
-    /// Opens a scene, running, in solo mode, under the method that [it names](Scene::opening_method), else
-    /// under the first of its lanes. The caller decides on
-    /// [`Scene::opens_as_race`].
+    /// Opens a scene, running and solo, under its [opening method](Scene::opening_method), or else under the first of
+    /// its lanes. The caller decides on [`Scene::opens_as_race`].
     pub fn new(scene: Scene) -> Self {
         Self::starting_with(StartSettings::of(scene))
     }
 
-    /// At tick 0 of a scene, as options ask for it: under the method `selected`, or else the one that the scene opens with.
-    /// Of a race in which none was selected the verdicts select one. A single lane is shown solo.
+    /// Opens a scene at tick 0 as options ask, under the method `selected`, or else the scene's opening method. In a
+    /// race without `selected`, the verdicts select a lane. A single lane opens solo.
     pub fn opened(scene: Scene, selected: Option<&'static Method>, mode: Mode) -> Self {
         let method = selected.unwrap_or_else(|| scene.opening_lane().method);
         let mut next = StartSettings::of(scene);
@@ -147,7 +146,7 @@ impl Studio {
         Self::of_deck(Deck::new(scene_list, run))
     }
 
-    /// The open scene with the parameters and the length that a person has set.
+    /// The open scene with the person's parameters and length.
     pub fn scene(&self) -> &Scene {
         self.deck.scene()
     }
@@ -163,15 +162,15 @@ impl Studio {
     pub fn past(&self) -> &Past {
         self.deck.past()
     }
-    /// The methods that digits and rows refer to: those of the [menu](crate::run::Menu).
+    /// The methods to which digits and rows refer: those of the [menu](crate::run::Menu).
     pub fn entries(&self) -> &[LaneSpec] {
         self.deck.entries()
     }
-    /// The method of a lane, by its index on the menu.
+    /// Menu index of a lane's method.
     pub fn entry(&self, entrant: &Entrant) -> usize {
         self.deck.entry(entrant)
     }
-    /// The name of the method with this index on the menu, told apart from others of the same method.
+    /// Name of the method with this menu index, with its settings if another entry has the same method.
     pub fn lane_name(&self, entry: usize) -> String {
         self.deck.lane_name(entry)
     }
@@ -179,7 +178,7 @@ impl Studio {
     pub fn mode(&self) -> Mode {
         self.deck.mode()
     }
-    /// The method in solo mode, or of the selected lane in a race, by its index on the menu.
+    /// Menu index of the solo method, or of the selected lane's in a race.
     pub fn active(&self) -> usize {
         self.deck.active()
     }
@@ -191,15 +190,15 @@ impl Studio {
     pub fn clock(&self) -> &Clock {
         self.deck.clock()
     }
-    /// Whether it is not paused.
+    /// Whether the run is not paused.
     pub fn running(&self) -> bool {
         self.deck.running()
     }
-    /// How the studio is displayed.
+    /// The display settings.
     pub fn display(&self) -> &Display {
         self.viewer.display()
     }
-    /// Where a person looks in the scene.
+    /// The person's view of the scene.
     pub fn view(&self) -> &View {
         &self.viewer.view
     }
@@ -224,7 +223,7 @@ impl Studio {
         )
     }
 
-    /// What to try next: the scene's own hint, then what follows on it. Keys stand between backticks.
+    /// The next thing to try: the scene's own hint, then a later one. Keys stand between backticks.
     pub fn hint(&self) -> Option<String> {
         hint(&self.deck, &self.viewer, self.loops.is_some())
     }
@@ -234,13 +233,13 @@ impl Studio {
         make_tick(&mut self.deck, &mut self.viewer, &mut ());
     }
 
-    /// Adds a frame of `frame_ns` nanoseconds of real time, and makes the ticks that are due.
+    /// Adds a frame of `frame_ns` nanoseconds of real time, and makes the ticks due.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
         self.advance_in_time(u64::MAX, frame_ns, &mut || true, &mut ())
     }
 
-    /// Like [`Studio::advance`], but stops at tick `last`, and before the eyes of an observer. After each tick it asks whether
-    /// there is time for another; if there is not, it drops those that are still due.
+    /// Like [`Studio::advance`], but stops at tick `last`, and notifies an observer. Calls `is_time_left` after each
+    /// tick; if it returns `false`, drops the remaining ticks.
     pub fn advance_in_time(
         &mut self,
         last: u64,
@@ -261,7 +260,7 @@ impl Studio {
         advance(deck, viewer, last, frame_ns, is_time_left, observer)
     }
 
-    /// The verdicts and the advice that the studio wants at present: see [`analysis_request`].
+    /// The verdicts and the advice that the studio needs now: see [`analysis_request`].
     pub fn analysis_request(&self) -> AnalysisRequest {
         analysis_request(&self.deck, &self.viewer)
     }
@@ -274,7 +273,7 @@ impl Studio {
         }
     }
 
-    /// Keeps what was found, if it is still wanted.
+    /// Accepts a result, if the studio still needs it.
     pub fn accept(&mut self, found: Found) {
         match found {
             Found::Analysed(findings) => {

@@ -10,23 +10,23 @@ use crate::sim::integrators::method;
 use crate::sim::number::round;
 use crate::tools::port::Wish;
 
-/// The fewest periods in a scene of a slow spring.
+/// Fewest periods in the scene of a slow spring.
 const MIN_PERIODS: f64 = 10.0;
 
 /// A damped spring on a mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MySpring {
-    /// The mass in kg.
+    /// Mass in kg.
     pub mass_kg: f64,
-    /// The stiffness in N/m.
+    /// Stiffness in N/m.
     pub stiffness_n_per_m: f64,
-    /// The damping in N s/m.
+    /// Damping in N s/m.
     pub damping_n_s_per_m: f64,
-    /// How far it is stretched at the start, in m.
+    /// Stretch at the start, in m.
     pub x0_m: f64,
-    /// The velocity at the start in m/s, to where it is stretched.
+    /// Velocity at the start in m/s, in the direction of stretch.
     pub v0_m_per_s: f64,
-    /// The gravity in m/s² that pulls the mass to where the spring is stretched.
+    /// Gravity in m/s², in the direction of stretch.
     pub gravity_m_per_s2: f64,
 }
 
@@ -45,13 +45,12 @@ impl Default for MySpring {
 }
 
 impl MySpring {
-    /// The spring on this mass in kg that swings at this frequency in Hz without damping, and is damped by this part of
-    /// what just lets it swing no more.
+    /// The spring on this mass in kg with this undamped frequency in Hz and this damping ratio (1 = critical).
     pub fn of_frequency(mass_kg: f64, frequency_hz: f64, damping_ratio: f64) -> Self {
         Self { mass_kg, ..Self::default() }.swinging(frequency_hz, damping_ratio)
     }
 
-    /// The same mass and start on a spring of this frequency in Hz and this damping ratio.
+    /// The same mass and start with this undamped frequency in Hz and this damping ratio.
     pub fn swinging(self, frequency_hz: f64, damping_ratio: f64) -> Self {
         let omega = TAU * frequency_hz;
         Self {
@@ -61,36 +60,36 @@ impl MySpring {
         }
     }
 
-    /// What a player is to see of it.
+    /// The motion that a player should see.
     pub fn wish(self) -> Wish {
         let [frequency_hz, damping_ratio] = [self.frequency_hz(), self.damping_ratio()];
         Wish { frequency_hz, damping_ratio, mass_kg: self.mass_kg }
     }
 
-    /// The same start on a spring that shows a wish.
+    /// The same start on a spring that moves as `wish` asks.
     pub fn told(self, wish: &Wish) -> Self {
         Self { mass_kg: wish.mass_kg, ..self }.swinging(wish.frequency_hz, wish.damping_ratio)
     }
 
-    /// How far gravity stretches it at rest, in m.
+    /// Stretch at rest under gravity, in m.
     pub fn sag_m(self) -> f64 {
         self.mass_kg * self.gravity_m_per_s2 / self.stiffness_n_per_m
     }
 
-    /// The frequency in Hz at which it would swing without damping.
+    /// Undamped frequency in Hz.
     pub fn frequency_hz(self) -> f64 {
         libm::sqrt(self.stiffness_n_per_m / self.mass_kg) / TAU
     }
 
-    /// Its damping as a part of what just lets it swing no more.
+    /// Damping ratio (1 = critical).
     pub fn damping_ratio(self) -> f64 {
         self.damping_n_s_per_m / (2.0 * libm::sqrt(self.stiffness_n_per_m * self.mass_kg))
     }
 
-    /// Finds whether a scene may have these numbers.
+    /// Checks whether a scene may have these numbers.
     ///
     /// # Errors
-    /// The first number that it may not have, in words.
+    /// If a number is out of range, or if the mass would rest; the message names the number.
     pub fn check(self) -> Result<(), String> {
         for (name, value, range) in [
             ("mass", self.mass_kg, Range::POSITIVE),
@@ -109,8 +108,8 @@ impl MySpring {
         }
     }
 
-    /// The text of a scene of the spring alone, at this tick rate in Hz. Its stretch is counted from where the mass rests:
-    /// about that it swings alike with gravity and without.
+    /// The text of a scene of the spring alone, at this tick rate in Hz. The coordinate counts from the mass's place
+    /// of rest, around which gravity does not change the motion.
     pub fn scene_text(self, tick_hz: impl Into<TickRate>) -> String {
         let Self { mass_kg, stiffness_n_per_m, damping_n_s_per_m, v0_m_per_s, .. } = self;
         let (sag_m, x0_m) = (self.sag_m(), self.x0_m - self.sag_m());
@@ -150,7 +149,7 @@ impl MySpring {
         )
     }
 
-    /// That scene, which opens under what is recommended for it to look right, with explicit Euler one key away.
+    /// The scene under the method recommended for it to look right, with explicit Euler one key away.
     ///
     /// # Errors
     /// If a scene may not have these numbers.
@@ -172,7 +171,7 @@ impl MySpring {
         Scene::parse(&scene.name, &scene.to_toml())
     }
 
-    /// The scene of that text.
+    /// The scene of [`scene_text`](Self::scene_text).
     ///
     /// # Errors
     /// If a scene may not have these numbers.
@@ -181,7 +180,7 @@ impl MySpring {
     }
 }
 
-/// What to try under the method that is recommended.
+/// The next thing to try under the recommended method.
 fn hint(best: LaneSpec, lanes: &[LaneSpec]) -> String {
     let (name, first) = (best.name_with_substeps(lanes), lanes[0].method.name);
     match best == lanes[0] {
@@ -251,7 +250,7 @@ mod tests {
             let scene = spring.advised_scene(tick_hz).unwrap();
             assert_eq!(scene.lanes[0].method.id, "explicit-euler");
             let adviser = Adviser::new(&scene, tick_hz);
-            // No dearer one can be it.
+            // No more expensive method can be the recommended one.
             let methods = scene.methods_for_games().filter(|it| it.evaluations == Some(1));
             let mut all: Vec<_> = methods.map(|it| adviser.judged(LaneSpec::plain(it))).collect();
             adviser.decide(&mut all);

@@ -1,43 +1,43 @@
-//! A message that leaves by itself.
+//! A message that disappears by itself.
 
 use std::ops::Deref;
 
-/// How long a message is shown at least, and for each of its letters, in nanoseconds: time to find and to read it.
+/// Least display time of a message, and extra time per letter, in nanoseconds: time to find and to read it.
 const MIN_NS: i64 = 3_000_000_000;
 const LETTER_NS: i64 = 60_000_000;
 
-/// A message to the person, such as a screenshot's file name. It is shown for some seconds.
+/// A message to the person, such as a screenshot's file name. It shows for some seconds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
     text: String,
     parts: Vec<String>,
     left_ns: i64,
-    /// Whether it is of the present tick only.
+    /// Whether it belongs to the present tick only.
     is_of_tick: bool,
 }
 
 impl Notice {
-    /// One that leaves when the run goes on, too.
+    /// A notice that also disappears at the next tick.
     pub(super) fn of_tick(parts: Vec<String>) -> Self {
         Self { is_of_tick: true, ..parts.into() }
     }
 
-    /// Whether it leaves when the run goes on.
+    /// Whether it disappears at the next tick.
     pub(super) fn is_of_tick(&self) -> bool {
         self.is_of_tick
     }
 
-    /// What it tells, the most important first. Its text has all of it.
+    /// Parts of its text, the most important first.
     pub fn parts(&self) -> &[String] {
         &self.parts
     }
 
-    /// How long it is still shown, in nanoseconds.
+    /// Remaining display time, in nanoseconds.
     pub fn left_ns(&self) -> i64 {
         self.left_ns
     }
 
-    /// Shortens the time for which it is still shown, by nanoseconds.
+    /// Reduces the remaining display time by `ns` nanoseconds.
     pub(super) fn pass(&mut self, ns: i64) {
         self.left_ns = self.left_ns.saturating_sub(ns.max(0)).max(0);
     }

@@ -7,7 +7,7 @@ use crate::sim::bodies::FalseClaims;
 /// Collects notices from a race.
 pub(super) struct Notices<'s> {
     scene: &'s Scene,
-    /// The parts of the latest notice; empty without one.
+    /// Parts of the latest notice; empty without one.
     pub(super) told: Vec<String>,
 }
 
@@ -34,8 +34,8 @@ impl Observer for Notices<'_> {
     }
 }
 
-/// What became of the bodies that halted in the last tick. Allocates nothing if none did. A reference that was not tried is
-/// told of on the stage.
+/// The notice about bodies that halted in the last tick. Allocates nothing if none did. Omits a reference that would
+/// take too much work, since the stage reports it.
 fn of_halts(scene: &Scene, race: &Race) -> Vec<String> {
     let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
     let told = halts.flat_map(|(entrant, halt)| {
@@ -54,14 +54,14 @@ fn of_halts(scene: &Scene, race: &Race) -> Vec<String> {
                 let fate = entrant.lane.bodies()[*index].fate().unwrap_or_default();
                 vec![format!("{name}: {} {fate}", body.name)]
             }
-            // Why a solver gives up takes a line of its own.
+            // The solver's reason gets its own line.
             false => vec![format!("{name}: {} {}", body.name, halt.fate()), failure.to_string()],
         }
     });
     told.collect()
 }
 
-/// What became of the halted bodies that a switch has resumed.
+/// The notice about halted bodies that a switch has resumed.
 fn resumed_notice(scene: &Scene, resumed: &[Resumed]) -> Vec<String> {
     let told = resumed.iter().map(|Resumed { halt, from }| {
         let body = &scene.bodies[halt.body];
@@ -75,7 +75,7 @@ fn resumed_notice(scene: &Scene, resumed: &[Resumed]) -> Vec<String> {
     told.collect()
 }
 
-/// A notice about the claims of a law that do not hold with the constants that an action has set.
+/// The notice about claims of a law that fail with the constants of an action.
 fn of_claims(scene: &Scene, race: &Race, action: &Action) -> Option<String> {
     let &Action::Set { body, .. } = action else { return None };
     let FalseClaims { energy, exact } = race.truth().bodies()[body].false_claims();

@@ -19,15 +19,16 @@ use crate::scene::{LaneSpec, Mistake, Scene, SceneErrors};
 use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 
-/// The name of a custom spring on the list of scenes.
+/// Name of a custom spring on the list of scenes.
 const MY_SPRING: &str = "my spring";
-/// With so many methods named, none of them is selected.
+/// From this number of named methods on, none is selected.
 pub const MANY_LANES: usize = 10;
-/// The most ticks for which a changed scene is run again: an hour at 60 Hz, which takes about a second.
+/// Most ticks for which a changed scene is run again: an hour at 60 Hz, which takes about a second.
 const MAX_RERUN: u64 = 60 * 3600;
 
-/// Whether the lanes of a scene race, and which method is selected, where options name these methods. Several race, and so does a
-/// scene that opens as a race where none is named; else it is as `asked`. The first is selected, unless they are [`MANY_LANES`].
+/// The mode and the selected method of a scene for options that name `methods`. Several methods race. Without any, a
+/// scene that opens as a race does so; otherwise `asked` decides. The first method is selected, unless there are
+/// [`MANY_LANES`] or more.
 pub fn lineup(
     scene: &Scene,
     methods: &[&'static Method],
@@ -41,7 +42,7 @@ pub fn lineup(
     (mode, methods.first().filter(|_| methods.len() < MANY_LANES).copied())
 }
 
-/// Whether a run of one scene can continue in the other: they have equal lanes and bodies of the same kinds.
+/// Whether a run of one scene can continue in the other: they need equal lanes and bodies of the same kinds.
 fn is_alike(a: &Scene, b: &Scene) -> bool {
     let kinds = |scene: &Scene| -> Vec<_> {
         let bodies = scene.bodies.iter();
@@ -57,7 +58,7 @@ pub fn list_as_file(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
     tell_outdated(deck, viewer);
 }
 
-/// Opens a scene that was read from the file at `path`, and puts it on the list.
+/// Opens a scene from the file at `path`, and puts it on the list.
 pub fn open_file(studio: &mut Studio, path: &Path, scene: Scene) {
     studio.loops = None;
     let index = studio.deck.scene_list.put(path, scene);
@@ -65,7 +66,7 @@ pub fn open_file(studio: &mut Studio, path: &Path, scene: Scene) {
     tell_outdated(&mut studio.deck, &mut studio.viewer);
 }
 
-/// Has a method by a person's own lines race in the open scene, from its start. An undo brings back the run before.
+/// Adds a person's own method to a race in the open scene, from its start. An undo brings back the run before.
 pub fn race_own_method(studio: &mut Studio, lane: LaneSpec) {
     let method = lane.method;
     let Studio { deck, viewer, loops, .. } = studio;
@@ -84,7 +85,7 @@ pub fn race_own_method(studio: &mut Studio, lane: LaneSpec) {
     viewer.set_notice(format!("{}: {}", method.id, method.about));
 }
 
-/// Tells of a file that says in ticks when its commands are done, which is read for this release only.
+/// Warns about a file whose commands use the deprecated key `tick`.
 fn tell_outdated(deck: &mut Deck, viewer: &mut Viewer) {
     if deck.scene().outdated.is_some() {
         let name = deck.scene_name();
@@ -94,15 +95,14 @@ fn tell_outdated(deck: &mut Deck, viewer: &mut Viewer) {
     }
 }
 
-/// Opens the spring that a person has described, alone and running, under what is recommended
-/// for it, and advises on it. It is on the list of scenes under a name that is no file's.
+/// Opens the spring that a person has described, solo and running, under the recommended method, and shows advice on
+/// it. Its name on the list of scenes is not a file's.
 pub(super) fn open_spring(deck: &mut Deck, viewer: &mut Viewer) {
     let (spring, tick_hz) = described_spring(deck, viewer);
     open_described(deck, viewer, spring.advised_scene(tick_hz));
 }
 
-/// The spring that a person has described, and the tick rate at which it is to run: that of its dialog, or else the present
-/// one.
+/// The spring that a person has described, and its tick rate: that of the dialog, or else the present one.
 pub fn described_spring(deck: &Deck, viewer: &Viewer) -> (MySpring, TickRate) {
     let tick_hz = match viewer.dialog {
         Some(Dialog::Spring { tick_hz }) => tick_hz,
@@ -111,7 +111,7 @@ pub fn described_spring(deck: &Deck, viewer: &Viewer) -> (MySpring, TickRate) {
     (viewer.preferences.my_spring, tick_hz)
 }
 
-/// Opens the scene that `MySpring::advised_scene` has made of a person's spring, or shows its mistakes.
+/// Opens the result of `MySpring::advised_scene` for a person's spring, or shows its mistakes.
 pub fn open_advised_spring(studio: &mut Studio, scene: Result<Scene, SceneErrors>) {
     if scene.is_ok() {
         studio.loops = None;
@@ -135,9 +135,9 @@ fn open_described(deck: &mut Deck, viewer: &mut Viewer, scene: Result<Scene, Sce
     }
 }
 
-/// Replaces the scene of a changed file. If it is open and equal, the run goes on; if it has the same lanes and kinds of
-/// bodies, the new scene runs to the present tick; otherwise it starts at tick 0. A notice says that
-/// what a person did in the run is left out.
+/// Replaces the scene of a changed file. If it is open and equal, the run continues. If it has the same lanes and
+/// kinds of bodies, the new scene runs to the present tick; otherwise it starts at tick 0. A notice reports that the
+/// person's actions are left out.
 pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
     let is_open = studio.deck.scene_list.open_path() == Some(path);
     let tick = studio.deck.race().tick();
@@ -182,7 +182,7 @@ pub fn refuse_typed_path(deck: &mut Deck, viewer: &mut Viewer, path: &Path, repo
     viewer.dialog = Some(Dialog::Path { compares, refused: Some(report) });
 }
 
-/// Goes to where a recording first differs from the run, and shows it from there on beside the run.
+/// Moves to the first difference between a recording and the run, and shows the recording beside the run from there.
 pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison, recording: Scene) {
     studio.viewer.dialog = None;
     studio.deck.compared = None;
@@ -199,7 +199,7 @@ pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison, reco
             let lines = compared.lines();
             studio.deck.compared = Some(compared.into());
             studio.apply(RunCommand::Seek(first.tick));
-            // The run may not have come so far yet.
+            // The run may not have reached that tick yet.
             let ahead = first.tick.saturating_sub(studio.race().tick()).min(MAX_RERUN);
             (0..ahead).for_each(|_| studio.tick());
             studio.deck.follow_with_compared();
@@ -209,7 +209,7 @@ pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison, reco
     studio.viewer.set_notice(told);
 }
 
-/// Tells that a file on the list is not there any more. The run goes on.
+/// Reports that a file on the list is gone. The run continues.
 pub fn file_is_gone(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
     if let Some(name) = deck.scene_list.name_of(path) {
         viewer.set_notice(format!(
@@ -218,20 +218,20 @@ pub fn file_is_gone(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
     }
 }
 
-/// Tells that a file on the list is there again, with the same text.
+/// Reports that a file on the list is back, with the same text.
 pub fn file_is_back(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
     if let Some(name) = deck.scene_list.name_of(path) {
         viewer.set_notice(format!("{name} is back, unchanged"));
     }
 }
 
-/// Shows the errors of a file. The open run goes on.
+/// Shows the errors of a file. The open run continues.
 pub fn show_mistakes(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: Vec<Mistake>) {
     deck.scene_list.mark(path, report.clone());
     viewer.dialog = Some(Dialog::Mistakes { file: path.display().to_string(), report });
 }
 
-/// Records the errors of a changed file, and shows them if it is open. The run goes on.
+/// Records the errors of a changed file, and shows them if it is open. The run continues.
 pub fn reload_failed(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: Vec<Mistake>) {
     if deck.scene_list.open_path() == Some(path) {
         show_mistakes(deck, viewer, path, report);
@@ -240,8 +240,8 @@ pub fn reload_failed(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: 
     }
 }
 
-/// Runs the open scene with this index, which has changed, to a tick: with the methods, the rate and the display that a
-/// person has chosen, and without actions by hand.
+/// Runs the open scene with this index, which has changed, to a tick. Keeps the chosen methods, rate and display, and
+/// leaves out actions by hand.
 fn run_again(deck: &mut Deck, viewer: &mut Viewer, index: usize, tick: u64) {
     let scene = deck.scene_list.scene(index);
     restart(deck, viewer, Some("the change of the file"), |next| {
@@ -260,7 +260,7 @@ fn run_again(deck: &mut Deck, viewer: &mut Viewer, index: usize, tick: u64) {
     deck.run.show_present();
 }
 
-/// Shows the clouds that the scene opens with, if it does, at full size.
+/// Shows the clouds with which the scene opens, if any, at full size.
 pub fn show_clouds_of_scene(deck: &mut Deck, viewer: &mut Viewer) {
     let Some(kind) = deck.scene().clouds else { return };
     let display = &mut viewer.preferences.display;
@@ -273,14 +273,13 @@ pub(super) fn open_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step) {
     open(deck, viewer, deck.scene_list.open().map_or(0, |here| step.around(here, count)));
 }
 
-/// Opens the scene with this index in the list, modulo its length, under the scene's opening method, and closes the
-/// guide, which is about another. The preferences stay. The scene opens solo or as a race as it says itself, unless a
-/// person has chosen.
+/// Opens the scene with this index in the list, modulo its length, under its opening method, and closes the guide,
+/// which is about another. The preferences stay. A person's chosen mode prevails over the scene's.
 pub(super) fn open(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     open_with(deck, viewer, index, |_| ());
 }
 
-/// Like [`open`], with the settings of its start as `set` sets them. Returns the deck before.
+/// Like [`open`], after `set` has edited the settings of its start. Returns the deck before.
 pub(super) fn open_with(
     deck: &mut Deck,
     viewer: &mut Viewer,

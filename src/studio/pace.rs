@@ -5,22 +5,22 @@ use std::collections::VecDeque;
 use super::{Pace, Studio};
 use crate::sim::TickRate;
 
-/// The shortest span to measure over, in nanoseconds: long enough for a steady figure, short enough to follow a change.
+/// Shortest measured span, in nanoseconds: long enough for a steady figure, short enough to follow a change.
 const SPAN_NS: u64 = 1_000_000_000;
 
 /// Measures a driver's frames per second and its real-time factor.
 #[derive(Debug, Default)]
 pub struct PaceMeter {
-    /// When each recent frame began, in nanoseconds, and the simulated time then in seconds, with the part of a tick that
-    /// is owed: counted in whole ticks the figure would jump at low rates.
+    /// Start of each recent frame, in nanoseconds, and the simulated time then (s) including the pending part of a
+    /// tick. With whole ticks alone, the figure would jump at low rates.
     frames: VecDeque<(u64, f64)>,
-    /// The tick rate and the speed of those frames.
+    /// Tick rate and speed of those frames.
     under: Option<(TickRate, u32)>,
 }
 
 impl PaceMeter {
-    /// Adds a frame that began at `now_ns`, in nanoseconds of real time. A pause, a jump in time or a change of rate starts
-    /// the measurement again.
+    /// Adds a frame that began at `now_ns`, in nanoseconds of real time. A pause, a jump in time or a change of rate
+    /// starts the measurement again.
     pub fn frame(&mut self, now_ns: u64, studio: &Studio) {
         let under = Some((studio.clock().tick_hz(), studio.clock().speed_percent()));
         let t = studio.deck.time_with_owed_s();
@@ -38,7 +38,7 @@ impl PaceMeter {
         }
     }
 
-    /// The pace, once a second has been measured.
+    /// The pace, after at least a second of measurement.
     pub fn pace(&self) -> Pace {
         let (Some(&(first, from)), Some(&(last, to))) = (self.frames.front(), self.frames.back())
         else {
@@ -56,20 +56,20 @@ impl PaceMeter {
     }
 }
 
-/// The frames that are remembered: ten seconds at 60 Hz.
+/// Most frames to keep: ten seconds at 60 Hz.
 const MAX_FRAMES: usize = 600;
 
 /// A frame of the studio's own loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LiveFrame {
-    /// How long the frame before it took, in nanoseconds.
+    /// Duration of the previous frame, in nanoseconds.
     pub duration_ns: i64,
-    /// The ticks that it made.
+    /// Number of ticks made.
     pub ticks: u32,
-    /// The ticks that it dropped.
+    /// Number of ticks dropped.
     pub dropped: u64,
-    /// The change of the moment shown minus that of real time, in milliseconds of real time. The moment of display is not
-    /// known: frames count as displayed when they begin.
+    /// The change of the moment shown minus that of real time, in milliseconds of real time. The moment of display is
+    /// unknown, so frames count as displayed when they begin.
     pub animation_error_ms: f64,
 }
 
@@ -82,7 +82,7 @@ pub struct LiveLoop {
 }
 
 impl Default for LiveLoop {
-    /// No frame, and room for all: adding one allocates nothing.
+    /// Reserves room for all frames, so that adding one allocates nothing.
     fn default() -> Self {
         Self { frames: VecDeque::with_capacity(MAX_FRAMES), shown_s: None }
     }
@@ -106,7 +106,7 @@ impl LiveLoop {
         self.frames.push_back(LiveFrame { animation_error_ms, ..frame });
     }
 
-    /// Forgets the moment shown, which has jumped.
+    /// Forgets the moment shown after a jump.
     pub(super) fn jump(&mut self) {
         self.shown_s = None;
     }
@@ -118,7 +118,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::studio::{Command, RunCommand, StageCommand, Step, ViewCommand};
 
-    /// A studio at this tick rate, its meter, and when the last frame began.
+    /// A studio at this tick rate, its meter, and the start of the last frame.
     struct Run(Studio, PaceMeter, u64);
 
     impl Run {

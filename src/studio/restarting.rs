@@ -7,7 +7,7 @@ use super::viewer::Viewer;
 use crate::run::race::{Author, Mode};
 use crate::run::{Run, StartSettings};
 
-/// Where the run has jumped to.
+/// Target of a jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Jump {
     /// Another tick.
@@ -18,7 +18,7 @@ pub(super) enum Jump {
     ToAnotherRun,
 }
 
-/// Has the clock, the plots, the hand and the selection follow a run that has jumped.
+/// Updates the clock, the plots, the hand and the selection after a jump of the run.
 pub(super) fn follow(deck: &mut Deck, viewer: &mut Viewer, jump: Jump) {
     deck.clock.set_tick_hz(deck.race().tick_hz());
     viewer.live.jump();
@@ -41,8 +41,8 @@ pub(super) fn is_by_hand(run: &Run) -> bool {
     run.session().journal().rows().iter().any(|row| row.author == Author::Person)
 }
 
-/// Begins the run again, with its settings as `set` sets them. The run so far is kept for an undo of the change `kept`,
-/// and lost if there is none.
+/// Restarts the run after `set` has edited its settings. With a description in `kept`, an undo can bring back the run
+/// so far; otherwise it is lost.
 pub(super) fn restart(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -54,8 +54,8 @@ pub(super) fn restart(
     follow(deck, viewer, Jump::ToAnotherRun);
 }
 
-/// Restarts. A run in which a person has done something, or that began with other settings, is kept for an undo; any
-/// other would only repeat itself. Returns whether it was kept.
+/// Restarts. Keeps the run for an undo if a person has acted on it, or if it began with other settings; any other
+/// would only repeat itself. Returns whether it was kept.
 pub(super) fn restart_keeping_run(deck: &mut Deck, viewer: &mut Viewer) -> bool {
     let is_edited = !Arc::ptr_eq(deck.run.session().scene(), &deck.run.next().scene);
     let keeps = is_by_hand(&deck.run) || is_edited;
@@ -63,21 +63,21 @@ pub(super) fn restart_keeping_run(deck: &mut Deck, viewer: &mut Viewer) -> bool 
     keeps
 }
 
-/// Takes back the last change.
+/// Undoes the last edit.
 pub(super) fn undo(deck: &mut Deck, viewer: &mut Viewer) {
     let what = deck.run.undoes().map(str::to_owned);
     let undone = what.map(|what| format!("undid: {what}. Ctrl Shift Z redoes it"));
     exchange(deck, viewer, Run::undo, undone.as_deref().unwrap_or("nothing to undo"));
 }
 
-/// Makes the change again that was undone last.
+/// Redoes the edit that was undone last.
 pub(super) fn redo(deck: &mut Deck, viewer: &mut Viewer) {
     let what = deck.run.redoes().map(str::to_owned);
     let redone = what.map(|what| format!("redid: {what}. Ctrl Z takes it back"));
     exchange(deck, viewer, Run::redo, redone.as_deref().unwrap_or("nothing to redo"));
 }
 
-/// Goes to the other side of a change, if `exchange` does, and tells this.
+/// Calls `exchange` to move to the other side of an edit, and shows `notice`.
 fn exchange(deck: &mut Deck, viewer: &mut Viewer, exchange: fn(&mut Run) -> bool, notice: &str) {
     let rested = deck.comes_to_rest(viewer.motion());
     let StartSettings { entry, ref opened, .. } = *deck.run.next();
@@ -85,7 +85,7 @@ fn exchange(deck: &mut Deck, viewer: &mut Viewer, exchange: fn(&mut Run) -> bool
     if !exchange(&mut deck.run) {
         return viewer.set_notice(notice);
     }
-    // Selecting a lane is not a change: the one that is selected stays so.
+    // Selecting a lane is not an edit, so the selection stays.
     let is_there = deck.race().entrant(deck.selected).is_some();
     if deck.mode() == Mode::Race && is_there {
         deck.run.next_mut().entry = entry;
@@ -100,8 +100,8 @@ fn exchange(deck: &mut Deck, viewer: &mut Viewer, exchange: fn(&mut Run) -> bool
     viewer.set_notice(notice);
 }
 
-/// Shows this coordinate of a body in the plots; where the run so far is too long to be run again for it, from the
-/// next restart on.
+/// Shows this coordinate of a body in the plots. If repeating the run for it would take too long, it is plotted only
+/// after the next restart.
 pub(super) fn plot_coordinate(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -118,7 +118,7 @@ pub(super) fn plot_coordinate(
     viewer.set_notice(format!("{name} is plotted from the next restart on: press Home"));
 }
 
-/// Records the coordinates that a person has chosen, and of other bodies the usual ones. Returns whether it could.
+/// Records the chosen coordinates, and the usual ones of other bodies. Returns whether it could.
 pub(super) fn record_chosen_coordinates(deck: &mut Deck, viewer: &mut Viewer) -> bool {
     let chosen = &viewer.view.coordinates;
     let coordinate = |(index, usual): (usize, usize)| {

@@ -1,4 +1,4 @@
-//! Where a run before a person rests: at its scene's length, and where all its bodies have blown up, which can be watched
+//! Rests of a watched run: at its scene's length, and when all its bodies have blown up. The blow-up can be watched
 //! again.
 
 use super::acting::seek;
@@ -8,7 +8,7 @@ use super::viewer::Viewer;
 use crate::run::race::{Halt, Mode};
 use crate::sim::number::{round, significant};
 
-/// How long before it was over a blow-up is watched again, in seconds, and at least in ticks.
+/// Lead before a repeated blow-up, in seconds, and at least in ticks.
 const LEAD_S: f64 = 1.0;
 const MIN_LEAD: u64 = 24;
 
@@ -18,14 +18,14 @@ impl Deck {
         self.is_at_its_end(motion) || self.just_lost(motion).is_some()
     }
 
-    /// Whether the scene's length is over.
+    /// Whether the run is at the scene's length.
     fn is_at_its_end(&self, motion: Motion) -> bool {
         let race = self.race();
         let (late_s, half_s) = (race.t() - self.scene().seconds, race.last_step_s() / 2.0);
         late_s > -half_s && late_s <= half_s && motion == Motion::Live
     }
 
-    /// Whether time runs once another run is on the stage: also after a rest, which nobody asked for.
+    /// Whether the next run starts unpaused: a run that stopped by itself counts as running.
     pub(crate) fn runs_or_rests(&self, motion: Motion) -> bool {
         self.running || self.comes_to_rest(motion)
     }
@@ -38,19 +38,19 @@ impl Deck {
         self.last_halt().filter(|halt| are_lost && halt.tick + 1 == self.race().tick())
     }
 
-    /// The halt of the body of the selected lane that halted last.
+    /// The latest halt in the selected lane.
     fn last_halt(&self) -> Option<&Halt> {
         let bodies = self.selected().lane.bodies().iter();
         bodies.filter_map(|body| body.halted()).max_by_key(|halt| halt.tick)
     }
 
-    /// The tick at which the last body that halted in the selected lane did so.
+    /// Tick of the latest halt in the selected lane.
     pub fn lost_at(&self) -> Option<u64> {
         self.last_halt().map(|halt| halt.tick)
     }
 }
 
-/// What to do where the run rests. Keys stand between backticks.
+/// The hint for a run at rest. Keys stand between backticks.
 pub(super) fn rest_hint(deck: &Deck, viewer: &Viewer) -> Option<String> {
     if deck.running || !deck.comes_to_rest(viewer.motion()) {
         return None;
@@ -66,7 +66,7 @@ pub(super) fn rest_hint(deck: &Deck, viewer: &Viewer) -> Option<String> {
     Some(format!("The {seconds} s of this scene are over. `Home` starts again, `Space` goes on."))
 }
 
-/// Goes back to before the selected lane was lost, and runs on from there.
+/// Rewinds to before the latest halt in the selected lane, and runs.
 pub(super) fn watch_again(deck: &mut Deck, viewer: &mut Viewer) {
     let Some(tick) = deck.lost_at() else {
         return viewer.set_notice("nothing has halted in this lane");
@@ -84,14 +84,14 @@ mod tests {
     use crate::studio::driving::slow_motion_percent;
     use crate::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
 
-    /// A studio that somebody watches.
+    /// A studio with a person watching.
     fn watched(scene: &str) -> Studio {
         let mut studio = Studio::new(Scene::built_in(scene).unwrap());
         studio.viewer.preferences.display.motion = Motion::Live;
         studio
     }
 
-    /// Lets time run, at most so many seconds of real time.
+    /// Lets time run for at most this number of seconds of real time.
     fn watch(studio: &mut Studio, seconds: u32) {
         for _ in 0..60 * seconds {
             if studio.running() {
@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn a_run_that_is_watched_rests_at_the_length_of_its_scene_once() {
         let mut studio = watched("spring");
-        // As long as the scene: nothing is slowed.
+        // Covers the scene's length: nothing is slowed.
         watch(&mut studio, 21);
         assert_eq!((studio.race().t(), studio.running()), (studio.scene().seconds, false));
         assert_eq!(

@@ -1,4 +1,4 @@
-//! What a driver remembers of a person from one run to the next, as a text that it keeps wherever the system has it kept.
+//! A person's preferences from one run of the driver to the next, as text for the driver to store.
 
 use std::path::{Path, PathBuf};
 
@@ -7,25 +7,25 @@ use toml::de::{DeTable, DeValue};
 use super::{Display, SCALE_LADDER, Splits, Studio};
 use crate::look::palette::Theme;
 
-/// What is remembered.
+/// The saved preferences.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SavedPreferences {
-    /// The scene that was open last: a built-in one's name, or a file's path.
+    /// Last open scene: a built-in one's name, or a file's path.
     pub scene: Option<PathBuf>,
-    /// The theme that a person has chosen.
+    /// The chosen theme.
     pub theme: Option<Theme>,
-    /// The size of type and panels in percent of the usual one.
+    /// Size of type and panels in percent of the usual one.
     pub scale_percent: Option<u32>,
-    /// The size of the window in points.
+    /// Size of the window in points.
     pub size: Option<[u32; 2]>,
-    /// Whether instruments stood round the stage; on a first start it is alone.
+    /// Whether instruments surround the stage; on a first start it is alone.
     pub measure: bool,
-    /// Where a person has put the boundaries between stage, instruments and table.
+    /// Chosen boundaries between stage, instruments and table.
     pub splits: Splits,
 }
 
 impl SavedPreferences {
-    /// What is to be remembered of a studio. Its scene and the size of its window are the driver's.
+    /// The preferences of a studio. The driver adds its scene and the size of its window.
     pub fn of(studio: &Studio) -> Self {
         let &Display { scale_percent, measure, splits, .. } = studio.display();
         let theme = studio.viewer.preferences.chosen_theme();
@@ -33,7 +33,7 @@ impl SavedPreferences {
         Self { scene: None, theme, scale_percent, size: None, measure, splits }
     }
 
-    /// Has a studio shown as it was.
+    /// Applies the preferences to a studio.
     pub fn apply(&self, studio: &mut Studio) {
         let preferences = &mut studio.viewer.preferences;
         self.theme.into_iter().for_each(|theme| preferences.choose_theme(theme));
@@ -42,10 +42,10 @@ impl SavedPreferences {
         preferences.display.splits = self.splits;
     }
 
-    /// Reads what [`to_text`](Self::to_text) has written, or a newer release.
+    /// Parses text from [`to_text`](Self::to_text) of this or a newer release.
     ///
     /// # Errors
-    /// What cannot be understood.
+    /// If the text is not TOML, or if a known key has an invalid value.
     pub fn parse(text: &str) -> Result<Self, String> {
         let table = DeTable::parse(text).map_err(|error| error.message().to_owned())?;
         let mut preferences = Self::default();
@@ -101,14 +101,14 @@ impl SavedPreferences {
                     | "table_percent",
                     _,
                 ) => return Err(wrong()),
-                // Of a newer program.
+                // A key of a newer release.
                 _ => {}
             }
         }
         Ok(preferences)
     }
 
-    /// As lines of TOML.
+    /// The preferences as lines of TOML.
     pub fn to_text(&self) -> String {
         let scene = self.scene.as_deref().and_then(Path::to_str);
         // A path with a quotation mark or a line break is not worth the trouble.

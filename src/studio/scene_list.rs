@@ -8,22 +8,22 @@ use crate::scene::{BuiltIn, Mistake, SCENES, Scene};
 use crate::sim::Solver;
 use crate::sim::bodies::Origin;
 
-/// The list of scenes, and which of them is open.
+/// The list of scenes, and the index of the open one.
 #[derive(Clone, Debug)]
 pub struct SceneList {
     files: Vec<SceneFile>,
-    /// The index of the open scene; `None` if it is not on the list.
+    /// Index of the open scene; `None` if it is not on the list.
     open: Option<usize>,
 }
 
-/// A scene that was read from a file.
+/// A scene from a file.
 #[derive(Clone, Debug)]
 pub(super) struct SceneFile {
-    /// As it was given.
+    /// The path as given.
     path: PathBuf,
     /// The scene as last read without errors.
     pub(super) scene: Scene,
-    /// The errors of the file's present text, if it has any.
+    /// Errors of the file's present text, if it has any.
     pub(super) mistakes: Option<Vec<Mistake>>,
 }
 
@@ -35,15 +35,15 @@ impl SceneFile {
 }
 
 impl SceneList {
-    /// The built-in scenes, of which the one with the name of `scene` is open.
+    /// The built-in scenes. The open one has the name of `scene`.
     pub(super) fn of(scene: &Scene) -> Self {
         let is_open = |built_in: &BuiltIn| built_in.name == scene.name && scene.in_rust().is_none();
         let open = SCENES.iter().position(is_open);
         Self { files: Vec::new(), open }
     }
 
-    /// Reads every built-in scene, and follows bodies that are drawn by where they go, so that none of it is waited for
-    /// where one of them opens.
+    /// Parses every built-in scene, and previews bodies whose drawing depends on their motion. Without this, opening
+    /// such a scene would wait for it.
     pub fn prepare() {
         let scenes = SCENES.iter().filter_map(|scene| Scene::built_in(scene.name));
         scenes.for_each(|scene| Self::prepare_scene(&scene));
@@ -56,17 +56,16 @@ impl SceneList {
         truth.bodies().iter().filter(is_followed).for_each(|body| drop(body.preview()));
     }
 
-    /// The number of scenes.
     pub(super) fn count(&self) -> usize {
         SCENES.len() + self.files.len()
     }
 
-    /// The index of the open scene, if it is in the list.
+    /// Index of the open scene, if it is on the list.
     pub fn open(&self) -> Option<usize> {
         self.open
     }
 
-    /// The names of all scenes. A file's name includes its extension; several files of one name are listed by path.
+    /// Names of all scenes. A file's name includes its extension; several files of one name are listed by path.
     pub fn names(&self) -> impl Iterator<Item = String> {
         let built_in = SCENES.iter().map(|scene| scene.name.to_owned());
         built_in.chain(self.files.iter().map(|file| self.file_name(&file.path)))
@@ -83,12 +82,12 @@ impl SceneList {
         name.unwrap_or(path.as_os_str()).display().to_string()
     }
 
-    /// The path of the open scene, if it was read from a file.
+    /// Path of the open scene, if it comes from a file.
     pub fn open_path(&self) -> Option<&Path> {
         Some(&self.file(self.open?)?.path)
     }
 
-    /// The paths of all files, in the order in which they were first opened.
+    /// Paths of all files, in the order in which they were first opened.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         self.files.iter().map(|file| &*file.path)
     }
@@ -97,7 +96,7 @@ impl SceneList {
         self.files.get(index.checked_sub(SCENES.len())?)
     }
 
-    /// The scene with this index, as its file has it.
+    /// The scene with this index, as last read from its file.
     pub(super) fn scene(&self, index: usize) -> Scene {
         let built_in = || Scene::built_in(SCENES[index].name).expect("a name of SCENES");
         self.file(index).map_or_else(built_in, |file| file.scene.clone())

@@ -1,4 +1,4 @@
-//! The numbers that describe a custom spring, each with the command that sets it.
+//! The numbers of a custom spring, each with the command that sets it.
 
 use super::command::ViewCommand;
 use super::my_spring::MySpring;
@@ -8,19 +8,19 @@ use crate::tools::port::{Dialect, Key, Wish};
 
 /// A number of a spring, or its tick rate.
 pub struct SpringField {
-    /// Its name.
+    /// Name for people.
     pub name: &'static str,
-    /// Its unit; empty if it has none.
+    /// Unit; empty if it has none.
     pub unit: &'static str,
-    /// Its value.
+    /// Present value.
     pub value: f64,
-    /// Whether a drag goes by whole numbers.
+    /// Whether a drag moves in whole numbers.
     pub is_whole: bool,
-    /// The command that sets another value, or why it may not be.
+    /// The command that sets another value, or an error message.
     pub set: Box<dyn Fn(f64) -> Result<ViewCommand, String>>,
 }
 
-/// Describes this spring, if a scene may have its numbers.
+/// The command that sets this spring, if a scene may have its numbers.
 fn describe(spring: MySpring) -> Result<ViewCommand, String> {
     spring.check().map(|()| ViewCommand::DescribeSpring(spring))
 }
@@ -35,7 +35,7 @@ impl SpringField {
         Self { name, unit, value, is_whole: false, set: Box::new(move |it| describe(with(it))) }
     }
 
-    /// The three that make a spring.
+    /// Mass, stiffness and damping.
     pub fn made_of(spring: MySpring) -> [Self; 3] {
         let MySpring { mass_kg, stiffness_n_per_m, damping_n_s_per_m, .. } = spring;
         [
@@ -51,7 +51,7 @@ impl SpringField {
         ]
     }
 
-    /// The two that describe it as well, whatever its mass.
+    /// Frequency and damping ratio, which describe the motion independently of the mass.
     pub fn seen_as(spring: MySpring) -> [Self; 2] {
         let [hz, ratio] = [spring.frequency_hz(), spring.damping_ratio()];
         [
@@ -60,14 +60,14 @@ impl SpringField {
         ]
     }
 
-    /// The numbers that a library takes. One without a mass keeps that of the spring.
+    /// The numbers of a library's joint. If it has no mass, the spring keeps its own.
     pub fn of_dialect(dialect: &'static Dialect, values: &[f64], spring: MySpring) -> Vec<Self> {
         let number = |(index, key): (usize, &'static Key)| {
             let (value, values) = (values[index], values.to_vec());
             let set = move |value| {
                 let mut told = values.clone();
                 told[index] = value;
-                // The line of code turns a switch on where the motion wants it.
+                // The line of code turns a switch on where the motion needs it.
                 let switches =
                     dialect.keys.iter().zip(&mut told).filter(|(key, _)| key.switch.is_some());
                 switches.for_each(|(_, told)| *told = 1.0);
@@ -86,7 +86,7 @@ impl SpringField {
             .collect()
     }
 
-    /// Its release: how it starts, and gravity.
+    /// The release: the start, and gravity.
     pub fn of_release(spring: MySpring) -> [Self; 3] {
         let MySpring { x0_m, v0_m_per_s, gravity_m_per_s2, .. } = spring;
         [
@@ -102,7 +102,7 @@ impl SpringField {
         ]
     }
 
-    /// The ticks per second at which it is to run.
+    /// The tick rate of the spring.
     pub fn tick_rate(tick_hz: impl Into<TickRate>) -> Self {
         let set = |value: f64| entered_tick_rate(value).map(ViewCommand::SpringTickHz);
         let (value, set) = (tick_hz.into().hz(), Box::new(set));
@@ -143,7 +143,7 @@ mod tests {
         let told = |value: f64| (SpringField::made_of(spring)[0].set)(value).unwrap_err();
         assert_eq!(told(-5.0), "mass would be -5; it must be from 1e-12 to 1e12");
         assert_eq!(told(1e-300), "mass would be 1e-300; it must be from 1e-12 to 1e12");
-        // Derived numbers are named too.
+        // Errors also name derived numbers.
         let [frequency, _] = SpringField::seen_as(spring);
         let words = (frequency.set)(1e200).unwrap_err();
         assert!(words.starts_with("stiffness would be too large for a number; it must"), "{words}");

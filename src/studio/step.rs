@@ -1,16 +1,16 @@
-//! A step to the next or the previous of a list, or of a ladder of numbers.
+//! A step to the next or the previous item of a list, or rung of a ladder.
 
 /// A step along a list, or along a ladder of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// The next, or the next higher.
     Next,
-    /// The one before, or the next lower.
+    /// The previous, or the next lower.
     Previous,
 }
 
 impl Step {
-    /// 1 to the next, -1 to the previous.
+    /// 1 for the next, -1 for the previous.
     pub(super) fn sign(self) -> i64 {
         match self {
             Self::Next => 1,
@@ -18,7 +18,7 @@ impl Step {
         }
     }
 
-    /// The index that it leads to on a list that goes round.
+    /// The next or previous index of a cyclic list.
     pub(super) fn around(self, index: usize, count: usize) -> usize {
         match self {
             Self::Next => (index + 1) % count,
@@ -26,7 +26,7 @@ impl Step {
         }
     }
 
-    /// The step the other way.
+    /// The opposite step.
     pub(super) fn other(self) -> Self {
         match self {
             Self::Next => Self::Previous,
@@ -34,7 +34,7 @@ impl Step {
         }
     }
 
-    /// The rung that it leads to; `None` at the end of the ladder.
+    /// The next or previous rung; `None` at the end of the ladder.
     pub(super) fn along(self, ladder: &[u32], rung: impl PartialOrd<u32>) -> Option<u32> {
         match self {
             Self::Next => ladder.iter().copied().find(|other| rung < *other),

@@ -1,4 +1,4 @@
-//! What a person looks at. It does not change a run and is not part of one.
+//! A person's view of a run. It is not part of the run and never changes it.
 
 use super::command::{
     Command, RunCommand, SCALE_LADDER, StageCommand, USUAL_SCALE_PERCENT, ViewCommand,
@@ -23,19 +23,19 @@ use crate::tools::source_code::Language;
 pub enum Dialog {
     /// The numbers of a custom spring.
     Spring {
-        /// The tick rate at which it is to run, in Hz.
+        /// Its tick rate in Hz.
         tick_hz: TickRate,
     },
     /// A field for the path of a scene file.
     Path {
-        /// Whether it is a recording that is to be compared with the run.
+        /// Whether the file is a recording to compare with the run.
         compares: bool,
         /// Why the scene at the typed path could not be opened; `None` once the path is edited.
         refused: Option<Vec<Mistake>>,
     },
     /// The errors of a scene file.
     Mistakes {
-        /// The file.
+        /// Name of the file.
         file: String,
         /// The errors.
         report: Vec<Mistake>,
@@ -48,16 +48,16 @@ impl Dialog {
     }
 }
 
-/// What a person has chosen. It survives the scene.
+/// A person's choices, which survive the scene.
 #[derive(Clone, Debug)]
 pub struct Preferences {
-    /// What is shown, and how.
+    /// The display settings.
     pub display: Display,
-    /// The mode that a person chose against that of the scene, for all scenes.
+    /// A person's choice of a mode other than the scene's, for all scenes.
     pub(super) mode: Option<Mode>,
-    /// Whether a person chose the theme: then it no longer follows the system's.
+    /// Whether a person chose the theme, so that it no longer follows the system's.
     pub(super) theme_is_chosen: bool,
-    /// The language in which the next method is copied.
+    /// Language of the next copied method.
     pub(super) language: Language,
     pub(super) typed_path: String,
     pub(super) my_spring: MySpring,
@@ -65,7 +65,7 @@ pub struct Preferences {
     pub(super) left_at: usize,
     /// Whether the driver keeps a recording of the run, so that the end of the program loses nothing.
     pub is_recorded: bool,
-    /// Whether it is a page in a browser, which keeps some keys and has nothing to quit.
+    /// Whether the driver is a page in a browser, which keeps some keys and has nothing to quit.
     pub is_page: bool,
 }
 
@@ -77,18 +77,18 @@ impl Preferences {
         }
     }
 
-    /// Shows this theme, whatever the system's is.
+    /// Shows this theme instead of the system's.
     pub fn choose_theme(&mut self, theme: Theme) {
         self.theme_is_chosen = true;
         self.display.theme = theme;
     }
 
-    /// The theme that a person has chosen; `None` while it follows the system's.
+    /// The chosen theme; `None` while it follows the system's.
     pub fn chosen_theme(&self) -> Option<Theme> {
         self.theme_is_chosen.then_some(self.display.theme)
     }
 
-    /// Opens scenes in this mode, if it is not the one in which this scene opens itself.
+    /// Opens later scenes in this mode, unless it is the one in which this scene opens.
     pub(super) fn choose_mode(&mut self, mode: Mode, scene: &Scene) {
         self.mode = (mode != Mode::opening(scene)).then_some(mode);
     }
@@ -134,39 +134,38 @@ impl Default for Preferences {
     }
 }
 
-/// How a run is looked at, and the texts beside it.
+/// The display of a run for a person, and the texts beside it.
 #[derive(Clone, Debug, Default)]
 pub struct Viewer {
-    /// What a person has chosen.
+    /// The person's choices.
     pub preferences: Preferences,
-    /// Where the person looks.
+    /// The person's view of the scene.
     pub view: View,
-    /// The index of the lane that the pointer or the keyboard's focus is on.
+    /// Menu index of the lane under the pointer or the keyboard's focus.
     pub(super) pointed: Option<usize>,
     /// The driver's pace while time runs; `None` without real time, as in a capture.
     pub pace: Option<Pace>,
-    /// The time of a tick of each lane that flew when the driver measured it last, in nanoseconds: `None` of a lane that
-    /// halted.
+    /// Time (ns) of each lane's tick as the driver last measured it; `None` for a lane that halted.
     pub tick_times: Vec<(LaneSpec, Option<f64>)>,
-    /// The latest message, until it has been shown for some seconds.
+    /// The latest message, while it shows.
     pub notice: Option<Notice>,
     /// The last frames of the studio's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
-    /// The clouds that were found last.
+    /// The latest clouds.
     pub(super) cloud: Option<FoundCloud>,
-    /// The tick rate at which the pointer's button went down, in Hz, while it is.
+    /// Tick rate (Hz) when the pointer's button went down, while it is down.
     pub(super) hz_at_press: Option<TickRate>,
     pub(super) dialog: Option<Dialog>,
     pub(super) hints: Hints,
-    /// Those of the run that was left for the guide.
+    /// Hints of the run that the person left for the guide.
     pub(super) hints_of_left: Hints,
     /// The open guide.
     pub(super) tour: Option<Tour>,
 }
 
 impl Viewer {
-    /// The same person before another scene: preferences and an open guide stay.
+    /// The viewer for another scene: preferences and an open guide stay.
     pub(super) fn before_next_scene(&mut self) -> Self {
         Self {
             preferences: self.preferences.clone(),
@@ -178,27 +177,28 @@ impl Viewer {
         }
     }
 
-    /// How the run is displayed.
+    /// The display settings.
     pub fn display(&self) -> &Display {
         &self.preferences.display
     }
 
-    /// The motion on the stage besides the bodies.
+    /// Motion on the stage besides that of the bodies.
     pub(super) fn motion(&self) -> Motion {
         self.preferences.display.motion
     }
 
-    /// The index in the list of the lane that the pointer or the keyboard's focus is on, if it is on one.
+    /// Menu index of the lane under the pointer or the keyboard's focus, if there is one.
     pub fn pointed_lane(&self) -> Option<usize> {
         self.pointed
     }
 
-    /// Whether the pointer's button is down, as [`ViewCommand::PointerDown`](super::ViewCommand::PointerDown) told last.
+    /// Whether the pointer's button is down, by the last
+    /// [`ViewCommand::PointerDown`](super::ViewCommand::PointerDown).
     pub fn pointer_is_down(&self) -> bool {
         self.hz_at_press.is_some()
     }
 
-    /// The language in which the next method is copied: that of the last or the one chosen since, and Rust at first.
+    /// Language of the next copied method: the last one used or chosen, and Rust at first.
     pub fn language(&self) -> Language {
         self.preferences.language
     }
@@ -208,7 +208,7 @@ impl Viewer {
         self.dialog.as_ref()
     }
 
-    /// Where the person is in the guide, if it is open.
+    /// The person's progress in the guide, if it is open.
     pub fn tour(&self) -> Option<&Tour> {
         self.tour.as_ref()
     }
@@ -218,38 +218,40 @@ impl Viewer {
         &self.preferences.typed_path
     }
 
-    /// The spring that was described last.
+    /// The spring last described.
     pub fn my_spring(&self) -> MySpring {
         self.preferences.my_spring
     }
 
-    /// Whether a stop of the guide waits for a prediction: until then nothing on the screen answers its question.
+    /// Whether a stop of the guide waits for a prediction. Until then, nothing on the screen may give away its
+    /// answer.
     pub fn is_asked(&self) -> bool {
         self.tour.as_ref().is_some_and(Tour::is_asking)
     }
 
-    /// The verdict on the method with this index in the list, of the run that [`Studio::analysis_request`](super::Studio::analysis_request)
-    /// describes; `None` until it has been [found](super::accept_findings), and while a person is [asked](Self::is_asked).
+    /// The verdict on the method with this menu index, for the run that
+    /// [`Studio::analysis_request`](super::Studio::analysis_request) describes. `None` until it is
+    /// [found](super::accept_findings), and while a person is [asked](Self::is_asked).
     pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
         self.judged(entry).filter(|_| !self.is_asked())
     }
 
-    /// The same, also while a person is asked.
+    /// The same verdict, also while a person is asked.
     pub(super) fn judged(&self, entry: usize) -> Option<&Verdict> {
         self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
     }
 
-    /// Whether the path that is typed is of a recording to be compared with the run.
+    /// Whether the typed path is that of a recording to compare with the run.
     pub fn compares_typed_path(&self) -> bool {
         matches!(self.dialog, Some(Dialog::Path { compares: true, .. }))
     }
 
-    /// The advice on this scene, as far as it has been [found](super::accept_findings); `None` while it is not shown.
+    /// The advice on this scene [found](super::accept_findings) so far; `None` while it is not shown.
     pub fn advice(&self) -> Option<&Advice> {
         self.findings.as_ref()?.advice.as_ref()
     }
 
-    /// The stability map, as far as it has been [found](super::accept_findings); `None` while it is not shown.
+    /// The stability map [found](super::accept_findings) so far; `None` while it is not shown.
     pub fn stability_map(&self) -> Option<&StabilityMap> {
         self.findings.as_ref()?.map.as_ref()
     }
@@ -259,26 +261,26 @@ impl Viewer {
         self.notice = Some(notice.into());
     }
 
-    /// Lets nanoseconds of real time go by: a notice leaves.
+    /// Lets `ns` nanoseconds of real time pass, and removes an expired notice.
     pub fn pass(&mut self, ns: i64) {
         self.notice.iter_mut().for_each(|notice| notice.pass(ns));
         self.notice.take_if(|notice| notice.left_ns() == 0);
     }
 
-    /// Switches to the next way of drawing between ticks, and shows its name.
+    /// Switches to the next interpolation between ticks, and shows its name.
     pub(super) fn next_interpolation(&mut self) {
         self.preferences.display.interpolation = self.preferences.display.interpolation.next();
         let name = self.preferences.display.interpolation.name();
         self.set_notice(format!("drawing between ticks: {name}"));
     }
 
-    /// Shows type and panels at this size, and tells which.
+    /// Shows type and panels at this size, with a notice.
     pub(super) fn show_scale(&mut self, percent: u32) {
         self.preferences.display.scale_percent = percent;
         self.set_notice(format!("text and panels at {percent} %"));
     }
 
-    /// Shows the lanes of a race in the other arrangement, and tells which.
+    /// Shows the lanes of a race in the other arrangement, with a notice.
     pub(super) fn toggle_arrangement(&mut self) {
         let (arrangement, told) = match self.preferences.display.arrangement {
             Arrangement::Overlay => (Arrangement::SideBySide, "lanes side by side"),
@@ -293,8 +295,8 @@ impl Viewer {
         self.hints = Hints::default();
     }
 
-    /// Closes the guide, whose scene is no longer shown, and restores the choices made before it. The instrument stays: it
-    /// is in sight.
+    /// Closes the guide, whose scene is no longer shown, and restores the choices made before it. The instrument
+    /// stays, since it is visible.
     pub(super) fn leave_guide(&mut self, left: Option<&LeftRun>) {
         if let Some(LeftRun { display: before, .. }) = left {
             let display = &mut self.preferences.display;
@@ -329,7 +331,7 @@ impl Viewer {
         }
     }
 
-    /// Shows the instruments if this command is about what they show.
+    /// Shows the instruments if this command affects them.
     pub(super) fn measure_for(&mut self, command: &Command) {
         let is_about = match command {
             Command::Stage(command) => matches!(

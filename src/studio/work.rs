@@ -1,5 +1,5 @@
-//! Work beside a studio's run, which a driver does on threads of its own, or between frames: one step of it can take longer
-//! than a frame.
+//! Work beside a studio's run. A driver does it on separate threads, or between frames; a step can take longer than a
+//! frame.
 
 use std::sync::Arc;
 
@@ -7,24 +7,25 @@ use crate::loops::loop_lab::{FoundLoop, LoopRequest, LoopWorker};
 use crate::measure::cloud::{CloudRequest, CloudWorker, FoundCloud};
 use crate::measure::{AnalysisRequest, AnalysisWorker, Findings};
 
-/// Something that is worked on step by step.
+/// Work that proceeds step by step.
 pub trait Work {
-    /// What it works on.
+    /// The task.
     type Request: Clone;
-    /// What it finds.
+    /// A result.
     type Found;
 
-    /// Whether two requests ask for the same, so that work on one is work on the other.
+    /// Whether two requests ask for the same, so that work on one also serves the other.
     fn is_same(one: &Self::Request, other: &Self::Request) -> bool;
 
     /// Replaces the request.
     fn take(&mut self, request: Self::Request);
 
-    /// Does one step, which may end early when `stop` says so. Returns its result, if it has one, and whether there is more to do.
+    /// Does one step, which may end early once `stop` returns `true`. Returns its result, if it has one, and whether
+    /// there is more to do.
     fn step(&mut self, stop: &dyn Fn() -> bool) -> (Option<Self::Found>, bool);
 }
 
-/// The request that a worker has.
+/// The present request of a worker.
 pub struct CurrentRequest<W: Work>(pub W::Request);
 
 impl<W: Work> CurrentRequest<W> {
@@ -38,13 +39,13 @@ impl<W: Work> CurrentRequest<W> {
     }
 }
 
-/// What was found for a studio.
+/// A result for a studio.
 pub enum Found {
-    /// The analysis has found more.
+    /// Further findings of the analysis.
     Analysed(Box<Findings>),
-    /// A loop of the loop lab was run.
+    /// A finished loop of the loop lab.
     LoopRun(Box<FoundLoop>),
-    /// Clouds were stepped.
+    /// Clouds after further steps.
     Clouds(Box<FoundCloud>),
 }
 

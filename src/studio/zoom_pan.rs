@@ -1,17 +1,17 @@
-//! The zoom and the pan of a body's cell of the stage.
+//! The zoom and the pan of a body's cell on the stage.
 
 /// The least and the greatest zoom: from a body that has left the frame far behind, to its last pixels.
 const ZOOMS: (f64, f64) = (1.0 / 8.0, 64.0);
 
-/// The largest distance of the view's middle from the middle of the fitted frame, in frames: the extent of the view at
-/// the least zoom, so that everything visible can be zoomed in on.
+/// Largest distance of the view's middle from the middle of the fitted frame, in frames. It is the extent of the view
+/// at the least zoom, so that a person can zoom in on everything visible.
 const FARTHEST: f64 = 4.5;
 
-/// A zoom and a pan relative to the frame that the camera fits. They are in units of the frame, so that they do not depend
-/// on the size of the window.
+/// A zoom and a pan relative to the frame that the camera fits. They are in units of the frame, so that they do not
+/// depend on the size of the window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ZoomPan {
-    /// How many times larger than fitted, within [`ZOOMS`].
+    /// Magnification relative to the fitted frame, within [`ZOOMS`].
     zoom: f64,
     /// The place in the middle of the view: across and down from the middle of the fitted frame, in its widths and
     /// heights.
@@ -26,7 +26,7 @@ impl Default for ZoomPan {
 }
 
 impl ZoomPan {
-    /// How many times larger than fitted, 1/8 to 64.
+    /// Magnification relative to the fitted frame, 1/8 to 64.
     pub fn zoom(&self) -> f64 {
         self.zoom
     }

@@ -1,30 +1,30 @@
-//! Text in UTF-8 or UTF-16, as tools and shells write it, read as UTF-8.
+//! Reads text in UTF-8 or UTF-16, as tools and shells write it, as UTF-8.
 
 use std::io::{self, BufRead, Read};
 
-/// What an input is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Encoding {
     Utf8,
-    /// With the less significant byte of each unit first.
+    /// Little-endian: the less significant byte of each unit comes first.
     Utf16Le,
     Utf16Be,
 }
 
-/// The UTF-8 of an input, without its byte order mark. What is no text becomes a replacement character.
+/// The UTF-8 of an input, without its byte order mark. Invalid UTF-16 becomes a replacement character; UTF-8 passes
+/// unchecked.
 pub struct Utf8<R> {
     input: R,
     encoding: Option<Encoding>,
-    /// UTF-8 that was decoded and not yet read, and how much of it was.
+    /// Decoded UTF-8, and how many of its bytes were read.
     decoded: Vec<u8>,
     taken: usize,
-    /// A unit that was cut off, and the first half of a pair of units.
+    /// First byte of an incomplete unit, and first unit of an incomplete pair.
     odd: Option<u8>,
     high: Option<u16>,
 }
 
 impl<R: BufRead> Utf8<R> {
-    /// The text of `input`.
+    /// Reads the text of `input`. Its byte order mark decides the encoding.
     pub fn new(input: R) -> Self {
         Self { input, encoding: None, decoded: Vec::new(), taken: 0, odd: None, high: None }
     }
@@ -50,7 +50,7 @@ impl<R: BufRead> Utf8<R> {
         Ok(encoding)
     }
 
-    /// Decodes what the input has at hand. Returns whether there was anything.
+    /// Decodes the bytes in the input's buffer. Returns whether there were any.
     fn decode(&mut self, is_little: bool) -> io::Result<bool> {
         let bytes = self.input.fill_buf()?;
         let count = bytes.len();

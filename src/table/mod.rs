@@ -1,9 +1,9 @@
 //! One reader of tables, for logs of any tool: bytes come in, and a header, rows of cells and numbers come out.
 //!
-//! A [`TableReader`] passes the byte order mark, blank lines, remarks that begin with `#` or `//`, and up to
-//! [`MAX_ABOVE`] lines above the header that its reader does not know. The header says what separates the cells: commas,
-//! semicolons or tabs. A [decoder](Utf8) turns UTF-16 into UTF-8 on the way. Where cells are not separated by commas, a
-//! number may have a decimal one.
+//! A [`TableReader`] skips the byte order mark, blank lines, remarks that begin with `#` or `//`, and up to
+//! [`MAX_ABOVE`] lines above the header that its caller does not know. The header shows the separator of the cells:
+//! comma, semicolon or tab. A [decoder](Utf8) turns UTF-16 into UTF-8 on the way. Numbers may have a decimal comma
+//! unless commas separate the cells.
 
 use std::io::{self, BufRead, Read};
 
@@ -15,41 +15,41 @@ mod number;
 pub use encoding::Utf8;
 pub use number::{Decimal, number};
 
-/// The most lines above a header, beside remarks and blank lines.
+/// Most lines above a header, not counting remarks and blank lines.
 pub const MAX_ABOVE: u64 = 16;
-/// The most bytes of a row, of the header or of a line above it. A log has none of that length; what has no ends of lines,
+/// Most bytes of a row, of the header or of a line above it. No log has a longer one, but an input without line ends,
 /// such as a device, does.
 pub const MAX_ROW_BYTES: usize = 1 << 20;
-/// The most bytes above a header, and of it.
+/// Most bytes of the header and everything above it.
 const MAX_HEAD_BYTES: usize = 1 << 22;
-/// What is read of an input at once, in bytes.
+/// Bytes to read from an input at once.
 pub(crate) const BUFFER_BYTES: usize = 1 << 20;
 
-/// What is told of a table to read it.
+/// Options for reading a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
-    /// Whether a row may have fewer cells than the header, of which its reader then sees to those that it needs.
+    /// Whether a row may have fewer cells than the header. The caller then checks for the cells that it needs.
     pub short_rows: bool,
-    /// Whether remarks may stand between rows, too.
+    /// Whether remarks may also appear between rows.
     pub remarks: bool,
-    /// Whether the first line may be a row already, if it is a number alone: a list without a header.
+    /// Whether a first line that is only a number is already a row. The table is then a list without a header.
     pub lists: bool,
 }
 
-/// Why a table cannot be read, with its line.
+/// The reason why a table cannot be read, with its line.
 #[derive(Debug, thiserror::Error)]
 #[error("{fault}")]
 pub struct TableError {
-    /// The line, from 1.
+    /// Line number, from 1.
     pub line: u64,
-    /// What is wrong there.
+    /// The fault on that line.
     pub fault: TableFault,
 }
 
-/// What can be wrong with a table.
+/// A fault in a table.
 #[derive(Debug, thiserror::Error)]
 pub enum TableFault {
-    /// There is no line but blank ones and remarks.
+    /// There are only blank lines and remarks, or no lines at all.
     #[error("there is nothing here")]
     Empty,
     /// The input cannot be read.
@@ -58,9 +58,9 @@ pub enum TableFault {
     /// A row has more or fewer cells than the header.
     #[error("{}", cells_in_words(*cells, *header))]
     Cells {
-        /// The row's.
+        /// Number of cells in the row.
         cells: usize,
-        /// The header's.
+        /// Number of cells in the header.
         header: usize,
     },
 }
@@ -81,9 +81,9 @@ fn cells_in_words(cells: usize, header: usize) -> String {
 pub struct TableReader<R> {
     rows: csv::Reader<Bounded<io::Chain<io::Cursor<Vec<u8>>, R>>>,
     header: ByteRecord,
-    /// The first row of a list, which has no header.
+    /// First row of a list, which has no header.
     first: Option<ByteRecord>,
-    /// The lines above the row that is read first.
+    /// Number of lines above the first line of `rows`.
     above: u64,
     header_line: u64,
     is_list: bool,
@@ -92,11 +92,11 @@ pub struct TableReader<R> {
 }
 
 impl<R: BufRead> TableReader<R> {
-    /// Reads as far as the header, which is the first line that `is_header` takes for one; where it takes none, the first
-    /// line that is neither blank nor a remark.
+    /// Reads up to the header: the first line for which `is_header` is true. If there is none, the first line that is
+    /// neither blank nor a remark becomes the header.
     ///
     /// # Errors
-    /// What keeps it from being read, and if there is nothing.
+    /// If the input cannot be read, has too long a line, or has only blank lines and remarks.
     pub fn begin(
         mut input: R,
         reading: Reading,
@@ -152,30 +152,31 @@ impl<R: BufRead> TableReader<R> {
         Ok(Self { rows, header, first, above, header_line: above + 1, is_list, separator, reading })
     }
 
-    /// The names of the columns; of a list one that is empty.
+    /// Names of the columns. A list has one column with an empty name.
     pub fn header(&self) -> &ByteRecord {
         &self.header
     }
 
-    /// Whether it is a list, which has no header.
+    /// Whether the table is a list, which has no header.
     pub fn is_list(&self) -> bool {
         self.is_list
     }
 
-    /// The line of the header, or of the first row of a list.
+    /// Line of the header, or of the first row of a list.
     pub fn header_line(&self) -> u64 {
         self.header_line
     }
 
-    /// What its numbers may have before their decimals.
+    /// Decimal signs that the table's numbers may have.
     pub fn decimal(&self) -> Decimal {
         if self.separator == b',' { Decimal::Point } else { Decimal::PointOrComma }
     }
 
-    /// Reads the next row, and returns its line; `None` after the last. Blank lines and remarks are passed.
+    /// Reads the next row and returns its line; `None` after the last. Skips blank lines and, with
+    /// [`Reading::remarks`], remarks.
     ///
     /// # Errors
-    /// What keeps it from being read, and if it has other cells than the header.
+    /// If the row cannot be read, or if its number of cells does not fit the header.
     pub fn next(&mut self, row: &mut ByteRecord) -> Result<Option<u64>, TableError> {
         if let Some(first) = self.first.take() {
             *row = first;
@@ -195,7 +196,7 @@ impl<R: BufRead> TableReader<R> {
             let line = self.above + row.position().map_or(line, csv::Position::line);
             let (cells, header) = (row.len(), self.header.len());
             let first = row.get(0).unwrap_or_default().trim_ascii_start();
-            // With the cells of a row, or some of them, it is one: of an object that is called so.
+            // A line of several cells may be a row, about an object whose name begins with `#`.
             let is_said = cells == 1 || first.starts_with(b"# ") || first.starts_with(b"//");
             if self.reading.remarks && cells != header && is_remark(first) && is_said {
                 continue;
@@ -210,7 +211,7 @@ impl<R: BufRead> TableReader<R> {
     /// Reads the next row like [`next`](Self::next), and turns decimal commas into points.
     ///
     /// # Errors
-    /// As [`next`](Self::next).
+    /// Same as for [`next`](Self::next).
     pub fn next_with_points(&mut self, row: &mut ByteRecord) -> Result<Option<u64>, TableError> {
         let line = self.next(row)?;
         let decimal = self.decimal();
@@ -226,17 +227,15 @@ impl<R: BufRead> TableReader<R> {
     }
 }
 
-/// Whether a line is a remark.
 fn is_remark(line: &[u8]) -> bool {
     line.starts_with(b"#") || line.starts_with(b"//")
 }
 
-/// Whether a line is a number alone.
+/// Whether a line is only a number.
 fn is_number(line: &[u8]) -> bool {
     number(line, Decimal::PointOrComma).is_some()
 }
 
-/// The cells of a line.
 fn cells(line: &[u8]) -> ByteRecord {
     let mut row = ByteRecord::new();
     let mut builder = csv::ReaderBuilder::new();
@@ -245,17 +244,18 @@ fn cells(line: &[u8]) -> ByteRecord {
     row
 }
 
-/// What separates the cells of a header: of equal counts the comma, and of one cell alone what is in no number.
+/// Separator of a header's cells: the most frequent one, and the comma in a tie. A single cell gets the semicolon,
+/// which is in no number.
 fn separator(header: &[u8]) -> u8 {
     let count = |separator: &u8| header.iter().filter(|byte| *byte == separator).count();
     let most = [b'\t', b';', b','].into_iter().max_by_key(count).expect("three");
     if count(&most) == 0 { b';' } else { most }
 }
 
-/// Fails where a row does not end.
+/// Fails if a row does not end.
 struct Bounded<R> {
     input: R,
-    /// What was read since the row began.
+    /// Bytes read since the row began.
     in_row: usize,
 }
 

@@ -1,15 +1,15 @@
-//! Numbers as tools write them.
+//! Numbers in the spelling of many tools.
 
-/// What may stand before the decimals of a number.
+/// Decimal signs that a number may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decimal {
     /// A point.
     Point,
-    /// A point, or a comma where nothing else in the number is one.
+    /// A point, or a comma if the number has no other comma or point.
     PointOrComma,
 }
 
-/// The finite or infinite number in a cell, or NaN; `None` where it is no number.
+/// Parses the number in a cell, which may be infinite or NaN; `None` if it is not a number.
 pub fn number(cell: &[u8], decimal: Decimal) -> Option<f64> {
     let cell = std::str::from_utf8(cell).ok()?.trim();
     let plain = cell.parse().ok();

@@ -1,7 +1,8 @@
-//! Which method made a log of one body: the methods of the table are run beside it, and the one that fits is named.
+//! Identifies the method behind a log of one body: the methods of the table run beside the log, and the one that fits
+//! is named.
 //!
-//! Every method with steps of one length is run under 1 to 16 substeps, from a start that is fitted to the log by least
-//! squares. The residual decides: a method is named if its residual is at noise level and no other's is.
+//! Every fixed-step method runs with 1 to 16 substeps, from a start fitted to the log by least squares. A method is
+//! named if its residual is at noise level and no candidate that moves the body differently fits as well.
 
 use crate::sim::integrators::{METHODS, Method, method};
 
@@ -24,28 +25,28 @@ pub(crate) use motion::run;
 pub use swing::FittedSwing;
 use swing::fitted_swing;
 
-/// A candidate, and how far the log is from it.
+/// A candidate and its residual against the log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fitted {
     /// The candidate.
     pub candidate: Candidate,
-    /// The root mean square of the residual, in units of the largest coordinate and velocity.
+    /// Root mean square of the residual, in units of the log's largest coordinate and velocity.
     pub residual: f64,
 }
 
-/// What is said of a log.
+/// The conclusion about a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Conclusion {
-    /// One method fits, and those that do the same on this body.
+    /// One method fits, alone or with others that move this body alike.
     Identified,
-    /// Methods that differ on this body fit equally well.
+    /// The log does not single out a method: others fit as well, or the residual is doubtful.
     CannotTell,
-    /// No method fits to the noise.
+    /// No method fits to noise level.
     Unknown,
 }
 
 impl Conclusion {
-    /// The word in output.
+    /// The word used in output.
     pub fn id(self) -> &'static str {
         match self {
             Conclusion::Identified => "identified",
@@ -55,53 +56,54 @@ impl Conclusion {
     }
 }
 
-/// What was found out about a log.
+/// The findings about a log.
 #[derive(Clone, Debug)]
 pub struct Identification {
-    /// What is said.
+    /// The conclusion.
     pub conclusion: Conclusion,
-    /// The candidate that fits best; `None` if no method can be run beside the log, as where its rows are uneven.
+    /// The candidate that fits best; `None` if no method can run beside the log, for example because its rows are
+    /// uneven.
     pub best: Option<Fitted>,
-    /// Others that do the same on this body.
+    /// Others that move this body alike.
     pub also: Vec<Candidate>,
-    /// Others that do something else and explain the log as well, but are set aside because they are rare.
+    /// Others that move it differently and fit as well, but are set aside as rare.
     pub unusual: Vec<Candidate>,
-    /// The best candidate that does something else; `None` if all do the same.
+    /// The best candidate that moves it differently or, if nearly all methods fit, one of another method that moves
+    /// it alike. `None` if there is neither.
     pub runner_up: Option<Fitted>,
-    /// Whether its spring was fitted.
+    /// Whether the spring was fitted.
     pub is_spring_fitted: bool,
-    /// Where its spring rests, in metres.
+    /// The spring's rest, in metres.
     pub rest: f64,
-    /// Whether that was fitted.
+    /// Whether the rest was fitted.
     pub is_rest_fitted: bool,
-    /// Whether it can be told only if the body starts at rest, which is supposed then.
+    /// Whether the conclusion assumes that the body starts at rest, because x alone does not decide.
     pub supposes_start_at_rest: bool,
-    /// How far the last row is from the exact motion of the same start, in metres, and its time in seconds; `None` if the method
-    /// is not told.
+    /// Signed distance of the last row from the exact motion of the same start, in metres, and the row's time in
+    /// seconds. `None` unless a method was identified.
     pub from_exact: Option<(f64, f64)>,
-    /// The damped swing that is nearest, where the method is not known.
+    /// The nearest damped swing, if the method is unknown.
     pub swing: Option<FittedSwing>,
-    /// What a player sees; `None` if it is nothing like a damped spring or a body that comes to its
-    /// last speed, or if the log is too short to tell.
+    /// The motion that a player sees. `None` if it resembles neither a damped spring nor a body approaching its last
+    /// speed, or if the log is too short.
     pub effective: Option<Effective>,
-    /// What the equation of motion says.
+    /// The exact motion, by the equation of motion.
     pub exact: Option<Effective>,
-    /// Methods of one step a tick under which a player would see the exact motion to within 1 %, the cheapest first, and
-    /// the motion under each.
+    /// Methods whose visible motion at one step a tick is within 1 % of the exact one, each with that motion. The
+    /// cheapest come first.
     pub recommended: Vec<(&'static Method, Effective)>,
 }
 
-/// The most methods that are recommended.
 const MAX_RECOMMENDED: usize = 3;
 
-/// A swing with a larger residual, as a part of its amplitude, is not that of the log.
+/// A swing whose residual exceeds this share of its amplitude is not that of the log.
 const NO_SWING: f64 = 0.2;
 
-/// Finds out which method made `log`, a motion of `body` at `tick_hz`. What is not known of the body is fitted too: its rest,
-/// where no method explains the log with the rest at 0. Where methods cannot be told apart by x alone, the body is supposed to
-/// start at rest, if that tells them.
+/// Finds the method behind `log`, a motion of `body` at `tick_hz`. Unknown numbers of the body are fitted too, but
+/// its rest only if no method fits with the rest at 0. If x alone does not decide, a start at rest is assumed,
+/// provided that this decides.
 ///
-/// Returns `None` if no method can be run on the body, and no swing is near.
+/// Returns `None` if no method can run on the body and no swing is near.
 pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identification> {
     let swing = fitted_swing(log, body).filter(|swing| swing.residual <= NO_SWING);
     if log.is_uneven() {
@@ -125,7 +127,7 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
     found.or_else(|| Some(Identification::of_swing(swing?, body, tick_hz)))
 }
 
-/// Finds it out with what is known, from a rest that is guessed where it is to be fitted.
+/// Identifies the method with the body as given. The fit of an unknown rest starts at `first_rest`.
 fn identify_with(
     log: &Log,
     body: &LoggedBody,
@@ -172,7 +174,7 @@ fn identify_with(
     })
 }
 
-/// How far the last row of a log is from the exact motion of the start that was fitted, and its time.
+/// Signed distance of the last row from the exact motion of the fitted start, in metres, and the row's time.
 fn from_exact(log: &Log, fit: &Fit, tick_s: f64) -> Option<(f64, f64)> {
     let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringAs::Acceleration };
     let last = log.rows().last()?;
@@ -181,7 +183,7 @@ fn from_exact(log: &Log, fit: &Fit, tick_s: f64) -> Option<(f64, f64)> {
 }
 
 impl Identification {
-    /// Of a log of which only what a player sees can be said.
+    /// The result for a log that shows only the visible motion, not the method.
     fn of_swing(swing: FittedSwing, body: &LoggedBody, tick_hz: f64) -> Self {
         let spring = swing.seen.spring();
         let fitted = LoggedBody { spring: body.spring.or(spring), ..body.clone() };
@@ -205,7 +207,7 @@ impl Identification {
     }
 }
 
-/// The cheapest methods under which the motion is what the equation says.
+/// The cheapest methods whose visible motion is near the exact one.
 fn recommended(
     body: &LoggedBody,
     tick_s: f64,
@@ -226,15 +228,15 @@ fn recommended(
     found
 }
 
-/// The first part of a log, to which every candidate is fitted, in ticks.
+/// Length of a log's head in ticks. Every candidate is fitted to the head first.
 const HEAD_TICKS: u64 = 60;
-/// A candidate whose sum of squares exceeds the nearest's by this factor does not explain a log.
+/// A candidate whose sum of squares exceeds the smallest by this factor does not explain a log.
 const APART: f64 = 4.0;
 
-/// The candidates that may explain `log`, and the nearest that does not, each fitted.
+/// Fits the candidates that may explain `log`, and the nearest one that does not.
 ///
-/// The residual on the head of a log is a lower bound for that on the whole log. So candidates are taken in that order,
-/// until the bound of the next is too large.
+/// The residual on a log's head is a lower bound of the residual on the whole log. Candidates are therefore fitted in
+/// the order of this bound, until the next bound is too large.
 fn search(
     log: &Log,
     body: &LoggedBody,
@@ -261,7 +263,7 @@ fn search(
     fits
 }
 
-/// The sum of squares beyond which nothing is worth a fit.
+/// Largest sum of squares on the head that is worth a fit to the whole log.
 fn enough(squares: &[f64], log: &Log) -> f64 {
     let numbers = log.numbers() as f64;
     let nearest = squares.iter().copied().fold(f64::INFINITY, f64::min);
@@ -271,10 +273,10 @@ fn enough(squares: &[f64], log: &Log) -> f64 {
     near.max(farther.fold(f64::INFINITY, f64::min))
 }
 
-/// The id of a method that is exact on springs with drag.
+/// Id of a method that is exact on springs with drag.
 const EXACT: &str = "exponential-rosenbrock-euler";
 
-/// The motion of the equation that comes nearest to a log; `None` if none comes near.
+/// The exact motion of the body that fits a log best; `None` if none comes near.
 fn nearest(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Effective> {
     let seen = Effective::of_log(log, body, 1.0 / tick_hz)?;
     let mut free = body.clone();

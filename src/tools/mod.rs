@@ -1,5 +1,5 @@
-//! A developer's tools: the method behind a log, a spring's settings in another engine, a method's source code,
-//! what a game's own lines do at every frame rate.
+//! A developer's tools. They identify the method behind a log, port a spring to other engines, print a method's
+//! source code, and show a game's own lines at every frame rate.
 
 pub mod identify;
 pub mod port;

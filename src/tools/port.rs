@@ -1,8 +1,8 @@
-//! The settings with which a spring moves the same in every engine.
+//! Finds the settings with which a spring moves the same in every engine.
 //!
-//! Each engine's map of a tick, which [`Setup::sees`] measures on its stepper, is inverted: for what a player is to see of
-//! a spring, the stiffness and damping are sought under which the engine shows it. The body is on a line, has no drag, and
-//! what holds the spring rests.
+//! [`Setup::sees`] measures an engine's map of a tick on its stepper. Inverting that map gives the stiffness and
+//! damping under which the engine shows a wished motion. The body is on a line and has no drag; the anchor of the
+//! spring rests.
 
 use super::identify::Effective;
 use crate::scene::Swing;
@@ -22,48 +22,48 @@ pub use friction::Friction;
 use inverse::{Found, invert, min_damping};
 pub use seen::Setup;
 
-/// What a player is to see of a spring.
+/// The motion that a player should see of a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wish {
-    /// The frequency at which it swings, or would without its damping, in hertz.
+    /// Frequency of the swing without damping, in hertz.
     pub frequency_hz: f64,
-    /// The damping as a part of what just lets it swing no more.
+    /// Damping ratio (1 = critical).
     pub damping_ratio: f64,
-    /// The mass on it, in kg.
+    /// Mass on the spring, in kg.
     pub mass_kg: f64,
 }
 
-/// Why no engine shows a wish at a tick rate.
+/// The reason why no engine can show a wish at a tick rate.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum WishError {
     /// A number has no meaning.
     #[error("{what} is {value}; give {wanted}")]
     OutOfRange {
-        /// Which number.
+        /// Name of the number.
         what: &'static str,
-        /// What it is.
+        /// Its value.
         value: f64,
-        /// What it may be.
+        /// Its valid range, in words.
         wanted: &'static str,
     },
-    /// Less than two ticks a swing.
+    /// A swing takes two ticks or fewer.
     #[error(
         "{frequency_hz} Hz cannot be seen at {tick_hz} ticks per second, but less than half of them; tick faster than {} Hz",
         2.0 * frequency_hz
     )]
     BeyondNyquist {
-        /// Of the wish.
+        /// The wished frequency, in hertz.
         frequency_hz: f64,
         /// Ticks per second.
         tick_hz: f64,
     },
-    /// So many ticks a swing that rounding hides it.
+    /// A swing takes too many ticks: rounding hides it.
     #[error(
         "a swing of {frequency_hz} Hz takes more than {MAX_TICKS} ticks at {tick_hz} Hz, so that rounding hides it; give more than {} Hz, or tick slower",
         tick_hz / MAX_TICKS
     )]
     TooSlow {
-        /// Of the wish.
+        /// The wished frequency, in hertz.
         frequency_hz: f64,
         /// Ticks per second.
         tick_hz: f64,
@@ -73,29 +73,30 @@ pub enum WishError {
         "a damping ratio of {damping_ratio} at {frequency_hz} Hz is over within a tick of {tick_hz} Hz; damp less, or tick faster"
     )]
     TooFast {
-        /// Of the wish.
+        /// The wished damping ratio.
         damping_ratio: f64,
-        /// Of the wish.
+        /// The wished frequency, in hertz.
         frequency_hz: f64,
         /// Ticks per second.
         tick_hz: f64,
     },
 }
 
-/// The most that the fast part of a damped motion may decay in a tick, as an exponent: beyond it rounding hides it.
+/// Largest exponent by which the fast part of a damped motion may decay in a tick; beyond it, rounding hides that
+/// part.
 const MAX_DECAY: f64 = 16.0;
-/// The most ticks of a swing: of more, the map of a tick is the same as without a spring, to rounding.
+/// Most ticks in a swing. With more, the map of a tick equals, to rounding, the one without a spring.
 const MAX_TICKS: f64 = 30_000.0;
-/// What is missed at most where a wish is reached: of the frequency as a part of it, and of the damping ratio.
+/// Largest error of a reached wish: relative in the frequency, absolute in the damping ratio.
 const REACHED: f64 = 1e-8;
-/// The most substeps that are tried to see how far more of them lead.
+/// Most substeps tried.
 const MAX_SUBSTEPS: u32 = 64;
 
 impl Wish {
-    /// Finds whether its numbers and a tick rate in hertz have a meaning.
+    /// Checks that the wish's numbers and a tick rate in hertz have a meaning.
     ///
     /// # Errors
-    /// The first that has none.
+    /// The first number without a meaning.
     pub fn check_numbers(&self, tick_hz: f64) -> Result<(), WishError> {
         let &Self { frequency_hz, damping_ratio, mass_kg } = self;
         let positive = |value: f64| value > 0.0 && value.is_finite();
@@ -116,7 +117,7 @@ impl Wish {
         Ok(())
     }
 
-    /// Finds whether it can be seen at this tick rate in hertz.
+    /// Checks that an engine can show the wish at this tick rate in hertz.
     ///
     /// # Errors
     /// The first reason against it.
@@ -136,33 +137,34 @@ impl Wish {
         Ok(())
     }
 
-    /// 2π times the frequency, per second.
+    /// Angular frequency, in rad/s.
     fn omega(&self) -> f64 {
         std::f64::consts::TAU * self.frequency_hz
     }
 
-    /// The stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation of motion.
+    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation of motion.
     pub fn joint(&self) -> [f64; 2] {
         let &Self { frequency_hz, damping_ratio, .. } = self;
         Swing { frequency_hz, damping_ratio }.per_mass()
     }
 
-    /// The wish whose spring has this stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation of motion.
+    /// The wish for a spring with this stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation
+    /// of motion.
     pub fn of_joint([stiffness, damping]: [f64; 2], mass_kg: f64) -> Self {
         let omega = stiffness.sqrt();
         Self::of(Effective { omega, decay: damping / 2.0 }, mass_kg)
     }
 
-    /// What is seen of `v = (v + (target - x) * stiffness) * kept; x += v` once a frame, on this mass in kg.
+    /// The visible spring of `v = (v + (target - x) * stiffness) * kept; x += v` once a frame, on this mass in kg.
     ///
     /// # Errors
-    /// If it is no swing that dies away: how the rule moves.
+    /// If the rule grows or changes sides in each frame, in words.
     pub fn of_decay_per_frame(
         [stiffness, kept]: [f64; 2],
         fps: f64,
         mass_kg: f64,
     ) -> Result<Self, String> {
-        // x and v times a frame go by [[1 - dk, d], [-dk, d]].
+        // A frame maps x and v by [[1 - dk, d], [-dk, d]], with k the stiffness and d the part kept.
         let [trace, determinant] = [1.0 + kept - kept * stiffness, kept];
         if kept > 1.0 {
             return Err(format!("so set it grows: {kept} of v is left; leave at most 1"));
@@ -179,31 +181,31 @@ impl Wish {
         Ok(Self::of(seen, mass_kg))
     }
 
-    /// What a player is to see.
+    /// The wished motion.
     fn seen(&self) -> Effective {
         Effective { omega: self.omega(), decay: self.damping_ratio * self.omega() }
     }
 
-    /// The wish for what is seen of a spring on this mass in kg.
+    /// The wish for this visible motion, on this mass in kg.
     pub fn of(seen: Effective, mass_kg: f64) -> Self {
         let damping_ratio = seen.damping_ratio().unwrap_or(0.0);
         Self { frequency_hz: seen.undamped_hz(), damping_ratio, mass_kg }
     }
 }
 
-/// Whether an engine shows what is wished.
+/// Whether an engine shows a wish.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
     /// It does, to rounding.
     Reached,
     /// It does not; the settings come nearest.
     Nearest,
-    /// It does not, because it damps more by itself; the settings come nearest.
+    /// It does not, because the engine itself damps more; the settings come nearest.
     Unreachable,
 }
 
 impl Reach {
-    /// The word in output.
+    /// The word used in output.
     pub fn id(self) -> &'static str {
         match self {
             Reach::Reached => "reached",
@@ -213,46 +215,47 @@ impl Reach {
     }
 }
 
-/// What lowers the damping that an engine has by itself.
+/// A change that lowers an engine's own damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relief {
-    /// Twice the substeps; with those of before, the tick rate is twice as high.
+    /// The engine with twice the substeps or, if that does not help, at twice the tick rate.
     pub setup: Setup,
-    /// The least damping ratio then.
+    /// Least damping ratio with this change.
     pub damping_ratio: f64,
-    /// The fewest substeps, doubled from those of before, at which the wish is no lower; `None` if more do not help.
+    /// Fewest substeps that reach the wished damping ratio, doubled from the present ones; `None` if more do not
+    /// help.
     pub enough: Option<u32>,
 }
 
-/// The settings of an engine for a wish.
+/// An engine's settings for a wish.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ported {
-    /// The engine, and how it is told.
+    /// The engine with its mode, tick rate and substeps.
     pub setup: Setup,
-    /// Whether they lead there.
+    /// Whether the settings show the wish.
     pub reach: Reach,
-    /// The values of the mode's settings.
+    /// Values of the mode's settings.
     pub values: [f64; 2],
-    /// What a player sees with them.
+    /// The visible motion with these values.
     pub sees: Effective,
-    /// The least damping ratio at the wished frequency, where the engine has some by itself.
+    /// Least damping ratio at the wished frequency, if the engine itself damps.
     pub floor: Option<f64>,
-    /// What lowers it, where the wish is below it.
+    /// The change that lowers `floor`, if the wish is below it.
     pub relief: Option<Relief>,
-    /// The stiffness in N/m and damping in N s/m of a custom force that the engine holds through each tick, with which
-    /// the wish is reached; only where the joint does not.
+    /// Stiffness in N/m and damping in N s/m of a custom force that reaches the wish if held through each tick. Only
+    /// set if the joint does not reach it.
     pub own_force: Option<[f64; 2]>,
 }
 
 impl Ported {
-    /// The lines of code that set them, and the substeps where these are not the engine's own.
+    /// The code for these values, with the substeps unless they are the engine's default.
     pub fn code(&self) -> String {
         self.setup.code(self.values)
     }
 }
 
-/// Every mode of these engines, at this tick rate in hertz and with these substeps, or those of the card. `None` in the
-/// place of methods stands for every engine.
+/// Every joint mode of these engines at this tick rate in hertz, with these substeps or else each method's default.
+/// Every engine if `methods` is `None`.
 pub fn setups(
     methods: Option<&[&'static Method]>,
     tick_hz: f64,
@@ -270,8 +273,8 @@ pub fn setups(
     modes.map(setup).collect()
 }
 
-/// The settings with which an engine shows a wish, or comes nearest. Of two that are as near, the frequency is kept.
-/// `None` if it shows no spring that is near.
+/// The settings with which an engine shows a wish, or comes nearest. On a tie, the settings that keep the frequency
+/// win. `None` if the engine shows no spring that is near.
 ///
 /// The wish must pass its [check](Wish::check) at the tick rate.
 pub fn port(wish: &Wish, setup: Setup) -> Option<Ported> {
@@ -301,7 +304,7 @@ pub fn port(wish: &Wish, setup: Setup) -> Option<Ported> {
     })
 }
 
-/// How far twice the substeps lead, or twice the rate.
+/// The change that lowers `floor`: twice the substeps or, if they do not help, twice the tick rate.
 fn relief(wish: &Wish, setup: Setup, floor: Option<f64>) -> Option<Relief> {
     let least = |setup: Setup| Some(min_damping(&|joint| setup.sees(joint), wish.omega())?.1);
     let by = |times: u32| Setup { substeps: setup.substeps * times, ..setup };

@@ -1,8 +1,8 @@
-//! What the lines with which a game moves a value once a frame do at every frame rate.
+//! Analyses the lines with which a game moves a value once a frame, at every frame rate.
 //!
-//! A linear rule of up to two carried numbers is a map of them: its eigenvalues are what a player sees, and its powers,
-//! also between whole ones, are the motion at any frame rate. Of a rule that is not linear the same is told of small
-//! motions about its rest.
+//! A linear rule of up to two carried numbers is a map. Its eigenvalues give the visible motion, and its powers,
+//! whole or not, the motion at any frame rate. For a rule that is not linear, this holds for small motions about its
+//! rest.
 
 use std::sync::Arc;
 
@@ -20,74 +20,75 @@ pub use scene::rule_scene;
 mod any_rate;
 mod scene;
 
-/// The frame rates at which a rule is shown, beside its author's.
+/// Frame rates at which a rule is shown, besides its author's.
 const FRAME_RATES: [f64; 7] = [30.0, 50.0, 60.0, 120.0, 144.0, 165.0, 240.0];
-/// The least frame rate at which ringing and growth are sought, the largest of each, and the ratio of rates between.
+/// Lowest frame rate in the search for ringing and growth, highest rate for each, and ratio of successive rates.
 const SLOWEST: f64 = 0.1;
 const FASTEST_RINGING: f64 = 1e4;
 const FASTEST_GROWTH: f64 = 1e5;
 const RATIO: f64 = 1.02;
 const HALVINGS: u32 = 60;
-/// A part of the way, of a speed or of a swing, below which nothing is seen.
+/// Share of the way, of a speed or of a swing, below which nothing is visible.
 const OVER: f64 = 0.01;
-/// By how much an eigenvalue must be above 1 to grow, and for a second look: where that moves the frame rate at which growth
-/// begins, it begins at none.
+/// A rule grows if an eigenvalue exceeds 1 by `GROWTH`. If `MORE_GROWTH` moves the frame rate at which growth begins,
+/// no frame rate decides it.
 const GROWTH: f64 = 1e-12;
 const MORE_GROWTH: f64 = 1e-11;
 const SAME_RATE: f64 = 1e-3;
-/// How far from its rest a rule that is not linear is tried, and how much of that it may be off a linear one.
+/// Distance from the rest at which a rule that is not linear is tried, and its largest deviation from a linear one,
+/// as a share of that distance.
 const SMALL: f64 = 1e-6;
 const SMOOTH: f64 = 1e-3;
-/// Parts of a swing, or of a decay, in which the last time that something is seen is sought.
+/// Parts of a swing, or of a decay, in the search for the last visible moment.
 const PARTS: u32 = 64;
-/// The frames and seconds for which the growth of a rule without a map is watched.
+/// Length of the run that shows whether a rule without a map grows: in seconds, and at most in frames.
 const WATCHED_S: f64 = 20.0;
 const MAX_WATCHED: f64 = 20_000.0;
 
-/// The lines that move a value once a frame, and the rate of frames for which they were written.
+/// The lines that move a value once a frame, and the frame rate for which they were written.
 #[derive(Debug)]
 pub struct Rule {
     text: Arc<StepText>,
     fps: f64,
-    /// The carried numbers that decide the motion, the one that is seen first.
+    /// Indices of the carried numbers that decide the motion; the visible one comes first.
     state: Vec<usize>,
     is_linear: bool,
-    /// Whether it stays wherever it is: then it is a friction, and no spring.
+    /// Whether the value stays wherever it is, as under friction and not on a spring.
     stays: bool,
 }
 
-/// What a player sees of a rule at a frame rate.
+/// The visible motion of a rule at a frame rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenRule {
     /// Frames per second.
     pub fps: f64,
-    /// The frequency of the swing in hertz; `None` if it does not swing.
+    /// Frequency of the swing in hertz; `None` if it does not swing.
     pub hz: Option<f64>,
-    /// The damped spring that it looks like; `None` if it looks like none.
+    /// The damped spring with the same motion; `None` if there is none.
     pub spring: Option<Effective>,
-    /// How far it passes the target first, as a part of the way.
+    /// How far it first passes the target, as a share of the way.
     pub overshoot: Option<f64>,
-    /// The time after which less than a hundredth of the way, or of the speed, is left, in seconds.
+    /// Time until less than a hundredth of the way, or of the speed, is left, in seconds.
     pub settles_s: Option<f64>,
-    /// The time in which the distance, or the speed, halves in the long run, in seconds.
+    /// Time in which the distance, or the speed, halves in the long run, in seconds.
     pub halves_s: Option<f64>,
-    /// Whether it grows.
+    /// Whether the motion grows.
     pub grows: bool,
 }
 
-/// How a rule moves its value in a frame.
+/// The kind of motion that a rule makes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Motion {
-    /// It keeps this part of its distance to the target, or of its speed.
+    /// It keeps this part of its distance to the target, or of its speed, in a frame.
     Approach { kept: f64 },
-    /// It stays where it is, and keeps this part of its speed.
+    /// It stays where it is, and keeps this part of its speed in a frame.
     Coast { kept: f64 },
-    /// A map of two numbers.
+    /// A frame maps two numbers.
     Swing(Matrix2<f64>),
 }
 
 impl Rule {
-    /// Reads the lines of a rule that was written for this many frames per second.
+    /// Reads the lines of a rule written for this many frames per second.
     ///
     /// # Errors
     /// The first fault of the text.
@@ -102,7 +103,7 @@ impl Rule {
                 ),
             });
         }
-        // What is seen is the place, or of a rule that changes none the velocity.
+        // The visible number is the place or, if the rule changes no place, the velocity.
         let seen = usize::from(text.keeps(0));
         Ok(Self::with_state(Arc::new(text), fps, vec![seen]))
     }
@@ -115,7 +116,7 @@ impl Rule {
         rule
     }
 
-    /// The rule as a map of all that a game reads of it: `x` and `v`, as far as its lines change them.
+    /// The rule as a map of all numbers that a game reads, including `x` and `v` if its lines change them.
     fn whole(&self) -> Self {
         let changed = (0..2).filter(|index| !self.text.keeps(*index));
         let mut state = self.state.clone();
@@ -127,12 +128,12 @@ impl Rule {
         Self::with_state(Arc::clone(&self.text), self.fps, state)
     }
 
-    /// Frames per second of its author.
+    /// Frames per second for which it was written.
     pub fn fps(&self) -> f64 {
         self.fps
     }
 
-    /// Whether a frame is an affine function of the numbers that it carries.
+    /// Whether a frame is an affine function of the carried numbers.
     pub fn is_linear(&self) -> bool {
         self.is_linear
     }
@@ -142,19 +143,18 @@ impl Rule {
         self.text.takes_step()
     }
 
-    /// The names of the numbers that decide the motion.
+    /// Names of the numbers that decide the motion.
     pub fn state(&self) -> impl Iterator<Item = &str> {
         self.state.iter().map(|index| &*self.text.carried()[*index].name)
     }
 
-    /// What a frame makes of its numbers; `None` if they are more than two, or if it is no map of them, not even of small
-    /// motions about a rest at 0.
+    /// A frame as a map; `None` for more than two numbers, or if not even small motions about a rest at 0 are linear.
     fn frame(&self, fps: f64) -> Option<Frame> {
         let frame = self.text.frame(&self.state, 1.0 / fps)?;
         (self.is_linear || self.is_smooth(&frame, fps)).then_some(frame)
     }
 
-    /// Whether small motions about a rest at 0 are those of this frame.
+    /// Whether small motions about a rest at 0 follow this frame.
     fn is_smooth(&self, frame: &Frame, fps: f64) -> bool {
         let near = |[first, second]: [f64; 2]| {
             let at = Vector2::new(first, second) * SMALL;
@@ -179,7 +179,7 @@ impl Rule {
         })
     }
 
-    /// What a player sees at the author's frame rate and at the usual ones, in their order.
+    /// The visible motion at the usual frame rates and at the author's, the lowest rate first.
     pub fn seen(&self) -> Vec<SeenRule> {
         let mut rates: Vec<f64> = FRAME_RATES.into_iter().chain([self.fps]).collect();
         rates.sort_by(f64::total_cmp);
@@ -187,7 +187,7 @@ impl Rule {
         rates.into_iter().map(|fps| self.seen_at(fps)).collect()
     }
 
-    /// What a player sees at this many frames per second.
+    /// The visible motion at this many frames per second.
     pub fn seen_at(&self, fps: f64) -> SeenRule {
         let nothing = SeenRule {
             fps,
@@ -222,16 +222,16 @@ impl Rule {
         }
     }
 
-    /// The frame rate below which it begins to ring: to swing, or to pass its target. `None` if the frame rate does not
-    /// decide that.
+    /// Frame rate below which the rule begins to ring, that is to swing or to pass its target. `None` if the frame
+    /// rate does not decide that.
     pub fn rings_below_fps(&self) -> Option<f64> {
         self.begins_below(FASTEST_RINGING, Motion::rings)
     }
 
-    /// The frame rate below which it grows. `None` if the frame rate does not decide that.
+    /// Frame rate below which the rule grows; `None` if the frame rate does not decide that.
     pub fn explodes_below_fps(&self) -> Option<f64> {
         let above = |least| self.begins_below(FASTEST_GROWTH, |motion| motion.grows(least));
-        // What grows less and less, and at every rate, passes each bound somewhere.
+        // A rule that grows at every rate, but ever less, passes each bound somewhere.
         let (found, next) = (above(GROWTH)?, above(MORE_GROWTH)?);
         ((next / found - 1.0).abs() < SAME_RATE).then_some(found)
     }
@@ -241,7 +241,7 @@ impl Rule {
         self.seen_at(self.fps).grows
     }
 
-    /// The rate below which something begins that does not hold at `fastest`.
+    /// Frame rate below which a property begins that does not hold at `fastest`.
     fn begins_below(&self, fastest: f64, holds: impl Fn(&Motion) -> bool) -> Option<f64> {
         let holds_at = |fps: f64| self.motion(fps).is_some_and(|motion| holds(&motion));
         if !self.takes_step() || holds_at(fastest) {
@@ -252,7 +252,7 @@ impl Rule {
             if holds_at(fps / RATIO) {
                 let logs = [fps / RATIO, fps].map(libm::log);
                 let [_, high] = bisect(logs, HALVINGS, |log| holds_at(libm::exp(log)));
-                // Where a motion that does not grow begins to is known to fewer digits than there are.
+                // Rounding limits the digits to which the onset of growth is known.
                 return format!("{:.7e}", libm::exp(high)).parse().ok();
             }
             fps /= RATIO;
@@ -260,19 +260,19 @@ impl Rule {
         None
     }
 
-    /// The spring that it is at the author's frame rate, with a mass of 1 kg; `None` if it is none.
+    /// The spring with the same motion at the author's frame rate, with a mass of 1 kg; `None` if there is none.
     pub fn spring(&self) -> Option<Wish> {
         Some(Wish::of(self.seen_at(self.fps).spring?, 1.0))
     }
 
-    /// How fast it approaches its target, if that is all it does.
+    /// The approach to the target, if the rule does nothing else.
     pub fn approach(&self) -> Option<Approach> {
         let half_life_s = self.seen_at(self.fps).halves_s?;
         self.text.takes_target().then_some(Approach { half_life_s })
     }
 
-    /// How many seconds of its speed a body coasts at the author's frame rate if friction alone slows it. Of a rule that
-    /// changes no place: where it moves after the friction of a frame, and where it moves before.
+    /// Distance that a body coasts under friction alone at the author's frame rate, in seconds of its speed. A rule
+    /// that changes no place has two: if the body moves after the friction of a frame, and if it moves before.
     pub fn coasts_s(&self) -> Option<Vec<f64>> {
         let frame = self.frame(self.fps)?;
         let is_still = frame.by_target == Vector2::zeros() && frame.offset == Vector2::zeros();
@@ -291,7 +291,7 @@ impl Rule {
         }
     }
 
-    /// Whether a run from 1 ends far from where it was: for what has no map.
+    /// Whether a run from 1 goes far beyond its first half. For rules without a map.
     fn grows_when_watched(&self, fps: f64) -> bool {
         let mut registers = self.text.registers();
         let first = self.state[0];
@@ -312,7 +312,7 @@ impl Rule {
 }
 
 impl Motion {
-    /// The largest modulus of an eigenvalue of what moves.
+    /// Largest modulus of an eigenvalue, without the 1 of a coasting motion.
     fn radius(&self) -> f64 {
         match self {
             Motion::Approach { kept } | Motion::Coast { kept } => kept.abs(),
@@ -320,12 +320,12 @@ impl Motion {
         }
     }
 
-    /// Whether what moves grows, by more than this in a frame.
+    /// Whether the motion grows by more than `least` in a frame.
     fn grows(&self, least: f64) -> bool {
         self.radius() > 1.0 + least
     }
 
-    /// Whether it ends up changing sides at every frame.
+    /// Whether the motion ends up changing sides at every frame.
     fn flips(&self) -> bool {
         match self {
             Motion::Approach { kept } | Motion::Coast { kept } => *kept < 0.0,
@@ -336,19 +336,19 @@ impl Motion {
         }
     }
 
-    /// Whether it swings or changes sides.
+    /// Whether the motion swings or changes sides.
     fn rings(&self) -> bool {
         match self {
             Motion::Approach { kept } | Motion::Coast { kept } => *kept < 0.0,
             Motion::Swing(map) => {
                 let (half, determinant) = (map.trace() / 2.0, map.determinant());
-                // Of a double eigenvalue the difference is rounding.
+                // The difference of a double eigenvalue is rounding.
                 half * half - determinant < -4.0 * f64::EPSILON || determinant < 0.0 || half < 0.0
             }
         }
     }
 
-    /// The frames after which less than [`OVER`] is left, also between whole ones.
+    /// Frames until less than [`OVER`] is left, not necessarily whole.
     fn frames_to_settle(&self) -> f64 {
         let by_radius = -libm::log(OVER) / -libm::log(self.radius());
         let Motion::Swing(map) = self else { return by_radius };
@@ -358,7 +358,7 @@ impl Motion {
             let [even, odd] = powers.at(frames);
             (even + beside * odd).abs()
         };
-        // Beyond the end nothing is seen: there the amplitude is below.
+        // After `end` the amplitude is too small to be visible.
         let part = if powers.swings { std::f64::consts::PI / powers.apart } else { by_radius };
         let mut end = by_radius;
         for _ in 0..PARTS {
@@ -377,14 +377,15 @@ impl Motion {
     }
 }
 
-/// How far the first of two numbers that start at rest from 1 is from half the trace after a frame, as a part of the root
-/// of the determinant. The second rests at 1 too if it is the first of a frame before.
+/// Coefficient of the odd power in a motion that starts at rest from 1: the first number after a frame minus half the
+/// trace, over the root of the determinant. The second number also starts at 1 if it echoes the first of a frame
+/// before.
 fn beside(map: &Matrix2<f64>) -> f64 {
     let first = if remembers_place(map) { map.m11 + map.m12 } else { map.m11 };
     (first - map.trace() / 2.0) / libm::sqrt(map.determinant())
 }
 
-/// How far a motion that starts at rest from 1 passes 0 first.
+/// How far a motion that starts at rest from 1 first passes 0; `None` if it never does.
 fn overshoot(map: &Matrix2<f64>) -> Option<f64> {
     let powers = Powers::of(map.trace(), map.determinant()).filter(|powers| powers.swings)?;
     let Powers { log_scale, apart, .. } = powers;

@@ -1,27 +1,28 @@
-//! The methods as source code, to be taken into a game: one function of `x`, `v` and the step `h` for each method, in
-//! each of four languages.
+//! Prints the methods as source code for a game: one function of `x`, `v` and the step `h` for each method, in each
+//! of four languages.
 //!
-//! A method is written once, in `assets/methods`, in a small language of its own: one statement a line, numbers only.
-//! The printer translates it line by line by the table of dialects, and its header is
-//! made from the method's card. `tests/library/source_code` compiles what is printed and compares its steps with the method's.
+//! A method is written once, in `assets/methods`, in a small language of its own with one statement a line and
+//! numbers only. The printer translates it line by line with the table of dialects, and makes the header from the
+//! method's card. `tests/library/source_code` compiles the printed functions and compares their steps with the
+//! method's.
 //!
 //! | statement | meaning |
 //! |---|---|
-//! | `takes a(x, v): what it is` | an input: a function of these, or without parentheses a number |
-//! | `memory last_h = nan` | a number that is carried from step to step, with its value before the first |
+//! | `takes a(x, v): about` | an input: a function of these or, without parentheses, a number; with a description |
+//! | `memory last_h = nan` | a number carried from step to step, with its value before the first |
 //! | `use solve` | the functions of `assets/methods/shared/solve.step` |
 //! | `fn solve(a(x, v), x) {` | a function that returns a number |
 //! | `const`, `let`, `var` | a constant, a number, a number that changes; `+=` and the like change it |
 //! | `count`, and `takes whole n` | a whole number that changes, and one that is an input |
 //! | `4e-15\|2e-6` | a number in double and in single precision |
 //! | `if … {`, `} else {`, `while … {`, `}` | with `and` and `or` |
-//! | `fail`, `stay` | ends the step with `x` and `v` not a number, or with what they are |
-//! | `stability: when`, and `order`, `symplectic` | what the header says in place of the card's sentence |
-//! | `several: how`, `held: where` | what it says of several coordinates, and of forces that depend on time |
-//! | `refused c: why`, `refused: why` | there is no such function in this language, or in any |
+//! | `fail`, `stay` | ends the step with `x` and `v` not a number, or with their present values |
+//! | `stability: when`, and `order`, `symplectic` | replaces the card's sentence in the header |
+//! | `several: how`, `held: where` | the header's words on several coordinates, and on forces that depend on time |
+//! | `refused c: why`, `refused: why` | excludes the function from this language, or from all |
 //!
-//! A comment begins with `#`; those before the first statement go to the header. A line that begins with an operator
-//! continues the one before.
+//! A comment begins with `#`; comments before the first statement go to the header. A line that begins with an
+//! operator continues the one before.
 
 use std::fmt;
 
@@ -37,35 +38,35 @@ mod names;
 mod printer;
 mod program;
 
-/// The source of a method for other games.
+/// The source of a method, for other games.
 pub struct MethodSource(Program<'static>);
 
 impl MethodSource {
-    /// The source of a method, read off its [card](Method::code); `None` if it has none.
+    /// Reads the source on a method's [card](Method::code); `None` if it has none.
     pub fn of(method: &Method) -> Option<Self> {
         (!method.code.is_empty()).then(|| Self(Program::read(method.code)))
     }
 
-    /// What the function takes beside `x`, `v` and `h`.
+    /// The function's inputs besides `x`, `v` and `h`.
     pub fn inputs(&self) -> &[MethodInput<'static>] {
         &self.0.inputs
     }
 
-    /// What the source says of a claim of the card, `order`, `stability` or `symplectic`, in words of its own.
+    /// The source's own words for a claim of the card: `order`, `stability` or `symplectic`.
     pub fn claim(&self, claim: &str) -> Option<&'static str> {
         self.0.claim(claim)
     }
 
-    /// Whether the function has a memory.
+    /// Whether the function keeps a memory between steps.
     pub fn has_memory(&self) -> bool {
         !self.0.memory.is_empty()
     }
 }
 
-/// Why a method has no source code in a language.
+/// The reason why a method has no source code in a language.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NoSourceCode {
-    /// The id of the method.
+    /// Id of the method.
     pub method: &'static str,
     /// The language.
     pub language: Language,
@@ -81,7 +82,7 @@ impl fmt::Display for NoSourceCode {
     }
 }
 
-/// The function of a method in a language and a precision, with what it is on its card as a comment above it.
+/// A method's function in a language and a precision, below a comment made from its card.
 ///
 /// # Errors
 /// If the method is [custom](Method::custom), or cannot be written as such a function, or the language has no such
@@ -109,17 +110,17 @@ pub fn function_code(
     Ok(printer::print(method.id, &program, language, precision, &[]))
 }
 
-/// The function `rule` of a text in the language of the sources, below a comment of these paragraphs.
+/// The function `rule` of a source, below a comment of these paragraphs.
 ///
 /// # Panics
-/// If the text is malformed.
+/// If the source is malformed.
 pub(super) fn rule_code(text: &str, about: &[String], language: Language) -> String {
     let program = Program::read(text);
     let header = header::of_rule(about, &program, language);
     printer::print("rule", &program, language, Precision::Double, &header)
 }
 
-/// The program of a method that has one, if it can be written so.
+/// The method's program, unless the language or the precision rules it out.
 fn program(
     method: &Method,
     language: Language,

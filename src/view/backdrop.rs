@@ -1,25 +1,25 @@
-//! What stays the same at the bottom of the stage from frame to frame, such as water, depth lines and quay: drawn once
-//! into a texture, and copied from there.
+//! The static bottom of the stage, such as water, depth lines and quay. It is drawn once into a texture and copied
+//! from there into each frame.
 
 use super::gpu::Gpu;
 use super::screen_transform::ScreenTransform;
 use super::textures::{takes_copies, texture};
 use crate::stage::{Picture, Sea, Shape};
 
-/// The texture is drawn again once this many more shapes have been still for this many frames.
+/// The texture is redrawn once it could cover this many more shapes, and they have stayed still for this many frames.
 const WORTH_DRAWING: (usize, u32) = (16, 8);
 
-/// Finds what of a picture stays the same, and keeps it as a texture.
+/// Finds the static part of a picture and keeps it as a texture.
 #[derive(Debug)]
 pub(super) struct Backdrop {
     format: wgpu::TextureFormat,
-    /// What was below the labels of the frame before.
+    /// Sea and shapes of the previous frame.
     last: Option<Scenery>,
-    /// How many shapes of that frame the texture shows.
+    /// Number of shapes on the texture.
     drawn: Option<usize>,
-    /// For how many frames many more could have been on it.
+    /// Number of frames in a row in which the texture could have covered many more shapes.
     frames_with_more: u32,
-    /// Like the target.
+    /// Has the size and format of the target.
     texture: Option<wgpu::Texture>,
 }
 
@@ -30,19 +30,18 @@ struct Scenery {
     shapes: Vec<Shape>,
 }
 
-/// How many shapes of a picture, from the bottom, are on the backdrop with the sea.
+/// Number of a picture's shapes, from the bottom, that the backdrop covers besides the sea.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Covered {
     /// There is no backdrop.
     Nothing,
-    /// The backdrop has yet to be drawn with so many.
+    /// The backdrop has yet to be drawn, with this number of shapes.
     Drawing(usize),
-    /// The backdrop has been drawn with so many.
+    /// The backdrop shows this number of shapes.
     Drawn(usize),
 }
 
 impl Covered {
-    /// How many.
     pub(super) fn shapes(self) -> usize {
         match self {
             Covered::Nothing => 0,
@@ -52,12 +51,11 @@ impl Covered {
 }
 
 impl Backdrop {
-    /// For pictures that are drawn in this format.
     pub(super) fn new(format: wgpu::TextureFormat) -> Self {
         Self { format, last: None, drawn: None, frames_with_more: 0, texture: None }
     }
 
-    /// What of a picture in this place is covered. A target that the texture cannot be copied to has none.
+    /// Decides which part of the picture the backdrop covers: none if the texture cannot be copied to the target.
     pub(super) fn cover(
         &mut self,
         gpu: &Gpu,
@@ -86,7 +84,7 @@ impl Backdrop {
         Covered::Drawing(alike)
     }
 
-    /// Takes the picture to compare the next one with.
+    /// Keeps the picture to compare the next one with.
     pub(super) fn remember(
         &mut self,
         transform: ScreenTransform,
@@ -95,13 +93,13 @@ impl Backdrop {
         self.last = sea.map(|sea| Scenery { transform, sea, shapes });
     }
 
-    /// What to draw the backdrop on.
+    /// The view to draw the backdrop on.
     pub(super) fn view(&self) -> Option<wgpu::TextureView> {
         let texture = self.texture.as_ref()?;
         Some(texture.create_view(&wgpu::TextureViewDescriptor::default()))
     }
 
-    /// Copies it to the target, all over.
+    /// Copies the backdrop over the whole target.
     pub(super) fn copy(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::Texture) {
         if let Some(texture) = &self.texture {
             let (from, to) = (texture.as_image_copy(), target.as_image_copy());
@@ -111,7 +109,7 @@ impl Backdrop {
 }
 
 impl Scenery {
-    /// How many shapes of a picture are the same from the bottom, if its sea is.
+    /// Number of shapes, from the bottom, that match the picture's; `None` if the sea or the transform differs.
     fn alike(&self, transform: &ScreenTransform, picture: &Picture) -> Option<usize> {
         (self.transform == *transform && Some(self.sea) == picture.sea).then(|| {
             let pairs = self.shapes.iter().zip(&picture.shapes);
@@ -129,7 +127,7 @@ mod tests {
     use crate::view::stage::{Stage, StageRenderer};
     use crate::view::testing::{EVERYWHERE, draw_next, draw_picture, gpu_or_skip};
 
-    /// Water with so many pale lines across it, and a line of its own over them.
+    /// Water with this number of pale lines across it, and over them another line at height `own`.
     fn picture(top: Rgba, lines: usize, own: f32) -> Picture {
         let rect = Rect { min: [0.0; 2], max: [64.0; 2] };
         let line = |y: f32, colour| {
@@ -152,7 +150,7 @@ mod tests {
         let [blue, grey] = [[40, 60, 90, 255], [70, 70, 70, 255]];
         let moving = |n: u8| (blue, 25, 0.5 * f32::from(n));
         let mut frames: Vec<(Rgba, usize, f32)> = (0..4).map(moving).collect();
-        // Nothing moves for longer than it takes to draw the backdrop with all of it, then something does.
+        // Everything rests for longer than it takes to draw the backdrop, then something moves.
         frames.extend([moving(4); 12]);
         frames.extend((5..8).map(moving));
         frames.extend([
@@ -166,7 +164,7 @@ mod tests {
             let picture = picture(top, lines, own);
             let size_px = if n % 7 == 6 { [48, 64] } else { [64, 64] };
             if n % 5 == 1 {
-                // Somebody lays out a frame, and never shows it.
+                // A frame that is laid out and never shown.
                 let target = Offscreen::new(&gpu, size_px).unwrap().texture;
                 let rect = egui::Rect::from_min_size(
                     egui::Pos2::ZERO,

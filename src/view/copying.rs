@@ -1,4 +1,4 @@
-//! What is copied to the clipboard, and what is said of it.
+//! Texts for the clipboard, and the notices about copying them.
 
 use super::panels;
 use crate::studio::{Display, DriverRequest, Studio, joint_code};
@@ -7,14 +7,14 @@ use crate::tools::source_code::{Precision, source_code};
 /// A text for the clipboard.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Copied {
-    /// The text.
+    /// The text to copy.
     pub text: String,
     told: String,
     otherwise: String,
 }
 
 impl Copied {
-    /// What is said once the clipboard has taken the text, or has not for a reason.
+    /// Notice after the clipboard took the text or refused it for a reason.
     pub fn notice(&self, taken: Result<(), String>) -> String {
         match taken {
             Ok(()) => self.told.clone(),
@@ -23,17 +23,17 @@ impl Copied {
     }
 }
 
-/// What a request copies; `None` if it does not copy.
+/// The text that a request copies; `None` if the request does not copy.
 ///
 /// # Errors
-/// Why there is nothing to copy.
+/// The reason why there is nothing to copy.
 pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, String>> {
     let (text, told, otherwise) = match request {
         DriverRequest::CopyLink => match studio.deck.link() {
             Ok(run) => {
                 let Display { measure, instrument, motion, .. } = studio.display();
                 let seen = measure.then(|| format!("&instrument={}", instrument.id()));
-                // The moment that is looked at, and not one at which the run rests by itself.
+                // A tick that the user chose to look at, not one where the run rests by itself.
                 let tick = Some(studio.race().tick()).filter(|tick| *tick > 0);
                 let tick = tick.filter(|_| !studio.deck.runs_or_rests(*motion));
                 let at = tick.map(|tick| format!("&tick={tick}"));

@@ -1,6 +1,7 @@
-//! One frame: panels are laid out, the stage they leave is composed and touched, and drawn with the panels over it.
+//! One frame: lays out the panels, composes the stage in the room they leave, and draws the stage with the panels
+//! over it.
 //!
-//! The panels go first because the picture is made for the room that they leave.
+//! The panels go first because they determine the size of the picture.
 
 use std::time::Duration;
 
@@ -16,21 +17,21 @@ use crate::stage;
 use crate::stage::{Align, Label};
 use crate::studio::{Command, Studio, ViewCommand};
 
-/// Where the copies of a label lie that make its halo, in points.
+/// Offsets of a label's copies that form its halo, in points.
 const HALO: [[f32; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
-/// What the caller must do to show the frame.
+/// Work left to the caller to show a frame.
 #[must_use]
 pub struct FrameOutput {
-    /// What draws it, to be submitted; `None` on a lost device.
+    /// Commands to submit; `None` on a lost device.
     pub drawing: Option<wgpu::CommandBuffer>,
     /// Cursor shape, clipboard, accessibility tree.
     pub platform: egui::PlatformOutput,
-    /// When the next frame is due on egui's account; [`Duration::MAX`] if nothing changes.
+    /// Delay until egui needs the next frame; [`Duration::MAX`] if nothing changes.
     pub repaint_delay: Duration,
 }
 
-/// A frame that is laid out and not yet drawn.
+/// A frame after its layout and before its drawing.
 #[must_use]
 pub struct Layout {
     panels: egui::FullOutput,
@@ -47,11 +48,11 @@ pub struct FrameRenderer {
 }
 
 impl FrameRenderer {
-    /// A renderer for targets of `format`, which is one in gamma space.
+    /// Creates a renderer for targets of `format`, which must be in gamma space.
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
         let context = egui::Context::default();
         theme::apply_style(&context);
-        // Discs are drawn as polygons: one from the atlas would have to be filtered.
+        // Draws discs as polygons: those in the atlas would need filtering.
         context.tessellation_options_mut(|options| options.prerasterized_discs = false);
         Self {
             context,
@@ -62,24 +63,23 @@ impl FrameRenderer {
         }
     }
 
-    /// The same renderer with or without panels, which it shows at first.
+    /// Sets which panels the renderer shows. The default is [`Panels::Shown`].
     pub fn with_panels(self, shown: Panels) -> Self {
         Self { shown, ..self }
     }
 
-    /// Whether panels are shown.
+    /// The panels that the renderer shows.
     pub fn panels(&self) -> Panels {
         self.shown
     }
 
-    /// The context that panels live in: for style, and for translating a window's events.
+    /// The egui context of the panels, for their style and for translating a window's events.
     pub fn context(&self) -> &egui::Context {
         &self.context
     }
 
-    /// Makes the commands that draw the studio on all of `target`, which has `size_px` pixels, `scale` of
-    /// them to a point. Returns what the panels were asked for too. The size fields of `input` are filled
-    /// in here.
+    /// Encodes the drawing of the studio on the whole of `target`, which has `size_px` pixels at `scale` pixels per
+    /// point. Also returns the commands that the panels issued. Overwrites the size fields of `input`.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
@@ -136,7 +136,7 @@ impl FrameRenderer {
         (commands, layout)
     }
 
-    /// The second half: makes the commands that draw what is laid out. On a lost device nothing is drawn.
+    /// The second half of [`draw`](Self::draw): encodes the drawing of a layout. Draws nothing on a lost device.
     pub fn paint(
         &mut self,
         gpu: &Gpu,
@@ -153,8 +153,8 @@ impl FrameRenderer {
         FrameOutput { drawing, platform: panels.platform_output, repaint_delay }
     }
 
-    /// Makes the commands that draw a diagram on all of `target`, which has `size_px` pixels, `scale` of
-    /// them to a point; `None` on a lost device.
+    /// Encodes the drawing of a diagram on the whole of `target`, which has `size_px` pixels at `scale` pixels per
+    /// point. `None` on a lost device.
     pub fn draw_figure(
         &mut self,
         gpu: &Gpu,
@@ -174,9 +174,9 @@ impl FrameRenderer {
 
     /// Lays out panels and a stage.
     ///
-    /// `show` lays out the panels and says what is left for the stage. It may be called twice for a
-    /// frame, when a widget first has to learn its size; events come with the first call only, so a
-    /// caller adds up what the calls ask for. On a lost device the panels work as ever.
+    /// `show` lays out the panels and returns the stage that they leave. egui may call it twice for a frame, when a
+    /// widget first has to learn its size. Only the first call gets events, so a caller must accumulate commands over
+    /// the calls. On a lost device the panels work as usual.
     fn lay_out_with(
         &mut self,
         gpu: &Gpu,
@@ -222,7 +222,7 @@ impl FrameRenderer {
         output: &mut egui::FullOutput,
         stage: Option<Stage>,
     ) -> Option<wgpu::CommandBuffer> {
-        // egui warns of textures that nobody took.
+        // egui warns about textures that nobody took.
         if gpu.is_lost() {
             output.textures_delta.clear();
             return None;

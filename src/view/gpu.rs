@@ -1,33 +1,33 @@
-//! A graphics device, with or without a window, and what to say when there is none.
+//! A graphics device, with or without a window, and the errors when there is none.
 //!
-//! Choosing one is asynchronous, as a browser wants it; the drivers of a desktop block on it.
+//! Choosing a device is asynchronous because a browser needs that; desktop drivers block on it.
 //!
-//! Adapters are enumerated and ranked here rather than requested from wgpu, because the best one may
-//! refuse to make a device while the next one would.
+//! This module enumerates and ranks adapters itself rather than requesting one from wgpu. The best adapter may refuse
+//! to make a device while the next one would.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Which adapters may be used.
+/// Adapters that may be used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AdapterPreference {
-    /// The fastest that works, a software one if need be.
+    /// The fastest adapter that works, a software one if need be.
     #[default]
     Any,
-    /// A software one only, whose pixels are the same on every machine: for golden pictures.
+    /// A software adapter only. Its pixels are the same on every machine, as golden pictures need.
     CpuOnly,
 }
 
-/// Why there is no device, or no texture of the size asked for.
+/// Why there is no device, or no texture of the requested size.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
-    /// No driver offers an adapter that could be used.
+    /// No driver offers a usable adapter.
     #[error(
         "no usable graphics adapter: {reasons}; unset WGPU_BACKEND if it is set, or install a driver, \
          a software one will do (Debian, Ubuntu: apt install mesa-vulkan-drivers)"
     )]
     NoAdapter {
-        /// What is wrong with each adapter, or which backends have none.
+        /// The fault of each adapter, or the backends without one.
         reasons: String,
     },
     /// Adapters exist, but none of them made a device.
@@ -36,61 +36,61 @@ pub enum GpuError {
         /// Each adapter tried, with its refusal.
         refusals: String,
     },
-    /// The window system gave nothing to draw on.
+    /// The window system provided no surface to draw on.
     #[error("no surface to draw on: {0}; try WGPU_BACKEND=gl, or capture without a window")]
     NoSurface(#[from] wgpu::CreateSurfaceError),
-    /// The process may not have the memory that a driver takes.
+    /// The process may lack the memory that a driver needs.
     #[error(
         "no room for a graphics driver, which takes up to {mib} MiB of address space; raise the limit \
          of memory (ulimit -v), or take a command that does not draw"
     )]
     NoRoom {
-        /// What a software driver takes, in MiB.
+        /// Address space that a software driver needs, in MiB.
         mib: usize,
     },
-    /// A texture of this size is more than the adapter can make.
+    /// A texture of this size exceeds the adapter's limit.
     #[error(
         "frame size {width}x{height} is beyond this adapter's limit of {limit}; \
          give at most {limit}x{limit}"
     )]
     TooLarge {
-        /// Asked for, in pixels.
+        /// Requested width, in pixels.
         width: u32,
-        /// Asked for, in pixels.
+        /// Requested height, in pixels.
         height: u32,
-        /// The longest side that the adapter can make, in pixels.
+        /// Longest side that the adapter supports, in pixels.
         limit: u32,
     },
-    /// A texture without pixels was asked for.
+    /// The requested texture has no pixels.
     #[error("frame size {width}x{height} has no pixels; give at least 1x1")]
     Empty {
-        /// Asked for, in pixels.
+        /// Requested width, in pixels.
         width: u32,
-        /// Asked for, in pixels.
+        /// Requested height, in pixels.
         height: u32,
     },
     /// The texture is within the adapter's limits but not within its memory.
     #[error("no memory for a frame of {width}x{height}; give a smaller size")]
     OutOfMemory {
-        /// Asked for, in pixels.
+        /// Requested width, in pixels.
         width: u32,
-        /// Asked for, in pixels.
+        /// Requested height, in pixels.
         height: u32,
     },
 }
 
-/// What a software driver with its threads, and a frame of usual size, take of a process' address space, in MiB: without it
-/// drivers end the process.
+/// Address space for a software driver with its threads and a frame of usual size, in MiB. Without it, drivers end
+/// the process.
 const DRIVER_MIB: usize = 640;
 
 /// A device, its queue, and the adapter they came from. A clone is the same device.
 #[derive(Clone, Debug)]
 pub struct Gpu {
-    /// Makes textures, buffers and pipelines.
+    /// Creates textures, buffers and pipelines.
     pub device: wgpu::Device,
-    /// Takes work.
+    /// Accepts work for the device.
     pub queue: wgpu::Queue,
-    /// Tells what a surface can do.
+    /// Reports the capabilities of a surface.
     pub adapter: wgpu::Adapter,
     /// Name, backend, driver and kind of the adapter.
     pub info: wgpu::AdapterInfo,
@@ -100,7 +100,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// A device that draws into textures only; needs no display.
+    /// Creates a device that draws into textures only. It needs no display.
     ///
     /// `WGPU_BACKEND` (`vulkan`, `gl`, …) restricts the search.
     ///
@@ -111,24 +111,25 @@ impl Gpu {
         Self::choose(&instance(descriptor), None, preference).await
     }
 
-    /// A device of the best ranked adapter that can present to `surface`, where there is one.
+    /// Creates a device of the best ranked adapter. If there is a `surface`, the adapter must be able to present to
+    /// it.
     pub(super) async fn choose(
         instance: &wgpu::Instance,
         surface: Option<&wgpu::Surface<'_>>,
         preference: AdapterPreference,
     ) -> Result<Self, GpuError> {
-        // A browser's driver has memory of its own, and what is reserved in ours is never given back.
+        // A browser's driver has its own memory, and a reservation in ours would never be returned.
         if cfg!(not(target_arch = "wasm32")) {
             let mut room = Vec::<u8>::new();
             let reserved = room.try_reserve_exact(DRIVER_MIB << 20);
-            // An optimiser leaves out a reservation that nothing looks at.
+            // Keeps an optimiser from removing the unused reservation.
             std::hint::black_box(&mut room);
             reserved.map_err(|_| GpuError::NoRoom { mib: DRIVER_MIB })?;
         }
         let mut unfit = Vec::new();
         let mut candidates = Vec::new();
         let mut adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
-        // A browser has no adapter but for a canvas.
+        // A browser offers an adapter only for a canvas.
         if adapters.is_empty() && surface.is_some() {
             let compatible_surface = surface;
             let options = wgpu::RequestAdapterOptions { compatible_surface, ..Default::default() };
@@ -146,7 +147,8 @@ impl Gpu {
             }
         }
         if candidates.is_empty() {
-            // wgpu would say more of each backend, but in one sentence, and also of backends that are not built in.
+            // wgpu has more to report on each backend. But its report is one sentence, and it includes backends that
+            // are not built in.
             let built_in = wgpu::Instance::enabled_backend_features();
             let names = wgpu::Backend::ALL.into_iter().filter(|it| built_in.contains((*it).into()));
             let names: Vec<_> = names.map(wgpu::Backend::to_str).collect();
@@ -170,8 +172,8 @@ impl Gpu {
         adapter: wgpu::Adapter,
         info: wgpu::AdapterInfo,
     ) -> Result<Self, wgpu::RequestDeviceError> {
-        // The least that wgpu knows of, since quads and uniforms are all we need, but textures and
-        // buffers as large as the adapter makes them.
+        // The lowest limits that wgpu offers, since quads and uniforms suffice, but textures and buffers as large as
+        // the adapter allows.
         let limits = wgpu::Limits {
             max_buffer_size: adapter.limits().max_buffer_size,
             ..wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits())
@@ -199,15 +201,15 @@ impl Gpu {
         Ok(Self { device, queue, adapter, info, max_texture_side_px, lost })
     }
 
-    /// Whether the device is gone for good: driver reset, unplugged, destroyed. Only a new [`Gpu`],
-    /// with everything that was made from this one, helps.
+    /// Whether the device is permanently lost: driver reset, unplugged, destroyed. Recovery needs a new [`Gpu`], and
+    /// everything made from this one must be made again.
     pub fn is_lost(&self) -> bool {
-        // A destroyed device says so when it is next polled.
+        // A destroyed device reports its loss at the next poll.
         self.device.poll(wgpu::PollType::Poll).ok();
         self.lost.load(Ordering::Acquire)
     }
 
-    /// Whether a texture of this size can be made.
+    /// Checks that the device can make a texture of this size.
     pub(super) fn check_size(&self, [width, height]: [u32; 2]) -> Result<(), GpuError> {
         let limit = self.max_texture_side_px;
         if width == 0 || height == 0 {
@@ -220,22 +222,22 @@ impl Gpu {
     }
 }
 
-/// Creates an instance without validation of indirect draws, which we never issue: it needs compute shaders, which
-/// some drivers' GL lacks.
+/// Creates an instance without validation of indirect draws, which we never issue. That validation needs compute
+/// shaders, which some drivers' GL lacks.
 pub(super) fn instance(mut descriptor: wgpu::InstanceDescriptor) -> wgpu::Instance {
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
     wgpu::Instance::new(descriptor)
 }
 
-/// Has the C library keep what a frame frees, for the next frame.
+/// Makes the C library keep the memory that a frame frees, for the next frame.
 ///
-/// A software driver allocates some 16 MB for a frame and frees them after it. Handed back to the system, they are cleared
-/// and mapped again page by page, which takes a quarter of the time of a frame. glibc keeps twice as much as the largest
-/// block that it mapped alone and was given back; other libraries take no notice.
+/// A software driver allocates some 16 MB for a frame and frees them after it. Memory that goes back to the system is
+/// cleared and mapped again page by page, which takes a quarter of the time of a frame. The C library glibc keeps up to
+/// twice the size of the largest block that it mapped separately and got back. Other libraries take no notice.
 fn keep_freed_memory() {
     /// In bytes.
     const BLOCK: usize = 16 << 20;
-    // It is reserved and not used, so that it takes no memory itself.
+    // Reserved and not used, so it takes no memory itself.
     drop(std::hint::black_box(Vec::<u8>::with_capacity(BLOCK)));
 }
 
@@ -243,8 +245,8 @@ fn title(info: &wgpu::AdapterInfo) -> String {
     format!("{} ({})", info.name, info.backend)
 }
 
-/// Hardware before software, the card before the chip, and an explicit interface before GL, which
-/// does the same work with more of the driver in between.
+/// Prefers hardware to software, a graphics card to an integrated chip, and an explicit interface to GL, which does
+/// the same work with more of the driver in between.
 fn rank(info: &wgpu::AdapterInfo) -> (u8, u8) {
     let kind = match info.device_type {
         wgpu::DeviceType::DiscreteGpu => 0,

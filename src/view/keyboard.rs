@@ -1,4 +1,4 @@
-//! From a keyboard, as a window or a browser tells of it, to the program's keys and their commands.
+//! Maps the keyboard events of a window or a browser to the program's keys and their commands.
 
 use crate::studio::{Command, Key, command_for};
 
@@ -13,24 +13,24 @@ pub struct Modifiers {
     pub other: bool,
 }
 
-/// What a key means by the layout of the keyboard.
+/// Meaning of a key in the active keyboard layout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning<'a> {
-    /// A key without a text.
+    /// A key without text.
     Named(Key),
-    /// A text, mostly of one character.
+    /// Text, mostly of one character.
     Text(&'a str),
 }
 
-/// The key that can be bound to a command, if it is one. `place` is the character that a keyboard of the United States has
-/// at its place: it decides for digits, the comma and the point only.
+/// The bindable key of an event, if it has one. `place` is the character at the key's position on a US keyboard. Only
+/// digits, the comma and the point depend on it.
 pub fn bound_key(place: Option<char>, meaning: Meaning<'_>, held: Modifiers) -> Option<Key> {
     if held.other {
         return None;
     }
     let shift = held.shift;
     match meaning {
-        // By the layout, unless it turns the chord into a control character.
+        // Goes by layout, unless the layout turns the chord into a control character.
         Meaning::Text(text) if held.control => {
             let sign = sign_of(text).filter(|sign| !sign.is_control())?;
             Some(match shift && sign.is_alphabetic() {
@@ -42,8 +42,8 @@ pub fn bound_key(place: Option<char>, meaning: Meaning<'_>, held: Modifiers) -> 
         Meaning::Text("<" | ">" | "," | ".") if shift && matches!(place, Some(',' | '.')) => {
             place.map(Key::ShiftSign)
         }
-        // By position, because some layouts have the digits behind Shift. But if a digit's key yields one of these signs,
-        // through Shift or AltGr, the sign is meant.
+        // Digits go by position, because some layouts have them behind Shift. But if a digit's key yields one of
+        // these signs, through Shift or AltGr, the sign counts.
         meaning => match (place.and_then(|place| place.to_digit(10)), meaning) {
             (Some(digit), meaning) if !matches!(meaning, Meaning::Text("[" | "]" | "=")) => {
                 Some(Key::Digit(digit as u8))
@@ -60,7 +60,7 @@ pub fn bound_key(place: Option<char>, meaning: Meaning<'_>, held: Modifiers) -> 
     }
 }
 
-/// The sign that a text is. A name of a key, such as `Control` or `Dead`, is none.
+/// The only character of a text. The name of a key, such as `Control` or `Dead`, has none.
 fn sign_of(text: &str) -> Option<char> {
     let mut signs = text.chars();
     signs.next().filter(|_| signs.next().is_none())
@@ -70,7 +70,7 @@ fn lower(sign: char) -> char {
     sign.to_lowercase().next().unwrap_or(sign)
 }
 
-/// What a pressed key asks for, unless it is for a panel or bound to nothing: a command, or nothing more where it is held
+/// The command of a pressed key. `None` if the key is for a panel or has no binding. `Some(None)` if the key is held
 /// and its command does not repeat.
 pub fn command_of(key: Key, is_repeated: bool, panels: &egui::Context) -> Option<Option<Command>> {
     // Escape closes a menu.
@@ -83,10 +83,10 @@ pub fn command_of(key: Key, is_repeated: bool, panels: &egui::Context) -> Option
     Some((!is_repeated || binding.repeats).then_some(command))
 }
 
-/// The kind of widget that has the keyboard focus.
+/// The kind of widget with the keyboard focus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Focus {
-    /// No widget: every key is for the program.
+    /// No widget: every key goes to the program.
     Nothing,
     /// A widget that responds to some keys.
     Widget,
@@ -103,7 +103,7 @@ impl Focus {
         }
     }
 
-    /// Whether a key is for the focused widget.
+    /// Whether the focused widget takes a key.
     fn takes(self, key: Key) -> bool {
         match self {
             Focus::Nothing => false,
@@ -154,7 +154,7 @@ mod tests {
         assert_eq!(end, Some(Key::Digit(1)));
     }
 
-    /// Keys that are no signs, by the names that browsers give them. `Control` comes before each chord that begins with it.
+    /// Browser names of keys that are not signs. `Control` comes before each chord that begins with it.
     const NAMES: &str = "Alt AltGraph AltLeft AudioVolumeUp Backspace BrowserBack CapsLock Clear ContextMenu Control \
         Convert Copy Cut Dead Delete End Enter Escape Fn FnLock F4 F13 GroupNext Hyper Insert KanaMode LaunchMail \
         MediaPlayPause Meta NumLock OS Paste Pause PrintScreen Process ScrollLock Select Shift Super Symbol Tab \
@@ -176,7 +176,7 @@ mod tests {
         assert_eq!(pressed(Some(','), "<", true), Some(Key::ShiftSign(',')));
         assert_eq!(pressed(Some('.'), ">", true), Some(Key::ShiftSign('.')));
         assert_eq!(pressed(Some(','), ",", false), Some(Key::Sign(',')));
-        // If Shift and the comma's key make another sign, that sign is meant.
+        // If Shift turns the comma's key into another sign, that sign counts.
         assert_eq!(pressed(Some(','), "?", true), Some(Key::Sign('?')));
         let control = Modifiers { control: true, ..Modifiers::default() };
         assert_eq!(held(None, "z", control), Some(Key::ControlSign('z')));

@@ -1,4 +1,4 @@
-//! No text of a frame is cut off, elided, or written over another, at any usual size of the window.
+//! Tests that no text of a frame is cut off, elided, or covered by another, at any usual size of the window.
 
 use egui::emath::Rot2;
 use egui::epaint::text::PlacedRow;
@@ -21,21 +21,21 @@ use crate::studio::{
     unanswered_request,
 };
 
-/// Sizes of windows in points: the first is the least, the last has four times the usual pixels.
+/// Window sizes in points: the first is the minimum, and the last has four times the usual pixels.
 const SIZES: [Vec2; 4] =
     [vec2(800.0, 600.0), vec2(1280.0, 720.0), vec2(1920.0, 1080.0), vec2(3840.0, 2160.0)];
 
 /// A text of a frame.
 struct Text {
     rect: Rect,
-    /// Its corners in a round, of which the rectangle holds all: a text may be turned.
+    /// Corners of the text, in order. The text may be turned, so `rect` only bounds it.
     corners: [Pos2; 4],
     clip: Rect,
     words: String,
     is_elided: bool,
 }
 
-/// Every text of a frame of this size, as the third frame of a window has it.
+/// Every text of a frame of this size, taken from the third frame of a window.
 fn texts(studio: &Studio, size: Vec2) -> Vec<Text> {
     let mut window =
         TestWindow::new(size / theme::zoom(size.into(), studio.display().scale_percent));
@@ -53,10 +53,10 @@ fn texts(studio: &Studio, size: Vec2) -> Vec<Text> {
     frame().texts.iter().flat_map(rows).collect()
 }
 
-/// The rows of a text: a paragraph may begin in the middle of a line.
+/// The rows of a text. They are separate because a paragraph may begin in the middle of a line.
 fn rows(ShownText { shape, clip }: &ShownText) -> impl Iterator<Item = Text> {
     let row = |row: &PlacedRow| {
-        // What is inked of it, without the room above and below.
+        // Bounds of the ink, without the room above and below it.
         let inked = row.visuals.mesh_bounds.translate(row.pos.to_vec2());
         let corners =
             [inked.left_top(), inked.right_top(), inked.right_bottom(), inked.left_bottom()];
@@ -72,7 +72,7 @@ fn rows(ShownText { shape, clip }: &ShownText) -> impl Iterator<Item = Text> {
     shape.galley.rows.iter().map(row).filter(|text| !text.words.trim().is_empty())
 }
 
-/// Whether two turned texts lie beside each other: along a side of one of them, one ends before the other begins.
+/// Whether two turned texts are apart: along a side of one of them, one ends before the other begins.
 fn are_apart(a: &Text, b: &Text) -> bool {
     let ends = |corners: &[Pos2; 4], along: Vec2| {
         let places = corners.map(|at| at.to_vec2().dot(along.normalized()));
@@ -91,12 +91,12 @@ fn are_apart(a: &Text, b: &Text) -> bool {
     })
 }
 
-/// What cannot be read in a frame.
+/// Descriptions of the unreadable texts in a frame.
 fn faults(studio: &Studio, size: Vec2) -> Vec<String> {
     let texts = texts(studio, size);
     assert!(texts.len() > 20, "{}", texts.len());
     let mut faults = Vec::new();
-    // What is scrolled out of sight is not in the frame; a row at the edge is cut by purpose.
+    // Text scrolled out of sight is not in the frame, and a row at the edge is cut on purpose.
     let seen = |text: &&Text| text.clip.intersects(text.rect.shrink(1.0));
     let texts: Vec<&Text> = texts.iter().filter(seen).collect();
     for (i, text) in texts.iter().enumerate() {
@@ -134,7 +134,8 @@ fn race_of_all(name: &str) -> Studio {
     started(scene, true)
 }
 
-/// Judged, if it is a net, for its first seconds only: a net takes as long as all others together.
+/// A studio with verdicts. A net is judged for its first seconds only, because it takes as long as all other scenes
+/// together.
 fn started(mut scene: Scene, race: bool) -> Studio {
     if has_net(&scene) {
         scene.seconds = scene.seconds.min(2.0);
@@ -144,7 +145,7 @@ fn started(mut scene: Scene, race: bool) -> Studio {
     studio
 }
 
-/// The same without verdicts.
+/// The same studio without verdicts.
 fn moved(scene: Scene, race: bool) -> Studio {
     let mut studio = Studio::new(scene);
     if race {
@@ -180,7 +181,7 @@ fn every_text_of_every_scene_can_be_read_alone_and_racing() {
     SCENES.par_iter().for_each(|scene| {
         let mut studio = run(scene.name, true);
         assert_legible(&studio, &format!("{}, racing", scene.name));
-        // With the verdicts of the race: those of a net take seconds.
+        // Keeps the verdicts of the race, because those of a net take seconds.
         studio.apply(StageCommand::ToggleRace);
         move_on(&mut studio);
         assert!(unanswered_request(&studio.deck, &studio.viewer).is_none());
@@ -188,8 +189,8 @@ fn every_text_of_every_scene_can_be_read_alone_and_racing() {
     });
 }
 
-/// Every instrument on every scene, and of inspector, mode and size each combination of two, with each scene and each
-/// instrument: all combinations of all of them would take an hour.
+/// Every instrument on every scene. Inspector, mode and size vary so that each pair of their values occurs. All
+/// combinations would take an hour.
 #[test]
 fn every_text_can_be_read_under_every_instrument_beside_the_inspector_on_every_scene() {
     let mut all = Vec::new();
@@ -251,7 +252,7 @@ fn every_text_can_be_read_at_every_stop_of_the_guide_beside_the_inspector() {
             let at = format!("stop {stop}, inspector {}, {size}", studio.display().inspector);
             all.extend(faults.into_iter().map(|fault| format!("{at}: {fault}")));
         }
-        // Above the guide there is room for the stage, below its head for two lines and more.
+        // The stage has room above the guide, and two lines and more fit below the guide's head.
         let head = texts(&studio, SIZES[0])
             .into_iter()
             .find(|text| text.words.starts_with(&format!("{}. {}", stop + 1, of.title)));
@@ -312,7 +313,7 @@ fn every_text_can_be_read_in_the_light_theme_and_with_the_help_and_the_inspector
             command == Command::View(ViewCommand::ToggleTheme)
         );
         if command == Command::View(ViewCommand::ToggleHelp) {
-            // The overlay lies over what is below it on purpose: only what is elided or cut is a fault.
+            // The overlay covers the panels on purpose: only elided or cut text is a fault.
             for size in SIZES {
                 let faults = faults(&studio, size);
                 let cut: Vec<_> =
@@ -390,7 +391,7 @@ fn every_text_of_every_instrument_of_the_loop_lab_can_be_read() {
     }
 }
 
-/// The texts beside the stage of a frame of this size, and where the stage ends.
+/// The texts beside the stage in a frame of this size.
 fn beside_the_stage(studio: &Studio, size: Vec2) -> Vec<Text> {
     let left = (1.0 - panels::INSTRUMENTS) * size.x / theme::zoom(size.into(), 100);
     texts(studio, size).into_iter().filter(|text| text.rect.left() > left).collect()
@@ -422,7 +423,7 @@ fn instruments_are_chosen_in_one_row_of_tabs_and_in_a_small_window_from_a_menu()
             };
             let mut shown = beside_the_stage(&studio, size);
             let head = shown.iter().find(|text| is_name(text)).expect("a tab").rect.center().y;
-            // The title of the instrument, which is below them, may be its name.
+            // The title of the instrument, below the tabs, may repeat a name.
             shown.retain(|text| is_name(text) && (text.rect.center().y - head).abs() < 12.0);
             shown.sort_by(|a, b| a.rect.left().total_cmp(&b.rect.left()));
             assert!(shown.iter().all(|text| !text.is_elided && text.clip.contains_rect(text.rect)));
@@ -443,7 +444,7 @@ fn what_one_step_does_to_the_swing_is_seen_whole_under_any_method() {
             let begins = |words: &str| texts.iter().position(|text| text.words.starts_with(words));
             let said = &texts[begins("One tick").expect("what the tick does")..];
             let plot = &texts[begins("velocity").expect("the name of an axis")];
-            // Where the words stand below the plot, that is high enough to see.
+            // With the words below the plot, the plot must still be high enough.
             if size.x < SIZES[2].x {
                 let height = said[0].rect.top() - plot.rect.top();
                 assert!((80.0..size.y / 2.0).contains(&height), "{entry}, {size}: {height}");
@@ -508,10 +509,10 @@ fn every_text_of_this_windows_own_loop_can_be_read() {
     assert_legible(&studio, "ten seconds of frames");
 }
 
-/// How many words and numbers a frame has: what has a digit is a number, and what has a letter else a word.
+/// Words and numbers of a frame. A token with a digit is a number, any other token with a letter a word.
 fn counted(studio: &Studio, size: Vec2) -> [Vec<String>; 2] {
     let mut texts = texts(studio, size);
-    // A halo is the same text again.
+    // A halo repeats the same text.
     let place = |text: &Text| text.rect.center();
     let mut kept: Vec<Text> = Vec::new();
     for text in texts.drain(..) {
@@ -531,7 +532,7 @@ fn counted(studio: &Studio, size: Vec2) -> [Vec<String>; 2] {
 #[test]
 fn the_opening_has_few_words_and_numbers_and_no_tab_and_measuring_not_many() {
     for (measure, most) in [(false, [40, 20]), (true, [90, 60])] {
-        // How far the spring has got stands over a stage that zooms out after it.
+        // Once the stage zooms out after the spring, a sentence on it states how far the spring is.
         let sentence = [20, 6];
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.viewer.preferences.display.measure = measure;

@@ -1,10 +1,10 @@
-//! Lines through points: what shows of them, with as few points as show the same picture.
+//! Visible parts of lines through points, with as few points as the same picture needs.
 
 use egui::{Color32, Pos2, Rect, Vec2};
 
-/// How far a line may be drawn from its points, in points of the screen: less than anybody sees.
+/// Maximum distance of a drawn line from its points, in screen points: too small to see.
 const TOLERANCE: f32 = 0.2;
-/// How far a channel of its colour may be from theirs, of 255.
+/// Maximum error of a colour channel, of 255.
 const TINT: f32 = 3.0;
 
 /// A point of a line.
@@ -26,8 +26,8 @@ impl Joint {
     }
 }
 
-/// What shows of a line within a window, in runs cut off at its edges, with as few joints as pass nowhere further than the
-/// tolerances from those left out.
+/// Visible parts of a line within a window, in runs cut off at its edges. Drops as many joints as possible, as long
+/// as the line passes the dropped ones within the tolerances.
 pub(super) fn shown(joints: impl Iterator<Item = Joint>, window: Rect) -> Vec<Vec<Joint>> {
     let mut runs: Vec<Run> = Vec::new();
     let mut last: Option<(Joint, bool)> = None;
@@ -64,7 +64,7 @@ fn cut([from, to]: [Joint; 2], window: Rect) -> Option<[Joint; 2]> {
             last = last.min(a.max(b));
         }
     }
-    // The ends themselves where they are within: runs are joined by them.
+    // Ends within the window stay exact, because runs are joined at them.
     let at = |part: f32| match part {
         0.0 => from,
         1.0 => to,
@@ -73,11 +73,11 @@ fn cut([from, to]: [Joint; 2], window: Rect) -> Option<[Joint; 2]> {
     (first <= last).then(|| [at(first), at(last)])
 }
 
-/// A run that is being made longer.
+/// A run under construction.
 struct Run {
-    /// All but its end.
+    /// All joints but the end.
     kept: Vec<Joint>,
-    /// From the last that is kept to the end.
+    /// The piece from the last kept joint to the end.
     piece: Piece,
     end: Joint,
 }
@@ -104,22 +104,22 @@ impl Run {
     }
 }
 
-/// What changes along a line: how far it lies to the side, its radius and the channels of its colour.
+/// Values that change along a line: the offset to the side, the radius and the channels of the colour.
 type Values = [f32; 6];
 
 const TOLERANCES: Values = [TOLERANCE, TOLERANCE, TINT, TINT, TINT, TINT];
 
-/// A straight piece that is being made longer. Whatever changes along it runs linearly, and has to pass within the
-/// tolerance of every joint that the piece stands for: what is left are ranges of slopes (Sklansky and Gonzalez 1980).
+/// A straight piece under construction. Its values change linearly and must pass each joint that the piece replaces
+/// within the tolerance. This leaves a range of slopes for each value (Sklansky and Gonzalez 1980).
 struct Piece {
     from: Joint,
-    /// Whether it has no joint beyond its start yet.
+    /// Whether the piece has no joint beyond its start yet.
     is_new: bool,
-    /// Whether it has the width and the colour of its start so far.
+    /// Whether the piece has kept the width and colour of its start.
     is_even: bool,
-    /// Its direction, that of the first joint out of the tolerance round its start.
+    /// Direction of the piece: that of the first joint outside the tolerance around its start.
     axis: Option<Vec2>,
-    /// How far along it the last joint lies, in points; the next is no nearer.
+    /// Distance of the last joint along the axis, in points. The next joint must not be nearer.
     reach: f32,
     least: Values,
     most: Values,
@@ -131,7 +131,8 @@ impl Piece {
         Self { from, is_new: true, is_even: true, axis: None, reach: 0.0, least, most }
     }
 
-    /// Has the piece end at a joint, and stand for it from then on, if it can. A new piece reaches any.
+    /// Extends the piece to a joint if the piece can replace all joints up to it. Returns whether it can; a new piece
+    /// reaches any joint.
     fn reaches(&mut self, joint: Joint) -> bool {
         let is_new = std::mem::take(&mut self.is_new);
         let offset = joint.at - self.from.at;
@@ -144,7 +145,7 @@ impl Piece {
         };
         if self.axis.is_none() && offset.length_sq() <= TOLERANCE * TOLERANCE {
             let is_like_start = (1..6).all(|i| values[i].abs() <= TOLERANCES[i] / 2.0);
-            // Where the colour leaps without a way for it, nothing beyond is reached.
+            // A colour that leaps without any distance ends the piece.
             let reaches = is_new || self.reach == 0.0 && is_like_start;
             self.reach = if is_like_start { self.reach } else { f32::INFINITY };
             return reaches;
@@ -153,7 +154,7 @@ impl Piece {
         let along = axis.dot(offset);
         values[0] = axis.x * offset.y - axis.y * offset.x;
         if self.is_even && !is_like_all {
-            // What did not change had to stay within the tolerance up to the last joint.
+            // Unchanged values had to stay within the tolerance up to the last joint.
             let per_point = 1.0 / self.reach;
             for (i, tolerance) in TOLERANCES.iter().enumerate().skip(1) {
                 self.least[i] = -tolerance * per_point;
@@ -215,7 +216,7 @@ mod tests {
         shown(line.iter().copied(), Rect::EVERYTHING).concat()
     }
 
-    /// Whether a straight piece shows what it would with one more joint.
+    /// Whether a straight piece looks the same without the joint between its ends.
     fn stands_for([from, to]: [Joint; 2], between: Joint) -> bool {
         let along = to.at - from.at;
         let part = (between.at - from.at).dot(along) / along.length_sq().max(f32::MIN_POSITIVE);
@@ -237,7 +238,7 @@ mod tests {
             joint.radius = 1.0 + (i as f32 / 90.0).cos();
             joint.colour = Color32::from_rgb(100 + (i / 3) as u8, 200 - (i / 40) as u8, 0);
         }
-        // It comes to rest, nearly, changes its colour there, and goes back the way it came.
+        // It nearly comes to rest, changes its colour there, and returns the way it came.
         let mut resting: Vec<Joint> =
             (0..150).map(|i| joint([100.0 * 0.9_f32.powi(i), (i as f32).sin() / 30.0])).collect();
         resting[120..].iter_mut().for_each(|joint| joint.colour = Color32::RED);

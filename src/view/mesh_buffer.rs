@@ -1,13 +1,13 @@
-//! Buffers of triangles that grow as needed and are kept from frame to frame.
+//! Triangle buffers that grow as needed and stay from frame to frame.
 
 use std::ops::Range;
 
 use super::gpu::Gpu;
 
-/// Room for this many bytes at first; growing is by doubling.
+/// Initial capacity in bytes. It grows by doubling.
 const FIRST_CAPACITY: u64 = 1 << 16;
 
-/// The triangles of some meshes, with vertices of one kind.
+/// The triangles of some meshes, with one type of vertex.
 #[derive(Debug)]
 pub(super) struct MeshBuffer<V> {
     label: &'static str,
@@ -34,20 +34,20 @@ impl<V: bytemuck::Pod> MeshBuffer<V> {
         self.indices.clear();
     }
 
-    /// Adds a mesh, and says which indices it got.
+    /// Adds a mesh. Returns the range of its indices.
     pub(super) fn add(&mut self, vertices: &[V], indices: &[u32]) -> Range<u32> {
         let first_vertex = self.add_vertices(vertices);
         self.add_indices(first_vertex, indices.iter().copied())
     }
 
-    /// Adds vertices alone, and says which the first of them is.
+    /// Adds vertices. Returns the index of the first.
     pub(super) fn add_vertices(&mut self, vertices: &[V]) -> u32 {
         let first = self.vertices.len() as u32;
         self.vertices.extend_from_slice(vertices);
         first
     }
 
-    /// Adds the corners of triangles, counted from a vertex that was added, and says which indices they got.
+    /// Adds the corners of triangles, counted from `first_vertex`. Returns the range of their indices.
     pub(super) fn add_indices(
         &mut self,
         first_vertex: u32,
@@ -63,13 +63,13 @@ impl<V: bytemuck::Pod> MeshBuffer<V> {
         write(gpu, self.label, &mut self.index_buffer, bytemuck::cast_slice(&self.indices));
     }
 
-    /// Has the draws that follow be of what was uploaded.
+    /// Binds the uploaded triangles for the draws that follow.
     pub(super) fn bind(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_vertex_buffer(0, self.vertex_buffer.slice(..));
         pass.set_index_buffer(self.index_buffer.slice(..), wgpu::IndexFormat::Uint32);
     }
 
-    /// Draws some of what was uploaded, with the pipeline that is set.
+    /// Draws a range of the uploaded triangles with the current pipeline.
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, indices: Range<u32>) {
         self.bind(pass);
         pass.draw_indexed(indices, 0, 0..1);
@@ -85,7 +85,7 @@ fn buffer(gpu: &Gpu, label: &str, usage: wgpu::BufferUsages, bytes: u64) -> wgpu
     })
 }
 
-/// Writes to the start of a buffer, or of a larger one in its place.
+/// Writes to the start of a buffer, or replaces the buffer by a larger one.
 fn write(gpu: &Gpu, label: &str, into: &mut wgpu::Buffer, bytes: &[u8]) {
     if bytes.len() as u64 > into.size() {
         let usage = into.usage() & !wgpu::BufferUsages::COPY_DST;

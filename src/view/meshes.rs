@@ -1,8 +1,8 @@
-//! What egui lays out, as pixels.
+//! Draws egui's meshes.
 //!
-//! `egui_wgpu` could draw it too. With its version 0.37, which looks up one texel for each pixel, a frame of a race with
-//! panels took a software adapter three times as long (87 ms of its processors' time instead of 27, by 1280x720): it also
-//! blends every pixel of a panel. Here what is opaque and large is stored, neither blended nor looked up.
+//! `egui_wgpu` could draw them too. But its version 0.37 looks up one texel for each pixel, and blends every pixel of
+//! a panel. A frame of a race with panels at 1280x720 took a software adapter three times as long: 87 ms of its
+//! processors' time instead of 27. Here large opaque triangles are stored without blending or lookup.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -24,16 +24,16 @@ const SHADER: &str = concat!(
 const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
     wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4];
 
-/// What a pixel of a triangle takes.
+/// Work for a pixel of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum DrawKind {
-    /// Nothing but storing it: the triangle is opaque, in one colour, and large.
+    /// Storing only: the triangle is opaque, in one colour, and large.
     OpaqueFill,
-    /// A texel.
+    /// Looking up a texel and blending it.
     Textured,
 }
 
-/// Fills smaller than this, in square pixels, are not worth a draw of their own.
+/// Smaller fills, in square pixels, do not merit a separate draw.
 const MIN_FILL_PX: f32 = 4096.0;
 
 #[derive(Debug)]
@@ -103,7 +103,7 @@ impl MeshRenderer {
         }
     }
 
-    /// Takes over a new texture, or a changed part of an old one.
+    /// Stores a new texture, or a changed part of an old one.
     pub(super) fn set_texture(&mut self, gpu: &Gpu, id: TextureId, delta: &epaint::ImageDelta) {
         let ImageData::Color(image) = &delta.image;
         let [width, height] = image.size.map(|side| side as u32);
@@ -143,7 +143,7 @@ impl MeshRenderer {
         self.atlases.remove(&id);
     }
 
-    /// Uploads what the next [`Self::paint`] is to draw on a target of this size.
+    /// Uploads the meshes for the next [`Self::paint`] on a target of this size.
     pub(super) fn prepare(
         &mut self,
         gpu: &Gpu,
@@ -168,7 +168,7 @@ impl MeshRenderer {
         self.strokes.upload(gpu);
     }
 
-    /// Adds the draws of a primitive of which something shows.
+    /// Adds the draws of a visible primitive.
     fn add(&mut self, primitive: &Primitive, scissor_px: [u32; 4], px_per_point: f32) {
         match primitive {
             Primitive::Mesh(mesh) => {
@@ -185,7 +185,7 @@ impl MeshRenderer {
                     self.draws.push(Draw { scissor_px, what });
                 }
             }
-            // Of callbacks, only the curves of plots are ours.
+            // Only the curves of plots are callbacks of ours.
             Primitive::Callback(callback) => {
                 if let Some(mesh) = callback.callback.downcast_ref::<StrokeMesh>() {
                     let what = Drawn::Strokes(self.strokes.add(mesh));
@@ -195,7 +195,7 @@ impl MeshRenderer {
         }
     }
 
-    /// Draws what was prepared.
+    /// Draws the prepared meshes.
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_bind_group(0, &self.screen.group, &[]);
         let mut set = None;

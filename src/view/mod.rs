@@ -1,9 +1,9 @@
-//! Pixels: a graphics device, the pipelines that draw a [`Picture`](crate::stage::Picture),
-//! and the one function that draws a frame.
+//! Pixels: a graphics device, the pipelines that draw a [`Picture`](crate::stage::Picture), and the one function that
+//! draws a frame.
 //!
-//! A window, a screenshot and a capture all call [`FrameRenderer::draw`] on a texture view; what
-//! differs between them is where that view comes from and where its pixels go. Colours are blended
-//! as they are stored, in gamma space, so all targets have a format without `Srgb` in its name.
+//! A window, a screenshot and a capture all call [`FrameRenderer::draw`] on a texture view. They differ in the source
+//! of that view and in the destination of its pixels. Colours are blended as they are stored, in gamma space, so all
+//! targets have a format without `Srgb` in its name.
 
 mod backdrop;
 mod chart;
@@ -32,7 +32,7 @@ mod textures;
 mod theme;
 mod touch;
 
-/// The crates of this module's signatures, in their versions.
+/// The crates in this module's signatures, in their versions.
 pub use {egui, wgpu};
 
 pub use chart::AxisScale;
@@ -46,17 +46,18 @@ pub use panels::Panels;
 pub use readback::{Readback, ReadbackError};
 pub use screen::Screen;
 
-/// The values of the instrument shown, as lines of comma-separated text under a heading; `None` if it has no plots.
+/// The values of the selected instrument, as lines of comma-separated text under a heading; `None` if it has no
+/// plots.
 pub fn instrument_csv(studio: &crate::studio::Studio) -> Option<Vec<String>> {
     panels::csv(studio)
 }
 
-/// The verdict on the method that is flown, and the line under everything, as sentences for a screen reader.
+/// The verdict on the active method and the status line, as sentences for a screen reader.
 pub fn spoken(studio: &crate::studio::Studio) -> String {
     panels::spoken(studio)
 }
 
-/// The plots of the instrument shown, as an SVG file; `None` if it has none.
+/// The plots of the selected instrument as an SVG file; `None` if it has none.
 pub fn instrument_svg(studio: &crate::studio::Studio) -> Option<String> {
     panels::svg(studio)
 }

@@ -1,4 +1,4 @@
-//! Frames without a window: the frame renderer on a texture of our own. Captures, screenshots and tests use it.
+//! Frames without a window: the frame renderer on its own texture, for captures, screenshots and tests.
 
 use super::textures::texture;
 use super::{
@@ -6,7 +6,7 @@ use super::{
 };
 use crate::studio::Studio;
 
-/// A texture that can be drawn on and then read back.
+/// A texture to draw on and to read back.
 #[derive(Debug)]
 pub struct Offscreen {
     /// For [`Readback`](super::Readback).
@@ -18,10 +18,10 @@ pub struct Offscreen {
 }
 
 impl Offscreen {
-    /// The format of every such texture: gamma space, red first.
+    /// Format of every such texture: gamma space, red first.
     pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-    /// A texture of `size_px`, its contents undefined.
+    /// Creates a texture of `size_px` with undefined contents.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`], [`GpuError::Empty`] or [`GpuError::OutOfMemory`].
@@ -51,7 +51,7 @@ pub struct OffscreenRenderer {
 }
 
 impl OffscreenRenderer {
-    /// A renderer on `gpu` for frames of `size_px` pixels, with `scale` pixels per point.
+    /// Creates a renderer on `gpu` for frames of `size_px` pixels, with `scale` pixels per point.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`], [`GpuError::Empty`] or [`GpuError::OutOfMemory`].
@@ -61,21 +61,21 @@ impl OffscreenRenderer {
         Ok(Self { gpu, renderer, canvas, readback: Readback::default(), scale })
     }
 
-    /// As [`OffscreenRenderer::new`], on the best device that needs no display. It blocks until the device is found.
+    /// Like [`OffscreenRenderer::new`], on the best device that needs no display. Blocks until the device is found.
     ///
     /// # Errors
-    /// As [`Gpu::headless`] and [`OffscreenRenderer::new`].
+    /// Those of [`Gpu::headless`] and [`OffscreenRenderer::new`].
     pub fn headless(size_px: [u32; 2], scale: f32) -> Result<Self, GpuError> {
         let gpu = pollster::block_on(Gpu::headless(AdapterPreference::Any))?;
         Self::new(gpu, size_px, scale)
     }
 
-    /// Shows or hides the panels, which are shown by default.
+    /// Sets which panels to draw. The default is [`Panels::Shown`].
     pub fn with_panels(self, shown: Panels) -> Self {
         Self { renderer: self.renderer.with_panels(shown), ..self }
     }
 
-    /// Whether panels are drawn.
+    /// The panels that frames show.
     pub fn panels(&self) -> Panels {
         self.renderer.panels()
     }
@@ -93,33 +93,33 @@ impl OffscreenRenderer {
     /// Draws a frame and replaces `rgba` by its pixels, top row first. No frame may be in flight.
     ///
     /// # Errors
-    /// A [`ReadbackError`] where the device does not give the frame back.
+    /// A [`ReadbackError`] if the device does not return the frame.
     pub fn draw(&mut self, studio: &Studio, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
         self.submit(studio)?;
         self.collect(rgba)
     }
 
-    /// Submits a frame to the device, and does not wait for it.
+    /// Submits a frame to the device without waiting for it.
     ///
     /// # Errors
-    /// A [`ReadbackError`] where the device is lost.
+    /// A [`ReadbackError`] if the device is lost.
     pub fn submit(&mut self, studio: &Studio) -> Result<(), ReadbackError> {
         let Self { gpu, renderer, canvas, readback, scale } = self;
         let input = egui::RawInput { time: Some(studio.race().t()), ..Default::default() };
-        // Without a pointer there are no commands.
+        // Without a pointer, panels issue no commands.
         let (_, output) = renderer.draw(gpu, &canvas.view, canvas.size_px, *scale, input, studio);
         readback.begin(gpu, output.drawing, &canvas.texture)
     }
 
-    /// The number of frames submitted and not yet collected.
+    /// Number of frames submitted and not yet collected.
     pub fn in_flight(&self) -> usize {
         self.readback.pending()
     }
 
-    /// Waits for the first frame in flight, and replaces `rgba` by its pixels, top row first.
+    /// Waits for the oldest frame in flight and replaces `rgba` by its pixels, top row first.
     ///
     /// # Errors
-    /// A [`ReadbackError`] where the device does not give the frame back.
+    /// A [`ReadbackError`] if the device does not return the frame.
     ///
     /// # Panics
     /// If no frame is in flight.
@@ -130,7 +130,7 @@ impl OffscreenRenderer {
     /// Draws a diagram and replaces `rgba` by its pixels, top row first.
     ///
     /// # Errors
-    /// A [`ReadbackError`] where the device does not give the picture back.
+    /// A [`ReadbackError`] if the device does not return the picture.
     pub fn draw_figure(
         &mut self,
         figure: &Figure,

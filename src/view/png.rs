@@ -6,12 +6,13 @@ use png::text_metadata::{EncodableTextChunk, TEXtChunk};
 
 use crate::picture_note::SOFTWARE;
 
-/// Signature and header, after which the note stands.
+/// Length of the signature and the header, after which the note follows.
 const HEADER_BYTES: usize = 33;
 
-/// The file for `rgba`, straight 8-bit pixels of a picture of `size_px`, top row first. One fixed
-/// filter, since choosing one for each row takes twenty times as long: the difference to the pixel at the
-/// left, for seas and panels change little along a row.
+/// Encodes `rgba`, straight 8-bit pixels of a picture of `size_px`, top row first.
+///
+/// The filter is fixed: the difference from the pixel at the left, because seas and panels change little along a row.
+/// Choosing a filter for each row takes twenty times as long.
 ///
 /// # Panics
 /// If there are not `4 × width × height` bytes.
@@ -24,7 +25,7 @@ pub fn encode([width, height]: [u32; 2], rgba: &[u8]) -> Vec<u8> {
     file
 }
 
-/// The text chunk of a file, which `image` writes none of.
+/// The text chunk of a file, which `image` does not write.
 fn note() -> Vec<u8> {
     let mut chunk = Vec::new();
     let (keyword, text) = SOFTWARE;

@@ -1,4 +1,4 @@
-//! From a texture to tightly packed RGBA rows.
+//! Reads a texture back as tightly packed RGBA rows.
 
 use std::collections::VecDeque;
 use std::sync::mpsc;
@@ -6,14 +6,14 @@ use std::time::Duration;
 
 use super::gpu::Gpu;
 
-/// How long a device may take over a frame before it counts as hung. A software adapter needs
-/// seconds for the largest frames; a hung driver would otherwise hold the program for ever.
+/// Time after which a device counts as hung. A software adapter needs seconds for the largest frames. A hung driver
+/// would otherwise block the program for ever.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Why the pixels did not come back.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadbackError {
-    /// The device went away.
+    /// The device was lost.
     #[error("the graphics device was lost while a frame was read back; start again")]
     DeviceLost,
     /// The device did not finish the frame.
@@ -22,10 +22,10 @@ pub enum ReadbackError {
     /// The buffer could not be read.
     #[error("a frame could not be read back: {reason}; give a smaller size")]
     Unreadable {
-        /// What the device said.
+        /// Error message of the device.
         reason: String,
     },
-    /// The texture does not hold four 8-bit channels.
+    /// The texture does not have four 8-bit channels.
     #[error("frames of format {format:?} cannot be read back; draw to Rgba8Unorm or Bgra8Unorm")]
     Format {
         /// The texture's format.
@@ -33,7 +33,7 @@ pub enum ReadbackError {
     },
 }
 
-/// Reads textures, keeping its buffers from one frame to the next.
+/// Reads textures back, and reuses its buffers from frame to frame.
 #[derive(Debug, Default)]
 pub struct Readback {
     spare: Vec<wgpu::Buffer>,
@@ -52,9 +52,8 @@ struct Pending {
 }
 
 impl Readback {
-    /// Submits `drawing`, waits for all work submitted so far and replaces `rows` by the texture's pixels:
-    /// red, green, blue, alpha, top row first, no padding. The texture needs `COPY_SRC`. Nothing else may
-    /// be pending.
+    /// Submits `drawing`, waits for all work so far, and replaces `rows` by the texture's pixels: red, green, blue,
+    /// alpha, top row first, no padding. The texture needs `COPY_SRC`. No other texture may be pending.
     ///
     /// # Errors
     /// A [`ReadbackError`]; `rows` is then unspecified.
@@ -69,12 +68,12 @@ impl Readback {
         self.finish(gpu, rows)
     }
 
-    /// How many textures are on their way back.
+    /// Number of textures on their way back.
     pub fn pending(&self) -> usize {
         self.pending.len()
     }
 
-    /// Submits `drawing` and asks for the texture as it is then. The texture may be drawn on again at
+    /// Submits `drawing` and requests the texture in the state after it. The caller may draw on the texture again at
     /// once.
     ///
     /// # Errors
@@ -112,19 +111,18 @@ impl Readback {
             },
             texture.size(),
         );
-        // Together: a software driver holds whoever submits until it is done with the submission before.
+        // In one submission, because a software driver blocks the caller until it is done with the one before.
         let submission = gpu.queue.submit(drawing.into_iter().chain([encoder.finish()]));
         let (sender, mapped) = mpsc::channel();
         buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver is gone only when nobody waits any more.
+            // The receiver is gone only after its owner gave up waiting.
             sender.send(result).ok();
         });
         self.pending.push_back(Pending { buffer, submission, mapped, row_bytes, blue_first });
         Ok(())
     }
 
-    /// Waits for the texture that was asked for first, and replaces `rows` by its pixels as
-    /// [`Readback::read`] does.
+    /// Waits for the texture that was requested first, and replaces `rows` by its pixels as [`Readback::read`] does.
     ///
     /// # Errors
     /// A [`ReadbackError`]; `rows` is then unspecified, and nothing is pending any more.
@@ -134,7 +132,7 @@ impl Readback {
     pub fn finish(&mut self, gpu: &Gpu, rows: &mut Vec<u8>) -> Result<(), ReadbackError> {
         let pending = self.pending.pop_front().expect("a texture was asked for");
         if let Err(error) = wait_until_mapped(gpu, &pending) {
-            // The buffers may be mapped any time later, and mapped ones cannot be copied to.
+            // The buffers may become mapped at any later time, and mapped buffers cannot be copied to.
             self.pending.clear();
             return Err(error);
         }

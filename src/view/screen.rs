@@ -2,7 +2,7 @@
 
 use super::gpu::{AdapterPreference, Gpu, GpuError, instance};
 
-/// What a window shows frames on. Which frames, and when, is the window's business.
+/// The surface for the frames of a window. The window decides on the frames and their times.
 #[derive(Debug)]
 pub struct Screen {
     instance: wgpu::Instance,
@@ -10,10 +10,10 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// A surface for `window`, on the display that it is on: GL needs the display to present.
+    /// Creates a surface for `window` on its display, which GL needs to present.
     ///
     /// # Errors
-    /// [`GpuError::NoSurface`], or what keeps any device from being made.
+    /// [`GpuError::NoSurface`], or the reason why no device can be made.
     pub async fn new(
         display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>,
         window: impl Into<wgpu::SurfaceTarget<'static>>,
@@ -22,7 +22,7 @@ impl Screen {
         let instance = instance(descriptor);
         match instance.create_surface(window) {
             Ok(surface) => Ok(Self { instance, surface }),
-            // Where there is no driver there is no surface either, but the driver is what is missing.
+            // Without a driver there is no surface either, but the missing driver is the cause to report.
             Err(refusal) => match Gpu::choose(&instance, None, AdapterPreference::Any).await {
                 Ok(_) => Err(refusal.into()),
                 Err(error) => Err(error),
@@ -30,7 +30,7 @@ impl Screen {
         }
     }
 
-    /// A surface that needs no display: a browser's canvas.
+    /// Creates a surface that needs no display: a browser's canvas.
     ///
     /// # Errors
     /// [`GpuError::NoSurface`].
@@ -40,7 +40,7 @@ impl Screen {
         Ok(Self { instance, surface })
     }
 
-    /// The best device that can present here. Asked again after the first was lost.
+    /// The best device that can present here. Call it again after the loss of a device.
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
@@ -48,7 +48,7 @@ impl Screen {
         Gpu::choose(&self.instance, Some(&self.surface), AdapterPreference::Any).await
     }
 
-    /// The same with a new surface: for [`wgpu::CurrentSurfaceTexture::Lost`].
+    /// The same screen with a new surface, for [`wgpu::CurrentSurfaceTexture::Lost`].
     ///
     /// # Errors
     /// [`GpuError::NoSurface`].
@@ -68,8 +68,7 @@ impl Screen {
         &self.surface
     }
 
-    /// The format that [`Self::configure`] gives the surface's textures: one in gamma space, as long
-    /// as the surface has any.
+    /// The format that [`Self::configure`] gives the surface's textures: one in gamma space if the surface has any.
     pub fn format(&self, gpu: &Gpu) -> wgpu::TextureFormat {
         let formats = self.surface.get_capabilities(&gpu.adapter).formats;
         let gamma = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
@@ -77,12 +76,12 @@ impl Screen {
         found.or(formats.first().copied()).unwrap_or(wgpu::TextureFormat::Bgra8Unorm)
     }
 
-    /// Makes the surface's textures `size_px`, cut to what the adapter can make and to at least one
-    /// pixel. Waits for the display's refresh.
+    /// Sets the size of the surface's textures to `size_px`, limited to at least one pixel and to the adapter's
+    /// maximum. Presenting waits for the display's refresh.
     pub fn configure(&self, gpu: &Gpu, size_px: [u32; 2]) {
         let [width, height] = size_px.map(|side| side.clamp(1, gpu.max_texture_side_px));
         let configuration = wgpu::SurfaceConfiguration {
-            // Not all can be copied to, which a backdrop and kept panels want.
+            // Not every surface accepts copies, which a backdrop and kept panels need.
             usage: self.surface.get_capabilities(&gpu.adapter).usages
                 & wgpu::TextureUsages::COPY_DST
                 | wgpu::TextureUsages::RENDER_ATTACHMENT,

@@ -1,4 +1,4 @@
-//! Where points lie on a target, in Rust and in shaders.
+//! Mapping of points to the pixels of a target, in Rust and in shaders.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -15,24 +15,24 @@ struct Uniform {
     padding: [f32; 3],
 }
 
-/// Where the points of some part of a frame lie on the target.
+/// Place on the target of some part of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ScreenTransform {
     pub(super) size_px: [u32; 2],
-    /// Where the part begins.
+    /// Origin of the part.
     pub(super) origin_px: [f32; 2],
     pub(super) px_per_point: f32,
-    /// Left, top, right and bottom of what shows of it.
+    /// Left, top, right and bottom of its visible area.
     pub(super) edges_px: [f32; 4],
 }
 
 impl ScreenTransform {
-    /// Where a point is, in pixels of the target.
+    /// Place of a point, in pixels of the target.
     pub(super) fn px(&self, point: [f32; 2]) -> [f32; 2] {
         [0, 1].map(|axis| self.origin_px[axis] + point[axis] * self.px_per_point)
     }
 
-    /// The left, top, width and height of those pixels that show and whose middle is within `clip`.
+    /// Left, top, width and height of the visible pixels whose middle is within `clip`.
     pub(super) fn scissor_px(&self, clip: Rect) -> [u32; 4] {
         let [left, top, right, bottom] = self.edges_px;
         let [low, high] = [clip.min, clip.max].map(|corner| {
@@ -43,7 +43,7 @@ impl ScreenTransform {
     }
 }
 
-/// Tells a shader of a place, as its first bind group.
+/// Passes a transform to a shader, as its first bind group.
 #[derive(Debug)]
 pub(super) struct ScreenBindGroup {
     pub(super) layout: wgpu::BindGroupLayout,
@@ -92,8 +92,8 @@ impl ScreenBindGroup {
     }
 }
 
-/// A pipeline of triangles with vertices `V` and `shaders/screen_transform.wgsl`, named by label, shader and fragment
-/// function, the colours of which are premultiplied.
+/// A pipeline of triangles with vertices `V` and `shaders/screen_transform.wgsl`. Its names are a label, a shader,
+/// and a fragment function that returns premultiplied colours.
 pub(super) fn pipeline<V>(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,

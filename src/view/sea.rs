@@ -54,7 +54,7 @@ impl SeaPipeline {
         };
         self.triangles.clear();
         self.indices = sea.map_or(0..0, |sea| {
-            // Which corner a vertex is, its index says.
+            // The index of a vertex determines its corner.
             self.triangles.add(&[part(sea); 4], &[0, 1, 2, 2, 1, 3])
         });
         self.triangles.upload(gpu);

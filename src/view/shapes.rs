@@ -12,17 +12,17 @@ use super::theme::colour;
 use crate::stage;
 use crate::stage::{PathPoint, Shape};
 
-/// Draws a picture's shapes.
+/// Draws the shapes of a picture.
 #[derive(Debug)]
 pub(super) struct ShapeRenderer {
     strokes: StrokePipeline,
     draws: Vec<Draw>,
 }
 
-/// Shapes that follow each other within one clip.
+/// Consecutive shapes with the same clip.
 #[derive(Debug)]
 struct Draw {
-    /// Left, top, width and height of what shows on the target.
+    /// Left, top, width and height of their visible area on the target.
     scissor_px: [u32; 4],
     indices: Range<u32>,
 }
@@ -43,13 +43,13 @@ impl ShapeRenderer {
         Self { strokes: StrokePipeline::new(gpu, layout, format), draws: Vec::new() }
     }
 
-    /// Forgets all shapes.
+    /// Removes all shapes.
     pub(super) fn clear(&mut self) {
         self.draws.clear();
         self.strokes.clear();
     }
 
-    /// Adds shapes over the others, and says which draws they got.
+    /// Adds shapes over the others. Returns the range of their draws.
     pub(super) fn add(&mut self, shapes: &[Shape], transform: &ScreenTransform) -> Range<usize> {
         let first = self.draws.len();
         for run in shapes.chunk_by(|a, b| clip(a) == clip(b)) {
@@ -64,12 +64,12 @@ impl ShapeRenderer {
         first..self.draws.len()
     }
 
-    /// Uploads all that was added.
+    /// Uploads all added shapes.
     pub(super) fn upload(&mut self, gpu: &Gpu) {
         self.strokes.upload(gpu);
     }
 
-    /// Draws some of them.
+    /// Paints a range of the draws.
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>, draws: Range<usize>) {
         for Draw { scissor_px: [left, top, width, height], indices } in &self.draws[draws] {
             pass.set_scissor_rect(*left, *top, *width, *height);
@@ -84,7 +84,7 @@ fn add(mesh: &mut StrokeMesh, shape: &Shape, transform: &ScreenTransform) {
     match shape {
         Shape::Path(path) => {
             let widest = path.points.iter().map(|point| point.radius).fold(0.0, f32::max);
-            // Half a pixel more for its blur.
+            // Half a pixel more for the blur.
             let window = window.expand(widest + 0.5 / transform.px_per_point);
             for run in shown(path.points.iter().map(joint), window) {
                 mesh.add(run, path.dash, transform.px_per_point);

@@ -1,4 +1,4 @@
-//! The stage: a picture's sea, then its shapes, in their place on the target.
+//! The stage: a picture's sea, then its shapes, at their place on the target.
 
 use std::ops::Range;
 
@@ -10,19 +10,19 @@ use super::shapes::ShapeRenderer;
 use super::textures::{Start, pass};
 use crate::stage::{FAR, Picture, Rect};
 
-/// What clips nothing.
+/// A rectangle that clips nothing.
 const EVERYWHERE: Rect = Rect { min: [-FAR; 2], max: [FAR; 2] };
 
-/// The part of the frame that panels leave free, and what to show there.
+/// The part of the frame that panels leave free, and its picture.
 #[derive(Clone, Debug)]
 pub(super) struct Stage {
-    /// Where, in points of the frame.
+    /// Place, in points of the frame.
     pub(super) rect: egui::Rect,
-    /// What, in points of the stage.
+    /// Contents, in points of the stage.
     pub(super) picture: Picture,
 }
 
-/// Draws the part of a picture that is not text.
+/// Draws everything of a picture but its text.
 #[derive(Debug)]
 pub(super) struct StageRenderer {
     screen: ScreenBindGroup,
@@ -30,7 +30,7 @@ pub(super) struct StageRenderer {
     sea: SeaPipeline,
     shapes: ShapeRenderer,
     covered: Covered,
-    /// The draws of the shapes that the backdrop covers, and of those over it.
+    /// Draws of the shapes that the backdrop covers, and of the shapes over it.
     draws: [Range<usize>; 2],
     /// Left, top, width and height on the target.
     scissor_px: [u32; 4],
@@ -55,8 +55,8 @@ impl StageRenderer {
         }
     }
 
-    /// Uploads what [`Self::paint`] will draw, and puts the backdrop on the target, if there is one. Returns what the
-    /// pass begins with.
+    /// Uploads the picture for [`Self::paint`], and copies the backdrop to the target if there is one. Returns the
+    /// initial contents of the pass.
     pub(super) fn prepare(
         &mut self,
         gpu: &Gpu,
@@ -66,7 +66,7 @@ impl StageRenderer {
         scale: f32,
     ) -> Start {
         let size_px = [target.width(), target.height()];
-        // On whole pixels: what the picture puts on whole points stays sharp.
+        // On whole pixels, so that shapes on whole points stay sharp.
         let low_px = (rect.min.to_vec2() * scale).round();
         let high_px = (rect.max.to_vec2() * scale).round();
         let [left, right] = [low_px.x, high_px.x].map(|x| x.clamp(0.0, size_px[0] as f32));
@@ -91,7 +91,7 @@ impl StageRenderer {
         };
         self.shapes.upload(gpu);
         if let (Covered::Drawing(_), Some(view)) = (self.covered, self.backdrop.view()) {
-            // At once: whether this frame is ever submitted is the caller's business, and later ones need it.
+            // Submitted at once: later frames need the backdrop, even if the caller never submits this frame.
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut pass = pass(&mut encoder, "backdrop", &view, Start::Black);
             if self.begin(&mut pass) {
@@ -108,7 +108,7 @@ impl StageRenderer {
         Start::AsItIs
     }
 
-    /// Draws what was prepared, and nothing outside the stage.
+    /// Draws the prepared picture, and nothing outside the stage.
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
         if !self.begin(pass) {
             return;
@@ -119,7 +119,7 @@ impl StageRenderer {
         self.shapes.paint(pass, self.draws[1].clone());
     }
 
-    /// Whether there is room for a stage, to which all that follows is confined.
+    /// Confines all further drawing to the stage. Returns false if there is no room for one.
     fn begin(&self, pass: &mut wgpu::RenderPass<'_>) -> bool {
         let [left, top, width, height] = self.scissor_px;
         if width == 0 || height == 0 {

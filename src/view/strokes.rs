@@ -1,7 +1,7 @@
 //! Strokes: every line, dot, fill and curve of a plot, as triangles for one pipeline.
 //!
-//! A vertex says how wide its line is there, and how far across and along the line it lies, in pixels, so that
-//! a shader can tell how much of a pixel is covered.
+//! A vertex has the width of its line there, and its place across and along the line, in pixels. From these a shader
+//! computes how much of a pixel is covered.
 
 use std::ops::Range;
 
@@ -18,11 +18,12 @@ const SHADER: &str = concat!(
     include_str!("../../shaders/strokes.wgsl")
 );
 
-/// Corners sharper than this, the cosine of the turn, are not mitred: the tip would stick out.
+/// Minimum cosine of the turn at a mitred corner. At a sharper corner the tip would stick out.
 const MIN_MITRE_COSINE: f32 = 0.0;
-/// How far the triangles of a line reach beyond its edge: half a pixel of blur, and a little for the corners of pixels.
+/// Reach of a line's triangles beyond its edge, in pixels: half a pixel of blur, and a little for the corners of
+/// pixels.
 const MARGIN_PX: f32 = 1.0;
-/// From one dash to the next of a line that has one: longer than any line.
+/// Distance between the dashes of a line that has only one, in pixels: longer than any line.
 const FAR_PX: f32 = 1e9;
 
 /// A vertex in `shaders/strokes.wgsl`.
@@ -31,10 +32,10 @@ const FAR_PX: f32 = 1e9;
 struct StrokeVertex {
     /// In points.
     at: [f32; 2],
-    /// Half the line's width here, and how far from its middle.
+    /// Half the line's width here, and the distance from its middle.
     across_px: [f32; 2],
-    /// How far along the line from the middle of its first dash; from the middle of a dash to where its end begins to be
-    /// round; from one dash to the next.
+    /// Distance along the line from the middle of its first dash; distance from the middle of a dash to its round
+    /// end; and distance between dashes.
     along_px: [f32; 3],
     colour: Color32,
 }
@@ -50,9 +51,10 @@ pub(super) struct StrokeMesh {
 }
 
 impl StrokeMesh {
-    /// Adds a filled outline that can be seen whole from the mean of its corners, its edge blurred over a pixel.
+    /// Adds a filled outline, with its edge blurred over a pixel. The whole outline must be visible from the mean of
+    /// its corners.
     pub(super) fn fill(&mut self, corners: &[(Pos2, Color32)], px_per_point: f32) {
-        /// Wider than a pixel on both sides: it is all covered.
+        /// Wider than a pixel on both sides, so all of it is covered.
         const WHOLE_PX: [f32; 2] = [1.0, 0.0];
         let count = corners.len();
         if count < 3 {
@@ -89,8 +91,9 @@ impl StrokeMesh {
         }
     }
 
-    /// Adds a line as quads from joint to joint, mitred where they meet. Its dashes, drawn length and gap in points, have
-    /// round ends within that length. Without a gap it has round ends beyond its own; but one that is closed has none.
+    /// Adds a line as quads from joint to joint, mitred where they meet. Its dashes have round ends within the drawn
+    /// length, which is in points like the gap. A line without a gap has round ends beyond its length, unless it is
+    /// closed.
     pub(super) fn add(&mut self, mut line: Vec<Joint>, [drawn, gap]: [f32; 2], px_per_point: f32) {
         let [Some(&start), Some(&end)] = [line.first(), line.last()] else { return };
         let margin = MARGIN_PX / px_per_point;
@@ -126,7 +129,7 @@ impl StrokeMesh {
             }
             vertices.len() as u32 - 2
         };
-        // The pair of vertices that the next quad shares with this one.
+        // The pair of vertices that the next quad shares with the last.
         let mut shared = None;
         if let [first, second, .., last, _] = line[..]
             && is_closed
@@ -148,11 +151,11 @@ impl StrokeMesh {
     }
 }
 
-/// Makes room for a half disc and so much more beyond the end of a line.
+/// Extends the end of a line by a half disc and `margin`.
 fn round_end(line: &mut Vec<Joint>, margin: f32) {
     let [.., before, end] = line[..] else { return };
     let along = (end.at - before.at).normalized();
-    // A dot ends in any direction.
+    // A dot may end in any direction.
     let out = if along == Vec2::ZERO { Vec2::X } else { along };
     let tip = Joint { at: end.at + out * (end.radius + margin), ..end };
     if (end.radius, end.colour) == (before.radius, before.colour) {
@@ -161,7 +164,7 @@ fn round_end(line: &mut Vec<Joint>, margin: f32) {
     line.push(tip);
 }
 
-/// Along the edge at a corner of a line, as long as it has to be; `None` where the corner is too sharp.
+/// Direction along the edge at a corner, as long as its mitre needs; `None` if the corner is too sharp.
 fn mitre(before: Vec2, after: Vec2) -> Option<Vec2> {
     let turn = before.dot(after);
     (turn > MIN_MITRE_COSINE).then(|| (before + after) / (1.0 + turn))
@@ -175,7 +178,7 @@ pub(super) struct StrokePipeline {
 }
 
 impl StrokePipeline {
-    /// Draws where the bind group of `layout` says.
+    /// Creates a pipeline that draws at the place in the bind group of `layout`.
     pub(super) fn new(
         gpu: &Gpu,
         layout: &wgpu::PipelineLayout,
@@ -187,22 +190,22 @@ impl StrokePipeline {
         Self { pipeline, triangles: MeshBuffer::new(gpu, "strokes") }
     }
 
-    /// Forgets all strokes.
+    /// Removes all strokes.
     pub(super) fn clear(&mut self) {
         self.triangles.clear();
     }
 
-    /// Adds strokes, and says which indices they got.
+    /// Adds strokes. Returns the range of their indices.
     pub(super) fn add(&mut self, mesh: &StrokeMesh) -> Range<u32> {
         self.triangles.add(&mesh.vertices, &mesh.indices)
     }
 
-    /// Uploads all that was added.
+    /// Uploads all added strokes.
     pub(super) fn upload(&mut self, gpu: &Gpu) {
         self.triangles.upload(gpu);
     }
 
-    /// Draws some of them.
+    /// Draws a range of the strokes.
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, indices: Range<u32>) {
         pass.set_pipeline(&self.pipeline);
         self.triangles.draw(pass, indices);

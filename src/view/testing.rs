@@ -1,4 +1,4 @@
-//! What the tests of this layer share: a device and the pixels drawn with it, and frames of panels without one.
+//! Shared test code: a device and the pixels drawn with it, and frames of panels without a device.
 
 use std::io::{self, Write};
 
@@ -13,7 +13,7 @@ use crate::studio::{Command, Studio};
 use crate::view::stage::StageRenderer;
 use crate::view::textures::pass;
 
-/// A software device, or a line on stderr that says which test did not run and why.
+/// A software device. Without one, writes the name of the skipped test and the reason to stderr.
 pub(super) fn gpu_or_skip(test: &str) -> Option<Gpu> {
     pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
         // Not `eprintln!`, which the test runner hides when a test passes.
@@ -33,7 +33,7 @@ impl Pixels {
         self.rows[first..first + 4].try_into().expect("four bytes are four bytes")
     }
 
-    /// How many pixels are not black.
+    /// Number of pixels that are not black.
     pub(super) fn lit(&self) -> usize {
         self.rows.chunks_exact(4).filter(|pixel| pixel[..3] != [0, 0, 0]).count()
     }
@@ -44,7 +44,7 @@ impl Pixels {
     }
 }
 
-/// A picture alone on black, the stage filling the target, `scale` pixels a point.
+/// Draws a picture alone on black, with a stage that fills the target at `scale` pixels per point.
 pub(super) fn draw_picture(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
     draw_next(gpu, &mut StageRenderer::new(gpu, Offscreen::FORMAT), size_px, scale, picture)
 }
@@ -69,7 +69,7 @@ pub(super) fn draw_next(
     read(gpu, Some(encoder.finish()), &target)
 }
 
-/// What `drawing` makes of the target.
+/// Pixels of the target after `drawing`.
 pub(super) fn read(gpu: &Gpu, drawing: Option<wgpu::CommandBuffer>, target: &Offscreen) -> Pixels {
     let mut rows = Vec::new();
     let read = Readback::default().read(gpu, drawing, &target.texture, &mut rows);
@@ -80,14 +80,14 @@ pub(super) fn read(gpu: &Gpu, drawing: Option<wgpu::CommandBuffer>, target: &Off
 /// A clip rectangle that clips nothing.
 pub(super) const EVERYWHERE: Rect = Rect { min: [-1e4; 2], max: [1e4; 2] };
 
-/// A window of this size in points, whose frames are laid out and not drawn.
+/// A window of this size in points. It lays frames out without drawing them.
 ///
-/// `egui_kittest` finds what a screen reader hears, where these tests judge every painted text with its place and what
-/// clips it, and point at places of plots.
+/// `egui_kittest` finds the texts of a screen reader. These tests instead judge every painted text with its place and
+/// its clip, and point at places of plots.
 pub(super) struct TestWindow {
     pub(super) context: Context,
     pub(super) size: Vec2,
-    /// The moment of the last frame, and from there to the next, in seconds.
+    /// Time of the last frame, and time between frames, in seconds.
     pub(super) time_s: f64,
     pub(super) frame_s: f64,
 }
@@ -99,7 +99,7 @@ impl TestWindow {
         Self { context, size: size.into(), time_s: 0.0, frame_s: 1.0 / 60.0 }
     }
 
-    /// Lays out a frame after these events. Returns what `layout` does, and what is shown.
+    /// Lays out a frame after these events. Returns the result of `layout`, and the texts of the frame.
     pub(super) fn show<T>(
         &mut self,
         events: Vec<Event>,
@@ -123,33 +123,33 @@ impl TestWindow {
         (made.expect("a frame is laid out"), shown)
     }
 
-    /// Lays out all panels after these events. Returns what they ask for.
+    /// Lays out all panels after these events. Returns their commands and the texts of the frame.
     pub(super) fn panels(&mut self, studio: &Studio, events: Vec<Event>) -> (Vec<Command>, Shown) {
         self.show(events, |ui| panels::show(ui, studio).0)
     }
 
-    /// What the panels ask for in the frames of a click.
+    /// The commands of the panels in the frames of a click.
     pub(super) fn click(&mut self, studio: &Studio, at: Pos2) -> Vec<Command> {
         let frames = [Event::PointerMoved(at), button(at, true), button(at, false)];
         frames.into_iter().flat_map(|event| self.panels(studio, vec![event]).0).collect()
     }
 }
 
-/// The first mouse button, pressed or let go of.
+/// A press or a release of the first mouse button.
 pub(super) fn button(pos: Pos2, pressed: bool) -> Event {
     let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
     Event::PointerButton { pos, button, pressed, modifiers }
 }
 
-/// The texts of a frame, and what a screen reader hears if the window's context has it enabled.
+/// Texts of a frame, and the output for a screen reader if the window's context has it enabled.
 pub(super) struct Shown {
     pub(super) texts: Vec<ShownText>,
-    /// The rings round what has the keyboard's focus, as far as they are not clipped.
+    /// Visible parts of the rings around the focused widget.
     pub(super) rings: Vec<egui::Rect>,
     pub(super) heard: Vec<String>,
 }
 
-/// A text and what clips it.
+/// A text and its clip.
 pub(super) struct ShownText {
     pub(super) shape: TextShape,
     pub(super) clip: egui::Rect,

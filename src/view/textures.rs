@@ -2,7 +2,7 @@
 
 use super::gpu::Gpu;
 
-/// A texture of one level, its contents undefined.
+/// Creates a texture of one level with undefined contents.
 pub(super) fn texture(
     gpu: &Gpu,
     label: &str,
@@ -22,7 +22,7 @@ pub(super) fn texture(
     })
 }
 
-/// For larger targets nothing is kept to be copied to them: it would take as much memory again.
+/// No copy is kept for a larger target, because it would take as much memory again.
 const MAX_PIXELS: u64 = 4096 * 4096;
 
 /// Whether a texture of this format and of the target's size can be copied to the target.
@@ -35,16 +35,16 @@ pub(super) fn takes_copies(target: &wgpu::Texture, format: wgpu::TextureFormat) 
     usage && is_plain && target.format() == format && pixels <= MAX_PIXELS
 }
 
-/// What a pass begins with.
+/// Initial contents of a pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Start {
     /// A black target.
     Black,
-    /// What the target holds.
+    /// The present contents of the target.
     AsItIs,
 }
 
-/// A pass that draws on a target.
+/// Begins a pass that draws on a target.
 pub(super) fn pass<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     label: &str,

@@ -1,4 +1,4 @@
-//! What panels are painted with: the colours of the theme, the fonts and the box for a sign that none has, the size of type.
+//! The look of panels: the colours of the theme, the fonts, the box for a sign that no font has, and the font sizes.
 
 use std::sync::LazyLock;
 
@@ -55,7 +55,7 @@ impl PanelPalette {
         }
     }
 
-    /// The colour and the dash pattern of a lane among these.
+    /// Colour and dash pattern of a lane in this list.
     pub(super) fn style(&self, lanes: &[LaneSpec], spec: &LaneSpec) -> (Color32, [f32; 2]) {
         let (rgba, dash) = self.theme.lane_style(lanes, spec);
         (colour(rgba), dash)
@@ -65,7 +65,6 @@ impl PanelPalette {
 static DARK: LazyLock<PanelPalette> = LazyLock::new(|| PanelPalette::of(Theme::Dark));
 static LIGHT: LazyLock<PanelPalette> = LazyLock::new(|| PanelPalette::of(Theme::Light));
 
-/// The colours of a theme.
 pub(super) fn palette_of(theme: Theme) -> &'static PanelPalette {
     match theme {
         Theme::Dark => &DARK,
@@ -73,7 +72,7 @@ pub(super) fn palette_of(theme: Theme) -> &'static PanelPalette {
     }
 }
 
-/// The colours of the theme that a panel is shown in.
+/// The colours of the theme of a panel.
 pub(super) fn palette(ui: &Ui) -> &'static PanelPalette {
     palette_of(if ui.visuals().dark_mode { Theme::Dark } else { Theme::Light })
 }
@@ -82,55 +81,55 @@ pub(super) fn colour([r, g, b, a]: Rgba) -> Color32 {
     Color32::from_rgba_unmultiplied(r, g, b, a)
 }
 
-/// The size of the type of panels at 1280×720, in points.
+/// The font size of panels at 1280×720, in points.
 pub(super) const TYPE: f32 = 13.0;
-/// The window at which type has that size, in points, and how much larger than there everything may become.
+/// The window size for that font size, in points, and the maximum enlargement.
 const USUAL_SIZE: [f32; 2] = [1280.0, 720.0];
 const MAX_ZOOM: f32 = 2.0;
 
-/// How much larger everything is in a window of this size, in points, than at the usual one: type grows with the
-/// square root of the window, in steps of which none is seen as one.
+/// Enlargement in a window of this size, in points, relative to the usual one. Type grows with the square root of the
+/// window's size, in steps too small to notice.
 pub(super) fn auto_zoom(size: [f32; 2]) -> f32 {
     let times = (size[0] / USUAL_SIZE[0]).min(size[1] / USUAL_SIZE[1]).max(1.0);
     (8.0 * times.sqrt().min(MAX_ZOOM)).round() / 8.0
 }
 
-/// The least window in which every text can be read at the usual size of type, in points.
+/// Minimum window in which every text is readable at the usual font size, in points.
 const MIN_ROOM: [f32; 2] = [800.0, 480.0];
 
-/// How much larger everything is in a window of this size, in points, than at the usual one, where a person has chosen this
-/// size of type and panels in percent. A window that is too small for the choice shows the largest that fits.
+/// Enlargement in a window of this size, in points, with the user's choice of the size of type and panels in percent.
+/// If the window is too small for the choice, the largest enlargement that fits.
 pub(super) fn zoom(size: [f32; 2], percent: u32) -> f32 {
     let grown = auto_zoom(size);
     let largest = (size[0] / MIN_ROOM[0]).min(size[1] / MIN_ROOM[1]);
     (grown * percent as f32 / 100.0).min(largest.max(grown))
 }
 
-/// The family of words that stand out.
+/// Font family of words that stand out.
 pub(super) fn strong() -> FontFamily {
     FontFamily::Name("strong".into())
 }
 
-/// Type of this size that stands out.
+/// Font of words that stand out.
 pub(super) fn strong_font(size: f32) -> FontId {
     FontId::new(size, strong())
 }
 
-/// Upright serif type of this size, for figures and words in formulas.
+/// Font of digits and words in formulas: upright serif.
 pub(super) fn formula_font(size: f32) -> FontId {
     FontId::new(size, FontFamily::Name("formula".into()))
 }
 
-/// Serif italic of this size, for quantities in formulas.
+/// Font of quantities in formulas: serif italic.
 pub(super) fn quantity_font(size: f32) -> FontId {
     FontId::new(size, FontFamily::Name("quantity".into()))
 }
 
-/// The look of every widget. Set once for each context.
+/// Sets the look of every widget. Call it once for each context.
 pub(super) fn apply_style(context: &egui::Context) {
     context.set_fonts(fonts());
     context.add_glyph_rasterizer(missing_glyph());
-    // The keys for the size of type are ours.
+    // The program has its own keys for the font size.
     context.options_mut(|options| options.zoom_with_keyboard = false);
     for theme in [Theme::Dark, Theme::Light] {
         let egui_theme = in_egui(theme);
@@ -139,14 +138,14 @@ pub(super) fn apply_style(context: &egui::Context) {
     }
 }
 
-/// Has the context show the theme and the size of type of a display, in a window of this size in points.
+/// Applies the theme and the font size of a display to the context, in a window of this size in points.
 pub(super) fn show(context: &egui::Context, display: &Display, size: [f32; 2]) {
     context.set_theme(in_egui(display.theme));
     set_zoom(context, zoom(size, display.scale_percent));
 }
 
-/// Sets how much larger everything is from the next frame on. egui's own way would lay that frame out in the points of the
-/// one before.
+/// Sets the enlargement from the next frame on. egui's own setter would lay out that frame in the points of the one
+/// before.
 pub(super) fn set_zoom(context: &egui::Context, zoom: f32) {
     context.options_mut(|options| options.zoom_factor = zoom);
 }
@@ -158,17 +157,17 @@ fn in_egui(theme: Theme) -> egui::Theme {
     }
 }
 
-/// A face of `assets/fonts`.
+/// A font file of `assets/fonts`.
 macro_rules! face {
     ($file:literal) => {
         FontData::from_static(include_bytes!(concat!("../../assets/fonts/", $file)))
     };
 }
 
-/// Inter for all words and numbers, its figures of one width; a serif for formulas; one width for lines quoted from a file.
-/// What one lacks is taken from the others. `assets/fonts/subset.py` says where they come from.
+/// Inter for all words and numbers, with digits of equal width; a serif for formulas; a fixed-width font for lines
+/// quoted from a file. Each falls back on the others. `assets/fonts/subset.py` lists their sources.
 fn fonts() -> FontDefinitions {
-    // Larger than the letters beside it otherwise.
+    // Otherwise its signs are larger than the letters beside them.
     let transport = FontTweak { scale: 0.9, ..FontTweak::default() };
     let font_data = [
         ("Inter", face!("Inter-Regular.otf")),
@@ -196,7 +195,7 @@ fn fonts() -> FontDefinitions {
 }
 
 fn dress_style(style: &mut egui::Style, palette: &PanelPalette) {
-    // The same input makes the same frame, whenever it is drawn.
+    // The same input must make the same frame, whenever it is drawn.
     style.animation_time = 0.0;
     style.visuals.text_cursor.blink = false;
     style.spacing.item_spacing = vec2(6.0, 3.0);
@@ -239,15 +238,15 @@ fn dress_style(style: &mut egui::Style, palette: &PanelPalette) {
     }
 }
 
-/// Width and height of the box for a sign that no font has, the width of its line, and the room on each side, in units of
-/// the size of type.
+/// Width and height of the box for a sign that no font has, the width of its line, and the room on each side. All are
+/// relative to the font size.
 const BOX_WIDTH: f32 = 0.5;
 const BOX_HEIGHT: f32 = 0.7;
 const BOX_LINE: f32 = 1.0 / 14.0;
 const BOX_MARGIN: f32 = 0.1;
 
-/// Draws a box for every sign that no font has, such as a Chinese character in a body's name. The fonts are cut down, and
-/// their own box is empty.
+/// Draws a box for every sign that no font has, such as a Chinese character in a body's name. The fonts are subsets,
+/// and their own box is empty.
 fn missing_glyph() -> GlyphRasterizer {
     GlyphRasterizer::new("regatta::missing_glyph", missing_glyph_box)
 }
@@ -269,7 +268,7 @@ fn missing_glyph_box(request: &GlyphRasterizerRequest<'_>) -> Option<RasterizedG
         }
     }
     let margin = pixels(BOX_MARGIN, 0.0) as f32;
-    // It stands on the baseline.
+    // The box stands on the baseline.
     let offset_px: Vec2 = vec2(margin, -(height as f32));
     let bitmap = GlyphBitmap { image, offset_px, is_color: false };
     Some(RasterizedGlyph { bitmap, advance_px: width as f32 + 2.0 * margin })
@@ -310,7 +309,7 @@ mod tests {
         }
     }
 
-    /// The signs of the texts under a folder of the package, without those of comments and tests.
+    /// Adds the signs of the texts under a folder of the package, without comments and tests.
     fn signs_under(folder: PathBuf, signs: &mut BTreeSet<char>) {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();

@@ -1,5 +1,5 @@
-//! The pointer over the stage: it takes hold of bodies, and zooms and pans what is seen of them. As panels do, it reads
-//! the studio and returns commands.
+//! The pointer over the stage. It grabs bodies, and zooms and pans their view. Like the panels, it reads the studio
+//! and returns commands.
 
 use std::collections::VecDeque;
 
@@ -11,45 +11,45 @@ use crate::scene::Action;
 use crate::stage::{Cell, Grasp, Picture, Whose};
 use crate::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand, ZoomPan};
 
-/// From this distance on, in points, a press is a drag: less is a hand that trembles.
+/// Distance from which a press is a drag, in points. A trembling hand stays below it.
 const DRAG: f32 = 3.0;
 /// The time over which a drag's velocity is measured, in seconds: long enough for several frames, short enough for a
-/// hand that stopped to be at rest.
+/// hand that stopped to count as at rest.
 const MEMORY_S: f64 = 0.1;
-/// From a body's edge to the ring that says that it can be grabbed, in points.
+/// Distance from a body's edge to the ring that marks it as draggable, in points.
 const RING: f32 = 3.0;
-/// For how long at a time, and how long after that not again, a body says that it can be dragged, in seconds.
+/// Duration of a body's invitation to drag it, and time from one invitation to the next, in seconds.
 const INVITES_S: f64 = 3.0;
 const INVITED_S: f64 = 60.0;
-/// Its largest radius: round a ship as long as it is, it would leave the stage.
+/// Maximum radius of that ring. A ring around a whole ship would leave the stage.
 const MAX_RING: f32 = 48.0;
 
-/// What a pointer does to a stage, from frame to frame.
+/// State of the pointer over a stage, from frame to frame.
 #[derive(Debug, Default)]
 pub(super) struct Touch {
     press: Option<Press>,
     track: Track,
-    /// When a body began to say last that it can be dragged, in seconds; `None` as long as none has.
+    /// Start of the last invitation to drag a body, in seconds; `None` if there was none.
     invited_s: Option<f64>,
 }
 
 /// A button held down.
 #[derive(Debug)]
 struct Press {
-    /// Where it was pressed, in points of the frame.
+    /// Place of the press, in points of the frame.
     from: Pos2,
     is_drag: bool,
     on: Pressed,
 }
 
-/// What the button was pressed on.
+/// Target of the press.
 #[derive(Debug)]
 enum Pressed {
     Body {
         grasp: Grasp,
         entry: usize,
     },
-    /// A cell without a body there, as it was zoomed then.
+    /// A cell without a body there, with its zoom at that time.
     Sea {
         cell: Cell,
         zoom_pan: ZoomPan,
@@ -60,7 +60,7 @@ enum Pressed {
 struct Stage<'a> {
     studio: &'a Studio,
     picture: &'a Picture,
-    /// Where it is, in points of the frame.
+    /// Place of the stage, in points of the frame.
     rect: Rect,
 }
 
@@ -69,7 +69,7 @@ impl Stage<'_> {
         (at - self.rect.min).into()
     }
 
-    /// Whether the verdict on the method is said there.
+    /// Whether the verdict on the method is there.
     fn is_on_chip(&self, at: Pos2) -> bool {
         self.picture.chip.is_some_and(|chip| chip.contains(self.point(at)))
     }
@@ -81,7 +81,7 @@ impl Stage<'_> {
 }
 
 impl Touch {
-    /// Takes in what the pointer did since the last frame over the stage, which fills `rect` with `picture`.
+    /// Handles the events of the pointer since the last frame over the stage, which fills `rect` with `picture`.
     pub(super) fn show(
         &mut self,
         ui: &Ui,
@@ -124,7 +124,8 @@ impl Touch {
         self.point_out(ui, &stage, hover, time);
     }
 
-    /// The studio may have released the body itself (Escape), or may still hold one that this state forgot.
+    /// Agrees with the studio, which may have released the body itself (Escape), or may still hold one that this
+    /// state forgot.
     fn agree_with(&mut self, studio: &Studio, commands: &mut Vec<Command>) {
         let holds = matches!(self.press, Some(Press { on: Pressed::Body { .. }, .. }));
         match studio.deck.held() {
@@ -184,8 +185,8 @@ impl Touch {
         }
     }
 
-    /// A body that was dragged goes on from where it is let go: thrown with the drag's velocity, or at rest. A click
-    /// changes nothing of the run; in a race it selects the lane.
+    /// Ends a press. A dragged body moves on from its release: thrown with the drag's velocity, or at rest. A click
+    /// does not change the run; in a race it selects the lane.
     fn release(
         &mut self,
         stage: &Stage<'_>,
@@ -217,7 +218,7 @@ impl Touch {
         }
     }
 
-    /// Shows by the pointer's shape, and by a ring, what it can take hold of.
+    /// Marks a body that the pointer can grab, by the pointer's shape and a ring.
     fn point_out(&mut self, ui: &Ui, stage: &Stage<'_>, hover: Option<Pos2>, time: f64) {
         let cursor = match &self.press {
             Some(Press { on: Pressed::Body { .. }, .. }) => CursorIcon::Grabbing,
@@ -254,7 +255,7 @@ impl Touch {
     }
 }
 
-/// Zooms about the pointer by the wheel, or a pinch, and fits after a double click.
+/// Zooms about the pointer by the wheel or a pinch, and resets the view after a double click.
 fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
     let Some(cell) = stage.cell(at) else { return };
     let (times, _) = wheel_or_pinch(ui);
@@ -268,7 +269,7 @@ fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
     }
 }
 
-/// Where the pointer was of late, and when, in seconds.
+/// Recent places of the pointer, each with its time in seconds.
 #[derive(Debug, Default)]
 struct Track(VecDeque<(f64, Pos2)>);
 
@@ -293,11 +294,10 @@ impl Track {
 #[cfg(test)]
 mod tests;
 
-/// How far a wheel turns to enlarge by the factor e, in points; a notch is some 40.
+/// Turn of the wheel that enlarges by the factor e, in points. A notch is some 40.
 const WHEEL: f64 = 200.0;
 
-/// What the wheel and a pinch ask of what is under the pointer: how many times larger it is to be, and how far it is to
-/// move to the right, in points.
+/// Factor of the zoom, and distance to the right in points, by which the wheel and a pinch move the view.
 pub(super) fn wheel_or_pinch(ui: &Ui) -> (f64, f32) {
     let (scrolled, pinched) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
     (libm::exp(f64::from(scrolled.y) / WHEEL) * f64::from(pinched), scrolled.x)

@@ -1,4 +1,4 @@
-//! What the address of a page asks for after its `#`: a run, or a scene with methods, and how it is shown.
+//! Parses the part of a page's address after its `#`: a run, or a scene with methods, and display settings.
 
 use regatta::look::palette::Theme;
 use regatta::run::link::{Link, LinkError};
@@ -6,29 +6,29 @@ use regatta::run::race::Mode;
 use regatta::scene::Scene;
 use regatta::studio::{Instrument, Studio, lineup, open_loop_lab_on, show_clouds_of_scene};
 
-/// What was asked for.
+/// A parsed address.
 #[derive(Debug, Default)]
 pub(crate) struct Address {
     link: Link,
-    /// The run that the link holds.
+    /// The run in the link, if it has one.
     pub(crate) run: Option<Scene>,
-    /// Whether the stage and the digits of its methods are to stand on another's page.
+    /// Whether another page embeds the stage and the digits of its methods.
     pub(crate) is_embedded: bool,
-    /// Whether time runs from the start where it would not by itself.
+    /// Whether time runs from the start even where it would normally wait.
     pub(crate) plays: bool,
     pub(crate) theme: Option<Theme>,
     /// The tick to go to.
     pub(crate) tick: Option<u64>,
     pub(crate) instrument: Option<Instrument>,
-    /// The trace on which the loop lab opens.
+    /// Trace on which the loop lab opens.
     loop_trace: Option<String>,
 }
 
 impl Address {
-    /// Reads an address, or a text around one.
+    /// Reads an address, or a text that contains one.
     ///
     /// # Errors
-    /// What of it this page does not have, in a sentence.
+    /// A sentence about the part that this page does not have.
     pub(crate) fn of(written: &str) -> Result<Self, String> {
         let refused = |error: LinkError| error.to_string();
         let link = Link::read(written).map_err(refused)?;
@@ -52,7 +52,7 @@ impl Address {
                     address.instrument = Some(Instrument::of_id(id).ok_or_else(|| unknown(&ids))?);
                 }
                 ("loop", trace) => address.loop_trace = Some(trace.into()),
-                // The last of the settings of a page.
+                // `play`, the last setting of a page.
                 _ => address.plays = true,
             }
         }
@@ -66,10 +66,10 @@ impl Address {
         Ok(Self { link, ..address })
     }
 
-    /// The studio at tick 0 of the scene that is named; of a link to a run, of the first.
+    /// The studio at tick 0 of the named scene; for a link to a run, of the first scene.
     ///
     /// # Errors
-    /// What of it this page does not have, in a sentence.
+    /// A sentence about the part that this page does not have.
     pub(crate) fn studio(&self) -> Result<Studio, String> {
         let named = self.link.named().map_err(|error| error.to_string())?;
         let asked = if named.races { Mode::Race } else { Mode::Solo };
@@ -89,17 +89,17 @@ impl Address {
         Ok(studio)
     }
 
-    /// The link, as the address of a page ends in it.
+    /// The link in the form that ends a page's address.
     pub(crate) fn fragment(&self) -> String {
         self.link.to_string()
     }
 
-    /// Whether it asks for panels that a person may not have open.
+    /// Whether the address asks for panels that a person may have closed.
     pub(crate) fn opens_at_work(&self) -> bool {
         self.instrument.is_some() || self.link.asks_to_race() || self.loop_trace.is_some()
     }
 
-    /// Whether time runs at the start: a stage on another's page, and a tick that was asked for, wait until they are told.
+    /// Whether time runs at the start. An embedded stage, or one with a requested tick, waits for a person.
     pub(crate) fn runs_at_first(&self) -> bool {
         self.plays || !self.is_embedded && self.tick.is_none()
     }

@@ -14,7 +14,7 @@ pub(crate) struct Canvas {
 
 impl Canvas {
     /// # Errors
-    /// Why nothing can be drawn on it.
+    /// The reason why nothing can be drawn on it.
     pub(crate) async fn new(element: HtmlCanvasElement) -> Result<Self, String> {
         let refused = |reason: &dyn std::error::Error| {
             log::error!("{reason}");
@@ -27,8 +27,8 @@ impl Canvas {
         Ok(Self { element, renderer, screen, gpu, size_px: [0, 0] })
     }
 
-    /// Draws a frame and shows it, with `scale` pixels to a point of the page. Returns what was asked for on the panels;
-    /// `None` if the canvas cannot be drawn on at present.
+    /// Draws a frame and shows it, with `scale` pixels per point of the page. Returns the commands from the panels,
+    /// or `None` if the canvas cannot be drawn on now.
     pub(crate) fn draw(
         &mut self,
         scale: f64,
@@ -64,13 +64,13 @@ impl Canvas {
     }
 }
 
-/// What frames are shown on.
+/// The surface for frames.
 #[cfg(target_arch = "wasm32")]
 fn target(element: HtmlCanvasElement) -> wgpu::SurfaceTarget<'static> {
     wgpu::SurfaceTarget::Canvas(element)
 }
 
-/// Outside a browser this crate is read by lints, and tested without a canvas.
+/// Outside a browser, lints read this crate and tests run it without a canvas.
 #[cfg(not(target_arch = "wasm32"))]
 fn target(_: HtmlCanvasElement) -> wgpu::SurfaceTarget<'static> {
     unreachable!("only a browser has a canvas")

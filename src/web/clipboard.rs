@@ -1,11 +1,11 @@
-//! The clipboard, which a browser gives to pages of secure addresses only, and not at once.
+//! The clipboard, which a browser gives only to pages of secure addresses, and asynchronously.
 
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::Window;
 
 use crate::driver::{Driver, with};
 
-/// Puts a text on the clipboard, and then has the driver know whether it is there, or why not.
+/// Copies a text to the clipboard, then calls `then` with the result.
 pub(crate) fn write(
     window: &Window,
     text: &str,

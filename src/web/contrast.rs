@@ -1,18 +1,18 @@
-//! Holds the colours of the pages to a contrast with which everybody reads them.
+//! Tests that the colours of the pages have enough contrast for everybody to read.
 
 const SHEETS: [&str; 2] = [
     include_str!("../../assets/web/page.css"),
     include_str!("../../assets/web/questions/questions.css"),
 ];
 
-/// The least contrast of text with what is behind it, by the guidelines for the accessibility of pages (level AA).
+/// Least contrast between text and its background, by the guidelines for the accessibility of pages (level AA).
 const LEAST: f64 = 4.5;
 
-/// What is behind texts, and what is never text.
+/// Colours behind text, and colours that are never text.
 const BEHIND: [&str; 2] = ["water", "sunk"];
 const LINES: [&str; 1] = ["line"];
 
-/// The relative luminance of a colour of six hexadecimal digits.
+/// Relative luminance of a colour of six hexadecimal digits.
 fn luminance(hex: &str) -> f64 {
     let channel = |at: usize| {
         let value = f64::from(u8::from_str_radix(&hex[at..at + 2], 16).unwrap()) / 255.0;

@@ -1,4 +1,4 @@
-//! The driver: a studio, its canvas, and what has happened on the page since the last frame.
+//! The driver: a studio, its canvas, and the page's events since the last frame.
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -20,13 +20,13 @@ use crate::canvas::Canvas;
 use crate::pointer::Fingers;
 use crate::work::Workers;
 
-/// What a run may take to be rewound: phones have little, and a page that is left open is not to grow.
+/// Memory for rewinding a run. Phones have little, and a page that is left open must not grow.
 const REWIND_BYTES: usize = 16 << 20;
 
-/// The name under which the browser keeps the preferences of a person.
+/// Key of the browser's storage for a person's preferences.
 const STORED: &str = "regatta";
 
-/// The name of a scene that came in an address.
+/// Name of a scene from an address.
 const LINK: &str = "a link";
 
 pub(crate) struct Driver {
@@ -34,28 +34,29 @@ pub(crate) struct Driver {
     pub(crate) canvas: Canvas,
     pub(crate) frames: FrameLoop,
     pub(crate) workers: Workers,
-    /// The run of a link, until it is known whether it is here what it was.
+    /// The run of a link, until it is known whether it is the same here.
     pub(crate) arrival: Option<Replay>,
-    /// Whether it stands on another's page.
+    /// Whether another page embeds the stage.
     pub(crate) is_embedded: bool,
-    /// Whether a person who scrolls that page has it in sight.
+    /// Whether the stage is in sight on a page that embeds it.
     pub(crate) is_in_sight: bool,
-    /// Whether what is shown is remembered: what an address has chosen is nobody's choice.
+    /// Whether to store the display settings. Settings from an address are nobody's choice, and not stored.
     remembers: bool,
-    /// What panels are told with the next frame.
+    /// Input for the panels, for the next frame.
     pub(crate) input: egui::RawInput,
     pub(crate) held: egui::Modifiers,
-    /// Whether a person has gone into the stage, whose panels then have Tab; Escape and Tab lead out.
+    /// Whether a person has entered the stage, whose panels then have Tab. Escape and Tab lead out.
     pub(crate) is_entered: bool,
     pub(crate) was_escaped: bool,
-    /// What a screen reader was given last of the run.
+    /// The last text for a screen reader.
     pub(crate) spoken: String,
-    /// The stage to which the page leads an explanation: how many scenes were opened, the method, and whether it is the loop lab.
+    /// The stage that the page's link explains: the number of opened scenes, the method, and whether it is the loop
+    /// lab.
     pub(crate) explained: Option<(u64, usize, bool)>,
     pub(crate) fingers: Fingers,
-    /// The frames drawn.
+    /// Number of frames drawn.
     pub(crate) drawn: u32,
-    /// Whether the next frame is to be saved as a picture.
+    /// Whether to save the next frame as a picture.
     pub(crate) saves_picture: bool,
     pub(crate) frame_is_due: bool,
     pub(crate) work_is_due: bool,
@@ -81,7 +82,7 @@ pub(crate) fn with(does: impl FnOnce(&mut Driver)) {
     });
 }
 
-/// Where the browser keeps what a page remembers, if it does.
+/// The browser's storage for the page, if there is any.
 fn storage(window: &Window) -> Option<Storage> {
     window.local_storage().ok().flatten()
 }
@@ -92,7 +93,7 @@ pub(crate) fn now_ns(window: &Window) -> u64 {
     (ms * 1e6) as u64
 }
 
-/// Commands that a page carries out itself: it picks a file, and compares no recordings.
+/// Whether the page handles this command itself: it picks a file, and does not compare recordings.
 fn is_own(command: &Command) -> bool {
     matches!(command, Command::View(ViewCommand::AskForPath | ViewCommand::AskForRun))
 }
@@ -113,7 +114,7 @@ impl Driver {
         address: Address,
         mut studio: Studio,
     ) -> Self {
-        // At first the stage is alone, as in the window.
+        // Unless a person has stored another choice, the stage is alone at first, as in the window.
         let remembered = storage(&window).and_then(|storage| storage.get_item(STORED).ok()?);
         let remembered = remembered.and_then(|text| SavedPreferences::parse(&text).ok());
         remembered.unwrap_or_default().apply(&mut studio);
@@ -162,9 +163,9 @@ impl Driver {
         driver
     }
 
-    /// Goes to a tick that was asked for, from where time runs or not.
+    /// Goes to a requested tick. `runs` decides whether time runs from there.
     fn go_to(&mut self, tick: u64, runs: bool) {
-        // Beyond its end a run has nothing to show that an address could mean.
+        // Beyond the end of a run there is nothing that an address could mean.
         let last = regatta::run::trace::last_tick(self.frames.studio.scene());
         self.frames.go_to(tick.min(last), runs);
     }
@@ -173,7 +174,7 @@ impl Driver {
         now_ns(&self.window)
     }
 
-    /// Opens the run that a link holds, if it does.
+    /// Opens the run in a link, if there is one.
     fn open_run(&mut self, run: Option<Scene>) {
         if let Some(scene) = run {
             self.arrival = Some(Replay::new(scene.clone().into()));
@@ -181,7 +182,7 @@ impl Driver {
         }
     }
 
-    /// Opens a link that was pasted, and puts it into the address; or says why it leads to no run.
+    /// Opens a pasted link and puts it into the address. If it leads to no run, shows the reason.
     pub(crate) fn open_link(&mut self, written: &str) {
         match Address::of(written).and_then(|address| address.studio().map(|_| address)) {
             Ok(address) if address.run.is_some() => {
@@ -191,7 +192,7 @@ impl Driver {
                     self.go_to(tick, address.plays);
                 }
             }
-            // What an address opens by name, the page opens as its own.
+            // A link that names a scene opens by a reload of the page.
             Ok(address) => {
                 self.put_fragment(&address.fragment());
                 _ = self.window.location().reload();
@@ -201,36 +202,36 @@ impl Driver {
         self.request_frame();
     }
 
-    /// Puts a link into the address of the page.
+    /// Puts a link into the page's address.
     fn put_fragment(&self, link: &str) {
         let history = self.window.history();
         _ = history.map(|h| h.replace_state_with_url(&JsValue::NULL, "", Some(link)));
     }
 
-    /// Puts the run into the address of the page, unless that stands on another's, and returns the whole address.
+    /// Puts the run into the page's address, unless another page embeds the stage. Returns the whole address.
     ///
     /// # Errors
-    /// Why no link can hold the run.
+    /// The reason why no link can hold the run.
     pub(crate) fn put_into_address(&self) -> Result<String, String> {
         let copied = copied(&self.frames.studio, DriverRequest::CopyLink);
         let link = copied.unwrap_or_else(|| Err("there is no run".into()))?.text;
         let address = self.window.location().href().unwrap_or_default();
         let page = address.split('#').next().unwrap_or_default();
-        // A stage on another's page is opened again as one.
+        // An embedded stage must stay embedded when its page is opened again.
         if !self.is_embedded {
             self.put_fragment(&link);
         }
         Ok(format!("{page}{link}"))
     }
 
-    /// Has the browser remember how the program is shown.
+    /// Stores the display settings in the browser.
     pub(crate) fn remember(&self) {
         if let Some(storage) = storage(&self.window).filter(|_| self.remembers) {
             _ = storage.set_item(STORED, &SavedPreferences::of(&self.frames.studio).to_text());
         }
     }
 
-    /// Loads the page again at this tick of the run, after the graphics driver has taken the canvas away.
+    /// Reloads the page at the current tick of the run, after the graphics driver has taken the canvas away.
     pub(crate) fn start_again(&self) {
         let plays = if self.frames.studio.running() { "&play" } else { "" };
         let tick = self.frames.studio.race().tick();
@@ -241,13 +242,13 @@ impl Driver {
         _ = self.window.location().reload();
     }
 
-    /// Has time run, or stand still.
+    /// Resumes or pauses time.
     pub(crate) fn play(&mut self) {
         self.frames.ask([Command::View(ViewCommand::TogglePause)]);
         self.request_frame();
     }
 
-    /// Starts the run again, and has time run.
+    /// Restarts the run and lets time run.
     pub(crate) fn begin_again(&mut self) {
         self.frames.ask([Command::Stage(StageCommand::Restart)]);
         match self.frames.studio.running() {
@@ -264,7 +265,7 @@ impl Driver {
         }
     }
 
-    /// Has a frame drawn when the browser next shows one.
+    /// Requests a frame from the browser, unless one is already due.
     pub(crate) fn request_frame(&mut self) {
         if !std::mem::replace(&mut self.frame_is_due, true) {
             let frame = Closure::once_into_js(|| with(Self::frame));
@@ -272,7 +273,7 @@ impl Driver {
         }
     }
 
-    /// Has work done between frames, if there is any.
+    /// Schedules work between frames, if there is any.
     pub(crate) fn request_work(&mut self) {
         let has_more = self.workers.have_more() || self.arrival.is_some();
         if has_more && !std::mem::replace(&mut self.work_is_due, true) {
@@ -280,7 +281,7 @@ impl Driver {
         }
     }
 
-    /// Has the driver do something after some milliseconds.
+    /// Calls `does` on the driver after some milliseconds.
     pub(crate) fn after(&self, ms: i32, does: fn(&mut Self)) {
         let does = Closure::once_into_js(move || with(does));
         let set = Window::set_timeout_with_callback_and_timeout_and_arguments_0;

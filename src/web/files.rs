@@ -1,4 +1,4 @@
-//! Files: those that a person drops on the page or picks, and those that the page saves.
+//! Files that a person drops on the page or picks, and files that the page saves.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ use web_sys::{
 
 use crate::driver::{Driver, with};
 
-/// Asks for a file, and opens it.
+/// Asks for a file and opens it.
 pub(crate) fn ask() {
     let Some(input) = element::<HtmlInputElement>("input") else { return };
     input.set_type("file");
@@ -31,7 +31,7 @@ pub(crate) fn ask() {
     input.click();
 }
 
-/// Opens a file once it is read.
+/// Reads a file and opens it.
 pub(crate) fn open(file: File) {
     spawn_local(async move {
         if let Ok(read) = JsFuture::from(file.array_buffer()).await {
@@ -40,7 +40,7 @@ pub(crate) fn open(file: File) {
     });
 }
 
-/// Saves what the canvas shows, which has to be asked in the same turn as it is drawn.
+/// Saves the canvas as a picture. The browser allows this only in the turn that drew it.
 pub(crate) fn save_picture(canvas: &HtmlCanvasElement, name: String) {
     let save = Closure::once_into_js(move |picture: Option<Blob>| {
         let notice = match picture {
@@ -62,7 +62,7 @@ fn element<T: JsCast>(tag: &str) -> Option<T> {
     web_sys::window()?.document()?.create_element(tag).ok()?.dyn_into().ok()
 }
 
-/// Saves a text where the browser keeps downloads.
+/// Saves a text as a download.
 fn save_text(text: &str, kind: &str, name: &str) {
     let options = BlobPropertyBag::new();
     options.set_type(kind);
@@ -83,7 +83,7 @@ fn save_blob(blob: &Blob, name: &str) {
 }
 
 impl Driver {
-    /// Opens a scene, or the loop lab on a trace of frames. Of mistakes a dialog tells.
+    /// Opens a scene, or the loop lab on a trace of frames. Shows mistakes in a dialog.
     fn open_bytes(&mut self, name: &str, bytes: &[u8]) {
         let path = Path::new(name);
         let is = |known| path.extension().is_some_and(|end| end.eq_ignore_ascii_case(known));

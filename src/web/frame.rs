@@ -7,9 +7,9 @@ use web_sys::Document;
 use crate::driver::{Driver, now_ns};
 use crate::{clipboard, files, questions};
 
-/// The longest time that work takes of the page before a frame may be drawn, in nanoseconds.
+/// Longest time that work may delay a frame, in nanoseconds.
 const SLICE_NS: u64 = 5_000_000;
-/// The longest wait that is asked of the browser, in milliseconds.
+/// Longest wait to request from the browser, in milliseconds.
 const MAX_WAIT_MS: u128 = 60_000;
 
 impl Driver {
@@ -46,7 +46,7 @@ impl Driver {
         }
     }
 
-    /// Carries out the commands, and lets time pass.
+    /// Carries out the commands and advances time.
     fn simulate(&mut self, began_ns: u64) {
         while let Some(to_do) = self.frames.begin() {
             match to_do {
@@ -66,7 +66,7 @@ impl Driver {
         self.frames.pass(began_ns, u64::MAX, &|| now_ns(&window));
     }
 
-    /// Puts what is asked for on the clipboard, if it is something to copy.
+    /// Copies the requested text to the clipboard, if the request is one to copy.
     fn copy(&mut self, request: DriverRequest) {
         let copied = match copied(&self.frames.studio, request) {
             Some(Ok(copied)) => copied,
@@ -88,7 +88,7 @@ impl Driver {
         });
     }
 
-    /// Has the page show its title, its state and the pointer, and copies what was copied in the panels.
+    /// Updates the title, the state and the pointer of the page. Copies text that the panels want copied.
     fn show(&mut self, output: &egui::PlatformOutput) {
         if let Some(document) = self.window.document() {
             let title = self.frames.studio.title();
@@ -116,13 +116,13 @@ impl Driver {
         _ = self.canvas.element.style().set_property("cursor", pointer);
     }
 
-    /// Has the page show whether time runs, where the stage is explained, and what a screen reader says of it.
+    /// Updates the page's play state, its link to an explanation, and the text for a screen reader.
     fn show_state(&mut self, document: &Document) {
         let studio = &self.frames.studio;
         let (is_running, is_alone) = (studio.running(), !studio.display().measure);
         let classes = [
             ("running", is_running),
-            // A stage that stands still, without a bar, has a button over it.
+            // A paused stage without a bar has a button over it.
             ("still", !is_running && is_alone),
             ("entered", self.is_entered),
         ];
@@ -150,7 +150,7 @@ impl Driver {
         }
     }
 
-    /// Works for a slice of time, and goes on between the next frames.
+    /// Works for a slice of time, and schedules the rest between the next frames.
     pub(crate) fn work(&mut self) {
         self.work_is_due = false;
         let end_ns = self.now_ns() + SLICE_NS;

@@ -6,7 +6,7 @@ use web_sys::KeyboardEvent;
 
 /// A key that was pressed or released.
 pub(crate) struct Press {
-    /// As the browser names it by the layout, and by its place.
+    /// The browser's names of the key: by the layout, and by its place.
     key: String,
     code: String,
     held: Modifiers,
@@ -15,7 +15,7 @@ pub(crate) struct Press {
 
 impl Press {
     pub(crate) fn of(event: &KeyboardEvent, is_mac: bool) -> Self {
-        // AltGr makes another sign of a key; on Windows it is told as Control and Alt.
+        // AltGr selects another sign of a key. Windows reports it as Control and Alt.
         let is_alt_gr = event.get_modifier_state("AltGraph");
         let (control, other) = match is_mac {
             true => (event.meta_key(), event.ctrl_key()),
@@ -50,7 +50,7 @@ impl Press {
         self.key == "Tab"
     }
 
-    /// Whether it does nothing by itself.
+    /// Whether the key does nothing by itself.
     pub(crate) fn is_modifier(&self) -> bool {
         matches!(&*self.key, "Shift" | "Control" | "Alt" | "AltGraph" | "Meta" | "CapsLock")
     }
@@ -59,7 +59,7 @@ impl Press {
         self.key == "Escape"
     }
 
-    /// Whether it is a letter or another sign that is written.
+    /// Whether it writes a letter or another sign.
     fn is_sign(&self) -> bool {
         self.key.chars().count() == 1 && !self.is_chord()
     }
@@ -71,13 +71,13 @@ impl Press {
         self.is_sign() || is_named && !self.is_chord()
     }
 
-    /// The modifiers, for panels.
+    /// The modifiers in the panels' type.
     pub(crate) fn modifiers(&self) -> egui::Modifiers {
         let Modifiers { shift, control, other } = self.held;
         egui::Modifiers { alt: other, ctrl: control, shift, mac_cmd: false, command: control }
     }
 
-    /// What panels are told of it.
+    /// The events of this press or release, for panels.
     pub(crate) fn events(&self, pressed: bool) -> Vec<egui::Event> {
         let modifiers = self.modifiers();
         let event = |key| {
@@ -136,7 +136,7 @@ mod tests {
         ] {
             assert_eq!(bound(key, code, control), None, "{key}");
         }
-        // Neither a letter nor a name that is known.
+        // Neither a letter nor a known name.
         assert_eq!(bound("Shift", "ShiftLeft", false), None);
         assert_eq!(bound("Dead", "Quote", false), None);
     }

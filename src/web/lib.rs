@@ -1,7 +1,7 @@
-//! Regatta in a browser: drives a [`Studio`](regatta::studio::Studio) by the frames and events of a page, and draws it with the
-//! [`FrameRenderer`](regatta::view::FrameRenderer) on a canvas, as the window of the program does.
+//! Regatta in a browser. It drives a [`Studio`](regatta::studio::Studio) by the frames and events of a page, and
+//! draws it with the [`FrameRenderer`](regatta::view::FrameRenderer) on a canvas, like the window of the program.
 //!
-//! The page is one thread. What takes longer than a frame is done in slices between frames; see [`work`].
+//! The page has one thread. Work that takes longer than a frame runs in slices between frames; see [`work`].
 
 mod address;
 mod canvas;
@@ -28,10 +28,10 @@ use driver::Driver;
 pub use hashes::{early_hashes, judged_words};
 pub use questions::number;
 
-/// Shows the program on the canvas of the page, and returns when its first frame is drawn.
+/// Shows the program on the page's canvas, and returns when the first frame is drawn.
 ///
 /// # Errors
-/// Why nothing can be drawn, in a sentence for the page.
+/// A sentence for the page about why nothing can be drawn.
 #[wasm_bindgen]
 pub async fn start() -> Result<(), JsValue> {
     std::panic::set_hook(Box::new(|panic| web_sys::console::error_1(&panic.to_string().into())));
@@ -40,15 +40,15 @@ pub async fn start() -> Result<(), JsValue> {
     open().await.map_err(|reason| reason.into())
 }
 
-/// Opens what the address asks for, and draws the first frame.
+/// Opens the run in the address and draws the first frame.
 ///
 /// # Errors
-/// Why nothing can be drawn.
+/// The reason why nothing can be drawn.
 async fn open() -> Result<(), String> {
     let window = web_sys::window().ok_or("there is no page")?;
     let element = window.document().and_then(|document| document.get_element_by_id("stage"));
     let element = element.and_then(|element| element.dyn_into().ok()).ok_or("there is no stage")?;
-    // Nothing runs of an address that leads nowhere.
+    // An address that leads nowhere starts no run.
     let led = |refused: String| {
         let end = if refused.ends_with('?') { "" } else { "." };
         format!("This address leads to no run: {refused}{end}")
@@ -63,7 +63,7 @@ async fn open() -> Result<(), String> {
     Ok(())
 }
 
-/// The tick of the run on the page.
+/// Current tick of the run on the page.
 #[wasm_bindgen]
 pub fn tick() -> f64 {
     let mut tick = 0;
@@ -71,10 +71,10 @@ pub fn tick() -> f64 {
     tick as f64
 }
 
-/// Puts the run into the address of the page, and returns the whole address.
+/// Puts the run into the page's address and returns the whole address.
 ///
 /// # Errors
-/// Why no link can hold the run.
+/// The reason why no link can hold the run.
 #[wasm_bindgen]
 pub fn link() -> Result<String, JsValue> {
     let mut link = Err("the page is not ready".into());
@@ -82,13 +82,13 @@ pub fn link() -> Result<String, JsValue> {
     link.map_err(JsValue::from)
 }
 
-/// Has time run, or stand still.
+/// Resumes or pauses time.
 #[wasm_bindgen]
 pub fn pause() {
     driver::with(Driver::play);
 }
 
-/// The frames drawn so far.
+/// Number of frames drawn so far.
 #[wasm_bindgen]
 pub fn frames() -> u32 {
     let mut frames = 0;
@@ -96,19 +96,19 @@ pub fn frames() -> u32 {
     frames
 }
 
-/// Starts the run again, and has time run.
+/// Restarts the run and lets time run.
 #[wasm_bindgen]
 pub fn again() {
     driver::with(Driver::begin_again);
 }
 
-/// Has the page know whether any of it is in sight; what is not is not drawn, and no time passes there.
+/// Sets whether any part of the page is in sight. Out of sight, nothing is drawn and no time passes.
 #[wasm_bindgen]
 pub fn set_in_sight(is_in_sight: bool) {
     driver::with(|driver| driver.set_in_sight(is_in_sight));
 }
 
-/// What wgpu complains of is in the browser's console.
+/// Sends wgpu's warnings to the browser's console.
 struct Console;
 
 impl log::Log for Console {

@@ -1,4 +1,4 @@
-//! What happens on the page: keys, pointers, files, and the page itself coming and going.
+//! Listens to the page: keys, pointers, files, and the page itself coming and going.
 
 use regatta::run::link;
 use regatta::view::{command_of, egui};
@@ -14,18 +14,18 @@ use crate::files;
 use crate::keyboard::Press;
 use crate::pointer::{self, Deed};
 
-/// Has the driver told of an event whenever it happens.
+/// Calls a function with the driver at each event of this name.
 fn on<E>(target: &EventTarget, name: &str, told: impl Fn(&mut Driver, E) + 'static)
 where
     E: FromWasmAbi + 'static,
 {
     let told = Closure::<dyn Fn(E)>::new(move |event| with(|driver| told(driver, event)));
     _ = target.add_event_listener_with_callback(name, told.as_ref().unchecked_ref());
-    // As long as the page.
+    // The listener lives as long as the page.
     told.forget();
 }
 
-/// Listens to the page.
+/// Adds all listeners to the page.
 pub(crate) fn listen() {
     with(|driver| {
         let canvas = driver.canvas.element.clone();
@@ -42,11 +42,11 @@ pub(crate) fn listen() {
         ] {
             on(&canvas, name, move |driver, event| driver.pointer(&event, deed));
         }
-        // Whoever leaves the stage has to go into it again.
+        // After the stage has lost the focus, a person has to enter it again.
         on(&canvas, "blur", |driver, _: Event| driver.enter(false));
         on(&canvas, "contextmenu", |_, event: Event| event.prevent_default());
         on(&canvas, "wheel", |driver: &mut Driver, event: WheelEvent| {
-            // A page around a stage is scrolled where nobody has gone into the stage.
+            // The wheel scrolls the page around a stage until a person has entered the stage.
             let is_passed = driver.is_embedded && !driver.has_focus();
             let turned = pointer::wheel_event(&event, driver.held).filter(|_| !is_passed);
             if let Some(turned) = turned {
@@ -73,7 +73,7 @@ pub(crate) fn listen() {
         });
         on(&window, "resize", |driver, _: Event| driver.request_frame());
         if let Some(document) = window.document() {
-            // Nothing is simulated of the time in which nobody could see it.
+            // Do not simulate time during which nobody could see the page.
             on(&document, "visibilitychange", |driver, _: Event| {
                 driver.frames.skip_time();
                 driver.remember();
@@ -91,25 +91,25 @@ pub(crate) fn listen() {
 }
 
 impl Driver {
-    /// Whether this page has the keys, and not one around it.
+    /// Whether this page has the keyboard focus, and not a page around it.
     fn has_focus(&self) -> bool {
         self.window.document().is_some_and(|document| document.has_focus().unwrap_or(false))
     }
 
-    /// Hands events to the panels with the next frame.
+    /// Gives events to the panels with the next frame.
     fn tell_panels(&mut self, events: impl IntoIterator<Item = egui::Event>) {
         self.input.events.extend(events);
         self.request_frame();
     }
 
-    /// Takes in which modifier keys are held.
+    /// Updates the held modifier keys.
     fn hold(&mut self, held: egui::Modifiers) {
         if std::mem::replace(&mut self.held, held) != held {
             self.tell_panels([egui::Event::ModifiersChanged(held)]);
         }
     }
 
-    /// Whether an event is the stage's: another element of the page has its own.
+    /// Whether an event belongs to the stage. Other elements of the page handle their own.
     fn is_for_stage(&self, event: &Event) -> bool {
         let target = event.target().and_then(|target| target.dyn_into::<Element>().ok());
         target.is_none_or(|target| matches!(&*target.tag_name(), "CANVAS" | "BODY" | "HTML"))
@@ -121,7 +121,7 @@ impl Driver {
         focused.is_some_and(|focused| focused.is_same_node(Some(&self.canvas.element)))
     }
 
-    /// Notes that a person has gone into the stage, or has left it.
+    /// Records that a person has entered or left the stage.
     fn enter(&mut self, is_entered: bool) {
         if std::mem::replace(&mut self.is_entered, is_entered) != is_entered {
             self.request_frame();
@@ -148,7 +148,7 @@ impl Driver {
             self.frames.ask(command);
             return self.request_frame();
         }
-        // A page that shows the stage only has nothing to go to with it, and the page around it has.
+        // Tab leaves an embedded stage: only the page around it has other elements to focus.
         let moves_focus = press.is_tab() && self.is_entered && !self.is_embedded;
         if press.is_tab() && !moves_focus {
             return;

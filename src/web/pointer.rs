@@ -1,17 +1,17 @@
-//! Mouse, pen and fingers on the canvas, as panels are told of them.
+//! Events of mouse, pen and fingers on the canvas, for panels.
 
 use regatta::view::egui;
 use web_sys::{PointerEvent, WheelEvent};
 
-/// The fingers that are down.
+/// The fingers on the screen.
 #[derive(Debug, Default)]
 pub(crate) struct Fingers {
     down: Vec<i32>,
-    /// Whether the first of them presses, as a mouse would. Where two are down they zoom.
+    /// Whether the first finger presses, as a mouse would. Two fingers zoom instead.
     is_pressing: bool,
 }
 
-/// What a pointer did.
+/// Kind of a pointer's event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Deed {
     Down,
@@ -20,7 +20,7 @@ pub(crate) enum Deed {
     Cancel,
 }
 
-/// A pointer's event at a place of the frame, in points.
+/// Translates a pointer's event at a place of the frame, in points.
 pub(crate) fn events(
     fingers: &mut Fingers,
     event: &PointerEvent,
@@ -94,10 +94,10 @@ impl Fingers {
     }
 }
 
-/// What a turn of the wheel, or a pinch on a touchpad, asks for; `None` if it is the browser's.
+/// Translates a turn of the wheel, or a pinch on a touchpad; `None` if the browser handles it.
 pub(crate) fn wheel_event(event: &WheelEvent, modifiers: egui::Modifiers) -> Option<egui::Event> {
     let delta = -egui::vec2(event.delta_x() as f32, event.delta_y() as f32);
-    // Browsers tell of a pinch as of a wheel with Control. With the key itself held it is the page that is enlarged.
+    // Browsers report a pinch as a wheel with Control. With the key itself held, the browser enlarges the page.
     if event.ctrl_key() {
         return (!modifiers.ctrl).then(|| egui::Event::Zoom((delta.y / 200.0).exp()));
     }

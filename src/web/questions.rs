@@ -1,4 +1,4 @@
-//! The numbers of the pages of questions, computed where they are read.
+//! The numbers on the question pages, computed in the reader's browser.
 
 use regatta::loops::{LoopRun, RefreshRate, policy, trace_card};
 use regatta::measure::{Adviser, Criterion, Judge};
@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// Computes a number, with as many digits as the text has.
 type Number = fn() -> Option<String>;
 
-/// The number of each claim in `assets/web/questions/pages.toml`, in its order.
+/// The number of each claim in `assets/web/questions/pages.toml`, in the same order.
 const NUMBERS: &[(&str, Number)] = &[
     ("euler-doubles", || {
         let verdict = Judge::new(&spring()).verdict(lane("explicit-euler")?, 60);
@@ -53,26 +53,26 @@ const NUMBERS: &[(&str, Number)] = &[
     ("jump-at-144", || Some(significant(percent_lower(144)?, 1))),
 ];
 
-/// The number of a claim on a page of questions.
+/// Computes the number of a claim on a question page; `None` for an unknown claim.
 #[wasm_bindgen]
 pub fn number(claim: &str) -> Option<String> {
     NUMBERS.iter().find(|(id, _)| *id == claim)?.1()
 }
 
-/// The pages, as they are made.
+/// Source of the pages.
 const PAGES: &str = include_str!("../../assets/web/questions/pages.toml");
 
-/// The lines of the pages: each a key and its value.
+/// Key and value of each line in the pages' source.
 fn lines() -> impl Iterator<Item = (&'static str, &'static str)> {
     let pairs = PAGES.lines().filter_map(|line| line.split_once(" = "));
     pairs.map(|(key, value)| (key, value.trim_matches('"')))
 }
 
-/// The address of the page that explains a stage: one on whose stage the same method runs in the same scene, else one of the scene,
-/// else the list of all.
+/// Address of the page that explains a stage. Prefers a page with the same method in the same scene, then one with
+/// the scene, then the list of all.
 pub(crate) fn page_of(studio: &Studio) -> String {
     let title = &studio.scene().title;
-    // A run of a link is of the scene by whose title it goes.
+    // A run from a link is recognised by the title of its scene.
     let is_it = |name: &&str| Scene::built_in(name).is_some_and(|known| known.title == *title);
     let scene = SCENES.iter().map(|scene| scene.name).find(is_it).unwrap_or_default();
     let method = studio.entries()[studio.active()].method.id;
@@ -97,7 +97,8 @@ pub(crate) fn page_of(studio: &Studio) -> String {
     }
 }
 
-/// How much of a stage is on a page that shows these settings: nothing, the scene, or the method too.
+/// How much of a stage a page with these settings shows: 0 for nothing, 1 for the scene, 2 for the method too, 3 for
+/// the loop lab.
 fn rank(shows: &str, is_in_loop_lab: bool, scene: &str, method: &str) -> u32 {
     let has = |key, wanted| shows.split('&').any(|it| it.split_once('=') == Some((key, wanted)));
     match shows.contains("loop=") {
@@ -115,13 +116,13 @@ fn lane(id: &str) -> Option<LaneSpec> {
     method(id).map(LaneSpec::plain)
 }
 
-/// The slowest rate at which the spring meets a criterion in one step a tick.
+/// The slowest rate in Hz at which the spring meets a criterion in one step per tick.
 fn slowest_hz(method: &str, criterion: Criterion) -> Option<String> {
     let adviser = Adviser::new(&spring(), spring().tick_hz);
     adviser.slowest(lane(method)?, criterion).map(|hz| hz.to_string())
 }
 
-/// The spring of an engine as its first mode tells it.
+/// The first mode of an engine's spring, at 60 Hz.
 fn engine(id: &str) -> Option<Setup> {
     setups(Some(&[method(id)?]), 60.0, None).into_iter().next()
 }
@@ -135,7 +136,7 @@ fn wish(frequency_hz: f64, damping_ratio: f64) -> Wish {
     Wish { frequency_hz, damping_ratio, mass_kg: 1.0 }
 }
 
-/// By how much of the exact height a jump is lower under semi-implicit Euler at half a second, in percent.
+/// Shortfall of a jump's height from the exact one under semi-implicit Euler after half a second, in percent.
 fn percent_lower(tick_hz: u32) -> Option<f64> {
     let mut jump = Scene::built_in("jump")?;
     (jump.tick_hz, jump.lanes) = (tick_hz.into(), vec![lane("semi-implicit-euler")?]);

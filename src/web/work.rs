@@ -9,7 +9,7 @@ use regatta::run::Replay;
 use regatta::scene::Check;
 use regatta::studio::{CurrentRequest, Found, Studio, Work, cloud_request, loop_request};
 
-/// A worker, and its request.
+/// A worker with its current request.
 struct Worker<W: Work> {
     worker: W,
     asked: CurrentRequest<W>,
@@ -28,19 +28,19 @@ impl<W: Work<Found = Found>> Worker<W> {
         }
     }
 
-    /// Does one step, if there is one to do. Returns whether something was found.
+    /// Does one step, if there is one to do. Returns whether it found something.
     fn step(&mut self, studio: &mut Studio) -> bool {
         if !self.has_more {
             return false;
         }
-        // A loop that was stopped would begin again with the next slice.
+        // Never stop a step: a stopped loop would begin again with the next slice.
         let (found, has_more) = self.worker.step(&|| false);
         self.has_more = has_more;
         found.map(|found| studio.accept(found)).is_some()
     }
 }
 
-/// What is worked on beside the run.
+/// The workers beside the run.
 pub(crate) struct Workers {
     analysis: Worker<AnalysisWorker>,
     loops: Worker<LoopWorker>,
@@ -57,29 +57,29 @@ impl Workers {
         }
     }
 
-    /// Takes in what a studio wants now.
+    /// Passes the studio's current requests to the workers.
     pub(crate) fn ask(&mut self, studio: &Studio) {
         self.analysis.ask(studio.analysis_request());
         self.loops.ask(loop_request(studio));
         self.clouds.ask(cloud_request(studio).map(Arc::new));
     }
 
-    /// Whether there is more to do.
+    /// Whether a worker has more to do.
     pub(crate) fn have_more(&self) -> bool {
         self.analysis.has_more || self.loops.has_more || self.clouds.has_more
     }
 
-    /// Does one step of each. Returns whether something was found.
+    /// Does one step of each worker. Returns whether any of them found something.
     pub(crate) fn step(&mut self, studio: &mut Studio) -> bool {
         let found = [self.clouds.step(studio), self.loops.step(studio), self.analysis.step(studio)];
         found.contains(&true)
     }
 }
 
-/// The ticks of a slice of the race: a moment's work, even of many lanes.
+/// Ticks in a slice of a replay: little work, even with many lanes.
 const TICKS: u64 = 50;
 
-/// Goes on with the replay for a slice. Returns what to say of the run once that is known.
+/// Continues the replay for a slice. Returns a notice about the run once the outcome is known.
 pub(crate) fn told_after_slice(replay: &mut Replay) -> Option<String> {
     let last = replay.scene().checks.iter().map(|check| check.tick).max()?;
     let reached = replay.go_on(TICKS, &mut ());

@@ -28,14 +28,14 @@ pub(super) struct Canvas {
 
 /// The outcome of drawing a frame.
 pub(super) enum FrameOutcome {
-    /// It is on the screen.
+    /// The frame is on the screen.
     Shown {
-        /// The commands that were given on the panels.
+        /// Commands from the panels.
         commands: Vec<Command>,
-        /// When the panels must be drawn again even if no event comes.
+        /// Time until the panels must be drawn again even without an event.
         repaint_after: Duration,
     },
-    /// There is no surface to draw on at the moment.
+    /// No surface is available at the moment.
     Skipped,
 }
 
@@ -70,7 +70,7 @@ impl Canvas {
         Ok(canvas)
     }
 
-    /// Takes over the window's size and the refresh rate of its display.
+    /// Adopts the window's size and the refresh rate of its display.
     pub(super) fn resize(&mut self) {
         let display = self.window.current_monitor();
         self.refresh_mhz =
@@ -89,7 +89,7 @@ impl Canvas {
         }
     }
 
-    /// Draws a frame and shows it. What was copied from a text field goes to the clipboard.
+    /// Draws a frame and shows it. Puts text that was copied from a text field on the clipboard.
     pub(super) fn draw(
         &mut self,
         studio: &Studio,
@@ -128,7 +128,7 @@ impl Canvas {
         self.egui.egui_input_mut().events.splice(0..0, events);
     }
 
-    /// The texture to draw on, and whether the surface must be configured again after that.
+    /// The texture to draw on, and whether the surface must be configured again afterwards.
     fn acquire(&mut self) -> Option<(wgpu::SurfaceTexture, bool)> {
         use wgpu::CurrentSurfaceTexture::*;
         for _ in 0..2 {
@@ -139,7 +139,7 @@ impl Canvas {
                 Outdated | Validation => self.configure(),
                 Lost => {
                     log::info!("the surface was lost");
-                    // Created again with the next frame: if the window is gone too, an event says so first.
+                    // The next frame creates it again. If the window is gone too, an event reports that first.
                     self.surface_is_lost = true;
                     return None;
                 }
@@ -154,7 +154,7 @@ impl Canvas {
             let screen = screen.renewed(Arc::clone(&self.window))?;
             if self.gpu.is_lost() || !self.gpu.adapter.is_surface_supported(screen.surface()) {
                 self.gpu = block_on(screen.gpu())?;
-                // With a new context: the old one assumes that its fonts are on the device.
+                // This needs a new context: the old one assumes that its fonts are on the device.
                 self.renderer = FrameRenderer::new(&self.gpu, screen.format(&self.gpu));
                 let egui = translator(&self.renderer, &self.window, &self.gpu);
                 let lost = mem::replace(&mut self.egui, egui);
@@ -173,7 +173,7 @@ impl Canvas {
     }
 }
 
-/// The translator from the window's events to those of the renderer's panels.
+/// Translates the window's events to those of the renderer's panels.
 fn translator(renderer: &FrameRenderer, window: &Window, gpu: &Gpu) -> egui_winit::State {
     egui_winit::State::new(
         renderer.context().clone(),

@@ -1,5 +1,5 @@
-//! The clipboard of the desktop. What is copied from a text field reaches it, and what is on it can be pasted into one:
-//! egui's own clipboard, which keeps a text within the window, is filled from it before each paste.
+//! The clipboard of the desktop, for copying from text fields and pasting into them. egui's own clipboard keeps a
+//! text within the window, so it is filled from the desktop's before each paste.
 
 use winit::event::{ElementState, KeyEvent, WindowEvent};
 use winit::keyboard::{Key as Logical, KeyCode, NamedKey, PhysicalKey};
@@ -9,10 +9,10 @@ use super::error::reason;
 use crate::run::link::MAX_LETTERS;
 use crate::view::Modifiers;
 
-/// The clipboard, opened when something is copied or pasted first.
+/// The clipboard, opened at the first copy or paste.
 #[derive(Default)]
 pub(super) struct Clipboard {
-    /// Kept: on X and on Wayland what was copied is there as long as its program offers it.
+    /// Kept open: on X and on Wayland, a copied text is available only while its program offers it.
     open: Option<arboard::Clipboard>,
 }
 
@@ -20,12 +20,12 @@ impl Clipboard {
     /// Puts a text on the clipboard.
     ///
     /// # Errors
-    /// Why there is none, or why it does not take the text.
+    /// The reason why there is no clipboard, or why it refuses the text.
     pub(super) fn set_text(&mut self, text: String) -> Result<(), String> {
         self.opened()?.set_text(text).map_err(|error| reason(&error))
     }
 
-    /// Puts the texts that were copied from text fields on the clipboard.
+    /// Puts the texts copied from text fields on the clipboard.
     pub(super) fn set_copied(&mut self, commands: &[egui::OutputCommand]) {
         for command in commands {
             if let egui::OutputCommand::CopyText(text) = command
@@ -36,8 +36,8 @@ impl Clipboard {
         }
     }
 
-    /// As much of the text on the clipboard as the longest field takes, empty if it holds something else; `None` if there is
-    /// no clipboard.
+    /// The text on the clipboard, cut to the longest field. Empty if the clipboard has something else; `None` if it
+    /// cannot be read.
     fn text(&mut self) -> Option<String> {
         match self.opened().ok()?.get_text() {
             Ok(text) => Some(text.chars().take(MAX_LETTERS).collect()),
@@ -59,7 +59,7 @@ impl Clipboard {
 }
 
 impl App {
-    /// Gives the text on the clipboard to egui, if this event pastes.
+    /// Gives the clipboard's text to egui, if this event pastes.
     pub(super) fn fetch_pasted(&mut self, event: &WindowEvent) {
         if let WindowEvent::KeyboardInput { event, is_synthetic: false, .. } = event
             && pastes(event, self.held)
@@ -71,7 +71,7 @@ impl App {
     }
 }
 
-/// Whether egui pastes at this key. A layout without Latin letters pastes by the place of V.
+/// Whether egui pastes at this key. A layout without Latin letters pastes with the key in the place of V.
 fn pastes(event: &KeyEvent, held: Modifiers) -> bool {
     let is_v = match &event.logical_key {
         Logical::Character(sign) if sign.is_ascii() => sign.eq_ignore_ascii_case("v"),

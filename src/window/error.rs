@@ -16,8 +16,8 @@ pub enum WindowError {
     Gpu(#[from] GpuError),
 }
 
-/// The message of the window system, without the place in winit's source that winit puts before it: its error
-/// has no other way to the message.
+/// The message of the window system, without the place in winit's source that winit puts before it. winit's error
+/// gives no other access to the message.
 pub(super) fn reason(error: &dyn std::error::Error) -> String {
     let text = error.to_string();
     let said = match text.split_once(": ") {

@@ -15,26 +15,26 @@ use crate::studio::{
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {
-    /// A screen reader asks for something.
+    /// A request from a screen reader.
     #[cfg(feature = "accessibility")]
     ScreenReader(Request),
     /// A worker has found something.
     Found(Found),
-    /// The ticks of these lanes were timed: nanoseconds per tick, `None` of a lane that halted.
+    /// Timings of these lanes in nanoseconds per tick; `None` for a lane that halted.
     TicksTimed(Vec<(LaneSpec, Option<f64>)>),
-    /// The spring that a person has described is advised on, as a scene.
+    /// Advice on the spring that a person has described, as a scene.
     SpringAdvised(Box<Result<Scene, SceneErrors>>),
     /// Ctrl-C was pressed in the terminal.
     Interrupted,
-    /// The run is not recorded as it grows, for this reason.
+    /// The reason why the growing run is not recorded.
     NotRecorded(String),
-    /// A file that was asked for is read.
+    /// A requested file has been read.
     FileRead(ReadFile),
-    /// A watched scene file has changed; `read` is what it holds now.
+    /// A watched scene file has changed; `read` is its new content.
     FileChanged { path: PathBuf, read: Box<Result<(Scene, String), Vec<Mistake>>> },
-    /// A watched scene file cannot be read any more.
+    /// A watched scene file can no longer be read.
     FileGone(PathBuf),
-    /// A scene file that was gone exists again, unchanged.
+    /// A missing scene file exists again, unchanged.
     FileBack(PathBuf),
 }
 
@@ -52,7 +52,7 @@ impl From<Found> for Event {
 }
 
 impl App {
-    /// Does what the event asks for.
+    /// Handles the event.
     pub(super) fn handle(&mut self, event_loop: &ActiveEventLoop, event: Event) {
         match event {
             #[cfg(feature = "accessibility")]
@@ -73,7 +73,7 @@ impl App {
                 }
             }
             Event::SpringAdvised(scene) => {
-                // Whoever has closed the dialog meanwhile wants it no more.
+                // If the dialog was closed meanwhile, the advice is no longer wanted.
                 if matches!(self.frames.studio.viewer.dialog(), Some(Dialog::Spring { .. })) {
                     open_advised_spring(&mut self.frames.studio, *scene);
                     self.stand_still();
@@ -95,7 +95,7 @@ impl App {
             }
             Event::FileRead(found) => {
                 found.show(&mut self.frames.studio);
-                // Neither what this took nor what its first frame takes is simulated.
+                // Simulate neither the time that this took nor that of its first frame.
                 self.frames.skip_time();
                 self.request_redraw();
             }
@@ -117,7 +117,7 @@ impl App {
                         report,
                     ),
                 }
-                // The time that this took is not simulated.
+                // Do not simulate the time that this took.
                 self.stand_still();
                 self.request_redraw();
             }

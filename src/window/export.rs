@@ -1,4 +1,5 @@
-//! Copies and saved files: the instrument as a picture, a drawing and a table, a screenshot, the run as a scene file.
+//! Copied texts and saved files: the instrument as a picture, a drawing and a table, a screenshot, the run as a scene
+//! file.
 
 use std::path::PathBuf;
 
@@ -7,12 +8,12 @@ use crate::atomic_file::{IfExists, write_file};
 use crate::studio::{DriverRequest, Studio, instrument_file_name, picture_file_name};
 use crate::view::{Gpu, OffscreenRenderer, Panels, copied, instrument_csv, instrument_svg, png};
 
-/// The size of the picture, in pixels, and its pixels per point.
+/// Size of the picture in pixels, and its pixels per point.
 const SIZE_PX: [u32; 2] = [1920, 1200];
 const SCALE: f32 = 2.0;
 
 impl App {
-    /// Puts what is asked for on the clipboard, if it is something to copy.
+    /// Copies the requested text to the clipboard, if the request is one to copy.
     pub(super) fn copy(&mut self, request: DriverRequest) {
         let Some(copied) = copied(&self.frames.studio, request) else { return };
         let notice = match copied {
@@ -23,7 +24,7 @@ impl App {
         self.stand_still();
     }
 
-    /// Saves three files under new names.
+    /// Saves the instrument in up to three files with new names.
     pub(super) fn export_instrument(&mut self) {
         if let Some(canvas) = &self.canvas {
             let notice = save(&canvas.gpu, &self.frames.studio);
@@ -33,7 +34,7 @@ impl App {
     }
 }
 
-/// Saves the files, and returns a notice with their names or the error.
+/// Saves the files. Returns a notice with their names or the error.
 fn save(gpu: &Gpu, studio: &Studio) -> String {
     match try_save(gpu, studio) {
         Ok(paths) => {
@@ -44,7 +45,7 @@ fn save(gpu: &Gpu, studio: &Studio) -> String {
     }
 }
 
-/// Saves a picture and a table, and a drawing of an instrument whose plots can be drawn.
+/// Saves a picture and a table, and a drawing if the instrument's plots can be drawn.
 fn try_save(gpu: &Gpu, studio: &Studio) -> Result<Vec<PathBuf>, String> {
     let csv = instrument_csv(studio).ok_or("this instrument has no plots")?;
     let mut rgba = Vec::new();
@@ -61,13 +62,13 @@ fn try_save(gpu: &Gpu, studio: &Studio) -> Result<Vec<PathBuf>, String> {
     files.map(|(ending, bytes)| write(&format!("{name}.{ending}"), &bytes)).collect()
 }
 
-/// Writes a file of this name, or of one beside it if there is one, and returns its path.
+/// Writes a file of this name, or of a free one beside it, and returns its path.
 fn write(name: &str, bytes: &[u8]) -> Result<PathBuf, String> {
     write_file(name.as_ref(), bytes, IfExists::Beside)
         .map_err(|error| format!("cannot write {name} here: {error}"))
 }
 
-/// Saves a picture of the studio in the size of the window under a new name, and returns a notice with the name or the error.
+/// Saves a picture of the studio in the window's size under a new name. Returns a notice with the name or the error.
 pub(super) fn save_screenshot(gpu: &Gpu, size_px: [u32; 2], scale: f32, studio: &Studio) -> String {
     match screenshot(gpu, size_px, scale, studio) {
         Ok(path) => format!("saved {}", path.display()),
@@ -82,7 +83,7 @@ fn screenshot(
     studio: &Studio,
 ) -> Result<PathBuf, String> {
     let mut rgba = Vec::new();
-    // Drawn to a texture of its own, because a surface may not be readable.
+    // Draw to a separate texture, because a surface may not be readable.
     OffscreenRenderer::new(gpu.clone(), size_px, scale)
         .map_err(|error| error.to_string())?
         .draw(studio, &mut rgba)
@@ -90,7 +91,7 @@ fn screenshot(
     write(&format!("{}.png", picture_file_name(studio)), &png::encode(size_px, &rgba))
 }
 
-/// Saves the run so far as a scene file under a new name, and returns a notice with the name or the error.
+/// Saves the run so far as a scene file under a new name. Returns a notice with the name or the error.
 pub(super) fn save_recording(studio: &mut Studio) -> String {
     let text = studio.deck.recording().map_err(|error| error.to_string());
     let name = studio.deck.recording_file_name();

@@ -1,4 +1,4 @@
-//! Keeps the recording of a run as it grows, so that little of it is lost with the program.
+//! Saves the recording of a run as it grows, so that little of it is lost if the program dies.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -13,16 +13,16 @@ use crate::run::recording_text;
 use crate::scene::Scene;
 use crate::studio::{Studio, Work};
 
-/// The time between two recordings: what is lost at most.
+/// Time between two recordings, and the most that can be lost.
 const EVERY: Duration = Duration::from_secs(2);
 
-/// Keeps the recording of a studio's run up to date.
+/// Keeps the saved recording of a studio's run up to date.
 pub(super) struct GrowingRecording {
     thread: WorkThread<Keeper>,
     asked: Option<Instant>,
 }
 
-/// A recording, and what it is of: two that are of the same have the same text.
+/// A recording, with the scene, journal and end of its run. If these are equal, so are the texts.
 #[derive(Clone)]
 pub(super) struct Grown {
     scene: Arc<Scene>,
@@ -54,7 +54,7 @@ impl GrowingRecording {
         Self { thread: WorkThread::new(keeper, None, events), asked: None }
     }
 
-    /// Records the run so far, if that is due and it has grown.
+    /// Saves the run so far, if that is due and the run has grown.
     pub(super) fn update(&mut self, studio: &Studio, now: Instant) {
         if self.left(studio, now) == Some(Duration::ZERO) {
             self.asked = Some(now);
@@ -62,7 +62,7 @@ impl GrowingRecording {
         }
     }
 
-    /// The time until it is due again; `None` if all that was done is recorded.
+    /// Time until the next save; `None` if everything is saved.
     pub(super) fn left(&self, studio: &Studio, now: Instant) -> Option<Duration> {
         let passed = self.asked.map_or(EVERY, |asked| now.duration_since(asked));
         let (end, session) = (studio.run().end(), studio.run().session());
@@ -72,7 +72,7 @@ impl GrowingRecording {
     }
 }
 
-/// Writes on a thread of its own: a long text takes longer than a frame, and a disk can.
+/// Writes on a separate thread: a long text takes longer than a frame, and so may a disk.
 struct Keeper {
     run: Option<Grown>,
     keep: Option<KeepRecording>,
@@ -97,7 +97,7 @@ impl Work for Keeper {
         let (Some(keep), Some(run)) = (&mut self.keep, &self.run) else { return (None, false) };
         let text = recording_text(&run.recording).map_err(|error| error.to_string());
         if let Err(reason) = text.and_then(|text| keep(&text)) {
-            // Said once. The window may still save the run when it is closed.
+            // Report it once. The window may still save the run when it is closed.
             self.keep = None;
             return (Some(Event::NotRecorded(reason)), false);
         }

@@ -7,7 +7,7 @@ use super::App;
 use crate::studio::{Command, Dialog, Key, ViewCommand};
 use crate::view::{Meaning, Modifiers, bound_key, command_of};
 
-/// The modifier keys that the window system tells of.
+/// Translates the window system's modifier keys.
 pub(super) fn modifiers(state: ModifiersState) -> Modifiers {
     let (control, other) = match cfg!(target_os = "macos") {
         true => (state.super_key(), state.control_key()),
@@ -17,14 +17,14 @@ pub(super) fn modifiers(state: ModifiersState) -> Modifiers {
 }
 
 impl App {
-    /// Handles a key unless it is meant for a panel. Returns whether it did.
+    /// Handles a key unless it is meant for a panel. Returns whether the key was handled.
     pub(super) fn key(&mut self, event: &KeyEvent, panels: &egui::Context) -> bool {
         if event.state != ElementState::Pressed {
             return false;
         }
         let Some(key) = key(event, self.held) else { return false };
         if self.asks_for_path() {
-            // At once: the next key is not text any more.
+            // Close it at once: the next key is no longer text.
             let closes = key == Key::Escape;
             if closes {
                 self.frames.ask([Command::View(ViewCommand::CloseDialog)]);
@@ -46,7 +46,7 @@ impl App {
             && panels.is_some_and(|panels| !panels.text_edit_focused())
     }
 
-    /// Whether keys are text for the path field, once the commands that wait for the next frame are applied.
+    /// Whether keys are text for the path field, once the queued commands are applied.
     fn asks_for_path(&self) -> bool {
         let is_open = matches!(self.frames.studio.viewer.dialog(), Some(Dialog::Path { .. }));
         self.frames.asked().iter().fold(is_open, |is_open, command| match command {
@@ -69,7 +69,7 @@ fn key(event: &KeyEvent, held: Modifiers) -> Option<Key> {
         PhysicalKey::Code(code) => place(code),
         PhysicalKey::Unidentified(_) => None,
     };
-    // Whatever a key at a digit's place means, it is that digit.
+    // A key at a digit's place is always that digit.
     bound_key(place, meaning.or(place.map(|_| Meaning::Text("")))?, held)
 }
 
@@ -95,7 +95,7 @@ fn named(name: NamedKey) -> Option<Key> {
     })
 }
 
-/// What a keyboard of the United States has at the place of a digit, the comma or the point.
+/// The sign at this place on a keyboard of the United States: a digit, the comma or the point.
 fn place(code: KeyCode) -> Option<char> {
     Some(match code {
         KeyCode::Comma => ',',

@@ -1,4 +1,4 @@
-//! Opens scene files, traces and methods that are dropped on the window or typed by their paths, and completes paths.
+//! Opens scene files, traces and methods that are dropped on the window or typed as paths, and completes paths.
 
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
@@ -13,32 +13,32 @@ use crate::studio::{
     refuse_typed_path, show_comparison, show_mistakes,
 };
 
-/// Reads a scene file and returns its scene and its text, or what the command line would print of its mistakes.
+/// Reads a scene file. Returns its scene and its text, or its mistakes as the command line would print them.
 pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), Vec<Mistake>> + Send + Sync>;
 
-/// Keeps the recording of a run so far, a scene file's text, or says why not. It is called every few seconds, with more each
-/// time, on a thread of its own.
+/// Saves the recording of a run so far, the text of a scene file, or returns the reason why it cannot. Called every
+/// few seconds on a separate thread, each time with a longer text.
 pub type KeepRecording = Box<dyn FnMut(&str) -> Result<(), String> + Send>;
 
-/// How a window reads and writes scene files, and the one that it starts with.
+/// Functions that read and write scene files for a window, and the file that it starts with.
 pub struct SceneFiles {
     /// The function that reads a file.
     pub read: ReadScene,
-    /// The file that the studio of the window was read from, and its text.
+    /// The file of the window's studio, and its text.
     pub opened: Option<(PathBuf, String)>,
-    /// The function that keeps the recording of the run as it grows, if it is recorded.
+    /// The function that saves the recording of the run as it grows, if it is recorded.
     pub keep: Option<KeepRecording>,
 }
 
-/// A file that was dropped on the window, or whose path was typed.
+/// A file that was dropped on the window or typed as a path.
 pub(super) struct Asked {
     path: PathBuf,
     is_typed: bool,
-    /// The run that it is to be compared with, if it is not to be opened.
+    /// The run to compare the file with, if it is not to be opened.
     compared: Option<Box<Scene>>,
 }
 
-/// What a file that was asked for holds, or what the command line would print of its mistakes.
+/// Content of a requested file, or its mistakes as the command line would print them.
 pub(super) struct ReadFile {
     asked: Asked,
     held: Result<Held, Vec<Mistake>>,
@@ -50,20 +50,20 @@ enum Held {
         text: String,
     },
     Traces(Vec<FrameTrace>),
-    /// A lane of a method by a person's own lines.
+    /// A lane with a person's own method.
     Lane(LaneSpec),
-    /// How it differs from the run, and the recording.
+    /// The comparison with the run, and the recording.
     Compared(Box<(Comparison, Scene)>),
 }
 
 impl Asked {
-    /// The file at a path that was dropped.
+    /// The dropped file at `path`.
     pub(super) fn dropped(studio: &Studio, path: &Path) -> Self {
         Self { path: known(studio, path), is_typed: false, compared: None }
     }
 
-    /// What was typed, as the command line takes it: the built-in scene of that name, which opens at once, or else the file
-    /// at that path.
+    /// The typed file, as the command line reads it. The name of a built-in scene opens that scene at once and
+    /// returns `None`.
     pub(super) fn typed(studio: &mut Studio) -> Option<Self> {
         let typed = studio.viewer.typed_path().trim().to_owned();
         if studio.viewer.compares_typed_path() {
@@ -77,13 +77,13 @@ impl Asked {
         Some(Self { path: known(studio, &from_home(&typed)), is_typed: true, compared: None })
     }
 
-    /// Whether it is no file, but a link to a run.
+    /// Whether the path is a link to a run instead of a file.
     fn is_link(&self) -> bool {
         regular_file::is_link(&self.path)
     }
 
-    /// Reads the file, and whatever its first frame would wait for. A disk can be slow, and a large net takes longer than a
-    /// frame: this is no work for the thread that draws.
+    /// Reads the file, and prepares anything that its first frame would wait for. A disk can be slow, and a large net
+    /// takes longer than a frame, so this must not run on the drawing thread.
     pub(super) fn read(self, read: &ReadScene) -> ReadFile {
         let held = if let Some(run) = &self.compared {
             read(&self.path).map(|(scene, _)| {
@@ -112,7 +112,7 @@ impl Asked {
 }
 
 impl ReadFile {
-    /// The path and text of the file of a scene.
+    /// Path and text of the file, if it is a scene.
     pub(super) fn scene(&self) -> Option<(PathBuf, String)> {
         match &self.held {
             Ok(Held::Scene { text, .. }) if !self.asked.is_link() => {
@@ -122,8 +122,8 @@ impl ReadFile {
         }
     }
 
-    /// Opens the scene, or the loop lab on the traces. Of mistakes a dialog tells, which is the field for the path, still
-    /// open, if that was typed.
+    /// Opens the scene, or the loop lab on the traces. A dialog shows mistakes. For a typed path this is the path
+    /// field, which stays open.
     pub(super) fn show(self, studio: &mut Studio) {
         let name = self.asked.is_link().then(|| "a link".into());
         let Asked { path, is_typed, .. } = self.asked;
@@ -155,7 +155,7 @@ impl ReadFile {
     }
 }
 
-/// Compares two recordings through the end of the longer.
+/// Compares two recordings up to the end of the longer one.
 fn compared(recording: Scene, run: Scene) -> Comparison {
     let last = last_tick(&recording).max(last_tick(&run));
     let [mut a, mut b] = [recording, run].map(|scene| Made::of_scene(scene, last));
@@ -163,7 +163,7 @@ fn compared(recording: Scene, run: Scene) -> Comparison {
     found.unwrap_or_else(|_: NotComparable| unreachable!("two traces have the same columns"))
 }
 
-/// Whether a file's name says that it holds a trace of frames.
+/// Whether a file's ending is that of a trace of frames.
 fn is_trace(path: &Path) -> bool {
     has_ending(path, "csv") || has_ending(path, "txt")
 }
@@ -186,14 +186,14 @@ fn traces_in(path: &Path) -> Result<Vec<FrameTrace>, Vec<Mistake>> {
     trace_file::from_bytes(&name, &bytes).map_err(|error| vec![format!("error: {error}").into()])
 }
 
-/// The path under which the file is already on the list of scenes, or else `path` itself.
+/// The listed path of the same file, or else `path` itself.
 fn known(studio: &Studio, path: &Path) -> PathBuf {
     let real = path.canonicalize().ok();
     let is_same = |listed: &&Path| real.is_some() && listed.canonicalize().ok() == real;
     studio.deck.scene_list().paths().find(is_same).unwrap_or(path).to_owned()
 }
 
-/// Replaces a `~` at the beginning of a path by the home directory.
+/// Replaces a leading `~` in a path with the home directory.
 fn from_home(typed: &str) -> PathBuf {
     let rest = typed.strip_prefix('~').filter(|rest| rest.starts_with(MAIN_SEPARATOR));
     match (rest, std::env::home_dir()) {
@@ -202,7 +202,7 @@ fn from_home(typed: &str) -> PathBuf {
     }
 }
 
-/// Completes a path: appends the common beginning of all folders, scene files and rules whose names begin so.
+/// Completes a path with the common beginning of all matching folders and TOML files.
 pub(super) fn completed(typed: &str) -> String {
     let (folder, begun) = match typed.rfind(MAIN_SEPARATOR) {
         Some(end) => typed.split_at(end + MAIN_SEPARATOR.len_utf8()),
@@ -268,7 +268,7 @@ mod tests {
         let same = compare(&recorded);
         assert!(same.0.is_none() && same.1 == 90, "{same:?}");
         assert!(same.2.contains("clip.toml is the same in "), "{same:?}");
-        // Pulled in the middle of the tick before.
+        // The kick acts within the tick before.
         let pulled = compare(&format!("{recorded}\n[[command]]\nat_s = 1.0\nkick = 1.0\n"));
         assert_eq!(pulled.0, Some(61), "{pulled:?}");
         assert_eq!(pulled.1, 61, "{pulled:?}");
@@ -372,7 +372,7 @@ mod tests {
         };
         let message = &report[0].message;
         assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
-        // The name of a built-in scene opens that, as on the command line.
+        // As on the command line, the name of a built-in scene opens that scene.
         studio.apply(ViewCommand::TypePath(" ship ".into()));
         assert!(Asked::typed(&mut studio).is_none());
         assert_eq!((studio.deck.scene_name().as_str(), studio.viewer.dialog()), ("ship", None));

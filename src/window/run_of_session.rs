@@ -1,4 +1,4 @@
-//! The window on a run that a user's program has made.
+//! The window on a run from a user's own program.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,8 +14,8 @@ use crate::studio::Studio;
 pub struct Window;
 
 impl Window {
-    /// Opens the window on a run at its present tick, and blocks until it is closed. Returns the run that is open in it
-    /// then: scene files can be opened in it as in the program's.
+    /// Opens the window on a run at its current tick, and blocks until it is closed. Returns the run that is open
+    /// then: a person can open scene files in it as in the program's window.
     ///
     /// ```no_run
     /// use regatta::prelude::*;
@@ -26,7 +26,7 @@ impl Window {
     /// ```
     ///
     /// # Errors
-    /// As [`run`].
+    /// Same as for [`run`].
     pub fn run(session: Session) -> Result<Closed, WindowError> {
         let read = |path: &Path| {
             let name = path.display().to_string();

@@ -1,4 +1,4 @@
-//! When the next frame is drawn.
+//! Schedules the next frame.
 
 use std::time::{Duration, Instant};
 
@@ -6,11 +6,11 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow};
 
 use super::{App, MAX_WAIT};
 
-/// The frame rate if neither the display nor the driver sets one.
+/// Frame rate in millihertz if neither the display nor the driver sets one.
 const USUAL_REFRESH_MHZ: u32 = 60_000;
 
 impl App {
-    /// Requests the next frame, `after` this one began but no faster than the display shows frames.
+    /// Requests the next frame `after` the start of this one, but no faster than the display shows frames.
     pub(super) fn schedule(
         &mut self,
         event_loop: &ActiveEventLoop,
@@ -31,7 +31,7 @@ impl App {
         }
     }
 
-    /// Waits for an event; while time runs, at most for [`MAX_WAIT`].
+    /// Waits for an event, but at most for [`MAX_WAIT`] while time runs.
     pub(super) fn wait(&self, event_loop: &ActiveEventLoop) {
         event_loop.set_control_flow(if self.frames.studio.running() {
             ControlFlow::WaitUntil(Instant::now() + MAX_WAIT)

@@ -1,4 +1,4 @@
-//! What a screen reader hears and asks for, by AccessKit.
+//! Answers the requests of a screen reader, by AccessKit.
 
 use egui_winit::State;
 use egui_winit::accesskit_winit::{self, WindowEvent};

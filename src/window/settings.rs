@@ -1,4 +1,4 @@
-//! How a window opens, and what is left of it when it is closed.
+//! Settings of a window, and its result after it is closed.
 
 use winit::dpi::{LogicalSize, PhysicalSize};
 use winit::event_loop::ActiveEventLoop;
@@ -7,42 +7,42 @@ use winit::window::{Window, WindowAttributes};
 use crate::look::palette::Theme;
 use crate::studio::Studio;
 
-/// How a window opens, and when it closes by itself.
+/// Settings of a window: how it opens, and when it closes by itself.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WindowSettings {
-    /// The end of the run, at the tick nearest to this many simulated seconds.
+    /// End of the run: the tick nearest to this many simulated seconds.
     pub seconds: Option<f64>,
-    /// The tick to go to at first, where time then stands still.
+    /// The tick to go to first. Time stands still there.
     pub tick: Option<u64>,
-    /// The size at first, in points; `None` for the usual one.
+    /// Initial size in points; `None` for the default.
     pub size: Option<[u32; 2]>,
-    /// Takes what is to be called when Ctrl-C in the terminal, or the system, asks the window to close; `None` for a window
-    /// that such a request ends at once.
+    /// Registers a callback for Ctrl-C in the terminal and the system's requests to close the window. Without one,
+    /// such a request ends the window at once.
     pub on_interrupt: Option<OnInterrupt>,
 }
 
-/// Keeps what closes a window, and calls it when the program is to end.
+/// Stores the function that closes a window, and calls it when the program is to end.
 pub type OnInterrupt = fn(close: Box<dyn Fn() + Send>);
 
-/// What a closed window returns.
+/// The result of a closed window.
 pub struct Closed {
     /// The studio in its last state.
     pub studio: Studio,
-    /// Whether it was closed by Ctrl-C.
+    /// Whether Ctrl-C or the system closed it.
     pub interrupted: bool,
-    /// Its last size in points, if it did not fill the screen.
+    /// Its last size in points at which it did not fill the screen.
     pub size: Option<[u32; 2]>,
 }
 
-/// The size of a window in points if nothing else is asked for, and the smallest one.
+/// Default size of a window in points, and the smallest size.
 const USUAL_SIZE: [u32; 2] = [1280, 720];
 const MIN_SIZE: [u32; 2] = [320, 240];
 
-/// What a screen's height holds beside a window: its title, and the bars of the desktop, in points. Systems do not all say
-/// how high theirs are.
+/// Height in points that a screen needs besides a window: for its title and the bars of the desktop. Not all systems
+/// report theirs.
 const BARS: f64 = 80.0;
 
-/// The attributes of a window of this size, or of as much of it as the screen has room for.
+/// Attributes of a window of this size, cut to the room on the screen.
 pub(super) fn attributes(size: Option<[u32; 2]>, event_loop: &ActiveEventLoop) -> WindowAttributes {
     let wanted = size.unwrap_or(USUAL_SIZE);
     let screen = event_loop.primary_monitor().or_else(|| event_loop.available_monitors().next());
@@ -55,7 +55,7 @@ pub(super) fn attributes(size: Option<[u32; 2]>, event_loop: &ActiveEventLoop) -
         .with_min_inner_size(LogicalSize::<u32>::from(MIN_SIZE))
 }
 
-/// As much of a size in points as a screen of this size in pixels has room for, at this number of pixels per point.
+/// Cuts a size in points to the room on a screen of this size in pixels, with `scale` pixels per point.
 fn on_screen(wanted: [u32; 2], screen_px: [u32; 2], scale: f64) -> [u32; 2] {
     let room = [f64::from(screen_px[0]) / scale, f64::from(screen_px[1]) / scale - BARS];
     [0, 1].map(|side| match screen_px[side] {
@@ -64,7 +64,7 @@ fn on_screen(wanted: [u32; 2], screen_px: [u32; 2], scale: f64) -> [u32; 2] {
     })
 }
 
-/// The size to remember of a window that has this size in pixels: none if it fills the screen, or can hardly be seen.
+/// The size to remember for a window of this size in pixels; `None` if it fills the screen or can hardly be seen.
 pub(super) fn size_of(window: &Window, size_px: PhysicalSize<u32>) -> Option<[u32; 2]> {
     if window.fullscreen().is_some() || window.is_maximized() {
         return None;
@@ -74,7 +74,7 @@ pub(super) fn size_of(window: &Window, size_px: PhysicalSize<u32>) -> Option<[u3
     (0..2).all(|side| size[side] >= MIN_SIZE[side]).then_some(size)
 }
 
-/// The system's theme.
+/// Translates the system's theme.
 pub(super) fn theme_of(theme: winit::window::Theme) -> Theme {
     match theme {
         winit::window::Theme::Dark => Theme::Dark,

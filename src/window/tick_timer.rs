@@ -1,5 +1,5 @@
-//! Times the lanes on a thread of its own, so that measuring never delays a frame. The window's own loop only copies the
-//! lanes, once per second and while the cost is shown.
+//! Times the lanes on a separate thread, so that measuring never delays a frame. The window's own loop only copies
+//! the lanes, once per second and while the cost is shown.
 
 use std::ops::ControlFlow;
 use std::sync::mpsc::{Sender, channel};
@@ -15,28 +15,28 @@ use crate::scene::TickRate;
 use crate::stopwatch;
 use crate::studio::{Instrument, Studio};
 
-/// The time between two measurements.
+/// Time between two measurements.
 const PERIOD: Duration = Duration::from_secs(1);
-/// Ticks that are timed together: few enough that a lane that blows up is still timed before it does.
+/// Ticks timed together. They are few enough that a lane that blows up is still timed before it does.
 const TICKS: u64 = 64;
-/// How long a lane is timed.
+/// Time to spend on a lane.
 const EFFORT: Duration = Duration::from_micros(200);
 
-/// Lanes to time, with the time in seconds at which they stand, and the tick rate in Hz.
+/// Lanes to time, with their current time in seconds and their tick rate.
 struct Lanes {
     lanes: Vec<(LaneSpec, Lane)>,
     t: f64,
     tick_hz: TickRate,
 }
 
-/// A handle to the thread that times. The thread ends when this is dropped.
+/// A handle to the timing thread, which ends when this is dropped.
 pub(super) struct TickTimer {
     lanes: Sender<Lanes>,
     last: Option<Instant>,
 }
 
 impl TickTimer {
-    /// Starts the thread. It sends an event whenever it has measured.
+    /// Starts the thread. It sends an event after each measurement.
     pub(super) fn new(events: EventLoopProxy<Event>) -> Self {
         let (sender, receiver) = channel::<Lanes>();
         thread::spawn(move || {
@@ -50,7 +50,7 @@ impl TickTimer {
         Self { lanes: sender, last: None }
     }
 
-    /// Has the lanes timed, if their cost is shown and was not measured within the last second.
+    /// Sends the lanes to be timed, if their cost is shown and was not measured within the last second.
     pub(super) fn ask(&mut self, studio: &Studio, now: Instant) {
         let is_due = self.last.is_none_or(|last| now.duration_since(last) >= PERIOD);
         if studio.display().instrument != Instrument::Cost || !is_due {
@@ -60,12 +60,12 @@ impl TickTimer {
         let race = studio.race();
         let entrants = race.entrants().iter();
         let lanes = entrants.map(|lane| (lane.spec, lane.lane.clone())).collect();
-        // If the thread has ended, nothing more is measured; the window stays open.
+        // If the thread has ended, nothing more is measured, but the window stays open.
         _ = self.lanes.send(Lanes { lanes, t: race.t(), tick_hz: race.tick_hz() });
     }
 }
 
-/// The nanoseconds of a tick of each lane; `None` of one that halts.
+/// Nanoseconds per tick of each lane; `None` for one that halts.
 fn timed(Lanes { lanes, t, tick_hz }: &Lanes) -> Vec<(LaneSpec, Option<f64>)> {
     let time = |lane: &Lane| {
         let made = || Follow::new(lane.clone(), *tick_hz).from_time(*t);
@@ -90,7 +90,7 @@ mod tests {
         let scene = Scene::built_in("stiff").unwrap();
         let spec = LaneSpec::plain(method("explicit-euler").unwrap());
         let mut run = Follow::new(Lane::new(&scene, spec.solver(), spec.substeps), scene.tick_hz);
-        // On its last ticks.
+        // On the lane's last ticks.
         for end in (1..100).map(|i| i * TICKS / 2) {
             let before = run.clone();
             run.run(end, |_, _| ControlFlow::Continue(()));

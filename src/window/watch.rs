@@ -1,5 +1,5 @@
-//! Reads the files that are opened, and watches the scenes among them for changes, on a thread of its own because a disk can
-//! be slow.
+//! Reads opened files, and watches the scenes among them for changes. This happens on a separate thread, because a
+//! disk can be slow.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -13,24 +13,25 @@ use super::opening::{Asked, ReadScene};
 use crate::regular_file::{self, Unreadable};
 use crate::scene::MAX_FILE_BYTES;
 
-/// The time between two looks at the files: short enough for a change to seem immediate.
+/// Time between two looks at the files, short enough for a change to seem immediate.
 const INTERVAL: Duration = Duration::from_millis(400);
-/// How long a changed file must stay the same before it is read: an editor may empty it first.
+/// Time for which a changed file must stay the same before it is read: an editor may empty it first.
 const STEADY: Duration = Duration::from_millis(60);
-/// How many looks in a row read a file with the same stamp: for some two seconds, as coarse as the times of file systems
-/// are.
+/// Looks in a row that read a file with the same stamp. They cover some two seconds, the coarsest time stamps of file
+/// systems.
 const READS: u32 = 6;
-/// How many looks in a row must find no file before it counts as gone. After one, an editor may be about to replace it.
+/// Looks in a row without a file after which it counts as gone. After one, an editor may be about to replace it.
 const MISSING_WHEN_GONE: u32 = 2;
 
-/// A handle to the thread that watches files. The thread ends when this is dropped.
+/// A handle to the thread that watches files, which ends when this is dropped.
 pub(super) struct FileWatch {
     files: Sender<Asked>,
 }
 
 impl FileWatch {
-    /// Starts the thread, which has no file to watch but one that is open already, with its text. It sends an event for each
-    /// file that it has read, and for each that changes, is deleted or comes back; all are read by `read`.
+    /// Starts the thread. It watches no file at first, except the one that is open already, with its text. It reads
+    /// files with `read`. It sends an event for each file that it has read, and for each that changes, is deleted or
+    /// comes back.
     pub(super) fn new(
         read: ReadScene,
         opened: Option<(PathBuf, String)>,
@@ -44,7 +45,7 @@ impl FileWatch {
 
     /// Reads a file, and watches it if it is a scene.
     pub(super) fn open(&self, asked: Asked) {
-        // If the thread has ended, so does the window.
+        // If the thread has ended, the window ends too.
         _ = self.files.send(asked);
     }
 }
@@ -91,25 +92,25 @@ fn watch(
     }
 }
 
-/// What a look at a file finds.
+/// Result of a look at a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Look {
-    /// Nothing new.
+    /// Nothing has changed.
     Same,
     /// The file has other bytes.
     Changed,
-    /// The file cannot be read any more.
+    /// The file can no longer be read.
     Gone,
-    /// The file was gone, and exists again with the same bytes.
+    /// The file was gone and exists again with the same bytes.
     Back,
 }
 
-/// What tells a file from the one that was there before without reading it.
+/// Metadata that identifies a version of a file, so that it need not be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Stamp {
     bytes: u64,
     modified: Option<SystemTime>,
-    /// The inode and the time of its last change, which no program can set.
+    /// Device and inode, and the time of its last change, which no program can set.
     #[cfg(unix)]
     inode: (u64, u64, i64, i64),
     #[cfg(not(unix))]
@@ -132,15 +133,15 @@ impl Stamp {
     }
 }
 
-/// A file with the bytes that it had when it was last read.
+/// A file with its bytes at the last read.
 struct WatchedFile {
     path: PathBuf,
     /// `None` if it was too large for a scene.
     bytes: Option<Vec<u8>>,
-    /// How many looks in a row found no file.
+    /// Looks in a row that found no file.
     missing: u32,
     stamp: Option<Stamp>,
-    /// How many looks in a row have found this stamp, and read the file.
+    /// Looks in a row that found this stamp and read the file.
     reads: u32,
 }
 
@@ -149,10 +150,10 @@ impl WatchedFile {
         Self { path, bytes: Some(bytes), missing: 0, stamp: None, reads: 0 }
     }
 
-    /// Looks at the file; while it is being written, waits until it stays as it is.
+    /// Looks at the file. While somebody writes it, waits until it no longer changes.
     ///
-    /// Compares bytes, because two changes can have the same time and a file that replaces another can be older; until
-    /// the stamp has stayed the same for [`READS`] looks, from when on every change gives it another time.
+    /// Compares bytes, because two changes can have the same time and a file that replaces another can be older.
+    /// Stops reading after [`READS`] looks with the same stamp: from then on every change gives it another time.
     fn look(&mut self) -> Look {
         let stamp = Stamp::of(&self.path);
         if stamp != self.stamp || stamp.is_none() {
@@ -173,7 +174,7 @@ impl WatchedFile {
         if was_gone { Look::Back } else { Look::Same }
     }
 
-    /// The bytes of the file. If they are new, waits until they have stayed the same for [`STEADY`].
+    /// Reads the file. If its bytes are new, waits until they have stayed the same for [`STEADY`].
     fn read_steady(&self) -> Option<Option<Vec<u8>>> {
         let mut bytes = self.read()?;
         while bytes != self.bytes {
@@ -217,7 +218,7 @@ mod tests {
         assert_eq!(watched.look(), Look::Same);
         std::fs::write(&watched.path, "two").unwrap();
         assert_eq!(looks(&mut watched, 2), [Look::Changed, Look::Same]);
-        // As editors save: another file, renamed over it.
+        // Save as editors do: another file, renamed over it.
         let other = folder.path().join("a.toml~");
         std::fs::write(&other, "three").unwrap();
         std::fs::rename(&other, &watched.path).unwrap();
@@ -230,7 +231,7 @@ mod tests {
     fn a_file_that_is_deleted_is_gone_once_and_back_once() {
         let (_folder, mut watched) = watched();
         std::fs::remove_file(&watched.path).unwrap();
-        // An editor may be about to put another in its place.
+        // An editor may be about to replace it.
         assert_eq!(watched.look(), Look::Same);
         std::fs::write(&watched.path, "one").unwrap();
         assert_eq!(watched.look(), Look::Same);
@@ -254,7 +255,7 @@ mod tests {
         assert_eq!(watched.look(), Look::Changed);
         assert!(watched.reads < READS);
         assert_eq!(reads(&mut watched), READS);
-        // A file that can never be a scene is not read to its end.
+        // A file too large for a scene is not read to its end.
         let large = std::fs::File::create(&watched.path).unwrap();
         large.set_len(1 << 40).unwrap();
         assert_eq!(looks(&mut watched, 2), [Look::Changed, Look::Same]);

@@ -1,5 +1,5 @@
-//! Work on threads of its own, because one step of it can take longer than a frame: the analysis, the loops of the
-//! loop lab, and clouds.
+//! Work on separate threads, because one step of it can take longer than a frame: the analysis, the loops of the loop
+//! lab, clouds, and the growing recording.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -11,11 +11,11 @@ use winit::event_loop::EventLoopProxy;
 use super::Event;
 use crate::studio::{CurrentRequest, Work};
 
-/// A handle to a thread that works. The thread ends when this is dropped.
+/// A handle to a worker's thread, which ends when this is dropped.
 pub(super) struct WorkThread<W: Work> {
     requests: Sender<W::Request>,
     asked: CurrentRequest<W>,
-    /// How many requests were sent.
+    /// Number of requests sent.
     sent: Arc<AtomicU64>,
 }
 
@@ -23,7 +23,7 @@ impl<W> WorkThread<W>
 where
     W: Work<Request: Send, Found: Into<Event>> + Send + 'static,
 {
-    /// Starts the thread with a worker on `request`. It sends an event whenever it has found more.
+    /// Starts the thread with a worker on `request`. It sends an event whenever the worker has found something.
     pub(super) fn new(worker: W, request: W::Request, events: EventLoopProxy<Event>) -> Self {
         let (requests, received) = channel();
         let sent = Arc::new(AtomicU64::new(0));
@@ -32,16 +32,16 @@ where
         Self { requests, asked: CurrentRequest(request), sent }
     }
 
-    /// The request that was sent last.
+    /// The last request sent.
     pub(super) fn request(&self) -> &W::Request {
         &self.asked.0
     }
 
-    /// Replaces the request, if it has changed.
+    /// Replaces the request if it has changed.
     pub(super) fn ask(&mut self, request: W::Request) {
         if let Some(request) = self.asked.replace(request) {
             self.sent.fetch_add(1, Ordering::Relaxed);
-            // If the thread has ended, nothing more is found; the window stays open.
+            // If the thread has ended, nothing more is found, but the window stays open.
             _ = self.requests.send(request);
         }
     }

@@ -25,7 +25,7 @@ struct Timing {
 }
 
 impl Timing {
-    /// Of runs in nanoseconds per tick, from least to most, at this many ticks per second; `None` if there are none.
+    /// Takes run times in nanoseconds per tick, sorted upwards. Returns `None` without runs.
     fn of(runs: &[f64], tick_hz: TickRate) -> Option<Self> {
         let least = *runs.first()?;
         let spread = runs[runs.len() / 2] / least - 1.0;
@@ -33,22 +33,22 @@ impl Timing {
     }
 }
 
-/// A method judged, and its measured costs.
+/// A method's advice and its measured costs.
 pub(super) struct Row {
     pub(super) advised: MethodAdvice,
-    /// For each criterion that is met.
+    /// One per criterion; `None` where the criterion is not met or not yet timed.
     timings: [Option<Timing>; CRITERIA.len()],
-    /// For each criterion the slowest rate, where rates were asked for.
+    /// Slowest tick rate in Hz for each criterion; `None` without `--rates`.
     pub(super) rates: Option<[Option<u32>; CRITERIA.len()]>,
 }
 
-/// How long each measurement takes: short enough that six dozen of them are no long wait.
+/// Duration of one measurement, so short that six dozen of them do not keep a person waiting.
 const EFFORT: Duration = Duration::from_millis(5);
 
-/// The part by which times may vary from run to run until a warning says so.
+/// Median spread of run times above which a warning is printed.
 const NOISE: f64 = 0.2;
 
-/// The methods judged, in the order given, without margins; after an interrupt those judged by then.
+/// Judges the methods in the order given, without margins. After an interrupt, returns the methods judged so far.
 pub(super) fn judge_all(
     pool: &ThreadPool,
     adviser: &Arc<Adviser>,
@@ -63,7 +63,7 @@ pub(super) fn judge_all(
     rows.into_iter().flatten().collect()
 }
 
-/// Searches margins until it is decided what is recommended; after an interrupt some are missing.
+/// Searches margins until the recommendations are decided or the user interrupts.
 pub(super) fn decide(
     pool: &ThreadPool,
     adviser: &Arc<Adviser>,
@@ -79,7 +79,7 @@ pub(super) fn decide(
     }
 }
 
-/// Searches these margins, each told by its row and its criterion; after an interrupt the others are missing.
+/// Searches these margins, each a pair of row and criterion indices. An interrupt leaves the rest unsearched.
 pub(super) fn search_margins(
     pool: &ThreadPool,
     adviser: &Arc<Adviser>,
@@ -114,7 +114,7 @@ impl Row {
         }
     }
 
-    /// Measures what each criterion costs. Nothing else should run meanwhile.
+    /// Times each criterion that is met. Nothing else should run meanwhile.
     pub(super) fn time(&mut self, scene: &Scene) {
         let ticks = (scene.seconds.min(10.0) * f64::from(scene.tick_hz)).round() as u64;
         for (i, met) in self.advised.met.iter().enumerate() {
@@ -139,7 +139,7 @@ impl Row {
     }
 }
 
-/// Warns if something else kept the machine busy while costs were measured.
+/// Warns if other work kept the machine busy during the measurements.
 pub(super) fn warn_of_load(rows: &[Row]) {
     let timings = rows.iter().flat_map(|row| row.timings.iter().flatten());
     let mut spreads: Vec<f64> = timings.map(|timing| timing.spread).collect();
@@ -154,20 +154,19 @@ pub(super) fn warn_of_load(rows: &[Row]) {
     }
 }
 
-/// What was found of each row.
 pub(super) fn advised(rows: &[Row]) -> Vec<MethodAdvice> {
     rows.iter().map(|row| row.advised.clone()).collect()
 }
 
-/// The recommendation for a criterion, and its row.
+/// The row and the recommendation for a criterion.
 pub(super) fn recommended_row(rows: &[Row], criterion: usize) -> Option<(&Row, Recommendation)> {
     let advised = advised(rows);
     let row = &rows[recommended(&advised, criterion)?];
     Some((row, Recommendation::of(&advised, criterion)?))
 }
 
-/// The best rows, `most` at most: those recommended for each criterion, then those that come second, and so on; then what
-/// meets none.
+/// At most `most` rows, best first: the row recommended for each criterion, then the runners-up, and so on. Rows that
+/// meet no criterion come last.
 pub(super) fn best_rows(rows: &[Row], most: usize) -> Vec<&Row> {
     let advised = advised(rows);
     let ranked: Vec<Vec<usize>> = (0..CRITERIA.len()).map(|i| ranked(&advised, i)).collect();

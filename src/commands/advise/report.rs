@@ -12,10 +12,10 @@ use crate::scene::Scene;
 use crate::tools::source_code;
 use crate::tools::source_code::{Language, Precision};
 
-/// The most rows that are printed without `--all`.
+/// Maximum number of rows without `--all`.
 const MOST_ROWS: usize = 8;
 
-/// The answer as text: the recommendations, and the recommended method in this language if there is one.
+/// The answer as text: recommendations, then the code of the recommended method in `language`, if given.
 pub(super) fn answer(
     scene: &Scene,
     adviser: &Adviser,
@@ -50,7 +50,7 @@ pub(super) fn best(rows: &[Row]) -> String {
     text
 }
 
-/// All as text: the verdicts, and the methods that meet each criterion with their costs.
+/// All rows as text: the verdicts, and the methods that meet each criterion with their costs.
 pub(super) fn all_tables(rows: &[Row]) -> String {
     if rows.is_empty() {
         return String::new();
@@ -83,7 +83,7 @@ fn slowest_rates<'r>(rows: impl IntoIterator<Item = &'r Row>) -> String {
     format!("\nslowest tick rates in one step a tick, in Hz\n{}", table::text(RATES, rows, "  "))
 }
 
-/// The method to take for each criterion.
+/// Recommends a method for each criterion, or gives the reason why there is none.
 fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> String {
     let mut text = String::new();
     if rows.len() < wanted {
@@ -103,7 +103,7 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
     text
 }
 
-/// The method recommended for what looks right, or else for what is bounded, as a function with how often to call it.
+/// Code of the method recommended for `LooksRight`, else for `Bounded`, with the number of calls per tick.
 fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
     let index = |criterion| CRITERIA.iter().position(|one| *one == criterion);
     let wanted = [Criterion::LooksRight, Criterion::Bounded];
@@ -223,7 +223,8 @@ impl MetRow {
     }
 }
 
-/// What stands for a margin whose search ended at a run that has no truth or takes too much work, or that was not searched.
+/// Text for an unknown margin. Either its search reached a run without a truth or with too much work, or nobody
+/// searched it.
 fn unknown(met: &CriterionMet) -> &'static str {
     if met.are_margins_searched { "not known" } else { "not searched" }
 }

@@ -1,4 +1,4 @@
-//! The adaptive listing, as it is printed and as it is meant.
+//! The adaptive listing, as printed and as intended.
 
 use std::fmt::Write;
 
@@ -58,7 +58,7 @@ pub(super) fn listings() -> String {
         + "\n  As printed a step that is cut short is never made up for: the ship sails in slow motion.\n"
 }
 
-/// The ship's state after all ticks, and the method's evaluations.
+/// Steps the ship through all ticks. Returns its final state and the number of evaluations.
 fn run(integrator: &mut dyn Integrator<Counted<Ship>>, ship: &Ship, h: f64) -> (State<f64>, u64) {
     let system = Counted::new(ship.clone());
     let mut state = ship.start();

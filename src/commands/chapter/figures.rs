@@ -1,4 +1,4 @@
-//! Figures 7-2 to 7-8, as curves, and their data as a table.
+//! Figures 7-2 to 7-8 as curves, and their data as tables.
 
 use std::io;
 
@@ -8,14 +8,13 @@ use crate::look::palette::Theme;
 use crate::scene::Scene;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
-/// A figure of the chapter.
 pub(super) struct Diagram {
-    /// Its number there.
+    /// Number in the book.
     pub(super) number: &'static str,
     pub(super) figure: Figure,
 }
 
-/// All of them, in order.
+/// All figures, in order.
 pub(super) fn all() -> Vec<Diagram> {
     let (ship, spring) = (scene("ship"), scene("spring"));
     let euler = |seconds| vec![exact(&ship, seconds), speed(&ship, "explicit-euler", seconds)];
@@ -72,7 +71,6 @@ pub(super) fn all() -> Vec<Diagram> {
     ]
 }
 
-/// A figure of one chart.
 fn figure(
     title: &str,
     note: String,
@@ -86,10 +84,10 @@ fn figure(
     Figure { title: title.into(), note, columns: 1, charts: vec![chart] }
 }
 
-/// How each table begins.
+/// Start of every table's header.
 pub(super) const CSV_BEGINS: &str = "curve,time_s,";
 
-/// The points of all curves in one tidy table: `curve`, then the axes.
+/// The points of all curves as one tidy table: `curve`, then the axes.
 pub(super) fn csv(figure: &Figure) -> io::Result<Vec<u8>> {
     let chart = &figure.charts[0];
     let name = |axis: &Axis| axis.name.replace(['(', ')'], "").replace('/', " per ");
@@ -103,7 +101,7 @@ pub(super) fn csv(figure: &Figure) -> io::Result<Vec<u8>> {
     rows.end()
 }
 
-/// Points per second of an exact curve: closer than can be seen.
+/// Points per second of an exact curve, more than the eye resolves.
 const SMOOTH_HZ: u32 = 100;
 
 fn exact(ship: &Scene, seconds: f64) -> FigureCurve {
@@ -125,7 +123,7 @@ fn truth(points: Vec<[f64; 2]>) -> FigureCurve {
     }
 }
 
-/// The speed by this method, a dot at every step.
+/// Speed by this method. Runs of at most 20 s have a dot at every step.
 fn speed(ship: &Scene, id: &str, seconds: f64) -> FigureCurve {
     let dots = if seconds > 20.0 { 0.0 } else { 2.6 };
     stepped(id, dots, &by_method(ship, id, seconds), |m| [m.t, m.v])

@@ -1,4 +1,4 @@
-//! The directory that the figures go to, each file of which appears whole or not at all.
+//! Output directory of the figures. Each file appears whole or not at all.
 
 use std::ffi::OsString;
 use std::fs;
@@ -13,17 +13,16 @@ use crate::commands::frame_names::is_marked;
 use crate::commands::output::begin_file;
 use crate::regular_file;
 
-/// A folder for figures.
 pub(super) struct FigureFolder {
     path: PathBuf,
-    /// Figures of an earlier run, whole or not.
+    /// Figures of an earlier run, complete or partial.
     old: Vec<OsString>,
-    /// Names of the entries that are none of ours.
+    /// Names of entries that this command did not make.
     others: Vec<OsString>,
 }
 
 impl FigureFolder {
-    /// Looks at the folder at `path`, which need not exist yet, and changes nothing.
+    /// Inspects the folder at `path`, which need not exist yet. Changes nothing.
     pub(super) fn inspect(path: &Path) -> Result<Self, Error> {
         let fail = Error::of_file("read", path, "--out");
         let mut folder = Self { path: path.to_owned(), old: Vec::new(), others: Vec::new() };
@@ -51,12 +50,11 @@ impl FigureFolder {
         Ok(folder)
     }
 
-    /// Whether nothing is there.
     pub(super) fn is_empty(&self) -> bool {
         self.old.is_empty() && self.others.is_empty()
     }
 
-    /// Makes the folder where there is none, and removes the figures of an earlier run.
+    /// Creates the folder if necessary and removes the figures of an earlier run.
     pub(super) fn clear(&mut self) -> Result<(), Error> {
         fs::create_dir_all(&self.path).map_err(Error::of_file(
             "make the directory",
@@ -70,32 +68,31 @@ impl FigureFolder {
         Ok(())
     }
 
-    /// Writes a file: under a name of its own until it is whole.
+    /// Writes a file under a temporary name and renames it once it is whole.
     pub(super) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
         let path = self.path.join(name);
         let written = begin_file(&path).and_then(|file| file.write_whole(bytes, IfExists::Replace));
         written.map(drop).map_err(Error::of_file("write", &path, "--out"))
     }
 
-    /// Where it is.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Names of the entries that are none of ours and have been left alone.
+    /// Names of entries that this command did not make and has left alone.
     pub(super) fn others(&self) -> &[OsString] {
         &self.others
     }
 }
 
-/// Whether this is the name of a figure or of its data.
+/// Whether `name` is the file name of a figure or of its data.
 fn is_a_figures(name: &str) -> bool {
     let stem = name.strip_suffix(".png").or_else(|| name.strip_suffix(".csv"));
     let number = stem.and_then(|stem| stem.strip_prefix("figure-7-"));
     number.is_some_and(|n| n.len() == 1 && n.bytes().all(|b| (b'2'..=b'8').contains(&b)))
 }
 
-/// Whether a run that was killed left the file at `path`: by its name, and by what is in it, if anything is.
+/// Whether a killed run left the file at `path`. Its name must match, and so must its content unless it is empty.
 fn is_left_over(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let begins = || regular_file::read_start(path, CSV_BEGINS.len());

@@ -1,4 +1,4 @@
-//! Table 7-1, its averages, and the distances run that go with it, beside the numbers that the chapter prints.
+//! Table 7-1, its averages and the matching distances, next to the printed numbers.
 
 use std::fmt::Write;
 
@@ -54,7 +54,7 @@ pub(super) fn table_7_1() -> String {
     text
 }
 
-/// The error of the speed after `tick` ticks, in percent.
+/// Relative error of the speed after `tick` ticks, in percent.
 fn off(found: &[Moment], truth: &[Moment], tick: usize) -> f64 {
     100.0 * (found[tick].v - truth[tick].v) / truth[tick].v
 }
@@ -88,7 +88,7 @@ pub(super) fn displacements() -> String {
     text + "\n  Semi-implicit Euler is what the chapter's listing of Euler's method does.\n"
 }
 
-/// A row of Table 7-1: time in seconds, then speed in m/s exactly and by Euler's method, and the error.
+/// A row of Table 7-1: time (s), exact speed (m/s), speed by Euler's method (m/s), and error.
 const TABLE_7_1: [(f64, [&str; 3]); 5] = [
     (6.5, ["9.559084", "9.733158", "1.82%"]),
     (7.0, ["10.06829", "10.2465", "1.77%"]),
@@ -97,16 +97,16 @@ const TABLE_7_1: [(f64, [&str; 3]); 5] = [
     (8.5, ["11.4517", "11.63759", "1.62%"]),
 ];
 
-/// The average errors over those rows, of three methods.
+/// Average errors of three methods over these rows.
 const AVERAGES: [(&str, &str); 3] =
     [("explicit-euler", "1.72%"), ("improved-euler", "0.03%"), ("rk4", "3.6e-6%")];
 
-/// The number found, with a tick if the chapter prints the same, or else with the printed number.
+/// The number with a tick if the chapter prints the same, else followed by the printed number.
 fn marked(found: &str, printed: &str) -> String {
     if found == printed { format!("{found} ✓") } else { format!("{found} (printed: {printed})") }
 }
 
-/// As C's `%.7g` prints it, for numbers from 1e-4 up to 1e7.
+/// Formats a number like C's `%.7g`, for magnitudes from 1e-4 up to 1e7.
 fn seven_digits(x: f64) -> String {
     let digits_before = libm::floor(libm::log10(x.abs())) as i32;
     // Rounding may carry into another digit.
@@ -119,7 +119,7 @@ fn seven_digits(x: f64) -> String {
     }
 }
 
-/// As C's `%.2f%%` prints it; two digits and a power of ten where that would print 0.
+/// Formats a number like C's `%.2f%%`, or with two digits and a power of ten if that would print 0.
 fn percent(x: f64) -> String {
     if x.abs() < 0.005 { format!("{x:.1e}%") } else { format!("{x:.2}%") }
 }

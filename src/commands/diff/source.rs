@@ -1,4 +1,4 @@
-//! What is compared: the rows of a table, of a run, or of the states in a manifest.
+//! Sources of rows to compare: a table, a run, or the states in a manifest.
 
 use std::io::{self, BufReader, Read};
 use std::path::Path;
@@ -15,34 +15,34 @@ use crate::run::diff::{NotComparable, Records, is_header};
 use crate::run::trace::{Made, row};
 use crate::table::{BUFFER_BYTES, Reading, TableError, TableFault, TableReader, Utf8};
 
-/// The rows that pass from thread to thread at once.
+/// Most rows in a batch between threads.
 const BATCH: usize = 1024;
-/// The bytes of rows that pass at once, which long rows reach first.
+/// Most bytes in a batch between threads. Long rows reach this limit first.
 const BATCH_BYTES: usize = 1 << 20;
-/// A row of more bytes has its room given back.
+/// Rows of more bytes are dropped instead of reused, to free their memory.
 const LARGE_ROW_BYTES: usize = 1 << 14;
-/// The rows of a run.
+/// The rows of one run.
 pub(super) enum Source {
     Table(Table),
     Made(Made),
 }
 
-/// A table that is read on a thread of its own.
+/// A table that a separate thread reads.
 pub(super) struct Table {
     header: ByteRecord,
     batch: Vec<ByteRecord>,
-    /// How many rows of the batch there are, and how many of them are taken.
+    /// Number of rows in the batch, and number of rows already taken.
     filled: usize,
     taken: usize,
     batches: Receiver<Result<Batch, Error>>,
     used: SyncSender<Vec<ByteRecord>>,
 }
 
-/// Rows, and how many of them are filled.
+/// Row buffers, and the number of filled ones.
 type Batch = (Vec<ByteRecord>, usize);
 
 impl Source {
-    /// The run at this path.
+    /// Opens the run at `path`.
     pub(super) fn open(path: &Path) -> Result<Self, Error> {
         let is_scene = scene_file::is_link(path)
             || scene_file::is_built_in(path) && !path.exists()
@@ -94,7 +94,7 @@ impl From<NotComparable> for Error {
     }
 }
 
-/// The bytes that a row takes.
+/// Memory of a row in bytes.
 fn footprint(row: &ByteRecord) -> usize {
     row.as_slice().len() + row.len() * size_of::<usize>()
 }
@@ -139,7 +139,7 @@ impl Table {
                     }
                 };
                 let has_more = matches!(read, Ok(Some(_)));
-                // Who no longer listens has found a fault in the other table.
+                // The receiver is gone if the other table had a fault.
                 let is_heard = send.send(Ok((batch, filled))).is_ok();
                 if let Err(error) = read {
                     drop(send.send(Err(fault(error))));
@@ -156,7 +156,7 @@ impl Table {
         if self.taken == self.filled {
             let Ok(next) = self.batches.recv() else { return Ok(false) };
             let (batch, filled) = next?;
-            // A batch that finds no place is made anew.
+            // If the channel is full, the batch is dropped and the reader allocates another.
             drop(self.used.try_send(std::mem::replace(&mut self.batch, batch)));
             (self.filled, self.taken) = (filled, 0);
             if filled == 0 {
@@ -169,7 +169,7 @@ impl Table {
     }
 }
 
-/// The run of the scene or recording at `path`, to its end or to its last check.
+/// The run of the scene or recording at `path`, up to its end or its last check.
 fn of_scene(path: &Path) -> Result<Made, Error> {
     let scene = scene_file::load(path)?.0;
     let last = verify::recording::end_of(path, &scene)?;

@@ -1,8 +1,8 @@
-//! New frames for an existing clip: drawn into a directory inside it, and swapped in once all are written. A clip may be
-//! a link, a mount point or the working directory, none of which can be renamed.
+//! New frames for an existing clip, drawn into a directory inside it and swapped in once all are written. The clip
+//! itself may be a link, a mount point or the working directory, none of which can be renamed.
 //!
 //! A process killed at any moment leaves the old clip whole, or the new one whole in the directory
-//! `.regatta-blessed`, from which [`complete`] finishes the swap.
+//! `.regatta-blessed`. [`complete`] finishes the swap from there.
 
 use std::fs;
 use std::io;
@@ -14,10 +14,10 @@ use crate::atomic_file::{is_random, sync_directory};
 use crate::commands::frame_names::{self, READY, frame_number, frames_claimed, is_marked};
 use crate::commands::manifest;
 
-/// The prefix of directories in which frames are drawn.
+/// Prefix of the directory that receives the new frames.
 const UNDER_WAY: &str = ".regatta-bless-";
 
-/// New frames for a clip. Dropped before [`swap`](Self::swap), it leaves nothing.
+/// New frames for a clip. Dropping them before [`swap`](Self::swap) removes them.
 #[derive(Debug)]
 pub(crate) struct Blessing {
     clip: PathBuf,
@@ -36,20 +36,20 @@ impl Blessing {
         self.place.path()
     }
 
-    /// Replaces the clip's frames and manifest by the new ones, which must be synced.
+    /// Replaces the clip's frames and manifest with the new ones, which must be synced.
     pub(crate) fn swap(self) -> io::Result<()> {
         let ready = self.clip.join(READY);
-        // What an earlier swap leaves is empty, and in the way on some systems.
+        // An earlier swap leaves an empty directory, which blocks the rename on some systems.
         _ = fs::remove_dir(&ready);
         fs::rename(self.place.path(), ready)?;
-        // The directory has another name now and must not be removed.
+        // The directory now has its final name and must not be removed.
         let _ = self.place.keep();
         sync_directory(&self.clip)?;
         complete(&self.clip)
     }
 }
 
-/// Whether the directory at `path` is one that an interrupted blessing left: by its name, and by all that is in it.
+/// Whether an interrupted blessing left the directory at `path`. Both its name and all its entries must match.
 pub(crate) fn is_left_over(path: &Path) -> io::Result<bool> {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     if !name.strip_prefix(UNDER_WAY).is_some_and(is_random) {
@@ -62,15 +62,15 @@ pub(crate) fn is_left_over(path: &Path) -> io::Result<bool> {
     })
 }
 
-/// Finishes a [pending](crate::commands::frame_names::is_pending) swap: moves the frames that the new manifest lists, and no other file. Every step can
-/// be repeated, and the manifest comes last.
+/// Finishes a [pending](crate::commands::frame_names::is_pending) swap. Moves the frames that the new manifest lists,
+/// and no other file. Every step can be repeated, and the manifest comes last.
 pub(crate) fn complete(clip: &Path) -> io::Result<()> {
     let ready = clip.join(READY);
     let [older, newer] = [clip, &ready]
         .map(|folder| frames_claimed(&folder.join(manifest::FILE_NAME)).unwrap_or_default());
     for name in newer.iter().filter(|name| frame_number(name).is_some()) {
         match fs::rename(ready.join(name), clip.join(name)) {
-            // It was moved before the interruption.
+            // Moved before the interruption.
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             moved => moved?,
         }
@@ -87,7 +87,7 @@ pub(crate) fn complete(clip: &Path) -> io::Result<()> {
     }
     sync_directory(clip)?;
     fs::rename(ready.join(manifest::FILE_NAME), clip.join(manifest::FILE_NAME))?;
-    // Another file in it is not ours to remove.
+    // If the directory holds another file, that file is not ours to remove.
     _ = fs::remove_dir(&ready);
     sync_directory(clip)
 }
@@ -156,7 +156,7 @@ mod tests {
                 }
                 fs::rename(ready.join(&name), clip.path().join(&name)).unwrap();
             }
-            // Once the manifest is in its place, only an empty directory is left.
+            // Once the manifest is in place, only an empty directory remains.
             assert_eq!(is_pending(clip.path()), moved < 3);
             if moved < 3 {
                 complete(clip.path()).unwrap();

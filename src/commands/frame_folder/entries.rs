@@ -1,4 +1,4 @@
-//! The entries of a folder of frames: which of them a capture made.
+//! Sorts the entries of a frame folder by who made them: a capture or somebody else.
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -16,20 +16,20 @@ use crate::commands::output::is_lock;
 /// The entries of a folder, by name.
 #[derive(Debug, Default)]
 pub(super) struct Entries {
-    /// Files of an earlier capture, whole or partial.
+    /// Files of an earlier capture, complete or partial.
     pub(super) ours: BTreeSet<OsString>,
     /// Directories that an interrupted blessing left.
     pub(super) our_directories: Vec<OsString>,
-    /// Entries that no capture made and that have no name of a capture's file.
+    /// Entries that no capture made, except `foreign`.
     pub(super) others: Vec<OsString>,
-    /// A file that has the name of a capture's file, but was not made by one.
+    /// A file that has the name of a capture's file but that no capture made.
     pub(super) foreign: Option<PathBuf>,
     /// A directory that has the name of a capture's file.
     pub(super) in_the_way: Option<PathBuf>,
 }
 
 impl Entries {
-    /// Sorts the entries of the folder at `path`.
+    /// Reads and sorts the entries of the folder at `path`.
     pub(super) fn read(path: &Path) -> io::Result<Self> {
         let mut entries = Self::default();
         let claimed = frames_claimed(&path.join(manifest::FILE_NAME));

@@ -1,4 +1,4 @@
-//! What becomes of a folder of frames, whatever is in it already.
+//! Frame folders with all kinds of existing content.
 
 use super::*;
 use crate::view::png;
@@ -7,7 +7,7 @@ fn inspect(path: &Path, existing: FolderPolicy) -> Result<FrameFolder, Error> {
     FrameFolder::inspect(path, existing, PlaceOf::Option("--out"))
 }
 
-/// A picture as a capture writes it, one pixel of this grey.
+/// A picture of one grey pixel, encoded as in a capture.
 fn frame(grey: u8) -> Vec<u8> {
     png::encode([1, 1], &[grey, grey, grey, 255])
 }
@@ -81,7 +81,7 @@ fn what_a_killed_capture_left_makes_way_and_what_only_looks_like_it_does_not() {
     for name in kept {
         fs::write(at(name), "mine").unwrap();
     }
-    // A copy of a frame of ours.
+    // A copy of one of our frames.
     fs::write(at(kept[2]), frame(0)).unwrap();
     let mut frames = inspect(folder.path(), FolderPolicy::Replace).unwrap();
     frames.clear().unwrap();
@@ -152,7 +152,7 @@ fn a_frame_that_cannot_be_written_leaves_nothing_behind() {
     let parent = tempfile::tempdir().unwrap();
     let mut frames = inspect(parent.path(), FolderPolicy::Refuse).unwrap();
     frames.clear().unwrap();
-    // A directory of that name cannot be replaced by a file.
+    // A file cannot replace a directory of that name.
     fs::create_dir_all(parent.path().join("frame-000001.png/in the way")).unwrap();
     frames.push(&frame(0)).unwrap();
     let error = frames.push(&frame(0)).unwrap_err().to_string();

@@ -1,18 +1,18 @@
-//! What `regatta loop` says below its rows: which policy to take, and which motion depends on the frame rate.
+//! Advice below the rows of `regatta loop`: which policy to take, and which motion depends on the frame rate.
 
 use super::measured::Measured;
 use crate::commands::terminal::print_status;
 use crate::loops::{FrameLimits, MeasuredLoops, NoLoop, POLICIES};
 use crate::sim::number::{counted, round};
 
-/// Tells which of the policies measured on one trace to take.
+/// Prints which of the policies measured on one trace to take.
 pub(super) fn tell_of(rows: &[Measured], latency_ms: f64, limits: FrameLimits) {
     let Some(first) = rows.first() else { return };
     let trace =
         format!("{} ({} Hz display, {:.3} Hz ticks)", first.trace, first.refresh, first.tick_hz);
     let measured = rows.iter().map(|row| (row.card, &row.report));
     let loops = MeasuredLoops::new(measured, first.tick_hz, first.has_one_clock);
-    // The window advises among all.
+    // Name no subset if all policies were measured, as in the window.
     let are_all = rows.len() == POLICIES.len();
     match loops.advised(latency_ms) {
         Ok(advised) => {
@@ -64,9 +64,9 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64, limits: FrameLimits) {
     }
 }
 
-/// A policy with what was measured and its constants, or what was set in place of them.
+/// A policy with its measurements and its constants, or the limits set in their place.
 fn words(row: &Measured, latency_ms: Option<f64>, limits: FrameLimits) -> String {
-    // Traces are counted in whole nanoseconds: what is less than a microsecond is their rounding.
+    // Traces count whole nanoseconds, so anything below a microsecond is rounding.
     let to_microseconds = |ms: f64| (1000.0 * ms).round() / 1000.0;
     let ms = |value: Option<f64>| {
         value.map_or("unknown".into(), |ms| format!("{} ms", round(to_microseconds(ms), 3)))

@@ -1,4 +1,4 @@
-//! The picture of `regatta loop`: the moment shown against the moment of display, and what each policy costs.
+//! The picture of `regatta loop`: the moment shown against the moment of display, and the cost of each policy.
 
 use super::measured::Measured;
 use crate::look::palette::Theme;
@@ -6,25 +6,24 @@ use crate::scene::Scene;
 use crate::sim::number::round;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
-/// The most traces of which a picture has charts.
+/// Most traces in a picture.
 const MAX_TRACES: usize = 4;
 
-/// An animation error that is drawn at the bottom: no display shows it.
+/// Smallest animation error (ms) drawn. No display shows less.
 const MIN_MS: f64 = 1e-3;
-/// The radius of a dot, and how much further the dot of a loop reaches for each other that is drawn over it, in points.
+/// Radius of a dot, and its growth for each dot drawn over it, in points.
 const DOT: f32 = 4.0;
 const RING: f32 = 3.0;
 const EXPLAINED: &str = "Animation error is the change of the moment shown minus the change of the moment of display, \
                          from frame to frame";
-/// A loop that is further behind or ahead, because it does not keep time, is outside of the chart.
+/// Largest latency (ms) in the chart. A loop beyond it, behind or ahead, does not keep time.
 const MAX_LATENCY_MS: f64 = 200.0;
 
-/// The number of charts in a picture of `traces` traces.
 pub(super) fn charts(traces: usize) -> usize {
     2 * traces.min(MAX_TRACES)
 }
 
-/// The picture of the rows, which are in the order of their traces: two charts for each of the first traces.
+/// The picture of `rows`, grouped by trace. Each of the first traces gets two charts.
 pub(super) fn figure(scene: &Scene, rows: &[Measured]) -> Figure {
     let mut by_trace: Vec<&[Measured]> =
         rows.chunk_by(|one, other| one.trace == other.trace).collect();
@@ -48,7 +47,7 @@ fn curve(index: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> Figu
     FigureCurve { name: row.card.id.into(), colour, dash, dots, points }
 }
 
-/// The moment shown against the moment of display, as the display holds each picture until the next.
+/// The moment shown against the moment of display. The display holds each picture until the next.
 fn shown(rows: &[Measured], before: &str) -> Chart {
     let along = rows.iter().flat_map(|row| &row.drawn).map(|point| point[0]);
     let start = along.clone().reduce(f64::min).unwrap_or(0.0);
@@ -122,7 +121,7 @@ fn point(row: &Measured) -> Option<[f64; 2]> {
     Some([report.latency_mean_ms()?, report.animation_error_rms_ms?.max(MIN_MS)])
 }
 
-/// A title, after what comes before it.
+/// A title with its prefix, or capitalised if there is none.
 fn sentence(before: &str, title: &str) -> String {
     match before {
         "" => title[..1].to_uppercase() + &title[1..],
@@ -130,7 +129,7 @@ fn sentence(before: &str, title: &str) -> String {
     }
 }
 
-/// The loop with the least error of each trace.
+/// A note that names the loop with the least error on each trace.
 fn note_on_several(by_trace: &[&[Measured]], left_out: usize) -> String {
     let error = |row: &Measured| row.report.animation_error_rms_ms.unwrap_or(f64::INFINITY);
     let least = by_trace.iter().filter_map(|rows| {
@@ -161,7 +160,7 @@ fn beyond_chart(row: &Measured) -> Option<String> {
     Some(format!("a latency of {} ms", round(latency_ms, 3)))
 }
 
-/// The loops that the charts do not show.
+/// Lists the loops that are missing from the charts.
 fn outside<'r>(rows: impl Iterator<Item = &'r Measured>) -> String {
     let late = rows.filter_map(|row| Some(format!("{}, {}", row.card.id, beyond_chart(row)?)));
     match late.collect::<Vec<_>>().join("; ").as_str() {
@@ -170,7 +169,7 @@ fn outside<'r>(rows: impl Iterator<Item = &'r Measured>) -> String {
     }
 }
 
-/// The ranking.
+/// A note that ranks the loops by animation error.
 fn note(rows: &[Measured]) -> String {
     let mut ranked: Vec<(&str, f64)> = rows
         .iter()

@@ -1,4 +1,4 @@
-//! A loop measured over a trace.
+//! Measurement of a loop over a trace.
 
 use std::{io, iter};
 
@@ -12,12 +12,12 @@ use crate::loops::{
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::TickRate;
 
-/// How many frames the picture of a run shows, and how many of them are before a long one.
+/// Frames in the picture of a run, and how many of them precede a long frame.
 const DRAWN: usize = 30;
 const BEFORE: usize = 8;
-/// A frame is long from this number of refreshes on.
+/// A frame of at least this number of refreshes is long.
 const LONG: f64 = 2.5;
-/// The most frames that are searched for a long one.
+/// Most frames searched for a long one.
 const MAX_SEARCHED: usize = 100_000;
 
 /// A row of the table.
@@ -26,25 +26,25 @@ pub(super) struct Measured {
     pub(super) trace: String,
     pub(super) refresh: RefreshRate,
     pub(super) tick_hz: TickRate,
-    /// Whether frames begin and are displayed by one clock. In the logs of tools they do not.
+    /// Whether one clock times both the start and the display of frames. Logs of tools use two.
     pub(super) has_one_clock: bool,
-    /// What to say of a log that has no times of display.
+    /// Remark on a log without times of display.
     pub(super) missing_display: Option<&'static str>,
     pub(super) report: PacingReport,
-    /// The moments of display and the moments shown of the frames that are drawn, in milliseconds.
+    /// Moment of display and moment shown of each drawn frame, in milliseconds.
     pub(super) drawn: Vec<[f64; 2]>,
 }
 
-/// What of a trace is measured.
+/// The measured part of a trace.
 #[derive(Clone, Copy)]
 pub(super) struct Stretch {
-    /// Where it ends.
+    /// End of the measurement.
     pub(super) until_ns: i64,
-    /// From where on frames are kept for a picture, if there is to be one.
+    /// Start of the frames to draw, if there is a picture.
     pub(super) drawn_from_ns: Option<i64>,
 }
 
-/// Measures a policy on a trace until `stop` says so, and writes a row for each frame to `frames`.
+/// Measures a policy on a trace until its end or until `stop` returns true. Writes a row per frame to `frames`.
 pub(super) fn measure(
     scene: &Scene,
     spec: LaneSpec,
@@ -83,7 +83,6 @@ pub(super) fn measure(
     })
 }
 
-/// The row of a frame.
 fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [Value; 9] {
     let ms = |ns: i64| ns as f64 / 1e6;
     let FrameRecord { number, frame, shown_ms, steps, dropped_ms, .. } = record;
@@ -100,7 +99,7 @@ fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [
     ]
 }
 
-/// When the frames that are drawn begin to be displayed: at the start, or shortly before the longest frame if one is long.
+/// Display time of the first frame to draw: the start, or shortly before the longest frame if one is long.
 pub(super) fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
     let mut frames = trace.frames();
     let displayed: Vec<i64> = iter::from_fn(|| frames.next(0))
@@ -111,7 +110,7 @@ pub(super) fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
     let gaps = displayed.windows(2).map(|pair| pair[1] - pair[0]).enumerate();
     let refresh_ns = 1e9 / trace.refresh().hz();
     let long = gaps.filter(|(_, gap)| *gap as f64 > LONG * refresh_ns);
-    // The first of those that are as long.
+    // The first of equally long frames.
     let longest = long.min_by_key(|(_, gap)| -gap);
     longest.map_or(0, |(index, _)| displayed[index.saturating_sub(BEFORE)])
 }

@@ -1,5 +1,5 @@
-//! Where one stream of bytes goes: standard output, a device or a pipe, or a file that appears whole or
-//! not at all.
+//! Destination of one stream of bytes: standard output, a device or a pipe, or a file that appears whole or not at
+//! all.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, Write};
@@ -16,37 +16,37 @@ use crate::commands::visible::{visible, visible_json};
 /// The path that means standard output.
 pub(crate) const STDOUT: &str = "-";
 
-/// Links to what the process has open, such as standard error. Their targets are in use and not replaced.
+/// Links to files that the process has open, such as standard error. Their targets are in use and not replaced.
 const OPEN_ALREADY: [&str; 4] = ["/dev/fd", "/dev/stdout", "/dev/stderr", "/proc/self/fd"];
 
-/// A longer chain of links is a ring, on every system.
+/// A longer chain of links is a ring on every system.
 const MAX_LINKS: usize = 40;
 
-/// Begins a file that appears whole or not at all. Watches for an interrupt first: one that ends the process would leave the
-/// temporary name.
+/// Begins a file that appears whole or not at all. Watches for an interrupt first: an unhandled one would leave the
+/// temporary name behind.
 pub(crate) fn begin_file(path: &Path) -> io::Result<AtomicFile> {
     interrupt::watch_for_interrupt();
     AtomicFile::create(path)
 }
 
-/// Where an output goes, and the option to name in its errors.
+/// Path of an output, and the option to name in its errors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Destination<'a> {
     /// A file, a link to one, a device, or [`STDOUT`].
     pub(crate) path: &'a Path,
     /// The option that names the path, such as `--out`.
     pub(crate) option: &'static str,
-    /// What happens to an existing file.
+    /// Policy for an existing file.
     pub(crate) if_exists: IfExists,
-    /// What the command reads, which is never replaced.
+    /// Files that the command reads, which are never replaced.
     pub(crate) inputs: &'a [Input<'a>],
 }
 
-/// A file that a command reads, and what it is to the command, such as `the scene that is run`.
+/// A file that a command reads, with its role, such as `the scene that is run`.
 pub(crate) type Input<'a> = (&'a Path, &'static str);
 
 impl Destination<'_> {
-    /// Opens it for binary data, which may not go to a terminal.
+    /// Opens the destination for binary data, which may not go to a terminal.
     pub(crate) fn open(self) -> Result<Output, Error> {
         if self.path == Path::new(STDOUT) && io::stdout().is_terminal() {
             return Err(Error::mistake(format!(
@@ -57,7 +57,7 @@ impl Destination<'_> {
         self.open_for_text()
     }
 
-    /// Opens it for text, which may go to a terminal.
+    /// Opens the destination for text, which may go to a terminal.
     pub(crate) fn open_for_text(self) -> Result<Output, Error> {
         let Self { path, option, if_exists, inputs } = self;
         if path == Path::new(STDOUT) {
@@ -74,14 +74,14 @@ impl Destination<'_> {
                 Err(Error::mistake(format!("{path} is a directory; give {option} a file")))
             }
             Ok(_) if self.replaces().is_none() => {
-                // A pipe is open once something reads it.
+                // Opening a pipe blocks until something reads it.
                 let (name, device) = (brief(path), path.to_owned());
                 let open = move || File::options().append(true).open(device);
                 let device = interrupt::wait_for(&name, open)
                     .map_err(explain(Error::of_file("write", path, option)))?;
                 Ok(self.output(Target::Device(Arc::new(device))))
             }
-            // A link that leads nowhere yet is taken too.
+            // A link that leads nowhere yet counts as existing too.
             _ if if_exists != IfExists::Replace && fs::symlink_metadata(path).is_ok() => {
                 Err(taken(path, option))
             }
@@ -89,15 +89,16 @@ impl Destination<'_> {
         }
     }
 
-    /// The file that it would replace: neither standard output nor a device, a pipe or what the process has open.
+    /// The file that the output would replace. Standard output, devices, pipes and files that the process has open
+    /// are never replaced.
     pub(crate) fn replaces(&self) -> Option<&Path> {
         let is_open = OPEN_ALREADY.iter().any(|open| self.path.starts_with(open));
         let is_replaced = self.path != Path::new(STDOUT) && !is_open && self.path.is_file();
         is_replaced.then_some(self.path)
     }
 
-    /// Begins a file, whether or not there is one of its name. If that is a link, the file it leads to is written and the
-    /// link stays.
+    /// Begins a file, whether or not there is one of its name. If the name is a link, writes to its target and keeps
+    /// the link.
     pub(crate) fn begin(self) -> Result<Output, Error> {
         let begin = || {
             let file = begin_file(&end_of_links(self.path)?)?;
@@ -110,7 +111,7 @@ impl Destination<'_> {
         Ok(self.output(Target::File(file, self.if_exists)))
     }
 
-    /// Writes text to it.
+    /// Opens the destination, writes text and closes it.
     pub(crate) fn write(self, text: &str) -> Result<(), Error> {
         let mut output = self.open_for_text()?;
         output.write_all(text.as_bytes())?;
@@ -124,44 +125,43 @@ impl Destination<'_> {
     }
 }
 
-/// A stream being written. Its errors have the message of the command in them.
+/// A stream being written. Its errors contain the command's message.
 pub(crate) struct Output(BufWriter<Sink>);
 
 struct Sink {
     target: Target,
     path: PathBuf,
     option: &'static str,
-    /// Whether it was given up at an interrupt: whoever drops it must not wait again.
+    /// Whether an interrupt ended a wait for this stream. Dropping it must not wait again.
     is_stuck: bool,
 }
 
 enum Target {
     Stdout,
-    /// A device or a pipe, which is written to and not replaced.
+    /// A device or a pipe. It is written to, never replaced.
     Device(Arc<File>),
     File(AtomicFile, IfExists),
 }
 
 impl Output {
-    /// Standard output.
     pub(crate) fn stdout() -> Self {
         let (path, if_exists) = (Path::new(STDOUT), IfExists::Keep);
         let place = Destination { path, option: "--out", if_exists, inputs: &[] };
         place.output(Target::Stdout)
     }
 
-    /// Its name in messages.
+    /// Name in messages.
     pub(crate) fn name(&self) -> String {
         self.0.get_ref().name()
     }
 
-    /// The path of the file, if it is one.
+    /// Path of the file, if the output is one.
     pub(crate) fn file(&self) -> Option<&Path> {
         let Sink { target, path, .. } = self.0.get_ref();
         matches!(target, Target::File(..)).then_some(path)
     }
 
-    /// Flushes the stream, and gives a file its name. Returns the name in messages.
+    /// Flushes the stream and gives a file its final name. Returns the name for messages.
     pub(crate) fn close(mut self) -> Result<String, Error> {
         self.flush()?;
         let name = self.name();
@@ -171,10 +171,10 @@ impl Output {
         };
         let asked = file.path().to_owned();
         match file.commit(if_exists) {
-            // A link's own name stays the one that is told, unless the file is another.
+            // Report a link by its own name, unless the data went to another file.
             Ok(written) if written == asked => Ok(name),
             Ok(written) => Ok(written.display().to_string()),
-            // Somebody else made a file of that name in the meantime.
+            // Another program made a file of that name in the meantime.
             Err(error)
                 if if_exists == IfExists::Keep && error.kind() == io::ErrorKind::AlreadyExists =>
             {
@@ -184,7 +184,7 @@ impl Output {
         }
     }
 
-    /// Closes the stream and reports on standard error what a file now holds.
+    /// Closes the stream. Reports the content of a file on standard error.
     pub(crate) fn finish(self, what: &str) -> Result<(), Error> {
         let is_file = self.file().is_some();
         let name = self.close()?;
@@ -213,7 +213,7 @@ impl Sink {
         }
     }
 
-    /// Does something with the stream. What another program reads may be full, and wait until that goes on.
+    /// Acts on the stream. A full pipe blocks until its reader continues.
     fn with_stream<T: Send + 'static>(
         &mut self,
         bytes: &[u8],
@@ -239,7 +239,7 @@ impl Sink {
         self.explained(done)
     }
 
-    /// The result with the message of the command in its error. The kind stays, by which writers know what to try again.
+    /// Puts the command's message into the error. Keeps its kind, because writers decide by it whether to retry.
     fn explained<T>(&self, result: io::Result<T>) -> io::Result<T> {
         result.map_err(|error| {
             let kind = error.kind();
@@ -265,12 +265,12 @@ impl Write for Sink {
     }
 }
 
-/// The command's own error if it is one already, as an interrupt is, or else what `explain` makes of the system's.
+/// Keeps the command's own error, such as an interrupt. Otherwise converts the I/O error with `explain`.
 fn explain(explain: impl Fn(io::Error) -> Error) -> impl Fn(io::Error) -> Error {
     move |error| error.downcast::<Error>().unwrap_or_else(&explain)
 }
 
-/// Writes text to standard output, with signs for control characters.
+/// Writes text to standard output, with visible signs for control characters.
 pub(crate) fn print(text: impl AsRef<str>) -> Result<(), Error> {
     print_bytes(visible(text.as_ref()).as_bytes())
 }
@@ -286,7 +286,7 @@ fn print_bytes(bytes: &[u8]) -> Result<(), Error> {
     out.close().map(drop)
 }
 
-/// The error of a file that could not be written to its end.
+/// The error for a file that could not be written to its end.
 fn unfinished(path: &Path, option: &'static str, error: io::Error) -> Error {
     let error = Error::of_file("write", path, option)(error);
     error.and("nothing is left of it, and the same command writes all of it")
@@ -299,7 +299,7 @@ fn taken(path: &Path, option: &str) -> Error {
     ))
 }
 
-/// A path that is the same for one file however it is written, also through links, whether it exists or not.
+/// A path that identifies a file, however it is spelled or linked, and whether it exists or not.
 pub(crate) fn same_file_path(path: &Path) -> PathBuf {
     let of_new = |_| {
         let end = end_of_links(path)?;

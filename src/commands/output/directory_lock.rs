@@ -1,12 +1,12 @@
 //! One writer to a directory at a time, or any number of readers.
 //!
-//! The operating system holds the lock and releases it when the process ends, in whatever way.
+//! The operating system holds the lock and releases it when the process ends, however it ends.
 
 use std::fs::{File, TryLockError};
 use std::io;
 use std::path::Path;
 
-/// The file that is locked on systems that cannot lock a directory itself.
+/// Name of the lock file, for systems that cannot lock a directory itself.
 const LOCK_NAME: &str = ".regatta-lock";
 
 /// A lock on a directory, released when dropped.
@@ -43,7 +43,6 @@ impl DirectoryLock {
     }
 }
 
-/// Whether this is the name of the lock file.
 pub(crate) fn is_lock(name: &str) -> bool {
     name == LOCK_NAME
 }

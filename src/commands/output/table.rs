@@ -24,7 +24,7 @@ pub(crate) enum TableFormat {
 }
 
 impl TableFormat {
-    /// Writes what is in this format to standard output.
+    /// Prints text in this format to standard output.
     pub(crate) fn print(self, text: &str) -> Result<(), Error> {
         match self {
             Self::Text => print(text),
@@ -42,13 +42,13 @@ pub(crate) enum RowFormat {
     Json,
 }
 
-/// One property of the things listed.
+/// One property of the listed items.
 pub(crate) struct Column<T> {
-    /// Its name in JSON.
+    /// Name in JSON.
     pub(crate) key: &'static str,
-    /// Its heading in text; `None` where the text leaves it out, because it is long.
+    /// Heading in text; `None` for a long property, which text leaves out.
     heading: Option<&'static str>,
-    /// The property. `Null` where it has no meaning.
+    /// Reads the property; `Null` if it has no meaning.
     value: fn(&T) -> Value,
 }
 
@@ -58,7 +58,7 @@ impl<T> Column<T> {
         Self { key, heading: None, value }
     }
 
-    /// A column with this heading in text.
+    /// A column with a heading in text.
     pub(crate) const fn shown(
         key: &'static str,
         heading: &'static str,
@@ -77,7 +77,7 @@ pub(crate) fn json<T>(columns: &[Column<T>], items: &[T]) -> Value {
     items.iter().map(object).collect()
 }
 
-/// Writes a tidy table row by row: CSV below a header, or an array with a JSON object on each line.
+/// Writes a tidy table row by row: CSV below a header, or an array with one JSON object per line.
 pub(crate) struct RowWriter<W> {
     out: W,
     format: RowFormat,
@@ -86,7 +86,7 @@ pub(crate) struct RowWriter<W> {
 }
 
 impl<W: Write> RowWriter<W> {
-    /// Begins a table of these columns.
+    /// Begins a table with these columns.
     pub(crate) fn begin<K: Into<String>>(
         mut out: W,
         format: RowFormat,
@@ -100,14 +100,14 @@ impl<W: Write> RowWriter<W> {
         Ok(Self { out, format, keys, is_first: true })
     }
 
-    /// Writes a row, a cell for each column.
+    /// Writes a row with one cell per column.
     pub(crate) fn row(&mut self, cells: &[Value]) -> io::Result<()> {
         let Self { out, format, keys, is_first } = self;
         if *format == RowFormat::Csv {
             let cells = cells.iter().map(|cell| match in_a_cell(cell) {
                 Value::Null => "".into(),
                 Value::String(text) => visible(text),
-                // Numbers as in JSON, so that they read back the same.
+                // Write numbers as in JSON, so that they read back the same.
                 cell => Cow::Owned(cell.to_string()),
             });
             let cells: Vec<Cow<'_, str>> = cells.collect();
@@ -122,7 +122,7 @@ impl<W: Write> RowWriter<W> {
         out.write_all(b"}")
     }
 
-    /// Ends the table.
+    /// Ends the table and returns its output.
     pub(crate) fn end(mut self) -> io::Result<W> {
         if self.format == RowFormat::Json {
             self.out.write_all(b"\n]\n")?;
@@ -131,7 +131,7 @@ impl<W: Write> RowWriter<W> {
     }
 }
 
-/// Writes a whole table to `out`, and reports on standard error what a file now holds.
+/// Writes a whole table to `out`. Reports the number of rows in a file on standard error.
 pub(crate) fn write_rows<T>(
     out: Output,
     format: RowFormat,
@@ -156,12 +156,12 @@ fn written<W: Write, T>(
     writer.end()
 }
 
-/// What stands in a cell for a value: for an object, such as a verdict, its word.
+/// The value to show in a cell. An object, such as a verdict, shows its word.
 fn in_a_cell(value: &Value) -> &Value {
     value.get("word").unwrap_or(value)
 }
 
-/// A line of headings and a line for each of `items`, aligned; `indent` stands before each.
+/// A line of headings and a line for each of `items`, aligned, each after `indent`.
 pub(crate) fn text<'i, T: 'i>(
     columns: &[Column<T>],
     items: impl IntoIterator<Item = &'i T>,
@@ -194,7 +194,7 @@ fn plain(value: &Value) -> String {
     }
 }
 
-/// A number to four digits, more for large whole ones, as a person would write it.
+/// Formats a number with at most three decimals, as a person would write it.
 fn short(value: f64) -> String {
     let rounded = format!("{value:.3}");
     rounded.trim_end_matches('0').trim_end_matches('.').to_owned()

@@ -1,4 +1,4 @@
-//! What `--from` says: the settings of an engine or of a user interface, a log, or how a value chases its target.
+//! Parser of `--from`: settings of an engine or of a user interface, a log, or a value that chases its target.
 
 use std::path::PathBuf;
 
@@ -7,21 +7,22 @@ use crate::scene::{MAX_SUBSTEPS, clip};
 use crate::sim::integrators::{JointMode, Method, Setting};
 use crate::tools::port::{Approach, Dialect, Friction, Key, Setup, Wish};
 
-/// Where a wish comes from.
+/// Source of a wish.
 pub(super) enum From {
-    /// From the settings of an engine.
+    /// Settings of an engine.
     Engine(EngineSettings),
-    /// From what a user interface is told: what it shows of that, and the spring of these numbers, which it may damp less.
+    /// Settings of a user interface: the motion that it shows, and the spring of these numbers. The interface may
+    /// damp less than that spring.
     Dialect { shown: Wish, as_given: Wish },
-    /// From a velocity that keeps a part of itself in each frame.
+    /// A velocity that keeps a part of itself in each frame.
     Friction(Friction),
-    /// From a chase, and its rate of frames if it has one.
+    /// A chase, and its frame rate if it has one.
     Approach(Approach, Option<f64>),
-    /// From a log.
+    /// A log.
     Log(PathBuf),
 }
 
-/// A number that may have this unit behind it.
+/// Parses a number with or without this unit.
 fn with_unit(written: &str, unit: &str) -> Result<f64, String> {
     let number = written.strip_suffix(unit).unwrap_or(written).trim_end();
     let found = number.parse::<f64>().ok().filter(|number| number.is_finite());
@@ -36,7 +37,7 @@ fn above_0(written: &str, unit: &str, what: &str) -> Result<f64, String> {
     if found > 0.0 { Ok(found) } else { Err(format!("{what} is {written}; it must be above 0")) }
 }
 
-/// The setting before the `@`, and the frames per second behind it.
+/// Splits a setting from the frames per second after the `@`.
 fn with_frames<'a>(written: &'a str, example: &str) -> Result<(&'a str, f64), String> {
     let parts = written.split_once('@');
     let (setting, fps) = parts.ok_or_else(|| format!("give the frames too: {example}"))?;
@@ -44,7 +45,7 @@ fn with_frames<'a>(written: &'a str, example: &str) -> Result<(&'a str, f64), St
 }
 
 impl From {
-    /// Reads it, at this tick rate in hertz and of a body of this mass in kg.
+    /// Parses the argument, for a tick rate in hertz and a body of this mass in kg.
     pub(super) fn parse(written: &str, tick_hz: f64, mass_kg: f64) -> Result<Self, String> {
         let Some((head, rest)) = written.split_once(':') else {
             return match TARGET.find(written) {
@@ -96,7 +97,7 @@ impl From {
                 let half_life_s = above_0(rest, "s", "the half-life")?;
                 Ok(From::Approach(Approach { half_life_s }, None))
             }
-            // A drive of a path has one letter.
+            // One letter is the drive of a path.
             _ if head.len() == 1 => Ok(From::Log(written.into())),
             _ => match TARGET.find(head)? {
                 Target::Engine(method) => {
@@ -125,15 +126,15 @@ fn of_decay(written: &str, fps: f64, mass_kg: f64) -> Result<Wish, String> {
     Wish::of_decay_per_frame([stiffness, decay], fps, mass_kg)
 }
 
-/// How the settings of an engine are written.
+/// Shows how to write the settings of an engine.
 fn example(method: &Method) -> String {
     let mode = &method.engine.expect("an engine with a spring").modes[0];
     let [stiffness, damping] = mode.settings().map(|setting| setting.name);
     format!("{}:{stiffness}=NUMBER,{damping}=NUMBER", method.id)
 }
 
-/// The motion of a user interface with settings that are written as `key=value,…`; those left out are the library's own,
-/// but for this mass in kg.
+/// The motion of a user interface with settings in the form `key=value,…`. Missing settings have the library's own
+/// values, except the mass in kg.
 fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<From, String> {
     let usual = |key: &Key| if key.name == "mass" { mass_kg } else { key.usual };
     let mut values: Vec<f64> = dialect.keys.iter().map(usual).collect();
@@ -163,7 +164,7 @@ fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<From, St
         Ok::<_, String>(if dialect.has_mass() { wish } else { Wish { mass_kg, ..wish } })
     };
     let shown = wish(&values)?;
-    // A switch lets numbers through that the interface bounds.
+    // With its switch on, the interface does not bound the numbers.
     for (index, key) in dialect.keys.iter().enumerate() {
         if key.switch.is_some() && !given.contains(&index) {
             values[index] = 1.0;
@@ -175,18 +176,18 @@ fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<From, St
 /// The settings of a spring in an engine.
 pub(super) struct EngineSettings {
     setup: Setup,
-    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass.
+    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass.
     joint: [f64; 2],
     mass_kg: f64,
 }
 
 impl EngineSettings {
-    /// The spring by the equation of motion.
+    /// The spring in the equation of motion.
     pub(super) fn as_given(&self) -> Wish {
         Wish::of_joint(self.joint, self.mass_kg)
     }
 
-    /// What the engine shows with them.
+    /// The motion that the engine shows with these settings.
     pub(super) fn shown(&self) -> Result<Wish, String> {
         let Setup { method, tick_hz, substeps, .. } = self.setup;
         let seen = self.setup.sees(self.joint).ok_or_else(|| {
@@ -204,7 +205,7 @@ impl EngineSettings {
     }
 }
 
-/// The settings of an engine that are written as `key=value,…`.
+/// Parses the settings of an engine in the form `key=value,…`.
 fn of_engine(
     method: &'static Method,
     written: &str,

@@ -1,4 +1,4 @@
-//! What was ported, in words and as JSON.
+//! Ported settings, in words and as JSON.
 
 use serde_json::{Map, Value, json};
 
@@ -11,7 +11,7 @@ use crate::tools::port::{
     Ported, Reach, Setup, Wish,
 };
 
-/// A frequency, a damping ratio and how long the energy lasts.
+/// Describes a frequency, a damping ratio and how long the energy lasts.
 fn sees(seen: &Effective) -> String {
     let ratio = seen.damping_ratio().unwrap_or(0.0);
     let ratio = if ratio.abs() < 5e-7 { 0.0 } else { ratio };
@@ -179,7 +179,7 @@ fn block(wish: &Wish, PortedEngine { setup, ported }: &PortedEngine) -> String {
     lines.join("\n") + "\n"
 }
 
-/// What is missed, and why.
+/// How far and why the settings miss the wish.
 fn missed(wish: &Wish, ported: &Ported) -> Option<String> {
     let Setup { method, substeps, tick_hz, .. } = ported.setup;
     let three = |ratio: f64| significant(ratio, 3);
@@ -211,7 +211,6 @@ fn missed(wish: &Wish, ported: &Ported) -> Option<String> {
     }
 }
 
-/// The limits of drives.
 pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableFormat) -> String {
     let mass = wish.mass_kg;
     let [kp, kv] = wish.joint().map(|gain| gain * mass);
@@ -252,7 +251,7 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
                 };
                 let kept = limits.spectral_radius.map_or("unstable".into(), |radius| {
                     let word = if radius <= 1.0 + 1e-9 { "stable" } else { "unstable" };
-                    // Near 1 it is the difference that counts.
+                    // Near 1, the difference from 1 counts.
                     let digits = if (radius - 1.0).abs() < 0.01 { 6 } else { 3 };
                     format!("{word}, a tick leaves {}", significant(radius, digits))
                 });
@@ -280,7 +279,7 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
     }
 }
 
-/// A friction at other rates of frames, and as a drag.
+/// A friction at other frame rates, and as a drag.
 pub(super) fn friction(friction: &Friction, format: TableFormat) -> String {
     let [half_life_s, rate] = [friction.half_life_s(), friction.rate()];
     let ([explicit, implicit], [exact, after, before]) = (friction.drags(), friction.coasts_m());

@@ -1,5 +1,5 @@
-//! The picture of a sweep: a work-precision diagram for each scene (Hairer, Nørsett & Wanner, *Solving
-//! Ordinary Differential Equations I*, II.10), and where it is asked for the round-off of f32 and f64 on the chapter's ship.
+//! The picture of a sweep: a work-precision diagram for each scene (Hairer, Nørsett & Wanner, *Solving Ordinary
+//! Differential Equations I*, II.10). On request it adds the round-off of f32 and f64 on the chapter's ship.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,10 @@ use crate::sim::integrators::Method;
 use crate::sim::number::round;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
-/// Errors beyond this many amplitudes are cut off: the method has failed.
+/// Largest error in the charts, in amplitudes. Beyond it the method has failed.
 const LOST: f64 = 10.0;
 
-/// The picture of the rows on these scenes and methods, and of these curves if there are any.
+/// The picture of these rows, and of the round-off curves if there are any.
 pub(super) fn figure(swept: &Swept, rows: &[Row], rounded: Vec<ErrorCurve>) -> Figure {
     let work = swept.scenes.iter().map(|(name, scene)| {
         let curves = swept.methods.iter().map(|method| {
@@ -35,8 +35,8 @@ pub(super) fn figure(swept: &Swept, rows: &[Row], rounded: Vec<ErrorCurve>) -> F
     Figure { title: title.into(), note, columns: columns(charts.len()), charts }
 }
 
-/// A method's error against its evaluations, a point for each tick rate. Of several bodies the worst one
-/// counts, as in advice.
+/// A method's error against its evaluations, with a point for each tick rate. The worst of several bodies counts, as
+/// in advice.
 fn work_curve<'a>(method: &Method, rows: impl Iterator<Item = &'a Row>) -> FigureCurve {
     let mut by_rate = BTreeMap::new();
     for row in rows {

@@ -1,4 +1,4 @@
-//! Every method at every rate on every body: the runs, made in parallel, and their rows.
+//! Every method at every rate on every body: the parallel runs and their rows.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -18,27 +18,27 @@ use crate::stopwatch;
 
 /// The scenes, methods and rates to run.
 pub(super) struct Swept {
-    /// Each scene with the name it was asked for by. Names are unique.
+    /// Each scene with the name that the user gave. Names are unique.
     pub(super) scenes: Vec<(String, Scene)>,
     /// In the order of the table.
     pub(super) methods: Vec<&'static Method>,
     /// In Hz, ascending. If empty, each scene runs at octaves of its own rate.
     pub(super) rates: Vec<TickRate>,
-    /// The length of every run; `None` for each scene's own.
+    /// Length of every run in seconds; `None` for each scene's own.
     pub(super) seconds: Option<f64>,
-    /// The parameter that takes several values; `None` for each body as its scene has it.
+    /// The varied parameter; `None` to leave each body as in its scene.
     pub(super) varied: Option<Varied>,
 }
 
-/// One body, alone in its scene: bodies do not feel each other.
+/// One body, alone in its scene: bodies do not affect each other.
 struct Subject {
-    /// The scene, as it was asked for.
+    /// Name of the scene, as the user gave it.
     scene_name: String,
     alone: Scene,
-    /// The key and the value of the parameter that is varied, if the body has it.
+    /// Key and value of the varied parameter, if the body has it.
     varied: Option<(Text, f64)>,
     horizon_s: f64,
-    /// Made by the first run that needs it: a truth over years takes minutes, in which an interrupt is heeded.
+    /// Built by the first run that needs it. A truth over years takes minutes, during which an interrupt must work.
     judge: OnceLock<Judge>,
 }
 
@@ -48,14 +48,12 @@ impl Subject {
     }
 }
 
-/// A run to be made.
 struct PlannedRun {
     subject: usize,
     spec: LaneSpec,
     tick_hz: TickRate,
 }
 
-/// All runs.
 pub(super) struct Grid {
     subjects: Vec<Subject>,
     /// In the order of the rows.
@@ -74,7 +72,7 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// The simulated seconds of the run.
+    /// Simulated seconds of the run.
     pub(super) fn seconds(&self) -> f64 {
         let verdict = &self.verdict;
         verdict.failure().map_or(verdict.seconds, |failure| failure.t)
@@ -83,13 +81,13 @@ impl Row {
     /// Evaluations of the body's acceleration per simulated second.
     pub(super) fn evaluations_per_s(&self) -> f64 {
         let (verdict, hz) = (&self.verdict, f64::from(self.tick_hz));
-        // Whole ticks, so that a method with a fixed number of evaluations per step has a whole number.
+        // Count whole ticks, so that a method with a fixed number of evaluations per step has a whole number.
         verdict.evaluations as f64 * hz / (verdict.seconds * hz).round()
     }
 }
 
 impl Grid {
-    /// The runs that were asked for.
+    /// Plans the runs of a sweep.
     pub(super) fn new(swept: &Swept) -> Self {
         let mut grid = Self { subjects: Vec::new(), runs: Vec::new() };
         for (name, scene) in &swept.scenes {
@@ -162,7 +160,7 @@ impl Grid {
     }
 }
 
-/// A body with each value of the parameter that is varied, or as it is.
+/// A body with each value of the varied parameter, or the unchanged body.
 fn variants(body: &SceneBody, varied: &Option<Varied>) -> Vec<(SceneBody, Option<(Text, f64)>)> {
     let found = varied.as_ref().and_then(|varied| {
         let (index, parameter) = body.kind.parameter(&varied.key)?;
@@ -177,13 +175,13 @@ fn variants(body: &SceneBody, varied: &Option<Varied>) -> Vec<(SceneBody, Option
     values.iter().map(variant).collect()
 }
 
-/// The longest and the shortest duration for which a run is timed, and about that for which all are: one after the other,
-/// thousands would take longer to time than to judge.
+/// Longest and shortest time for timing one run, and about that for timing all. Runs are timed one after the other:
+/// thousands of them would otherwise take longer to time than to judge.
 const MAX_EFFORT: Duration = Duration::from_millis(1);
 const MIN_EFFORT: Duration = Duration::from_micros(100);
 const EFFORT_ON_ALL: Duration = Duration::from_millis(500);
 
-/// The duration for which each of so many runs is timed.
+/// Time for timing each of `runs` runs.
 fn effort(runs: usize) -> Duration {
     (EFFORT_ON_ALL / (runs as u32).max(1)).clamp(MIN_EFFORT, MAX_EFFORT)
 }
@@ -206,8 +204,8 @@ fn judge_all(
     whole.ok_or_else(Error::nothing_written)
 }
 
-/// Rates from a quarter of this rate to eight times, each double the one before, within the clock's range: the region in
-/// which the methods differ. Those of a whole rate are whole.
+/// Octaves from a quarter of this rate to eight times, within the clock's range. The methods differ in this region.
+/// If the rate is whole, its octaves are rounded down to whole rates.
 fn octaves(tick_hz: TickRate) -> Vec<TickRate> {
     let rates = [(1, 4), (1, 2), (1, 1), (2, 1), (4, 1), (8, 1)].map(|(times, parts)| {
         let rate = tick_hz.scaled(times, parts);

@@ -1,11 +1,11 @@
-//! What the width of its numbers does to a method: the chapter's ship under explicit Euler and
-//! Runge-Kutta 4, stepped in `f32` and in `f64` at finer and finer steps. This experiment alone is
-//! generic over its numbers; the rest of the program is `f64`.
+//! How the width of numbers affects a method: the chapter's ship under explicit Euler and Runge-Kutta 4, stepped in
+//! `f32` and in `f64` at finer and finer steps. Only this experiment is generic over its numbers; the rest of the
+//! program uses `f64`.
 //!
-//! A finer step makes a method's own error smaller, as the p-th power of the step, and the roundings
-//! more numerous: on logarithmic axes the error falls to a least and rises again, a V (Henrici,
-//! *Discrete Variable Methods in Ordinary Differential Equations*, 1962; Higham, *Accuracy and Stability
-//! of Numerical Algorithms*, 2nd edition, section 4.3, for Euler's method).
+//! A finer step makes a method's own error smaller, as the p-th power of the step, and its roundings more numerous.
+//! On logarithmic axes the error falls to a minimum and rises again, a V. Sources: Henrici, *Discrete Variable
+//! Methods in Ordinary Differential Equations*, 1962; Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd
+//! edition, section 4.3, for Euler's method.
 
 use std::ops::{Add, Div, Mul, RangeInclusive, Sub};
 
@@ -15,12 +15,12 @@ use crate::sim::State;
 use crate::sim::bodies::{Body, Ship};
 use crate::sim::integrators::Method;
 
-/// Moments at which the speed is held against the exact one, in simulated seconds. Several, because
-/// roundings go either way, and by chance the error at one of them may be nothing.
+/// Times at which the speed is compared with the exact one, in simulated seconds. There are several, because
+/// roundings go either way and the error at one of them may vanish by chance.
 pub(super) const MOMENTS_S: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
 
-/// The powers of two that are tried for the step in seconds. Powers of two are exact in both widths, so
-/// that nothing is rounded in the step itself. The finest makes two million steps.
+/// Powers of two to try as the step in seconds. They are exact in both widths, so the step itself is never rounded.
+/// The finest makes two million steps.
 pub(super) const STEPS_LOG2: RangeInclusive<i32> = -18..=1;
 
 /// A width of floating-point numbers.
@@ -28,7 +28,7 @@ pub(super) const STEPS_LOG2: RangeInclusive<i32> = -18..=1;
 pub(super) enum Width {
     /// `f32`, with 24 bits of significand.
     Single,
-    /// `f64`, with 53.
+    /// `f64`, with 53 bits.
     Double,
 }
 
@@ -42,21 +42,19 @@ impl Width {
     }
 }
 
-/// A step, and the error that a ship's speed has with it.
+/// A step and the resulting error of the ship's speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StepError {
-    /// The step in seconds.
+    /// Step in seconds.
     pub(super) h_s: f64,
-    /// The largest error at [`MOMENTS_S`], in metres per second.
+    /// Largest error at [`MOMENTS_S`], in metres per second.
     pub(super) error_m_per_s: f64,
 }
 
-/// The errors of a method in numbers of one width.
+/// Errors of a method in numbers of one width.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ErrorCurve {
-    /// The method.
     pub(super) method: &'static Method,
-    /// The width of its numbers.
     pub(super) width: Width,
     /// One for each of [`STEPS_LOG2`], from the finest step to the coarsest.
     pub(super) errors: Vec<StepError>,
@@ -70,17 +68,17 @@ impl ErrorCurve {
     }
 }
 
-/// The built-in scene that has the ship.
+/// The built-in scene with the ship.
 const SCENE: &str = "ship";
 
-/// Whether the chapter's ship is swept under Runge-Kutta 4.
+/// Whether the sweep includes the chapter's ship under Runge-Kutta 4.
 pub(super) fn is_swept(swept: &Swept) -> bool {
     swept.scenes.iter().any(|(name, _)| name == SCENE)
         && swept.methods.iter().any(|method| method.id == RUNGE_KUTTA)
 }
 
-/// Those of explicit Euler and Runge-Kutta 4 that are among these methods, on the ship of the built-in scene, each in both
-/// widths.
+/// Error curves of explicit Euler and Runge-Kutta 4 on the built-in ship, in both widths. A method that is not among
+/// `methods` is left out.
 pub(super) fn error_curves(methods: &[&'static Method]) -> Vec<ErrorCurve> {
     let ship = chapters_ship();
     let named = FORMULAS.iter().filter_map(|&(id, formula)| {
@@ -113,7 +111,7 @@ fn step_error(ship: &Ship, formula: Formula, width: Width, h_log2: i32) -> StepE
     StepError { h_s, error_m_per_s: errors.fold(0.0, f64::max) }
 }
 
-/// What is stepped: `v′ = T/m - C/m v` alone, as a ship's speed does not depend on where it is.
+/// A method for `v′ = T/m - C/m v` alone: a ship's speed does not depend on its position.
 #[derive(Clone, Copy, Debug)]
 enum Formula {
     ExplicitEuler,
@@ -124,7 +122,7 @@ const FORMULAS: [(&str, Formula); 2] =
     [("explicit-euler", Formula::ExplicitEuler), (RUNGE_KUTTA, Formula::RungeKutta4)];
 const RUNGE_KUTTA: &str = "rk4";
 
-/// The speeds at [`MOMENTS_S`] by steps of `h_s`, all arithmetic on the way in `R`.
+/// Speeds at [`MOMENTS_S`] with steps of `h_s`. All arithmetic is in `R`.
 fn speeds<R: Real>(ship: &Ship, formula: Formula, h_s: f64) -> [f64; MOMENTS_S.len()] {
     let mass = R::rounded(ship.mass);
     let push = R::rounded(ship.thrust * ship.throttle) / mass;
@@ -157,7 +155,7 @@ fn speeds<R: Real>(ship: &Ship, formula: Formula, h_s: f64) -> [f64; MOMENTS_S.l
 trait Real:
     Copy + Into<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// The nearest to `x`.
+    /// The value nearest to `x`.
     fn rounded(x: f64) -> Self;
 }
 
@@ -192,7 +190,7 @@ mod tests {
         curve.errors[(h_log2 - STEPS_LOG2.start()) as usize].error_m_per_s
     }
 
-    /// How often the error doubles while the step does, from one power of two to another.
+    /// Doublings of the error per doubling of the step, between two powers of two.
     fn slope(curve: &ErrorCurve, from: i32, to: i32) -> f64 {
         libm::log2(at(curve, to) / at(curve, from)) / f64::from(to - from)
     }
@@ -230,16 +228,16 @@ mod tests {
         }
     }
 
-    /// As if every addition to the speed were rounded by chance: in n steps of m additions the error
-    /// grows to √(n m) times that of one, which is the spacing of the numbers about v over √12. It adds
-    /// to a truncation error of C h^p. Returns the step at which the sum is least, and that sum.
+    /// Predicts the step with the least error, and that error. The model treats each rounding of the speed as random:
+    /// in n steps of m additions the error grows to √(n m) times that of one. The error of one is the spacing of the
+    /// numbers about v over √12. The truncation error C h^p adds to this.
     fn bottom(id: &str, width: Width) -> (f64, f64) {
         let ship = chapters_ship();
         let (t, v) = (8.0_f64, ship.exact(8.0, &ship.start()).unwrap().v);
         let bits = if width == Width::Single { 24 } else { 53 };
         let spacing = libm::exp2(libm::floor(libm::log2(v)) + 1.0 - f64::from(bits));
-        // Runge-Kutta's factor for a step is e^-z (1 + z⁵/120 + …), Euler's e^-z (1 - z²/2 + …), and the
-        // way to go is 20 e^(-t/10).
+        // Runge-Kutta's factor for a step is e^-z (1 + z⁵/120 + …), Euler's e^-z (1 - z²/2 + …). The remaining
+        // difference to the final speed is 20 e^(-t/10).
         let rest = 20.0 * (-0.1 * t).exp();
         let (c, p, m) = match id {
             "rk4" => (rest * t * 0.1_f64.powi(5) / 120.0, 4.0, 4.0),
@@ -257,7 +255,7 @@ mod tests {
         {
             let StepError { h_s, error_m_per_s } = curve(id, width).best();
             let (h, error) = bottom(id, width);
-            // Within an octave; a V is flat at its bottom.
+            // Within an octave, because a V is flat at its bottom.
             let octaves = libm::log2(h_s / h);
             assert!(octaves.abs() < 1.0, "{id} in {}: {h_s} s, not {h}", width.text());
             let ratio = error_m_per_s / error;
@@ -269,8 +267,8 @@ mod tests {
     fn in_f32_finer_steps_are_worse_beyond_the_bottom_and_in_f64_euler_has_none() {
         for id in ["explicit-euler", "rk4"] {
             let single = curve(id, Width::Single);
-            // Between roundings by chance, h^-½, and roundings that all go one way in ever longer runs
-            // while an increment is a few units in the last place, h^-2.
+            // Between h^-½ for random roundings, and h^-2. The latter comes from roundings that go one way in ever
+            // longer runs while an increment is a few units in the last place.
             let slope = slope(&single, -18, -13);
             assert!((-2.2..-1.2).contains(&slope), "{id}: {slope}");
             assert!(at(&single, -18) > 100.0 * single.best().error_m_per_s);

@@ -3,14 +3,14 @@
 use crate::commands::error::Error;
 use crate::scene::{Scene, edited_values, nearest};
 
-/// A parameter by its key, and its values.
+/// Key of a parameter, and its values.
 #[derive(Clone, Debug)]
 pub(super) struct Varied {
     pub(super) key: String,
     pub(super) values: Vec<f64>,
 }
 
-/// Reads `KEY=V,V,...`.
+/// Parses `KEY=V,V,...`.
 pub(super) fn varied(text: &str) -> Result<Varied, String> {
     let (key, values) =
         text.split_once('=').ok_or("has no `=`; write `stiffness_n_per_m=90,900`")?;
@@ -25,7 +25,7 @@ pub(super) fn varied(text: &str) -> Result<Varied, String> {
 }
 
 impl Varied {
-    /// Checks that a body has the parameter, and that each that has it can have each value.
+    /// Checks that some body has the parameter, and that every such body accepts every value.
     pub(super) fn check(&self, scenes: &[(String, Scene)]) -> Result<(), Error> {
         let mut is_known = false;
         for body in scenes.iter().flat_map(|(_, scene)| &scene.bodies) {

@@ -29,13 +29,13 @@ use crate::regular_file::{self, Unreadable};
 use crate::sim::number::counted;
 use crate::studio::Studio;
 
-/// The error of a capture in `dir` that cannot be judged, for this reason.
+/// The error for a capture in `dir` that cannot be judged, with its reason.
 fn unjudged(dir: &Path) -> impl Fn(String) -> Error {
     let manifest = dir.join(FILE_NAME);
     move |reason| Error::mistake(format!("cannot judge {}: {reason}", brief(&manifest)))
 }
 
-/// The run of the capture in `dir`, as its manifest says.
+/// Reads the run of the capture in `dir` from its manifest.
 pub(super) fn read_run(dir: &Path) -> Result<Rerun, Error> {
     let read = || {
         let manifest = read(&dir.join(FILE_NAME))?;
@@ -74,7 +74,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     let (frames, (studio, state_log), failed) = match redrawn {
         Ok(Some((frames, run))) => (Some(frames), run, None),
         Ok(None) => (None, run()?, None),
-        // The physics is judged even where the pixels cannot be.
+        // The physics is judged even if the pixels cannot be.
         Err(error) if error.is_mistake() => (None, run()?, Some(error)),
         Err(error) => return Err(error),
     };
@@ -83,7 +83,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     let physics_differs = report.differing() > 0;
     match failed {
         Some(error) if !physics_differs => return Err(error),
-        // Different physics is a result.
+        // Different physics is a result, so print this error and continue.
         Some(error) => print_status(&error.to_string()),
         None => {}
     }
@@ -159,7 +159,7 @@ fn add_pixels(report: &mut Report, rerun: &Rerun, frames: Option<Frames>) -> Res
 /// Draws the capture in `dir` again and replaces the old one once the new one is complete.
 #[cfg(feature = "view")]
 pub(super) fn bless(dir: &Path) -> Result<(), Error> {
-    // Checked first, so that a missing clip is not reported as a problem with the folder.
+    // Check this first, so that a missing clip is not reported as a problem with the folder.
     if !dir.join(FILE_NAME).exists() && !is_pending(dir) {
         read_run(dir)?;
     }
@@ -169,7 +169,7 @@ pub(super) fn bless(dir: &Path) -> Result<(), Error> {
     drawn.map(drop).map_err(|error| error.within("not blessed"))
 }
 
-/// Locks `dir` against writers while it is judged. `None` if there is no such directory.
+/// Locks `dir` against writers while it is judged. Returns `None` if there is no such directory.
 fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
     let busy = || "another regatta is writing to it; wait until it has finished".to_owned();
     let lock = match DirectoryLock::shared(dir) {
@@ -194,7 +194,7 @@ fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
 /// Reads the manifest at `path`.
 ///
 /// # Errors
-/// Why it cannot be used: it is missing, incomplete, altered or of another schema.
+/// The reason why it cannot be used: it is missing, incomplete, altered or of another schema.
 fn read(path: &Path) -> Result<Manifest, String> {
     let bytes = regular_file::read(path, manifest::MAX_BYTES).map_err(|error| match error {
         Unreadable::System(error) => format!("{error}; `regatta capture` writes it"),

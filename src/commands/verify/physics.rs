@@ -8,13 +8,13 @@ use crate::studio::Studio;
 /// The first mark that differs.
 pub(super) struct PhysicsChange {
     pub(super) tick: u64,
-    /// Its number, from 1, and its method.
+    /// Number of the lane, from 1, and its method.
     pub(super) lane: Option<(usize, &'static str)>,
     pub(super) what: String,
 }
 
-/// The first mark in which the run, whose studio is at its end, differs from the manifest, or else the first lane that ended
-/// differently.
+/// The first mark in which the run differs from the manifest, or else the first lane that ended differently. The
+/// studio must be at the end of the run.
 pub(super) fn first_change(
     manifest: &Manifest,
     studio: &Studio,
@@ -82,7 +82,7 @@ fn change(then: &Mark, now: &Mark, studio: &Studio) -> Option<PhysicsChange> {
         .next()
 }
 
-/// The first coordinate or velocity of a lane that differs, and by how much.
+/// Describes the first coordinate or velocity of a lane that differs, and by how much.
 fn first_coordinate(then: &LaneMark, now: &LaneMark, studio: &Studio, lane: usize) -> String {
     let bodies = studio.race().entrants()[lane].lane.bodies();
     for (n, body) in bodies.iter().enumerate() {

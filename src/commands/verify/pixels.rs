@@ -19,26 +19,26 @@ use crate::regular_file;
 use crate::studio::Studio;
 use crate::view::png;
 
-/// The limits on another driver: a little more than the differences that were seen.
+/// Limits on another driver, a little above the differences seen so far.
 const OTHER_DRIVER: (u8, f64) = (2, 0.01);
 
-/// The most bytes of a pixel in a picture that is read: four channels of 16 bits.
+/// Most bytes per pixel in a picture file: four channels of 16 bits.
 const BYTES_PER_PIXEL: usize = 8;
 
-/// The most bytes of a picture beside its pixels.
+/// Most bytes of a picture file besides its pixels.
 const MAX_NOTES_BYTES: usize = 1 << 20;
 
-/// How much a frame may differ.
+/// Allowed difference of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limits {
-    /// The largest difference of a channel.
+    /// Largest difference of a channel.
     pub(super) max_channel: u8,
-    /// The most pixels off by more than 1, in percent.
+    /// Most pixels off by more than 1, in percent.
     pub(super) max_pixels_percent: f64,
 }
 
 impl Limits {
-    /// No difference on the driver that drew the frames, except what the options allow.
+    /// Limits of the options, or else of the driver. The driver that drew the frames may not differ at all.
     pub(super) fn of(same_driver: bool, max_channel: Option<u8>, max_pixels: Option<f64>) -> Self {
         let (channel, pixels) = if same_driver { (0, 0.0) } else { OTHER_DRIVER };
         Self {
@@ -75,8 +75,8 @@ fn difference(a: &[u8], b: &[u8]) -> PixelDifference {
     difference
 }
 
-/// Draws every frame of the capture again and compares it with its file. Returns the studio at the end and the log of its
-/// states too.
+/// Draws every frame of the capture again and compares it with its file. Also returns the studio at the end and the
+/// log of its states.
 pub(super) fn judge(
     args: &VerifyArgs,
     rerun: &Rerun,
@@ -112,7 +112,7 @@ pub(super) fn judge(
     Ok((Frames { are_exact, differences }, (studio, state_log)))
 }
 
-/// The limits of what the options allow. Tells of another driver than the one that drew the frames.
+/// The limits for these options and adapters. Reports a driver other than the one that drew the frames.
 fn limits(args: &VerifyArgs, was: &Adapter, is: &Adapter) -> Limits {
     let limits = Limits::of(was == is, args.max_channel, args.max_pixels);
     if was != is {
@@ -129,7 +129,7 @@ fn limits(args: &VerifyArgs, was: &Adapter, is: &Adapter) -> Limits {
     limits
 }
 
-/// Makes the directory for pictures of differences, if one is asked for, unless some would replace what is not theirs.
+/// Creates the directory for pictures of differences, if requested. Fails if a picture would replace a foreign file.
 fn check_differences(args: &VerifyArgs, manifest: &Manifest) -> Result<(), Error> {
     let Some(path) = &args.diff else { return Ok(()) };
     let refused =
@@ -147,7 +147,7 @@ fn check_differences(args: &VerifyArgs, manifest: &Manifest) -> Result<(), Error
     fs::create_dir_all(path).map_err(Error::of_file("make the directory", path, "--diff"))
 }
 
-/// The difference of a frame from its file, if there is one beyond the limits.
+/// Describes a frame's difference from its file, if it exceeds the limits.
 fn compare(
     entry: &FrameEntry,
     size_px: [u32; 2],

@@ -19,20 +19,20 @@ use crate::scene::{Check, Scene};
 use crate::sim::number::counted;
 use crate::studio::Studio;
 
-/// The most ticks that a race is run for its checks: a day at 1000 Hz and more, which takes a body minutes.
+/// Most ticks of a race that is run for its checks: over a day at 1000 Hz, which takes minutes for a body.
 const MAX_TICKS: u64 = 100_000_000;
 
-/// The verdict on a lane.
+/// Verdict on a lane.
 #[derive(Clone, Debug, PartialEq)]
 struct JudgedLane {
     /// From 1.
     number: usize,
-    /// The ids of its methods, one after the other.
+    /// Ids of its methods in order of use.
     methods: Vec<&'static str>,
     checks: usize,
     last_tick: u64,
     difference: Option<Difference>,
-    /// The tick of the first check that names it after it has left the race.
+    /// Tick of the first check that names the lane after it has left the race.
     left_at: Option<u64>,
 }
 
@@ -40,17 +40,17 @@ struct JudgedLane {
 #[derive(Clone, Debug, PartialEq)]
 struct Difference {
     tick: u64,
-    /// The simulated time then, in seconds.
+    /// Simulated time of the check, in seconds.
     t: f64,
     was: u64,
-    /// `None` where the lane has left the race.
+    /// `None` if the lane has left the race.
     is: Option<u64>,
-    /// The last check before it, which held.
+    /// Tick of the last check before it, which holds.
     same_at: Option<u64>,
 }
 
 impl JudgedLane {
-    /// Its number and its methods, such as `lane 2, rk4 then midpoint`.
+    /// Number and methods of the lane, such as `lane 2, rk4 then midpoint`.
     fn name(&self) -> String {
         let methods = match &self.methods[..] {
             [first, between @ .., last] if between.len() > 1 => {
@@ -72,7 +72,6 @@ impl JudgedLane {
         format!("{}: {outcome}", self.name())
     }
 
-    /// As JSON.
     fn object(&self) -> Value {
         let difference = self.difference.as_ref().map(|difference| {
             json!({
@@ -108,7 +107,6 @@ impl Difference {
     }
 }
 
-/// Judges the scene file at `path`.
 pub(super) fn judge(path: &Path) -> Result<Report, Error> {
     let (scene, _) = scene_file::load(path)?;
     if scene.checks.is_empty() {
@@ -140,7 +138,7 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
     Ok(report)
 }
 
-/// What is wrong with a check that no run meets and no `--bless` mends.
+/// The message about a check that no run meets and no `--bless` mends.
 fn of_no_lane(path: &Path, lane: impl Display, tick: u64) -> String {
     format!(
         "lane {lane} of {} has left the race at tick {tick}, where a [[check]] names it; \
@@ -149,7 +147,7 @@ fn of_no_lane(path: &Path, lane: impl Display, tick: u64) -> String {
     )
 }
 
-/// Fails where a check lies later than a race is run.
+/// Fails if a check lies beyond the last tick that a race may run to.
 pub(in crate::commands) fn refuse_late_checks(path: &Path, scene: &Scene) -> Result<(), Error> {
     let last = scene.checks.iter().map(|check| check.tick).max();
     match last.filter(|tick| *tick > MAX_TICKS) {
@@ -161,7 +159,7 @@ pub(in crate::commands) fn refuse_late_checks(path: &Path, scene: &Scene) -> Res
     }
 }
 
-/// The tick at which the run of a scene is over: its end, or its last check. Fails where that takes too long.
+/// The tick at which the run of a scene is over: its end, or its last check. Fails if that would take too long.
 pub(in crate::commands) fn end_of(path: &Path, scene: &Scene) -> Result<u64, Error> {
     refuse_late_checks(path, scene)?;
     let last = last_tick(scene);
@@ -174,8 +172,8 @@ pub(in crate::commands) fn end_of(path: &Path, scene: &Scene) -> Result<u64, Err
     }
 }
 
-/// Says that checks lie beyond the scene's end, if some do: they are judged all the same, which can take longer than
-/// the scene. Fails where it would take too long.
+/// Reports checks beyond the scene's end. They are judged too, which can take longer than the scene. Fails if that
+/// would take too long.
 fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
     refuse_late_checks(path, scene)?;
     let end = Studio::new(scene.clone()).race().nearest_tick(scene.seconds);
@@ -193,8 +191,9 @@ fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
     Ok(())
 }
 
-/// Replaces the hashes in the checks of the file at `path` by those of a run now. A file without checks gets those
-/// of a [recording](Session::recording): of each lane at every second; fewer in a long run; and at the end.
+/// Replaces the hashes in the checks of the file at `path` with those of a new run. A file without checks gets the
+/// checks of a [recording](Session::recording). They cover each lane at every second, or less often in a long run,
+/// and at the end.
 pub(super) fn bless(path: &Path) -> Result<(), Error> {
     if scene_file::is_link(path) {
         return Err(Error::mistake(
@@ -221,13 +220,13 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// The checks of a run of a scene that has none: of every lane, once a second and at the end.
+/// Checks for a scene that has none. They cover every lane once a second and at the end.
 pub(in crate::commands) fn checks_of(path: &Path, scene: &Scene) -> Result<Vec<Check>, Error> {
     let last = end_of(path, scene)?;
     Ok(Session::racing(scene.clone().into()).recording(last).checks)
 }
 
-/// The text with CRLF at the end of every line if `before` ends its first line so, or else as it is.
+/// The text with CRLF at the end of every line if the first line of `before` ends so, or else the text unchanged.
 fn with_line_ends_of(before: &str, text: &str) -> String {
     match before.lines().next().is_some_and(|first| before[first.len()..].starts_with("\r\n")) {
         true => text.replace("\r\n", "\n").replace('\n', "\r\n"),
@@ -235,7 +234,7 @@ fn with_line_ends_of(before: &str, text: &str) -> String {
     }
 }
 
-/// The ids of the methods that each lane had, in the order of the lanes' numbers.
+/// Ids of the methods that each lane had, by lane number.
 struct MethodsSeen(Vec<Vec<&'static str>>);
 
 impl MethodsSeen {
@@ -260,7 +259,7 @@ fn replay(scene: &Scene, observer: &mut dyn Observer) -> Vec<Reached> {
     std::iter::from_fn(|| replay.go_on(u64::MAX, observer)).collect()
 }
 
-/// Runs the race of a scene, and compares every lane with its checks.
+/// Runs the race of a scene and compares every lane with its checks.
 fn compare(scene: &Scene) -> Vec<JudgedLane> {
     let mut methods = MethodsSeen(vec![Vec::new(); scene.lanes.len()]);
     methods.look(&Race::of_scene(scene));

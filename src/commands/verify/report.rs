@@ -1,4 +1,4 @@
-//! The result of `regatta verify`, of a capture or of a recording, as text, as JSON and as JUnit's XML.
+//! The result of `regatta verify`, for a capture or a recording, as text, JSON or JUnit XML.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -20,14 +20,14 @@ pub(super) enum ReportFormat {
     Json,
 }
 
-/// A file that is to hold the result.
+/// A file for the result.
 pub(super) struct ReportFile {
     format: ReportFormat,
     output: Output,
 }
 
 impl ReportFile {
-    /// Opens it, before the work: a refusal should not come after that.
+    /// Opens the file before the work: a refusal should not come after it.
     pub(super) fn open(
         format: ReportFormat,
         path: &Path,
@@ -51,18 +51,18 @@ impl ReportFile {
     }
 }
 
-/// What a report begins with in XML.
+/// Start of a JUnit report.
 const JUNIT_BEGINS: &str =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"regatta verify ";
 
-/// The keys of the path in JSON: of a capture and of a recording.
+/// JSON keys of the path: for a capture, and for a recording.
 pub(super) const DIRECTORY: &str = "dir";
 pub(super) const FILE: &str = "file";
 
-/// The most bytes from which a report is known: more than a path has, and its escapes.
+/// Bytes within which a report is recognised: more than a path has with its escapes.
 const KNOWN_WITHIN: usize = 1 << 16;
 
-/// Whether the file at `path` is empty or begins as a report does, in either format.
+/// Whether the file at `path` is empty or begins like a report in either format.
 fn is_report(path: &Path) -> bool {
     let Ok(start) = regular_file::read_start(path, KNOWN_WITHIN) else { return false };
     let start = String::from_utf8_lossy(&start);
@@ -78,48 +78,48 @@ fn is_report(path: &Path) -> bool {
     start.is_empty() || start.starts_with(JUNIT_BEGINS) || is_json()
 }
 
-/// The result, which is told line by line on standard output as it is found.
+/// The result. Each of its lines also goes to standard output at once.
 #[derive(Debug)]
 pub(super) struct Report {
     path: PathBuf,
-    /// What was judged one by one, and how it differs, if it does.
+    /// Name of each judged case, with its difference, if any.
     cases: Vec<(String, Option<String>)>,
-    /// Of the JSON, beside what all have.
+    /// JSON fields beyond those that all reports have.
     fields: Map<String, Value>,
-    /// The key of the path in JSON.
+    /// JSON key of the path.
     key: &'static str,
-    /// The message if something differs.
+    /// Message if something differs.
     differs: String,
 }
 
 impl Report {
-    /// A report in which nothing is judged yet. `key` is that of the path in JSON.
+    /// An empty report. `key` is the JSON key of the path.
     pub(super) fn new(key: &'static str, path: &Path) -> Self {
         let (cases, fields) = (Vec::new(), Map::new());
         Self { path: path.to_owned(), cases, fields, key, differs: String::new() }
     }
 
-    /// Adds a case, and how it differs, if it does.
+    /// Adds a case with its difference, if any.
     pub(super) fn judged(&mut self, name: impl Into<String>, difference: Option<String>) {
         self.cases.push((name.into(), difference));
     }
 
-    /// Adds a field of the JSON.
+    /// Adds a JSON field.
     pub(super) fn field(&mut self, key: &str, value: Value) {
         self.fields.insert(key.to_owned(), value);
     }
 
-    /// Sets the message with which the command ends if something differs: what, and the remedy.
+    /// Sets the message with which the command ends if something differs: the difference and the remedy.
     pub(super) fn if_different(&mut self, message: String) {
         self.differs = message;
     }
 
-    /// How many cases differ.
+    /// Number of cases that differ.
     pub(super) fn differing(&self) -> usize {
         self.cases.iter().filter(|(_, difference)| difference.is_some()).count()
     }
 
-    /// The end of the command.
+    /// Result of the command.
     pub(super) fn outcome(self) -> Result<(), Error> {
         match self.differing() {
             0 => Ok(()),
@@ -127,7 +127,6 @@ impl Report {
         }
     }
 
-    /// As JSON, for programs.
     fn to_json(&self) -> String {
         let path = shown(&self.path);
         let mut object = json!({ self.key: path, "same": self.differing() == 0 });
@@ -137,7 +136,7 @@ impl Report {
         format!("{object:#}\n")
     }
 
-    /// As JUnit's XML, a test for each case.
+    /// JUnit XML with a test for each case.
     fn to_junit(&self) -> String {
         let mut text = format!(
             "{JUNIT_BEGINS}{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n",
@@ -163,7 +162,7 @@ impl Report {
 /// Prints a line to standard output.
 pub(super) fn print_line(line: &str) -> Result<(), Error> {
     match print(format!("{line}\n")) {
-        // Whoever listens no more still gets the exit code.
+        // A reader that has closed the pipe still gets the exit code.
         Err(error) if error.is_closed_pipe() => Ok(()),
         printed => printed,
     }

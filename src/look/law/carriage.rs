@@ -1,4 +1,4 @@
-//! A carriage on its spring and damper, on a wheel, on a road.
+//! Draws a carriage on its spring and damper, on a wheel, on a road.
 
 use glam::DVec2;
 
@@ -7,22 +7,22 @@ use super::reach;
 use crate::sim::System;
 use crate::sim::bodies::Law;
 
-/// The sizes of the parts, in units of the farthest that the carriage or the wheel goes from its rest: half the body,
-/// its height above the hub at rest, the radius of the wheel, and half the length of the road.
+/// Half the size of the body, its height above the hub at rest, the radius of the wheel, and half the length of the
+/// road. The unit is the largest displacement of carriage or wheel from rest.
 const HALF_BODY: DVec2 = DVec2::new(2.6, 0.75);
 const ABOVE_HUB: f64 = 3.2;
 const WHEEL: f64 = 1.2;
 const HALF_ROAD: f64 = 5.0;
-/// How far the carriage goes in a second, in the same units, and the pieces of the road that it sees.
+/// Distance that the carriage covers in a second, in the same unit, and the number of road segments in view.
 const SPEED: f64 = HALF_ROAD;
 const PIECES: u32 = 80;
-/// From the middle to the spring on one side and the damper on the other, and the radius of the spring's turns.
+/// Distance from the middle to the spring on one side and the damper on the other, and the radius of the coil.
 const ASIDE: f64 = 0.75;
 const TURNS: f64 = 0.35;
 
 pub(super) struct Carriage<'a> {
     law: &'a Law,
-    /// The farthest from rest.
+    /// Largest displacement from rest.
     unit: f64,
 }
 
@@ -32,7 +32,8 @@ impl<'a> Carriage<'a> {
         Self { law, unit: high.max(-low) }
     }
 
-    /// How high the road is under the wheel at time `t` (s): where a wheel is at rest under a carriage that is as high.
+    /// Height of the road under the wheel at time `t` (s): the height at which wheel and carriage would rest
+    /// together.
     fn road(&self, t: f64) -> f64 {
         let n = self.law.equations().text().coordinates.len();
         let push = |height: f64| {
@@ -45,7 +46,7 @@ impl<'a> Carriage<'a> {
         if height.is_finite() { height.clamp(-self.unit, self.unit) } else { 0.0 }
     }
 
-    /// The road past the wheel, as the carriage goes along it, in pieces of one slope.
+    /// The visible road at time `t`, as it passes under the wheel. Corners are kept only where the slope changes.
     fn roadway(&self, t: f64) -> Vec<DVec2> {
         let step = 2.0 * HALF_ROAD / f64::from(PIECES);
         let places = (0..=PIECES).map(|i| {
@@ -65,7 +66,7 @@ impl<'a> Carriage<'a> {
         corners
     }
 
-    /// The hub of the wheel, which is this high above its rest.
+    /// Position of the wheel's hub at this height above its rest.
     fn hub(&self, height: f64) -> DVec2 {
         DVec2::new(0.0, height - ABOVE_HUB * self.unit)
     }

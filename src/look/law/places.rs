@@ -1,40 +1,40 @@
-//! Discs where the scene says that the coordinates are.
+//! Draws a disc at each place that the scene's equations define.
 
 use glam::{DMat2, DVec2};
 
 use super::super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Law;
 
-/// The radius of a disc, in parts of half the picture.
+/// Radius of a disc, relative to half the picture.
 const DISC: f64 = 0.045;
 
-/// The room beyond the motion, in parts of half the motion, and the least extent either way.
+/// Half-size of the picture relative to half the motion's, and its minimum in either direction.
 const BEYOND: f64 = 1.25;
 const MIN_PART: f64 = 0.4;
 
-/// How long the trail is, in seconds.
+/// Length of the trail, in seconds.
 const TRAIL_S: f64 = 4.0;
 
-/// A displacement for slopes, relative to a coordinate, or in its unit near 0.
+/// Displacement for slopes, relative to a coordinate, or in its unit near 0.
 const DISPLACEMENT: f64 = 1e-6;
 
-/// The iterations in which a disc is brought to a hand.
+/// Newton iterations that bring a disc to the hand.
 const ITERATIONS: usize = 12;
 
-/// The most by which a coordinate moves in one of them, relative to its size, or in its unit near 0.
+/// Largest change of a coordinate in one iteration, relative to its size, or in its unit near 0.
 const MAX_CHANGE: f64 = 1.0;
 
-/// What is added to a matrix that may be singular, in parts of its trace.
+/// Added to the diagonal of a matrix that may be singular, relative to its trace.
 const DAMPING: f64 = 1e-9;
 
 pub(super) struct Places<'a> {
     pub(super) law: &'a Law,
-    /// Of the rectangle that holds the places in the first seconds.
+    /// Corners of the rectangle that contains the places in the first seconds.
     pub(super) corners: [DVec2; 2],
 }
 
 impl Places<'_> {
-    /// The middle of the picture, and half of it.
+    /// Centre of the picture, and half its size.
     fn room(&self) -> [DVec2; 2] {
         let [low, high] = self.corners;
         let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
@@ -51,7 +51,7 @@ impl Places<'_> {
         DISC * half.max_element()
     }
 
-    /// The change of a place by each coordinate.
+    /// Derivative of a place by each coordinate.
     fn slopes(&self, place: usize, q: &[f64]) -> Vec<DVec2> {
         let mut moved = q.to_vec();
         let slope = |(i, &q): (usize, &f64)| {
@@ -67,7 +67,7 @@ impl Places<'_> {
     }
 }
 
-/// The least change of the coordinates that moves a place with these slopes by `by`, as far as they can.
+/// Smallest change of the coordinates that moves a place with these slopes by `by`, or as close to that as possible.
 fn smallest_change(slopes: &[DVec2], by: DVec2) -> Vec<f64> {
     let outer = |slope: &DVec2| DMat2::from_cols(slope.x * *slope, slope.y * *slope);
     let square = slopes.iter().fold(DMat2::ZERO, |sum, slope| sum + outer(slope));

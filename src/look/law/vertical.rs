@@ -1,15 +1,15 @@
-//! Heights above 0: what is mostly below hangs there on a cord, what is mostly above has 0 as its ground.
+//! Draws heights above 0. Bodies that are mostly below 0 hang there on cords; otherwise 0 is the ground.
 
 use glam::DVec2;
 
 use super::super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use super::reach;
 
-/// The radius of a body, the distance of two, and half the length of the line at 0, in parts of the heights' range.
+/// Radius of a body, distance of two bodies, and half the length of the line at 0, relative to the range of heights.
 const BODY: f64 = 0.05;
 const APART: f64 = 0.3;
 const HALF_GROUND: f64 = 0.4;
-/// The room above and below, in the same parts.
+/// Margin above and below, in the same unit.
 const MARGIN: f64 = 0.12;
 
 pub(super) struct Vertical {
@@ -22,7 +22,7 @@ impl Vertical {
         high - low
     }
 
-    /// Where a coordinate is drawn at this height.
+    /// Position in the picture of a coordinate at this height.
     fn at(&self, coordinate: usize, height: f64) -> DVec2 {
         DVec2::new(APART * self.range() * coordinate as f64, height)
     }

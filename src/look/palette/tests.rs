@@ -39,7 +39,8 @@ fn text_stands_out_from_what_it_is_written_on_in_both_themes() {
     assert!((contrast(rgb(0xFFFFFF), rgb(0)) - 21.0).abs() < 1e-9);
 }
 
-/// Linear red, green and blue in a deuteranope's eyes, by Machado, Oliveira and Fernandes (2009), and in most people's.
+/// Matrices from linear sRGB to the colours that a deuteranope sees, by Machado, Oliveira and Fernandes (2009), and
+/// that most people see.
 const DEUTERANOPE: [[f64; 3]; 3] = [
     [0.367322, 0.860646, -0.227968],
     [0.280085, 0.672501, 0.047413],
@@ -47,13 +48,13 @@ const DEUTERANOPE: [[f64; 3]; 3] = [
 ];
 const MOST_PEOPLE: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// The distance of two colours in CIE L*a*b*, as these eyes see them.
+/// Distance of two colours in CIE L*a*b*, seen with these eyes.
 fn distance_seen(a: Rgba, b: Rgba, eyes: [[f64; 3]; 3]) -> f64 {
     let (a, b) = (seen_by(a, eyes), seen_by(b, eyes));
     (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// A colour as these eyes see it, in CIE L*a*b*.
+/// The colour in CIE L*a*b*, seen with these eyes.
 fn seen_by(colour: Rgba, eyes: [[f64; 3]; 3]) -> [f64; 3] {
     let linear = |i: usize| {
         let part = f64::from(colour[i]) / 255.0;
@@ -78,7 +79,7 @@ fn seen_by(colour: Rgba, eyes: [[f64; 3]; 3]) -> [f64; 3] {
 
 #[test]
 fn a_deuteranope_tells_the_first_nine_lanes_apart_by_hue_or_by_dash() {
-    /// Below this distance colours are one to somebody who looks from curve to legend.
+    /// Below this distance, a person who looks from curve to legend confuses two colours.
     const ALIKE: f64 = 25.5;
     let distance = |a: Rgba, b: Rgba| distance_seen(a, b, DEUTERANOPE);
     let white = seen_by([255; 4], DEUTERANOPE);
@@ -121,13 +122,13 @@ fn lanes_of_one_method_differ_in_colour_and_the_first_has_the_methods() {
             assert!(is_new, "{id}: {styles:?}");
         }
     }
-    // The list of a studio goes on with every other method.
+    // A studio's list also contains every other method.
     let mut list = vec![lane("held-force", 1), lane("held-force", 4), lane("held-force", 8)];
     list.extend(METHODS.iter().map(LaneSpec::plain));
     let colours: Vec<Rgba> =
         list[..3].iter().map(|spec| Theme::Dark.lane_style(&list, spec).0).collect();
     assert!(colours[0] != colours[1] && colours[1] != colours[2] && colours[0] != colours[2]);
-    // More lanes than colours differ in colour or dash.
+    // If there are more lanes than colours, they differ in colour or dash.
     let lanes: Vec<LaneSpec> = (1..20).map(|substeps| lane("held-force", substeps)).collect();
     let styles: Vec<_> = lanes.iter().map(|spec| Theme::Light.lane_style(&lanes, spec)).collect();
     for (i, style) in styles.iter().enumerate() {
@@ -160,7 +161,7 @@ fn methods_differ_in_colour_or_dash_and_neighbours_in_colour() {
         for lanes in [
             ["explicit-euler", "semi-implicit-euler"],
             ["semi-implicit-euler", "implicit-euler"],
-            // The third and the fifth lane of the harbour.
+            // The third and fifth lanes of the harbour scene.
             ["improved-euler", "adaptive-euler"],
         ] {
             let [a, b] =

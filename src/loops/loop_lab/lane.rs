@@ -1,4 +1,4 @@
-//! The body in one loop, frame by frame, and what is measured of a frame.
+//! The frames of the body in one loop, and the metrics of a frame.
 
 use crate::loops::{FrameTrace, LoopRun, MIN_RUN_S, PacingReport, PolicyCard};
 use crate::run::past::Energies;
@@ -7,10 +7,10 @@ use crate::run::{Scale, Unit};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::Method;
 
-/// The longest run, in seconds of the display.
+/// Maximum length of a run, in seconds of the display.
 const MAX_S: f64 = 20.0;
 
-/// The body in one loop: all its frames, once it was run.
+/// The body in one loop, with all frames once the loop has run.
 pub struct LoopLane {
     card: &'static PolicyCard,
     frames: Vec<LoopFrame>,
@@ -20,32 +20,32 @@ pub struct LoopLane {
 /// A displayed frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoopFrame {
-    /// When it is displayed, in nanoseconds.
+    /// Time of display in nanoseconds.
     pub displayed_ns: i64,
-    /// The simulated moment that it shows, in milliseconds.
+    /// Simulated time in the picture, in milliseconds.
     pub shown_ms: f64,
-    /// The steps made for it, with those for frames before that were not displayed.
+    /// Number of steps since the previous displayed frame.
     pub ticks: u32,
-    /// The animation error in milliseconds; 0 for the first.
+    /// Animation error in milliseconds; 0 for the first frame.
     pub animation_error_ms: f64,
-    /// The coordinates of the body as it shows them.
+    /// Coordinates of the body in the picture.
     pub q: Box<[f64]>,
-    /// The exact coordinates at the moment of display.
+    /// Exact coordinates at the time of display.
     pub exact: Box<[f64]>,
-    /// The body after the last step, which is not always what is shown.
+    /// State after the last step, which can differ from the picture.
     pub stepped: LoopState,
-    /// The exact body at the moment of display.
+    /// Exact state at the time of display.
     pub exact_state: LoopState,
 }
 
 /// A state of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopState {
-    /// The first coordinate.
+    /// First coordinate.
     pub q: f64,
     /// Its velocity.
     pub v: f64,
-    /// The energies, if the body conserves energy.
+    /// Energies, if the body conserves energy.
     pub energies: Option<Energies>,
 }
 
@@ -57,19 +57,19 @@ impl LoopState {
 }
 
 impl LoopFrame {
-    /// How far the moment shown is behind the display, in milliseconds.
+    /// Delay between the simulated time in the picture and the display, in milliseconds.
     pub fn latency_ms(&self) -> f64 {
         self.displayed_ns as f64 / 1e6 - self.shown_ms
     }
 }
 
 impl LoopLane {
-    /// A loop that was not run yet: no frames.
+    /// A placeholder without frames for a loop that has not run yet.
     pub(super) fn awaited(card: &'static PolicyCard) -> Self {
         Self { card, frames: Vec::new(), report: None }
     }
 
-    /// Runs a loop, or the part of it before `stop` says so.
+    /// Runs a loop until it ends or `stop` returns true.
     pub(super) fn run(
         scene: &Scene,
         method: &'static Method,
@@ -98,29 +98,29 @@ impl LoopLane {
         Self { card, frames, report: Some(report) }
     }
 
-    /// Its policy.
+    /// Card of its policy.
     pub fn card(&self) -> &'static PolicyCard {
         self.card
     }
-    /// The frames that are displayed, in order.
+    /// The displayed frames, in order.
     pub fn frames(&self) -> &[LoopFrame] {
         &self.frames
     }
-    /// Whether it was run.
+    /// Whether the loop has run.
     pub fn was_run(&self) -> bool {
         self.report.is_some()
     }
-    /// What is seen over all frames, once it was run.
+    /// Measurements over all frames, once the loop has run.
     pub fn report(&self) -> Option<&PacingReport> {
         self.report.as_ref()
     }
-    /// The index of the frame that the display holds at `now_ns`.
+    /// Index of the frame on the display at `now_ns`.
     pub fn frame_at(&self, now_ns: i64) -> Option<usize> {
         self.frames.partition_point(|frame| frame.displayed_ns <= now_ns).checked_sub(1)
     }
 }
 
-/// A measure of a displayed frame.
+/// A metric of a displayed frame.
 #[derive(Debug)]
 pub struct FrameMetric {
     /// Its name in output, `snake_case`.
@@ -129,13 +129,13 @@ pub struct FrameMetric {
     pub name: &'static str,
     /// Its unit.
     pub unit: Unit,
-    /// How it is plotted.
+    /// Scale of its plot.
     pub scale: Scale,
-    /// Its value.
+    /// Computes its value.
     pub measure: fn(&LoopFrame) -> f64,
 }
 
-/// Every measure of a frame, in menu order.
+/// Every metric of a frame, in menu order.
 pub static FRAME_METRICS: &[FrameMetric] = &[
     FrameMetric {
         id: "position_error",

@@ -1,5 +1,5 @@
-//! Runs the loops one by one, so that it can be done on another thread than the window's: a [`LoopRequest`] goes there,
-//! and each [`FoundLoop`] comes back.
+//! Runs the loops one at a time, so that this can happen off the window's thread: a [`LoopRequest`] goes in, and each
+//! [`FoundLoop`] comes back.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -9,18 +9,18 @@ use crate::loops::{FrameTrace, POLICIES};
 use crate::scene::Scene;
 use crate::sim::integrators::Method;
 
-/// A body under a method, to be run in every loop over the frames of a trace.
+/// One body under one method, to run in every loop over the frames of a trace.
 pub struct LoopRequest {
-    /// With one body.
+    /// Contains only the one body.
     pub(super) scene: Arc<Scene>,
     pub(super) method: &'static Method,
     pub(super) trace: FrameTrace,
-    /// The indices of the loops in [`POLICIES`] that are run before the others.
+    /// Indices of the loops in [`POLICIES`] that run first.
     pub(super) first: Vec<usize>,
 }
 
 impl LoopRequest {
-    /// The indices of all loops, in the order in which they are run.
+    /// Indices of all loops, in the order of their runs.
     fn indices(&self) -> VecDeque<usize> {
         let is_first = |index: &usize| self.first.contains(index);
         let (first, others): (VecDeque<_>, VecDeque<_>) = (0..POLICIES.len()).partition(is_first);
@@ -28,7 +28,7 @@ impl LoopRequest {
     }
 }
 
-/// The answer to a [`LoopRequest`] for one loop.
+/// Result of a [`LoopRequest`] for one loop.
 pub struct FoundLoop {
     pub(super) request: Arc<LoopRequest>,
     /// Its index in [`POLICIES`].
@@ -36,28 +36,28 @@ pub struct FoundLoop {
     pub(super) lane: LoopLane,
 }
 
-/// Runs the loops of one [`LoopRequest`] at a time, beside the window.
+/// Runs the loops of the current [`LoopRequest`] in the background.
 #[derive(Default)]
 pub struct LoopWorker {
     request: Option<Arc<LoopRequest>>,
-    /// The indices of the loops that are still to be run.
+    /// Indices of the loops that have not run yet.
     left: VecDeque<usize>,
 }
 
 impl LoopWorker {
-    /// Replaces the request; `None` asks for nothing.
+    /// Replaces the request; `None` cancels it.
     pub fn set_request(&mut self, request: Option<Arc<LoopRequest>>) {
         self.left = request.as_ref().map(|request| request.indices()).unwrap_or_default();
         self.request = request;
     }
 
-    /// Whether there is nothing more to do.
+    /// Whether no loop remains to run.
     pub fn is_done(&self) -> bool {
         self.left.is_empty()
     }
 
-    /// Runs one more loop. Returns `None` if there is none, or if `stop` ends it early: the loop is then run again by
-    /// the next call.
+    /// Runs the next loop. Returns `None` if none is left, or if `stop` interrupts it; the next call then runs it
+    /// again.
     pub fn work(&mut self, stop: &dyn Fn() -> bool) -> Option<FoundLoop> {
         let (request, index) = (self.request.as_ref()?, *self.left.front()?);
         let LoopRequest { scene, method, trace, .. } = &**request;

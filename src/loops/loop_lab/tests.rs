@@ -18,7 +18,7 @@ fn lab_of(scene: &Scene) -> LoopLab {
     studio
 }
 
-/// Runs the loops that it wants.
+/// Runs every requested loop.
 fn run(studio: &mut LoopLab) {
     let mut worker = LoopWorker::default();
     worker.set_request(Some(studio.request().clone()));
@@ -102,7 +102,7 @@ fn what_is_recommended_is_green_with_a_fixed_tick_and_compared_on_the_stage() {
             assert!(words.starts_with("recommended, smooth"), "{place}");
             assert_eq!(studio.verdict(advised.index).severity, Severity::Fine, "{place}");
             assert!(studio.lanes()[advised.index].card().has_fixed_tick, "{place}");
-            // None of those that step by the frame, the first four.
+            // The first four policies step by the frame.
             assert!(advised.index > 3, "{place}");
             assert!(studio.on_stage().contains(&advised.index), "{place}");
         }

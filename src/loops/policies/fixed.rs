@@ -1,11 +1,11 @@
-//! Whole ticks from an accumulator: the loop of "Fix Your Timestep!", and of Regatta's own window; and its form that never
+//! Whole ticks from an accumulator, as in "Fix Your Timestep!" and in Regatta's own window, and a variant that never
 //! catches up.
 
 use crate::loops::policy::{FrameLimits, Policy, Steps};
 use crate::loops::time_base::TimeBase;
 use crate::sim::{Accumulator, MAX_FRAME_MS, max_ticks};
 
-/// An accumulator that gives whole ticks.
+/// An accumulator that yields whole ticks.
 #[derive(Clone, Copy)]
 pub(super) struct Fixed {
     tick: i128,
@@ -14,19 +14,19 @@ pub(super) struct Fixed {
 }
 
 impl Fixed {
-    /// At most the ticks of the longest frame, of [`MAX_FRAME_MS`] where none is set.
+    /// Limits the ticks to those of the longest frame, which lasts [`MAX_FRAME_MS`] unless set.
     pub(super) fn new(base: TimeBase, limits: FrameLimits) -> Self {
         let longest_ms = limits.max_frame_ms.unwrap_or(MAX_FRAME_MS);
         let most = max_ticks(base.tick_hz(), 100, longest_ms);
         Self::with_max_ticks(base, limits.max_ticks.unwrap_or(most))
     }
 
-    /// At most this many ticks in a frame.
+    /// Limits the ticks in a frame to this number.
     pub(super) fn with_max_ticks(base: TimeBase, max_ticks: u32) -> Self {
         Self { tick: base.tick(), max_ticks, accumulator: Accumulator::default() }
     }
 
-    /// Forgets the time owed, and returns it.
+    /// Drops the time owed and returns it.
     pub(super) fn clear(&mut self) -> i128 {
         let owed = self.accumulator.owed();
         self.accumulator.clear();
@@ -53,7 +53,8 @@ impl Policy for Fixed {
     }
 }
 
-/// A fixed tick, at most one a frame or as many as are set, and at most one more is kept: where frames are too long, the game is slower.
+/// A fixed tick with at most one tick per frame, or a set number. At most one more tick is kept, so that the game
+/// slows down when frames are too long.
 #[derive(Clone, Copy)]
 pub(super) struct SlowDown {
     tick: i128,
@@ -73,7 +74,7 @@ impl Policy for SlowDown {
         let count = self.owed.div_euclid(self.tick).min(self.max_ticks.into());
         let span = count * self.tick;
         let left = self.owed - span;
-        // Without the tick that is kept, each frame that timer noise makes long would lose one.
+        // If none were kept, each frame that timer noise lengthens would lose a tick.
         self.owed = left.min(self.tick);
         Steps { count: count as u32, span, dropped: left - self.owed }
     }

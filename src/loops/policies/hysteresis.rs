@@ -1,38 +1,38 @@
-//! A count of ticks that stays what it was while it nearly fits.
+//! Keeps the number of ticks per frame constant while it nearly fits.
 
 use crate::loops::policy::{FrameLimits, Policy, Steps};
 use crate::loops::time_base::TimeBase;
 
-/// The frames whose counts are compared.
+/// Number of recent frames that are compared.
 const FRAMES: usize = 12;
-/// The most ticks in a frame; the others are dropped.
+/// Maximum number of ticks in a frame; any more are dropped.
 const MAX_TICKS: u32 = 8;
 
-/// Whole ticks, the same number each frame as far as that is off by at most half a tick.
+/// Whole ticks, the same number each frame as long as that is off by at most half a tick.
 ///
-/// The last k frames together have made a number of ticks that is typical, or one more: at 144 Hz a single frame makes
-/// none or one, and twelve make five. A frame makes the ticks that keep this for every k.
+/// Any k successive frames make a typical number of ticks, or one more. At 144 Hz, for example, one frame makes none
+/// or one, and twelve make five. Each frame makes the ticks that keep this true for every k.
 #[derive(Clone, Copy)]
 pub(super) struct Hysteresis {
     tick: i128,
     max_ticks: u32,
-    /// The time since the last tick: from -H/2 to 3H/2, for a tick may come early or late by half.
+    /// Time since the last tick: from -H/2 to 3H/2, for a tick may be early or late by half.
     owed: i128,
-    /// At k, the ticks that the last k frames made.
+    /// At index k, the ticks of the last k frames.
     made: [i128; FRAMES],
-    /// At k, the fewer of the two typical numbers of ticks of k + 1 frames.
+    /// At index k, the smaller of the two typical numbers of ticks of k + 1 frames.
     typical: [i128; FRAMES],
 }
 
 impl Hysteresis {
-    /// Typical at the start is one tick a frame, and none in one of twelve.
+    /// Starts with one tick per frame as typical, and one missing tick in twelve frames.
     pub(super) fn new(base: TimeBase, limits: FrameLimits) -> Self {
         let counts = std::array::from_fn(|k| k as i128);
         let max_ticks = limits.max_ticks.unwrap_or(MAX_TICKS);
         Self { tick: base.tick(), max_ticks, owed: 0, made: counts, typical: counts }
     }
 
-    /// The ticks to make for the time owed.
+    /// Number of ticks to make for the time owed.
     fn due(&self) -> i128 {
         let whole = self.owed.div_euclid(self.tick);
         let fewest = (2 * self.owed - self.tick).div_euclid(2 * self.tick).max(0);
@@ -44,7 +44,7 @@ impl Hysteresis {
         held.clamp(fewest, most)
     }
 
-    /// Makes what the frames up to this one have made typical, as far as it is not yet.
+    /// Records this frame's ticks and shifts the typical numbers if they no longer cover them.
     fn remember(&mut self, ticks: i128) {
         for (typical, made) in self.typical.iter_mut().zip(&self.made) {
             let now = made + ticks;
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use crate::loops::time_base::RefreshRate;
 
-    /// The ticks of frames of these hundredths of a tick. Checks that no tick comes too early or late.
+    /// Ticks of frames with these durations in hundredths of a tick. Checks that no tick is too early or too late.
     fn ticks(hundredths: impl IntoIterator<Item = i128>) -> Vec<u32> {
         let mut policy =
             Hysteresis::new(TimeBase::new(60, RefreshRate::new(60, 1)), FrameLimits::default());
@@ -98,7 +98,7 @@ mod tests {
         let noise = (0..1000).map(|i| 100 + [-3, 5, -2, 3, -5, 2][i % 6]);
         let counts = ticks(noise.clone());
         assert!(counts[1..].iter().all(|&count| count == 1), "{counts:?}");
-        // Without it they come and go.
+        // Without hysteresis, ticks flip between none and two.
         let mut fixed = crate::sim::Accumulator::default();
         let counts = noise.map(|time| fixed.advance(time, 100, 8).ticks);
         assert!(counts.filter(|&count| count == 0).count() > 100);

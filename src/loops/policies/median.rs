@@ -1,33 +1,35 @@
-//! One step a frame, of the duration that frames typically have.
+//! One step per frame, as long as frames typically are.
 
 use crate::loops::policy::{Policy, Steps};
 use crate::loops::time_base::TimeBase;
 
-/// The durations that are looked at.
+/// Number of recent durations in the mean.
 const LAST: usize = 11;
-/// The longest and the shortest that are left out, of each this many: a hitch shorter than that many frames is not seen.
+/// How many of the longest and of the shortest durations are left out. Hitches of at most this many frames do not
+/// affect the mean.
 const LEFT_OUT: usize = 2;
-/// The part by which a step comes nearer to the mean, as a divisor. A greater one is smoother, and later at another rate.
+/// Divisor of the step's approach to the mean per frame. A larger one is smoother, and slower to adapt to another
+/// rate.
 const EASING: i128 = 4;
-/// The part of the debt that a frame pays back, as a divisor. A greater one is smoother, and lags for longer after a hitch.
+/// Divisor of the debt that a frame pays back. A larger one is smoother, and lags longer after a hitch.
 const PAYING_BACK: i128 = 16;
 
-/// A smoothed step, which makes up for what it is off.
+/// A smoothed step that makes up for its error over time.
 #[derive(Clone, Copy)]
 pub(super) struct Median {
     last: [i128; LAST],
     eased: i128,
-    /// The real time that has not been simulated yet; negative where more has been.
+    /// Real time that is not yet simulated; negative if the simulation is ahead.
     debt: i128,
 }
 
 impl Median {
-    /// It begins as after frames of one refresh.
+    /// Starts as after a series of frames of one refresh.
     pub(super) fn new(base: TimeBase) -> Self {
         Self { last: [base.refresh(); LAST], eased: base.refresh(), debt: 0 }
     }
 
-    /// The mean of the last durations without the longest and the shortest.
+    /// Mean of the last durations without the longest and the shortest.
     fn mean(&self) -> i128 {
         let mut sorted = self.last;
         sorted.sort_unstable();
@@ -69,7 +71,7 @@ mod tests {
         for i in 0..1000 {
             let noise = if i % 2 == 0 { 6 } else { -6 };
             let step = policy.frame(refresh + noise * unit).span;
-            // Of seven kept durations four may be late: a mean of 6/7.
+            // At most four of the seven kept durations are late, so the mean noise is at most 6/7.
             assert!((step - refresh).abs() < 2 * unit, "frame {i}: {}", (step - refresh) / unit);
         }
     }

@@ -1,17 +1,16 @@
-//! Durations near a whole number of refreshes made whole, and averaged.
+//! Snaps durations near a whole number of refreshes to it, and averages them.
 
 use super::fixed::Fixed;
 use crate::loops::policy::{FrameLimits, Policy, Steps};
 use crate::loops::time_base::TimeBase;
 
-/// How near a duration has to be to be made whole: more than a timer's noise, and less than the 0.5 ms between refreshes of
-/// 60 and 62 Hz.
+/// Tolerance for snapping: more than a timer's noise, and less than the 0.5 ms between refreshes of 60 and 62 Hz.
 const NEAR_NS: i64 = 200_000;
-/// The longest duration that is made whole, in refreshes.
+/// Longest snapped duration, in refreshes.
 const MAX_REFRESHES: i128 = 8;
-/// The durations of a mean.
+/// Number of durations in the mean.
 const AVERAGED: usize = 4;
-/// The most ticks that may be owed; a frame that is longer counts as one tick.
+/// Maximum number of owed ticks. A longer frame counts as one tick.
 const MAX_TICKS: u32 = 8;
 
 /// A fixed tick whose time is snapped to refreshes.
@@ -22,13 +21,13 @@ pub(super) struct Snapped {
     refresh: i128,
     near: i128,
     last: [i128; AVERAGED],
-    /// What the divisions so far have left over, which the next takes up: averaging loses no time.
+    /// Remainder of the previous division, carried over so that averaging loses no time.
     remainder: i128,
     fixed: Fixed,
 }
 
 impl Snapped {
-    /// The mean begins with frames of one refresh.
+    /// Starts the mean with frames of one refresh.
     pub(super) fn new(base: TimeBase, limits: FrameLimits) -> Self {
         let max_ticks = limits.max_ticks.unwrap_or(MAX_TICKS);
         Self {
@@ -48,7 +47,7 @@ impl Snapped {
         if (duration - whole).abs() < self.near { whole } else { duration }
     }
 
-    /// The mean with this duration as the newest.
+    /// Adds this duration and returns the new mean.
     fn mean(&mut self, duration: i128) -> i128 {
         self.last.rotate_left(1);
         self.last[AVERAGED - 1] = duration;
@@ -123,7 +122,7 @@ mod tests {
             given += duration;
             meant += policy.mean(duration);
         }
-        // The refreshes at the start count with 3, 2 and 1 quarters.
+        // The initial refreshes count with 3, 2 and 1 quarters.
         assert_eq!(given + policy.refresh * 6 / 4, meant + policy.remainder / 4);
         assert!(policy.remainder < AVERAGED as i128);
     }
@@ -140,7 +139,7 @@ mod tests {
             total.count += steps.count;
             total.dropped += steps.dropped;
         }
-        // The last frame owed a part of a tick and then eight.
+        // The last frame owed a part of a tick, then eight more.
         assert_eq!(policy.owed(), 0);
         assert!(total.dropped > longest && total.dropped < longest + base.tick());
         assert_eq!(policy.frame(longest + 1).dropped, longest + 1 - base.tick());

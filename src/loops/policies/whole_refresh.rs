@@ -1,4 +1,4 @@
-//! Every frame counted as a whole number of refreshes of the display.
+//! Counts every frame as a whole number of refreshes of the display.
 
 use super::fixed::Fixed;
 use crate::loops::policy::{FrameLimits, Policy, Steps};
@@ -8,7 +8,7 @@ use crate::loops::time_base::TimeBase;
 #[derive(Clone, Copy)]
 pub(super) struct WholeRefresh {
     refresh: i128,
-    /// The real time that has not been counted yet; negative where more has been.
+    /// Real time not yet counted; negative if more than the real time was counted.
     debt: i128,
     fixed: Fixed,
 }
@@ -18,10 +18,11 @@ impl WholeRefresh {
         Self { refresh: base.refresh(), debt: 0, fixed: Fixed::new(base, limits) }
     }
 
-    /// The refreshes to count for a frame after `time` not counted yet.
+    /// Number of refreshes to count, where `time` is the frame's duration plus the debt.
     fn refreshes(&self, time: i128) -> i128 {
         let nearest = (2 * time + self.refresh).div_euclid(2 * self.refresh);
-        // A picture stays for a refresh at least. But frames that do not wait for the display would make the game too fast.
+        // A picture stays for at least one refresh. If frames do not wait for the display, though, counting one each
+        // time would make the game too fast.
         let a_refresh_ahead = 2 * time <= -self.refresh;
         if a_refresh_ahead { 0 } else { nearest.max(1) }
     }
@@ -49,7 +50,7 @@ mod tests {
     use super::*;
     use crate::loops::time_base::RefreshRate;
 
-    /// The refreshes counted for frames of these hundredths of a refresh.
+    /// Refreshes counted for frames with these durations in hundredths of a refresh.
     fn counted(hundredths: impl IntoIterator<Item = i128>) -> Vec<i128> {
         let mut policy =
             WholeRefresh::new(TimeBase::new(60, RefreshRate::new(60, 1)), FrameLimits::default());

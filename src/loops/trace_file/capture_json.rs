@@ -1,11 +1,11 @@
-//! Captures of CapFrameX in JSON, as a table with PresentMon's columns: each run is a process of its own.
+//! Converts JSON captures of CapFrameX to a table with PresentMon's columns. Each run becomes a separate process.
 
 use serde_json::Value;
 
 /// The array that every capture has.
 const FRAMES: &str = "MsBetweenPresents";
 
-/// The table of a capture, or why there is none.
+/// Converts a capture to a table, or explains why it cannot.
 pub(super) fn table(bytes: &[u8]) -> Result<String, String> {
     let capture: Value = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
     let program = capture.pointer("/Info/ProcessName").and_then(Value::as_str).unwrap_or_default();
@@ -19,7 +19,7 @@ pub(super) fn table(bytes: &[u8]) -> Result<String, String> {
     };
     let runs: Option<Vec<_>> = runs.iter().map(of_run).collect();
     let runs = runs.ok_or(format!("a run has no CaptureData with {FRAMES}"))?;
-    // What only some runs have is no column.
+    // A column must occur in every run.
     let in_all = |name: &String| runs.iter().all(|run| run.iter().any(|(known, _)| known == name));
     let first = runs.first().ok_or("there is no run in it")?;
     let names: Vec<&String> = first.iter().map(|(name, _)| name).filter(|it| in_all(it)).collect();
@@ -41,7 +41,7 @@ pub(super) fn table(bytes: &[u8]) -> Result<String, String> {
     String::from_utf8(table).map_err(|error| error.to_string())
 }
 
-/// A cell as PresentMon writes it.
+/// Formats a cell as PresentMon does.
 fn cell(value: &Value) -> String {
     match value {
         Value::Null => "NA".into(),

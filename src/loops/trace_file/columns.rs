@@ -1,4 +1,4 @@
-//! The columns of a log that say when frames began and were displayed.
+//! Finds the columns of a log that record when frames began and were displayed.
 
 use csv::StringRecord;
 
@@ -6,16 +6,17 @@ use super::Fault;
 use super::durations::{self, Unit};
 use crate::scene::{clip, clip_list};
 
-/// Whether a row says how long it took until its frame, or from its frame on.
+/// Whether a row's time ends or starts at its frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Span {
-    /// Since the frame before: PresentMon 1 and 2, OCAT, CapFrameX, FrameView, MangoHud.
+    /// Since the previous frame: PresentMon 1 and 2, OCAT, CapFrameX, FrameView, MangoHud.
     Before,
-    /// Until the frame after: the metrics of PresentMon 2.0, `--v2_metrics`.
+    /// Until the next frame: the metrics of PresentMon 2.0, `--v2_metrics`.
     After,
 }
 
-/// What tool writes a log, what its rows say, the column of frames and one beside it; each also without its `Ms`.
+/// Known formats: the tool, the span of a row, the column of frame times, and a column that must occur beside it.
+/// Each name also matches without its `Ms`.
 const FORMATS: [(&str, Span, &str, Beside); 9] = [
     (PRESENTMON, Span::Before, "MsBetweenPresents", Beside::Until("MsUntilDisplayed")),
     (PRESENTMON, Span::Before, "MsBetweenPresents", Beside::Display("MsBetweenDisplayChange")),
@@ -28,7 +29,7 @@ const FORMATS: [(&str, Span, &str, Beside); 9] = [
     (PRESENTMON, Span::Before, "MsBetweenPresents", Beside::Nothing),
 ];
 
-/// What writes PresentMon's columns, by one of its own: the first that is there.
+/// Tools that write PresentMon's columns, recognized by a column of theirs. The first match counts.
 const OF_PRESENTMON: [(&str, &str); 9] = [
     ("Motherboard", "OCAT"),
     ("Resolution", "FrameView"),
@@ -41,27 +42,27 @@ const OF_PRESENTMON: [(&str, &str); 9] = [
     ("Dropped", "PresentMon 1"),
 ];
 
-/// The columns of a log's own time, with the nanoseconds of their units, and whether all versions write that unit.
+/// Columns with a log's own time, the nanoseconds in their unit, and whether every version uses that unit.
 const TIMES: [(&str, f64, bool); 3] =
     [("TimeInSeconds", 1e9, true), ("elapsed", 1.0, true), ("CPUStartTime", 1e6, false)];
-/// Columns that MangoHud alone has.
+/// Columns that only MangoHud writes.
 const OF_MANGOHUD: [&str; 3] = ["elapsed", "cpu_load", "gpu_load"];
 
-/// What is beside a column of frames.
+/// The column expected beside a column of frame times.
 enum Beside {
-    /// The column of this name, with the times from a frame to its own display, where no other says which were dropped.
+    /// The times from each frame to its own display, in a log without a column of dropped frames.
     Until(&'static str),
-    /// The column of this name, with the times between displays.
+    /// The times between displays.
     Display(&'static str),
-    /// The column of this name, of a tool that knows nothing of the display.
+    /// A column of a tool that does not measure the display.
     Other(&'static str),
-    /// Any columns.
+    /// No column in particular.
     Nothing,
 }
 
 /// Words in the heading of a list of frame times.
 const OF_LIST: [&str; 5] = ["frame", "frametime", "dt", "delta", "deltatime"];
-/// What a column of frame times is called beside other columns.
+/// Names of a column of frame times in a table.
 const OF_TABLE: [&str; 8] = [
     "frametime",
     "frame time",
@@ -72,7 +73,7 @@ const OF_TABLE: [&str; 8] = [
     "delta_time",
     "dt",
 ];
-/// Words that say the unit of such a list.
+/// Words for the unit in such a name.
 const UNITS: [(&str, Unit); 6] = [
     ("s", Unit::Seconds),
     ("sec", Unit::Seconds),
@@ -82,25 +83,26 @@ const UNITS: [(&str, Unit); 6] = [
     ("µs", Unit::Microseconds),
 ];
 
-/// What PresentMon calls a frame of the program, or one of which it does not know. Any other was generated or repeated.
+/// PresentMon's types for frames that the program rendered, or whose origin is unknown. All others are generated or
+/// repeated frames.
 const RENDERED: [&str; 4] = ["", "Application", "NotSet", "Unspecified"];
 
-/// Where the columns are.
+/// The columns of a log.
 pub(super) struct Columns {
-    /// The tool.
+    /// Name of the tool.
     pub(super) format: &'static str,
-    /// The unit of all times; `None` where the log does not say.
+    /// Unit of all times; `None` if the log does not name it.
     pub(super) unit: Option<Unit>,
     span: Span,
     began: Column,
     displayed: Option<Column>,
-    /// Whether the times of display are from a frame's own beginning.
+    /// Whether display times count from the frame's own beginning.
     is_until: bool,
-    /// The frames a second that stand beside a frame's time.
+    /// Frames per second, beside the frame times.
     pub(super) fps: Option<usize>,
-    /// The log's own time, the nanoseconds of its unit, and whether that is sure.
+    /// The log's own time, the nanoseconds in its unit, and whether that unit is certain.
     time: Option<(usize, f64, bool)>,
-    /// The times from a frame to its own display, where those between displays are read.
+    /// Times from each frame to its own display, in a log where the times between displays are used.
     until: Option<usize>,
     dropped: Option<Column>,
     frame_type: Option<usize>,
@@ -110,15 +112,15 @@ pub(super) struct Columns {
 }
 
 const PRESENTMON: &str = "PresentMon";
-/// The tool whose times are in a unit that depends on its version, and a list that no tool wrote.
+/// MangoHud, whose unit of time depends on its version, and the name for a list that no tool wrote.
 const MANGOHUD: &str = "MangoHud";
 const LIST: &str = "a list";
-/// Its first versions, which wrote no times of frames.
+/// The first versions of MangoHud, which wrote no frame times.
 const OLD_MANGOHUD: &str = "MangoHud before 0.6";
-/// The tool whose rows say when a frame began, and not how long after the one before.
+/// The tool whose rows record when a frame began, not the time since the previous one.
 const FRAPS: &str = "FRAPS";
 
-/// The column of a list of frame times under a heading, or of the frame times of a table, and its unit where the name says so.
+/// The column of frame times in a list with a heading or in a table, and its unit if the name gives one.
 fn of_list(header: &StringRecord) -> Option<(Column, Option<Unit>)> {
     let of = |(index, name): (usize, &str)| {
         let name = name.trim();
@@ -127,7 +129,7 @@ fn of_list(header: &StringRecord) -> Option<(Column, Option<Unit>)> {
         let is_plain = |sign: char| sign.is_alphanumeric() || "_ ()[].".contains(sign);
         let is_named = match header.len() {
             1 => words.iter().any(|word| OF_LIST.contains(word)) && name.chars().all(is_plain),
-            // Beside others it must be called so whole.
+            // In a table, the whole name must match.
             _ => OF_TABLE.iter().any(|known| lower.strip_prefix(known).is_some_and(is_unit)),
         };
         let unit =
@@ -137,7 +139,7 @@ fn of_list(header: &StringRecord) -> Option<(Column, Option<Unit>)> {
     header.iter().enumerate().find_map(of)
 }
 
-/// Whether this is nothing, or a unit behind a name.
+/// Whether the rest of a name is empty or a unit.
 fn is_unit(rest: &str) -> bool {
     let letters = rest.trim_matches(|c: char| !c.is_alphabetic());
     letters.is_empty() || UNITS.iter().any(|(known, _)| *known == letters)
@@ -148,34 +150,35 @@ struct Column {
     name: String,
 }
 
-/// What a row says.
+/// The values of a row.
 pub(super) struct Cells<'a> {
-    /// The program, the process and the window; empty where there is no such column.
+    /// Program, process and window; empty if the log has no such column.
     pub(super) application: &'a str,
     pub(super) process: &'a str,
     pub(super) swap_chain: &'a str,
-    /// What the two times span.
+    /// Span of the two times below.
     pub(super) span: Span,
-    /// From one frame's beginning to the other's, in nanoseconds; the error where it is needed and missing.
+    /// Time between the beginnings of two frames, in nanoseconds. A missing time is an error only where it is needed.
     pub(super) began_ns: Result<i64, Fault>,
-    /// From one frame's display to the other's, or from its own beginning; `None` if it was never displayed.
+    /// Time between the displays of two frames, or from the frame's beginning to its display; `None` if it was not
+    /// displayed.
     pub(super) displayed_ns: Option<i64>,
-    /// Whether that is from its own beginning.
+    /// Whether `displayed_ns` counts from the frame's own beginning.
     pub(super) is_until: bool,
-    /// The frames a second that stand beside it.
+    /// Frames per second in the same row.
     pub(super) fps: Option<f64>,
-    /// The log's own time, in nanoseconds.
+    /// The log's own time in nanoseconds.
     pub(super) time_ns: Option<f64>,
-    /// The time from its beginning to its display, in nanoseconds, beside those between displays.
+    /// Time from beginning to display in nanoseconds, beside the times between displays.
     pub(super) until_ns: Option<f64>,
-    /// Whether a column says that it was displayed.
+    /// Whether a column confirms that it was displayed.
     pub(super) surely_displayed: bool,
-    /// Whether a driver generated it, or repeated it, so that the program did not begin a frame.
+    /// Whether a driver generated or repeated the frame, so that the program did not begin it.
     pub(super) is_generated: bool,
 }
 
 impl Columns {
-    /// Finds the columns by the header, whatever the case of its letters.
+    /// Finds the columns by the header, ignoring case.
     pub(super) fn find(header: &StringRecord) -> Result<Self, Fault> {
         let index = |name: &str| header.iter().position(|h| h.trim().eq_ignore_ascii_case(name));
         let column = |name: &str| {
@@ -233,7 +236,7 @@ impl Columns {
         })
     }
 
-    /// Those of a list of frame times.
+    /// The columns of a list of frame times.
     pub(super) fn of_list() -> Self {
         let began = Column { index: 0, name: "1".into() };
         Self {
@@ -259,33 +262,33 @@ impl Columns {
         self.is_until
     }
 
-    /// Whether a row says when its frame began, and not how long after the one before.
+    /// Whether rows record when a frame began, not the time since the previous one.
     pub(super) fn is_since_start(&self) -> bool {
         [FRAPS, OLD_MANGOHUD].contains(&self.format)
     }
 
-    /// Whether the unit of the log's own time is sure.
+    /// Whether the unit of the log's own time is certain.
     pub(super) fn is_sure_of_time(&self) -> bool {
         self.time.is_some_and(|(.., is_sure)| is_sure)
     }
 
-    /// Whether the first row says how long a frame of the log took.
+    /// Whether the time in the first row is the duration of a logged frame.
     pub(super) fn counts_first(&self) -> bool {
         [LIST, MANGOHUD].contains(&self.format)
     }
 
-    /// Whether the frames end before this row: Unreal writes the header again, and what it knows of the build.
+    /// Whether the frames end before this row: Unreal repeats the header at the end and describes the build.
     pub(super) fn end_before(&self, row: &StringRecord) -> bool {
         let is_of_build = row.get(0).is_some_and(|cell| cell.trim_start().starts_with('['));
         is_of_build || row.get(self.began.index).is_some_and(|cell| cell.trim() == self.began.name)
     }
 
-    /// Whether the log says when frames are displayed.
+    /// Whether the log has display times.
     pub(super) fn has_display(&self) -> bool {
         self.displayed.is_some()
     }
 
-    /// How many cells a row must have at least: up to the last that is read.
+    /// Minimum number of cells in a row, up to the last one in use.
     fn needed(&self) -> usize {
         let columns = [Some(&self.began), self.displayed.as_ref(), self.dropped.as_ref()];
         let columns = columns.into_iter().flatten().map(|column| column.index);

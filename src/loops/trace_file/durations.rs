@@ -1,4 +1,4 @@
-//! Times as logs write them, read into whole nanoseconds.
+//! Parses the times in logs to whole nanoseconds.
 
 use crate::scene::clip;
 
@@ -14,7 +14,7 @@ pub(super) enum Unit {
 }
 
 impl Unit {
-    /// The decimal of the unit that is a nanosecond.
+    /// Number of decimals of this unit in a nanosecond.
     fn places(self) -> i64 {
         match self {
             Self::Seconds => 9,
@@ -35,7 +35,7 @@ impl Unit {
     }
 }
 
-/// Why a cell is no time.
+/// Why a cell is not a time.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum Unreadable {
     #[error("expected a time, found \"{0}\"; write a number such as 16.683, or NA")]
@@ -46,8 +46,8 @@ pub(super) enum Unreadable {
     TooLong(String),
 }
 
-/// The nanoseconds of a decimal number in a unit, rounded once, from its digits; `None` where the log says that it
-/// has none. The decimal sign may be a comma.
+/// Converts a decimal number in this unit to nanoseconds, rounding its digits once; `None` if the log marks it as
+/// missing. The decimal sign may be a comma.
 pub(super) fn nanoseconds(cell: &str, unit: Unit) -> Result<Option<i64>, Unreadable> {
     let cell = cell.trim();
     if ["", "na", "n/a"].iter().any(|none| cell.eq_ignore_ascii_case(none)) {
@@ -65,10 +65,10 @@ pub(super) fn nanoseconds(cell: &str, unit: Unit) -> Result<Option<i64>, Unreada
     }
 }
 
-/// At most a day; `None` if this is no number.
+/// Parses a number without a sign, capped at a day; `None` if it is not a number.
 fn unsigned(number: &str, unit_places: i64) -> Option<i64> {
     let (decimal, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
-    // A longer exponent than any tool writes would only take time to follow.
+    // No tool writes longer exponents, and they would only take time.
     let exponent = exponent.parse::<i64>().ok().filter(|e| (-99..=99).contains(e))?;
     let (whole, fraction) = decimal.split_once(['.', ',']).unwrap_or((decimal, ""));
     let digits = || whole.bytes().chain(fraction.bytes());

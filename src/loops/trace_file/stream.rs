@@ -1,4 +1,4 @@
-//! The frames of one window, put together row by row.
+//! Assembles the frames of one window, row by row.
 
 use super::Fault;
 use super::columns::{Cells, Span};
@@ -7,34 +7,35 @@ use crate::loops::trace::{Frame, FrameTrace, Parting};
 
 const YEAR_NS: i64 = 365 * 86_400_000_000_000;
 
-/// A stream of frames as far as it was read.
+/// A stream of frames, with the rows read so far.
 pub(super) struct Stream {
     application: String,
     process: String,
-    /// The line of its first row.
+    /// Line of its first row.
     line: u64,
     frames: Vec<Frame>,
     /// When the last displayed frame appeared.
     last_shown_ns: Option<i64>,
-    /// Where rows say how long their own frame lasted and stayed up: when the next frame begins, and when it appears.
+    /// When the next frame begins and appears, in logs whose rows record how long their own frame lasted and stayed.
     next_began_ns: Result<i64, Fault>,
     next_shown_ns: i64,
-    /// How long ago the last frame began, where generated ones came after it.
+    /// Time from the last frame to the generated frames after it.
     generated_ns: i64,
-    /// The first and the last frame with a time of the log beside it, and with a time until it was displayed, in nanoseconds.
+    /// First and last frame that have the log's own time, and that have a time until display, with these times in
+    /// nanoseconds.
     timed: Option<[(Frame, f64); 2]>,
     shown: Option<[(Frame, f64); 2]>,
-    /// How long the first frame took until it began.
+    /// Duration of the first frame before it began.
     lead_ns: i64,
 }
 
-/// A name with a replacement for each control character: it is printed in messages and on screens.
+/// Replaces control characters, since names appear in messages and on screens.
 fn printable(name: &str) -> String {
     name.replace(char::is_control, "\u{fffd}")
 }
 
 impl Stream {
-    /// The stream before its first row, which is this one in this line.
+    /// An empty stream for the program, process and line of its first row. The row itself is not added.
     pub(super) fn new(first: &Cells, line: u64) -> Self {
         Self {
             application: printable(first.application),
@@ -51,26 +52,25 @@ impl Stream {
         }
     }
 
-    /// The program; empty where the log does not say.
+    /// Name of the program; empty if the log has none.
     pub(super) fn application(&self) -> &str {
         &self.application
     }
-    /// Its process; empty where the log does not say.
+    /// Its process; empty if the log has none.
     pub(super) fn process(&self) -> &str {
         &self.process
     }
 
-    /// The line of its first row.
     pub(super) fn line(&self) -> u64 {
         self.line
     }
 
-    /// The number of its frames.
+    /// Number of its frames.
     pub(super) fn frames(&self) -> usize {
         self.frames.len()
     }
 
-    /// Whether it has several frames and no time passes between them.
+    /// Whether it has several frames with no time between them.
     pub(super) fn stands_still(&self) -> bool {
         let ends = self.frames.first().zip(self.frames.last());
         self.frames.len() > 1 && ends.is_some_and(|(first, last)| first.began_ns == last.began_ns)
@@ -81,7 +81,7 @@ impl Stream {
         self.frames.is_empty()
     }
 
-    /// Adds the frame of a row. One that was generated only lets time pass: the program's loop has no part in it.
+    /// Adds the frame of a row. A generated frame only lets time pass, since the program's loop has no part in it.
     pub(super) fn push(&mut self, cells: &Cells) -> Result<(), Fault> {
         if cells.is_generated {
             self.pass(cells);
@@ -133,7 +133,7 @@ impl Stream {
         let displayed_ns = match (cells.displayed_ns, self.last_shown_ns) {
             (None, _) => None,
             (Some(until), _) if cells.is_until => Some(began_ns + until),
-            // What it was displayed after came before the recording.
+            // The previous display came before the recording.
             (Some(_), None) => Some(began_ns),
             // Logs without NA write 0 instead.
             (Some(0), Some(_)) if !cells.surely_displayed => None,
@@ -155,29 +155,29 @@ impl Stream {
         Ok(Frame { began_ns, displayed_ns })
     }
 
-    /// The log's own time that passes in a unit of the time of its frames; `None` where it has none.
+    /// Ratio of the log's own time to the frame times; `None` if the log has no time.
     pub(super) fn time_ratio(&self) -> Option<f64> {
         let [(first, from), (last, to)] = self.timed?;
         let frames_ns = (last.began_ns - first.began_ns) as f64;
         Some((to - from) / frames_ns).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
     }
 
-    /// Which times contradict each other: those of frames with the log's own, whose unit may not be sure, or with those of
-    /// display.
+    /// Which times contradict the frame times: the log's own time or the display times. If the unit of the log's own
+    /// time is not certain, a factor of a power of 1000 is ignored.
     fn parting(&self, is_sure: bool) -> Option<Parting> {
         let ratio = self.time_ratio().map(|ratio| match is_sure {
             true => ratio,
             false => ratio / libm::pow(1e3, (libm::log10(ratio) / 3.0).round()),
         });
-        // A row may be written some frames late.
+        // A row may be written a few frames late.
         let few = 3.0 / self.frames.len() as f64;
         let is_late = ratio.is_some_and(|ratio| (ratio - 1.0).abs() > PARTED.max(few));
         let are_parted = are_parted(&self.frames, self.shown);
         is_late.then_some(Parting::Time).or(are_parted.then_some(Parting::Display))
     }
 
-    /// The trace of all its frames, which are counted as shown when they begin where times contradict each other: those of the
-    /// log's own clock, whose unit may not be sure, or `known` ones.
+    /// The trace of all its frames. If times contradict each other, or `known` is a contradiction, frames count as
+    /// displayed when they begin. `is_sure` is whether the unit of the log's own time is certain.
     pub(super) fn into_trace(
         mut self,
         name: String,
@@ -197,17 +197,17 @@ impl Stream {
         }
     }
 
-    /// How long the first frame took until it began.
+    /// Duration of the first frame before it began.
     pub(super) fn lead_ns(&self) -> i64 {
         self.lead_ns
     }
 }
 
-/// The part of its length by which a log's two clocks may differ, and the refreshes that a queue before the display may hold.
+/// Largest relative difference between a log's two clocks, and the longest queue before the display in refreshes.
 const PARTED: f64 = 0.01;
 const MAX_QUEUE: f64 = 6.0;
 
-/// Whether the times between the displays of frames add up to another length than those between their beginnings.
+/// Whether the times between displays and between beginnings add up to different lengths.
 fn are_parted(frames: &[Frame], until: Option<[(Frame, f64); 2]>) -> bool {
     let mut shown = frames.iter().filter(|frame| frame.displayed_ns.is_some());
     let (Some(first), Some(last)) = (shown.next(), shown.next_back()) else { return false };
@@ -215,7 +215,7 @@ fn are_parted(frames: &[Frame], until: Option<[(Frame, f64); 2]>) -> bool {
     let began_ns = span(|frame| frame.began_ns);
     let apart_ns = (span(|frame| frame.displayed_ns.unwrap_or_default()) - began_ns).abs();
     let queue_ns = MAX_QUEUE * 1e9 / nominal_refresh(frames).hz();
-    // What the time from a frame to its display says of the same difference.
+    // The change of latency by the two clocks, compared with the times until display.
     let against_ns = until.map_or(0.0, |[(first, from), (last, to)]| {
         let late = |frame: Frame| (frame.displayed_ns.unwrap_or_default() - frame.began_ns) as f64;
         ((late(last) - late(first)) - (to - from)).abs()
@@ -224,8 +224,8 @@ fn are_parted(frames: &[Frame], until: Option<[(Frame, f64); 2]>) -> bool {
     apart_ns > most_ns || against_ns > most_ns
 }
 
-/// The rate whose refresh is the median time between two displayed frames: most span one refresh. 60 Hz where there are
-/// no two.
+/// The refresh rate whose period is the median time between displayed frames, since most frames last one refresh. 60
+/// Hz with fewer than two displays.
 fn nominal_refresh(frames: &[Frame]) -> RefreshRate {
     let shown: Vec<i64> = frames.iter().filter_map(|frame| frame.displayed_ns).collect();
     let changes = shown.windows(2).map(|pair| pair[1] - pair[0]);

@@ -45,7 +45,7 @@ fn the_least_cost_decides_then_the_fewest_substeps_then_the_place_in_the_table()
         let met = [CriterionResult::With(met), CriterionResult::No, CriterionResult::Unknown];
         MethodAdvice { spec, verdict: judge.verdict(spec, 60), met }
     };
-    // What is named first is taken, wherever it stands.
+    // The first name is the recommended one, in every order.
     for all in [
         [("velocity-verlet", 1, 60.0), ("rk4", 1, 240.0), ("rk4-as-printed", 1, 30.0)],
         [("pefrl", 3, 720.0), ("exponential-rosenbrock-euler", 1, 360.0), ("rk4", 8, 1920.0)],
@@ -77,9 +77,10 @@ fn a_scene_is_made_no_stiffer_than_a_scene_may_be() {
     assert!(adviser.stiffen(2.1).is_none());
 }
 
-/// The work of the advice on all methods of a scene, the truths' included, in millions of evaluations of one coordinate: it
-/// does not depend on the machine. What is found by modes is not counted. That of most nets is that of hundreds of runs over
-/// twenty times the scene, which is what *bounded* claims.
+/// Work of the advice on all methods of a scene and on its truths, in millions of evaluations of one coordinate. It
+/// does not depend on the machine, and results from modes are not counted.
+///
+/// For most nets it is hundreds of runs over twenty times the scene's length, on which the claim *bounded* rests.
 const MILLIONS: [(&str, f64); 26] = [
     ("ship", 4.2),
     ("spring", 136.0),
@@ -109,7 +110,7 @@ const MILLIONS: [(&str, f64); 26] = [
     ("stiff-in-engines", 71.0),
 ];
 
-/// An unoptimised build would take half an hour for all.
+/// In an unoptimised build, all scenes would take half an hour.
 const MAX_MILLIONS: f64 = if cfg!(debug_assertions) { 12.0 } else { f64::INFINITY };
 
 #[test]

@@ -1,43 +1,43 @@
-//! What part of the phase plane a run of clouds is shown on: found by a few points that run ahead.
+//! Finds the part of the phase plane to show for a run of clouds. A few points run ahead to find it.
 
 use super::{Cloud, CloudBody, CloudBorder, CloudStart, NoCloud, PlaneView};
 use crate::scene::LaneSpec;
 use crate::sim::TickRate;
 
-/// The points of each method that run ahead, and those of the exact border.
+/// Number of points of each method that run ahead, and of the exact border.
 const SCOUTS: usize = 100;
 const BORDER_SCOUTS: usize = 90;
 
-/// How much narrower than the exact cloud at its widest the axes of a moment may be.
+/// Minimum width of the axes at any moment, relative to the exact cloud at its widest.
 const NARROWEST: f64 = 0.25;
 
-/// The moments through which the axes of a studio are found.
+/// Number of moments that the axes in a studio take into account.
 const MOMENTS: u64 = 60;
-/// The most ticks of a run through which they are found: a second of work or less.
+/// Maximum number of ticks that they take into account: at most a second of work.
 const MAX_TICKS: u64 = 3000;
-/// How many widths of its middle half a point of a cloud alone may be away from that.
+/// How far a point of a lone cloud may lie beyond the cloud's middle half, in widths of that half.
 const TOGETHER: f64 = 3.0;
-/// How far other clouds stretch the axes, in widths of what the exact one covers.
+/// How far other clouds may widen the axes, in widths of the exact cloud.
 const BESIDE: f64 = 0.1;
 
-/// The moments that a picture shows: so many, evenly through the first ticks of a run.
+/// The moments that a picture covers: `times` of them, spread evenly over the first `ticks` of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ShownTicks {
-    /// The last.
+    /// The last tick.
     pub(super) ticks: u64,
-    /// How many moments.
+    /// Number of moments.
     pub(super) times: u64,
-    /// How many times as wide or as high as at the start the exact cloud is while it is shown.
+    /// Size of the exact cloud relative to the start above which the axes ignore it.
     pub(super) spread: f64,
 }
 
 impl ShownTicks {
-    /// The longest run through which axes are found, in seconds.
+    /// Longest run that the axes take into account, in seconds.
     pub(super) const MAX_S: f64 = 30.0;
 }
 
 impl From<u64> for ShownTicks {
-    /// What the axes of the clouds of a studio show, in a run of so many ticks.
+    /// The moments for clouds in a studio, in a run of `ticks`.
     fn from(ticks: u64) -> Self {
         let ticks = ticks.min(MAX_TICKS);
         Self { ticks, times: ticks.min(MOMENTS), spread: f64::INFINITY }
@@ -47,9 +47,9 @@ impl From<u64> for ShownTicks {
 /// The axes of a run of clouds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CloudAxes {
-    /// Where the exact cloud comes, and the others near it.
+    /// The region that contains the exact cloud and others near it.
     pub(super) whole: PlaneView,
-    /// How wide and how high the exact cloud gets.
+    /// Largest width and height of the exact cloud.
     widest: [f64; 2],
 }
 
@@ -93,8 +93,9 @@ impl CloudAxes {
         Ok(Self { whole, widest })
     }
 
-    /// The part of the plane that is shown while the exact border and these points of each cloud are there: of a cloud that is
-    /// alone all that keep together; of several, the points that the whole has, on axes no wider or higher than that.
+    /// The view at one moment, given the exact border and some points of each cloud. With one cloud, it shows all of
+    /// its points that stay together. With several, it shows those within the whole region, on axes no larger than
+    /// that region.
     pub(super) fn around(&self, border: &[[f64; 2]], clouds: &[Vec<[f64; 2]>]) -> PlaneView {
         let mut view = self.whole;
         let is_alone = clouds.len() == 1;
@@ -119,7 +120,7 @@ impl CloudAxes {
     }
 }
 
-/// The points of a cloud that keep together: those within some widths of its middle half. The others fly off.
+/// The points within a few widths of the cloud's middle half; others fly off.
 fn together(cloud: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let ranges = [0, 1].map(|i| {
         let mut values: Vec<f64> = cloud.iter().map(|point| point[i]).collect();

@@ -1,4 +1,4 @@
-//! The border of a cloud: closed lines of points, and the area within.
+//! The border of a cloud: closed lines of points, and the area inside.
 
 use super::course::{Course, Memory, Subject, copies_of};
 use super::{CloudBody, CloudStart, NoCloud};
@@ -6,30 +6,29 @@ use crate::sim::batch::Ticks;
 use crate::sim::integrators::{Override, method};
 use crate::sim::{Solver, TickRate};
 
-/// Points of a border, and the fewest of one of a cloud of few points.
+/// Number of points of a border, and minimum for a cloud with few points.
 const POINTS: usize = 1200;
 const MIN_POINTS: usize = 90;
 
-/// The tolerance of the exact border: far below a pixel.
+/// Tolerance of the exact border, far below a pixel.
 const TOLERANCE: f64 = 1e-9;
 
-/// The area within a border is not known if that within every other of its points differs by more than this part of it: the
-/// shape is then finer than the points can show, or than the tolerance of the method resolves. The error is about a third of
-/// the difference.
+/// If every other point encloses an area that differs by more than this fraction, the area is unknown. The shape is
+/// then finer than the points or the method's tolerance can resolve. The error is about a third of the difference.
 const ROUGH: f64 = 5e-3;
 
-/// The border of a cloud, and the area within.
+/// The border of a cloud, and the area inside.
 pub struct CloudBorder {
     course: Course,
-    /// The points of each line.
+    /// Number of points in each line.
     lengths: Vec<usize>,
     start: CloudStart,
     areas_at_start: [f64; 2],
 }
 
 impl CloudBorder {
-    /// The border of a cloud that moves exactly, at the start: it is stepped by a method of high order to a tolerance that no
-    /// picture shows.
+    /// The border of an exactly moving cloud, at the start. A method of high order steps it with a tolerance below
+    /// any picture's resolution.
     ///
     /// # Errors
     /// As [`Cloud::new`](super::Cloud::new).
@@ -53,7 +52,7 @@ impl CloudBorder {
         Self::new(Subject::new(of.name, &copies), solver, start.ticks(tick_hz, 1), start, points)
     }
 
-    /// The border of a cloud of so many points under a solver, at the start.
+    /// The border of a cloud under a solver, at the start, with about `points` points.
     pub(super) fn new(
         subject: Subject<'_>,
         solver: (Solver, Memory),
@@ -71,30 +70,31 @@ impl CloudBorder {
         Ok(border)
     }
 
-    /// The same border, which keeps states of earlier ticks to go back to.
+    /// The same border, storing earlier states so that it can go back.
     pub fn rewindable(self) -> Self {
         Self { course: self.course.rewindable(), ..self }
     }
 
-    /// Moves it to a tick, as [`Cloud::go_to`](super::Cloud::go_to).
+    /// Steps to a tick, like [`Cloud::go_to`](super::Cloud::go_to).
     pub fn go_to(&mut self, tick: u64) {
         self.course.go_to(tick);
     }
 
-    /// The area over that at the start; `None` where it is not known.
+    /// Area relative to the start; `None` if unknown.
     pub fn area_ratio(&self) -> Option<f64> {
         let (now, at_start) = (self.areas(), self.areas_at_start);
         let [ratio, of_half] = [0, 1].map(|i| now[i] / at_start[i]);
         ((ratio - of_half).abs() <= ROUGH * ratio).then_some(ratio)
     }
 
-    /// The lines, of coordinates and velocities. The first is around all, and the others are around its holes.
+    /// The lines, as coordinates and velocities. The first one surrounds the cloud, and the others surround its
+    /// holes.
     pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
         let mut states = self.course.q().iter().zip(self.course.v()).map(|(&q, &v)| [q, v]);
         self.lengths.iter().map(|&length| states.by_ref().take(length).collect()).collect()
     }
 
-    /// The area within all points, and within every other one.
+    /// Area inside all points, and inside every other point.
     fn areas(&self) -> [f64; 2] {
         [1, 2].map(|every| self.area(every))
     }
@@ -102,7 +102,7 @@ impl CloudBorder {
     fn area(&self, every: usize) -> f64 {
         let reach = self.start.reach;
         let around = |line: Vec<[f64; 2]>| {
-            // From the first, so that the area of what is small and far away keeps its digits.
+            // Relative to the first point, so that a small area far from the origin keeps its digits.
             let from_first = |to: &[f64; 2]| [0, 1].map(|i| (to[i] - line[0][i]) / reach[i]);
             let points: Vec<_> = line.iter().step_by(every).map(from_first).collect();
             let twice =

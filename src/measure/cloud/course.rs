@@ -1,33 +1,32 @@
-//! A batch on its way through the ticks of a run. It goes back too, from states that it keeps.
+//! A batch that steps through the ticks of a run, and back by means of stored states.
 
 use super::lozenges::Lozenges;
 use super::{CloudBody, NoCloud};
 use crate::sim::batch::{Batch, InstructionSet, NewBatch, Ticks};
 use crate::sim::{Solver, State};
 
-/// Ticks between two states that are kept at first; they are repeated within a frame or two.
+/// Initial number of ticks between two stored states; repeating them takes a frame or two.
 const SPACING: u64 = 32;
 
-/// The memory of the states that a course keeps, in bytes.
+/// Memory limit for the stored states of a course, in bytes.
 const KEPT_BYTES: usize = 12 << 20;
 
-/// What a method carries from step to step, where a course keeps a state.
+/// A method's memory across steps, and how a course stores it.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Memory {
-    /// Nothing: it goes on from a state as if it had never stopped.
+    /// No memory: the method continues from a stored state as if it had never stopped.
     Absent,
-    /// Something, which is dropped at each place where a state may be kept.
+    /// Memory that is dropped at each point where a state may be stored.
     Dropped,
-    /// Something that is part of its bits: the way back leads over the start.
+    /// Memory that cannot be dropped: rewinding replays from the start.
     Carried,
 }
 
-/// What a cloud is of.
+/// The body that a cloud is made of.
 #[derive(Clone, Copy)]
 pub(super) struct Subject<'a> {
-    /// Its name, for people.
     name: &'a str,
-    /// Copies from these starts; `None` if there can be none.
+    /// Copies the body to these starts; `None` if that is not possible.
     copies: &'a dyn Fn(Solver, Vec<State<f64>>) -> Option<NewBatch>,
 }
 
@@ -40,38 +39,37 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Copies of a body of a scene.
+/// A function that copies a body of a scene.
 pub(super) fn copies_of(
     CloudBody { kind, body, .. }: CloudBody<'_>,
 ) -> impl Fn(Solver, Vec<State<f64>>) -> Option<NewBatch> + '_ {
     |solver, starts| (kind.batch)(body.body(), InstructionSet::widest(), solver, starts)
 }
 
-/// All copies at a tick.
+/// Stored states of all copies at a tick.
 struct Kept {
     tick: u64,
     q: Vec<f64>,
     v: Vec<f64>,
-    /// Of a course with lozenges.
+    /// Factors of the lozenges, if there are any.
     factors: Vec<f64>,
 }
 
 /// A batch at a tick of a run.
 pub(super) struct Course {
     batch: Batch,
-    /// The last ticks that were stepped.
+    /// The ticks of the last step.
     ticks: Ticks,
     memory: Memory,
-    /// By tick, the start first; none of a course that never goes back.
+    /// Stored states by tick, the start first; empty if the course never goes back.
     kept: Vec<Kept>,
     spacing: u64,
-    /// The small areas whose corners its copies are.
+    /// The small areas whose corners the copies are.
     lozenges: Option<Lozenges>,
 }
 
 impl Course {
-    /// Copies of the subject from the starts, which are made only if there is memory for them. `ticks` are none, at the start
-    /// of the run.
+    /// Copies the subject to the starts if there is memory for them. `ticks` is empty, at the start of the run.
     pub(super) fn new(
         subject: Subject<'_>,
         (solver, memory): (Solver, Memory),
@@ -87,18 +85,18 @@ impl Course {
         Ok(Self { batch, ticks, memory, kept: Vec::new(), spacing: SPACING, lozenges: None })
     }
 
-    /// The same course, which keeps states to go back to.
+    /// The same course, storing states so that it can go back.
     pub(super) fn rewindable(mut self) -> Self {
         self.keep();
         self
     }
 
-    /// The same course, whose copies are the corners of lozenges.
+    /// The same course, with copies that are the corners of lozenges.
     pub(super) fn around(self, lozenges: Lozenges) -> Self {
         Self { lozenges: Some(lozenges), ..self }
     }
 
-    /// The area of each lozenge over that at the start; `None` where it is lost.
+    /// Area of each lozenge relative to the start; `None` if it is lost.
     pub(super) fn areas(&self) -> Vec<Option<f64>> {
         let areas = |lozenges: &Lozenges| lozenges.areas(self.tick(), self.q(), self.v());
         self.lozenges.as_ref().map_or(Vec::new(), areas)
@@ -112,17 +110,16 @@ impl Course {
         self.batch.v()
     }
 
-    /// The tick reached.
     pub(super) fn tick(&self) -> u64 {
         self.ticks.first + self.ticks.count
     }
 
-    /// The time of the tick reached, in seconds.
+    /// Time of the current tick, in seconds.
     pub(super) fn t(&self) -> f64 {
         self.ticks.t(self.tick())
     }
 
-    /// Goes to a tick; back only if it is [rewindable](Self::rewindable).
+    /// Steps to a tick; an earlier one only if the course is [rewindable](Self::rewindable).
     pub(super) fn go_to(&mut self, tick: u64) {
         if tick < self.tick() {
             self.go_back(tick);
@@ -144,7 +141,7 @@ impl Course {
         }
     }
 
-    /// Goes to the last state that is kept no later than a tick.
+    /// Returns to the last stored state at or before a tick.
     fn go_back(&mut self, tick: u64) {
         let nearest = self.kept.iter().rfind(|kept| kept.tick <= tick);
         let Kept { tick, q, v, factors } =
@@ -156,7 +153,7 @@ impl Course {
         self.ticks = Ticks { first: *tick, count: 0, ..self.ticks };
     }
 
-    /// At a place where states may be kept.
+    /// Called where a state may be stored: drops the method's memory if necessary, and stores the state if it is due.
     fn mark(&mut self) {
         if self.memory == Memory::Dropped {
             self.batch.change(|_, _| ());
@@ -179,7 +176,7 @@ impl Course {
     }
 }
 
-/// Sets the states of all copies. Those that fill the last block are like the last.
+/// Sets the states of all copies. Those that fill the last block repeat the last state.
 fn place(batch: &mut Batch, q: &[f64], v: &[f64]) {
     let mut states = q.iter().zip(v);
     let mut last = (f64::NAN, f64::NAN);

@@ -1,5 +1,5 @@
-//! A picture of many points: how many fall on each pixel, made by the processor and so the same everywhere. Its cost
-//! depends on the pixels, and hardly on the points.
+//! Counts the points on each pixel of a picture. The processor does this, so the result is the same everywhere. The
+//! cost of the image depends on the pixels, and hardly on the points.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,24 +7,24 @@ use rayon::prelude::*;
 
 use crate::run::race::ESCAPE;
 
-/// The part of the phase plane that a picture shows.
+/// The part of the phase plane in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneView {
-    /// The least and the largest coordinate.
+    /// Minimum and maximum coordinate.
     pub q: [f64; 2],
-    /// The least and the largest velocity.
+    /// Minimum and maximum velocity.
     pub v: [f64; 2],
-    /// Whether the coordinate is an angle that is shown between -π and π.
+    /// Whether the coordinate is an angle between -π and π.
     pub wraps: bool,
 }
 
 impl PlaneView {
-    /// One that shows where the exact points come, with a margin, and the others as far as `beside` times the width of the
-    /// exact ones beside these. An angle that turns over there is shown all around.
+    /// A view of all exact points with a margin. It also shows other points up to `beside` times the width of the
+    /// exact ones to each side. An angle that turns over is shown all around.
     pub fn around(exact: &[[f64; 2]], others: &[[f64; 2]], beside: f64, is_angle: bool) -> Self {
         let [q, v] = [0, 1].map(|i| {
             let (exact, others) = (Self::range(exact, i), Self::range(others, i));
-            // Where all of one kind are lost the others are shown, or the middle.
+            // If all exact points are lost the others are shown, and if both are lost the middle.
             let is_some = |range: &[f64; 2]| range[0] <= range[1];
             let [least, most] = [exact, others].into_iter().find(is_some).unwrap_or([-1.0, 1.0]);
             let [low, high] = Some(others).filter(is_some).unwrap_or([least, most]);
@@ -38,7 +38,7 @@ impl PlaneView {
         Self { q: if wraps { [-PI, PI] } else { q }, v, wraps }
     }
 
-    /// The least and the largest coordinate or velocity of points that have not blown up.
+    /// Minimum and maximum coordinate or velocity of points that have not blown up.
     pub(super) fn range<'p>(points: impl IntoIterator<Item = &'p [f64; 2]>, i: usize) -> [f64; 2] {
         let numbers =
             points.into_iter().map(|point| point[i]).filter(|number| number.abs() <= ESCAPE);
@@ -47,13 +47,13 @@ impl PlaneView {
         })
     }
 
-    /// How far they are apart.
+    /// Distance between minimum and maximum.
     pub(super) fn width(points: &[[f64; 2]], i: usize) -> f64 {
         let [least, most] = Self::range(points, i);
         most - least
     }
 
-    /// Where a point lies, from 0 to 1 to the right and up.
+    /// Position of a point in the view, from 0 to 1 to the right and up.
     pub fn place(&self, q: f64, v: f64) -> [f64; 2] {
         let q = if self.wraps { q - TAU * ((q + PI) / TAU).floor() } else { q };
         let part = |number: f64, [least, most]: [f64; 2]| (number - least) / (most - least);
@@ -61,28 +61,29 @@ impl PlaneView {
     }
 }
 
-/// The longest line between two points of a border that is drawn, as a part of the picture's longer side.
+/// Longest line drawn between two points of a border, relative to the picture's longer side.
 pub const MAX_LINE_PART: f64 = 0.1;
 
-/// The fewest points for which a thread has counts of its own, which are added up in the end.
+/// Minimum number of points per thread. Each thread counts separately, and the counts are added up in the end.
 const GRAIN: usize = 1 << 17;
 
-/// How many points fall on each pixel.
+/// The number of points on each pixel.
 #[derive(Clone, Debug)]
 pub struct Density {
     size_px: [usize; 2],
     view: PlaneView,
-    /// Rows from the top.
+    /// Row by row from the top.
     counts: Vec<u32>,
 }
 
 impl Density {
-    /// No points on a picture of this size.
+    /// An empty picture of this size.
     pub fn new(size_px: [usize; 2], view: PlaneView) -> Self {
         Self { size_px, view, counts: vec![0; size_px[0] * size_px[1]] }
     }
 
-    /// Adds the points within the view; those that are not finite are nowhere. All cores share many points.
+    /// Adds the points within the view and ignores those that are not finite. Large numbers of points are shared
+    /// among all cores.
     pub fn add(&mut self, q: &[f64], v: &[f64]) {
         if q.len() <= GRAIN {
             return self.add_here(q, v);
@@ -110,7 +111,7 @@ impl Density {
         }
     }
 
-    /// The points within the view.
+    /// Number of points within the view.
     pub fn points(&self) -> usize {
         self.counts.iter().map(|&count| count as usize).sum()
     }
@@ -120,7 +121,7 @@ impl Density {
         &self.counts
     }
 
-    /// Pixels across and from top to bottom.
+    /// Width and height in pixels.
     pub fn size_px(&self) -> [usize; 2] {
         self.size_px
     }

@@ -1,47 +1,49 @@
-//! What a method does to small areas: lozenges, whose corners are stepped as every point is.
+//! Measures a method's effect on small areas: lozenges, whose corners are stepped like every point.
 //!
-//! The product of what each tick does to a lozenge is the determinant of the map of all ticks at its middle, however far
-//! that map draws points apart; so the corners are set anew wherever the method does not notice.
+//! The product of a lozenge's changes over all ticks is the determinant of the total map at its middle, however far
+//! that map separates points. So the corners are reset wherever the method does not notice.
 
 use crate::sim::integrators::{Family, Method};
 
-/// The corners about a middle.
+/// The corners around a middle.
 const CORNERS: [[f64; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
-/// How far the corners are from the middle, in units of the cloud's reach: so near that the map is linear between them.
+/// Distance of the corners from the middle, in units of the cloud's half-width. It is small enough that the map is
+/// linear between them.
 const BESIDE: f64 = 1e-4;
-/// Under a map that is linear they are anywhere.
+/// Under a linear map any distance works.
 const BESIDE_LINEAR: f64 = 1.0;
 
-/// Ticks after which a method with memory restarts about new corners: seldom, since its first step is another method's.
+/// Ticks after which a method with memory restarts around new corners. It is long because the first step is another
+/// method's.
 const TICKS_WITH_MEMORY: u64 = 32;
 
-/// Rounding leaves digits of an area if its longer diagonal is more than this part of the largest corner, and the area more than
-/// this part of their product.
+/// An area has significant digits if the longer diagonal exceeds this fraction of the largest corner, and the area
+/// this fraction of their product.
 const RESOLVED: f64 = 1e-9;
 const RESOLVED_AREA: f64 = 1e-12;
 
-/// The diagonals of a lozenge halve each other. One whose middles are further apart than this part of its width is folded,
-/// and says nothing of an area.
+/// The diagonals of a lozenge bisect each other. If their middles are further apart than this fraction of its width,
+/// the lozenge is folded and has no meaningful area.
 const FOLDED: f64 = 0.1;
 
-/// Small areas, of four copies each.
+/// Small areas, each with four copies as corners.
 pub(super) struct Lozenges {
-    /// How far the corners are from the middle when they are set, in coordinate and velocity.
+    /// Distance of fresh corners from the middle, in coordinate and velocity.
     beside: [f64; 2],
     is_linear: bool,
-    /// Ticks until the corners are set anew; `None` if they never are, as under a linear map.
+    /// Ticks until the corners are reset; `None` if they never are, as under a linear map.
     renewed_every: Option<u64>,
-    /// What each area had become when its corners were last set.
+    /// Change of each area up to the last reset.
     pub(super) factors: Vec<f64>,
 }
 
 impl Lozenges {
-    /// So many under this method. `reach` is that of the cloud, and `is_linear` whether a tick is a linear map.
+    /// Lozenges for this method. `reach` is that of the cloud, and `is_linear` whether a tick is a linear map.
     pub(super) fn new(count: usize, method: &Method, is_linear: bool, reach: [f64; 2]) -> Self {
         let beside = if is_linear { BESIDE_LINEAR } else { BESIDE };
         let renewed_every = match (method.family, method.restart) {
-            // These restart with what they had in memory.
+            // These methods restart with the values in their memory.
             (Family::Symplectic, _) | (_, None) => Some(1),
             (_, Some(_)) => (!is_linear).then_some(TICKS_WITH_MEMORY),
         };
@@ -49,22 +51,22 @@ impl Lozenges {
         Self { beside, is_linear, renewed_every, factors: vec![1.0; count] }
     }
 
-    /// The coordinates and velocities of the corners about a middle.
+    /// Coordinates and velocities of the corners around a middle.
     pub(super) fn corners(&self, [q, v]: [f64; 2]) -> [[f64; 2]; 4] {
         CORNERS.map(|[x, y]| [q + x * self.beside[0], v + y * self.beside[1]])
     }
 
-    /// Whether the corners are ever set anew.
+    /// Whether the corners are ever reset.
     pub(super) fn is_renewed(&self) -> bool {
         self.renewed_every.is_some()
     }
 
-    /// The next tick after this at which the corners are set anew.
+    /// The next tick after this one at which the corners are reset.
     pub(super) fn renewal_after(&self, tick: u64) -> u64 {
         self.renewed_every.map_or(u64::MAX, |every| (tick / every + 1) * every)
     }
 
-    /// The areas over those at the start at a tick of these corners; `None` where one is lost.
+    /// Areas relative to the start, given the corners at a tick; `None` for a lost lozenge.
     pub(super) fn areas(&self, tick: u64, q: &[f64], v: &[f64]) -> Vec<Option<f64>> {
         let is_new = self.renewed_every.is_some_and(|every| tick.is_multiple_of(every));
         let now = |q: &[f64], v: &[f64]| if is_new { 1.0 } else { self.area(q, v) };
@@ -73,8 +75,8 @@ impl Lozenges {
         areas.map(|area| Some(area).filter(|area| area.is_finite())).collect()
     }
 
-    /// Takes in what has become of the areas, and returns new corners about their middles. A linear map changes every area alike:
-    /// the corners are then about 0, where rounding never hides them.
+    /// Records the change of the areas, and returns new corners around their middles. A linear map changes every area
+    /// alike, so its corners are then placed around 0, where rounding never hides them.
     pub(super) fn renew(&mut self, q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
         let lozenges = q.chunks_exact(CORNERS.len()).zip(v.chunks_exact(CORNERS.len()));
         let areas: Vec<f64> = lozenges.clone().map(|(q, v)| self.area(q, v)).collect();
@@ -90,8 +92,7 @@ impl Lozenges {
             .into()
     }
 
-    /// The area between four corners over that when they were set; not a number where the lozenge is lost, folded or finer than
-    /// rounding.
+    /// Area between four corners relative to their reset; NaN if the lozenge is lost, folded or finer than rounding.
     fn area(&self, q: &[f64], v: &[f64]) -> f64 {
         let corner = |n: usize| [q[n] / self.beside[0], v[n] / self.beside[1]];
         let corners = [0, 1, 2, 3].map(corner);
@@ -105,7 +106,7 @@ impl Lozenges {
         let longest = length(first).max(length(second));
         let largest =
             corners.iter().flatten().fold(0.0, |most: f64, number| most.max(number.abs()));
-        // All written so that what is not a number is neither.
+        // Both conditions are false for NaN.
         let is_resolved = longest > RESOLVED * largest
             && (area == 0.0 || area > RESOLVED_AREA * largest * longest);
         let is_whole = self.is_linear || length(off) * longest <= FOLDED * area;

@@ -1,4 +1,4 @@
-//! What is asked of clouds, and what comes back.
+//! Requests for clouds, and their results.
 
 use std::sync::Arc;
 
@@ -8,24 +8,24 @@ use crate::scene::{LaneSpec, Scene};
 use crate::sim::TickRate;
 use crate::sim::integrators::steps_in_blocks;
 
-/// The points of a cloud that a person can choose.
+/// Numbers of points that a person can choose.
 pub const POINTS: [usize; 3] = [10_000, USUAL_POINTS, 1_000_000];
 
-/// The most lanes that have a cloud.
+/// Maximum number of lanes with a cloud.
 pub(crate) const MAX_CLOUDS: usize = 9;
 
-/// The cells of a density image, each way: more than a cloud has pixels in most windows.
+/// Cells of a density image in each direction: more than a cloud has pixels in most windows.
 pub(super) const GRID: usize = 512;
 
-/// What a step of a copy alone costs, in evaluations of one in a block.
+/// Cost of stepping a single copy, relative to one in a block.
 const ALONE: u64 = 30;
 
-/// What a person has chosen of the clouds.
+/// A person's choice of clouds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloudChoice {
-    /// What is shown.
+    /// The kind of cloud.
     pub kind: CloudKind,
-    /// The points of a cloud of a shape.
+    /// Number of points, for a shape.
     pub points: usize,
 }
 
@@ -41,39 +41,39 @@ impl Default for CloudChoice {
     }
 }
 
-/// The clouds that a studio wants.
+/// The clouds that a studio requests.
 #[derive(Clone, Debug)]
 pub struct CloudRequest {
     pub(crate) scene: Arc<Scene>,
-    /// What has changed in the run.
+    /// Edits to the run.
     pub(crate) changes: Interventions,
-    /// The body, by its index in the scene.
+    /// Index of the body in the scene.
     pub(crate) body: usize,
-    /// The lanes, by their indices on the list.
+    /// The lanes, by their indices in the list.
     pub(crate) lanes: Vec<(usize, LaneSpec)>,
     pub(crate) tick_hz: TickRate,
     pub(crate) choice: CloudChoice,
     /// Ticks since the clouds started.
     pub(crate) tick: u64,
-    /// Whether the run goes on in time, so that the clouds have to keep up.
+    /// Whether the run plays in real time, so that the clouds have to keep up.
     pub(crate) in_time: bool,
 }
 
-/// A request as it is worked on.
+/// A prepared request.
 #[derive(Clone, Copy)]
 pub(super) struct Request<'a> {
-    /// At the start.
+    /// The body at the start.
     pub(super) of: CloudBody<'a>,
     pub(super) lanes: &'a [(usize, LaneSpec)],
     pub(super) tick_hz: TickRate,
-    /// The length of the run, in seconds.
+    /// Length of the run in seconds.
     pub(super) seconds: f64,
-    /// The time of the start, in seconds.
+    /// Time of the start in seconds.
     pub(super) t: f64,
 }
 
 impl CloudRequest {
-    /// Whether both are of one run of clouds, at whatever tick.
+    /// Whether both requests are for the same run of clouds, at any tick.
     pub fn is_alike(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.changes == other.changes
@@ -83,50 +83,50 @@ impl CloudRequest {
             && self.choice == other.choice
     }
 
-    /// The tick of the clouds.
+    /// Tick of the clouds.
     pub fn tick(&self) -> u64 {
         self.tick
     }
 
-    /// Whether the run goes on in time.
+    /// Whether the run plays in real time.
     pub fn in_time(&self) -> bool {
         self.in_time
     }
 
-    /// The time of a picture in the run, in seconds.
+    /// Time of a picture in the run, in seconds.
     pub fn t_s(&self, picture: &CloudPicture) -> f64 {
         self.changes.starts_at_s() + self.tick_hz.seconds(picture.tick)
     }
 
-    /// How many seconds of the run there are between the request and a picture.
+    /// Time between the request and a picture, in seconds of the run.
     pub fn behind_s(&self, picture: &CloudPicture) -> f64 {
         self.tick_hz.seconds(self.tick.abs_diff(picture.tick))
     }
 }
 
-/// The answer to a [`CloudRequest`]: the clouds, or why there are none.
+/// Result of a [`CloudRequest`]: the clouds, or why there are none.
 #[derive(Clone, Debug)]
 pub struct FoundCloud {
-    /// What they were asked for.
+    /// The request.
     pub request: Arc<CloudRequest>,
-    /// The clouds at some tick, of which the last found is at the one that was asked for.
+    /// Clouds at some tick. The last result for a request is at the requested tick.
     pub picture: Result<CloudPicture, NoCloud>,
 }
 
 /// The clouds of all lanes at a tick.
 #[derive(Clone, Debug)]
 pub struct CloudPicture {
-    /// Ticks since the start of the clouds; 0 of a section.
+    /// Ticks since the start of the clouds; 0 for a section.
     pub tick: u64,
-    /// The points of each cloud, fewer than were chosen where these did not keep up; 0 of a section.
+    /// Number of points per cloud, less than the chosen number if the clouds fell behind; 0 for a section.
     pub points: usize,
-    /// Of a section, when its points are taken.
+    /// When a section takes its points, in words; `None` for a cloud.
     pub section: Option<String>,
-    /// What part of the plane the density images show.
+    /// The part of the plane in the density images.
     pub view: PlaneView,
-    /// The border of the exact cloud.
+    /// Border of the exact cloud.
     pub border: Vec<Vec<[f64; 2]>>,
-    /// The time in seconds and the area of the exact cloud over that at the start, as long as it is known.
+    /// Times in seconds and areas of the exact cloud relative to the start, where known.
     pub exact: Vec<[f64; 2]>,
     /// In the order of the lanes.
     pub lanes: Vec<LaneCloud>,
@@ -135,25 +135,25 @@ pub struct CloudPicture {
 /// The cloud of a lane.
 #[derive(Clone, Debug)]
 pub struct LaneCloud {
-    /// The index of the lane's method on the list.
+    /// Index of the lane's method in the list.
     pub entry: usize,
-    /// Where its points are.
+    /// The number of its points on each pixel.
     pub density: Arc<Density>,
-    /// How many points blew up and are left out.
+    /// Number of points that blew up and are left out.
     pub lost: usize,
-    /// How many of the others are beyond the axes; 0 of a section.
+    /// Number of remaining points beyond the axes; 0 for a section.
     pub hidden: usize,
-    /// The area over that at the start, as [`crate::measure::cloud::Cloud::area_ratio`].
+    /// Area relative to the start, as [`crate::measure::cloud::Cloud::area_ratio`].
     pub area_ratio: Option<f64>,
-    /// What the area has become.
+    /// The change of the area, in words.
     pub words: String,
-    /// How the area is measured.
+    /// How the area is measured, in words.
     pub measured: String,
-    /// The time in seconds and the area so far.
+    /// Times in seconds and areas so far.
     pub areas: Vec<[f64; 2]>,
 }
 
-/// What a tick of a point costs, in evaluations of a copy in a block.
+/// Cost of a point's tick, in evaluations of a copy in a block.
 pub(super) fn cost(spec: &LaneSpec) -> u64 {
     let evaluations = u64::from(spec.method.evaluations.unwrap_or(2)).max(1);
     let alone = if steps_in_blocks(spec.method) { 1 } else { ALONE };

@@ -1,7 +1,7 @@
-//! The clouds of a run, one for each lane, stepped on another thread than the window's: a [`CloudRequest`] goes there, and
-//! each [`FoundCloud`] comes back.
+//! The clouds of a run, one per lane, stepped off the window's thread: a [`CloudRequest`] goes in, and each
+//! [`FoundCloud`] comes back.
 //!
-//! A cloud is a function of the run, the tick and its choice: whichever way a tick was come to, its picture is the same.
+//! A cloud depends only on the run, the tick and the choice: its picture at a tick is the same from either direction.
 
 use std::sync::Arc;
 
@@ -15,36 +15,37 @@ use crate::run::race::Race;
 use crate::scene::LaneSpec;
 use crate::sim::TickRate;
 
-/// The samples of an area over the length of a run.
+/// Number of samples of an area over the length of a run.
 const SAMPLES: u64 = 200;
-/// How many times further the clouds of a studio reach than others: they are seen small.
+/// Enlargement of a studio's clouds, since they appear small.
 const REACH: f64 = 2.0;
 
-/// The axes show the exact cloud until it is this many times as wide as at the start, which would then be a speck.
+/// The axes show the exact cloud until its size has grown by this factor. On larger axes, the initial cloud would be
+/// a speck.
 const SPREAD: f64 = 10.0;
 
-/// A run that is further behind than this, in seconds, and does not catch up soon, goes on with a tenth of its points; not
-/// with fewer than this.
+/// If a run is more seconds behind than this and does not catch up soon, it continues with a tenth of its points, but
+/// not with fewer than the minimum.
 const BEHIND_S: f64 = 0.125;
 const LEAST_POINTS: usize = 1_000;
 
-/// About how many evaluations are made before a picture is shown on the way, and the most that a run in time makes to come to
-/// its first tick with all points.
+/// Approximate number of evaluations in one call of `work`, and the maximum for a real-time run to reach its first
+/// requested tick with all points.
 const WORK: u64 = 4_000_000;
 const WORK_AT_FIRST: u64 = 8 * WORK;
 
-/// The points of each cloud that the axes of a picture heed.
+/// Number of points of each cloud that the axes of a picture take into account.
 const SEEN: usize = 1_000;
 
-/// Steps the clouds of one [`CloudRequest`] at a time, beside the run.
+/// Steps the clouds of the current [`CloudRequest`] in the background.
 pub struct CloudWorker {
     request: Option<Arc<CloudRequest>>,
     /// The run of the last request.
     run: Option<Result<Running, NoCloud>>,
     is_done: bool,
-    /// One of so many points is stepped.
+    /// Stride: every n-th point is stepped.
     thinned: usize,
-    /// The ticks that were asked for and reached when it was last looked whether the run keeps up.
+    /// Requested and reached tick at the last check of whether the run keeps up.
     looked: Option<[u64; 2]>,
 }
 
@@ -55,8 +56,8 @@ impl Default for CloudWorker {
 }
 
 impl CloudWorker {
-    /// Replaces the request; `None` asks for nothing. The clouds of a run go on from where they are, with fewer points where
-    /// they fall behind a run in time, and with all once that stands still.
+    /// Replaces the request; `None` cancels it. Clouds of the same run continue from their current tick. They use
+    /// fewer points if they fall behind a real-time run, and all points once it stands still.
     pub fn set_request(&mut self, request: Option<Arc<CloudRequest>>) {
         match (&self.request, &request) {
             (Some(old), Some(new)) if old.is_alike(new) => {
@@ -74,7 +75,7 @@ impl CloudWorker {
         self.request = request;
     }
 
-    /// One of how many points is to be stepped on, now that `new` is asked for after the tick `old`.
+    /// The stride to use from now on, when `new` replaces the request for the tick `old`.
     fn thinned_for(&mut self, old: u64, new: &CloudRequest) -> usize {
         let Some(Ok(Running::Clouds(run))) = &self.run else { return self.thinned };
         if !new.in_time {
@@ -94,12 +95,12 @@ impl CloudWorker {
         if keeps_up { self.thinned } else { thinned_once(new, self.thinned) }
     }
 
-    /// Whether there is nothing more to do.
+    /// Whether nothing remains to do.
     pub fn is_done(&self) -> bool {
         self.is_done || self.request.is_none()
     }
 
-    /// Goes some ticks nearer to the one that was asked for. Returns what is to be shown then.
+    /// Steps some ticks towards the requested one, and returns the picture if it is due.
     pub fn work(&mut self) -> Option<FoundCloud> {
         let request = self.request.as_ref().filter(|_| !self.is_done)?;
         let run = self.run.get_or_insert_with(|| Running::new(request, self.thinned));
@@ -124,12 +125,12 @@ impl CloudWorker {
     }
 }
 
-/// A tenth of so many points, unless these are few.
+/// The stride for a tenth of the points, or the same stride if there are too few points.
 fn thinned_once(request: &CloudRequest, thinned: usize) -> usize {
     if request.choice.points / (10 * thinned) < LEAST_POINTS { thinned } else { 10 * thinned }
 }
 
-/// One of how many points is stepped in a run that is asked for late.
+/// The initial stride of a run. It is larger if the first requested tick is late.
 fn thinned_at_first(request: &CloudRequest) -> usize {
     let points = request.choice.points as u64;
     let work =
@@ -144,7 +145,7 @@ fn thinned_at_first(request: &CloudRequest) -> usize {
     thinned
 }
 
-/// What is shown, on its way.
+/// A cloud or a section in progress.
 enum Running {
     Clouds(Box<CloudRun>),
     Section(SectionRun),
@@ -178,13 +179,13 @@ impl Running {
     }
 }
 
-/// A cloud on its way, with its area at each sampled tick so far.
+/// A cloud with its area at each sampled tick so far.
 struct SampledCloud<C> {
     cloud: C,
     areas: Vec<Option<f64>>,
 }
 
-/// The clouds of all lanes on their way.
+/// The clouds of all lanes in progress.
 struct CloudRun {
     lanes: Vec<(usize, SampledCloud<Cloud>)>,
     exact: SampledCloud<CloudBorder>,
@@ -195,7 +196,7 @@ struct CloudRun {
     tick: u64,
     /// Ticks between two samples.
     sampled_every: u64,
-    /// Ticks until a picture is shown.
+    /// Maximum number of ticks in one call of `work`.
     part: u64,
 }
 
@@ -232,7 +233,7 @@ impl CloudRun {
         Ok(run)
     }
 
-    /// Goes nearer to a tick, or back to it.
+    /// Steps towards a tick, or back to it.
     fn work(&mut self, to: u64) {
         let sampled = (self.tick / self.sampled_every + 1) * self.sampled_every;
         let tick = to.min(sampled).min(self.tick + self.part);
@@ -242,7 +243,7 @@ impl CloudRun {
         self.sample();
     }
 
-    /// Adds the areas of now, if this tick is sampled and was not before.
+    /// Adds the current areas if this tick is due for a sample.
     fn sample(&mut self) {
         let is_next = |known: usize| known as u64 * self.sampled_every == self.tick;
         let Self { lanes, exact, .. } = self;
@@ -293,7 +294,7 @@ impl CloudRun {
         }
     }
 
-    /// The areas at the sampled ticks so far, and that of now.
+    /// The areas at the sampled ticks so far, and the current one.
     fn samples(&self, areas: &[Option<f64>], now: Option<f64>) -> Vec<[f64; 2]> {
         let sampled = (0..).step_by(self.sampled_every as usize).zip(areas.iter().copied());
         let so_far = sampled.take_while(|(tick, _)| *tick < self.tick);

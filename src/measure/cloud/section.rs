@@ -1,4 +1,4 @@
-//! Sections after Poincaré: where many starts are at each period of a drive, or at each tick where nothing drives them.
+//! Poincaré sections: the positions of many starts at each period of a drive, or at each tick without a drive.
 
 use super::request::{GRID, Request, cost};
 use super::{
@@ -7,33 +7,33 @@ use super::{
 use crate::sim::number::significant;
 use crate::sim::{Stepper, TickRate};
 
-/// The starts of a section: each leaves a point at each crossing.
+/// Number of starts of a section. Each leaves a point at each crossing.
 const STARTS: usize = 400;
-/// The most crossings of a lane, the work on all of them, and that before a picture is shown, in evaluations of a copy in a
-/// block.
+/// Maximum number of crossings of a lane, the work limit for all of them in evaluations of a copy in a block, and the
+/// number of pictures until then.
 const MAX_CROSSINGS: u64 = 3000;
 const WORK: u64 = 100_000_000;
 const PARTS: u64 = 40;
-/// How far the starts reach, in swings; on an angle all around.
+/// Reach of the starts in swings; an angle is covered all around.
 const REACH: f64 = 1.5;
-/// The longest period of a drive that is looked for, in seconds, and the most periods that are tried.
+/// Longest period of a drive in seconds, and maximum number of candidate periods.
 const MAX_PERIOD_S: f64 = 60.0;
 const MAX_TRIED: f64 = 20_000.0;
-/// The moments at which forces are compared, and the share of their change that is rounding.
+/// Number of moments at which forces are compared, and relative mismatch that counts as rounding.
 const MOMENTS: u64 = 48;
 const ROUNDING: f64 = 1e-6;
 
-/// A section: the places of all points of a cloud at each crossing so far.
+/// A section: the positions of a cloud's points at all crossings so far.
 struct Section {
-    /// From one crossing to the next, in ticks.
+    /// Time between two crossings, in ticks.
     period: f64,
     crossings: u64,
     density: Density,
 }
 
 impl Section {
-    /// A section without crossings yet. They come once in each `period` (ticks, above 0) after the start, and are counted in
-    /// `density`.
+    /// A section without crossings yet. They follow at intervals of `period` (ticks, above 0) after the start, and
+    /// `density` counts their points.
     fn new(period: f64, density: Density) -> Self {
         Self { period, crossings: 0, density }
     }
@@ -46,12 +46,12 @@ impl Section {
     }
 }
 
-/// The sections of all lanes on their way.
+/// The sections of all lanes in progress.
 pub(super) struct SectionRun {
     lanes: Vec<SectionLane>,
     axes: CloudAxes,
     strobe: String,
-    /// What lies between two crossings: `ticks`, or `periods` of the drive.
+    /// Unit of the interval between crossings: `ticks`, or `periods` of the drive.
     intervals: &'static str,
 }
 
@@ -59,7 +59,7 @@ struct SectionLane {
     entry: usize,
     cloud: Cloud,
     section: Section,
-    /// How many crossings.
+    /// Number of crossings to make.
     wanted: u64,
 }
 
@@ -75,7 +75,7 @@ impl SectionRun {
         let specs: Vec<_> = lanes.iter().map(|(_, spec)| *spec).collect();
         let axes = CloudAxes::of_run(of, start, &specs, tick_hz, shown.into())?;
         let drive = period(of.body, start.middle, seconds, tick_hz);
-        // Without a drive, each tick.
+        // Without a drive, a crossing occurs at each tick.
         let period = drive.map_or(1.0, |seconds| seconds * f64::from(tick_hz));
         let strobe = match drive {
             Some(seconds) => format!("once in the drive's period of {} s", significant(seconds, 4)),
@@ -97,7 +97,7 @@ impl SectionRun {
         self.lanes.iter().all(|lane| lane.section.crossings == lane.wanted)
     }
 
-    /// Takes every lane through a part of its crossings.
+    /// Steps every lane through a fraction of its crossings.
     pub(super) fn work(&mut self) {
         for lane in &mut self.lanes {
             let SectionLane { cloud, section, wanted, .. } = lane;
@@ -129,8 +129,8 @@ impl SectionRun {
     }
 }
 
-/// The period of the force on a body at rest in a state, in seconds; `None` if the force does not depend on time, or does
-/// not come back within so many seconds.
+/// Period in seconds of the force on a body held in a state; `None` if the force does not depend on time, or has no
+/// period up to `seconds`.
 fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: TickRate) -> Option<f64> {
     let (h, seconds) = (tick_hz.step_s(), seconds.min(MAX_PERIOD_S));
     let apart = (h / 2.0).max(seconds / MAX_TRIED);
@@ -139,7 +139,7 @@ fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: TickRate)
         body.acceleration(t, &[q], &[v], &mut a);
         a[0]
     };
-    // Moments that no period divides.
+    // Irrational spacing, so that no period divides it.
     let moments: Vec<f64> =
         (0..MOMENTS).map(|n| (n as f64 * 0.618_034).fract() * seconds).collect();
     let forces: Vec<f64> = moments.iter().map(|&t| force(t)).collect();
@@ -168,7 +168,7 @@ fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: TickRate)
     None
 }
 
-/// Where a function with one least value between two places has it, to rounding.
+/// The minimum of a function between two places, to rounding, if it has only one there.
 fn least(of: &impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     for _ in 0..60 {

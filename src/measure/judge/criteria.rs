@@ -1,4 +1,4 @@
-//! Whether a lane meets a criterion: a run that ends as soon as that is known.
+//! Whether a lane meets a criterion, from a run that ends as soon as the answer is known.
 
 use super::{Judge, without_truth};
 use crate::measure::by_energy::follow_energy;
@@ -15,9 +15,9 @@ use crate::sim::TickRate;
 pub(in crate::measure) enum CriterionFinding {
     /// It does, at this cost.
     Holds { evaluations_per_s: f64 },
-    /// The body at this index of the scene does not.
+    /// The body with this index in the scene fails.
     Fails { body: usize },
-    /// Not known: it would take too much work, or there is no truth or no tick.
+    /// Unknown: it would take too much work, or there is no truth or no tick.
     Unknown,
 }
 
@@ -30,9 +30,9 @@ impl CriterionFinding {
 /// Why a body is not known to meet a criterion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum CriterionMiss {
-    /// It does not meet it.
+    /// It fails.
     Fails,
-    /// Not known: it would take too much work, or there is no truth.
+    /// Unknown: it would take too much work, or there is no truth.
     Unknown,
 }
 
@@ -43,7 +43,6 @@ impl From<TooMuch> for CriterionMiss {
 }
 
 impl Judge {
-    /// Whether a lane meets a criterion.
     pub(in crate::measure) async fn meets(
         &self,
         criterion: Criterion,
@@ -70,14 +69,14 @@ impl Judge {
         if is_unknown {
             return CriterionFinding::Unknown;
         }
-        // A method with memory starts with some evaluations more, which are no part of its cost in the long run.
+        // A method with memory starts with a few extra evaluations, which are not part of its long-run cost.
         let steady = spec.method.evaluations_per_tick(spec.substeps).map(|evaluations| {
             f64::from(evaluations) * f64::from(tick_hz) * self.truths.len() as f64
         });
         CriterionFinding::Holds { evaluations_per_s: steady.unwrap_or(evaluations_per_s) }
     }
 
-    /// How a lane misses a criterion; `None` if it meets it. Where the modes tell that, nothing is run.
+    /// How a lane misses a criterion; `None` if it meets it. If the modes prove that, nothing runs.
     pub(in crate::measure) async fn misses(
         &self,
         criterion: Criterion,
@@ -91,7 +90,7 @@ impl Judge {
         Some(finding).filter(|finding| !finding.holds())
     }
 
-    /// Whether the modes of every body tell that it meets a criterion.
+    /// Whether the modes of every body prove that it meets a criterion.
     async fn is_met_by_modes(
         &self,
         criterion: Criterion,
@@ -151,7 +150,7 @@ impl Judge {
         }
     }
 
-    /// The run of a lane, of which nothing is known if the truth cannot be used for it.
+    /// Runs a lane beside its truth. The result is unknown if the truth cannot be used.
     async fn beside_truth(
         &self,
         truth: &BodyTruth,
@@ -178,8 +177,8 @@ impl Judge {
         cost_if(run.error <= TOLERANCE, &run)
     }
 
-    /// Whether a lane is accurate and leaves this part of [`TOLERANCE`] on every body with bumps. The errors of linear bodies
-    /// have none: they change with a parameter steadily.
+    /// Whether a lane is accurate with the fraction `spare` of [`TOLERANCE`] left on every body with bumps. The
+    /// errors of linear bodies have none: they change steadily with a parameter.
     pub(in crate::measure) async fn is_accurate_sparing(
         &self,
         spare: f64,
@@ -197,10 +196,12 @@ impl Judge {
         true
     }
 
-    /// Whether a body has the true amplitude within [`VISIBLE`] and the true frequency within [`FREQUENCY_TOLERANCE`]. A
-    /// body that makes too few swings for that is followed over its first; one that does not swing has to stay within
-    /// [`VISIBLE`] of its range. What is accurate looks right. `known` is its run over the horizon beside a usable truth, if
-    /// there is one already.
+    /// Whether a body has the true amplitude within [`VISIBLE`] and the true frequency within
+    /// [`FREQUENCY_TOLERANCE`]. An accurate motion also looks right.
+    ///
+    /// A body with too few swings is followed over its first swings instead. A body that does not swing has to stay
+    /// within [`VISIBLE`] of its range. `known` is the run over the horizon beside a usable truth, if there is one
+    /// already.
     pub(super) async fn looks_right(
         &self,
         body: usize,
@@ -238,7 +239,7 @@ impl Judge {
         if longer_run.is_too_much { Err(CriterionMiss::Unknown) } else { cost_if(is_alike, run) }
     }
 
-    /// A run over the horizon of `truth`, with its swings if the modes do not tell them.
+    /// Runs over the horizon of `truth`, measuring the swings if the modes do not determine them.
     async fn swinging(
         &self,
         truth: &BodyTruth,
@@ -252,7 +253,8 @@ impl Judge {
         self.beside_truth(truth, spec, tick_hz, until).await
     }
 
-    /// Whether a run over the horizon of `truth` swings like it, or is as near to it if that does not swing.
+    /// Whether a run over the horizon of `truth` has the same swings, or is similarly close if the truth does not
+    /// swing.
     async fn swings_alike(
         &self,
         truth: &BodyTruth,
@@ -271,7 +273,7 @@ impl Judge {
         };
         let Some(error) = error else { return Ok(is_near) };
         let is_as_wide = match (&modes, &run.swings) {
-            // What keeps its energy swings as wide in each half turn, and begins in the midst of one.
+            // If energy is conserved all half turns are equally wide, and the first one is incomplete.
             (_, Some(swings)) => {
                 let first = usize::from(truth.energy_scale.is_some());
                 swing.is_as_wide(&swings.half_turns, first)
@@ -283,7 +285,7 @@ impl Judge {
     }
 }
 
-/// The evaluations per simulated second of a run, if it meets a criterion.
+/// Evaluations per simulated second of a run that meets a criterion.
 fn cost_if(holds: bool, run: &JudgedRun) -> Result<f64, CriterionMiss> {
     match holds {
         _ if run.is_too_much => Err(CriterionMiss::Unknown),

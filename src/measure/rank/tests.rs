@@ -2,7 +2,8 @@ use super::*;
 use crate::sim::TickRate;
 use crate::sim::integrators::method;
 
-/// How a method meets a criterion at this cost, in one step a tick; its margins, if they are searched.
+/// How a method meets a criterion with one step per tick, at this cost and with this reserve, if its margins are
+/// searched.
 fn met(cost_per_s: f64, reserve: Option<f64>) -> CriterionMet {
     CriterionMet {
         tick_hz: 60.into(),
@@ -16,7 +17,7 @@ fn met(cost_per_s: f64, reserve: Option<f64>) -> CriterionMet {
     }
 }
 
-/// The methods in the order of the table.
+/// Ids in the order of the table.
 const IDS: [&str; 5] =
     ["explicit-euler", "midpoint", "rk4", "adams-bashforth-2", "velocity-verlet"];
 
@@ -25,7 +26,7 @@ fn with_ranking<T>(mets: &[CriterionMet], see: impl FnOnce(&Ranking) -> T) -> T 
     see(&Ranking::new(methods.into_iter().zip(mets).enumerate()))
 }
 
-/// The index of the first, of methods with these costs and reserves.
+/// Index of the recommended method, given costs and reserves.
 fn first(costs: &[(f64, f64)]) -> Option<usize> {
     let mets: Vec<_> = costs.iter().map(|&(cost, reserve)| met(cost, Some(reserve))).collect();
     with_ranking(&mets, |it| it.first())
@@ -46,9 +47,9 @@ fn little_reserve_yields_to_more_at_up_to_twice_the_cost() {
         (&[(60.0, 1.4), (121.0, 10.0)], 0),
         (&[(60.0, 1.5), (120.0, 10.0)], 0),
         (&[(60.0, 1.4), (120.0, 1.4)], 0),
-        // The cheapest with more, not the one with the most.
+        // The cheapest method with enough reserve wins, not the largest reserve.
         (&[(60.0, 1.1), (90.0, 1.6), (120.0, 10.0)], 1),
-        // What is taken instead may be passed over for the same reason.
+        // The replacement may be passed over for the same reason.
         (&[(60.0, 1.1), (100.0, 1.3), (200.0, 1.7), (400.0, 10.0)], 2),
         (&[(60.0, 1.1), (100.0, 1.3), (201.0, 1.7)], 1),
     ] {
@@ -58,7 +59,7 @@ fn little_reserve_yields_to_more_at_up_to_twice_the_cost() {
 
 #[test]
 fn margins_are_searched_until_the_first_is_known_and_no_further() {
-    // Costs and reserves that a search finds, and the methods whose margins are searched for the first.
+    // Costs and reserves to be found, the recommended method, and the methods whose margins are searched.
     for (all, wanted, searched) in [
         (&[(60.0, 2.0), (60.0, 3.0), (61.0, 10.0)][..], 1, &[0, 1][..]),
         (&[(60.0, 10.0), (60.0, 10.0), (60.0, 10.0)], 0, &[0]),
@@ -101,7 +102,7 @@ fn a_reserve_is_the_lesser_margin_and_a_rate_counts_by_its_square() {
     assert_eq!(of(60, Some(1), None), Some(10.0));
     assert_eq!(of(60, None, Some(2.0)), Some(2.0));
     assert_eq!(of(60, None, None), None);
-    // Down from a rate that is not whole the search begins at the next that is.
+    // From a fractional rate, the search starts at the next whole rate above.
     let tick_hz: TickRate = "66.667".parse().unwrap();
     let found = CriterionMet { tick_hz, slowest_hz: Some(67), ..met(60.0, None) };
     assert_eq!(

@@ -1,4 +1,5 @@
-//! The region of a plane in which a condition holds, from a grid of points and bisection between them: marching squares.
+//! Marching squares: the region of a plane in which a condition holds, from a grid of points and bisection between
+//! them.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -6,28 +7,26 @@ use std::collections::btree_map::Entry;
 use super::{Coverage, Meter, Region};
 use crate::sim::numerics::bisect;
 
-/// Halvings of the distance between two points of the grid: a boundary is found to a five-hundredth of it, which is
-/// less than a pixel of a map that fills a screen.
+/// Number of bisections between two points of the grid. They find a boundary to a five-hundredth of that distance,
+/// which is less than a pixel of a map that fills a screen.
 const HALVINGS: u32 = 9;
 
-/// A grid of points over a rectangle.
+/// A grid of points over a rectangle, the outermost on its border.
 pub(super) struct Corners {
     counts: [usize; 2],
     ends: [[f64; 2]; 2],
 }
 
 impl Corners {
-    /// As many points along each axis, the outermost at the ends.
     pub(super) fn new(counts: [usize; 2], ends: [[f64; 2]; 2]) -> Self {
         Self { counts, ends }
     }
 
-    /// How many points there are along each axis.
     pub(super) fn counts(&self) -> [usize; 2] {
         self.counts
     }
 
-    /// The place of the point with these indices.
+    /// Position of the point with these indices.
     pub(super) fn at(&self, index: [usize; 2]) -> [f64; 2] {
         std::array::from_fn(|axis| {
             let [low, high] = self.ends[axis];
@@ -39,8 +38,8 @@ impl Corners {
 /// A side of a square of the grid: its first corner, and the axis along which it lies.
 type Side = ([usize; 2], usize);
 
-/// The region in which a condition holds: at the corners of the grid by `at_corner`, on a row of it by `on_row`, which
-/// is told x and the row, and anywhere by `anywhere`. The meter counts the work of a point on a row, or of one anywhere.
+/// The region in which a condition holds. `at_corner` evaluates it at the corners of the grid, `on_row` at any x of a
+/// row, and `anywhere` at any point. The meter counts the work of a point on a row, and of a point anywhere.
 pub(super) async fn contour(
     corners: &Corners,
     at_corner: impl Fn([usize; 2]) -> bool,
@@ -71,7 +70,7 @@ pub(super) async fn contour(
 
     let (mut pieces, mut segments) = (Vec::new(), Vec::new());
     for j in 0..rows - 1 {
-        // The first of the squares so far that are wholly inside.
+        // First of a run of squares that are wholly inside.
         let mut run: Option<usize> = None;
         for i in 0..columns {
             let round = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
@@ -119,7 +118,7 @@ pub(super) async fn contour(
     Region { coverage, pieces, boundary: boundary.collect(), limit: None, seen: Vec::new() }
 }
 
-/// Where the condition changes between `from`, where it is `holds`, and `to`.
+/// The place between `from` and `to` where the condition changes. `holds` is the condition at `from`.
 fn between(from: f64, to: f64, holds: bool, holds_at: impl Fn(f64) -> bool) -> f64 {
     let [from, to] = bisect([from, to], HALVINGS, |at| holds_at(at) == holds);
     (from + to) / 2.0

@@ -1,4 +1,4 @@
-//! Lines along which a player sees a spring in an engine damped alike.
+//! Lines of equal damping of a spring in an engine, as a player sees it.
 
 use super::contour::contour;
 use super::{Corners, Meter};
@@ -10,19 +10,19 @@ use crate::tools::port::Setup;
 pub struct SeenLine {
     /// The damping ratio that a player sees.
     pub damping_ratio: f64,
-    /// The line goes through these points, as those of a region's boundary.
+    /// Points of the line, in the coordinates of a region's boundary.
     pub points: Vec<[f64; 2]>,
 }
 
-/// The damping ratios of the lines.
+/// Damping ratios of the lines.
 const RATIOS: [f64; 8] = [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
-/// How near a point of a line is to its damping ratio, as a part of it. One that is further off is where nothing is seen to
-/// swing.
+/// Largest relative distance of a point on a line from its damping ratio. A point that is further off lies where a
+/// player sees no swing.
 const NEAR: f64 = 0.02;
-/// The work of a point, in evaluations of one coordinate.
+/// Work of a point, in evaluations of one coordinate.
 const WORK_OF_POINT: u64 = 20;
 
-/// The lines of an engine. `joint_at` has the stiffness in 1/s² and the damping in 1/s, each per unit of mass, at a value
+/// The lines of an engine. `joint_at` returns stiffness in 1/s² and damping in 1/s, each per unit of mass, at a value
 /// of the mapped parameter.
 pub(super) async fn seen_lines(
     spec: &LaneSpec,
@@ -42,7 +42,7 @@ pub(super) async fn seen_lines(
     let at_corners: Vec<Vec<Option<f64>>> = (0..rows).map(row).collect();
     let mut lines = Vec::new();
     for damping_ratio in RATIOS {
-        // What is damped so much that nothing swings is above every line.
+        // A motion that is damped so strongly that it does not swing is above every line.
         let is_above = |seen: Option<f64>| seen.is_none_or(|ratio| ratio >= damping_ratio);
         let is_near = |point: &[f64; 2]| {
             seen(*point).is_some_and(|ratio| (ratio / damping_ratio - 1.0).abs() < NEAR)

@@ -21,13 +21,13 @@ fn map(values: [f64; 6], parameter: usize, specs: Vec<LaneSpec>) -> StabilityMap
     work.map()
 }
 
-/// Whether the point of this rate and value is in one of the pieces.
+/// Whether a point at this rate and value is in one of the pieces.
 fn holds(region: &Region, hz: f64, value: f64) -> bool {
     region.contains([hz, value].map(libm::log10))
 }
 
-/// That the region is where `is_stable` says, on both sides of its boundary: at points that agree with those a
-/// hundredth further in every direction.
+/// Asserts that the region matches `is_stable` on both sides of its boundary. Points within a hundredth of the true
+/// boundary are skipped.
 fn assert_region(region: &Region, what: &str, is_stable: impl Fn(f64, f64) -> bool) {
     let (mut stable, mut unstable) = (0, 0);
     for i in 0..60 {
@@ -82,8 +82,8 @@ fn no_method_is_stable_again_far_beyond_its_limit() {
     }
 }
 
-/// Whether near `z = ω h` the trace of the step comes to 2, within and beyond which an area-preserving map is stable and
-/// not.
+/// Whether the trace of the step reaches 2 near `z = ω h`. An area-preserving map is stable below a trace of 2 and
+/// unstable above it.
 fn is_end_of_window(method: &'static Method, z: f64) -> bool {
     let traces = (-40..=40).map(|i| {
         let h = z * (1.0 + 5e-5 * f64::from(i));
@@ -108,7 +108,7 @@ fn is_end_of_window(method: &'static Method, z: f64) -> bool {
 fn explicit_euler_needs_damping_and_no_more_than_it_can_follow() {
     for damping in [1.0, 40.0] {
         let map = spring(damping, &["explicit-euler"]);
-        // The conditions of Jury on the step [[1, h], [-k h, 1 - c h]].
+        // Jury's conditions on the step [[1, h], [-k h, 1 - c h]].
         assert_region(&map.regions[0], "explicit Euler", |hz, k| {
             let h = 1.0 / hz;
             k * h < damping && 4.0 - 2.0 * damping * h + k * h * h > 0.0
@@ -130,7 +130,7 @@ fn implicit_methods_are_stable_everywhere() {
 
 #[test]
 fn a_boundary_across_the_rates_is_found_too() {
-    // Up goes the damping, which hardly matters to semi-implicit Euler until it is large.
+    // The vertical axis is the damping, which hardly affects semi-implicit Euler until it is large.
     let specs = vec![LaneSpec::plain(method("semi-implicit-euler").unwrap())];
     let map = map([1.0, 1e4, 0.0, 1.0, 0.0, 3.0], 2, specs);
     let lowest = map.regions[0].boundary.iter().flatten().min_by(|a, b| a[1].total_cmp(&b[1]));
@@ -205,7 +205,7 @@ fn a_map_found_in_slices_is_that_of_one_go_and_a_moved_point_keeps_what_is_found
             if moves && work.part.is_some() && slices.len() % 9 == 0 {
                 work.set_request(request(if work.map.request.tick_hz == 60 { 30 } else { 60 }));
                 assert!(work.part.is_some() && work.here.is_none() && work.map.here.is_empty());
-                // What is found of the new point is told although a region is in progress.
+                // Results for the new point appear although a region is in progress.
                 work.advance(u64::MAX);
                 assert!(work.map.here.len() == 2 && !work.is_within_a_part());
             }
@@ -222,7 +222,7 @@ fn a_map_found_in_slices_is_that_of_one_go_and_a_moved_point_keeps_what_is_found
     assert!(found(SLICE, true).0 == whole);
 }
 
-/// The map of the first body of a scene over the parameter with this key.
+/// The map of a scene's first body over the parameter with this key.
 fn map_of(scene: &Scene, key: &str, tick_hz: u32, ids: &[&str]) -> StabilityMap {
     let body = &scene.bodies[0];
     let (index, _) = body.kind.parameter(key).unwrap();
@@ -248,7 +248,7 @@ fn quarter_car() -> Scene {
          [law.coordinates.u]\nacceleration = '(k*(z-u) + c*(vz-vu) - kt*u)/w'")
 }
 
-/// The swing of a quarter of a car under a method after many steps, in units of that after half of them.
+/// The swing of a quarter of a car under a method after many steps, relative to that after half of them.
 fn growth(scene: &Scene, key: &str, value: f64, hz: f64, id: &str) -> f64 {
     let body = &scene.bodies[0];
     let mut values = body.values.clone();
@@ -292,7 +292,7 @@ fn the_boundary_of_a_law_whose_damping_couples_its_modes_is_where_its_swing_begi
                 let [hz, value] = [x, y].map(|x| libm::pow(10.0, *x));
                 for factor in [0.97, 1.03] {
                     let is_stable = holds(region, hz * factor, value);
-                    // Near a tangent both sides may be on one side.
+                    // Near a tangent, both points may be on the same side.
                     if !(5.0..990.0).contains(&hz) || is_stable != (factor > 1.0) {
                         continue;
                     }
@@ -349,7 +349,7 @@ fn a_law_that_cannot_be_linearised_says_why_and_true_growth_is_not_counted() {
         let map = map_of(&single(acceleration), "k", 60, &["rk4"]);
         assert_eq!(map.refused, refused, "{acceleration}");
     }
-    // An upright pendulum falls in truth: the falls of semi-implicit Euler at a high rate are no fault of its.
+    // An upright pendulum falls in truth, so its fall under semi-implicit Euler at a high rate does not count.
     let map = map_of(&single("k*sin(x)"), "k", 60, &["semi-implicit-euler"]);
     assert!(map.truth_grows);
     assert_eq!(map.here[0], Here::Stable);
@@ -358,7 +358,7 @@ fn a_law_that_cannot_be_linearised_says_why_and_true_growth_is_not_counted() {
 
 #[test]
 fn a_law_is_mapped_about_the_place_where_it_rests() {
-    // A controlled drone hovers at a force that is not 0.
+    // A controlled drone hovers at a nonzero force.
     let map =
         map_of(&Scene::built_in("lift").unwrap(), "rotor", 30, &["semi-implicit-euler", "rk4"]);
     assert_eq!((map.refused, map.is_linear), (None, false));
@@ -416,12 +416,12 @@ fn along_a_line_of_an_engine_a_player_sees_the_same_damping() {
     assert_eq!(ratios, [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5]);
     for SeenLine { damping_ratio, points } in &rapier.seen {
         for [x, y] in points {
-            // Implicit Euler at four substeps a tick.
+            // Implicit Euler with four substeps per tick.
             let [hz, stiffness] = [x, y].map(|log| libm::pow(10.0, *log));
             let z = stiffness.sqrt() / hz / 4.0;
             let [decay, turned] = [(1.0 + z * z).ln() / 2.0, z.atan()];
             let ratio = decay / decay.hypot(turned);
-            // Beyond half a turn a tick another swing is seen.
+            // With more than half a turn per tick, a player sees another swing.
             let is_seen = 4.0 * turned < std::f64::consts::PI;
             let is_near = (ratio / damping_ratio - 1.0).abs() < 0.02;
             assert!(is_near || !is_seen, "{hz} Hz, {stiffness}: {ratio}");

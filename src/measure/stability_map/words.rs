@@ -22,19 +22,19 @@ impl fmt::Display for Here {
 }
 
 impl StabilityMap {
-    /// The names of the methods of the request, in its order, with what tells them apart.
+    /// Distinct names of the request's methods, in its order.
     pub fn method_names(&self) -> Vec<String> {
         let specs: Vec<LaneSpec> = self.request.specs.iter().map(|(_, spec)| *spec).collect();
         specs.iter().map(|spec| spec.distinct_name(spec.method.name, &specs)).collect()
     }
 
-    /// What each method does at the present point, line by line.
+    /// Stability of each method at the current point, line by line.
     pub fn each_here(&self) -> String {
         let lines = self.method_names().into_iter().zip(&self.here);
         lines.map(|(name, here)| format!("{name}: {here}")).collect::<Vec<_>>().join("\n")
     }
 
-    /// How many methods are bounded at the present point, and which grows fastest.
+    /// Number of methods that are bounded at the current point, and the one that grows fastest.
     pub fn stable_here(&self) -> String {
         let of = |kind: Here| self.here.iter().filter(|here| **here == kind).count();
         let (all, stable, own) = (self.here.len(), of(Here::Stable), of(Here::OwnSteps));
@@ -58,7 +58,7 @@ impl StabilityMap {
         format!("{stable} of {all} {verb} bounded{own}.{}", fastest.unwrap_or_default())
     }
 
-    /// What the map does not draw: a sentence each, with a blank before it.
+    /// Notes on methods and growth that the map does not draw: sentences with a space before each.
     pub fn not_drawn(&self) -> String {
         let named = |coverage: Coverage| {
             let found = self.regions.iter().zip(self.method_names());

@@ -21,7 +21,7 @@ fn swings(head: &str, id: &str, tick_hz: u32, substeps: u32) -> Swings {
 
 #[test]
 fn peaks_are_found_between_coarse_steps_and_between_the_first_two() {
-    // 0.7 rad or, from below, as much by its energy: g/l (1 - cos 0.7) = ω²/2 + g/l (1 - cos θ).
+    // Starts at 0.7 rad, or below with the same energy: g/l (1 - cos 0.7) = ω²/2 + g/l (1 - cos θ).
     let pushed = |theta: f64| (2.0 * 9.81 / 0.4 * (libm::cos(theta) - libm::cos(0.7))).sqrt();
     for (theta, omega) in
         [(0.7, 0.0), (0.65, pushed(0.65)), (-0.6, -pushed(-0.6)), (0.1, pushed(0.1))]
@@ -34,9 +34,9 @@ fn peaks_are_found_between_coarse_steps_and_between_the_first_two() {
             ("dormand-prince-54", 3, 1),
         ] {
             let found = swings(&head, id, tick_hz, substeps);
-            // The first is cut off by the start.
+            // The start cuts off the first half turn.
             let whole = &found.half_turns[1..found.half_turns.len() - 1];
-            // 15.3 turns of 1.31 s, the amplitude being 0.7.
+            // There are 15.3 turns of 1.31 s with an amplitude of 0.7.
             assert!((29..=32).contains(&whole.len()), "{id}, {head}: {whole:?}");
             let off = whole.iter().map(|peak| (peak - 1.0).abs()).fold(0.0, f64::max);
             assert!(off < 0.02, "{id}, {head}: off by {off}");
@@ -46,7 +46,7 @@ fn peaks_are_found_between_coarse_steps_and_between_the_first_two() {
 
 #[test]
 fn the_velocities_of_semi_implicit_euler_are_shifted_to_its_coordinates() {
-    // Its amplitude differs at the start by ω h/2 of the velocity, and later it does not change.
+    // Its initial amplitude is off by ω h/2 of the velocity, and does not change later.
     let found = swings("theta0_rad = 0.05\n", "semi-implicit-euler", 15, 1);
     let whole = &found.half_turns[1..found.half_turns.len() - 1];
     let z = (9.81_f64 / 0.4).sqrt() / 15.0;

@@ -1,4 +1,4 @@
-//! One body under one solver, followed from its start, and the work of that.
+//! Follows one body under one solver from its start, and counts the work.
 
 use std::ops::ControlFlow;
 
@@ -11,16 +11,16 @@ use crate::sim::integrators::{Family, StepFailure};
 use crate::sim::stability::Tick;
 use crate::sim::{Solver, Stepper, TickRate};
 
-/// The work of a tick beside its evaluations, for each coordinate: comparing it with the truth, and its energy.
+/// Work of a tick besides its evaluations, per coordinate: the comparison with the truth, and the energy.
 const WORK_OF_TICK: u64 = 4;
 
-/// The number of coordinates above which an implicit method spends more work on its matrix than on evaluations.
+/// Number of coordinates above which an implicit method spends more work on its matrix than on evaluations.
 const SMALL_MATRIX: u64 = 20;
 
-/// Ticks between two checks of the work done, for a body of one coordinate.
+/// Ticks between two checks of the work, for a body with one coordinate.
 const TICKS_PER_LOOK: u64 = 64;
 
-/// The work of `evaluations` evaluations of a body of `n` coordinates, in evaluations of one.
+/// Work of `evaluations` evaluations of a body with `n` coordinates, in evaluations of one coordinate.
 pub(in crate::measure) fn work_of(evaluations: u64, n: u64, solver: Solver) -> u64 {
     let has_matrix = solver
         .method()
@@ -35,21 +35,21 @@ pub(in crate::measure) struct FollowedBody {
     coordinates: Coordinates,
     solver: Solver,
     substeps: u32,
-    /// The energy at the start and what the inputs have added, in joules.
+    /// Initial energy plus the energy that inputs have added, in joules.
     pub(in crate::measure) base_j: f64,
     /// Its swings, if they are measured.
     pub(in crate::measure) swings: Option<Swings>,
-    /// The work of each tick of a true motion, by which all its work is counted.
+    /// Work per tick of a true motion, which is its only measure of work.
     work_of_moment: u64,
-    /// The work that was counted.
+    /// Work that the meter has counted.
     counted: u64,
 }
 
-/// A body from its start on, with the inputs of the script.
+/// A body followed from its start, with the inputs of the script.
 pub(in crate::measure) type FollowedRun = Follow<'static, FollowedBody>;
 
 impl BodyTruth {
-    /// The body before its first tick under `solver` at this rate.
+    /// The body before its first tick, under `solver` at this rate.
     pub(in crate::measure) fn follow(
         &self,
         solver: Solver,
@@ -70,7 +70,7 @@ impl BodyTruth {
         Follow::new(body, tick_hz).with_script(self.inputs.clone())
     }
 
-    /// Goes on until `end` ticks are made, or `see` breaks off.
+    /// Continues until `end` ticks are made, or `see` stops the run.
     pub(in crate::measure) async fn go_on(
         &self,
         run: &mut FollowedRun,
@@ -96,7 +96,7 @@ impl BodyTruth {
 }
 
 impl FollowedBody {
-    /// The work done in this many ticks, in evaluations of one coordinate.
+    /// Work of this many ticks, in evaluations of one coordinate.
     fn work(&self, ticks: u64) -> u64 {
         if self.solver == Solver::Truth {
             return self.work_of_moment * ticks;
@@ -109,12 +109,12 @@ impl FollowedBody {
         steps.saturating_add(WORK_OF_TICK * n * ticks)
     }
 
-    /// The kinetic and the potential energy in joules.
+    /// Kinetic and potential energy in joules.
     pub(in crate::measure) fn energies(&self) -> [f64; 2] {
         self.stepper.mechanical_energy().unwrap_or([0.0; 2])
     }
 
-    /// The energy in joules.
+    /// Total energy in joules.
     pub(in crate::measure) fn energy(&self) -> f64 {
         let [kinetic, potential] = self.energies();
         kinetic + potential
@@ -154,10 +154,10 @@ impl Ticked for FollowedBody {
     }
 }
 
-/// The part of a tick by which the end of a span may come early: its time is rounded.
+/// Fraction of a tick by which the end of a span may be early, since its time is rounded.
 const ON_TIME: f64 = 1e-6;
 
-/// The number of whole ticks of this rate in `seconds`.
+/// Number of whole ticks at this rate in `seconds`.
 pub(in crate::measure) fn ticks(seconds: f64, tick_hz: TickRate) -> u64 {
     (seconds * f64::from(tick_hz) + ON_TIME).floor() as u64
 }

@@ -1,4 +1,4 @@
-//! The true states of one body at the ticks of one rate, and the inputs at those ticks.
+//! The true states of one body at the ticks of one rate, with the inputs at those ticks.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -10,26 +10,26 @@ use crate::run::race::StopReason;
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, TickRate};
 
-/// The most products of the exact flow for one series: less than a second of work.
+/// Maximum number of products of the exact flow for one series: less than a second of work.
 const MAX_SERIES_PRODUCTS: u64 = 500_000_000;
 
-/// The most values that are cached, some thirty megabytes: a rope's at each of the rates that a search of margins tries. A
-/// full cache is cleared.
+/// Maximum number of cached values, some thirty megabytes. This suffices for a rope at each rate that a search of
+/// margins tries. A full cache is cleared.
 const MAX_KEPT: usize = 1 << 22;
 
-/// The cached series by tick rate in Hz. Of several threads that ask for one, the first computes it.
+/// Cached series by tick rate in Hz. If several threads ask for the same one, the first computes it.
 pub(in crate::measure) type TruthSeriesByRate =
     Mutex<HashMap<TickRate, Arc<Once<Arc<TruthSeries>>>>>;
 
 /// The true states at the ticks of one rate.
 pub(in crate::measure) struct TruthSeries {
-    /// The components after each tick, tick after tick.
+    /// The components after each tick, in order.
     values: Vec<f64>,
     components: usize,
-    /// The largest error of the truth up to each tick, in amplitudes.
+    /// Largest error of the truth up to each tick, in amplitudes.
     gaps: Vec<f64>,
     pub(in crate::measure) failure: Option<StepFailure>,
-    /// Whether the series was not computed because it would take too much work.
+    /// Whether the series is missing because it would take too much work.
     pub(in crate::measure) is_too_much: bool,
 }
 
@@ -40,14 +40,14 @@ impl TruthSeries {
         self.values.get(from..from + self.components)
     }
 
-    /// The largest error of the truth up to `tick` ticks, in amplitudes; infinite after the truth has failed.
+    /// Largest error of the truth up to `tick` ticks, in amplitudes; infinite after the truth has failed.
     pub(in crate::measure) fn gap(&self, tick: u64) -> f64 {
         self.gaps.get(tick as usize - 1).copied().unwrap_or(f64::INFINITY)
     }
 }
 
 impl BodyTruth {
-    /// The largest error of the truth up to this moment, in amplitudes, at the ticks of this rate.
+    /// Largest error of the truth up to this time, in amplitudes, at the ticks of this rate.
     pub(in crate::measure) async fn gap(&self, seconds: f64, tick_hz: TickRate) -> f64 {
         self.series(tick_hz).await.gap(ticks(seconds, tick_hz).max(1))
     }

@@ -6,37 +6,38 @@ use crate::measure::criterion::{FREQUENCY_TOLERANCE, VISIBLE};
 use crate::sim::Solver;
 use crate::sim::numerics::bisect;
 
-/// The share of the energy from which on a mode is all of the motion.
+/// A mode with at least this share of the energy counts as the whole motion.
 const ONE_MODE: f64 = 0.99;
 
-/// A crossing slower than this part of the largest speed does not count as a swing.
+/// A crossing slower than this fraction of the largest speed does not count as a swing.
 const FAINT: f64 = 1e-3;
 
 /// The true swing of a body.
 pub(in crate::measure) struct Swing {
     /// The coordinate whose crossings are counted.
     pub(in crate::measure) coordinate: usize,
-    /// When it crosses its centre upwards, in seconds.
+    /// Times at which it crosses its centre upwards, in seconds.
     pub(in crate::measure) crossings: Vec<f64>,
-    /// The largest distance of any coordinate from its centre, in amplitudes, in each of its half turns: before the
-    /// swinging coordinate first passes its centre, between one passage and the next, and after the last.
+    /// Largest distance of any coordinate from its centre in each half turn, in amplitudes. Half turns end at the
+    /// swinging coordinate's passages through its centre; the first begins at the start and the last ends with the
+    /// motion.
     pub(in crate::measure) half_turns: Vec<f64>,
 }
 
 impl Swing {
-    /// The largest distance of any coordinate from its centre, in amplitudes.
+    /// Largest distance of any coordinate from its centre, in amplitudes.
     pub(in crate::measure) fn widest(&self) -> f64 {
         self.half_turns.iter().copied().fold(0.0, f64::max)
     }
 
-    /// The largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
+    /// Largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
     pub(in crate::measure) fn error_when(&self, early_s: f64) -> f64 {
         let half_turns = (early_s.abs() / self.period()).min(0.5);
         2.0 * libm::sin(std::f64::consts::PI * half_turns)
     }
 
-    /// Whether a lane swings as wide as the truth in each of its half turns from the one with index `first` on, within
-    /// [`VISIBLE`] of the widest; they may come earlier or later. The last of each may be cut off by the end of the horizon.
+    /// Whether the half turns of a lane, from index `first` on, are as wide as the true ones within [`VISIBLE`] of
+    /// the widest. They may come earlier or later. The end of the horizon may cut off the last one of each.
     pub(in crate::measure) fn is_as_wide(&self, lane: &[f64], first: usize) -> bool {
         let whole = |half_turns: &[f64]| half_turns.len().saturating_sub(1).max(1);
         let widest = |half_turns: &[f64]| half_turns.iter().copied().fold(0.0, f64::max);
@@ -44,7 +45,7 @@ impl Swing {
         let most = VISIBLE * self.widest();
         let both = wanted.min(found);
         let mut pairs = lane.iter().zip(&self.half_turns).take(both).skip(first);
-        // A slow lane makes fewer half turns and a fast one more. What has come to rest makes no more.
+        // A slow lane makes fewer half turns and a fast one more, and a motion at rest makes none.
         let unpaired = |half_turns: &[f64], count: usize| {
             let fewest = (1.0 - FREQUENCY_TOLERANCE) * count as f64 - 2.0;
             widest(half_turns.get(both..(fewest.max(both as f64) as usize)).unwrap_or_default())
@@ -69,7 +70,7 @@ impl BodyTruth {
         }
     }
 
-    /// The swing about `middles`, one per coordinate, from the moments that were `seen` if they were kept.
+    /// The swing about `middles`, one per coordinate, using the `seen` moments if they were kept.
     pub(super) async fn watch(
         &self,
         middles: &[f64],
@@ -119,7 +120,7 @@ impl BodyTruth {
     }
 }
 
-/// The time in seconds at which coordinate `i` crosses `level` between two moments.
+/// Time in seconds at which coordinate `i` crosses `level` between two moments.
 fn crossing(from: &TruthNode, to: &TruthNode, i: usize, level: f64) -> f64 {
     let [low, _] = bisect([0.0, 1.0], 50, |part| from.between(to, i, part) < level);
     from.t + low * (to.t - from.t)

@@ -28,7 +28,7 @@ fn amplitudes_do_not_depend_on_the_ratio_of_period_and_horizon() {
     let [q, v] = truth(fast, 20.0).amplitudes[..] else { panic!("one coordinate") };
     let omega = 25_872.695_761_2_f64.sqrt();
     assert!((q * omega / 10.0 - 1.0).abs() < 1e-4 && (v / 10.0 - 1.0).abs() < 1e-4, "{q}, {v}");
-    // Gone within a hundredth of the stretch: the velocity's range is that of its first swing.
+    // It decays within a hundredth of the horizon, so the velocity's range is that of its first swing.
     let damped = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 10000\ndamping_n_s_per_m = 100\n";
     let [q, v] = truth(damped, 60.0).amplitudes[..] else { panic!("one coordinate") };
     let dense = (0..200_000).map(|i| f64::from(i) * 5e-7).map(|t| {
@@ -49,7 +49,7 @@ fn amplitudes_do_not_depend_on_the_ratio_of_period_and_horizon() {
 
 #[test]
 fn an_eccentric_orbit_keeps_the_peak_of_its_speed() {
-    // Of eccentricity 0.998: 2000 times as fast near the centre as far from it.
+    // The eccentricity is 0.998: it is 2000 times faster near the centre than far from it.
     let orbit = "[[orbit]]\nmu_m3_per_s2 = 1000\nx0_m = 100\nvy0_m_per_s = 0.1414213562373095\n";
     let truth = truth(orbit, 200.0);
     let fastest = truth.amplitudes[3];
@@ -108,7 +108,7 @@ fn half_turns_are_compared_one_by_one_and_what_is_left_over_is_at_rest() {
         (decaying(0.1, 100), decaying(0.11, 100), true),
         (decaying(0.1, 100), decaying(0.12, 100), false),
         (decaying(0.1, 100), decaying(0.08, 100), false),
-        // One in a hundred more or fewer, and those at the ends.
+        // One per cent more or fewer half turns are allowed, plus those at the ends.
         (decaying(0.0, 100), decaying(0.0, 98), true),
         (decaying(0.0, 98), decaying(0.0, 100), true),
         (decaying(0.0, 100), decaying(0.0, 90), false),
@@ -119,7 +119,7 @@ fn half_turns_are_compared_one_by_one_and_what_is_left_over_is_at_rest() {
     ] {
         let found = swing(truth.clone()).is_as_wide(&lane, 0);
         assert_eq!(found, is_as_wide, "{truth:?}\n{lane:?}");
-        // The limit is a part of the widest, whatever the unit.
+        // The limit is relative to the widest half turn, so it does not depend on the unit.
         let thrice = |half_turns: Vec<f64>| half_turns.into_iter().map(|x| 3.0 * x).collect();
         let lane: Vec<f64> = thrice(lane);
         assert_eq!(swing(thrice(truth)).is_as_wide(&lane, 0), is_as_wide, "{lane:?}");

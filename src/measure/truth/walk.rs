@@ -5,25 +5,26 @@ use crate::measure::survey::{Ranges, TruthNode};
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
 
-/// The part of a step at which it is checked: irrational, so that regular steps do not resonate with a period.
+/// Position of the check within a step: irrational, so that regular steps do not resonate with a period.
 const CHECKED_AT: f64 = 0.381_966_011_250_105_1;
-/// The first step as a part of the duration: far below any period that can be followed.
+/// First step relative to the duration, far below any period that can be followed.
 const FIRST_STEP: f64 = 1e-7;
-/// The largest error of the cubic through both ends of a step, as a part of the motion's range: steps of about a sixth
-/// of a radian.
+/// Largest error of the cubic through both ends of a step, relative to the motion's range. This gives steps of about
+/// a sixth of a radian.
 const CHORD: f64 = 1e-5;
-/// A range smaller than this part of the magnitude is rounding, and this part is used in its place.
+/// A range below this fraction of the magnitude is rounding, and this fraction replaces it.
 const ROUNDING: f64 = 1e-9;
-/// The least and the greatest ratio of a step to the one before.
+/// Minimum and maximum ratio of a step to the previous one.
 const FACTORS: (f64, f64) = (0.3, 2.0);
 /// One in this many moments is reserved for the end of the motion, in case the others do not reach it.
 const KEPT: usize = 4;
 
 impl BodyTruth {
-    /// Follows `body`, which is at its start under `solver`, over `seconds`, applies its inputs in order, and passes both
-    /// ends of each step to `see`. The steps are so short that the cubic through both ends is as good as exact. If that
-    /// would take more than `most` moments, the rest of the motion is sampled at scattered moments, and `see` receives each
-    /// as both ends.
+    /// Follows `body` from its start over `seconds`, applying its inputs in order, and passes both ends of each step
+    /// to `see`. Steps are short enough that the cubic through both ends is as good as exact.
+    ///
+    /// If this would take more than `most` moments, the rest of the motion is sampled at scattered moments. `see`
+    /// then receives each as both ends.
     ///
     /// # Errors
     /// If the solver fails or is not finite.
@@ -106,19 +107,19 @@ impl BodyTruth {
     }
 }
 
-/// The work of a walk, in evaluations of one coordinate.
+/// Work of a walk, in evaluations of one coordinate.
 struct WalkWork {
     solver: Solver,
-    /// That of a moment of the truth.
+    /// Work per moment of the truth.
     of_moment: u64,
-    /// The moments that were seen.
+    /// Number of moments visited.
     moments: usize,
-    /// What the meter has counted of it.
+    /// Work that the meter has counted.
     counted: u64,
 }
 
 impl WalkWork {
-    /// The work since this was last asked.
+    /// Work since the last call.
     fn newly_done(&mut self, body: &dyn Stepper) -> u64 {
         let all = match self.solver {
             Solver::Truth => self.moments as u64 * self.of_moment,
@@ -128,7 +129,8 @@ impl WalkWork {
     }
 }
 
-/// The largest error of the cubic from `here` to `there` at `check`, as a part of the range of its kind of component.
+/// Largest error of the cubic from `here` to `there` at `check`, relative to the range of all coordinates or all
+/// velocities.
 fn worst_chord(
     here: &TruthNode,
     check: &TruthNode,

@@ -1,15 +1,15 @@
-//! The one form in which a verdict is written for programs: a flat object, the same for every command and the library.
+//! The serialized form of a verdict: a flat object, the same for every command and the library.
 
 use serde::{Serialize, Serializer};
 
 use super::{Finding, LongTerm, Verdict};
 
-/// What has no meaning for a verdict of a kind is null.
+/// Fields without a meaning for a kind of verdict are null.
 #[derive(Serialize)]
 struct Schema<'a> {
-    /// The id of the outcome.
+    /// Id of the outcome.
     word: &'static str,
-    /// The number of the text, in `unit`.
+    /// The number in the text, in `unit`.
     quantity: Option<String>,
     value: Option<f64>,
     unit: Option<&'static str>,
@@ -38,7 +38,7 @@ struct Schema<'a> {
     starts_at_s: f64,
     horizon_s: f64,
     text: String,
-    /// The verdicts on the bodies, where there are several.
+    /// The verdicts on the bodies, if there are several.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     bodies: &'a [Verdict],
 }

@@ -1,4 +1,4 @@
-//! What verdicts say, word by word.
+//! The exact wording of verdicts.
 
 use crate::measure::{
     Comparison, Finding, LongTerm, Measure, NoTruth, NotJudged, RunFailure, Severity, TOLERANCE,
@@ -28,7 +28,7 @@ const SWINGS: LongTerm = LongTerm {
     is_bounded: Some(true),
 };
 
-/// A verdict with nothing in it but this finding.
+/// A verdict with only this finding.
 fn of(finding: Finding) -> Verdict {
     Verdict {
         finding,
@@ -48,7 +48,7 @@ fn compared(comparison: Comparison) -> Verdict {
     of(Finding::Compared(comparison))
 }
 
-/// The same of one of two bodies.
+/// The same verdict for one of two bodies.
 fn of_two(verdict: Verdict) -> Verdict {
     Verdict { of_bodies: vec![verdict.clone(), verdict.clone()], ..verdict }
 }

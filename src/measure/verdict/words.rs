@@ -1,4 +1,4 @@
-//! What a verdict says: a word and a number, and the details behind them.
+//! The wording of a verdict: a word and a number, and the details behind them.
 
 use std::fmt;
 
@@ -10,13 +10,13 @@ use crate::measure::energy_finding::EnergyFinding;
 use crate::measure::outcome::Outcome;
 use crate::sim::number::{duration, in_unit, significant, superscript};
 
-/// The largest relative error of a frequency that is too small to be the cause of anything.
+/// Largest relative frequency error that is too small to cause anything.
 const FAINT_PITCH: f64 = 1e-4;
 
-/// A swing that dies away within the horizon, by 5 % at least, halves in 13.5 horizons at a constant rate: a halving time beyond this
-/// many is that of something else.
+/// Longest plausible halving time, in horizons. A swing that visibly dies away within the horizon, by at least 5 %,
+/// halves within 13.5 horizons at a constant rate. A longer halving time belongs to something else.
 const MOST_HALVING_HORIZONS: f64 = 20.0;
-/// A change of the energy at or below this leaves nothing that can be seen: it is in units of the largest kinetic energy.
+/// A loss of at least this much energy leaves nothing visible. It is in units of the largest kinetic energy.
 const ALL_ENERGY: f64 = -0.995;
 
 /// The number of a verdict, displayed as in its line.
@@ -42,7 +42,7 @@ impl VerdictNumber {
         Self { quantity: quantity.into(), value, unit, text }
     }
 
-    /// A part of something, in percent.
+    /// A fraction, in percent.
     fn part(quantity: impl Into<String>, part: f64, text: String) -> Self {
         Self::new(quantity, 100.0 * part, "%", text)
     }
@@ -78,7 +78,7 @@ impl Comparison {
             .then(|| format!("{} {how}", percent(error.abs())))
     }
 
-    /// The widest swing in units of the true one, where the difference can be seen.
+    /// Widest swing relative to the true one, if the difference is visible.
     fn wrong_width(&self) -> Option<f64> {
         self.width.filter(|width| (width - 1.0).abs() > VISIBLE)
     }
@@ -90,7 +90,7 @@ impl Verdict {
         duration(self.starts_at_s + seconds)
     }
 
-    /// Where the run begins that is judged.
+    /// Start of the judged run, in words.
     fn start(&self) -> String {
         match self.starts_at_s {
             0.0 => "the start".to_owned(),
@@ -98,17 +98,17 @@ impl Verdict {
         }
     }
 
-    /// In few words from where it is run that the lane fails, if it does.
+    /// A brief statement that the lane fails, and from which start, if it does.
     pub(crate) fn fails_in_brief(&self) -> Option<String> {
         self.failure().map(|_| format!("{}, if run from {}", self.word(), self.start()))
     }
 
-    /// Whether nothing grows of the body that the verdict is about; of several, `long_term` is about all.
+    /// Whether nothing grows on the verdict's own body. With several bodies, `long_term` is about all of them.
     fn is_bounded(&self) -> Option<bool> {
         self.of_bodies.get(self.body).unwrap_or(self).long_term.is_bounded
     }
 
-    /// What it comes to, in a word or two.
+    /// The outcome in a word or two.
     fn word(&self) -> &'static str {
         match (self.outcome(), &self.finding) {
             (Outcome::Bounded, _) if self.is_bounded().is_none() => "inaccurate",
@@ -117,7 +117,8 @@ impl Verdict {
         }
     }
 
-    /// The change of the amplitude: the time in which it changes by this factor, or else that of the energy, or else the error.
+    /// The change of the amplitude: the time in which it changes by this factor, or else the energy change, or else
+    /// the error.
     fn change(&self, time: Option<f64>, [factor, verb]: [&str; 2]) -> VerdictNumber {
         let horizon = duration(self.horizon_s);
         let measure = self.long_term.measure.name();
@@ -141,7 +142,7 @@ impl Verdict {
         }
     }
 
-    /// How far a motion is off that keeps its size: its width, or else its delay, or else its largest error.
+    /// The error of a motion that keeps its size: its width, or else its delay, or else its largest error.
     fn gap(&self, found: &Comparison) -> VerdictNumber {
         let (error, horizon) = (percent(found.error), duration(self.horizon_s));
         if let Some(width) = found.wrong_width().filter(|_| found.looks_right != Some(true)) {
@@ -171,7 +172,7 @@ impl Verdict {
         VerdictNumber::part("largest error", found.error, text)
     }
 
-    /// The number that its word is about, if it is about one.
+    /// The number behind the word, if it has one.
     pub fn number(&self) -> Option<VerdictNumber> {
         let chased = self.chase.as_ref().and_then(ChaseFinding::number);
         let within =
@@ -236,14 +237,14 @@ impl Verdict {
         words.into_iter().flatten().collect::<Vec<_>>().join(BETWEEN)
     }
 
-    /// What it lacks and, of several, the body's name, in brackets.
+    /// The missing truth and, with several bodies, the body's name, in brackets.
     fn in_brackets(&self, is_named: bool) -> String {
         let name = (is_named && self.of_bodies.len() > 1).then_some(&*self.body_name);
         let parts: Vec<&str> = self.missing_truth().into_iter().chain(name).collect();
         if parts.is_empty() { String::new() } else { format!(" ({})", parts.join(", ")) }
     }
 
-    /// What else is found, each in a sentence of its own: for whoever wants to know more than the word and the number.
+    /// Further findings, one sentence each, for readers who want more than the word and the number.
     pub fn details(&self) -> Vec<String> {
         let outcome = self.outcome();
         let is_told = outcome == Outcome::Grows || self.failure().is_some();
@@ -273,7 +274,7 @@ impl Verdict {
         .collect()
     }
 
-    /// The largest error, when it is, and what is left of it.
+    /// The largest error, its time, and the error that remains.
     fn error_over_time(&self, found: &Comparison) -> Option<String> {
         let (error, horizon) = (percent(found.error), duration(self.horizon_s));
         let at = self.moment(found.error_at_s);
@@ -294,22 +295,22 @@ impl Verdict {
         self.words() + &self.in_brackets(is_named)
     }
 
-    /// The verdict in fewer and fewer words, each with where the judged run begins: for beside a run that was changed on its
-    /// way, of which it tells nothing.
+    /// Ever shorter wordings that name the start of the judged run. They appear beside a run that a person changed on
+    /// its way, to which the verdict does not apply.
     pub fn wordings_of_another_run(&self, is_named: bool) -> Vec<String> {
         let wordings = self.wordings(is_named).into_iter();
         wordings.map(|words| format!("if run from {}: {words}", self.start())).collect()
     }
 
-    /// The verdict in fewer and fewer words, as room is short: the word and the number, then the word alone. The body is named
-    /// where there are several, if `is_named`.
+    /// Ever shorter wordings for limited room: the word and the number, then only the word. If `is_named`, they name
+    /// the body where there are several.
     pub fn wordings(&self, is_named: bool) -> Vec<String> {
         let in_brackets = self.in_brackets(is_named);
         vec![self.line(is_named), self.word().to_owned() + &in_brackets]
     }
 }
 
-/// What stands between the word and the number of a verdict.
+/// Separates the word and the number of a verdict.
 const BETWEEN: &str = " · ";
 
 impl fmt::Display for Verdict {
@@ -330,7 +331,7 @@ fn short_duration(seconds: f64) -> String {
     }
 }
 
-/// A duration to two digits, where it is the rate of something.
+/// A duration to two digits, for a doubling or halving time.
 fn brief_duration(seconds: f64) -> String {
     in_unit(seconds, |value| significant(value, 2))
 }
@@ -361,7 +362,7 @@ mod tests {
             ("stiff", "semi-implicit-euler", 49, "blows up · at 4.14 s"),
             ("stiff", "semi-implicit-euler", 60, "bounded · swings 1.8 × too wide"),
             ("ship", "explicit-euler", 2, "looks right · off by 1.9 % at 10 s"),
-            // The verdict is that of the worst body.
+            // The verdict is that on the worst body.
             ("harbour", "explicit-euler", 60, "grows · swing ×2 in 2.1 s (spring)"),
         ] {
             assert_eq!(verdict(scene, id, tick_hz).to_string(), shown, "{scene} {id} {tick_hz} Hz");

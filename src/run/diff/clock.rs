@@ -1,6 +1,6 @@
-//! Columns that count on as a clock does, while nothing moves.
+//! Recognises columns that advance like a clock while nothing moves.
 
-/// Names of clocks and counters, in whatever unit: words of a column's name.
+/// Words in the names of clocks and counters of any unit.
 const CLOCKS: [&str; 27] = [
     "clock",
     "date",
@@ -30,9 +30,9 @@ const CLOCKS: [&str; 27] = [
     "us",
     "wall",
 ];
-/// Ends of such words, as of `simtime`.
+/// Endings of such words, as in `simtime`.
 const CLOCK_ENDS: [&str; 3] = ["time", "clock", "stamp"];
-/// Names of coordinates, which may grow evenly: words of a column's name.
+/// Words in the names of coordinates, which may grow evenly.
 const PLACES: [&str; 18] = [
     "altitude",
     "angle",
@@ -53,24 +53,24 @@ const PLACES: [&str; 18] = [
     "y",
     "z",
 ];
-/// The parts of a value that a clock in double and in single precision may be off at each step.
+/// Relative rounding error per step of a clock in double and in single precision.
 const PRECISIONS: [f64; 2] = [1e-15, 2.4e-7];
 
-/// When a column of values says that something moves.
+/// Which changes of a value column count as motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Moves {
-    /// It does not: another column is the coordinate.
+    /// None: another column is the coordinate.
     Never,
-    /// Whenever it changes.
+    /// Every change.
     Always,
-    /// When it ever goes back: it is called like a clock.
+    /// Steps backwards only: the column has a clock's name.
     Back,
-    /// When it changes unevenly: a clock of any name grows by the same amount in each row.
+    /// Uneven changes: a clock of any name advances by the same amount in each row.
     Unevenly,
 }
 
 impl Moves {
-    /// Of a column with this name, which may be the only one with values.
+    /// Judges a column by its name, and by whether it is the only value column.
     pub(super) fn of_name(name: &str, is_only: bool) -> Self {
         let words = words(name);
         let has = |known: &[&str]| words.iter().any(|word| known.contains(&&**word));
@@ -85,7 +85,7 @@ impl Moves {
     }
 }
 
-/// The words of a name: `simTime`, `sim_time` and `sim.time` have the same two.
+/// The words of a name in lower case: `simTime`, `sim_time` and `sim.time` have the same two.
 fn words(name: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut was_lower = false;
@@ -101,17 +101,15 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// How a column has gone in the rows of one name.
+/// How a column advances through the rows with one key.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
-    /// The place of the last row and its values.
+    /// Place of the last row, and the values of both sides there.
     last: Option<(f64, [f64; 2])>,
-    /// The least and the most by which it grows in each row, if that is the same, for each of [`PRECISIONS`]; the ends
-    /// excluded.
+    /// Exclusive bounds on the growth per row, if it is constant, for each of [`PRECISIONS`].
     growth: [[f64; 2]; 2],
-    /// How many steps were taken.
     steps: u32,
-    /// The unit of the last digit of the last values.
+    /// Unit of the last digit in the last values.
     unit: f64,
 }
 
@@ -122,8 +120,7 @@ impl Default for Course {
 }
 
 impl Course {
-    /// Adds the values of both sides at a place, as they are written in these cells. Returns whether it may still be a
-    /// clock's.
+    /// Adds the values of both sides at a place, with their cells. Returns whether the column may still be a clock.
     pub(super) fn add(
         &mut self,
         moves: Moves,
@@ -135,7 +132,7 @@ impl Course {
             return true;
         }
         let last = self.last.replace((place, values));
-        // Most columns do not change, or are called like a clock.
+        // Most columns never change or have a clock's name; they need no unit.
         if moves == Moves::Unevenly && last.is_none_or(|(_, last)| last != values) {
             self.unit = cells.map(unit_of).into_iter().fold(0.0, f64::max);
         }
@@ -158,14 +155,15 @@ impl Course {
         values.into_iter().zip(last).all(of_clock)
     }
 
-    /// Whether it went as a clock goes, as far as it was followed: two values alone always do.
+    /// Whether the column advanced like a clock. Without a clock's name that takes two steps, for one step is always
+    /// even.
     pub(super) fn is_of_a_clock(&self, moves: Moves) -> bool {
         let grows = |[least, most]: [f64; 2]| least < most && (least >= 0.0 || most <= 0.0);
         moves == Moves::Back || self.steps >= 2 && self.growth.into_iter().any(grows)
     }
 }
 
-/// The unit of the last digit of a number as it is written.
+/// Unit of the last digit of a written number.
 fn unit_of(cell: &[u8]) -> f64 {
     let cell = cell.trim_ascii();
     let exponent_at = cell.iter().position(|sign| matches!(sign, b'e' | b'E'));
@@ -208,7 +206,7 @@ mod tests {
         assert!(is_clock(&["0.0", "0.016667", "0.033333", "0.05"]));
         assert!(is_clock(&["0", "17", "33", "50", "67"]) && is_clock(&["0", "1", "2", "3"]));
         assert!(is_clock(&["1.6e9", "1.7e9", "1.8e9"]) && is_clock(&["3", "2", "1"]));
-        // Seconds since 1970, and a step of 1/60 that is added up in single precision.
+        // Seconds since 1970, and a step of 1/60 summed in single precision.
         assert!(is_clock(&["1700000000", "1700000001", "1700000002"]));
         assert!(is_clock(&["1700000000.016667", "1700000000.033333", "1700000000.05"]));
         let mut single = 0.0_f32;

@@ -1,4 +1,4 @@
-//! What is found of two runs: values that differ, and what they have in common.
+//! The findings about two runs: values that differ, and the rows and columns they share.
 
 use std::fmt;
 
@@ -8,32 +8,33 @@ use crate::sim::number::{counted, significant};
 /// Two values that differ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// The tick; the row's place from 0 in a table without ticks.
+    /// Tick of the row; without ticks, its position from 0.
     pub tick: u64,
-    /// What the tick is called: the name of its column, or `tick` for the place of a row; `None` where rows have no order.
+    /// Name of the tick column, or `tick` if rows go by position; `None` where rows have no order.
     pub tick_name: Option<String>,
-    /// The columns by which the row is told apart at its tick, such as `lane`, `body` and `coordinate`, each with its cell.
+    /// The other key columns, such as `lane`, `body` and `coordinate`, each with the row's cell.
     pub key: Vec<(String, String)>,
-    /// The column of the values.
+    /// Column of the values.
     pub column: String,
-    /// The values as they are written; `None` where the column is not there.
+    /// The values as written; `None` where the column is missing.
     pub values: [Option<String>; 2],
-    /// How many doubles lie from one to the other; `None` where one is no number, or not a number.
+    /// Distance in doubles; `None` if either value is not a number.
     pub ulps: Option<u64>,
-    /// Their difference as a part of the larger; `None` where that has no meaning.
+    /// Difference relative to the larger value; `None` if undefined.
     pub relative: Option<f64>,
 }
 
-/// The largest distance that is given in ulps, and not as a number.
+/// Largest distance written in ulps; larger ones are written as a number.
 const FEW_ULPS: u64 = 1000;
 
 impl Difference {
-    /// The row's cell in a column of its key.
+    /// The row's cell in a key column.
     pub fn cell(&self, column: &str) -> Option<&str> {
         self.key.iter().find(|(name, _)| name == column).map(|(_, cell)| &**cell)
     }
 
-    /// Where it is: the tick, the lane as it is to be named, the body and the coordinate, or the cells of another key.
+    /// Describes the row: its tick, then lane, body and coordinate, or the cells of another key. `lane_name` names
+    /// the lane.
     pub fn place(&self, lane_name: impl Fn(&str) -> String) -> String {
         let tick = self.tick_name.as_ref().map(|name| format!("{name} {}", self.tick));
         let cells = self.key.iter().map(|(name, cell)| match name.as_str() {
@@ -44,7 +45,7 @@ impl Difference {
         tick.into_iter().chain(cells).collect::<Vec<_>>().join(", ")
     }
 
-    /// How large it is, in a few words.
+    /// Describes the size in a few words.
     pub fn size(&self) -> String {
         let column = &self.column;
         let [a, b] = self.values.each_ref().map(|value| value.as_deref()?.parse::<f64>().ok());
@@ -75,56 +76,57 @@ impl fmt::Display for Difference {
 /// A column whose values differ somewhere.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColumnDifference {
-    /// The column.
+    /// Name of the column.
     pub column: String,
-    /// The first tick at which it differs by more than the [`Tolerance`](super::Tolerance).
+    /// First tick at which it differs by more than the [`Tolerance`](super::Tolerance).
     pub first_tick: u64,
-    /// In how many rows it does.
+    /// Number of rows in which it differs.
     pub rows: u64,
 }
 
-/// What two runs have in common, and where they part.
+/// The result of comparing two runs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Comparison {
-    /// How many rows both have.
+    /// Number of rows in both.
     pub rows: u64,
-    /// The farthest that any coordinate went from its first value, on either side; the value `q`, or where there is none, all.
+    /// Largest distance of a coordinate from its first value, on either side. Without a column `q`, every column
+    /// counts.
     pub moved: f64,
-    /// The first values that differ by more than the [`Tolerance`](super::Tolerance), by their tick and then by their place.
+    /// First difference beyond the [`Tolerance`](super::Tolerance), by tick and then by position.
     pub first: Option<Difference>,
-    /// For each of [`LEVELS`], the tick at which a value first differs by it, as a part of the largest that this column of
-    /// this coordinate had until then.
+    /// For each of [`LEVELS`], the first tick at which a value differs by it. Differences are relative to the largest
+    /// value so far in the same column and key.
     pub reaches: [Option<u64>; LEVELS.len()],
-    /// The columns of both that differ, in the order of the first table.
+    /// Common columns that differ, in the order of the first table.
     pub columns: Vec<ColumnDifference>,
-    /// The columns of both that do not.
+    /// Common columns that are equal.
     pub equal: Vec<String>,
-    /// The rate of its growth in 1/s, if it grows exponentially through three decades and more.
+    /// Growth rate in 1/s, if the difference grows exponentially through three decades or more.
     pub per_second: Option<f64>,
-    /// Whether rows belong together by their place alone.
+    /// Whether rows pair up by position alone.
     pub is_by_place: bool,
-    /// Whether there is a motion: a column of numbers moves, or one of text changes, or rows have no order to move in.
+    /// Whether anything moves: a number or a text changes, or rows have no order in which to move.
     pub changes: bool,
-    /// How many rows each side lacks.
+    /// Number of rows that each side lacks.
     pub missing: [u64; 2],
-    /// The tick of the first row that a side lacks.
+    /// Tick of the first row that each side lacks.
     pub first_missing: [Option<u64>; 2],
-    /// The columns that only this side has.
+    /// Columns that only this side has.
     pub alone: [Vec<String>; 2],
-    /// The column that differs most, and by how much, as in `reaches`.
+    /// The column that differs most, and its difference, as in `reaches`.
     pub worst: Option<(String, f64)>,
-    /// Pairs of zeros of two signs, which count as equal.
+    /// Pairs of 0 and −0, which count as equal.
     pub zeros_of_two_signs: u64,
     /// Pairs of NaN, which count as equal.
     pub nans: u64,
-    /// Whether a row counts as missing because its like, if there is one, stands too far away.
+    /// Whether a row may count as missing only because its counterpart is too far away.
     pub is_cut_off: bool,
-    /// Rows that stand at another place on the other side.
+    /// Rows at another position on the other side.
     pub displaced: u64,
 }
 
 impl Comparison {
-    /// Whether there is something to compare: two common rows, and a motion.
+    /// Whether the comparison has substance: two common rows, and a motion.
     pub fn is_comparable(&self) -> bool {
         self.rows >= 2 && self.changes && !self.is_cut_off
     }

@@ -1,18 +1,18 @@
-//! How a difference grows.
+//! Measures how a difference grows.
 
-/// The relative difference from which on it no longer grows as it did: the motions lose each other.
+/// Relative difference at which growth saturates, since the motions have separated.
 const LARGE: f64 = 0.1;
-/// The least growth that is one, as a factor.
+/// Least factor that counts as growth.
 const LEAST_GROWTH: f64 = 1e3;
-/// The least part of the variance of the logarithm that an exponential growth explains.
+/// Least share of the logarithm's variance that exponential growth must explain.
 const LEAST_EXPLAINED: f64 = 0.95;
 
-/// The sums of a line through points.
+/// Running sums for a line through points.
 #[derive(Clone, Copy, Default)]
 struct Line {
     n: f64,
     mean: [f64; 2],
-    /// The sums of squares and of products, about the means.
+    /// Sums of squares and of products, about the means.
     xx: f64,
     xy: f64,
     yy: f64,
@@ -34,26 +34,26 @@ impl Line {
         self.xy / self.xx
     }
 
-    /// The part of the variance that it explains.
+    /// Share of the variance that the line explains.
     fn explained(&self) -> f64 {
         self.xy * self.xy / (self.xx * self.yy)
     }
 }
 
-/// The largest differences so far, tick by tick, against the time and against its logarithm.
+/// The largest difference of each tick so far, on a logarithmic scale, fitted against time and against its logarithm.
 #[derive(Default)]
 pub(super) struct Growth {
-    /// The tick of the present points, its time, and the largest difference until then.
+    /// Tick of the present points and its time.
     present: Option<(u64, f64)>,
     largest: f64,
-    /// The time of the first difference, and its size.
+    /// Time and size of the first difference.
     start: Option<(f64, f64)>,
     exponential: Line,
     power: Line,
 }
 
 impl Growth {
-    /// Takes in a difference at a time in seconds; without one there is no rate.
+    /// Adds a difference at time `t` (s). Without times there is no rate.
     pub(super) fn note(&mut self, tick: u64, t: Option<f64>, difference: f64) {
         let Some(t) = t.filter(|_| difference > 0.0) else { return };
         if self.present.is_some_and(|(present, _)| present != tick) {
@@ -73,7 +73,7 @@ impl Growth {
         }
     }
 
-    /// The rate in 1/s, if the difference grew exponentially.
+    /// Growth rate in 1/s, if the difference grew exponentially.
     pub(super) fn per_second(mut self) -> Option<f64> {
         self.end_tick();
         let (_, least) = self.start?;

@@ -1,4 +1,4 @@
-//! Which columns of two tables say which row it is, and which are compared.
+//! Decides which columns of two tables identify a row, and which are compared.
 
 use std::collections::HashMap;
 
@@ -11,65 +11,65 @@ use crate::sim::number::counted;
 /// Why two tables cannot be compared row by row.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotComparable {
-    /// One has a column by which rows are told apart.
+    /// Only one table has this key column.
     #[error("{with} has a column {column:?} and {without} has none; give both, or neither")]
     OtherRows {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// The side that has it: `a` or `b`.
+        /// Side that has it: `a` or `b`.
         with: &'static str,
-        /// The other side.
+        /// Side that lacks it.
         without: &'static str,
     },
-    /// No column of values has the same name in both.
+    /// The tables share no value column.
     #[error("no column of values is in both; a has {a}, b has {b}")]
     NoColumn {
-        /// Those of one.
+        /// Columns of `a`.
         a: String,
-        /// Those of the other.
+        /// Columns of `b`.
         b: String,
     },
-    /// A column that was asked for is not there.
+    /// A requested column is missing.
     #[error("{side} has no column {column:?}; it has {here}")]
     NoSuchColumn {
-        /// `a` or `b`, or both.
+        /// Side that lacks it: `a` or `b`.
         side: &'static str,
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// The columns that are there.
+        /// Columns that the side has.
         here: String,
     },
-    /// Two columns of one have the same name.
+    /// Two columns of a table have the same name.
     #[error("{side} has two columns {column:?}; rename one")]
     Twice {
-        /// `a` or `b`.
+        /// Side: `a` or `b`.
         side: &'static str,
-        /// The column.
+        /// Name of the columns.
         column: String,
     },
-    /// The rows have too many names.
+    /// The rows have too many distinct keys.
     #[error(
         "the rows have more than {names} names by lane, body and coordinate, too many to keep with {}; compare fewer bodies or columns at a time",
         counted(*columns, "column")
     )]
     TooManyNames {
-        /// How many there were.
+        /// Number of keys so far.
         names: usize,
-        /// The columns of values.
+        /// Number of value columns.
         columns: usize,
     },
-    /// A tick is no whole number, or a time is no number.
+    /// A tick is not a whole number, or a time is not a number.
     #[error("row {row} of {side}: column {column:?} has {cell:?}; write {}", wanted(*is_ticks))]
     NoOrder {
-        /// `a` or `b`.
+        /// Side: `a` or `b`.
         side: &'static str,
-        /// The row's place, from 1, after the header.
+        /// Position of the row, from 1, after the header.
         row: u64,
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// Whether it counts ticks.
+        /// Whether the column counts ticks.
         is_ticks: bool,
-        /// What stands there.
+        /// The cell.
         cell: String,
     },
 }
@@ -78,66 +78,64 @@ fn wanted(is_ticks: bool) -> &'static str {
     if is_ticks { "a whole number of 0 or more" } else { "a number" }
 }
 
-/// Which columns say what, where their names do not. A name that is asked for must be in both tables, or in one if it is to be
-/// ignored.
+/// Roles of columns, where their names are not enough. Both tables must have every column named here, except that one
+/// may lack an ignored column.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Chosen {
-    /// The columns by which rows are told apart, in place of `tick`, `lane`, `body` and `coordinate`. The first that is called
-    /// `tick`, `frame` or `step` counts ticks.
+    /// Key columns, in place of `tick`, `lane`, `body` and `coordinate`. The first one named `tick`, `frame` or
+    /// `step` counts ticks.
     pub key: Vec<String>,
     /// The column that counts ticks, in place of `tick`.
     pub tick: Option<String>,
-    /// The columns of values that are compared; all, if there are none.
+    /// Value columns to compare; all, if empty.
     pub columns: Vec<String>,
-    /// Columns that are not compared.
+    /// Columns to leave out.
     pub ignored: Vec<String>,
 }
 
-/// What sides are called.
+/// Names of the two sides.
 const SIDES: [&str; 2] = ["a", "b"];
-/// The last tick whose number is sure to the last digit.
+/// Largest tick whose number is exact in a double.
 const MAX_TICK: f64 = 9_007_199_254_740_992.0;
-/// The columns of a row's name, beside its tick.
+/// Key columns besides the tick.
 pub(super) const NAMES: [&str; 3] = ["lane", "body", "coordinate"];
-/// What a column of a key is called that counts ticks.
+/// Names of key columns that count ticks.
 const TICKS: [&str; 3] = ["tick", "frame", "step"];
-/// The column of a coordinate beside which others do not say how far it moves.
+/// The column of the coordinate. Where it exists, no other column counts as motion.
 const COORDINATE: &str = "q";
 
-/// By what rows are in order.
+/// How the rows are ordered.
 enum Order {
-    /// This column of both: of ticks, or of times where there are no ticks.
+    /// By this common column, of ticks or of times.
     By { column: String, is_ticks: bool, at: [usize; 2] },
-    /// The place in the table.
+    /// By position in the table.
     Place,
-    /// Nothing: rows belong together by their key alone.
+    /// Not at all: rows pair up by key alone.
     Key,
 }
 
-/// A column of values.
 pub(super) struct ValueColumn {
     pub(super) name: String,
     pub(super) at: [usize; 2],
-    /// When it says that something moves.
     pub(super) moves: Moves,
 }
 
-/// A column by which rows are told apart, beside their order.
+/// A key column besides the one that orders rows.
 pub(super) struct Key {
     pub(super) name: String,
     pub(super) at: [usize; 2],
 }
 
-/// Where the columns of both are.
+/// Positions and roles of the columns in both tables.
 pub(super) struct Layout {
     order: Order,
-    /// The time in seconds, on the first side.
+    /// Column of the time (s), on the first side.
     t: Option<usize>,
     pub(super) keys: Vec<Key>,
     pub(super) values: Vec<ValueColumn>,
-    /// The columns that only one has.
+    /// Columns that only one side has.
     pub(super) alone: [Vec<String>; 2],
-    /// The side and the place of the first of them.
+    /// Side and position of the first of them.
     pub(super) first_alone: Option<(usize, usize)>,
 }
 
@@ -248,7 +246,7 @@ impl Layout {
         Ok(Self { order, t, keys, values, alone, first_alone })
     }
 
-    /// Where a row belongs, as bits that are in order.
+    /// Position of a row in the order, as bits that sort alike.
     pub(super) fn order(
         &self,
         side: usize,
@@ -266,7 +264,7 @@ impl Layout {
             false => !x.is_nan(),
         };
         let bits = parsed(cell).filter(fits).map(|x| (x + 0.0).to_bits());
-        // The bits of numbers of one sign are in their order, and negative ones before them.
+        // Bits of numbers with one sign sort like the numbers, and negative ones come first.
         let ordered = bits.map(|bits| if bits >> 63 == 0 { bits | 1 << 63 } else { !bits });
         ordered.ok_or_else(|| NotComparable::NoOrder {
             side: SIDES[side],
@@ -277,7 +275,7 @@ impl Layout {
         })
     }
 
-    /// The tick of a row, or the row's place in a table without ticks.
+    /// Tick of a row; without ticks, its position.
     pub(super) fn tick(&self, order: u64, place: u64) -> u64 {
         match self.order {
             Order::By { is_ticks: true, .. } => f64::from_bits(order & (u64::MAX >> 1)) as u64,
@@ -285,7 +283,7 @@ impl Layout {
         }
     }
 
-    /// What a tick is called, where rows have some: the column's name, or `tick` for the place of a row.
+    /// Name of the tick: that of its column, or `tick` if rows go by position. `None` without an order.
     pub(super) fn tick_name(&self) -> Option<&str> {
         match &self.order {
             Order::By { column, is_ticks: true, .. } => Some(column),
@@ -294,7 +292,6 @@ impl Layout {
         }
     }
 
-    /// Whether rows belong together by their place.
     pub(super) fn is_by_place(&self) -> bool {
         matches!(self.order, Order::Place)
     }
@@ -304,7 +301,7 @@ impl Layout {
         !matches!(self.order, Order::Key)
     }
 
-    /// The tick or the time of a row, or its place, which a clock goes with.
+    /// Tick, time or position of a row: the scale along which a clock advances.
     pub(super) fn place(&self, order: u64, place: u64) -> f64 {
         match self.order {
             Order::By { .. } if order >> 63 == 0 => f64::from_bits(!order),
@@ -313,7 +310,7 @@ impl Layout {
         }
     }
 
-    /// The time of a row of the first side, in seconds.
+    /// Time (s) of a row of the first side.
     pub(super) fn time(&self, row: &ByteRecord) -> Option<f64> {
         parsed(&row[self.t?])
     }

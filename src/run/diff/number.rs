@@ -1,15 +1,14 @@
-//! Numbers as they are written, and how far two are apart.
+//! Reads numbers from text, and measures the distance between two.
 
-/// The number in a cell.
 pub(super) fn parsed(cell: &[u8]) -> Option<f64> {
     std::str::from_utf8(cell).ok()?.trim().parse().ok()
 }
 
-/// What loggers write where they have no number, in whatever case.
+/// Marks that loggers write for a missing number, in any case.
 const NO_NUMBER: [&str; 8] = ["", "-", "na", "n/a", "null", "none", "nil", "--"];
 
-/// Whether this cell makes a text of its column: it is no number and does not stand for a missing one. A hash may look like a
-/// number with an exponent, but nobody writes zeros before a mantissa.
+/// Whether this cell makes its column text: it is neither a number nor a mark for a missing one. A hash may look like
+/// a number with an exponent, but nobody writes zeros before a mantissa.
 pub(super) fn is_text(cell: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(cell) else { return true };
     let text = text.trim();
@@ -18,13 +17,13 @@ pub(super) fn is_text(cell: &[u8]) -> bool {
             text.starts_with('0') && text[1..].starts_with(|c: char| c.is_ascii_digit());
         return has_zeros && text.contains(['e', 'E']);
     }
-    // Older C libraries write -nan(ind) and 1.#QNAN.
+    // Older C libraries write `-nan(ind)` and `1.#QNAN`.
     let is_nan = text.contains('#') || text.contains("nan(");
     !is_nan && !NO_NUMBER.iter().any(|known| text.eq_ignore_ascii_case(known))
 }
 
-/// Whether cells that are read as the same number may be written of two: whole numbers of more digits than a double has, and
-/// finite ones beyond it.
+/// Whether two cells that parse to the same number may mean different ones. This happens to whole numbers with more
+/// digits than a double has, and to finite numbers beyond its range.
 pub(super) fn hide_a_difference(cells: [&[u8]; 2], number: f64) -> bool {
     let has_digits = |cell: &[u8]| cell.iter().any(u8::is_ascii_digit);
     let is_whole = |cell: &[u8]| cell.trim_ascii().iter().all(u8::is_ascii_digit);
@@ -34,14 +33,14 @@ pub(super) fn hide_a_difference(cells: [&[u8]; 2], number: f64) -> bool {
     }
 }
 
-/// Whether both are the same number, or both are not a number. Zeros of two signs are the same.
+/// Whether both are the same number, or both are NaN. 0 and −0 are the same.
 pub fn is_same_number(a: f64, b: f64) -> bool {
     a == b || a.is_nan() && b.is_nan()
 }
 
-/// How many doubles lie from one to the other: 1 for neighbours, 0 for zeros of two signs. `None` where one is not a number.
+/// Distance in doubles: 1 for neighbours, 0 for 0 and −0. `None` if either is NaN.
 pub fn distance_ulps(a: f64, b: f64) -> Option<u64> {
-    // The bits of numbers of one sign are in their order.
+    // Bits of numbers with one sign sort like the numbers.
     let at = |x: f64| {
         let size = (x.to_bits() & (u64::MAX >> 1)) as i64;
         if x.is_sign_negative() { -size } else { size }
@@ -49,10 +48,10 @@ pub fn distance_ulps(a: f64, b: f64) -> Option<u64> {
     (!a.is_nan() && !b.is_nan()).then(|| at(a).abs_diff(at(b)))
 }
 
-/// The difference as a part of the larger. `None` where it is not finite.
+/// Difference relative to the larger number; `None` if it is not finite.
 pub(super) fn relative(a: f64, b: f64) -> Option<f64> {
     let (far, larger) = ((a - b).abs(), a.abs().max(b.abs()));
-    // The difference of two huge numbers of two signs is beyond what a number can be, but not its part.
+    // The difference between huge numbers of opposite sign may overflow; its ratio does not.
     let part = if far.is_finite() { far / larger } else { (a / larger - b / larger).abs() };
     if a == b { Some(0.0) } else { part.is_finite().then_some(part) }
 }

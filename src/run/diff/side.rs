@@ -1,4 +1,4 @@
-//! The rows of a side that wait for those of the other.
+//! Rows of one side that wait for their counterparts.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -6,38 +6,38 @@ use csv::ByteRecord;
 
 use super::{MAX_WAITING, MAX_WAITING_BYTES};
 
-/// A row, where it belongs.
+/// Identity of a row: its order and its stream.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Place {
-    /// The tick or the time, as bits that are in order.
+    /// Tick or time, as bits that sort alike.
     pub(super) order: u64,
     pub(super) stream: usize,
 }
 
-/// A row that waits for the other side's.
+/// A row that waits for its counterpart.
 pub(super) struct Waiting {
     pub(super) row: ByteRecord,
-    /// How many rows its side had before it.
+    /// Number of rows before it on its side.
     pub(super) number: u64,
 }
 
-/// A side of the comparison.
+/// One side of the comparison.
 #[derive(Default)]
 pub(super) struct Side {
-    /// The stream that the next row is of, if streams come in turn.
+    /// Expected stream of the next row, if streams take turns.
     pub(super) next: usize,
     pub(super) number: u64,
-    /// The order of the last row.
+    /// Order of the last row.
     pub(super) order: u64,
     pub(super) waiting: HashMap<Place, Waiting>,
-    /// The bytes of the rows that wait.
+    /// Bytes of the waiting rows.
     waiting_bytes: usize,
-    /// The rows that wait, and some that did, as they came.
+    /// Waiting rows in order of arrival; some may have left since.
     queue: VecDeque<(Place, u64)>,
 }
 
 impl Side {
-    /// Lets a row wait. Returns the one of the same name that it replaces.
+    /// Queues a row. Returns the row at the same place that it replaces.
     pub(super) fn insert(&mut self, place: Place, row: Waiting) -> Option<Waiting> {
         self.waiting_bytes += row.row.as_slice().len();
         self.queue.push_back((place, row.number));
@@ -50,7 +50,7 @@ impl Side {
         twice
     }
 
-    /// Takes out the row of this name.
+    /// Removes the row at this place.
     pub(super) fn remove(&mut self, place: &Place) -> Option<Waiting> {
         let row = self.waiting.remove(place)?;
         self.waiting_bytes -= row.row.as_slice().len();
@@ -61,7 +61,7 @@ impl Side {
         self.waiting.len() > MAX_WAITING || self.waiting_bytes > MAX_WAITING_BYTES
     }
 
-    /// Takes out the row that has waited longest.
+    /// Removes the row that has waited longest.
     pub(super) fn oldest(&mut self) -> Option<(Place, Waiting)> {
         while let Some((place, number)) = self.queue.pop_front() {
             if self.waiting.get(&place).is_some_and(|row| row.number == number) {

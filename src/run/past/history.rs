@@ -1,7 +1,7 @@
-//! The recent past of one body in one lane, from which trails and plots are drawn. Bounded, and allocated once.
+//! The recent past of one body in one lane, for trails and plots. Bounded, and allocated once.
 //!
-//! At a switch of method the run of samples under the old method ends, and the run under the new one begins, both with a
-//! sample at the moment of the switch.
+//! At a switch of method, the run of samples under the old method ends and one under the new method begins. Both have
+//! a sample at the moment of the switch.
 
 use std::collections::vec_deque;
 use std::{iter, option};
@@ -11,31 +11,31 @@ use super::windowed_log::WindowedLog;
 use crate::run::race::LaneBody;
 use crate::run::{METRICS, Metric};
 
-/// The most samples that a summary stands for: its range keeps what lies between its ends.
+/// Most samples per summary, whose range covers everything between its ends.
 const MAX_SUMMED: usize = 4;
 
 /// The recent past of one body in one lane, oldest first.
 #[derive(Debug)]
 pub struct History {
     samples: WindowedLog<Sample>,
-    /// The present, if no sample is due at it.
+    /// The present, if no sample is due there.
     present: Option<Sample>,
-    /// The range of the recorded coordinate since the newest sample.
+    /// Range of the recorded coordinate since the newest sample.
     since: SweptRange,
     most: Most,
 }
 
-/// The largest values since the start, or since the body was last put elsewhere.
+/// Largest values since the start, or since the last placement of the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Most {
-    /// The largest position error, in the unit of the first coordinate.
+    /// Largest position error, in the unit of the first coordinate.
     pub error: f64,
-    /// The largest coordinate in that unit, in the lane or in truth.
+    /// Largest coordinate in that unit, in the lane or in truth.
     pub size: f64,
 }
 
 impl Most {
-    /// The largest values of a moment.
+    /// The values at this moment.
     pub(super) fn of(body: &LaneBody, truth: &LaneBody) -> Self {
         let error = (METRICS[Metric::POSITION_ERROR].measure)(body, truth).unwrap_or_default();
         let all = [body, truth].into_iter().flat_map(|body| body.like_first(body.stepper.q()));
@@ -50,7 +50,7 @@ impl Most {
 /// The end of a [`History`] at some tick.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HistoryMark {
-    /// The number of samples since the start.
+    /// Number of samples since the start.
     samples: u64,
     since: SweptRange,
     most: Most,
@@ -60,8 +60,8 @@ pub(super) struct HistoryMark {
 pub type Samples<'h> = iter::Chain<vec_deque::Iter<'h, Sample>, option::Iter<'h, Sample>>;
 
 impl History {
-    /// An empty history that shows `capacity` samples, and keeps half as many more for going back without a repetition:
-    /// of [`CAPACITY`](super::CAPACITY) 17 s at 60 Hz.
+    /// An empty history that shows `capacity` samples, and keeps half as many more for rewinding without repetition.
+    /// With [`CAPACITY`](super::CAPACITY) these cover 17 s at 60 Hz.
     pub(super) fn new(capacity: usize) -> Self {
         let spare = capacity / 2;
         Self {
@@ -72,7 +72,7 @@ impl History {
         }
     }
 
-    /// The heap memory in bytes of a history of this capacity.
+    /// Heap memory (bytes) of a history of this capacity.
     pub(super) fn heap_bytes(capacity: usize) -> usize {
         (capacity + capacity / 2) * size_of::<Sample>()
     }
@@ -82,8 +82,8 @@ impl History {
         self.after(0)
     }
 
-    /// The samples, several to a summary, but at least `least` summaries as far as there are samples. In a full
-    /// history a sample stays with the same others as time goes on.
+    /// The samples in groups, as at least `least` summaries where there are enough. In a full history, a sample keeps
+    /// its group as time passes.
     pub fn summaries(&self, least: usize) -> Vec<Summary> {
         let together = (self.samples.len() / least.max(1)).clamp(1, MAX_SUMMED) as u64;
         let mut summaries: Vec<Summary> = Vec::with_capacity(self.samples.len() + 1);
@@ -105,14 +105,14 @@ impl History {
         self.samples.range(skipped.min(self.samples.len())).chain(present)
     }
 
-    /// The samples from time `t` (s) on, oldest first; where the body was put elsewhere at that time, from there.
+    /// Samples from time `t` (s) on, oldest first. If the body was placed at `t`, they begin there.
     pub fn since(&self, t: f64) -> Samples<'_> {
         let skipped = self.samples.count_before(t, |sample| (sample.t, sample.jumped));
         let is_over = self.present.as_ref().is_some_and(|present| present.t < t);
         self.after(skipped + usize::from(is_over))
     }
 
-    /// The largest values since the start, or since the body was last put elsewhere.
+    /// Largest values since the start, or since the last placement of the body.
     pub fn most(&self) -> Most {
         self.most
     }
@@ -133,14 +133,14 @@ impl History {
         self.begin_at(Sample { swept, ..now });
     }
 
-    /// Adds a sample that no path connects with the one before.
+    /// Adds a sample that no path connects with its predecessor.
     fn begin_at(&mut self, now: Sample) {
         self.present = None;
         self.since = SweptRange::NOTHING;
         self.samples.push(now);
     }
 
-    /// Adds the present until the next sample.
+    /// Shows the present until the next sample.
     pub(super) fn record_passing(&mut self, now: Sample) {
         let is_there = self.samples.newest().is_some_and(|newest| newest.t == now.t);
         let swept = self.since.and(now.q);
@@ -155,7 +155,7 @@ impl History {
         }
     }
 
-    /// Begins a run under the method of `now`. It replaces a run that began at the same moment, which has no motion.
+    /// Begins a run under the method of `now`. It replaces a run that began at the same moment and has no motion.
     pub(super) fn begin_run(&mut self, mut now: Sample) {
         let mut newest_first = self.samples.shown().rev();
         let newest = newest_first.next().filter(|newest| newest.t == now.t);
@@ -174,30 +174,30 @@ impl History {
         }
     }
 
-    /// Goes on from `now`, where the body was put.
+    /// Continues from `now`, where the body was placed.
     pub(super) fn jump(&mut self, now: Sample, most: Most) {
         self.most = most;
         self.begin_at(Sample { jumped: true, ..now });
     }
 
-    /// Where it is now.
+    /// Marks the present, for rewinding.
     pub(super) fn mark(&self) -> HistoryMark {
         HistoryMark { samples: self.samples.mark(), since: self.since, most: self.most }
     }
 
-    /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
+    /// Whether a repetition from the mark `from` restores the samples shown at `mark`.
     pub(super) fn fills(&self, from: HistoryMark, mark: HistoryMark) -> bool {
         self.samples.fills(from.samples, mark.samples)
     }
 
-    /// Goes back to a mark, or forward to one of the future that is kept.
+    /// Rewinds to a mark, which may also lie in the recorded future.
     pub(super) fn rewind(&mut self, mark: HistoryMark) {
         self.present = None;
         (self.since, self.most) = (mark.since, mark.most);
         self.samples.rewind(mark.samples);
     }
 
-    /// Forgets the future: another one begins.
+    /// Drops the recorded future.
     pub(super) fn forget_future(&mut self) {
         self.samples.forget_future();
     }
@@ -224,7 +224,7 @@ mod tests {
         }
     }
 
-    /// The entry and the times of each run.
+    /// Menu index and times of each run.
     fn runs(history: &History) -> Vec<(usize, Vec<f64>)> {
         let samples: Vec<&Sample> = history.samples().collect();
         let runs = samples.chunk_by(|one, next| one.entry == next.entry);

@@ -1,9 +1,9 @@
-//! What of a coordinate the motion instrument shows.
+//! Quantities of a coordinate for the motion instrument.
 
 use crate::run::race::LaneBody;
 use crate::sim::bodies::{Coordinate, Ship};
 
-/// What of a coordinate the motion instrument shows.
+/// A quantity of a coordinate that the motion instrument shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// The coordinate.
@@ -16,13 +16,13 @@ impl Quantity {
     /// Both, the usual one first.
     pub const ALL: [Quantity; 2] = [Quantity::Position, Quantity::Velocity];
 
-    /// What a plot shows of a body unless a person chooses otherwise: of a ship on a straight course its speed, for it runs on
-    /// for ever.
+    /// The default quantity of a plot: position. A ship on a straight course sails on for ever, so its plot shows the
+    /// speed.
     pub fn usual(body: &LaneBody) -> Self {
         if body.stepper.body().is::<Ship>() { Self::Velocity } else { Self::Position }
     }
 
-    /// Its name.
+    /// Name for people.
     pub fn name(self) -> &'static str {
         match self {
             Quantity::Position => "position",
@@ -38,7 +38,7 @@ impl Quantity {
         }
     }
 
-    /// Its value among a coordinate and its velocity.
+    /// The value, given a coordinate and its velocity.
     pub fn among(self, [q, v]: [f64; 2]) -> f64 {
         match self {
             Quantity::Position => q,

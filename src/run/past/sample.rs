@@ -6,7 +6,7 @@ use crate::run::METRICS;
 use crate::run::race::LaneBody;
 use crate::sim::Stepper;
 
-/// The most samples shown: every tick of 30 s at 60 Hz, and more than a plot has pixels.
+/// Most samples shown: every tick of 30 s at 60 Hz, and more than a plot has pixels.
 pub const CAPACITY: usize = 2048;
 
 /// One moment of a body.
@@ -16,19 +16,19 @@ pub struct Sample {
     pub t: f64,
     /// The recorded coordinate.
     pub q: f64,
-    /// The range of that coordinate since the sample before.
+    /// Range of that coordinate since the previous sample.
     pub swept: SweptRange,
     /// Its velocity.
     pub v: f64,
-    /// Where the body was, in metres.
+    /// Place of the body, in metres.
     pub at: DVec2,
-    /// Its energies, if it conserves energy.
+    /// Energies, if the body conserves energy.
     pub energies: Option<Energies>,
-    /// The index of the lane's method on the [menu](super::Menu) at that moment: a trail changes colour at a switch.
+    /// Index of the lane's method on the [menu](super::Menu) at that moment: a trail changes colour at a switch.
     pub entry: usize,
-    /// One value for each of [`METRICS`]; NaN where it has no meaning.
+    /// One value for each of [`METRICS`]; NaN where undefined.
     pub metrics: [f64; METRICS.len()],
-    /// Whether the body was put here, so that no path leads from the sample before.
+    /// Whether the body was placed here, so that no path leads from the previous sample.
     pub jumped: bool,
 }
 
@@ -46,7 +46,7 @@ impl PartialEq for Sample {
 }
 
 impl Sample {
-    /// The present of `body`, of its coordinate with this index, in a lane whose method has the index `entry`.
+    /// The present of `body` and its coordinate with this index, in a lane whose method has the menu index `entry`.
     pub(crate) fn new(
         t: f64,
         entry: usize,
@@ -65,19 +65,19 @@ impl Sample {
 /// The energies of a body that conserves energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Energies {
-    /// The kinetic energy in joules.
+    /// Kinetic energy in joules.
     pub kinetic_j: f64,
-    /// The total energy in joules.
+    /// Total energy in joules.
     pub total_j: f64,
 }
 
 impl Energies {
-    /// Those of a body now; `None` if it conserves none. Never allocates.
+    /// The body's present energies; `None` if it conserves none. Never allocates.
     pub(crate) fn of(body: &dyn Stepper) -> Option<Self> {
         Some(Self { kinetic_j: body.kinetic_energy()?, total_j: body.energy()? })
     }
 
-    /// The potential energy in joules.
+    /// Potential energy in joules.
     pub fn potential_j(self) -> f64 {
         self.total_j - self.kinetic_j
     }
@@ -87,12 +87,12 @@ impl Energies {
     }
 }
 
-/// The least and the greatest value of a coordinate from the sample before to this sample.
+/// Least and greatest value of a coordinate since the previous sample.
 #[derive(Clone, Copy, Debug)]
 pub struct SweptRange {
-    /// The least value.
+    /// Least value.
     pub least: f64,
-    /// The greatest value.
+    /// Greatest value.
     pub greatest: f64,
 }
 
@@ -127,26 +127,26 @@ impl SweptRange {
 /// Consecutive samples of one motion under one method.
 #[derive(Clone, Copy, Debug)]
 pub struct Summary {
-    /// The time of the last of them, in seconds.
+    /// Time (s) of the last of them.
     pub t: f64,
-    /// The recorded coordinate there.
+    /// The recorded coordinate at that time.
     pub q: f64,
-    /// The range of that coordinate since the summary before.
+    /// Range of that coordinate since the previous summary.
     pub swept: SweptRange,
-    /// The index of the lane's method on the [menu](super::Menu).
+    /// Index of the lane's method on the [menu](super::Menu).
     pub entry: usize,
-    /// Whether the body was put where they begin, so that no path leads from the summary before.
+    /// Whether the body was placed at the first sample, so that no path leads from the previous summary.
     pub jumped: bool,
 }
 
 impl Summary {
-    /// A sample alone.
+    /// The summary of one sample.
     pub fn of(sample: &Sample) -> Self {
         let &Sample { t, q, swept, entry, jumped, .. } = sample;
         Self { t, q, swept, entry, jumped }
     }
 
-    /// Both, if they are of one motion under one method.
+    /// Joins two summaries if they belong to one motion under one method.
     pub(super) fn and(self, next: Self) -> Option<Self> {
         let is_one = self.entry == next.entry && !next.jumped;
         let ends = next.swept.ends();

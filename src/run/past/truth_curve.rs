@@ -1,5 +1,5 @@
-//! The true motion of one body between ticks: its recent past on a fine time grid that is independent of the tick rate,
-//! and its state at any moment of the last tick. Bounded, and allocated once.
+//! The true motion of one body between ticks. A time grid, independent of the tick rate, holds its recent past; any
+//! moment of the last tick can be computed. Bounded, and allocated once.
 
 use std::collections::vec_deque;
 use std::mem::discriminant;
@@ -16,29 +16,29 @@ use crate::sim::{Solver, Stepper};
 /// Grid points in the duration shown: several for each pixel of a plot.
 const GRID: usize = 4096;
 
-/// The most products of the exact flow for the points of one tick, some milliseconds of work: n² a point for a body of n
-/// coordinates. With few points the curve is a cubic between them.
+/// Most products of the exact flow for the points of one tick, some milliseconds of work. A point of n coordinates
+/// takes n². Between few points, the curve is a cubic.
 const MAX_PRODUCTS: usize = 2_000_000;
 
-/// The fewest points that a tick may have, whatever they cost.
+/// Fewest points that a tick may have, at any cost.
 const MIN_POINTS: usize = 16;
 
-/// The capacity for samples off the grid, which are made at inputs.
+/// Capacity for samples off the grid, taken at inputs.
 const OFF_GRID: usize = 512;
 
-/// The capacity for pending inputs: one of each kind.
+/// Capacity for pending inputs: one of each kind.
 const KINDS_OF_INPUT: usize = 3;
 
-/// The most points that are put between two samples.
+/// Most points that refine the curve between two samples.
 const MAX_BETWEEN: f64 = 1e4;
 
-/// The relative difference up to which a flow leads to a sample.
+/// Largest relative difference at which the flow still reaches a sample.
 const FOLLOWS: f64 = 1e-9;
 
-/// Further grid points that are kept for going back without a repetition.
+/// Further grid points to keep, for rewinding without repetition.
 const SPARE: usize = GRID / 2;
 
-/// The samples of a block, of which it is known how far they reach: about as many as there are blocks.
+/// Samples per block with known extent; about as many as there are blocks.
 const BLOCK: usize = 64;
 
 /// One moment of the true motion.
@@ -48,15 +48,15 @@ pub struct TruthSample {
     pub t: f64,
     /// The recorded coordinate.
     pub q: f64,
-    /// The range of that coordinate at ticks since the sample before.
+    /// Range of that coordinate at ticks since the previous sample.
     pub swept: SweptRange,
     /// Its velocity.
     pub v: f64,
-    /// Where the body was, in metres.
+    /// Place of the body, in metres.
     pub at: DVec2,
-    /// Its energies, if it conserves energy.
+    /// Energies, if the body conserves energy.
     pub energies: Option<Energies>,
-    /// Whether the body was put here, so that no path leads from the sample before.
+    /// Whether the body was placed here, so that no path leads from the previous sample.
     pub jumped: bool,
 }
 
@@ -75,33 +75,33 @@ impl TruthSample {
 
 /// The true motion of one body as a curve.
 pub struct TruthCurve {
-    /// A copy of the true body under the inputs of the last tick, which is set to moments within that tick. The truth itself
-    /// is only read, so that no bit of it depends on what is drawn.
+    /// A copy of the true body under the inputs of the last tick, for moments within that tick. The truth itself is
+    /// only read, so drawing never changes a bit of it.
     between: Box<dyn Stepper>,
-    /// The inputs since the last tick, which `between` receives at the next.
+    /// Inputs since the last tick, for `between` at the next.
     pending: Vec<Input>,
-    /// Whether the truth has changed otherwise, so that a new copy is needed.
+    /// Whether the truth has changed in another way, so that a new copy is due.
     is_stale: bool,
     spacing_s: f64,
-    /// The index of the recorded coordinate.
+    /// Index of the recorded coordinate.
     coordinate: usize,
     samples: WindowedLog<TruthSample>,
-    /// The least and the greatest place in each block of samples, along x and up.
+    /// Least and greatest place in each block of samples, along x and up.
     extents: WindowedLog<[DVec2; 2]>,
-    /// The range of that coordinate at ticks since the newest sample.
+    /// Range of that coordinate at ticks since the newest sample.
     since: SweptRange,
 }
 
 /// The end of a [`TruthCurve`] at some tick.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TruthMark {
-    /// The number of samples since the start.
+    /// Number of samples since the start.
     samples: u64,
     since: SweptRange,
 }
 
 impl TruthCurve {
-    /// The curve of `truth` at its start, of the coordinate with this index, with a capacity of `span_s` seconds.
+    /// The curve of `truth` from its start, for the coordinate with this index, with a capacity of `span_s` seconds.
     pub(super) fn new(truth: &LaneBody, coordinate: usize, span_s: f64) -> Self {
         let mut curve = Self {
             between: truth.stepper.with_solver(Solver::Truth, 0.0),
@@ -117,23 +117,23 @@ impl TruthCurve {
         curve
     }
 
-    /// Its heap memory in bytes.
+    /// Heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.between.bytes(Solver::Truth) + self.samples.heap_bytes() + self.extents.heap_bytes()
     }
 
-    /// The samples, oldest first: at every point of the grid, and on both sides of an input.
+    /// Samples, oldest first: at every point of the grid, and on both sides of an input.
     pub fn samples(&self) -> vec_deque::Iter<'_, TruthSample> {
         self.samples.shown()
     }
 
-    /// The samples from time `t` (s) on, oldest first; where the body was put elsewhere at that time, from there.
+    /// Samples from time `t` (s) on, oldest first. If the body was placed at `t`, they begin there.
     pub fn since(&self, t: f64) -> vec_deque::Iter<'_, TruthSample> {
         let skipped = self.samples.count_before(t, |sample| (sample.t, sample.jumped));
         self.samples.range(skipped)
     }
 
-    /// How far the body has gone from `centre_m` [since](Self::since) `t` (s), along x and up, in metres.
+    /// Largest distance of the body from `centre_m` [since](Self::since) `t` (s), along x and up, in metres.
     pub fn reach_m(&self, centre_m: DVec2, t: f64) -> DVec2 {
         let (since, end) = (self.since(t), self.samples.mark() as usize);
         let (first, last) = ((end - since.len()).div_ceil(BLOCK), end / BLOCK);
@@ -148,19 +148,19 @@ impl TruthCurve {
         places.map(|at| (at - centre_m).abs()).fold(DVec2::ZERO, DVec2::max)
     }
 
-    /// The present of the true body `truth`, at time `t` (s): the curve's end, wherever the grid is.
+    /// The present of the true body `truth` at time `t` (s): the curve's end, on or off the grid.
     pub fn present(&self, truth: &LaneBody, t: f64) -> TruthSample {
         TruthSample::of(t, self.coordinate, &*truth.stepper)
     }
 
-    /// The index of the recorded coordinate.
+    /// Index of the recorded coordinate.
     pub fn coordinate(&self) -> usize {
         self.coordinate
     }
 
-    /// A quantity over time through consecutive `samples` of the true body `truth`, at least every `spacing_s` seconds.
-    /// A body of one coordinate is set to a sample and advanced from there, if that leads to the next sample; what an
-    /// input or an edit has changed since, and a body of several coordinates, is a cubic through both samples.
+    /// A quantity over time through consecutive `samples` of the true body `truth`, at least every `spacing_s`
+    /// seconds. For a body of one coordinate, points follow the exact flow from each sample if that reaches the next.
+    /// After inputs or edits, and for several coordinates, they lie on a cubic.
     pub fn finer(
         truth: &LaneBody,
         quantity: Quantity,
@@ -198,7 +198,8 @@ impl TruthCurve {
         quantity.among(state.unwrap_or_else(|| cubic(from, to, (t - from.t) / (to.t - from.t))))
     }
 
-    /// The coordinates and velocities of `truth` within its last tick, in which `part` goes from 0 to 1, or beyond it.
+    /// Coordinates and velocities of `truth` within or beyond its last tick; during the tick, `part` runs from 0 to
+    /// 1.
     pub(super) fn state(
         &self,
         truth: &LaneBody,
@@ -227,13 +228,13 @@ impl TruthCurve {
         (copy.q().to_vec(), copy.v().to_vec())
     }
 
-    /// Adds the tick that `truth` has just made. Allocates only after the truth was [changed](Self::change).
+    /// Adds the tick that `truth` has just made. Allocates only after a [change](Self::change) of the truth.
     pub(super) fn extend(&mut self, truth: &LaneBody, LastTick { from_s, to_s }: LastTick) {
         self.refresh(truth, from_s);
         for input in self.pending.drain(..) {
             self.between.input(from_s, input);
         }
-        // A tick longer than the curve has as many points as the curve, or as many as are affordable.
+        // A tick longer than the curve gets as many points as the whole curve, or as the work limit allows.
         let coordinates = truth.coordinates().len();
         let most = (MAX_PRODUCTS / (coordinates * coordinates)).clamp(MIN_POINTS, GRID);
         let spacing_s = self.spacing_s.max((to_s - from_s) / most as f64);
@@ -253,35 +254,35 @@ impl TruthCurve {
             t = next;
             self.push(TruthSample::of(t, self.coordinate, &*self.between));
         }
-        // Where the grid is finer than the ticks, the grid points alone are drawn.
+        // Where the grid is finer than the ticks, only grid points are drawn.
         if t < to_s && to_s - from_s < spacing_s {
             self.since = self.since.and(truth.stepper.q()[self.coordinate]);
         }
     }
 
-    /// Keeps the present of `truth`, at time `t`: before and after an input, where the curve has a
-    /// corner. Never allocates.
+    /// Adds the present of `truth` at time `t`, before and after an input, where the curve has a corner. Never
+    /// allocates.
     pub(super) fn keep(&mut self, t: f64, truth: &LaneBody) {
         self.push(self.present(truth, t));
     }
 
-    /// Keeps the present of `truth`, at time `t`, where the body was put. Never allocates.
+    /// Adds the present of `truth` at time `t` as a new beginning, where the body was placed. Never allocates.
     pub(super) fn jump(&mut self, t: f64, truth: &LaneBody) {
         self.push(TruthSample { jumped: true, ..self.present(truth, t) });
     }
 
-    /// Takes notice of an input that was given to the truth.
+    /// Notes an input to the truth.
     pub(super) fn bend(&mut self, input: Input) {
         self.pending.retain(|waiting| discriminant(waiting) != discriminant(&input));
         self.pending.push(input);
     }
 
-    /// Takes notice of anything else that was done to the truth.
+    /// Notes any other change of the truth.
     pub(super) fn change(&mut self) {
         self.is_stale = true;
     }
 
-    /// Makes a new copy of `truth`, where it was changed before time `t` (s).
+    /// Copies `truth` again if it changed before time `t` (s).
     pub(super) fn refresh(&mut self, truth: &LaneBody, t: f64) {
         if std::mem::take(&mut self.is_stale) {
             self.between = truth.stepper.with_solver(Solver::Truth, t);
@@ -310,17 +311,17 @@ impl TruthCurve {
         }
     }
 
-    /// Where it is now.
+    /// Marks the present, for rewinding.
     pub(super) fn mark(&self) -> TruthMark {
         TruthMark { samples: self.samples.mark(), since: self.since }
     }
 
-    /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
+    /// Whether a repetition from the mark `from` restores the samples shown at `mark`.
     pub(super) fn fills(&self, from: TruthMark, mark: TruthMark) -> bool {
         self.samples.fills(from.samples, mark.samples)
     }
 
-    /// Goes back to a mark, or forward to one of the future that is kept.
+    /// Rewinds to a mark, which may also lie in the recorded future.
     pub(super) fn rewind(&mut self, mark: TruthMark) {
         self.samples.rewind(mark.samples);
         self.extents.rewind(mark.samples / BLOCK as u64);
@@ -329,14 +330,14 @@ impl TruthCurve {
         self.is_stale = true;
     }
 
-    /// Forgets the future: another one begins.
+    /// Drops the recorded future.
     pub(super) fn forget_future(&mut self) {
         self.samples.forget_future();
         self.extents.forget_future();
     }
 }
 
-/// The motion of a true body of one coordinate without inputs.
+/// The motion of a true body without further inputs, for one coordinate.
 struct Flow {
     copy: Box<dyn Stepper>,
     is_known: bool,
@@ -348,7 +349,7 @@ impl Flow {
         Self { copy, is_known: truth.coordinates().len() == 1 }
     }
 
-    /// The coordinate and its velocity at time `t` (s), from a sample on.
+    /// Coordinate and velocity at time `t` (s), starting from a sample.
     fn state(&mut self, from: &TruthSample, t: f64) -> Option<[f64; 2]> {
         if !self.is_known {
             return None;
@@ -358,15 +359,15 @@ impl Flow {
         Some([self.copy.q()[0], self.copy.v()[0]])
     }
 
-    /// Whether the motion from one sample leads to the other.
+    /// Whether the motion from one sample reaches the other.
     fn leads(&mut self, from: &TruthSample, to: &TruthSample) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() <= FOLLOWS * a.abs().max(b.abs());
         self.state(from, to.t).is_some_and(|[q, v]| near(q, to.q) && near(v, to.v))
     }
 }
 
-/// The coordinate and its velocity at a part of the way between two samples, on the cubic through both with their
-/// velocities. Where no time passes, they are those of the first.
+/// Coordinate and velocity at a part of the way between two samples, on the cubic through both with their velocities.
+/// If both have the same time, those of the first.
 fn cubic(from: &TruthSample, to: &TruthSample, part: f64) -> [f64; 2] {
     let h = to.t - from.t;
     if h <= 0.0 {
@@ -401,7 +402,7 @@ mod tests {
         for [t, v] in TruthCurve::finer(truth, Quantity::Velocity, &samples, 0.001) {
             assert!((v + tau * libm::sin(tau * t)).abs() < 1e-10, "{v} at {t} s");
         }
-        // A jump that the flow does not make: the ends stay, and nothing else is known.
+        // The flow does not make this jump: the ends stay, and the cubic joins them.
         let put = TruthSample { q: 3.0, ..samples[1] };
         let points = TruthCurve::finer(truth, Quantity::Position, &[samples[0], put], 0.01);
         assert_eq!((points[0][1], points[points.len() - 1][1]), (1.0, 3.0));

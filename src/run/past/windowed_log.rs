@@ -1,21 +1,21 @@
-//! A bounded log with a movable end: the window shown ends at the present or earlier.
+//! A bounded log whose visible window ends at the present or earlier.
 
 use std::collections::{VecDeque, vec_deque};
 
-/// A bounded sequence of records, of which a window is shown. Allocated once.
+/// A bounded sequence of records with a visible window. Allocated once.
 ///
-/// Records are numbered from the run's start. While a run is in its past, the records of its future stay after the window,
-/// and an equal record that is [pushed](WindowedLog::push) again is not stored again.
+/// Numbers count records from the run's start. While a run is in its past, the records of its future stay after the
+/// window. If a repetition [pushes](WindowedLog::push) an equal record, the log keeps the stored one.
 #[derive(Debug)]
 pub(super) struct WindowedLog<T> {
     kept: VecDeque<T>,
-    /// The most records shown.
+    /// Most records shown.
     window: usize,
-    /// The most records kept.
+    /// Most records kept.
     capacity: usize,
-    /// The number of the oldest record kept.
+    /// Number of the oldest record kept.
     first: u64,
-    /// The number after the newest record shown.
+    /// Number after the newest record shown.
     end: u64,
 }
 
@@ -26,12 +26,12 @@ impl<T: PartialEq> WindowedLog<T> {
         Self { kept: VecDeque::with_capacity(capacity), window, capacity, first: 0, end: 0 }
     }
 
-    /// Its heap memory in bytes.
+    /// Heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.capacity * size_of::<T>()
     }
 
-    /// How many are shown.
+    /// Number of records shown.
     pub(super) fn len(&self) -> usize {
         self.window.min((self.end - self.first) as usize)
     }
@@ -46,14 +46,14 @@ impl<T: PartialEq> WindowedLog<T> {
         (self.end - self.len() as u64..self.end).zip(self.shown())
     }
 
-    /// The records shown, but for the `skipped` oldest.
+    /// The records shown, without the `skipped` oldest.
     pub(super) fn range(&self, skipped: usize) -> vec_deque::Iter<'_, T> {
         let end = (self.end - self.first) as usize;
         self.kept.range(end - self.len() + skipped..end)
     }
 
-    /// How many of the records shown are before time `t` (s), where `moment` tells the time of a record and whether a body
-    /// was put elsewhere then: of those at `t`, the ones before the last at which it was.
+    /// Index of the first visible record at or after `t` (s). If the body was placed at `t`, the index of the last
+    /// placement. `moment` returns a record's time, and whether it is a placement.
     pub(super) fn count_before(&self, t: f64, moment: impl Fn(&T) -> (f64, bool)) -> usize {
         let end = (self.end - self.first) as usize;
         let oldest = end - self.len();
@@ -100,12 +100,12 @@ impl<T: PartialEq> WindowedLog<T> {
         self.first <= oldest && mark <= self.first + self.kept.len() as u64
     }
 
-    /// Whether a run repeated from `from` will have filled the window that ends at `mark`.
+    /// Whether a repetition from `from` fills the window that ends at `mark`.
     pub(super) fn fills(&self, from: u64, mark: u64) -> bool {
         from + self.window as u64 <= mark || self.keeps(mark) && self.first <= from
     }
 
-    /// Ends the window at `mark`. If the records there are not kept, the log is empty from there.
+    /// Ends the window at `mark`. Clears the log if it has no records there.
     pub(super) fn rewind(&mut self, mark: u64) {
         if !(self.first..=self.first + self.kept.len() as u64).contains(&mark) {
             self.kept.clear();

@@ -1,4 +1,4 @@
-//! The actions on a race, from its journal and by hand.
+//! Actions on a race, from its journal and by hand.
 
 use super::journal::{Author, Journal};
 use super::lane::LaneBody;
@@ -20,8 +20,8 @@ impl Race {
         }
     }
 
-    /// This race, at its start, after the actions of `journal` up to tick `end`, without a tick between them. Its lanes, rate
-    /// and parameters are those of that tick; its bodies are not, so that a placing is passed to the observer and not made.
+    /// This race at its start, after the actions of `journal` up to tick `end`, without any ticks in between. Lanes,
+    /// rate and parameters are those of that tick; the bodies are not. So placements only notify the observer.
     pub(crate) fn after_actions(
         mut self,
         journal: &Journal,
@@ -40,9 +40,10 @@ impl Race {
         self
     }
 
-    /// Performs a person's action at the present tick, after the journal's actions at it, and adds it to the journal, from
-    /// which the person's later actions are removed. `None`: it changes neither the present nor the script's pending actions,
-    /// or the run cannot take it (see [`Action::checked`]), and it is not in the journal.
+    /// Performs a person's action at the present tick, after the journal's actions there. Adds it to the journal, and
+    /// removes the person's later actions. Returns `None`, and leaves the journal alone, if the run cannot take the
+    /// action (see [`Action::checked`]). The same holds if it changes neither the present nor the script's pending
+    /// actions.
     pub(crate) fn act(&mut self, action: Action, observer: &mut dyn Observer) -> Option<Done> {
         self.catch_up(observer);
         let action = action.checked()?;
@@ -62,13 +63,13 @@ impl Race {
                 Done::new(action, Author::Person, switch)
             }
         };
-        // The rate is another now, or a change of it that was to come is none.
+        // The action may have changed the rate, or cancelled a pending change of it.
         self.journal.put_on_ticks(self.done, self.piece);
         Some(Done { released, ..done })
     }
 
-    /// Whether the race has what an action is on, with such values: no body is there of a hand that still held it when
-    /// another scene was opened.
+    /// Whether the race has the target of an action, and accepts its values. A hand may still hold a body of the
+    /// scene shown before.
     fn can_take(&self, action: &Action) -> bool {
         match action {
             Action::Set { body, parameter, value } => {
@@ -98,7 +99,7 @@ impl Race {
         self.planned(action, Author::Person).is_some()
     }
 
-    /// The action as it would be performed; `None` if it would change nothing.
+    /// The action to perform; `None` if it would change nothing.
     fn planned(&self, action: &Action, author: Author) -> Option<Done> {
         if !self.can_take(action) {
             return None;
@@ -139,7 +140,7 @@ impl Race {
         self.truth.bodies().iter().any(|body| body.kind.inputs.contains(&input))
     }
 
-    /// The lane that an action switches, whether or not it has that method, substeps and tolerance already.
+    /// The switch that an action asks for, even if the lane has those settings already.
     fn switch(&self, action: &Action) -> Option<Switch> {
         let of_id = |lane: LaneId| self.entrants.iter().position(|e| e.id == lane);
         let present = |index: usize| self.entrants[index].spec;
@@ -163,8 +164,8 @@ impl Race {
         Some(Switch { index, lane: self.entrants[index].id, spec })
     }
 
-    /// Performs a person's action at the present tick, without adding it to the journal. Throttle and rudder are clamped to
-    /// -1 to 1. `None`: it [changes](Self::changes) nothing, and is not performed.
+    /// Performs a person's action at the present tick, without adding it to the journal. Clamps throttle and rudder
+    /// to -1 to 1. Returns `None` if the action [changes](Self::changes) nothing.
     pub fn perform(&mut self, action: &Action, observer: &mut dyn Observer) -> Option<Done> {
         self.perform_by(action, Author::Person, observer)
     }

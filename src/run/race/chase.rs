@@ -1,25 +1,24 @@
-//! How a body closes on a target that stays: its half-life, and how far it goes beyond.
+//! Measures how a body closes on a fixed target: its half-life, and its overshoot.
 
 use crate::sim::Stepper;
 
-/// A chase from when it began: at the start, or at the last input or placement.
+/// A chase that began at the start, or at the last input or placement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chase {
     target: f64,
     began_s: f64,
-    /// The distance at the beginning, with its sign.
+    /// Signed distance at the beginning.
     first: f64,
-    /// The last moment in seconds and the distance then.
+    /// Last moment (s), and the distance then.
     last: (f64, f64),
-    /// When half of the distance was left.
+    /// Time (s) at which half of the distance was left.
     halved_s: Option<f64>,
-    /// The furthest beyond the target, as a part of the first distance.
+    /// Largest overshoot, relative to the first distance.
     beyond: f64,
 }
 
 impl Chase {
-    /// The chase of `body` from time `t` (s) on; `None` if it follows nothing, if its target moves, or if it is
-    /// there already.
+    /// The chase of `body` from time `t` (s) on; `None` if it has no target, a moving one, or has already arrived.
     pub fn new(body: &dyn Stepper, t: f64) -> Option<Self> {
         let target = body.pursuit(t).filter(|pursuit| pursuit.is_still)?.target;
         let first = target - body.q()[0];
@@ -28,12 +27,12 @@ impl Chase {
         (first != 0.0 && first.is_finite()).then_some(chase)
     }
 
-    /// Takes in the place of the body, its first coordinate, at time `t` (s).
+    /// Adds the body's place, its first coordinate, at time `t` (s).
     pub fn take_in(&mut self, place: f64, t: f64) {
         let ((before_s, before), now) = (self.last, self.target - place);
         let (before, part) = (before / self.first, now / self.first);
         if self.halved_s.is_none() && part <= 0.5 {
-            // Between two ticks as an exponential falls; through the target as a straight line.
+            // Interpolate between ticks: exponentially before the target, linearly through it.
             let within = match part > 0.0 {
                 true => libm::log(before / 0.5) / libm::log(before / part),
                 false => (before - 0.5) / (before - part),
@@ -44,12 +43,12 @@ impl Chase {
         self.last = (t, now);
     }
 
-    /// The time in seconds in which half of the distance is covered; `None` until it is.
+    /// Time (s) to cover half of the distance; `None` until then.
     pub fn half_life_s(&self) -> Option<f64> {
         self.halved_s.map(|halved_s| halved_s - self.began_s)
     }
 
-    /// How far it has gone beyond the target, in percent of the first distance.
+    /// Overshoot in percent of the first distance.
     pub fn overshoot_percent(&self) -> f64 {
         100.0 * self.beyond
     }
@@ -62,7 +61,7 @@ mod tests {
     use crate::sim::Solver;
     use crate::sim::integrators::method;
 
-    /// The chase of 2 m under a method, of a body of this order and a rate of 10 /s.
+    /// The chase of 2 m under a method, by a body of this order with a rate of 10 /s.
     fn chase(order: u32, id: &str, hz: f64) -> Chase {
         let head = "title = 't'\ntick_hz = 60\nseconds = 2\n";
         let text = format!("{head}[[follow]]\norder = {order}\nrate_per_s = 10\nx0_m = -1\n");
@@ -95,13 +94,13 @@ mod tests {
 
     #[test]
     fn what_goes_beyond_its_target_has_overshot_by_that_part() {
-        // At k dt = 1.5 half of the distance is left on the other side.
+        // At k dt = 1.5, half of the distance is left on the other side.
         let overshoot = chase(1, "lerp-dt", 10.0 / 1.5).overshoot_percent();
         assert!((overshoot - 50.0).abs() < 1e-9, "{overshoot}");
         for (order, id) in [(1, "exponential-decay"), (2, "critically-damped-spring")] {
             assert_eq!(chase(order, id, 30.0).overshoot_percent(), 0.0, "{id}");
         }
-        // Straight from 2 m before it to 1 m beyond: half-way after a third of the step.
+        // In a straight line from 2 m before it to 1 m beyond: half-way after a third of the step.
         let half_life = half_life_ms(1, "lerp-dt", 10.0 / 1.5);
         assert!((half_life - 50.0).abs() < 1e-9, "{half_life}");
     }

@@ -1,4 +1,4 @@
-//! Lanes of equal cost: who is cheap may step more often.
+//! Lanes of equal cost: a cheap method may take more substeps.
 
 use std::ops::ControlFlow;
 
@@ -7,19 +7,19 @@ use super::lane::Lane;
 use crate::scene::{LaneSpec, MAX_SUBSTEPS, Scene, nearest_tick};
 use crate::sim::TickRate;
 
-/// The fewest ticks over which a cost is counted, and how many are counted after the script's last action: a second of
-/// most scenes, and enough for step sizes to settle.
+/// Fewest ticks over which to count a cost, and ticks to count after the script's last action. This is a second in
+/// most scenes, long enough for step sizes to settle.
 const SETTLING_TICKS: u64 = 60;
 
-/// The most ticks over which a cost is counted. More would keep a person waiting who asks for equal cost; the actions of
-/// a longer script are left out beyond them.
+/// Most ticks over which to count a cost. More would keep the person waiting who asks for equal cost; later actions
+/// of a longer script are left out.
 const MAX_COUNTED_TICKS: u64 = 600;
 
-/// The lanes of a scene, each with as many substeps as bring its evaluations nearest to those of the dearest of them as
-/// it stands. Evaluations are counted at `tick_hz` from the scene's start until its script is over and step sizes have
-/// settled, 60 to 600 ticks.
+/// The lanes of a scene with substeps that match their evaluations to those of the most expensive lane as given.
+/// Counts evaluations at `tick_hz` from the scene's start until the script is over and step sizes have settled, 60 to
+/// 600 ticks.
 ///
-/// The substeps of an engine are its own, and stay. A lane whose bodies halt costs what it did until then.
+/// An engine keeps its own substeps. A lane whose bodies halt costs the mean until then.
 pub fn equal_cost(
     scene: &Scene,
     lanes: &[LaneSpec],
@@ -35,7 +35,7 @@ pub fn equal_cost(
     lanes.iter().map(equal).collect()
 }
 
-/// The lanes that race: those of the scene, of equal cost if it asks for that.
+/// The lanes that race: those of the scene, at equal cost if it asks for that.
 pub fn lanes_that_race(scene: &Scene) -> Vec<LaneSpec> {
     match scene.equal_cost {
         true => equal_cost(scene, &scene.lanes, scene.tick_hz),
@@ -43,8 +43,8 @@ pub fn lanes_that_race(scene: &Scene) -> Vec<LaneSpec> {
     }
 }
 
-/// `spec` with the substeps that bring its cost nearest to `wanted`: found by bisection, as more substeps never cost
-/// less. `cost` may be infinite where it is more than its second argument.
+/// `spec` with the substeps that bring its cost nearest to `wanted`. More substeps never cost less, so bisection
+/// finds them. `cost` may return infinity above its second argument.
 fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec, f64) -> f64) -> LaneSpec {
     let with = |substeps: u32| LaneSpec { substeps, ..spec };
     let (mut low, mut high) = (1, MAX_SUBSTEPS);
@@ -62,7 +62,7 @@ fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec, f64) -> f64) ->
     if off_above < off_below { above } else { below }
 }
 
-/// The mean cost of a tick; infinite where it is more than `most`.
+/// Mean cost of a tick; infinity if it exceeds `most`.
 fn evaluations_per_tick(scene: &Scene, spec: &LaneSpec, tick_hz: TickRate, most: f64) -> f64 {
     let over = scene.script.last().map_or(0, |last| nearest_tick(last.at_s, tick_hz));
     let end = over.saturating_add(SETTLING_TICKS).min(MAX_COUNTED_TICKS);

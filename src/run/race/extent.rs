@@ -2,35 +2,35 @@
 
 use crate::sim::Stepper;
 
-/// An exchange of energy below this part of the largest kinetic energy is rounding.
+/// An exchange of energy below this share of the largest kinetic energy is rounding.
 const ROUNDING: f64 = 1e-9;
-/// Kinetic energy below this part of the largest counts as 0: between ticks it may have been 0.
+/// Kinetic energy below this share of the largest counts as 0, which it may have reached between ticks.
 const AT_REST: f64 = 0.01;
 
 /// The range of a body's true motion since its start.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Extent {
     largest_speed: f64,
-    /// The largest sum of kinetic and potential energy that is not conserved, in joules.
+    /// Largest sum of kinetic and potential energy (J), for a body that does not conserve it.
     most_j: f64,
     kinetic: Option<Kinetic>,
 }
 
-/// The kinetic energy so far, in joules.
+/// Range of the kinetic energy so far (J).
 #[derive(Clone, Copy, Debug)]
 struct Kinetic {
     least: f64,
     most: f64,
-    /// The range of the kinetic energy since the last turn.
+    /// Its range since the last turn.
     recent: (f64, f64),
-    /// Whether the kinetic energy was last rising; `None` before it has changed.
+    /// Whether it was last rising; `None` before its first change.
     rises: Option<bool>,
-    /// How often the kinetic energy has reversed by half its range.
+    /// Number of reversals by half its range.
     turns: u32,
 }
 
 impl Extent {
-    /// Adds a moment: the speed and, if the body conserves its energy, the kinetic energy (J).
+    /// Adds a moment: the speed, and the kinetic energy (J) if the body conserves its energy.
     pub(crate) fn cover(&mut self, speed: f64, kinetic_j: Option<f64>) {
         self.largest_speed = self.largest_speed.max(speed);
         if let Some(now) = kinetic_j {
@@ -38,25 +38,26 @@ impl Extent {
         }
     }
 
-    /// Adds a moment's kinetic and potential energy (J), which are not conserved, if they are known.
+    /// Adds a moment's kinetic and potential energy (J), if known, of a body that does not conserve their sum.
     pub(crate) fn cover_energy(&mut self, energies: Option<[f64; 2]>) {
         let sum = energies.map_or(0.0, |[kinetic, potential]| kinetic + potential);
         self.most_j = self.most_j.max(sum);
     }
 
-    /// The largest sum of kinetic and potential energy so far, in joules; 0 where they are not known.
+    /// Largest sum of kinetic and potential energy so far (J); 0 if unknown.
     pub(crate) fn most_j(&self) -> f64 {
         self.most_j
     }
 
-    /// The largest speed so far; 0 if the body has not moved.
+    /// Largest speed so far; 0 if the body has not moved.
     pub(crate) fn largest_speed(&self) -> f64 {
         self.largest_speed
     }
 
-    /// The energy that the motion of `truth` exchanges, in joules: the range of its kinetic energy, and for a linear body at
-    /// least its total energy, all of which its modes exchange in time. `None` if energy is not conserved or exchanged, and
-    /// before both ends of the range have been reached: a part of the range would exaggerate the drift.
+    /// The energy (J) that the motion of `truth` exchanges: the range of its kinetic energy. For a linear body it is
+    /// at least the total energy, all of which its modes exchange in time. `None` if energy is not conserved or
+    /// exchanged, and before the motion has reached both ends of the range. A part of the range would exaggerate the
+    /// drift.
     pub(crate) fn exchanged_j(&self, truth: &dyn Stepper) -> Option<f64> {
         let whole = truth.energy().filter(|_| truth.is_linear());
         Some(self.range_j()?.max(whole.unwrap_or(0.0)))
@@ -76,7 +77,7 @@ impl Kinetic {
         self.most - self.least
     }
 
-    /// The range of the kinetic energy, once it has turned at both ends or come to rest.
+    /// Whether the kinetic energy has turned at both ends, or has come to rest.
     fn has_seen_both_ends(self) -> bool {
         self.turns >= 2 || self.turns == 1 && self.least <= AT_REST * self.most
     }

@@ -7,22 +7,22 @@ use crate::scene::{Action, Scripted, nearest_tick};
 use crate::sim::TickRate;
 use crate::sim::integrators::StepFailure;
 
-/// What a [`Follow`] ticks.
+/// A system that a [`Follow`] ticks.
 pub trait Ticked {
-    /// Applies the effect of an action at time `t` (s), before tick `tick`.
+    /// Applies an action at time `t` (s), before tick `tick`.
     fn act(&mut self, tick: u64, t: f64, action: &Action);
 
     /// Steps from `t` by `h` (s), from tick `tick` to the next.
     ///
     /// # Errors
-    /// If it fails. A [`Lane`](super::Lane), whose bodies halt one by one, does not.
+    /// If the step fails. A [`Lane`](super::Lane) never fails, since its bodies halt one by one.
     fn tick(&mut self, tick: u64, t: f64, h: f64) -> Result<(), StepFailure>;
 
-    /// Whether its `ticks` ticks took more work than this. It may look at some ticks only.
+    /// Whether the first `ticks` ticks exceeded this work. An implementation may check only at some ticks.
     fn has_worked_more(&self, than: u64, ticks: u64) -> bool;
 }
 
-/// Bodies on their way from tick to tick. It can be stopped after any tick, and goes on from there.
+/// Bodies that advance tick by tick. A caller may stop after any tick, and resume there.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -43,10 +43,10 @@ pub trait Ticked {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Follow<'a, B> {
-    /// What is ticked, in its present state.
+    /// The system in its present state.
     pub body: B,
     script: Cow<'a, [Scripted]>,
-    /// The rows of the script that are done.
+    /// Number of script rows already performed.
     done: usize,
     start_s: f64,
     tick_hz: TickRate,
@@ -57,11 +57,11 @@ pub struct Follow<'a, B> {
 /// Why a [`Follow`] stopped.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StopReason {
-    /// It has made the ticks that it was to make.
+    /// It reached the requested tick.
     End,
-    /// Its caller has seen enough.
+    /// Its caller stopped it.
     Seen,
-    /// It has done more work than it may.
+    /// It exceeded its work limit.
     TooMuchWork,
     /// The next tick failed.
     Failed(StepFailure),
@@ -81,22 +81,22 @@ impl<'a, B: Ticked> Follow<'a, B> {
         }
     }
 
-    /// With these actions, in order, each before the tick that is nearest to its time.
+    /// Adds a script, in order; each action precedes the tick nearest to its time.
     pub fn with_script(self, script: impl Into<Cow<'a, [Scripted]>>) -> Self {
         Self { script: script.into(), ..self }
     }
 
-    /// From this time in seconds on, and not from 0.
+    /// Starts at this time (s) instead of 0.
     pub fn from_time(self, start_s: f64) -> Self {
         Self { start_s, ..self }
     }
 
-    /// With a limit of its work, in the unit of [`Ticked::has_worked_more`].
+    /// Limits the work, in the unit of [`Ticked::has_worked_more`].
     pub fn within(self, max_work: u64) -> Self {
         Self { max_work, ..self }
     }
 
-    /// The ticks that were made.
+    /// Number of ticks made.
     pub fn ticks(&self) -> u64 {
         self.ticks
     }
@@ -106,7 +106,8 @@ impl<'a, B: Ticked> Follow<'a, B> {
         self.start_s + self.tick_hz.seconds(self.ticks)
     }
 
-    /// Goes on until `end` ticks are made. Passes what is ticked to `see` after each tick, with the number of ticks made.
+    /// Ticks until `end` ticks are made in total. After each tick, passes the system and the number of ticks to
+    /// `see`.
     pub fn run(
         &mut self,
         end: u64,
@@ -126,7 +127,7 @@ impl<'a, B: Ticked> Follow<'a, B> {
         StopReason::End
     }
 
-    /// Makes a tick, after the actions of the script that are due.
+    /// Makes a tick, after the script's actions that are due.
     fn tick(&mut self) -> Result<(), StepFailure> {
         let (tick, t) = (self.ticks, self.t());
         let is_due = |row: &&Scripted| nearest_tick(row.at_s - self.start_s, self.tick_hz) <= tick;
@@ -144,7 +145,7 @@ impl<'a, B: Ticked> Follow<'a, B> {
 mod tests {
     use super::*;
 
-    /// What happened, in words; the fourth tick fails.
+    /// A log of the calls in words; the fourth tick fails.
     #[derive(Clone, Default)]
     struct Log(Vec<String>);
 

@@ -1,8 +1,8 @@
-//! How a body is drawn between two ticks.
+//! Draws a body between two ticks.
 
 use super::lane::LaneBody;
 
-/// How a body is drawn between two ticks.
+/// How to draw a body between two ticks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Interpolation {
     /// The state of the last tick, unchanged.
@@ -11,21 +11,21 @@ pub enum Interpolation {
     Linear,
     /// A cubic through the states and velocities of the last two ticks.
     Hermite,
-    /// The same cubic, but where both ticks move one way, it does not go back between them. Explicit Euler changes a velocity
-    /// a tick before the position follows, so that at a coarse tick the cubic starts by moving backwards. A parabola
-    /// stays as it is.
+    /// The same cubic, but without going back between two ticks that move one way. Explicit Euler changes a velocity
+    /// one tick before the position follows. So at a coarse tick, the plain cubic starts by moving backwards. A
+    /// parabola stays unchanged.
     #[default]
     Monotone,
-    /// The last tick, carried on by its velocity.
+    /// The last tick, extrapolated by its velocity.
     Extrapolated,
 }
 
 impl Interpolation {
-    /// Every way, in the order in which the window goes through them.
+    /// All variants, in the order in which the window cycles through them.
     pub const ALL: [Self; 5] =
         [Self::Raw, Self::Extrapolated, Self::Linear, Self::Hermite, Self::Monotone];
 
-    /// The name for people.
+    /// Name for people.
     pub fn name(self) -> &'static str {
         match self {
             Interpolation::Raw => "raw",
@@ -36,13 +36,13 @@ impl Interpolation {
         }
     }
 
-    /// The way after this one, and after the last the first.
+    /// The next variant; the first follows the last.
     pub fn next(self) -> Self {
         let index = Self::ALL.iter().position(|&way| way == self).expect("all are listed");
         Self::ALL[(index + 1) % Self::ALL.len()]
     }
 
-    /// The moment that is shown, in ticks from the last one, at the part `alpha` of the next.
+    /// The moment shown at the part `alpha` of the next tick, in ticks from the last one.
     pub fn shown(self, alpha: f64) -> f64 {
         match self {
             Interpolation::Raw => 0.0,
@@ -51,7 +51,7 @@ impl Interpolation {
         }
     }
 
-    /// The coordinates of a body at the part `alpha` of a tick of `h` seconds.
+    /// Coordinates of a body at the part `alpha` of a tick of `h` seconds.
     pub fn coordinates(self, body: &LaneBody, alpha: f64, h: f64) -> Vec<f64> {
         let (q0, v0) = (&body.previous_q, &body.previous_v);
         let (q1, v1) = (body.stepper.q(), body.stepper.v());
@@ -68,8 +68,9 @@ impl Interpolation {
         }
     }
 
-    /// The velocities of a body at the same moment: those of the states that were stepped, and between two ticks on a line. The
-    /// slope of what is drawn may be another, for a method's velocity is not always the change of its coordinate.
+    /// Velocities of a body at the same moment: those of the stepped states, or between two ticks a line through
+    /// them. They may differ from the slope of the drawing, since some methods' velocities are not the change of
+    /// their coordinates.
     pub fn velocities(self, body: &LaneBody, alpha: f64) -> Vec<f64> {
         let (v0, v1) = (&body.previous_v, body.stepper.v());
         match self {
@@ -81,7 +82,7 @@ impl Interpolation {
     }
 }
 
-/// The cubic through `q` at both ends of a tick of `h` seconds with the velocities `v` there, at the part `alpha` of it.
+/// The cubic at the part `alpha` of a tick of `h` seconds, through `q` with the velocities `v` at both ends.
 pub(crate) fn hermite(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
     let (a, b) = (alpha, 1.0 - alpha);
     let ends = b * b * (1.0 + 2.0 * a) * q[0] + a * a * (1.0 + 2.0 * b) * q[1];
@@ -94,8 +95,9 @@ pub(crate) fn slope(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
     6.0 * a * b * (q[1] - q[0]) / h + b * (b - 2.0 * a) * v[0] + a * (a - 2.0 * b) * v[1]
 }
 
-/// The velocities `v` at both ends of a tick of `h` seconds, limited so that the cubic through `q` goes one way if they and
-/// the way between the ends do: to three times the velocity of a straight line (de Boor and Swartz 1977).
+/// The velocities `v` at both ends of a tick of `h` seconds, limited to three times that of a straight line (de Boor
+/// and Swartz 1977). Then the cubic through `q` goes one way. Velocities that disagree in direction with each other
+/// or with the line stay unchanged.
 fn monotone(h: f64, q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
     let most = 3.0 * (q[1] - q[0]) / h;
     let goes_on = v[0] * v[1] >= 0.0 && v.iter().all(|v| v * most >= 0.0);
@@ -124,7 +126,7 @@ mod tests {
             let v = monotone(h, q, v);
             (0..=100).map(|part| hermite(f64::from(part) / 100.0, h, q, v)).collect()
         };
-        // The ship of the harbour under explicit Euler at 1 Hz: it moves a tick after its speed does.
+        // The harbour's ship under explicit Euler at 1 Hz moves one tick after its speed changes.
         let (mut q, mut v) = (0.0, 0.0);
         for _ in 0..10 {
             let (then, was) = (q, v);

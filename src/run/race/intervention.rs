@@ -1,4 +1,4 @@
-//! The changes to a run by which it is told, and the scene that a run so changed continues.
+//! A person's edits to a run, and the scene with them applied.
 
 use std::sync::Arc;
 
@@ -6,19 +6,18 @@ use super::journal::{Author, JournalRow};
 use super::{BodyStart, Race, RunStart, Starts};
 use crate::scene::{Action, Scene, Scripted, nearest_tick};
 
-/// What a person and the script have changed in a run by its present tick.
+/// The edits by a person and the script up to the present tick.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Interventions {
-    /// From where the run is told, unless it is from its start.
+    /// Checkpoint from which the scene starts; the run's start if `None`.
     start: Option<Arc<RunStart>>,
-    /// The last action on the throttle, on the rudder and on each parameter.
+    /// Last action on the throttle, on the rudder and on each parameter.
     settings: Vec<Action>,
 }
 
 impl Interventions {
-    /// The changes in `race`, whose run is told from `starts`, by which it is judged. A parameter that the script has set is in
-    /// force like one that a person has set; what the script does to throttle, rudder and state is part of the motion that
-    /// is judged.
+    /// The edits in `race` since its checkpoint for verdicts. A parameter that the script set counts like a person's
+    /// edit. The script's throttle, rudder and state changes are part of the judged motion.
     pub(crate) fn in_race(race: &Race, starts: &Starts) -> Self {
         let mut settings: Vec<Action> = Vec::new();
         let is_in_force = |row: &&JournalRow| {
@@ -35,19 +34,18 @@ impl Interventions {
         Self { start: starts.judged.clone(), settings }
     }
 
-    /// All changes: the run is told from right after the last one on.
+    /// Starts right after the last edit, so no later settings remain.
     pub(crate) fn all(starts: &Starts) -> Self {
         Self { start: starts.cloud.clone(), settings: Vec::new() }
     }
 
-    /// The time of the run at which the scene begins that it is [applied to](Self::applied_to), in seconds.
+    /// Time (s) of the run at which the [edited scene](Self::applied_to) starts.
     pub(crate) fn starts_at_s(&self) -> f64 {
         self.start.as_ref().map_or(0.0, |start| start.t)
     }
 
-    /// The run as a scene of its own, from where it is told.
-    /// Parameters that have been set, and a throttle and a rudder that were set by hand, have their last values from the
-    /// beginning, and the script does not set them.
+    /// The run as a scene that starts at the checkpoint. Edited parameters have their last values from the beginning,
+    /// and so do a throttle and a rudder set by hand. The script no longer sets them.
     pub(crate) fn applied_to(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         let mut at_start = Vec::new();

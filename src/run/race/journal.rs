@@ -1,4 +1,4 @@
-//! The actions on a run by tick: by its scene's script, or by a person.
+//! Actions on a run in order of ticks, by its scene's script or by a person.
 
 use std::sync::Arc;
 
@@ -10,24 +10,24 @@ use crate::sim::TickRate;
 pub enum Author {
     /// The scene's script.
     Script,
-    /// A person, or a program that acts for one.
+    /// A person, or a program on behalf of one.
     Person,
 }
 
 /// An action at a tick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JournalRow {
-    /// The tick before which the action is performed.
+    /// The tick before which the run performs the action.
     pub tick: u64,
-    /// When it is to be, in seconds: of a person the time of the tick, of a script what that says.
+    /// Time of the action (s): the tick's time for a person, the written time for a script.
     pub at_s: f64,
     /// The action.
     pub action: Action,
-    /// Who performs it.
+    /// Its author.
     pub author: Author,
 }
 
-/// The rows of one future of a run, which follow on those that it has in common with another.
+/// The rows of one future of a run, after those that it shares with another.
 pub(crate) struct JournalTail {
     kept: usize,
     pub(crate) rows: Vec<JournalRow>,
@@ -53,7 +53,7 @@ impl Journal {
         journal
     }
 
-    /// Puts what comes after the first `done` rows, which is a script's, on the ticks that are nearest to its times now.
+    /// Moves the rows after the first `done`, all by a script, to the ticks now nearest to their times.
     pub(super) fn put_on_ticks(&mut self, done: usize, present: Piece) {
         let script = self.rows[done..].iter().map(|row| (row.at_s, &row.action));
         let ticks: Vec<u64> = present.put_on_ticks(script).map(|(tick, _)| tick).collect();
@@ -63,14 +63,14 @@ impl Journal {
         }
     }
 
-    /// All rows: by tick, and within a tick in the order in which they are performed.
+    /// All rows in the order of performance, so also by tick.
     pub fn rows(&self) -> &[JournalRow] {
         &self.rows
     }
 
-    /// Adds a person's action at `tick`, whose time is `at_s`, after the first `done` rows, and returns the number of rows up
-    /// to and including it. Removes the person's later actions, and the script's later actions on the same control, which is returned if
-    /// there are any.
+    /// Adds a person's action at `tick`, whose time is `at_s`, after the first `done` rows. Removes the person's
+    /// later actions, and the script's later actions on the same control. Returns the number of rows up to and
+    /// including the new one, and the control if the script lost it.
     pub(super) fn insert(
         &mut self,
         done: usize,
@@ -99,7 +99,7 @@ impl Journal {
         (done, released)
     }
 
-    /// What it has beside `other` after their first rows, of which at most `most` are in common.
+    /// The rows in which this journal differs from `other`, after at most `most` common ones.
     pub(crate) fn tail_beside(&self, other: &Self, most: usize) -> JournalTail {
         let alike =
             self.rows.iter().zip(&other.rows[..most]).take_while(|(own, other)| own == other);
@@ -124,9 +124,9 @@ impl Journal {
     }
 }
 
-/// Whether the last row of `done` is an intermediate value of a parameter that a person drags at one tick, so that `next`
-/// can replace it. A change to the present value would not restart the methods, so one real change has to stay before
-/// `next`.
+/// Whether the last row of `done` is an intermediate value of a parameter dragged within one tick, so that `next` can
+/// replace it. One real change must stay before `next`, because setting the present value again would not restart the
+/// methods.
 fn is_intermediate(done: &[JournalRow], next: &JournalRow) -> bool {
     let control = next.action.control();
     let is_alike = |row: &&JournalRow| {

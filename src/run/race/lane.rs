@@ -1,7 +1,6 @@
-//! A solver on its own copy of the scene's bodies; the truth is one too.
+//! A solver on its own copy of the scene's bodies. The truth is a lane, too.
 //!
-//! A body that blows up or whose solver fails halts alone: the other bodies of its lane go on, unchanged to the
-//! bit.
+//! A body that blows up, or whose solver fails, halts alone: the lane's other bodies continue, unchanged to the bit.
 
 use std::sync::Arc;
 
@@ -14,8 +13,7 @@ use crate::sim::integrators::StepFailure;
 use crate::sim::number::{duration, superscript};
 use crate::sim::{Solver, Stepper};
 
-/// The largest magnitude of a coordinate or velocity. Beyond it the value would not fit the picture's f32, and the
-/// body halts.
+/// Largest magnitude of a coordinate or velocity. A larger value would not fit the picture's f32, so the body halts.
 pub const ESCAPE: f64 = 1e38;
 
 /// Why and when a body stopped.
@@ -23,16 +21,16 @@ pub const ESCAPE: f64 = 1e38;
 pub struct Halt {
     /// The tick that failed. The body keeps its state from before that tick.
     pub tick: u64,
-    /// When that tick began, in seconds.
+    /// Time (s) at which that tick began.
     pub t: f64,
-    /// The body that failed, by its index in the scene.
+    /// Index in the scene of the body that failed.
     pub body: usize,
-    /// Why.
+    /// Why it failed.
     pub failure: StepFailure,
 }
 
 impl Halt {
-    /// Whether a value left the range of [`ESCAPE`] or was not finite, rather than the solver failing.
+    /// Whether a value left the range of [`ESCAPE`] or was not finite; otherwise the solver failed.
     pub fn is_blow_up(&self) -> bool {
         matches!(self.failure, StepFailure::Escaped { .. } | StepFailure::NotFinite { .. })
     }
@@ -42,18 +40,18 @@ impl Halt {
         if self.is_blow_up() { "blew up" } else { "gave up" }
     }
 
-    /// What became of the body, and when: `blew up at 8.4 s`.
+    /// The body's end and its time: `blew up at 8.4 s`.
     pub fn fate(&self) -> String {
         format!("{} at {}", self.how(), duration(self.t))
     }
 }
 
-/// A halted body that goes on because its lane was switched to another method.
+/// A halted body that resumes because its lane was switched to another method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resumed {
     /// Why and when it had halted.
     pub halt: Halt,
-    /// The state from which it goes on.
+    /// The state from which it resumes.
     pub from: ResumedFrom,
 }
 
@@ -77,20 +75,19 @@ pub struct LaneBody {
     pub previous_q: Vec<f64>,
     /// Velocities one tick ago.
     pub previous_v: Vec<f64>,
-    /// The state before the last input, which is restored if the input makes the body fail.
+    /// The state before the last input, to restore if the input makes the body fail.
     before_input: [Vec<f64>; 2],
     halted: Option<Halt>,
-    /// Its evaluations before the last tick.
+    /// Number of evaluations before the last tick.
     evaluations_before: u64,
-    /// The range of the true motion so far; `None` under a method.
+    /// Range of the true motion so far; `None` under a method.
     extent: Option<Extent>,
     chase: Option<Chase>,
     appearance: Arc<Appearance>,
 }
 
 impl LaneBody {
-    /// The claims of a [`Law`], or of a [`Custom`] body, that do not hold with the present parameters; of other
-    /// bodies none.
+    /// Claims of a [`Law`] or a [`Custom`] body that fail with the present parameters; none for other bodies.
     pub fn false_claims(&self) -> FalseClaims {
         let body = self.stepper.body();
         let law = || body.downcast_ref().map(Law::false_claims);
@@ -119,7 +116,7 @@ impl LaneBody {
         body
     }
 
-    /// Its coordinates, in state order.
+    /// The coordinates, in state order.
     pub fn coordinates(&self) -> Coordinates {
         self.kind.all_coordinates.first(self.stepper.q().len())
     }
@@ -129,7 +126,7 @@ impl LaneBody {
         self.halted.as_ref()
     }
 
-    /// What became of the body, if it halted, and with what values: `blew up at 8.4 s (speed reached 10³⁸ m/s)`.
+    /// The body's end, if it halted, with its values: `blew up at 8.4 s (speed reached 10³⁸ m/s)`.
     pub fn fate(&self) -> Option<String> {
         let halt = self.halted()?;
         let (fate, how) = (halt.fate(), |name| self.quantity(name));
@@ -146,7 +143,7 @@ impl LaneBody {
         })
     }
 
-    /// The quantity of the body that has this name, in words, and its unit after a space, if it has one.
+    /// The quantity with this name in words, and its unit with a space in front, if it has one.
     fn quantity(&self, name: &str) -> (String, String) {
         let coordinates = self.coordinates();
         let several = coordinates.len() > 1;
@@ -167,39 +164,39 @@ impl LaneBody {
         (quantity, unit)
     }
 
-    /// The evaluations of its acceleration in the last tick.
+    /// Evaluations of its acceleration in the last tick.
     pub fn evaluations_of_last_tick(&self) -> u64 {
         self.stepper.evaluations() - self.evaluations_before
     }
 
-    /// The range of the true motion so far; `None` under a method.
+    /// Range of the true motion so far; `None` under a method.
     pub(crate) fn extent(&self) -> Option<&Extent> {
         self.extent.as_ref()
     }
 
-    /// How the body closes on the target that it follows, since its start or the last input or placement; `None`
-    /// if it follows nothing, or a target that moves.
+    /// Progress towards the body's target since its start, or since the last input or placement. `None` without a
+    /// target, or if the target moves.
     pub fn chase(&self) -> Option<&Chase> {
         self.chase.as_ref()
     }
 
-    /// How the author of a custom body draws it, if not in the usual way.
+    /// The drawing that the author of a custom body provides; `None` for the default.
     pub(crate) fn drawing(&self) -> Option<&Drawing> {
         self.appearance.drawing.as_deref()
     }
 
-    /// Where a law, a net or a custom body goes in its first seconds.
+    /// The motion of a law, a net or a custom body in its first seconds.
     pub(crate) fn preview(&self) -> Arc<Preview> {
         self.appearance.preview(&self.kind, self.stepper.body())
     }
 
-    /// The index of the coordinate that a plot shows unless a person chooses another: of a net that which moves farthest
-    /// in the first seconds, such as the height of the middle of a bridge, and of other bodies the first.
+    /// Index of the coordinate that a plot shows by default. For a net, this is the one that moves farthest in the
+    /// first seconds, such as the height of a bridge's middle; otherwise the first.
     pub fn plotted_coordinate(&self) -> usize {
         self.kind.net().map_or(0, |_| self.preview().farthest)
     }
 
-    /// The values whose coordinate has the same unit as the first; `values` has one per coordinate.
+    /// The values whose coordinate has the unit of the first; `values` has one per coordinate.
     pub(crate) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
         let units = self.kind.all_coordinates.units();
         let first = units.clone().next();
@@ -211,14 +208,14 @@ impl LaneBody {
         self.like_first(self.stepper.v()).fold(0.0, libm::hypot)
     }
 
-    /// What the true motion is at present, of a body under [`Solver::Truth`]: the law of a scene is
-    /// [exact](Truth::Exact) up to the first input if it gives its solution.
+    /// The kind of truth for a body under [`Solver::Truth`]. A law that gives its solution is [exact](Truth::Exact)
+    /// up to the first input.
     pub fn truth(&self) -> Truth {
         if self.stepper.is_closed_form() { Truth::Exact } else { Truth::Reference }
     }
 
-    /// How well the true motion is known, for people: `exact`, or the present error of the reference in the units of
-    /// the coordinates, if it has one yet; `no reference` where that would take too much work.
+    /// Describes how well the true motion is known: `exact`, or the present error of the reference in the units of
+    /// the coordinates. `no reference` if that would take too much work.
     pub fn truth_in_words(&self) -> String {
         let id = self.truth().id();
         if let Some(StepFailure::ReferenceTooExpensive { .. }) =
@@ -228,7 +225,7 @@ impl LaneBody {
         }
         match (self.truth(), self.stepper.truth_error()) {
             (Truth::Exact, _) | (_, None) => id.into(),
-            // Of a body that starts at 0 nothing is rounded yet.
+            // A body that starts at 0 has no rounding error yet.
             (Truth::Reference, Some([0.0, _])) => id.into(),
             (Truth::Reference, Some([error, _])) if error.is_finite() => {
                 let exponent = libm::ceil(libm::log10(error)) as i32;
@@ -238,8 +235,8 @@ impl LaneBody {
         }
     }
 
-    /// Steps from `t` by `h` (s), from tick `tick` to the next, or halts in its present state. `index` is the body's in
-    /// the scene.
+    /// Steps from `t` by `h` (s), from tick `tick` to the next, or halts in its present state. `index` is the body's
+    /// in the scene.
     fn tick(&mut self, index: usize, tick: u64, (t, h): (f64, f64), substeps: u32) {
         if self.halted.is_some() {
             return;
@@ -289,8 +286,8 @@ impl LaneBody {
         }
     }
 
-    /// Puts the body under another solver at time `t` (s) with its state unchanged, or, if it has halted, with the
-    /// present state of the truth.
+    /// Puts the body under another solver at time `t` (s) with its state unchanged. A halted body takes the present
+    /// state of the truth.
     fn switch(&mut self, solver: Solver, t: f64, truth: &LaneBody) -> Option<Resumed> {
         self.stepper = self.stepper.with_solver(solver, t);
         let halt = self.halted.take()?;
@@ -336,7 +333,7 @@ impl LaneBody {
         if let Some(mut extent) = self.extent.take() {
             let kinetic_j = self.stepper.kinetic_energy();
             extent.cover(self.speed(), kinetic_j);
-            // A conserved energy is known without.
+            // A body that conserves its energy needs no record of the sum.
             if kinetic_j.is_none() {
                 extent.cover_energy(self.stepper.mechanical_energy());
             }
@@ -360,7 +357,7 @@ pub(crate) fn advance_checked(
 
 /// Fails if a coordinate or a velocity of a body is not finite or is beyond [`ESCAPE`].
 fn check(body: &dyn Stepper, coordinates: &Coordinates) -> Result<(), StepFailure> {
-    // Of a NaN neither is true.
+    // False for NaN, too.
     let is_fine = |value: &f64| value.abs() <= ESCAPE;
     if [body.q(), body.v()].iter().all(|values| values.iter().all(is_fine)) {
         return Ok(());
@@ -386,7 +383,7 @@ pub struct Lane {
 }
 
 impl Lane {
-    /// The scene's bodies at their start under `solver`, which takes `substeps` steps in a tick.
+    /// The scene's bodies at their start under `solver`, which takes `substeps` steps per tick.
     pub fn new(scene: &Scene, solver: Solver, substeps: u32) -> Self {
         let bodies = scene.bodies.iter().map(|body| LaneBody::new(body, solver)).collect();
         Self { solver, substeps, bodies }
@@ -396,7 +393,7 @@ impl Lane {
     pub fn solver(&self) -> Solver {
         self.solver
     }
-    /// Steps in one tick.
+    /// Steps per tick.
     pub fn substeps(&self) -> u32 {
         self.substeps
     }
@@ -404,7 +401,7 @@ impl Lane {
     pub fn bodies(&self) -> &[LaneBody] {
         &self.bodies
     }
-    /// Why and when bodies halted, in scene order; the others go on.
+    /// Why and when bodies halted, in scene order; the others continue.
     pub fn halts(&self) -> impl Iterator<Item = &Halt> {
         self.bodies.iter().filter_map(LaneBody::halted)
     }
@@ -417,23 +414,24 @@ impl Lane {
         self.bodies.iter().map(|body| body.stepper.evaluations()).sum()
     }
 
-    /// Steps every body from `t` by `h` (s), from tick `tick` to the next. A body that fails keeps its state and halts.
+    /// Steps every body from `t` by `h` (s), from tick `tick` to the next. A body that fails keeps its state and
+    /// halts.
     pub fn tick(&mut self, tick: u64, t: f64, h: f64) {
         for (index, body) in self.bodies.iter_mut().enumerate() {
             body.tick(index, tick, (t, h), self.substeps);
         }
     }
 
-    /// Applies an input at time `t` (s), before tick `tick`, to every body that takes it. A body that fails under it
-    /// keeps its state and halts. A halted body ignores a kick, and keeps the throttle and the rudder.
+    /// Applies an input at time `t` (s), before tick `tick`, to every body that accepts it. A body that fails under
+    /// it keeps its state and halts. A halted body ignores a kick, and keeps the throttle and the rudder.
     pub fn input(&mut self, tick: u64, t: f64, input: Input) {
         for (index, body) in self.bodies.iter_mut().enumerate() {
             body.input(index, tick, t, input);
         }
     }
 
-    /// Applies the effect of an action on the bodies at time `t` (s), before tick `tick`. A placed body resumes if it
-    /// had halted; if it cannot be in that state, it keeps its own and halts.
+    /// Applies an action to the bodies at time `t` (s), before tick `tick`. A halted body resumes where an action
+    /// places it. If a body cannot be in that state, it keeps its own and halts.
     pub(crate) fn act(&mut self, tick: u64, t: f64, action: &Action) {
         match action {
             Action::Place { body, q, v } => self.bodies[*body].place(*body, tick, t, [q, v]),
@@ -442,13 +440,13 @@ impl Lane {
         }
     }
 
-    /// An upper bound of its heap memory in bytes.
+    /// An upper bound of the heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.bodies.iter().map(|body| body.bytes(self.solver)).sum()
     }
 
-    /// Puts the bodies under another solver at time `t` (s), with their states unchanged. Halted bodies resume from the
-    /// present state of `truth` and are returned. A switch to the present solver and substeps does nothing.
+    /// Puts the bodies under another solver at time `t` (s), with their states unchanged. Halted bodies resume from
+    /// the present state of `truth`; the result lists them. A switch to the present solver and substeps does nothing.
     pub fn switch(&mut self, solver: Solver, substeps: u32, t: f64, truth: &Lane) -> Vec<Resumed> {
         if (solver, substeps) == (self.solver, self.substeps) {
             return Vec::new();

@@ -5,46 +5,46 @@ use super::journal::Author;
 use super::lane::Resumed;
 use crate::scene::{Action, Control, LaneId, LaneSpec};
 
-/// An action as a race performs it. The race works out its effect once; whoever has to follow reads it here.
+/// An action as a race performs it. The race computes its effect once, for all observers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Done {
     /// The action.
     pub action: Action,
-    /// Who performs it.
+    /// Its author.
     pub author: Author,
     /// The lane that it puts under another method, other substeps or another tolerance.
     pub switch: Option<Switch>,
-    /// The halted bodies that go on because of it; none before it is performed.
+    /// Halted bodies that resume because of it; empty before the race performs it.
     pub resumed: Vec<Resumed>,
-    /// The control that a person has taken from the script by it; observers do not see it.
+    /// The control that a person took from the script by it; observers do not see it.
     pub(crate) released: Option<Control>,
 }
 
-/// A lane that is put under another method, other substeps or another tolerance.
+/// A lane that changes to another method, other substeps or another tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Switch {
-    /// Its index among the entrants.
+    /// Index of the lane among the entrants.
     pub index: usize,
     /// The lane.
     pub lane: LaneId,
-    /// Its method, substeps and tolerance from now on.
+    /// Its new method, substeps and tolerance.
     pub spec: LaneSpec,
 }
 
 impl Done {
-    /// An action that switches no lane, or that is not performed yet.
+    /// An action before the race performs it.
     pub(super) fn new(action: Action, author: Author, switch: Option<Switch>) -> Self {
         Self { action, author, switch, resumed: Vec::new(), released: None }
     }
 }
 
-/// Receives what happens in a race, and does not change it.
+/// Follows a race without changing it.
 pub trait Observer {
-    /// An action is about to change the race.
+    /// Runs before an action changes the race.
     fn before(&mut self, _race: &Race, _done: &Done) {}
-    /// The action has changed the race.
+    /// Runs after the action has changed the race.
     fn after(&mut self, _race: &Race, _done: &Done) {}
-    /// A tick was completed.
+    /// Runs after each tick.
     fn ticked(&mut self, _race: &Race) {}
 }
 

@@ -1,5 +1,5 @@
-//! Checkpoints from which verdicts and clouds restart: verdicts are of the run from where a person last placed or kicked a
-//! body, and clouds start where anything last changed one.
+//! Checkpoints from which verdicts and clouds restart. A verdict starts where a person last placed or kicked a body;
+//! a cloud, where any action last changed one.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::sim::TickRate;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RunStart {
     pub(super) tick: u64,
-    /// The time of the tick in seconds.
+    /// Time (s) of the tick.
     pub(super) t: f64,
     pub(super) tick_hz: TickRate,
     pub(super) throttle: f64,
@@ -25,14 +25,14 @@ pub(super) struct RunStart {
 /// The true state of one body.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct BodyStart {
-    /// Its parameters, as its kind [takes](crate::sim::bodies::Kind::build) them.
+    /// Parameters, in the order that its kind [expects](crate::sim::bodies::Kind::build).
     pub(super) values: Vec<f64>,
     pub(super) q: Box<[f64]>,
     pub(super) v: Box<[f64]>,
 }
 
 impl RunStart {
-    /// Its memory in bytes.
+    /// Memory in bytes.
     pub(super) fn bytes(&self) -> usize {
         let body = |body: &BodyStart| {
             size_of_val(body)
@@ -44,7 +44,7 @@ impl RunStart {
     }
 }
 
-/// The checkpoints of a run, as of its present tick.
+/// The checkpoints of a run up to its present tick.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Starts {
     /// Right after a person last placed or kicked a body.
@@ -54,13 +54,13 @@ pub(crate) struct Starts {
 }
 
 impl Starts {
-    /// Their memory in bytes.
+    /// Heap memory in bytes.
     pub(crate) fn heap_bytes(&self) -> usize {
         [&self.judged, &self.cloud].into_iter().flatten().map(|start| start.bytes()).sum()
     }
 
-    /// Whether verdicts are of another run than this: since it is judged, a person has changed it, or a script a method, a
-    /// parameter or the tick rate. What a script does to the bodies is part of the judged run too.
+    /// Whether verdicts describe another run than this: one before a person's later edit, or before the script
+    /// changed a method, a parameter or the tick rate. Script actions on the bodies are part of the judged run.
     pub(crate) fn was_changed_since_judged(&self, race: &Race) -> bool {
         let from = self.judged.as_ref().map_or(0, |start| start.tick);
         let is_setting = |action: &Action| match action {

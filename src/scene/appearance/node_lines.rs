@@ -1,28 +1,28 @@
-//! The springs of a net as lines through many nodes.
+//! Draws the springs of a net as lines through many nodes.
 
 use crate::sim::bodies::{Form, Grid, Lists, NetPlan};
 
 /// A line through nodes that springs join one after the other.
 #[derive(Debug)]
 pub(crate) struct NodeLine {
-    /// The numbers of the nodes.
+    /// Indices of the nodes.
     pub(crate) nodes: Vec<usize>,
-    /// Whether it is a part of the border, which alone tells where the net is.
+    /// Whether it belongs to the border, which alone shows the place of the net.
     pub(crate) is_border: bool,
 }
 
-/// The most rows and the most columns of a grid that are drawn: on a stage of a thousand pixels, threads nearer than
-/// eight pixels would be a surface.
+/// Most rows and most columns drawn of a grid: on a stage of a thousand pixels, threads nearer than eight pixels
+/// would be a surface.
 const MAX_LINES: usize = 128;
 
-/// The most nodes of a line that are drawn, for the same reason.
+/// Most nodes drawn of a line, for the same reason.
 const MAX_POINTS: usize = 512;
 
-/// The most springs of lists that are drawn.
+/// Most springs drawn of lists.
 const MAX_SPRINGS: usize = 20_000;
 
-/// The rows and columns of a grid, without the diagonals, or lines through the springs of lists. Of more than pixels show,
-/// every n-th, and the border.
+/// The rows and columns of a grid, without the diagonals, or lines through the springs of lists. If there are more
+/// than pixels can show, every n-th of them and the border.
 pub(super) fn lines(plan: &NetPlan) -> Vec<NodeLine> {
     match &plan.form {
         Form::Grid(grid) => of_grid(*grid),
@@ -30,7 +30,7 @@ pub(super) fn lines(plan: &NetPlan) -> Vec<NodeLine> {
     }
 }
 
-/// Every n-th of so many, at most one more than `most`, with the last.
+/// Every n-th of `count` indices, and the last; at most `most` + 1.
 fn some(count: usize, most: usize) -> impl Iterator<Item = usize> + Clone {
     let step = (count - 1).div_ceil(most).max(1);
     (0..count).filter(move |index| index.is_multiple_of(step) || index + 1 == count)
@@ -48,7 +48,7 @@ fn of_grid(Grid { columns, rows, .. }: Grid) -> Vec<NodeLine> {
     across.chain(down).filter(|line| line.nodes.len() > 1).collect()
 }
 
-/// Each line goes on as long as there is a spring that none has.
+/// Each line continues until no unused spring leaves its last node.
 fn of_lists(lists: &Lists) -> Vec<NodeLine> {
     let drawn: Vec<usize> = some(lists.springs.len(), MAX_SPRINGS).collect();
     let mut at_node = vec![Vec::new(); lists.nodes.len()];
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
     use crate::sim::bodies::PlannedSpring;
 
-    /// The springs that lines go along, each once.
+    /// The springs under the lines, each once.
     fn drawn(lines: &[NodeLine]) -> Vec<[usize; 2]> {
         let pairs = lines.iter().flat_map(|line| line.nodes.windows(2));
         let mut pairs: Vec<_> =

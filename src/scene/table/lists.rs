@@ -1,4 +1,4 @@
-//! Values that are lists of numbers: curves and vectors.
+//! Reads lists of numbers: curves and vectors.
 
 use std::ops::Range as Span;
 
@@ -40,7 +40,7 @@ impl Table<'_> {
         self.pair_within(&format!("`{}`", field.key), pair, numbers)
     }
 
-    /// The numbers of a pair if none is too large.
+    /// The numbers of a pair, unless one is too large.
     fn pair_within(
         &mut self,
         subject: &str,
@@ -75,13 +75,13 @@ impl Table<'_> {
         read.map(|(node, entry)| self.place(node, entry)).collect()
     }
 
-    /// The place of a node of this number.
+    /// The place of the node with this index.
     fn place(&mut self, node: usize, entry: &Spanned<DeValue<'_>>) -> Option<[f64; 2]> {
         let (pair, numbers) = self.pair(format!("the place of node {node}"), entry)?;
         self.pair_within(&format!("a coordinate of node {node}"), pair, numbers)
     }
 
-    /// The numbers of nodes in a list, with their bytes.
+    /// Indices of nodes in a list, with their bytes.
     pub(in crate::scene) fn node_numbers(
         &mut self,
         field: &Field,
@@ -101,7 +101,7 @@ impl Table<'_> {
         (numbers.len() == entries.len()).then_some(numbers)
     }
 
-    /// As many numbers as [`Wanted::Numbers`] has, each of a magnitude of at most [`MAX_COORDINATE`].
+    /// As many numbers as [`Wanted::Numbers`] demands, each of a magnitude of at most [`MAX_COORDINATE`].
     pub(in crate::scene) fn coordinates(&mut self, field: &Field) -> Option<Vec<f64>> {
         let value = self.value(field)?;
         let entries = value.get_ref().as_array();

@@ -1,4 +1,4 @@
-//! Tables whose keys the file chooses, and expressions.
+//! Reads tables whose keys the file chooses, and expressions.
 
 use std::ops::Range;
 
@@ -23,12 +23,12 @@ pub(in crate::scene) struct Written {
     pub(in crate::scene) text: String,
     /// The bytes of the string, quotes included.
     span: Range<usize>,
-    /// The byte at which the text stands as it is; `None` if the string has escapes.
+    /// Byte at which the text begins verbatim; `None` if the string has escapes.
     start: Option<usize>,
 }
 
 impl Written {
-    /// The bytes of the file that hold these bytes of the expression.
+    /// Bytes of the file for these bytes of the expression; all of the string if it has escapes.
     pub(in crate::scene) fn within(&self, span: &Range<usize>) -> Range<usize> {
         match self.start {
             Some(start) if !span.is_empty() => start + span.start..start + span.end,
@@ -38,7 +38,7 @@ impl Written {
 }
 
 impl<'t> Table<'t> {
-    /// The entries of the table under this key, in the order of the file.
+    /// The entries of the table with this key, in the order of the file.
     pub(in crate::scene) fn entries(&mut self, field: &Field) -> Option<Vec<Named<'t>>> {
         let value = self.value(field)?;
         let Some(entries) = value.get_ref().as_table() else {
@@ -118,7 +118,7 @@ impl<'t> Table<'t> {
         Some(Written { text: text.to_owned(), span, start })
     }
 
-    /// The names in a list of texts, with their bytes.
+    /// The names in a list of strings, with their bytes.
     pub(in crate::scene) fn names(
         &mut self,
         field: &Field,

@@ -10,15 +10,15 @@ use crate::sim::integrators::{Construct, Integrator, Method, MethodOf};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
-/// The copies that a thread takes at a time: their state is 64 KiB, which the second cache of every processor holds. A
-/// multiple of every width of a block.
+/// Copies that a thread takes at a time: their state is 64 KiB, which fits the second-level cache of every processor.
+/// A multiple of every block width.
 const GRAIN: usize = cores::GRAIN / 8;
 
-/// The copies that a thread steps through all ticks before it goes on to the next: their state is 4 KiB, which stays in the
-/// first cache. Their blocks do not wait for each other, as the ticks of one block do.
+/// Copies that a thread steps through all ticks before it continues with the next ones. Their state of 4 KiB stays in
+/// the first-level cache. Unlike the ticks of one block, their blocks do not wait for each other.
 const TILE: usize = 256;
 
-/// Makes what steps `copies` under `method` in blocks; `None` if the method is not for blocks.
+/// Builds the block stepper of `copies`; `None` if `method` does not step in blocks.
 pub(super) fn in_blocks<C: Copies>(
     copies: &C,
     method: &Method,
@@ -72,9 +72,9 @@ impl<C: Copies, const W: usize> Construct<C::Block<W>> for Make<C, W> {
 struct Blocks<C, I, const W: usize> {
     copies: C,
     set: InstructionSet,
-    /// Before its first step.
+    /// An integrator before its first step.
     integrator: I,
-    /// That of each block, of a method with memory; empty for all others.
+    /// The integrator of each block; empty for a method without memory.
     memory: Vec<I>,
 }
 

@@ -1,16 +1,16 @@
-//! The instruction sets of a processor that blocks are compiled for.
+//! Instruction sets of a processor that blocks are compiled for.
 
 use multiversion::multiversion;
 use multiversion::target::match_target;
 
-/// The widths of blocks: as many numbers as two registers or one hold.
+/// Copies in a block: as many numbers as fill one or two registers.
 pub(super) const NARROW: usize = 4;
 pub(super) const WIDE: usize = 8;
 
 /// An instruction set for blocks of bodies. All give the same bits: none fuses a product with a sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstructionSet {
-    /// What every processor of the platform has: two numbers at once on x86-64 and on ARM.
+    /// The baseline of the platform: two numbers at once on x86-64 and on ARM.
     Portable,
     /// Four numbers at once.
     Avx2,
@@ -19,16 +19,16 @@ pub enum InstructionSet {
 }
 
 impl InstructionSet {
-    /// All, narrowest first.
+    /// All sets, narrowest first.
     pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// The widest that this processor has.
+    /// The widest set that this processor has.
     pub fn widest() -> Self {
         let widest = Self::ALL.into_iter().rev().find(|set| set.is_available());
         widest.unwrap_or(Self::Portable)
     }
 
-    /// Whether this processor has it.
+    /// Whether this processor has the set.
     pub fn is_available(self) -> bool {
         match self {
             Self::Portable => true,
@@ -37,7 +37,7 @@ impl InstructionSet {
         }
     }
 
-    /// How many copies a block of a compiled method has.
+    /// Number of copies in a block of a compiled method.
     pub(super) const fn width(self) -> usize {
         match self {
             Self::Portable | Self::Avx2 => NARROW,
@@ -45,7 +45,8 @@ impl InstructionSet {
         }
     }
 
-    /// Whether a loop with blocks so wide comes to it; `None` and the blocks of an interpreted law come to all.
+    /// Whether a loop over blocks of this width can run on the set. Every set runs a loop without a width, and the
+    /// blocks of an interpreted law.
     const fn takes(self, width: Option<usize>) -> bool {
         match width {
             Some(width @ (NARROW | WIDE)) => width == self.width(),
@@ -53,12 +54,12 @@ impl InstructionSet {
         }
     }
 
-    /// Runs a loop that is compiled for this instruction set.
+    /// Runs a loop compiled for this instruction set.
     ///
     /// # Panics
-    /// If the loop's blocks are not for it.
+    /// If blocks of the loop's width do not run on this set.
     pub(in crate::sim) fn run<K: Kernel>(self, kernel: K) {
-        // A loop is compiled only for the sets that can come to it.
+        // Compiles a loop only for the sets that it can run on.
         match self {
             Self::Portable if const { Self::Portable.takes(K::WIDTH) } => kernel.run(),
             Self::Avx2 if const { Self::Avx2.takes(K::WIDTH) } => with_avx2(kernel),
@@ -70,10 +71,10 @@ impl InstructionSet {
 
 /// A loop to be compiled for an instruction set.
 pub(in crate::sim) trait Kernel {
-    /// How many copies its blocks have; `None` where any instruction set takes it.
+    /// Number of copies in one of its blocks; `None` if every instruction set can run the loop.
     const WIDTH: Option<usize> = None;
 
-    /// Runs it. Inlined always, with all that is to be compiled for the same instruction set.
+    /// Runs the loop. Always inlined, with everything to be compiled for the same instruction set.
     fn run(self);
 }
 

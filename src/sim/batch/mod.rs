@@ -1,9 +1,9 @@
-//! Many copies of a body of one coordinate, from other starts, stepped at once.
+//! Many copies of a body of one coordinate, each from its own start, stepped together.
 //!
-//! A method that steps each number by itself steps blocks of copies: its formula file is compiled for `[f64; W]` in place
-//! of `f64`, for each [`InstructionSet`], and the widest that the processor has is taken. Other methods step copy by copy.
-//! Both share the work between the threads of rayon's pool. Neither instruction set nor number of threads changes a bit:
-//! each copy has the state that the body has alone.
+//! A method that steps each number by itself steps blocks of copies. Its formula file is compiled for `[f64; W]`
+//! instead of `f64`, once per [`InstructionSet`], and the widest set of the processor runs. Other methods step copy by
+//! copy. Both share the work among the threads of rayon's pool. Neither the instruction set nor the number of threads
+//! changes a bit: each copy has the state of a body stepped alone.
 
 mod blocks;
 mod instruction_set;
@@ -29,15 +29,15 @@ use super::tick_rate::TickRate;
 /// Consecutive ticks of one rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ticks {
-    /// The time of tick 0 if it has this rate, in seconds.
+    /// The time of tick 0, if every tick since then had this rate, in seconds.
     pub origin: f64,
-    /// The first tick.
+    /// Index of the first tick.
     pub first: u64,
-    /// How many ticks.
+    /// Number of ticks.
     pub count: u64,
     /// Ticks per second.
     pub hz: TickRate,
-    /// Steps in a tick.
+    /// Steps per tick.
     pub substeps: u32,
 }
 
@@ -85,16 +85,16 @@ impl Ticks {
     }
 }
 
-/// What advances the copies of a batch.
+/// Advances the copies of a batch.
 trait Advance: Send {
-    /// Steps the copies whose coordinates and velocities these are.
+    /// Steps the copies with these coordinates and velocities.
     fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]);
 
-    /// Forgets what the method carries from step to step.
+    /// Clears the memory of the method.
     fn reset(&mut self);
 }
 
-/// Copies of a body of one coordinate under one method.
+/// Copies of a body of one coordinate, all under one method.
 ///
 /// ```
 /// # use regatta::sim::State;
@@ -116,21 +116,22 @@ trait Advance: Send {
 /// # Ok::<(), std::collections::TryReserveError>(())
 /// ```
 pub struct Batch {
-    /// In whole blocks: those beyond the last copy are like the last.
+    /// In whole blocks: the padding repeats the last copy.
     q: Vec<f64>,
     v: Vec<f64>,
     count: usize,
     advance: Box<dyn Advance>,
 }
 
-/// A batch, unless its copies do not fit into memory.
+/// A batch, or an error if its copies do not fit into memory.
 pub type NewBatch = Result<Batch, TryReserveError>;
 
-/// The most memory of a copy in bytes: in blocks its state and what a method carries, alone an integrator of its own.
+/// Upper bounds on the memory of a copy, in bytes: in a block its state and the method's memory, alone a whole
+/// integrator.
 const BLOCK_BYTES: usize = 256;
 const ALONE_BYTES: usize = 2048;
 
-/// A multiple of every width of a block.
+/// A multiple of every block width.
 const PADDING: usize = 32;
 
 impl Batch {
@@ -146,7 +147,7 @@ impl Batch {
         Self::on(InstructionSet::widest(), system, Solver::Method(method), starts)
     }
 
-    /// As [`Batch::new`], under a method with what it replaces of its card, on an instruction set that this processor must
+    /// As [`Batch::new`], under a method that may override its card, on an instruction set that this processor must
     /// [have](InstructionSet::is_available).
     ///
     /// # Errors
@@ -187,7 +188,7 @@ impl Batch {
         Ok(Self { q, v, count, advance })
     }
 
-    /// Whether memory suffices for this number of copies under each of these solvers at once. Allocates nothing.
+    /// Checks that memory suffices for this number of copies under each of these solvers at once. Allocates nothing.
     ///
     /// # Errors
     /// If it does not suffice.
@@ -203,14 +204,14 @@ impl Batch {
         let mut room = Vec::<u8>::new();
         let reserved =
             room.try_reserve_exact(copies.saturating_mul(bytes).min(isize::MAX as usize));
-        // An optimiser leaves out a reservation that nothing looks at.
+        // Without this, an optimiser drops the unused reservation.
         std::hint::black_box(&mut room);
         reserved
     }
 
-    /// Steps every copy through `ticks`. A method with memory goes on from the last run.
+    /// Steps every copy through `ticks`. A method with memory continues from the last run.
     ///
-    /// A copy that blows up has a coordinate or a velocity that is not finite, and so has one whose method gives up.
+    /// If a copy blows up or its method gives up, its coordinate or velocity is not finite.
     ///
     /// # Panics
     /// As [`Ticks::from_start`].
@@ -236,22 +237,22 @@ impl Batch {
     }
 }
 
-/// Copies of a body of one coordinate, as a batch steps them: in blocks, or each alone.
+/// Copies of a body of one coordinate, to be stepped in blocks or one by one.
 pub(in crate::sim) trait Copies: Clone + Send + Sync + 'static {
-    /// Whether an evaluation is interpreted; wide blocks share the cost of each look-up.
+    /// Whether evaluations are interpreted; wide blocks then share the cost of each look-up.
     const IS_INTERPRETED: bool = false;
 
-    /// `W` copies at once.
+    /// The system of `W` copies.
     type Block<const W: usize>: System<Vector = [f64; W]>;
 
     /// `W` copies, on an instruction set.
     fn block<const W: usize>(&self, set: InstructionSet) -> Self::Block<W>;
 
-    /// One copy.
+    /// A single copy.
     fn alone(&self) -> Problem<f64>;
 }
 
-/// A system that a batch can step: of one coordinate, and shared by threads.
+/// A system that a batch can step: it has one coordinate, and threads can share it.
 pub trait OneCoordinate: System<Vector = f64> + Clone + Send + Sync + 'static {}
 
 impl<S: System<Vector = f64> + Clone + Send + Sync + 'static> OneCoordinate for S {}
@@ -288,15 +289,15 @@ impl<S: System<Vector = f64>, const W: usize> System for UniformBlock<S, W> {
 
 /// Copies in parts, which the threads of rayon's pool share.
 ///
-/// Each part of neighbouring copies has its own way to advance: for methods and bodies of every type the threads
-/// are shared by the same code.
+/// Each part of neighbouring copies advances itself, so that one loop shares the work among threads for methods and
+/// bodies of every type.
 struct Chunks {
     grain: usize,
     parts: Vec<Box<dyn Advance>>,
 }
 
 impl Chunks {
-    /// `count` copies in parts of `grain` and a rest.
+    /// Splits `count` copies into parts of `grain`; the last part may be smaller.
     fn new(grain: usize, count: usize, part: impl FnMut(Range<usize>) -> Box<dyn Advance>) -> Self {
         let firsts = (0..count).step_by(grain);
         Self {

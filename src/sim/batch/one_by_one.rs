@@ -1,4 +1,4 @@
-//! Copies stepped each alone, on all cores: under methods that look at a body as a whole.
+//! Copies stepped one by one, on all cores, under methods that need a whole body.
 
 use std::ops::Range;
 
@@ -7,16 +7,16 @@ use crate::sim::integrators::{Integrator, Problem, fresh};
 use crate::sim::state::State;
 use crate::sim::stepper::Solver;
 
-/// Neighbouring copies with an integrator each.
+/// Neighbouring copies, each with its own integrator.
 struct OneByOne<C> {
     copies: C,
     integrators: Vec<Box<dyn Integrator<Problem<f64>>>>,
 }
 
-/// The copies that a thread takes at a time: a step of an implicit method takes a microsecond.
+/// Copies that a thread takes at a time: a step of an implicit method takes a microsecond.
 const GRAIN: usize = 64;
 
-/// Makes what steps `count` copies under `solver`, each alone; `None` under the truth.
+/// Builds the stepper of `count` copies under `solver`, one by one; `None` for the truth.
 pub(super) fn one_by_one<C: Copies>(
     copies: &C,
     solver: Solver,

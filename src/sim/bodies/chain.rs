@@ -1,18 +1,16 @@
-//! Equal masses in a row, joined by equal springs with dash-pots to each other and to a wall at each
-//! end.
+//! Equal masses in a row, joined to each other and to a wall at each end by equal springs with dash-pots.
 //!
-//! Each dash-pot is parallel to a spring. The damping matrix is then proportional to the stiffness
-//! matrix, so that the normal modes stay uncoupled and the motion has a closed form. The damping of a
-//! mode grows with the square of its frequency: one chain has modes that oscillate and modes that are
-//! overdamped.
+//! Each dash-pot is parallel to a spring. The damping matrix is then proportional to the stiffness matrix, so that the
+//! normal modes stay uncoupled and the motion has a closed form. The damping of a mode grows with the square of its
+//! frequency: one chain has modes that oscillate and modes that are overdamped.
 
 use std::f64::consts::PI;
 
 use super::oscillator;
 use super::prelude::*;
 
-/// The largest number of masses: as many as are distinguishable on a wide stage. The closed form needs of
-/// the order of its square multiplications per tick.
+/// The largest number of masses: more are not distinguishable on a wide stage. The closed form needs about the square
+/// of this number of multiplications per tick.
 const MAX_MASSES: u32 = 256;
 
 pub(super) fn kind() -> Kind {
@@ -65,7 +63,7 @@ const PARAMETERS: [Of; 7] = [
 /// A chain of masses. Its coordinates are their displacements, in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chain {
-    /// How many masses there are.
+    /// Number of masses.
     masses: usize,
     /// m, in kilograms.
     mass: f64,
@@ -73,14 +71,14 @@ pub struct Chain {
     stiffness: f64,
     /// c, in N·s/m.
     damping: f64,
-    /// The number of the mass that is plucked and kicked, from 1.
+    /// The number of the mass to pluck and kick, from 1.
     plucked: usize,
-    /// Its displacement at the start, in metres.
+    /// Displacement of the plucked mass at the start, in metres.
     x0: f64,
     /// The impulse of one kick, in newton seconds.
     kick: f64,
-    /// `sin(π i / (N + 1))` for i from 0 to 2 N + 1. The displacement of mass j in mode n is entry j n,
-    /// modulo the length.
+    /// `sin(π i / (N + 1))` for i from 0 to 2 N + 1. The displacement of mass j in mode n is entry j n, modulo the
+    /// length.
     sines: Vec<f64>,
 }
 
@@ -111,8 +109,8 @@ impl Chain {
         if self.x0 == 0.0 { 1.0 } else { self.x0.abs() }
     }
 
-    /// The position in metres of mass `j`, from 1, displaced by `x`: the chain lies along x, and displacements are across
-    /// it. `j` = 0 and `j` = masses + 1 are the walls.
+    /// The position in metres of mass `j`, from 1, displaced by `x`: the chain lies along x, and displacements are
+    /// across it. `j` = 0 and `j` = masses + 1 are the walls.
     pub fn place_of(&self, j: usize, x: f64) -> DVec2 {
         let part = j as f64 / (self.masses + 1) as f64;
         DVec2::new((2.0 * part - 1.0) * HALF_LENGTH * self.amplitude(), x)
@@ -129,8 +127,7 @@ impl System for Chain {
     #[inline]
     fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
         let (k, c) = (self.stiffness / self.mass, self.damping / self.mass);
-        // k q + c v of the mass to the left, of this one and of the one to the right; the walls are at
-        // rest.
+        // k q + c v of the mass to the left, of this one and of the one to the right; the walls are at rest.
         let mut left = 0.0;
         let mut here = k * q[0] + c * v[0];
         let last = q.len() - 1;
@@ -155,7 +152,7 @@ impl Body for Chain {
         let (masses, plucked) = (self.masses, self.plucked);
         assert!((1..=masses).contains(&plucked), "mass {plucked} of {masses}");
         let sine = |i: usize| libm::sin(PI * i as f64 / (masses + 1) as f64);
-        // Mirrored, so that sines that are equal by symmetry are equal to the bit.
+        // Mirrored, so that sines equal by symmetry are equal to the bit.
         let quarter = |i: usize| sine(i.min(masses + 1 - i));
         let half = (0..=masses).map(quarter);
         self.sines = half.clone().chain(half.map(|sine| -sine)).collect();

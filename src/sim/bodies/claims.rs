@@ -1,8 +1,8 @@
-//! The one checker of the exact solution and the energy that a body claims, of a
-//! [law](super::Law) and of a [custom body](super::Custom).
+//! The one checker of the exact solution and the energy that a [law](super::Law) or a [custom body](super::Custom)
+//! claims.
 //!
-//! A claim is held against the equation at the start and at a wide range of times, which is cheap enough for every change
-//! of a parameter, and when a scene is read against the reference solution at every tick.
+//! It checks a claim against the equation at the start and at a wide range of times, which is cheap enough for every
+//! change of a parameter. When a scene is read, it also checks it against the reference solution at every tick.
 
 use std::cell::OnceCell;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,46 +13,46 @@ use crate::sim::numerics::XorShift;
 use crate::sim::reference::Reference;
 use crate::sim::state::State;
 
-/// When claims are held against the equation, in seconds: at the start and on a wide range of scales after it.
+/// Times at which claims are checked against the equation, in seconds: the start and a wide range of scales after it.
 pub(super) const TIMES: [f64; 12] =
     [0.0, 1e-3, 0.01, 0.07, 0.2, 0.5, 1.0, 1.7, 3.1, 6.3, 11.0, 20.0];
 
-/// Number and spacing (s) of further times at which an exact solution is checked, for forces that act for a while only. The
-/// spacing is odd, so that no force is written to begin at one of them.
+/// Number and spacing (s) of more times to check an exact solution at, for forces that act only for a while. The
+/// spacing is odd, so that no written force begins at one of them.
 const EVEN_TIMES: u32 = 160;
 const EVEN_TIME_S: f64 = 0.12361;
 
 /// Trial states around the start: enough to rule out a coincidence.
 const STATES: usize = 12;
 
-/// Trial states around each later one.
+/// Trial states around each later state.
 const LATER_STATES: usize = 3;
 
-/// What the names of a coordinate and of its velocity begin with.
+/// Prefixes of the names of a coordinate and of its velocity.
 const PREFIXES: [&str; 2] = ["", "v"];
 
-/// The largest relative change of the energy, or distance from an exact solution, after one tick: far above the accuracy of
-/// the reference, and far below what is visible.
+/// The largest relative change of the energy, or distance from an exact solution, after one tick: far above the
+/// accuracy of the reference, and far below what is visible.
 const TICK_TOLERANCE: f64 = 1e-7;
 
 /// The largest relative change of the energy over all ticks.
 const RUN_TOLERANCE: f64 = 1e-6;
 
-/// The most evaluations of the acceleration by the reference for one claim: a minute or two at 60 Hz of a motion like
-/// those of the built-in scenes, in some hundredths of a second. The rest of the horizon is not looked at.
+/// The most evaluations of the acceleration that the reference spends on one claim. They cover a minute or two at 60
+/// Hz of a motion like those of the built-in scenes, in some hundredths of a second. The rest of the horizon stays
+/// unchecked.
 const MAX_EVALUATIONS: u64 = 300_000;
 
-/// The ticks at which the claims of a body are held against the reference solution.
+/// The ticks at which a body's claims are checked against the reference solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClaimHorizon {
     /// Ticks per second.
     pub tick_hz: TickRate,
-    /// The number of ticks.
+    /// Number of ticks.
     pub ticks: u64,
 }
 
-/// Claims of a body that do not hold: of a [law](super::Law) or of a [custom
-/// body](super::Custom) with its present parameters.
+/// The claims of a [law](super::Law) or a [custom body](super::Custom) that are false with its present parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FalseClaims {
     /// The energy is not conserved.
@@ -61,11 +61,11 @@ pub struct FalseClaims {
     pub exact: bool,
 }
 
-/// The number of sets of parameters whose findings are kept: some minutes of a slider.
+/// The number of parameter sets whose findings are kept: some minutes of dragging a slider.
 const MAX_FINDINGS: usize = 256;
 
-/// The findings on the bodies of one kind: the bits of their parameters, and the claims that are false with them; oldest
-/// first.
+/// Findings on the bodies of one kind, oldest first: the bits of their parameters, and the claims that are false with
+/// them.
 type Findings = Mutex<Vec<(Vec<u64>, FalseClaims)>>;
 
 /// The false claims of a body with its present parameters. Copies of a body share the findings, so that each set of
@@ -77,18 +77,18 @@ pub(super) struct Checked {
 }
 
 impl Checked {
-    /// A checker that reports every claim as false, for use while claims are being checked.
+    /// A checker that reports every claim as false, for the body whose claims are being checked.
     pub(super) fn without_claims() -> Self {
         let none = FalseClaims { energy: true, exact: true };
         Self { present: OnceCell::from(none), ..Self::default() }
     }
 
-    /// Forgets the present parameters, because they changed.
+    /// Forgets the finding for the present parameters, because they changed.
     pub(super) fn reset(&mut self) {
         self.present.take();
     }
 
-    /// The false claims of `body`, whose present parameters have these `values`.
+    /// The false claims of `body`; `values` are its present parameters.
     pub(super) fn false_claims<B: Claimant>(&self, body: &B, values: &[f64]) -> FalseClaims {
         *self.present.get_or_init(|| {
             let is_of = |(bits, _): &&(Vec<u64>, _)| {
@@ -117,7 +117,7 @@ pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
     /// The relative tolerance of a claim.
     const TOLERANCE: f64;
 
-    /// What the start of a coordinate and that of a velocity are called where the body is made.
+    /// Names of the start values of a coordinate and of a velocity, for error messages.
     const START_KEYS: [&'static str; 2];
 
     /// The name of a coordinate.
@@ -126,7 +126,7 @@ pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
     /// Overwrites `to` with the claimed state at `t` (s). Returns whether there is one.
     fn claimed(&self, t: f64, to: &mut State<Vec<f64>>) -> bool;
 
-    /// The derivative by time of the claimed state; by differences, those that are nearest to `wanted`.
+    /// The time derivative of the claimed state. Of several finite differences, the one nearest to `wanted`.
     fn claimed_slope(&self, t: f64, wanted: &State<Vec<f64>>) -> State<Vec<f64>>;
 
     /// The claimed energy in joules; `None` if there is none.
@@ -135,7 +135,7 @@ pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
     /// The rate of change of the energy and the exchanged power, in watts; `None` if one is not finite.
     fn power(&self, t: f64, state: &State<Vec<f64>>) -> Option<[f64; 2]>;
 
-    /// The same body without its claims and its steering, as it is at the start of a run.
+    /// The same body at the start of a run, without its claims and its steering.
     fn without_claims(&self) -> Self;
 }
 
@@ -144,7 +144,7 @@ pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
 pub(super) struct ClaimFault {
     /// The coordinate whose exact solution is false; `None` for the energy.
     pub(super) coordinate: Option<usize>,
-    /// What is wrong.
+    /// The error message.
     pub(super) what: String,
     /// How to mend it.
     pub(super) remedy: &'static str,
@@ -162,11 +162,11 @@ impl ClaimFault {
     }
 }
 
-/// Checks that the exact solution begins at the start, satisfies the equation and agrees with the reference at every tick
-/// of the horizon, and that the energy is conserved at every tick.
+/// Checks that the exact solution begins at the start, satisfies the equation and agrees with the reference at every
+/// tick of the horizon. Checks that the energy is conserved at every tick.
 ///
 /// # Errors
-/// The first of these that does not hold.
+/// The first false claim.
 pub(super) fn check<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Result<(), ClaimFault> {
     let fault = find_unsolved(body)
         .or_else(|| find_departure(body, horizon))
@@ -175,12 +175,12 @@ pub(super) fn check<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Result<(), 
     fault.map_or(Ok(()), Err)
 }
 
-/// Whether `a` and `b` differ by no more than `most`; a NaN does.
+/// Whether `a` and `b` differ by at most `most`; a NaN never does.
 fn is_near(a: f64, b: f64, most: f64) -> bool {
     (a - b).abs() <= most
 }
 
-/// Why the exact solution does not satisfy the equation; `None` if it does, or was not given.
+/// Why the exact solution does not satisfy the equation; `None` if it does, or if there is none.
 fn find_unsolved<B: Claimant>(body: &B) -> Option<ClaimFault> {
     let body = body.without_claims();
     let start = body.start();
@@ -228,7 +228,8 @@ fn find_unsolved<B: Claimant>(body: &B) -> Option<ClaimFault> {
     None
 }
 
-/// The first tick whose motion leaves the exact solution; `None` if it does not, or was not given.
+/// The first tick at which the motion leaves the exact solution; `None` if there is no such tick, or no exact
+/// solution.
 fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<ClaimFault> {
     let body = body.without_claims();
     let mut from = body.start();
@@ -320,11 +321,11 @@ fn find_later_energy_defect<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Opt
     None
 }
 
-/// The largest power exchanged at `states` states around `state` at time `t` (s). One state is not enough: at a turning
-/// point nothing is exchanged.
+/// The largest power exchanged at `states` states around `state` at time `t` (s). One state is not enough: at a
+/// turning point nothing is exchanged.
 ///
 /// # Errors
-/// The largest leak at one of them.
+/// The largest leak at one of these states.
 fn find_power<B: Claimant>(
     body: &B,
     t: f64,

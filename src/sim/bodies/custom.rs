@@ -17,7 +17,7 @@ pub use claims::CustomFault;
 pub use kind::custom_kind;
 use motion::{Motion, Typed};
 
-/// A custom body. The type of its system is forgotten, so that it needs no code of its own here.
+/// A custom body. It erases the type of its system, so that a system needs no code of its own here.
 #[derive(Clone, Debug)]
 pub struct Custom {
     motion: Box<dyn Motion>,
@@ -33,7 +33,8 @@ pub struct Custom {
 }
 
 impl Custom {
-    /// A body that moves as `system` does, without names, parameters and kicks. What `extras` claims is not checked.
+    /// A body that moves as `system` does, without names, parameters and kicks. The claims of `extras` are not
+    /// checked.
     pub(in crate::sim) fn unnamed<S>(system: S, start: &StateOf<S>, extras: &Extras<S>) -> Self
     where
         S: System<Vector: Vector> + Clone + Send + 'static,
@@ -50,17 +51,17 @@ impl Custom {
         }
     }
 
-    /// Its coordinates, and how it is drawn.
+    /// Its coordinates, and the plane it is drawn in.
     pub fn info(&self) -> &CustomInfo {
         &self.info
     }
 
-    /// The system with its present parameters; its type is the one that it was made of.
+    /// The system with its present parameters, of the type that the body was made from.
     pub fn system(&self) -> &dyn Any {
         self.motion.system()
     }
 
-    /// Its claims that do not hold with the present parameters.
+    /// Claims that do not hold with the present parameters.
     pub fn false_claims(&self) -> FalseClaims {
         self.checked.false_claims(self, &self.values)
     }
@@ -97,7 +98,7 @@ impl System for Custom {
 impl Body for Custom {
     fn with_parameters(mut self, values: &[f64]) -> Self {
         self.write(values);
-        // Before the first tick, which must not allocate.
+        // Checked before the first tick, which must not allocate.
         self.false_claims();
         self
     }
@@ -154,7 +155,7 @@ impl Body for Custom {
         true
     }
 
-    /// The coordinates of the plane, or the first coordinate to the right.
+    /// The coordinates of the plane; without one, the first coordinate to the right.
     fn place(&self, q: &Vec<f64>) -> DVec2 {
         match self.info.plane {
             Some([x, y]) => DVec2::new(q[x], q[y]),
@@ -172,24 +173,23 @@ pub type Exact<S> = fn(&S, f64) -> State<<S as System>::Vector>;
 /// Optional properties of a custom body. Each has a default.
 #[derive(Clone)]
 pub struct Extras<S: System> {
-    /// The name and the unit of each coordinate, such as `("height", "m")`; an angle has the unit `rad`. Empty:
-    /// x, y and z, or q1, q2 …, in metres.
+    /// The name and the unit of each coordinate, such as `("height", "m")`; an angle has the unit `rad`. If empty: x,
+    /// y and z, or q1, q2 …, in metres.
     pub coordinates: Vec<(&'static str, &'static str)>,
-    /// The indices of the coordinates that are x and y of the plane in which it is drawn. `None`: two
-    /// coordinates in metres make a plane, others have a rail each.
+    /// The indices of the coordinates that are x and y of the drawing plane. If `None`, two coordinates in metres make
+    /// a plane, and any others get a rail each.
     pub plane: Option<[usize; 2]>,
-    /// Numbers of the system that may be changed while it moves, made by
-    /// [`ParameterOf::number`]. The first should be one that makes it stiffer. Empty: a factor of the acceleration,
-    /// `force`.
+    /// Numbers of the system that may change while it moves, made by [`ParameterOf::number`]. The first should be one
+    /// that makes the system stiffer. If empty: `force`, a factor of the acceleration.
     pub parameters: Vec<ParameterOf<S>>,
-    /// The energy in joules, which must be conserved. `None`: nothing is said of energy.
+    /// The energy in joules, which must be conserved. If `None`, the body has no energy to check.
     pub energy: Option<Energy<S>>,
-    /// The exact state at time t (s) after the start. `None`: the truth is a numerical reference solution.
+    /// The exact state at time t (s) after the start. If `None`, the truth is a numerical reference solution.
     pub exact: Option<Exact<S>>,
-    /// Whether the acceleration is a linear function of coordinates and velocities, apart from a constant, at all
-    /// times. Methods are then judged by the normal modes, for any length of time. The default is no.
+    /// Whether the acceleration is at all times a linear function of coordinates and velocities, plus a constant.
+    /// Methods are then judged by the normal modes, for any length of time. The default is no.
     pub is_linear: bool,
-    /// The change of the velocity by one kick. `None`: 1 per second in the first coordinate.
+    /// The change of the velocity by one kick. If `None`, 1 per second in the first coordinate.
     pub kick: Option<S::Vector>,
 }
 

@@ -1,7 +1,7 @@
 //! A camera, or any value, that follows a target.
 //!
-//! By the law of first order it moves as `x′ = k (g - x)`, by that of second order as a critically damped
-//! spring, `x″ = ω² (g - x) - 2 ω x′`. The target is `g(t) = s + r t + A sin(2π f t)` from time 0 on.
+//! A first-order law moves it as `x′ = k (g - x)`, a second-order law as a critically damped spring,
+//! `x″ = ω² (g - x) - 2 ω x′`. The target is `g(t) = s + r t + A sin(2π f t)` from time 0 on.
 
 use std::f64::consts::TAU;
 
@@ -20,7 +20,7 @@ pub(super) fn kind() -> Kind {
 
 type Of = ParameterOf<Follow>;
 
-/// The key of the order of its law.
+/// The key of the order of the law.
 pub(super) const LAW_ORDER: &str = "order";
 
 const PARAMETERS: [Of; 9] = [
@@ -54,14 +54,14 @@ const PARAMETERS: [Of; 9] = [
         .about("how far one kick displaces it"),
 ];
 
-/// The rates of a law, per second. A slower one would lag so far behind a moving target that the closed form
-/// cancels; a faster one is at its target within a tick at any rate.
+/// The rates of a law, per second. A slower follower would lag so far behind a moving target that the closed form
+/// cancels. A faster one reaches its target within a tick at any tick rate.
 const RATES: Range = Range::Between(1e-3, 1e6);
 
 /// The highest frequency of the target in hertz: above it the phase is lost to rounding within a day.
 const MAX_SINE_HZ: f64 = 1e4;
 
-/// A follower. Its coordinate is where it is, in metres.
+/// A follower. Its coordinate is its place, in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Follow {
     /// The order of the law: 1 or 2.
@@ -78,19 +78,19 @@ pub struct Follow {
     pub sine_hz: f64,
     /// Place at the start, in metres.
     pub x0: f64,
-    /// Velocity at the start, in metres per second. By the law of first order it follows from the place.
+    /// Velocity at the start, in metres per second. Under a first-order law it follows from the place.
     pub v0: f64,
     /// How far one kick displaces it, in metres.
     pub kick: f64,
 }
 
 impl Follow {
-    /// Where the target is at time `t` (s), in metres.
+    /// The place of the target at time `t` (s), in metres.
     pub fn target(&self, t: f64) -> f64 {
         self.step + self.ramp * t + self.sine * libm::sin(TAU * self.sine_hz * t)
     }
 
-    /// How fast the target moves at time `t` (s), in metres per second.
+    /// The velocity of the target at time `t` (s), in metres per second.
     pub fn target_velocity(&self, t: f64) -> f64 {
         let omega = TAU * self.sine_hz;
         self.ramp + self.sine * omega * libm::cos(omega * t)
@@ -101,11 +101,11 @@ impl Follow {
         self.ramp == 0.0 && (self.sine == 0.0 || self.sine_hz == 0.0)
     }
 
-    /// The motion at time `t` (s) that any other approaches: behind a ramp at a constant distance, behind a
-    /// sine smaller and late.
+    /// The steady motion at time `t` (s), which every other motion approaches. It lags a ramp by a constant distance,
+    /// and follows a sine with a smaller amplitude and a delay.
     fn steady(&self, t: f64) -> State<f64> {
         let omega = TAU * self.sine_hz;
-        // 1 / (1 + iβ), and its square for the law of second order.
+        // 1 / (1 + iβ), squared for the second-order law.
         let beta = omega / self.rate;
         let size = 1.0 / (1.0 + beta * beta);
         let once = (size, -beta * size);
@@ -121,8 +121,8 @@ impl Follow {
         }
     }
 
-    /// Bounds on the coordinate and the velocity of the terms of [`Follow::steady`] at time `t`, with what the
-    /// rounding of the phase adds, in units of the rounding of 1.
+    /// Bounds on the coordinate and the velocity of the terms of [`Follow::steady`] at time `t`, in units of the
+    /// rounding of 1. They include the rounding of the phase.
     fn steady_size(&self, t: f64) -> [f64; 2] {
         let omega = TAU * self.sine_hz;
         let phase = 8.0 + 2.0 * (omega * t).abs();
@@ -135,8 +135,8 @@ impl Follow {
 impl System for Follow {
     type Vector = f64;
 
-    /// The law of first order is differentiated once, and its defect `v - k (g - x)` dies away at the rate k:
-    /// `x″ = k g′ - k x′ - k (x′ - k (g - x))`. The homogeneous part is that of the second order.
+    /// The first-order law, differentiated once, with its defect `v - k (g - x)` decaying at the rate k:
+    /// `x″ = k g′ - k x′ - k (x′ - k (g - x))`. The homogeneous part is that of the second-order law.
     #[inline]
     fn acceleration(&self, t: f64, x: &f64, v: &f64, a: &mut f64) {
         let k = self.rate;
@@ -171,7 +171,7 @@ impl Body for Follow {
             return to.assign(from);
         }
         let (here, there, k) = (self.steady(t), self.steady(t + dt), self.rate);
-        // What deviates from the steady motion dies away as a critically damped spring comes to rest.
+        // The deviation from the steady motion decays as a critically damped spring comes to rest.
         let (x, v) = (from.q - here.q, from.v - here.v);
         let (decay, b) = (libm::exp(-k * dt), v + k * x);
         to.q = there.q + decay * (x + b * dt);
@@ -192,7 +192,7 @@ impl Body for Follow {
         true
     }
 
-    /// By the law of first order a displacement changes the velocity too.
+    /// Under a first-order law a displacement changes the velocity too.
     fn input(&mut self, input: Input, state: &mut State<f64>) -> bool {
         let Input::Kick(times) = input else { return false };
         state.q += times * self.kick;

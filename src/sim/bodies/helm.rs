@@ -1,9 +1,8 @@
-//! A ship that is steered: surge and sway of its centre of mass, and yaw. Its thrust is interpolated
-//! from a table over speed.
+//! A steered ship: surge and sway of its centre of mass, and yaw. Its thrust is interpolated from a table over speed.
 //!
 //! Written in the frame of the water, where the equation is of second order in the coordinates:
-//! `m (vx, vy)′ = (δₜ T(u) - C u) bow - S w port` and `I r′ = δᵣ L u - D r`, with the surge speed `u`
-//! along the bow and the sway speed `w` to port.
+//! `m (vx, vy)′ = (δₜ T(u) - C u) bow - S w port` and `I r′ = δᵣ L u - D r`, with the surge speed `u` along the bow
+//! and the sway speed `w` to port.
 
 use glam::DVec3;
 
@@ -57,8 +56,7 @@ const PARAMETERS: [Of; 12] = [
     .about("the full thrust at speeds ahead: straight between them, level beyond them"),
 ];
 
-/// A steered ship. Its coordinates are x and y in metres and the heading ψ, in radians
-/// counter-clockwise from x.
+/// A steered ship. Its coordinates are x and y in metres and the heading ψ, in radians counter-clockwise from x.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Helm {
     /// m, in kilograms.
@@ -97,13 +95,13 @@ fn surge(state: &State<DVec3>) -> f64 {
 }
 
 impl Helm {
-    /// The largest magnitude of a speed of the curve; 1 if that is 0.
+    /// The largest magnitude of a speed in the thrust table; 1 if that is 0.
     fn fastest(&self) -> f64 {
         let fastest = self.thrust.points().iter().map(|[speed, _]| speed.abs()).fold(0.0, f64::max);
         if fastest > 0.0 { fastest } else { 1.0 }
     }
 
-    /// The acceleration, with `thrust` as the thrust at a surge speed.
+    /// The acceleration, where `thrust` gives the thrust at a surge speed.
     #[inline]
     fn acceleration_under(&self, thrust: impl Fn(f64) -> f64, q: &DVec3, v: &DVec3) -> DVec3 {
         let (bow, r) = (bow(q.z), v.z);

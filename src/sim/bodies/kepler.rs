@@ -1,13 +1,11 @@
-//! The closed form of Kepler's problem: the state on an ellipse, parabola or hyperbola after a given
-//! time.
+//! The closed form of Kepler's problem: the state on an ellipse, parabola or hyperbola after a given time.
 //!
-//! One formula for all three, in the universal variable `s` with `dt = r ds`. Stiefel & Scheifele,
-//! *Linear and Regular Celestial Mechanics* (1971); Wisdom & Hernandez, *Fast and accurate Kepler via
-//! universal variables* (2015).
+//! One formula serves all three, in the universal variable `s` with `dt = r ds`. Stiefel & Scheifele, *Linear and
+//! Regular Celestial Mechanics* (1971); Wisdom & Hernandez, *Fast and accurate Kepler via universal variables* (2015).
 //!
-//! On an ellipse `s` is counted from the initial state; on an open path from the periapsis, because a
-//! fly-by from distance r at speed v, counted from its start, would lose (r v² / μ)² to cancellation.
-//! Times and positions are kept in [`DoubleDouble`] until the result is rounded.
+//! On an ellipse `s` is counted from the initial state. On an open path it is counted from the periapsis: a fly-by
+//! from distance r at speed v, counted from its start, would lose (r v² / μ)² to cancellation. Times and positions are
+//! kept in [`DoubleDouble`] until the result is rounded.
 
 use std::f64::consts::TAU;
 
@@ -16,20 +14,18 @@ use glam::DVec2;
 use crate::sim::State;
 use crate::sim::double_double::{DoubleDouble, TWO_PI};
 
-/// The largest number of steps to the root before it is refined: more than bisection of a bracket needs
-/// down to the last digit.
+/// The largest number of steps to the root before it is refined: more than bisection of a bracket needs down to the
+/// last digit.
 const MAX_STEPS: u32 = 200;
 
-/// The largest number of doublings of the bracket of an open path: from the smallest number to beyond
-/// the largest.
+/// The largest number of doublings of the bracket of an open path: from the smallest number to beyond the largest.
 const MAX_DOUBLINGS: u32 = 2100;
 
-/// This close to the root, relative to it, Newton's method doubles the digits at every step and needs
-/// no bracket.
+/// This close to the root, relative to it, Newton's method doubles the digits at every step and needs no bracket.
 const NEAR: f64 = 1e-5;
 
-/// The largest number of Newton steps in double-double arithmetic. Near a collision the root is triple,
-/// and each step leaves two thirds of the error.
+/// The largest number of Newton steps in double-double arithmetic. Near a collision the root is triple, and each step
+/// leaves two thirds of the error.
 const MAX_REFINEMENTS: u32 = 80;
 
 /// The relative size of a step after which the root is accepted.
@@ -38,8 +34,7 @@ const REFINED_TO: f64 = 1e-30;
 /// `r v² / μ` above which the path is straight to the precision of [`DoubleDouble`].
 const UNBENT: f64 = 1e60;
 
-/// Stumpff's functions `Gₖ = sᵏ cₖ(β s²)`, with `G₀″ = -β G₀`: for β = 1 they are cos s, sin s,
-/// 1 - cos s, s - sin s.
+/// Stumpff's functions `Gₖ = sᵏ cₖ(β s²)`, with `G₀″ = -β G₀`: for β = 1 they are cos s, sin s, 1 - cos s, s - sin s.
 struct Stumpff {
     g1: f64,
     g2: f64,
@@ -111,8 +106,7 @@ impl PreciseStumpff {
     }
 }
 
-/// The initial state, in units in which the distance from the centre is 1 to 2 and the gravitational
-/// parameter 1 to 8.
+/// The initial state, in units where the distance from the centre is 1 to 2 and the gravitational parameter 1 to 8.
 struct Path {
     mu: DoubleDouble,
     q: [DoubleDouble; 2],
@@ -175,7 +169,7 @@ impl Path {
         let Self { mu, q, v, r: r0, eta, beta } = *self;
         let period = TWO_PI * mu / (beta * beta.sqrt());
         let rounds = libm::rint(dt.high / period.high);
-        // A period that overflows is never completed.
+        // A motion never completes a period that overflows.
         let dt = if rounds == 0.0 || !period.high.is_finite() { dt } else { dt - period * rounds };
         let slow = mu - beta * r0;
         let kepler = |s: f64| {
@@ -196,8 +190,7 @@ impl Path {
         ([0, 1].map(|i| f * q[i] + g * v[i]), [0, 1].map(|i| f_dot * q[i] + g_dot * v[i]))
     }
 
-    /// From the periapsis, where nothing cancels: there all terms of Kepler's equation have the same
-    /// sign.
+    /// From the periapsis, where nothing cancels: there all terms of Kepler's equation have the same sign.
     fn on_an_open_path(&self, dt: DoubleDouble) -> PositionAndVelocity {
         let Self { mu, q, v, eta, beta, .. } = *self;
         let momentum = q[0] * v[1] - q[1] * v[0];
@@ -247,8 +240,8 @@ fn dot(a: [DoubleDouble; 2], b: [DoubleDouble; 2]) -> DoubleDouble {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// The root near `s` of an increasing function, by Newton's method in double-double arithmetic from a
-/// root accurate to `f64`. `f` returns a value and a slope.
+/// The root near `s` of an increasing function, by Newton's method in double-double arithmetic from a root accurate to
+/// `f64`. `f` returns a value and a slope.
 fn refined(s: f64, f: impl Fn(DoubleDouble) -> (DoubleDouble, DoubleDouble)) -> DoubleDouble {
     let mut s = DoubleDouble::from(s);
     let mut last = f64::INFINITY;
@@ -265,24 +258,23 @@ fn refined(s: f64, f: impl Fn(DoubleDouble) -> (DoubleDouble, DoubleDouble)) -> 
     s
 }
 
-/// The orbital period in seconds, for a binding energy of `beta` / 2 per kilogram; `None` on an open
-/// path.
+/// The orbital period in seconds, for a binding energy of `beta` / 2 per kilogram; `None` on an open path.
 pub(super) fn period(mu: f64, beta: f64) -> Option<f64> {
     let period = TAU * mu / (beta * beta.sqrt());
     (beta > 0.0 && period.is_finite()).then_some(period)
 }
 
-/// The `s` at which the time `late` is 0. It increases with `s` from `-dt` at 0; its slope is the
-/// distance from the centre.
+/// The `s` at which the time `late` is 0. That time increases with `s` from `-dt` at 0, with the distance from the
+/// centre as its slope.
 fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64 {
-    // A time too small to be halved.
+    // `dt` is too small to be halved.
     if guess == 0.0 {
         return 0.0;
     }
     let sign = dt.signum();
     // An overflow means that `s` is far beyond the root.
     let is_beyond = |time: f64| time.is_nan() || time * sign >= 0.0;
-    // Less than one period; on an open path doubled until it brackets the root.
+    // Less than one period away; on an open path, doubled until it brackets the root.
     let mut far = if beta > 0.0 { sign * TAU / beta.sqrt() } else { guess };
     for _ in 0..MAX_DOUBLINGS {
         if beta > 0.0 || is_beyond(late(far).0) {
@@ -302,8 +294,8 @@ fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64
         } else {
             near = s;
         }
-        // Newton's step if it is at most half of the last step; otherwise bisection, because Newton's
-        // method converges slowly far out on a hyperbola.
+        // Newton's step if it is at most half of the last step; otherwise bisection, because Newton's method converges
+        // slowly far out on a hyperbola.
         let newton = time / distance;
         let is_fast = is_between(s - newton, near, far) && 2.0 * newton.abs() <= last_step;
         let next = if is_fast { s - newton } else { near + (far - near) / 2.0 };

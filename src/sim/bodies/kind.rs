@@ -15,7 +15,7 @@ use crate::sim::state::State;
 use crate::sim::stepper::{Solver, Stepper};
 use crate::sim::system::{BodyClass, EngineSettings};
 
-/// The kind of solution that methods are compared with.
+/// The kind of solution to compare methods with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Truth {
     /// A closed form, evaluated at every tick.
@@ -35,7 +35,7 @@ impl Truth {
         }
     }
 
-    /// What is said where it is missing, for people.
+    /// The caption of a run without this truth.
     pub fn missing(self) -> &'static str {
         match self {
             Truth::Exact => "no exact solution",
@@ -57,10 +57,10 @@ impl Truth {
 /// Builds a body from the values of its parameters, under a solver.
 pub type Build = dyn Fn(&[f64], Solver) -> Box<dyn Stepper> + Send + Sync;
 
-/// Checks values that are each in range for errors in combination.
+/// Checks combinations of values, each of which is in range.
 pub type Check = dyn Fn(&[f64]) -> Result<(), Fault> + Send + Sync;
 
-/// Makes copies of a body from these starts, on an instruction set; `None` if it cannot.
+/// Makes copies of a body from these starts, on an instruction set; `None` if the body has no batch.
 pub type BatchFn = fn(&dyn Any, InstructionSet, Solver, Vec<State<f64>>) -> Option<NewBatch>;
 
 /// The card of a kind of body: its name, its coordinates, and its keys in a scene.
@@ -69,7 +69,7 @@ pub struct Kind {
     pub id: &'static str,
     /// Its equation of motion, in one line.
     pub about: Text,
-    /// The coordinates that such a body can have, in state order.
+    /// All coordinates that such a body can have, in state order.
     pub all_coordinates: Coordinates,
     /// Whether the first parameter is the number of coordinates; otherwise a body has all of them.
     pub is_counted: bool,
@@ -77,25 +77,24 @@ pub struct Kind {
     pub parameters: Vec<Parameter>,
     /// The inputs that it accepts: `throttle`, `rudder`, `kick`.
     pub inputs: &'static [&'static str],
-    /// The key of the parameter that makes it stiffer: larger values make the motion faster in relation
-    /// to the tick.
+    /// The key of the parameter that makes it stiffer: larger values make the motion faster in relation to the tick.
     pub leading: Text,
     /// Whether its truth is a closed form or a reference solution.
     pub truth: Truth,
-    /// Checks values that are each in range for errors in combination.
+    /// Checks combinations of values, each of which is in range.
     pub check: Box<Check>,
-    /// Builds a body from these parameter values (see
-    /// [`Body::with_parameters`](super::Body::with_parameters)), at its start under a solver.
+    /// Builds a body from these parameter values (see [`Body::with_parameters`](super::Body::with_parameters)), at its
+    /// start under a solver.
     pub build: Box<Build>,
-    /// Its class for the methods that step some bodies only.
+    /// Its class, for methods that step only some bodies.
     pub class: BodyClass,
-    /// What the kind was made of.
+    /// The source of its equations.
     pub origin: Origin,
-    /// Makes copies of a body of the kind, with its present parameters and inputs; none of one with several coordinates.
+    /// Makes copies of a body with its present parameters and inputs; `None` for several coordinates.
     pub batch: BatchFn,
 }
 
-/// What a kind was made of.
+/// The source of a kind's equations.
 #[derive(Clone, Debug)]
 pub enum Origin {
     /// A line of [`BODIES`](super::BODIES).
@@ -108,16 +107,16 @@ pub enum Origin {
     Net(Arc<NetPlan>),
 }
 
-/// The coordinates of a custom body, and how it is drawn.
+/// The coordinates of a custom body, and the plane it is drawn in.
 #[derive(Debug)]
 pub struct CustomInfo {
-    /// Its coordinates.
+    /// Its coordinates, in state order.
     pub coordinates: Vec<Coordinate>,
-    /// The indices of the coordinates that are x and y of a plane, if it is drawn in one.
+    /// The indices of the coordinates that are x and y of the drawing plane; `None` without one.
     pub plane: Option<[usize; 2]>,
 }
 
-/// Two are equal if they describe the same bodies: by the same text or plan, or as clones of one custom body.
+/// Equal if both describe the same bodies: by the same text or plan, or as clones of one custom body.
 impl PartialEq for Origin {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
@@ -130,7 +129,7 @@ impl PartialEq for Origin {
     }
 }
 
-/// Two are equal if they describe the same bodies.
+/// Equal if both describe the same bodies.
 impl PartialEq for Kind {
     fn eq(&self, other: &Self) -> bool {
         self.id == other.id && self.origin == other.origin
@@ -144,18 +143,18 @@ impl fmt::Debug for Kind {
 }
 
 impl Kind {
-    /// The kind of bodies like `blank`, without a name, coordinates and a leading parameter: what most kinds have in
-    /// common.
+    /// The kind of bodies like `blank`, with the fields that most kinds share, and still without a name, coordinates
+    /// and a leading parameter.
     pub(super) fn of<B: Body>(blank: B) -> Self {
         Self::checked(blank, |_, _| Ok(()))
     }
 
-    /// As [`Kind::of`], whose values in combination are checked on a copy of `blank`.
+    /// As [`Kind::of`]; checks combinations of values on a copy of `blank`.
     pub(super) fn checked<B: Body>(
         blank: B,
         check: impl Fn(B, &[f64]) -> Result<(), Fault> + Send + Sync + 'static,
     ) -> Self {
-        // A body need not be shared between threads: each gets a copy.
+        // A body need not be `Sync`: each thread gets a copy.
         let template = Arc::new(Mutex::new(blank));
         let copy = move || template.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let copy_to_check = copy.clone();
@@ -176,7 +175,7 @@ impl Kind {
         }
     }
 
-    /// As [`Kind::of`], of bodies of one coordinate whose copies are stepped in blocks.
+    /// As [`Kind::of`], for bodies of one coordinate whose copies are stepped in blocks.
     pub(super) fn of_one<B: Body<Vector = f64> + Sync>(blank: B) -> Self {
         let batch: BatchFn = |body, set, solver, starts| {
             Some(Batch::on(set, body.downcast_ref::<B>()?, solver, starts.into_iter()))
@@ -192,30 +191,30 @@ impl Kind {
         }
     }
 
-    /// The values of default parameters, and 1 for those without a default.
+    /// The default of each parameter, or 1 if it has none.
     pub fn plain_values(&self) -> Vec<f64> {
         self.parameters.iter().map(|parameter| parameter.default.unwrap_or(1.0)).collect()
     }
 
-    /// The equations of a law.
+    /// The equations, if this is the kind of a law.
     pub fn law(&self) -> Option<&Arc<Equations>> {
         if let Origin::Law(equations) = &self.origin { Some(equations) } else { None }
     }
 
-    /// The plan of a net.
+    /// The plan, if this is the kind of a net.
     pub fn net(&self) -> Option<&Arc<NetPlan>> {
         if let Origin::Net(plan) = &self.origin { Some(plan) } else { None }
     }
 
-    /// The symbol and the node, as a number, of what a net calls by this name: `vx` and `11` of `vx11`. `None` of other
-    /// kinds.
+    /// Splits a coordinate name of a net into its symbol and its node number: `vx11` into `vx` and `11`. `None` for
+    /// other kinds.
     pub fn node<'n>(&self, name: &'n str) -> Option<(&'n str, &'n str)> {
         let symbol = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
         self.net().map(|_| name.split_at(symbol.len()))
     }
 
-    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass, of the joint that a body of this kind is in an engine;
-    /// `None` if there is more to its motion, or no spring.
+    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass, of the engine joint that equals this body. `None`
+    /// if the body is no spring, or has other forces too.
     pub fn joint(&self, body: &dyn Stepper) -> Option<[f64; 2]> {
         let EngineSettings { stiffness, damping, drag } = body.engine_settings(0.0);
         let is_joint = self.class == BodyClass::Joint && stiffness > 0.0 && drag == 0.0;
@@ -239,7 +238,7 @@ pub struct Coordinate {
     pub unit: &'static str,
 }
 
-/// The coordinates of a body, in state order. Those of a large grid are named when they are asked for.
+/// The coordinates of a body, in state order. A large grid computes the names of its coordinates on demand.
 #[derive(Clone)]
 pub struct Coordinates {
     count: usize,
@@ -262,23 +261,23 @@ impl From<Vec<Coordinate>> for Coordinates {
 }
 
 impl Coordinates {
-    /// So many coordinates of one unit, each named with its velocity by a rule from its index.
+    /// `count` coordinates of one unit, each named with its velocity by `naming`.
     pub(super) fn by_rule(count: usize, unit: &'static str, naming: Arc<Naming>) -> Self {
         Self { count, named: Named::Computed { naming, unit } }
     }
 
-    /// The first of them, at most all.
+    /// The first `count` coordinates, or all if there are fewer.
     #[must_use]
     pub fn first(&self, count: usize) -> Self {
         Self { count: count.min(self.count), named: self.named.clone() }
     }
 
-    /// How many there are.
+    /// Number of coordinates.
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// Whether there are none, as of a blank kind.
+    /// Whether there are none, as for a blank kind.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
@@ -302,12 +301,12 @@ impl Coordinates {
         self.get(index).expect("an index of a coordinate")
     }
 
-    /// All of them.
+    /// Iterates over all coordinates.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Coordinate> + Clone + '_ {
         (0..self.count).map(|index| self.at(index))
     }
 
-    /// The unit of each.
+    /// The unit of each coordinate.
     pub fn units(&self) -> impl Iterator<Item = &'static str> + Clone + '_ {
         (0..self.count).map(|index| match &self.named {
             Named::List(list) => list[index].unit,
@@ -325,7 +324,7 @@ impl Coordinate {
         Self { name: name.into(), velocity: velocity.into(), unit }
     }
 
-    /// Its unit for people: empty for a pure number.
+    /// The unit as people read it: empty for a pure number.
     pub fn shown_unit(&self) -> &'static str {
         shown_unit(self.unit)
     }

@@ -1,4 +1,4 @@
-//! A body whose equation of motion a scene writes itself.
+//! A body whose equation of motion is written in a scene.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ pub use kind::law_kind;
 #[derive(Clone, Debug)]
 pub struct Law {
     equations: Arc<Equations>,
-    /// As [`law_kind`]'s parameters.
+    /// The values of [`law_kind`]'s parameters.
     values: Vec<f64>,
     /// Throttle and rudder: from -1 to 1.
     steering: [f64; 2],
@@ -56,12 +56,13 @@ impl Law {
         &self.values
     }
 
-    /// The claims of the text that do not hold with the present constants.
+    /// Claims of the text that do not hold with the present constants.
     pub fn false_claims(&self) -> FalseClaims {
         self.checked.false_claims(self, &self.values)
     }
 
-    /// The places of coordinates `q` that have one, in metres, in the order of the coordinates.
+    /// The drawing positions for coordinates `q`, in metres, in the order of the coordinates. Coordinates without a
+    /// position are left out.
     pub fn places(&self, q: &[f64]) -> Vec<DVec2> {
         let mut places = Vec::new();
         let registers = &mut self.registers.borrow_mut();
@@ -79,7 +80,7 @@ impl Law {
         self.equations.text().coordinates.len()
     }
 
-    /// The starts of the coordinates, of the velocities, and the kicks.
+    /// The starts of the coordinates, the starts of the velocities, and the kicks.
     fn starts(&self) -> [&[f64]; 3] {
         let n = self.coordinates();
         let (starts, rest) = self.values[self.equations.text().constants.len()..].split_at(n);
@@ -92,7 +93,7 @@ impl Law {
     }
 }
 
-/// The values that expressions know: all but the kicks.
+/// The values that expressions may use: all but the kicks.
 fn known<'v>(equations: &Equations, values: &'v [f64]) -> &'v [f64] {
     &values[..values.len() - equations.text().coordinates.len()]
 }
@@ -109,7 +110,7 @@ impl System for Law {
 impl Body for Law {
     fn with_parameters(mut self, values: &[f64]) -> Self {
         self.write(values);
-        // Before the first tick, which must not allocate.
+        // Checked before the first tick, which must not allocate.
         self.false_claims();
         self
     }
@@ -208,7 +209,7 @@ impl Body for Law {
         true
     }
 
-    /// The first place, the coordinates of the plane, or the first coordinate to the right or up.
+    /// The first declared position, else the coordinates of the plane, else the first coordinate to the right or up.
     fn place(&self, q: &Vec<f64>) -> DVec2 {
         let text = self.equations.text();
         if self.equations.has_places() {

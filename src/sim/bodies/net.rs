@@ -1,8 +1,8 @@
 //! Masses joined by springs in the plane: a rope, a cloth, a bridge.
 //!
-//! The coordinates are those of the free nodes. The forces on a node are summed in the order of the springs of
-//! the plan: first those to free nodes, then those to fixed ones. That order is part of the definition, so that a
-//! large grid, whose nodes are summed side by side, has the bits of the same net given as lists.
+//! The coordinates are those of the free nodes. The forces on a node are summed in the order of the plan's springs:
+//! first the springs to free nodes, then those to fixed ones. That order is part of the definition: a large grid,
+//! whose nodes are summed side by side, has the same bits as a net given as lists.
 
 use std::array::from_fn;
 use std::sync::{Arc, LazyLock};
@@ -66,7 +66,7 @@ pub struct Net {
     drag: f64,
     /// g, in metres per second squared.
     gravity: f64,
-    /// The rest lengths in units of the lengths at the start.
+    /// Rest lengths of the springs, relative to their lengths at the start.
     rest_ratio: f64,
     /// The change of velocity by one kick.
     kick: DVec2,
@@ -77,22 +77,22 @@ pub struct Net {
 /// The springs of a net with its present parameters.
 #[derive(Debug, Default)]
 struct Springs {
-    /// Stiffness and damping of the springs of a grid divided by the mass of a node.
+    /// Stiffness and damping of every spring of a grid, divided by the mass of a node.
     shared: [f64; 2],
-    /// The lengths at rest of the springs between free nodes of a grid.
+    /// Rest lengths of the springs between free nodes of a grid.
     rest: RestLengths,
-    /// Stiffness and damping divided by the mass of a node, and the length at rest, of the springs that the topology
-    /// [keeps](Topology::kept).
+    /// For each spring that the topology [keeps](Topology::kept): stiffness and damping divided by the mass of a node,
+    /// and the rest length.
     constants: Vec<[f64; 3]>,
-    /// Whether none of them is damped.
+    /// Whether no spring is damped.
     are_elastic: bool,
     /// See [`Net::fastest_rate`].
     fastest_rate: f64,
-    /// How many there are.
+    /// Number of springs.
     count: usize,
 }
 
-/// An end of a spring whose other end is a free node.
+/// The other end of a spring that starts at a free node.
 #[derive(Clone, Copy)]
 enum End {
     /// A free node, by its index.
@@ -126,7 +126,7 @@ impl Net {
         }
     }
 
-    /// The free nodes, each as x and y, of coordinates or velocities.
+    /// The free nodes as pairs of x and y, from a vector of coordinates or of velocities.
     #[inline]
     pub fn nodes(components: &[f64]) -> &[[f64; 2]] {
         components.as_chunks().0
@@ -138,7 +138,8 @@ impl Net {
         components.as_chunks_mut().0
     }
 
-    /// Calls `see` with the index of a free end, the other end and the constants of each spring, in the order of the sums.
+    /// Calls `see` for each spring, in the order of the sums, with the index of a free end, the other end and the
+    /// constants.
     fn each_spring(&self, springs: &Springs, mut see: impl FnMut(usize, End, &[f64; 3])) {
         let Springs { shared: [k, c], rest, constants, .. } = springs;
         let of_anchors = match &self.topology.storage {
@@ -167,7 +168,7 @@ impl Net {
         DVec2::from(index.map_or_else(|| self.topology.place(node), |index| Self::nodes(q)[index]))
     }
 
-    /// How many springs it has.
+    /// Number of springs.
     pub fn springs(&self) -> usize {
         self.springs.count
     }
@@ -182,13 +183,13 @@ impl Net {
         shortest
     }
 
-    /// A bound on the fastest frequency, in radians per second, and on the fastest rate of damping; positive.
+    /// An upper bound on the fastest angular frequency, in radians per second, and on the fastest rate of damping;
+    /// positive.
     pub fn fastest_rate(&self) -> f64 {
         self.springs.fastest_rate.max(f64::MIN_POSITIVE)
     }
 
-    /// The faster of the fastest frequency and the fastest rate of damping, per node: those of a node whose neighbours all
-    /// move against it.
+    /// The fastest frequency or rate of damping of any node, if its neighbours all move against it.
     fn fastest(&self, springs: &Springs) -> f64 {
         let mut sums = vec![[0.0; 2]; self.topology.free];
         let mut add = |index: usize, [k, c, _]: &[f64; 3], times: f64| {
@@ -204,7 +205,7 @@ impl Net {
         most(0).sqrt().max(most(1) + self.drag / self.mass)
     }
 
-    /// Overwrites `sums` with what acts on each node, from vectors at the free nodes of which the first has the places.
+    /// Overwrites `sums` with the force on each node. The first of `vectors` has the places of the free nodes.
     #[inline]
     fn sum<const N: usize>(
         &self,
@@ -337,8 +338,8 @@ impl Body for Net {
     }
 }
 
-/// Evaluations of both solutions of a reference for each radian of the fastest motion, as measured on the
-/// nets of the scenes.
+/// Evaluations of both solutions of a reference for each radian of the fastest motion, measured on the nets of the
+/// scenes.
 const EVALUATIONS_PER_RADIAN: f64 = 16.0;
 
 impl Net {
@@ -367,7 +368,7 @@ impl Net {
     }
 }
 
-/// The kind of nets of this plan.
+/// The kind of nets with this plan.
 ///
 /// # Errors
 /// All faults of the plan.
@@ -390,7 +391,8 @@ pub fn net_kind(plan: NetPlan) -> Result<Arc<Kind>, Vec<NetFault>> {
     }))
 }
 
-/// The names of the coordinates: by a rule for a large grid, else in a list, so that halting allocates nothing.
+/// The names of the coordinates. A large grid computes them; a smaller net lists them, so that halting allocates
+/// nothing.
 fn coordinates(topology: &Arc<Topology>) -> Coordinates {
     let (of, count) = (topology.clone(), 2 * topology.free);
     let names = move |index: usize| {

@@ -44,8 +44,8 @@ const PARAMETERS: [Of; 6] = [
         .about("what one kick adds to the speed, along the path"),
 ];
 
-/// A satellite of negligible mass; its energy is per kilogram. Its coordinates are its position
-/// relative to the centre, in metres.
+/// A satellite of negligible mass; its energy is per kilogram. Its coordinates are its position relative to the
+/// centre, in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Orbit {
     /// μ, in cubic metres per second squared.
@@ -54,7 +54,7 @@ pub struct Orbit {
     pub q0: DVec2,
     /// Velocity at the start, in metres per second.
     pub v0: DVec2,
-    /// What one kick adds to the speed, in metres per second.
+    /// The change of speed by one kick, in metres per second.
     pub kick: f64,
 }
 
@@ -111,7 +111,7 @@ impl Body for Orbit {
         *to = kepler::flow(self.mu, dt, from);
     }
 
-    /// Infinite so close to the centre that the rounding of the time exceeds the time of passage.
+    /// Infinite if the satellite is so close to the centre that the rounding of the time exceeds the time of passage.
     fn exact_error(&self, _t: f64, dt: f64, _from: &State<DVec2>, to: &State<DVec2>) -> [f64; 2] {
         if 100.0 * f64::EPSILON * dt.abs() * to.v.length() > to.q.length() {
             return [f64::INFINITY; 2];

@@ -1,17 +1,15 @@
-//! The closed form of the damped oscillator `x″ = -ω² x - 2 α x′`: of a spring, and of each mode of a
-//! chain.
+//! The closed form of the damped oscillator `x″ = -ω² x - 2 α x′`: of a spring, and of each mode of a chain.
 
 use crate::sim::State;
 
-/// The exact flow over `dt` (s), for `omega2` = ω² > 0 and `alpha` = α ≥ 0: underdamped, critical or
-/// overdamped.
+/// The exact flow over `dt` (s), for `omega2` = ω² > 0 and `alpha` = α ≥ 0: underdamped, critical or overdamped.
 pub(super) fn flow(omega2: f64, alpha: f64, dt: f64, from: &State<f64>) -> State<f64> {
     let State { q: x, v } = *from;
     let w2 = omega2 - alpha * alpha;
     let u = w2 * dt * dt;
     if u <= -NEAR_CRITICAL {
-        // The slow and the fast exponential, computed separately: as hyperbolic functions they would
-        // overflow, and cancel in the velocity.
+        // The slow and the fast exponential, computed separately: as hyperbolic functions they would overflow, and
+        // cancel in the velocity.
         let w = (-w2).sqrt();
         let (slow, fast) = (omega2 / (alpha + w), alpha + w);
         let slow_part = (fast * x + v) * libm::exp(-slow * dt) / (2.0 * w);
@@ -41,7 +39,7 @@ pub(super) fn flow_error(omega2: f64, alpha: f64, dt: f64, from: &State<f64>) ->
     let (w, most) = (w2.abs().sqrt(), omega2 + alpha * alpha);
     if w2 * dt * dt <= -NEAR_CRITICAL {
         let (slow, fast) = (omega2 / (alpha + w), alpha + w);
-        // The error of w from the rounding of w², and with it of both rates.
+        // The error of w, and so of both rates, from the rounding of w².
         let moved = most / w;
         let part = |rate: f64, moved: f64, size: f64| {
             let rounding = f64::EPSILON * (8.0 + 4.0 * (rate + moved) * dt);
@@ -59,12 +57,12 @@ pub(super) fn flow_error(omega2: f64, alpha: f64, dt: f64, from: &State<f64>) ->
     [rounding * (x + (v + alpha * x) * s), rounding * (v + (omega2 * x + alpha * v) * s)]
 }
 
-/// The `|w t|²` below which the flow is a series. If much smaller, `sin(w t) / w` loses digits near the
-/// limit; if larger, the series needs more terms.
+/// The `|w t|²` below which the flow is a series. If much smaller, `sin(w t) / w` loses digits near the limit; if
+/// larger, the series needs more terms.
 const NEAR_CRITICAL: f64 = 1e-3;
 
-/// `cos √u` and `sin √u / √u` by their Taylor series in `u`, which hold for both signs of `u`.
-/// For |u| < [`NEAR_CRITICAL`] the first omitted term is below 1e-19.
+/// `cos √u` and `sin √u / √u` by their Taylor series in `u`, which hold for both signs of `u`. For |u| <
+/// [`NEAR_CRITICAL`] the first omitted term is below 1e-19.
 fn near_critical(u: f64) -> (f64, f64) {
     let c = 1.0 - u / 2.0 * (1.0 - u / 12.0 * (1.0 - u / 30.0 * (1.0 - u / 56.0)));
     let s = 1.0 - u / 6.0 * (1.0 - u / 20.0 * (1.0 - u / 42.0 * (1.0 - u / 72.0)));

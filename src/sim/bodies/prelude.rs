@@ -1,4 +1,4 @@
-//! What the file of a body names: its card, its parameters, and what it implements.
+//! Imports for the file of a body: its card, its parameters, and the traits it implements.
 
 pub(super) use glam::DVec2;
 

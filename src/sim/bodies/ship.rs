@@ -1,4 +1,4 @@
-//! The chapter's ship: thrust against drag that grows with speed, `m v′ = T - C v`.
+//! The chapter's ship: thrust against drag proportional to speed, `m v′ = T - C v`.
 
 use super::prelude::*;
 
@@ -53,7 +53,7 @@ pub struct Ship {
 }
 
 impl Ship {
-    /// Full throttle and all parameters 0, to be set by [`Body::with_parameters`].
+    /// Full throttle and all other fields 0, to be set by [`Body::with_parameters`].
     pub const BLANK: Self =
         Self { thrust: 0.0, throttle: 1.0, drag: 0.0, mass: 0.0, s0: 0.0, v0: 0.0, kick: 0.0 };
 }
@@ -63,8 +63,8 @@ impl System for Ship {
 
     #[inline]
     fn acceleration(&self, _t: f64, _s: &f64, v: &f64, a: &mut f64) {
-        // Divided first, since these quotients are the same at every stage: a division between two
-        // stages would double the time of a step.
+        // Divided first: these quotients are the same at every stage, and a division between two stages would double
+        // the time of a step.
         let (push, rate) = (self.thrust * self.throttle / self.mass, self.drag / self.mass);
         *a = push - rate * v;
     }
@@ -107,8 +107,7 @@ impl Body for Ship {
         let [phi1, phi2] = [1.0, 0.5].map(|most: f64| most.min(1.0 / z));
         let run = (from.v * dt * phi1).abs() + (push * dt * dt * phi2).abs();
         let gained = (push.abs() + (rate * from.v).abs()) * dt.abs() * phi1;
-        // The largest amplification is just above the limit of the series, where 1 - φ₁ is a twentieth
-        // of 1.
+        // The largest amplification is just above the limit of the series, where 1 - φ₁ is a twentieth of 1.
         [from.q.abs() + 32.0 * run, from.v.abs() + 8.0 * gained].map(|size| f64::EPSILON * size)
     }
 
@@ -140,8 +139,8 @@ fn phi(z: f64) -> (f64, f64) {
     (phi1, (1.0 - phi1) / z)
 }
 
-/// φ₁ and φ₂ by their Taylor series, where the closed forms would cancel. For |z| < 0.1 the first
-/// omitted term is below 1e-20.
+/// φ₁ and φ₂ by their Taylor series, where the closed forms would cancel. For |z| < 0.1 the first omitted term is
+/// below 1e-20.
 fn phi_series(z: f64) -> (f64, f64) {
     let (mut term1, mut term2) = (1.0, 0.5);
     let (mut phi1, mut phi2) = (0.0, 0.0);

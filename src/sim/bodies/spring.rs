@@ -64,13 +64,13 @@ impl System for Spring {
 
     #[inline]
     fn acceleration(&self, _t: f64, x: &f64, v: &f64, a: &mut f64) {
-        // For speed alone (`--bench step -- spring`): quotients are taken before the stages that share them, and
-        // adding 0 keeps the compiler from packing both into one register.
+        // For speed alone (`--bench step -- spring`): the quotients come before the stages that share them, and adding
+        // 0 keeps the compiler from packing both into one register.
         let (k, c) = (self.stiffness / self.mass, self.damping / self.mass + 0.0);
         *a = -k * x - c * v;
     }
 
-    /// A joint.
+    /// The settings of an engine joint.
     #[inline]
     fn query(&self, _t: f64, query: Query<'_, f64>) -> bool {
         let Query::Engine { settings, force, .. } = query else { return false };

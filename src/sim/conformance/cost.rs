@@ -1,4 +1,4 @@
-//! The cost of a step, and its length.
+//! The cost of a step, and the time it advances by.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use crate::sim::integrators::{Method, StepFailure, integrator};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::System;
 
-/// The evaluations of the first step, and of each of `steps` steps after it.
+/// The evaluations of the first step, and of each of the `steps` later ones.
 fn costs<V: Vector>(
     method: &Method,
     counted: Problem<V>,
@@ -48,7 +48,7 @@ pub(super) fn evaluations(method: &Method) -> Claim {
         Ok((first, counts)) => {
             let (least, most) = (counts.first().copied(), counts.last().copied());
             let [least, most] = [least, most].map(|count| count.expect("of many steps"));
-            // A method that reuses evaluations owes one evaluation more at its first step.
+            // A method that reuses evaluations needs one more at its first step.
             let owed = u64::from(method.restart.is_some());
             let holds = match method.evaluations.map(u64::from) {
                 Some(count) => (least, most, first) == (count, count, count + owed),
@@ -71,7 +71,7 @@ impl System for ClockAndDrag {
     }
 }
 
-/// Whether a step of `h` advances by `h` and reports the rest; for a method of order 0, the report alone.
+/// Whether a step of `h` advances by `h`, or reports the time it leaves out; for a method of order 0, only the report.
 pub(super) fn keeps_time(method: &Method) -> Claim {
     let measure = || -> Measured {
         let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(1.0, 0.0) };
@@ -83,7 +83,7 @@ pub(super) fn keeps_time(method: &Method) -> Claim {
         }
         let (clock, lost) = (state.q.x, integrator.lost_time());
         if method.order == 0 {
-            // What does not converge need not move evenly, and its coordinate is no clock.
+            // Without convergence, the motion need not be even, and its coordinate is no clock.
             return Ok((lost == 0.0, format!("it reports {lost:.6} s lost of 3 s")));
         }
         let off = (clock + lost - 3.0).abs();
@@ -100,7 +100,7 @@ pub(super) fn keeps_time(method: &Method) -> Claim {
     claim
 }
 
-/// Whether the parts of a tick add up to it.
+/// Whether the substeps of a tick add up to it.
 fn substeps_add_up(method: &Method) -> bool {
     [1, 2, 7, 16].into_iter().all(|n| {
         let still = problem(spring(0.0, 0.0));

@@ -10,10 +10,10 @@ use crate::sim::state::State;
 const STEP: f64 = 0.8;
 const FROM: State<f64> = State { q: 1.2, v: 0.5 };
 
-/// An area or a return that is off by less is kept; rounding of the differences is 3e-13.
+/// A defect below this is rounding: that of the differences is 3e-13.
 const KEPT: f64 = 1e-12;
 
-/// What is off by more is not kept; the nearest to keeping area, Dormand-Prince, is 5e-5 off.
+/// A defect above this is a violation; the method closest to keeping area without doing so, Dormand-Prince, has 5e-5.
 const LOST: f64 = 1e-5;
 
 /// One step of a fresh method.
@@ -61,7 +61,7 @@ pub(super) fn keeps_area(method: &Method) -> Measured {
     both_kept(off, "area changes by")
 }
 
-/// How far from its start a step of `h` and a step of `-h` leave the state.
+/// The distance from its start after a step of `h` and a step of `-h`.
 fn there_and_back(method: &Method, system: Problem<f64>) -> Result<f64, StepFailure> {
     let mut integrator = fixed_step(method, &0.0);
     let mut state = FROM;

@@ -1,4 +1,4 @@
-//! Which built-in method makes the same of linear forces, or nearly: the powers of the step in the map of one step.
+//! Finds the built-in method closest to another on linear forces, by the powers of the step in the one-step map.
 
 use std::sync::LazyLock;
 
@@ -9,27 +9,27 @@ use crate::sim::number::{significant, superscript};
 use crate::sim::numerics::{XorShift, least_squares};
 use crate::sim::state::State;
 
-/// The highest degree of a map in `k` and `c`: the calls that are made one after the other.
+/// The highest degree of the map in `k` and `c`: the number of evaluations that depend on each other in a row.
 const MAX_DEGREE: u32 = 6;
-/// Maps from which the coefficients are found, and others on which they are tried.
+/// Maps to fit the coefficients to, and more maps to test them on.
 const SAMPLES: usize = 60;
 const TRIED: usize = 6;
-/// Coefficients that differ by less are the same, and what is less is none.
+/// Coefficients that differ by less are equal, and smaller ones are 0.
 const ROUNDING: f64 = 1e-8;
-/// The least likeness of a method that is near.
+/// The least rank of a method that counts as near.
 const NEAR: f64 = 0.5;
-/// What a coefficient of the other sign counts: a slip of a sign leaves the terms where they are.
+/// The weight of a coefficient with the opposite sign: a slip of a sign keeps the terms.
 const OTHER_SIGN: f64 = 0.5;
-/// What as many evaluations count.
+/// The bonus for the same number of evaluations.
 const AS_MANY: f64 = 0.1;
-/// Steps of a run in which methods are to stay the same.
+/// Steps over which methods must agree to be the same.
 const STEPS: u32 = 12;
-/// Steps in a swing in which energy is watched: a spring of 1 Hz at 60 Hz.
+/// Steps per swing for the measured energy: a spring of 1 Hz at 60 Hz.
 const STEPS_A_SWING: f64 = 60.0;
-/// The largest denominator of a coefficient that is written as a fraction.
+/// The largest denominator of a coefficient written as a fraction.
 const MAX_DENOMINATOR: u32 = 120;
 
-/// A term `kⁱ cʲ` of what becomes of `x` or of `v`, by the `x` or the `v` before.
+/// A term `kⁱ cʲ` in the map of one step: its contribution to the new `x` or `v`, per old `x` or `v`.
 #[derive(Clone, Copy, PartialEq)]
 struct Term {
     i: u32,
@@ -45,13 +45,13 @@ impl Term {
         entries.flat_map(|[of, by]| monomials().map(move |[i, j]| Term { i, j, of, by }))
     }
 
-    /// The power of the step that goes with it.
+    /// The power of the step that multiplies the term.
     fn power(self) -> u32 {
         (2 * self.i + self.j + self.by as u32).saturating_sub(self.of as u32)
     }
 }
 
-/// Such as `h² k x in x`.
+/// For example `h² k x in x`.
 impl std::fmt::Display for Term {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let factor = |letter: &str, power: u32| match power {
@@ -69,7 +69,7 @@ fn monomials() -> impl Iterator<Item = [u32; 2]> {
     (0..=MAX_DEGREE).flat_map(|i| (0..=MAX_DEGREE - i).map(move |j| [i, j]))
 }
 
-/// The coefficients of the map of a step, in the order of [`Term::all`]; `None` if it is no polynomial of such a degree.
+/// The coefficients of the one-step map, in the order of [`Term::all`]; `None` if it is no polynomial of this degree.
 fn coefficients(method: &Method) -> Option<Vec<f64>> {
     let mut random = XorShift::new(1);
     let forces: Vec<[f64; 2]> =
@@ -98,7 +98,7 @@ fn coefficients(method: &Method) -> Option<Vec<f64>> {
     Some(all)
 }
 
-/// The built-in methods that compute each stage from known values, with their coefficients.
+/// The built-in methods whose stages use only known values, with their coefficients.
 static KNOWN: LazyLock<Vec<(&'static Method, Vec<f64>)>> = LazyLock::new(|| {
     let families = [Family::Explicit, Family::Symplectic, Family::AsPrinted];
     let all = METHODS.iter().filter(|method| families.contains(&method.family));
@@ -121,7 +121,8 @@ fn are_alike(a: &Method, b: &Method, system: &dyn Fn() -> Problem<f64>) -> bool 
     !a.is_empty() && a.len() == b.len() && a.iter().zip(&b).all(near)
 }
 
-/// From 0 to 1, how much two maps have in common: of each coefficient the smaller of the two as a part of the larger. They count as many times as they are divided by in the exact motion.
+/// The similarity of two maps, from 0 to 1: the sum of the smaller of each pair of coefficients over the sum of the
+/// larger. A coefficient of `hᵖ` weighs p!, the number that divides it in the exact motion.
 fn likeness(a: &[f64], b: &[f64]) -> f64 {
     let (mut common, mut all) = (0.0, 0.0);
     for (term, (a, b)) in Term::all().zip(a.iter().zip(b)) {
@@ -133,7 +134,7 @@ fn likeness(a: &[f64], b: &[f64]) -> f64 {
     common / all
 }
 
-/// The built-in method that is nearest, and the first power of the step in which it differs.
+/// Describes the nearest built-in method, and the lowest power of the step in which it differs.
 pub(super) fn nearest(method: &Method, evaluations: Option<u32>) -> String {
     let Some(own) = coefficients(method) else {
         return "no step of it on linear forces is a sum of powers of the step".into();
@@ -143,7 +144,7 @@ pub(super) fn nearest(method: &Method, evaluations: Option<u32>) -> String {
     let is_it = |known: &Method| curved.iter().all(|system| are_alike(method, known, system));
     let rank = |(known, theirs): &(&'static Method, Vec<f64>)| {
         let is_same = !own.iter().zip(theirs).any(is_other);
-        // Of several that are the same on linear forces, the one that is on others too.
+        // Among methods equal on linear forces, prefers one that also agrees on others.
         let as_many = f64::from(u8::from(known.evaluations == evaluations));
         match is_same {
             true => 1.0 + AS_MANY + f64::from(u8::from(is_it(known))),
@@ -178,7 +179,7 @@ pub(super) fn nearest(method: &Method, evaluations: Option<u32>) -> String {
     )
 }
 
-/// A coefficient as a fraction, if it is one.
+/// A coefficient as a fraction, if it is close to one.
 fn fraction(value: f64) -> String {
     let whole = |denominator: u32| (value * f64::from(denominator)).round();
     let is_it = |denominator: &u32| {
@@ -191,7 +192,7 @@ fn fraction(value: f64) -> String {
     }
 }
 
-/// What a method does to the energy of a spring.
+/// Describes how a method changes the energy of a spring.
 pub(super) fn energy(method: &'static Method) -> String {
     let h = std::f64::consts::TAU / STEPS_A_SWING;
     let found = small_motion().and_then(|motion| motion.stability(method, h, 1).ok());

@@ -9,7 +9,7 @@ use crate::sim::state::nan_is_infinite;
 /// An error below this is rounding, summed over all steps.
 const EXACT: f64 = 1e-13;
 
-/// What is off by more is not exact; the nearest to it, Gauss-Legendre 4 on the ship, is 1e-6 off.
+/// An error above this is not exact; the closest inexact method, Gauss-Legendre 4 on the ship, is 1e-6 off.
 const INEXACT: f64 = 1e-8;
 
 /// Steps of a run.

@@ -1,4 +1,4 @@
-//! Whether a method carries something from step to step.
+//! Whether a method carries data from step to step.
 
 use super::problems::{Problem, fresh, problem, spring};
 use super::{Claim, Measured, yes_or_no};
@@ -10,7 +10,7 @@ fn step(integrator: &mut dyn Integrator<Problem<f64>>, state: &mut State<f64>) -
     integrator.step(&problem(spring(20.0, 0.1)), 0.0, 0.03, state)
 }
 
-/// Whether a method that is reset before every step goes another way than one that is not.
+/// Whether resetting a method before every step changes its motion.
 fn carries(method: &Method) -> Result<bool, StepFailure> {
     let mut left_alone = State { q: -0.3, v: 11.0 };
     let mut interrupted = left_alone;
@@ -40,7 +40,7 @@ fn forgets(method: &Method) -> Result<bool, StepFailure> {
     Ok(reset == new)
 }
 
-/// Whether the method has a memory, which a reset clears.
+/// Whether the method has a memory, and a reset clears it.
 pub(super) fn restart(method: &Method) -> Claim {
     yes_or_no("restart", method.restart.is_some(), has_memory(method))
 }

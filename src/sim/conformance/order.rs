@@ -1,4 +1,4 @@
-//! Global order, from the error's fall as the step is halved.
+//! Global order, from how the error falls when the step is halved.
 
 use super::Claim;
 use super::problems::{
@@ -8,31 +8,31 @@ use crate::sim::body::Body;
 use crate::sim::integrators::Method;
 use crate::sim::state::{State, Vector};
 
-/// Halvings that have to agree.
+/// Halvings that must agree.
 const HALVINGS: usize = 4;
 
-/// Halvings where the error's next term is large: an order of 5 falls from where that is small to
-/// round-off in three.
+/// Halvings to compare. An order of 5 falls to round-off in three halvings, counted from where the error's next term
+/// is small.
 fn halvings(order: u32) -> usize {
     if order < 5 { HALVINGS } else { 3 }
 }
 
-/// Steps to begin with.
+/// Steps of the coarsest run.
 const MIN_STEPS: u32 = 8;
-/// Steps with which every method gets through.
+/// Steps with which every method must succeed.
 const FINE_ENOUGH: u32 = 128;
 
-/// More halvings for an order of 0, whose error settles late: it is a drag that grows with the rate.
+/// Extra halvings for an order of 0, whose error settles late: it is a drag that grows with the rate.
 const MORE_IF_NO_ORDER: usize = 6;
 
-/// Moments at which the error is taken. The leading term of an error has zeros of its own, and beside
-/// one the next term shows; at one moment or another it is large.
+/// Moments at which the error is sampled. The leading term has zeros, near which the next term shows; at some of the
+/// moments it is large.
 const MOMENTS: u32 = 8;
 
 /// No multiple of the springs' period 2π, of its half or of its quarter.
 const SWING: f64 = 7.7;
 
-/// By how much a measured order may be off.
+/// The tolerance of a measured order.
 const MARGIN: f64 = 0.1;
 
 /// A test problem with its truth.
@@ -42,9 +42,9 @@ struct Course<V> {
     span: f64,
     /// The exact states at the start and at each moment of the span.
     truths: Vec<State<V>>,
-    /// What round-off makes of a value of 1, times the root of the steps.
+    /// The round-off of a value of 1, to be multiplied by the square root of the number of steps.
     round_off: f64,
-    /// How often the steps are halved: until the leading term shows, and round-off does not.
+    /// Number of halvings: enough for the leading term to show, and too few for round-off.
     times: usize,
     halvings: usize,
 }
@@ -62,8 +62,8 @@ impl<V: Vector> Course<V> {
     }
 }
 
-/// The largest error of position and of velocity in `steps` steps, as parts of the largest position and
-/// velocity, in units of round-off.
+/// The largest errors of position and of velocity in `steps` steps, relative to the largest position and velocity, in
+/// units of round-off.
 fn errors<V: Vector>(method: &Method, course: &Course<V>, steps: u32) -> Result<[f64; 2], String> {
     let Course { name, system, span, truths, round_off, .. } = course;
     let mut state = truths[0].clone();
@@ -74,7 +74,7 @@ fn errors<V: Vector>(method: &Method, course: &Course<V>, steps: u32) -> Result<
         let t = stretch * f64::from(moment);
         let stepped = integrator.steps(system, t, stretch, steps / MOMENTS, &mut state);
         match stepped {
-            // So near to the centre an implicit equation need not have a solution.
+            // This close to the centre, an implicit equation need not have a solution.
             Err(_) if steps < FINE_ENOUGH => return Ok([f64::INFINITY; 2]),
             Err(failure) => return Err(format!("on the {name}: {failure}")),
             Ok(()) => {}
@@ -94,10 +94,10 @@ fn errors<V: Vector>(method: &Method, course: &Course<V>, steps: u32) -> Result<
     Ok([worst[0] / largest[0] / round_off, worst[1] / largest[1] / round_off])
 }
 
-/// The orders that the last halvings above round-off show.
+/// The orders shown by the last halvings above round-off.
 fn orders(errors: impl Iterator<Item = f64>, halvings: usize) -> Vec<f64> {
     let above: Vec<f64> = errors.take_while(|&error| error > 1.0).collect();
-    // Half an order is round-off's.
+    // The unit of round-off grows with the root of the steps, which adds half an order.
     let orders: Vec<f64> = above.windows(2).map(|e| libm::log2(e[0] / e[1]) - 0.5).collect();
     orders[orders.len().saturating_sub(halvings)..].to_vec()
 }
@@ -108,7 +108,7 @@ struct Found {
     orders: [Vec<f64>; 2],
 }
 
-/// The orders on a course, of a method of which this order is expected.
+/// Measures the orders on a course of a method with this expected order.
 fn measure<V: Vector>(method: &Method, course: &Course<V>, expected: u32) -> Result<Found, String> {
     let mut table = Vec::new();
     let more = if expected == 0 { MORE_IF_NO_ORDER } else { 0 };
@@ -128,7 +128,7 @@ fn measure<V: Vector>(method: &Method, course: &Course<V>, expected: u32) -> Res
 }
 
 impl Found {
-    /// Those of the last halving.
+    /// The orders of the last halving.
     fn last(&self) -> [f64; 2] {
         self.orders.each_ref().map(|orders| orders.last().copied().unwrap_or(f64::NAN))
     }
@@ -162,15 +162,16 @@ fn claim(
     Claim { field, claimed: expected.to_string(), measured, holds }
 }
 
-/// The order on an undamped spring and on a Kepler orbit; of a method that is exact on the spring, on the orbit.
+/// Claims the order on an undamped spring and on a Kepler orbit; if the method is exact on the spring, only on the
+/// orbit.
 pub(super) fn without_drag(method: &Method) -> Claim {
     claim(method, "order", method.order, measured_without_drag(method, method.order))
 }
 
 fn measured_without_drag(method: &Method, expected: u32) -> Vec<Result<Found, String>> {
-    // The approach to the centre magnifies what was rounded before it. From the farthest point: past the
-    // nearest, and for an order of 5 half-way there. On the longer arc Dormand-Prince's leading term is
-    // hidden by the next until both are round-off.
+    // The approach to the centre magnifies earlier rounding. So the span starts at the farthest point and ends past
+    // the nearest, or half-way there for an order of 5. On the longer arc the next term hides Dormand-Prince's leading
+    // term until both are round-off.
     let (span, round_off) = if expected < 5 { (4.4, 2e-14) } else { (1.5, 2e-15) };
     let half_a_revolution = std::f64::consts::PI;
     let at = |moment| span * f64::from(moment) / f64::from(MOMENTS) + half_a_revolution;
@@ -191,7 +192,7 @@ fn measured_without_drag(method: &Method, expected: u32) -> Vec<Result<Found, St
     measured
 }
 
-/// The order on a damped spring and on the ship; of a method that is exact on both, on a body in air.
+/// Claims the order on a damped spring and on the ship; if the method is exact on both, on a body in air.
 pub(super) fn with_drag(method: &Method) -> Claim {
     let expected = method.order_with_drag;
     claim(method, "order_with_drag", expected, measured_with_drag(method, expected))
@@ -220,12 +221,13 @@ fn measured_with_drag(method: &Method, expected: u32) -> Vec<Result<Found, Strin
     }
 }
 
-/// The orders of the whole state without drag and with it: of position or velocity, on the problem where it is lowest.
+/// The orders of the whole state without drag and with it: the lower of position and velocity, on the problem where it
+/// is lowest.
 ///
 /// # Errors
-/// Why an order cannot be seen.
+/// Why an order cannot be measured.
 pub fn orders_of(method: &Method) -> [Result<f64, String>; 2] {
-    /// The order that is expected of a method of which nothing is known.
+    /// The expected order of an unknown method.
     const USUAL: u32 = 4;
     [measured_without_drag, measured_with_drag].map(|measured| {
         let lowest = |expected: u32| {
@@ -240,7 +242,7 @@ pub fn orders_of(method: &Method) -> [Result<f64, String>; 2] {
     })
 }
 
-/// The orders without drag and with it.
+/// Describes the orders without drag and with it.
 pub(super) fn in_words(orders: &[Result<f64, String>; 2]) -> String {
     match orders {
         [Ok(order), _] if whole(*order) == 0 => "order 0: it does not converge".into(),
@@ -253,7 +255,7 @@ pub(super) fn in_words(orders: &[Result<f64, String>; 2]) -> String {
     }
 }
 
-/// The whole order that is nearest.
+/// The nearest whole order.
 pub(super) fn whole(order: f64) -> u32 {
     order.round().max(0.0) as u32
 }

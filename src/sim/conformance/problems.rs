@@ -1,4 +1,4 @@
-//! Systems with known solutions, and ways to put a method on them.
+//! Systems with known solutions, and integrators to run on them.
 
 use glam::DVec2;
 
@@ -9,7 +9,7 @@ use crate::sim::system::System;
 
 pub use crate::sim::integrators::{Problem, fresh, problem};
 
-/// A fresh integrator that takes the steps it is given: an adaptive one gets a tolerance that does not bind.
+/// A fresh integrator that steps exactly as asked: an adaptive one gets a tolerance too large to bind.
 pub fn fixed_step<V: Vector>(method: &Method, like: &V) -> Box<dyn Integrator<Problem<V>>> {
     let mut integrator = integrator(method, like);
     integrator.set(Override::tolerance(1e100));

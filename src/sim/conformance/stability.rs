@@ -1,4 +1,4 @@
-//! The step at which the undamped oscillator stops being bounded.
+//! The step beyond which the undamped oscillator is unbounded.
 
 use super::Claim;
 use super::problems::{fresh, problem, spring};
@@ -9,15 +9,14 @@ use crate::sim::stability::{CoupledMotion, SmallMotion};
 use crate::sim::state::{State, nan_is_infinite};
 use crate::sim::{Solver, stepper};
 
-/// The most that an amplitude of 1 may be below the limit: at 0.99 of the limit of a symplectic map the ellipse
+/// The largest amplitude below the limit, from an amplitude of 1: at 0.99 of the limit of a symplectic map the ellipse
 /// is 7 to 14 times as long as wide.
 const BOUNDED: f64 = 20.0;
 
-/// What an amplitude of 1 reaches beyond the limit.
+/// The amplitude to reach beyond the limit, from an amplitude of 1.
 const GROWN: f64 = 1e3;
 
-/// The largest `√(x² + (v/ω)²)` in `steps` steps of `h` from an amplitude of 1; it stops once that is
-/// beyond `enough`.
+/// The largest `√(x² + (v/ω)²)` in `steps` steps of `h` from an amplitude of 1. Stops once it exceeds `enough`.
 fn largest_amplitude(
     method: &Method,
     omega: f64,
@@ -43,16 +42,16 @@ fn largest_amplitude(
     Ok(largest)
 }
 
-/// The largest product that is tried.
+/// The largest product to try.
 const MAX_LIMIT: f64 = 6.0;
 const COARSE: f64 = 0.01;
-/// Without drag some grow by `(h ω)⁴/8` a step: below this product too little to see.
+/// Undamped, some methods grow by `(h ω)⁴/8` a step: below this product too slowly to measure.
 const UNSEEN: f64 = 0.06;
-/// A spectral radius that is larger by more is seen.
+/// A spectral radius above 1 by more than this counts as growth.
 const SEEN: f64 = 1e-9;
 
-/// The map of one step of a fresh method under `a = -k x - c v`: what `x` and `v` become, by the `x` before and by the `v`
-/// before.
+/// The map of one step of a fresh method under `a = -k x - c v`: the new `x` and `v` from an `x` of 1, and from a `v`
+/// of 1.
 pub(super) fn map_of(
     method: &Method,
     [k, c]: [f64; 2],
@@ -68,7 +67,8 @@ pub(super) fn map_of(
     Ok([by_q, by_v].map(|to| [to[0] - from[0], to[1] - from[1]]))
 }
 
-/// The spectral radius of the map of one step on an oscillator of 1 rad/s and this damping ratio; infinite if there is none.
+/// The spectral radius of the one-step map on an oscillator of 1 rad/s and this damping ratio; infinite if it is not a
+/// number.
 ///
 /// # Errors
 /// If the method fails.
@@ -81,8 +81,8 @@ pub(super) fn radius(method: &Method, ratio: f64, h: f64) -> Result<f64, StepFai
     }))
 }
 
-/// The products of `h ω` at which a method stops being stable: without drag in the long run, and in one step at each of
-/// [`DAMPING_RATIOS`]. `None` if it is stable at all that are tried.
+/// The products `h ω` at which a method becomes unstable: undamped in the long run, and in one step at each of
+/// [`DAMPING_RATIOS`]. `None` if it is stable at all products tried.
 ///
 /// # Errors
 /// If the method fails.
@@ -100,7 +100,7 @@ pub fn limits(method: &'static Method) -> Result<[Option<f64>; 4], StepFailure> 
     Ok([undamped, slight, medium, critical])
 }
 
-/// The motion of the undamped oscillator, whose map has what a method carries.
+/// The motion of the undamped oscillator; its map includes the memory of a method.
 pub(super) fn small_motion() -> Option<CoupledMotion> {
     let body = stepper(spring(1.0, 0.0), Solver::Truth);
     SmallMotion::of(&*body).ok()?.coupled().ok()
@@ -114,7 +114,7 @@ fn first_beyond(stable: impl Fn(f64) -> bool) -> Option<f64> {
     Some(within)
 }
 
-/// What contradicts a limit of `h ω`; `None` if nothing does.
+/// Evidence against a limit of `h ω`; `None` if there is none.
 fn contradiction(method: &Method, limit: f64) -> Result<Option<String>, StepFailure> {
     let parts = [0.1, 0.3, 0.5, 0.7, 0.9, 0.99];
     for z in parts.map(|part| part * limit).into_iter().filter(|z| *z > 0.0) {
@@ -125,7 +125,7 @@ fn contradiction(method: &Method, limit: f64) -> Result<Option<String>, StepFail
     }
     let beyond = if limit > 0.0 { vec![1.01 * limit] } else { vec![0.1, 0.3, 1.0] };
     for z in beyond {
-        // The slowest is improved Euler at 0.1: z⁴/8 a step.
+        // The slowest growth is that of improved Euler at 0.1: z⁴/8 a step.
         let most = largest_amplitude(method, 1.0, z, 1_000_000, GROWN)?;
         if most <= GROWN {
             return Ok(Some(format!("an amplitude of 1 grows to {most:.1} only at h ω = {z:.4}")));
@@ -134,15 +134,14 @@ fn contradiction(method: &Method, limit: f64) -> Result<Option<String>, StepFail
     Ok(None)
 }
 
-/// What contradicts that there is no limit: a minute of a stiff spring at h ω = 10, five times beyond the usual
-/// limit.
+/// Evidence against the absence of a limit: a minute of a stiff spring at h ω = 10, five times the usual limit.
 fn contradiction_to_none(method: &Method) -> Result<Option<String>, StepFailure> {
     let most = largest_amplitude(method, 100.0, 0.1, 600, 100.0)?;
     let grows = most >= 2.0;
     Ok(grows.then(|| format!("an amplitude of 1 grows to {most:.1} and more at h ω = 10")))
 }
 
-/// The largest `h ω`: within it the oscillator stays bounded, and beyond it grows.
+/// Claims the largest `h ω`: the oscillator stays bounded within it and grows beyond it.
 pub(super) fn limit(method: &Method) -> Claim {
     let (claimed, found) = match method.stability_limit {
         Some(limit) => (format!("{limit}"), contradiction(method, limit)),

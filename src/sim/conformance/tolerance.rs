@@ -1,4 +1,4 @@
-//! Whether a method that chooses its steps meets its tolerance, and not by far.
+//! Whether a method that chooses its steps meets its tolerance, without wasting work.
 
 use super::problems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
 use super::{Claim, Measured, yes_or_no};
@@ -6,11 +6,11 @@ use crate::sim::body::Body;
 use crate::sim::integrators::{Method, Override, StepFailure, integrator};
 use crate::sim::state::{State, Vector, nan_is_infinite};
 
-/// What the error may be, in units of the tolerance: less is wasted work.
+/// The accepted error, in units of the tolerance: a smaller one is wasted work.
 const MET: std::ops::Range<f64> = 0.1..3.0;
 
-/// The error after an arc of one time unit begun on the true course, averaged over where it begins, in
-/// units of what is allowed.
+/// The error after an arc of one time unit that starts on the exact motion, averaged over its starting points, in
+/// units of the allowed error.
 fn error_an_arc<V: Vector>(
     method: &Method,
     system: &Problem<V>,
@@ -36,7 +36,7 @@ fn error_an_arc<V: Vector>(
     Ok(sum / f64::from(ARCS))
 }
 
-/// Whether a tolerance changes what the method does.
+/// Whether the tolerance changes the steps of the method.
 fn heeds(method: &Method) -> Result<bool, StepFailure> {
     let run = |tolerance: f64| {
         let mut state = State { q: 1.0, v: 0.0 };
@@ -48,7 +48,7 @@ fn heeds(method: &Method) -> Result<bool, StepFailure> {
     Ok(run(1e-3)? != run(1e-7)?)
 }
 
-/// The errors on a spring and on an orbit for each of several tolerances.
+/// The errors on a spring and on an orbit for several tolerances.
 fn arcs(method: &Method) -> Result<(bool, String), StepFailure> {
     let spring = spring(1.0, 0.0);
     let swing = |t| spring.exact(t, &spring.start()).expect("a closed form");
@@ -64,7 +64,7 @@ fn arcs(method: &Method) -> Result<(bool, String), StepFailure> {
     Ok((holds, format!("its error is {least:.2} to {most:.2} times the tolerance")))
 }
 
-/// Whether the method has a tolerance, and meets it. A listing of the chapter is held to heeding it only.
+/// Whether the method has a tolerance and meets it. A listing of the chapter must only heed it.
 pub(super) fn tolerance(method: &Method) -> Claim {
     let measure = || -> Measured {
         let heeds = heeds(method)?;

@@ -17,7 +17,8 @@ pub(super) const CARD: Method = Method {
     ..EXPLICIT
 };
 
-/// Adams-Bashforth 2, by the [formula](Method::formula) on its card. `f` is the slope here and `g` the slope one step ago.
+/// Adams-Bashforth 2, by the [formula](Method::formula) on its card. `f` is the slope here and `g` the slope one step
+/// ago.
 #[derive(Clone)]
 pub struct AdamsBashforth2<V> {
     f: State<V>,

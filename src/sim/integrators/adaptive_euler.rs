@@ -1,5 +1,5 @@
-//! Adaptive Euler: the difference of one whole step and two half steps is the error, which controls the
-//! step size.
+//! Adaptive Euler: the difference between one whole step and two half steps is the error, which controls the step
+//! size.
 
 use super::prelude::*;
 use super::shared::embedded_pair::{EmbeddedPair, Pair};
@@ -21,11 +21,11 @@ pub(super) const CARD: Method = Method {
     ..ADAPTIVE
 };
 
-/// Step doubling as a pair: by Euler, `y1` by one step of `h`, `y2` by two of `h/2`. Their difference is the error; the
-/// extrapolated `2 y2 - y1` is kept, which is the midpoint method.
+/// Step doubling as a pair: `y1` is one Euler step of `h`, `y2` two of `h/2`. Their difference is the error; the
+/// method keeps the extrapolated `2 y2 - y1`, which is the midpoint method.
 pub type AdaptiveEuler<V> = EmbeddedPair<V, Tableau, 3>;
 
-/// The weights of the midpoint method, and by how much those of `y2` differ from them.
+/// The weights of the midpoint method, and their difference from those of `y2`.
 #[derive(Clone)]
 pub struct Tableau;
 

@@ -20,13 +20,13 @@ pub(super) const CARD: Method = Method {
     ..AS_PRINTED
 };
 
-/// The listing checks only the velocity, with an absolute tolerance. It prints no value; at this one
-/// the chapter's ship covers 2.55 s in 8.5 s.
+/// The listing checks only the velocity, with an absolute tolerance. It prints no value; at this one the chapter's
+/// ship covers 2.55 s in 8.5 s.
 const TOLERANCE: Tolerance =
     Tolerance { absolute_q: f64::INFINITY, absolute_v: 1e-3, relative: 0.0 };
 
-/// `v1` by one step of `h`, `v2` by two of `h/2`, `e = |v1 - v2|`. If `h √(tolerance / e)` is less than
-/// `h`, a single step of that length is taken without a check.
+/// `v1` is one step of `h`, `v2` two of `h/2`, `e = |v1 - v2|`. If `h √(tolerance / e)` is less than `h`, a single
+/// step of that length follows without a check.
 #[derive(Clone)]
 pub struct AdaptiveEulerAsPrinted<V> {
     tolerance: Tolerance,

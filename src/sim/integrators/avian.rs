@@ -1,4 +1,4 @@
-//! Avian's distance joint: XPBD, with a damping that is explicit.
+//! Avian's distance joint: XPBD with explicit damping.
 
 use super::joint_mode::JointQuantity::{Compliance, DampingPerMass};
 use super::prelude::*;
@@ -39,7 +39,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct Avian;
 
-/// The substep of a tick of `length` (s), in seconds: both rounded to whole nanoseconds, halves down.
+/// The substep of a tick of `length` (s), in seconds: both are rounded to whole nanoseconds, halves down.
 #[inline]
 pub(super) fn substep(length: f64, substeps: u32) -> f64 {
     let whole = |ns: f64| libm::ceil(ns - 0.5);
@@ -76,7 +76,7 @@ mod tests {
         assert_eq!(substep(1.0 / 60.0, 1), 16_666_667e-9);
         assert_eq!(substep(1.0 / 60.0, 6), 2_777_778e-9);
         assert_eq!(substep(1.0 / 64.0, 6), 2_604_167e-9);
-        // Half a nanosecond over 7.
+        // Half a nanosecond above 7.
         assert_eq!(substep(15e-9, 2), 7e-9);
     }
 }

@@ -24,14 +24,14 @@ pub struct Bdf2<V> {
     newton: Newton<V, 1>,
     /// `y"`
     before: State<V>,
-    /// `y`, because `y'` is computed in its place.
+    /// A copy of `y`, because `y'` is computed in its place.
     start: State<V>,
     /// The first stage of the first step.
     stage: State<V>,
     last_step: LastStep,
 }
 
-/// The diagonal of the starting method, which makes it L-stable like this one: `1 - 1/√2`.
+/// The diagonal of the starting method: `1 - 1/√2` makes it L-stable, as BDF2 is.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 impl<S: System<Vector: Vector>> Integrator<S> for Bdf2<S::Vector> {

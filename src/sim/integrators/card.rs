@@ -1,7 +1,7 @@
-//! The card of a method, and for each family the card that its methods start from.
+//! The card of a method, and the base card of each family.
 //!
-//! A method sets its name, source, orders and evaluations, and takes the other fields from its family
-//! unless they differ.
+//! A method sets its name, source, orders and evaluations, and inherits the other fields from its family unless they
+//! differ.
 
 use super::custom_method::AnyIntegrator;
 use super::free_spin::FreeSpin;
@@ -24,11 +24,11 @@ pub enum Family {
     Adaptive,
     /// Solves an equation for each step.
     Implicit,
-    /// Takes the derivative of the acceleration at the start of each step, and nothing is iterated.
+    /// Uses the derivative of the acceleration at the start of each step, without iteration.
     Linearised,
     /// A published listing, with its faults.
     AsPrinted,
-    /// Moves a body towards its target by a rule of its own, without the acceleration.
+    /// Moves a body towards its target by its own rule, without the acceleration.
     Follower,
     /// Reproduces a tick of a physics engine.
     Engine,
@@ -47,12 +47,12 @@ impl Family {
         ("engine", Family::Engine),
     ];
 
-    /// Its id.
+    /// The id of the family.
     pub fn id(self) -> &'static str {
         super::id_in(&Self::ALL, self)
     }
 
-    /// The card that a method of the family starts from. It has no name, source, order and evaluations yet.
+    /// The base card of the family. It has no name, source, order and evaluations yet.
     pub const fn card(self) -> Method {
         match self {
             Family::Explicit => EXPLICIT,
@@ -67,34 +67,34 @@ impl Family {
     }
 }
 
-/// The bodies that a method is for, if it does not step every body.
+/// Restricts a method to some bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Only {
-    /// What a body must be.
+    /// The requirement on a body.
     pub needs: Needs,
     /// Why it steps no other body: a clause in lower case that follows a colon.
     pub reason: &'static str,
 }
 
-/// What a method needs of a body.
+/// A method's requirement on a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Needs {
-    /// A target that it follows by a law.
+    /// A target followed by a law.
     Law {
         /// The order of the law: 1 or 2.
         order: u32,
     },
     /// A force.
     Force,
-    /// What an engine can express.
+    /// A force that an engine can express.
     Engine,
-    /// What an engine without a joint can express.
+    /// A force that an engine can express without a joint.
     EngineWithoutJoint,
 }
 
 impl Only {
-    /// Why the method steps no body of this class; `None` if it may. The order of a law is checked apart.
+    /// Why the method steps no body of this class; `None` if it may. The order of a law is checked elsewhere.
     pub const fn incompatibility(&self, class: BodyClass) -> Option<&'static str> {
         match (self.needs, class) {
             (Needs::Law { .. }, BodyClass::Follower(_))
@@ -110,43 +110,45 @@ impl Only {
 /// The part of a card that only a physics engine has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Engine {
-    /// Its default tick rate in hertz; 60 where the caller gives the tick.
+    /// Its default tick rate in hertz; 60 if the caller gives the tick.
     pub tick_hz: u32,
-    /// The damping ratio that a spring of 1 Hz without damping has at that rate and the card's substeps; negative if
-    /// it gains energy. `None` if the engine has no spring.
+    /// The damping ratio that an undamped spring of 1 Hz shows at that rate and the card's substeps; negative if it
+    /// gains energy. `None` if the engine has no spring.
     pub damping_ratio: Option<f64>,
-    /// What its substeps are.
+    /// The meaning of its substeps.
     pub substeps: Substeps,
-    /// How it integrates torque-free rotation in 3D; `None` if unknown or planar: for engines in the plane, for
+    /// How it integrates torque-free rotation in 3D. `None` if unknown or planar: for engines in the plane, for
     /// pybullet's multibody, for PhysX 5.6 and for a held force.
     pub free_spin: Option<FreeSpin>,
-    /// The version whose source the formula was read from; empty for a held force, which is of no engine alone.
+    /// The version of the source that the formula was read from; empty for a held force, which belongs to no single
+    /// engine.
     pub version: &'static str,
-    /// The day on which logs of that version were made, as year-month-day, that the formula is held against; `None` if
-    /// there are none.
+    /// The day, as year-month-day, of the logs of that version that tests check the formula against; `None` without
+    /// logs.
     pub logged: Option<&'static str>,
     /// The ways to set a spring in it; empty if it has none.
     pub modes: &'static [JointMode],
 }
 
-/// What the substeps of an engine are.
+/// The meaning of an engine's substeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Substeps {
     /// Substeps that the engine makes in a tick.
     Own,
     /// Position iterations of its solver.
     Iterations,
-    /// Whole ticks that the caller makes. The line of code does so; `{n}` stands for how many, `{hz}` for all of a second.
+    /// Whole ticks that the caller makes, by this line of code: `{n}` is their number per tick, `{hz}` their number
+    /// per second.
     Ticks(&'static str),
 }
 
 impl Engine {
-    /// Whether the engine divides a tick by itself.
+    /// Whether the engine itself divides a tick.
     pub fn has_substeps(&self) -> bool {
         !matches!(self.substeps, Substeps::Ticks(_))
     }
 
-    /// Lines of code that say what `n` substeps are where they are not the engine's own, for this rate in hertz.
+    /// Lines of code that explain `n` substeps at this rate in hertz; `None` if they are the engine's own.
     pub fn substeps_code(&self, n: u32, tick_hz: f64) -> Option<String> {
         match self.substeps {
             Substeps::Own => None,
@@ -159,7 +161,7 @@ impl Engine {
         }
     }
 
-    /// What the formula is held against, in words: a version and the day of its logs. `None` for a held force.
+    /// The version and the log date that the formula was checked against, in words; `None` for a held force.
     pub fn held_against(&self) -> Option<String> {
         match (self.version, self.logged) {
             ("", _) => None,
@@ -172,27 +174,27 @@ impl Engine {
 /// The part of a card that only a follower has: how a game sets its speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FollowerSetting {
-    /// Its name.
+    /// Its name in the game's code.
     pub name: &'static str,
-    /// What it is.
+    /// Its quantity.
     pub quantity: FollowerQuantity,
-    /// A line of code; braces stand for the value.
+    /// A line of code, with the value in braces.
     pub code: &'static str,
 }
 
-/// What the setting of a follower is.
+/// The quantity of a follower's setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FollowerQuantity {
     /// k or ω of the law, per second.
     Rate,
-    /// The part of the way that it goes in each frame.
+    /// The fraction of the remaining way covered in each frame.
     Part,
     /// 2/ω, in seconds.
     SmoothTime,
 }
 
 impl FollowerSetting {
-    /// The rate of the law, in this line of code.
+    /// The rate of the law, set by this line of code.
     pub(super) const fn rate(code: &'static str) -> Self {
         Self { name: "rate", quantity: FollowerQuantity::Rate, code }
     }
@@ -208,70 +210,69 @@ pub struct Method {
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
-    /// Other ids that people ask for it by. An error about one names this method's id; `regatta
-    /// show` shows the method.
+    /// Alternative ids that people use for it. An error about one names this method's id; `regatta show` shows the
+    /// method.
     pub also: &'static [&'static str],
-    /// What to expect, in one line.
+    /// Its behaviour in one line, for people.
     pub about: &'static str,
     /// How it works.
     pub family: Family,
-    /// The formula, line by line: ′ marks what holds at the end of the step. `tests/library/formulas` has the notation,
-    /// and evaluates every formula beside the method.
+    /// The formula, line by line; ′ marks values at the end of the step. `tests/library/formulas` documents the
+    /// notation, and evaluates every formula beside the method.
     pub formula: &'static [&'static str],
     /// The weights of the evaluations in `y′ = y + h Σ w k`; empty if the method is no such sum.
     pub weights: &'static [f64],
     /// Its source code for other games, in the language of `assets/methods`; empty if there is none.
     pub code: &'static str,
-    /// Global order of the error of the whole state if forces depend on position only. In a listing as
-    /// printed `v` may be of higher order than `q`. Of a follower, the order while its target moves evenly
-    /// and is not reached. 0 if the error does not shrink with the step.
+    /// Global order of the error of the whole state if forces depend on position only. In a listing as printed `v` may
+    /// be of higher order than `q`. For a follower: the order while its target moves evenly and is not reached. 0 if
+    /// the error does not shrink with the step.
     pub order: u32,
     /// Global order if forces also depend on velocity.
     pub order_with_drag: u32,
-    /// Evaluations of the acceleration per step, averaged over a long run; `None` if the method
-    /// decides. A follower evaluates its target. A method with a [restart](Method::restart) needs one more at its first
-    /// step, unless it is an engine's.
+    /// Evaluations of the acceleration per step, averaged over a long run; `None` if the method decides. A follower
+    /// evaluates its target. A method with a [restart](Method::restart) needs one more at its first step, unless it is
+    /// an engine's.
     pub evaluations: Option<u32>,
-    /// What an evaluation costs with its share of the equations that the method solves, in evaluations of a method that
-    /// solves none, on a damped spring: 1 for these. It is stated and not measured anew, so that what is advised by it is
-    /// the same on every machine.
+    /// The cost of one evaluation and its share of the equations to solve, on a damped spring, in evaluations of a
+    /// method that solves none. It is declared rather than measured, so that advice is the same on every machine.
     pub evaluation_cost: u32,
-    /// Whether it solves a linear system with constant coefficients to rounding, at any step. Its orders are
-    /// then those on nonlinear systems.
+    /// Whether it solves a linear system with constant coefficients to rounding, at any step. Its orders are then
+    /// those on nonlinear systems.
     pub exact_if_linear: bool,
     /// Whether the one-step map conserves phase-space area on a system without drag.
     pub symplectic: bool,
     /// Whether a step of `-h` undoes a step of `h`, up to round-off.
     pub reversible: bool,
-    /// The largest `h ω` at which the undamped oscillator stays bounded. `None` for implicit methods,
-    /// and for those that choose their own substeps. Of a follower, the largest product of `h` and its rate
-    /// at which it stays near a still target; `None` if it does at any step.
+    /// The largest `h ω` at which the undamped oscillator stays bounded. `None` for implicit methods, and for those
+    /// that choose their own substeps. For a follower: the largest product of `h` and its rate at which it stays near
+    /// a still target; `None` if it does at any step.
     pub stability_limit: Option<f64>,
-    /// The largest `h ω` at which the first step of an oscillator that is damped by each of [`DAMPING_RATIOS`] does not grow;
-    /// `None` as for the undamped. What a method with memory carries may lower it in a long run.
+    /// The largest `h ω` at which the first step of an oscillator, damped by each of [`DAMPING_RATIOS`], does not
+    /// grow. `None` as for the undamped limit. The memory of a method may lower it in a long run.
     pub damped_limits: Option<[f64; 3]>,
-    /// The most matrices of the derivatives of the acceleration that it keeps, of few coordinates: what bounds its memory.
+    /// The most derivative matrices it keeps for a system of few coordinates; bounds its memory.
     pub matrices: u32,
     /// The default tolerance of a substep of an adaptive method.
     pub tolerance: Option<Tolerance>,
-    /// How a method with memory starts: at the start, after a kick, a switch or a change of step, and
-    /// if it is given a state other than it returned. `None` without memory.
+    /// How a method with memory starts: at the start, after a kick, a switch or a change of step, and if its state is
+    /// not the one it returned. `None` without memory.
     pub restart: Option<&'static str>,
-    /// Whether a step of `h` always advances by `h`. A method that does not reports the rest to
+    /// Whether a step of `h` always advances by `h`. Otherwise the method reports the rest to
     /// [`Integrator::lost_time`](super::Integrator::lost_time).
     pub keeps_time: bool,
     /// The bodies that it is for; `None` if it steps every body.
     pub only: Option<Only>,
-    /// The substeps of a lane that does not say how many.
+    /// The substeps of a lane that sets none.
     pub default_substeps: u32,
-    /// What is known of the engine whose tick this is; `None` for any other method.
+    /// The engine whose tick this is; `None` for any other method.
     pub engine: Option<Engine>,
-    /// How a game says how fast a follower follows; `None` for any other method.
+    /// How a game sets the speed of a follower; `None` for any other method.
     pub follower: Option<FollowerSetting>,
-    /// Where the method comes from; of an engine its version, and the files that the formula was read from.
+    /// Its publication; for an engine, its version and the files that the formula was read from.
     pub source: &'static str,
-    /// How a custom method is built, which is not in [`METHODS`](super::METHODS): [`custom_integrator`](super::custom_integrator) of its
-    /// type. `None` for those of the table.
+    /// Builds a custom method, which is not in [`METHODS`](super::METHODS):
+    /// [`custom_integrator`](super::custom_integrator) of its type. `None` for methods of the table.
     pub custom: Option<fn(usize) -> Box<dyn AnyIntegrator>>,
     /// The lines of a method or a rule that a person wrote, which is not in [`METHODS`](super::METHODS) either: see
     /// [`own_method`](crate::sim::own_method()) and [`own_rule`](crate::sim::own_rule()).
@@ -280,18 +281,18 @@ pub struct Method {
 }
 
 impl Method {
-    /// What people may write for it, each with its id: the id, the name and the [others](Method::also).
+    /// Accepted spellings, each with its id: the id, the name and the [others](Method::also).
     pub fn spellings(&'static self) -> impl Iterator<Item = (&'static str, &'static str)> {
         let spellings = [self.id, self.name].into_iter().chain(self.also.iter().copied());
         spellings.map(|spelling| (spelling, self.id))
     }
 
-    /// Whether it is not of the table: [custom](Method::custom), or by a person's own lines.
+    /// Whether it is not in the table: [custom](Method::custom), or made of a person's own lines.
     pub fn is_from_outside(&self) -> bool {
         self.custom.is_some() || self.own_text().is_some()
     }
 
-    /// The lines of a method or a rule that a person wrote; `None` for any other.
+    /// The text of a method or a rule made of a person's own lines; `None` for any other.
     pub fn own_text(&self) -> Option<&'static str> {
         #[cfg(feature = "lab")]
         return self.own.map(|own| own.text().source());
@@ -308,42 +309,42 @@ impl Method {
         None
     }
 
-    /// Whether this is a published listing with its faults, which is never advised.
+    /// Whether this is a published listing with its faults, which advice never recommends.
     pub fn is_as_printed(&self) -> bool {
         self.family == Family::AsPrinted
     }
 
-    /// Whether it is a method for a game to implement. The methods of engines, the listings as printed and rules are not:
-    /// they run where they are named.
+    /// Whether a game could implement it. Engine methods, listings as printed and rules run only where a scene or a command
+    /// names them.
     pub fn is_for_games(&self) -> bool {
         !self.is_engine() && !self.is_as_printed() && self.rule_fps().is_none()
     }
 
-    /// An upper bound on the numbers that it keeps on the heap beside its own vectors, of `n` coordinates coupled so. A
-    /// custom method is taken for one with sixteen vectors.
+    /// An upper bound on the numbers that it keeps on the heap besides its own vectors, for `n` coordinates with this
+    /// coupling. A custom method counts as one with sixteen vectors.
     pub(in crate::sim) fn numbers_kept(&self, n: usize, coupling: Coupling) -> usize {
         let matrices = self.matrices as usize;
         match coupling.reach(n) {
             #[cfg(feature = "lab")]
             _ if let Some(own) = self.own => (own.text().slots() + 3) * n,
             _ if self.custom.is_some() => 16 * (n + 3),
-            // The exponential of a small matrix is a whole one.
+            // The exponential of a small matrix is a full matrix.
             Some(_) if self.family == Family::Linearised && n <= 32 => matrices * (n + 2) * (n + 2),
-            // The band of a factored matrix is half as wide again.
+            // The factored band is half as wide again as the matrix.
             Some(reach) => matrices * (n + 2) * (n + 2).min(3 * reach + 2),
-            // Of each of two stages at most, the vectors of an iteration.
+            // The vectors of an iteration, for at most two stages.
             None => 12 * (n + 3) * matrices.min(2),
         }
     }
 
     /// Evaluations of the acceleration per tick of `substeps` substeps, averaged over a long run; `None` if the method
-    /// decides. An engine that substeps by itself reads the force once a tick.
+    /// decides. An engine that makes its own substeps reads the force once a tick.
     pub fn evaluations_per_tick(&self, substeps: u32) -> Option<u32> {
         let reads_once = self.engine.is_some_and(|engine| engine.has_substeps());
         Some(self.evaluations? * if reads_once { 1 } else { substeps })
     }
 
-    /// The order of the law by which a body must follow its target; `None` if the method is no follower.
+    /// The order of the law that a body must follow its target by; `None` if the method is no follower.
     pub fn law_order(&self) -> Option<u32> {
         match self.only?.needs {
             Needs::Law { order } => Some(order),
@@ -351,24 +352,25 @@ impl Method {
         }
     }
 
-    /// Whether it reproduces a physics engine. Such a method is used only on request.
+    /// Whether it reproduces a physics engine. Such a method runs only on request.
     pub fn is_engine(&self) -> bool {
         self.family == Family::Engine
     }
 
-    /// Whether it holds the whole force of any body for a tick, as user code in an engine does: a spring is no joint.
+    /// Whether it holds the whole force of any body for a tick, as user code in an engine does; a spring is then no
+    /// joint.
     pub fn holds_force(&self) -> bool {
         self.only.is_some_and(|only| only.needs == Needs::Force)
     }
 
-    /// Whether it is an engine that has springs as joints: no force of user code.
+    /// Whether it is an engine with springs as joints, rather than forces of user code.
     pub fn has_joint(&self) -> bool {
         !self.holds_force() && self.engine.is_some_and(|engine| !engine.modes.is_empty())
     }
 }
 
 impl PartialEq for Method {
-    /// Ids are unique, but for methods of people's own lines.
+    /// Ids are unique, except for methods made of a person's own lines.
     fn eq(&self, other: &Self) -> bool {
         self.id == other.id
             && self.own_text() == other.own_text()
@@ -376,7 +378,7 @@ impl PartialEq for Method {
     }
 }
 
-/// A rule that the methods of a family step by.
+/// A step rule with a card.
 pub trait Carded {
     /// The card of its method.
     const CARD: &'static Method;
@@ -419,7 +421,7 @@ const PLAIN: Method = Method {
 pub(super) const EXPLICIT: Method =
     Method { family: Family::Explicit, stability_limit: Some(0.0), ..PLAIN };
 
-/// A symplectic method: the limit is that of one kick and one drift a step.
+/// A symplectic method; the limit is that of one kick and one drift per step.
 pub(super) const SYMPLECTIC: Method = Method {
     family: Family::Symplectic,
     symplectic: true,
@@ -439,15 +441,15 @@ pub(super) const ADAPTIVE: Method = Method {
 pub(super) const IMPLICIT: Method =
     Method { family: Family::Implicit, evaluation_cost: 4, matrices: 1, ..PLAIN };
 
-/// A method that takes the derivative of the acceleration: one evaluation or two for each coordinate.
+/// A method that differentiates the acceleration: one or two evaluations per coordinate.
 pub(super) const LINEARISED: Method =
     Method { family: Family::Linearised, evaluation_cost: 2, matrices: 1, ..PLAIN };
 
-/// A listing of the chapter: if forces depend on position only, all are semi-implicit Euler.
+/// A listing of the chapter. If forces depend on position only, every listing is semi-implicit Euler.
 pub(super) const AS_PRINTED: Method =
     Method { family: Family::AsPrinted, symplectic: true, stability_limit: Some(2.0), ..PLAIN };
 
-/// A follower by a law of first order, whose distance from a still target only shrinks.
+/// A first-order follower, whose distance from a still target only shrinks.
 pub(super) const FIRST_ORDER_FOLLOWER: Method = Method {
     family: Family::Follower,
     order: 1,
@@ -460,7 +462,7 @@ pub(super) const FIRST_ORDER_FOLLOWER: Method = Method {
     ..PLAIN
 };
 
-/// A follower by a law of second order, whose distance from a still target only shrinks.
+/// A second-order follower, whose distance from a still target only shrinks.
 pub(super) const SECOND_ORDER_FOLLOWER: Method = Method {
     only: Some(Only {
         needs: Needs::Law { order: 2 },

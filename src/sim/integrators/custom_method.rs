@@ -1,5 +1,5 @@
-//! Methods behind a pointer, which are compiled once for each type of vector. Custom ones are in no table, and their
-//! cards say how they are built.
+//! Methods behind a pointer, compiled once for each vector type. Custom methods are in no table, and their cards build
+//! them.
 
 use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
@@ -7,10 +7,10 @@ use crate::sim::state::{State, Vector};
 use crate::sim::system::{StateOf, System};
 use crate::sim::vec_system::{Scratch, VecSystem};
 
-/// A system of any type. A custom method steps those with their coordinates in a `Vec`.
+/// A system of any type. A custom method steps systems with their coordinates in a `Vec`.
 pub type AnySystem<'a, V = Vec<f64>> = &'a (dyn System<Vector = V> + 'a);
 
-/// A method behind a pointer, which steps systems behind one. Every `Clone` [`Integrator`] is one.
+/// A method behind a pointer, which steps systems behind a pointer. Every `Clone` [`Integrator`] is one.
 pub trait AnyIntegrator<V = Vec<f64>>: for<'a> Integrator<AnySystem<'a, V>> {
     /// A copy with the same memory.
     fn boxed_clone(&self) -> Box<dyn AnyIntegrator<V>>;
@@ -22,8 +22,8 @@ impl<V, I: for<'a> Integrator<AnySystem<'a, V>> + Clone + 'static> AnyIntegrator
     }
 }
 
-/// What the card of a custom method gives as [`Method::custom`](super::Method::custom): it builds the
-/// integrator `I`, for as many coordinates as it is given.
+/// Builds the integrator `I` for this number of coordinates. It is the value of a custom card's
+/// [`Method::custom`](super::Method::custom):
 ///
 /// ```
 /// use regatta::prelude::*;
@@ -79,7 +79,7 @@ pub(super) struct CustomMethod<V> {
 }
 
 impl<V: Vector> CustomMethod<V> {
-    /// The method that `build` builds, for coordinates shaped `like` these.
+    /// The method that `build` returns, for coordinates shaped `like` these.
     pub(super) fn new(build: fn(usize) -> Box<dyn AnyIntegrator>, like: &V) -> Self {
         let zero = vec![0.0; like.components().len()];
         Self {
@@ -91,7 +91,7 @@ impl<V: Vector> CustomMethod<V> {
 }
 
 impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
-    /// Refuses every step: which method it is, its card says.
+    /// Refuses every step, because only the card knows which method to build.
     fn new(like: &S::Vector) -> Self {
         Self::new(custom_integrator::<Unfit>, like)
     }
@@ -120,7 +120,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
     }
 }
 
-/// What stands for a method on a system that it cannot step: it refuses every step.
+/// Replaces a method on a system that it cannot step: refuses every step.
 #[derive(Clone)]
 pub(super) struct Unfit {
     pub(super) reason: &'static str,

@@ -1,12 +1,12 @@
-//! What a tick of a physics engine does to one body.
+//! A tick of a physics engine, for one body.
 //!
-//! Each file has the formula of one engine, read from its source and held against logs of the engine
-//! itself (`tests/library/engines`). They share this: an engine takes the spring's stiffness and damping as
-//! settings of a joint and the drag as a setting of the body, and any other force once a tick, which it
-//! holds for all its substeps; see [`EngineSettings::of`].
+//! Each file has the formula of one engine, read from its source and checked against logs of the engine itself
+//! (`tests/library/engines`). All engines read the spring's stiffness and damping as settings of a joint and the drag
+//! as a setting of the body. They read any other force once a tick and hold it for all substeps; see
+//! [`EngineSettings::of`].
 //!
-//! Letters, as in the formulas: `H` a tick, `n` its substeps, `h = H/n`; `K` the stiffness, `c` the damping and
-//! `C` the drag, each per unit of mass; `f` the held force per unit of mass; `D = 1 + h c + h² K`.
+//! Letters, as in the formulas: `H` a tick, `n` its substeps, `h = H/n`; `K` the stiffness, `c` the damping and `C`
+//! the drag, each per unit of mass; `f` the held force per unit of mass; `D = 1 + h c + h² K`.
 
 use std::marker::PhantomData;
 
@@ -25,9 +25,9 @@ pub struct EngineTick<'a, V> {
     pub(super) substeps: u32,
     /// K, c and C.
     pub(super) settings: EngineSettings,
-    /// f, held through the tick.
+    /// f, constant through the tick.
     pub(super) force: &'a V,
-    /// What the engine carries from tick to tick, 0 at the start, if its card says how it [restarts](Method::restart).
+    /// The engine's memory from tick to tick, 0 at the start; `None` unless its card has a [restart](Method::restart).
     pub(super) carried: Option<&'a mut V>,
 }
 
@@ -38,7 +38,7 @@ impl<V> EngineTick<'_, V> {
     }
 }
 
-/// What a tick of an engine does.
+/// The tick of an engine.
 pub trait EngineRule: Carded + Clone + Send + Sync + 'static {
     /// Advances the coordinates `q` and the velocities `v` by a tick.
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V);
@@ -49,7 +49,7 @@ pub trait EngineRule: Carded + Clone + Send + Sync + 'static {
 pub struct EngineMethod<V, R> {
     force: V,
     carried: Option<V>,
-    /// K and c of the joint, if they are not the body's.
+    /// K and c of the joint, if they override the body's.
     joint: Option<[f64; 2]>,
     rule: PhantomData<R>,
 }
@@ -140,7 +140,7 @@ pub(super) fn cap<V: Vector>(v: &mut V, max_speed: f64) {
     }
 }
 
-/// The part of a velocity with these components that is no longer than `max_speed`, in metres per second.
+/// The factor that shortens a velocity with these components to `max_speed`, in metres per second; at most 1.
 #[inline]
 pub(super) fn part_below(max_speed: f64, v: impl Iterator<Item = f64>) -> f64 {
     let square: f64 = v.map(|v| v * v).sum();

@@ -1,4 +1,4 @@
-//! Exponential Rosenbrock-Euler: solves the equation linearised at the start of the step exactly.
+//! Exponential Rosenbrock-Euler: linearises the equation at the start of the step and solves that exactly.
 
 use super::prelude::*;
 use super::shared::jacobian::Jacobian;
@@ -23,24 +23,24 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `y' = y + h φ1(h J) f + h² φ2(h J) f_t` on the whole state `y = (q, v)`, with `J = ∂f/∂y` and `f_t = ∂f/∂t` at the
-/// start: `y' - y` is where `x' = h J x + h f + τ h² f_t` leads from 0 at `τ = 0` to `τ = 1`.
+/// start. `y' - y` is the solution at `τ = 1` of `x' = h J x + h f + τ h² f_t` from 0 at `τ = 0`.
 ///
-/// `f_t` is the difference over the step, so that a force that grows evenly with time is exact too.
+/// `f_t` is the difference over the step, so that a force linear in time is exact too.
 #[derive(Clone)]
 pub struct ExponentialRosenbrockEuler<V> {
     a: V,
-    /// The acceleration at the end of the step, if nothing moved.
+    /// The acceleration at the end of the step, with the state unchanged.
     a_later: V,
     jacobian: Jacobian<V>,
     flow: LinearFlow,
-    /// `x`, `h f` and `h² f_t`: coordinates, and velocities times a time that makes both alike.
+    /// `x`, `h f` and `h² f_t`: coordinates, then velocities multiplied by a time that makes their scale alike.
     x: Vec<f64>,
     f: Vec<f64>,
     f_t: Vec<f64>,
 }
 
 impl<V: Vector> ExponentialRosenbrockEuler<V> {
-    /// The step of several coordinates, whose derivatives are taken.
+    /// The step for several coordinates, whose derivatives `jacobian` already has.
     fn step_together(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -50,7 +50,7 @@ impl<V: Vector> ExponentialRosenbrockEuler<V> {
         let Self { a, a_later, jacobian, flow, x, f, f_t } = self;
         let n = a.components().len();
 
-        // The time by which velocities are multiplied is the step, or less on a stiff system.
+        // Velocities are multiplied by the step, or by less on a stiff system.
         let [norm_q, norm_v] = jacobian.norms(system);
         let stiffness = (h * h * norm_q).sqrt().max(1.0);
         let time = h / stiffness;
@@ -105,7 +105,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::
         let ([q], [v]) = (q.components_mut(), v.components_mut()) else {
             return self.step_together(system, h, y);
         };
-        // φ1 and φ2 of a matrix of two rows, by the response of one coordinate to pushes.
+        // φ1 and φ2 of a 2×2 matrix, from the response of one coordinate to pushes.
         let [da_dq, da_dv] = jacobian.of_one();
         let [s, s1, s2] = response(h * h * da_dq, h * da_dv);
         let (a, more) = (a.components()[0], a_later.components()[0] - a.components()[0]);

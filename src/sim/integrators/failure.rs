@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::sim::number::round;
 
-/// What a step gives: nothing, or why it could not be made.
+/// The result of a step: nothing, or why it failed.
 pub type Stepped = Result<(), StepFailure>;
 
 /// Why a body could not be advanced to the end of its tick.
@@ -14,45 +14,44 @@ pub type Stepped = Result<(), StepFailure>;
 pub enum StepFailure {
     /// An adaptive method used up its substeps before the end of the tick.
     TooManySubsteps {
-        /// The most attempts that a tick may take.
+        /// The most attempts in a tick.
         limit: u32,
     },
-    /// The solver of an implicit method did not solve the equations of a step. They may have a solution
-    /// nevertheless.
+    /// The solver of an implicit method did not converge. The equations may still have a solution.
     NewtonFailed {
-        /// The most iterations that a step may take.
+        /// The most iterations in a step.
         limit: u32,
     },
-    /// The linear equations of a step were not solved within the work that a step may take.
+    /// The linear equations of a step were not solved within its budget of work.
     LinearSolveFailed,
     /// A reference solution exceeded its budget of evaluations.
     ReferenceFailed {
-        /// The evaluations spent.
+        /// Evaluations spent.
         evaluations: u64,
     },
-    /// The force jumps back and forth where the motion stands, so that it has no solution in the usual sense.
+    /// The force jumps back and forth at the present state, so that the motion has no solution in the usual sense.
     Sticks,
     /// A reference solution would take too much work.
     ReferenceTooExpensive {
-        /// An estimate of it: evaluations of a spring for each simulated second.
+        /// The estimated work, in evaluations of a spring for each simulated second.
         work_per_s: f64,
-        /// The most that a reference solution may take, [`MAX_REFERENCE_WORK`].
+        /// The most work for a reference solution, [`MAX_REFERENCE_WORK`].
         ///
         /// [`MAX_REFERENCE_WORK`]: crate::sim::MAX_REFERENCE_WORK
         most: f64,
     },
-    /// The caller asked for a step that takes no time that could be counted: not finite, or in no parts.
+    /// The caller asked for an invalid step: its times are not finite, or it has no parts.
     InvalidStep {
-        /// The time of its beginning in seconds.
+        /// The time at its start in seconds.
         t: f64,
         /// Its length in seconds.
         h: f64,
-        /// The equal parts that it was to be made in.
+        /// The number of equal parts.
         substeps: u32,
     },
-    /// The method is not for this body; see [`Only`](super::Only).
+    /// The method does not step this body; see [`Only`](super::Only).
     Refused {
-        /// Why, as on the method's card.
+        /// The reason on the method's card.
         reason: &'static str,
     },
     /// A value became infinite or undefined.
@@ -62,17 +61,17 @@ pub enum StepFailure {
         /// Its value.
         value: f64,
     },
-    /// A value left the range in which bodies are simulated; `run::race::ESCAPE`.
+    /// A value left the range of simulated bodies; `run::race::ESCAPE`.
     Escaped {
         /// The coordinate's name.
         coordinate: Arc<str>,
-        /// The value that was too large.
+        /// The value out of range.
         value: f64,
     },
 }
 
 impl StepFailure {
-    /// Checks the times and the parts of a step before it is made.
+    /// Checks the times and the number of parts of a step.
     #[inline]
     pub(in crate::sim) fn check_step(t: f64, h: f64, substeps: u32) -> Stepped {
         if (t + h).is_finite() && substeps > 0 {
@@ -81,7 +80,8 @@ impl StepFailure {
         Err(Self::InvalidStep { t, h, substeps })
     }
 
-    /// Whether it is known before the first step, and nothing went wrong: a reference solution was not tried.
+    /// Whether the failure is known before the first step, without any attempt: a reference solution too expensive to
+    /// try.
     pub fn is_foreseen(&self) -> bool {
         matches!(self, Self::ReferenceTooExpensive { .. })
     }

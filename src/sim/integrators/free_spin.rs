@@ -1,21 +1,22 @@
-//! How physics engines integrate torque-free rotation in space.
+//! Maps by which physics engines integrate torque-free rotation in space.
 //!
 //! With `I` the principal moments of inertia, `ω` the angular velocity in the frame of their axes and `L = I ω` the
-//! angular momentum, `dL/dt = -ω × L`: without torque the axis of a body changes unless it is a principal one. None of
-//! the maps is exact. The cards name them, and the tests compute them: each is held against logs of engines
-//! (`tests/library/engines/tumble.rs`), except [`SpinMap::Constant`].
+//! angular momentum, `dL/dt = -ω × L`. Without torque the axis of a body changes unless it is a principal one. None of
+//! the maps is exact. The cards name them and the tests compute them; all but [`SpinMap::Constant`] are checked
+//! against logs of engines (`tests/library/engines/tumble.rs`).
 
 /// One step of the angular velocity of a body without torque. `'` marks values at the end of the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpinMap {
-    /// `ω' = ω`: the term `ω × L` is left out. The default of Jolt and PhysX; Godot.
+    /// `ω' = ω`: omits the term `ω × L`. The default of Jolt and PhysX; Godot.
     Constant,
     /// `L' = L - h ω × L`, then scaled to the length of `L`. It keeps that length and changes the energy. Rapier; Jolt
     /// with `mApplyGyroscopicForce`, PhysX with `eENABLE_GYROSCOPIC_FORCES`.
     ScaledMomentum,
-    /// One Newton step from `ω` towards the root of implicit Euler, `I (ω' - ω) + h ω' × I ω' = 0`: `ω' = ω - J⁻¹ h ω × L`
-    /// with `J = I + h ([ω] I - [L])`, where `[a] b = a × b`. Bullet (`computeGyroscopicImpulseImplicit_Body`);
-    /// MuJoCo's integrators `implicit` and `implicitfast`. Not finite where `J` has no inverse.
+    /// One Newton step from `ω` towards the root of implicit Euler, `I (ω' - ω) + h ω' × I ω' = 0`:
+    /// `ω' = ω - J⁻¹ h ω × L` with `J = I + h ([ω] I - [L])`, where `[a] b = a × b`. Bullet
+    /// (`computeGyroscopicImpulseImplicit_Body`); MuJoCo's integrators `implicit` and `implicitfast`. Not finite where
+    /// `J` has no inverse.
     NewtonStep,
     /// `ω' = ω - h I⁻¹ (ω × L)`, explicit Euler. MuJoCo's integrator `Euler`.
     Explicit,
@@ -33,7 +34,7 @@ impl SpinMap {
         ("runge-kutta", SpinMap::RungeKutta),
     ];
 
-    /// Its kebab-case name.
+    /// The kebab-case name of the map.
     pub fn id(self) -> &'static str {
         super::id_in(&Self::ALL, self)
     }

@@ -1,4 +1,4 @@
-//! The trait that every method implements, and what may be set of a method, such as its tolerance.
+//! The trait that every method implements, and the overrides of a method's settings.
 
 use std::fmt;
 
@@ -8,9 +8,9 @@ use crate::sim::system::{Coupling, StateOf, System};
 
 /// A method that advances a system by steps.
 ///
-/// The system is a parameter of the trait: the force law is inlined into the method, and
-/// `Box<dyn Integrator<Ship>>` is still swappable at run time. Its [clone](CloneIntegrator) has the same memory, so that a
-/// game which goes back to an earlier tick keeps one beside the state:
+/// The system is a parameter of the trait: the force law is inlined into the method, and `Box<dyn Integrator<Ship>>`
+/// is still swappable at run time. A [clone](CloneIntegrator) has the same memory. A game that goes back to an earlier
+/// tick keeps one beside the state:
 ///
 /// ```
 /// # use regatta::sim::{State, bodies::Spring, integrators::{integrator, method}};
@@ -24,14 +24,13 @@ use crate::sim::system::{Coupling, StateOf, System};
 /// assert_eq!(saved.0, state);
 /// ```
 pub trait Integrator<S: System>: CloneIntegrator<S> + Send + Sync {
-    /// Returns a method without memory, with scratch space for coordinate vectors shaped `like` this
-    /// one.
+    /// Returns a method without memory, with scratch space for coordinate vectors shaped `like` this one.
     fn new(like: &S::Vector) -> Self
     where
         Self: Sized;
 
-    /// As [`Integrator::new`], for systems with this coupling. A method that solves equations chooses its linear algebra by
-    /// it.
+    /// As [`Integrator::new`], for systems with this coupling. A method that solves equations chooses its linear
+    /// algebra by it.
     fn coupled(like: &S::Vector, _coupling: Coupling) -> Self
     where
         Self: Sized,
@@ -39,14 +38,14 @@ pub trait Integrator<S: System>: CloneIntegrator<S> + Send + Sync {
         Self::new(like)
     }
 
-    /// Advances `state` from `t` to exactly `t + h` (s), unless the card says that the method does not
-    /// [keep time](super::Method::keeps_time). Never allocates.
+    /// Advances `state` from `t` to exactly `t + h` (s), unless the card says that the method does not [keep
+    /// time](super::Method::keeps_time). Never allocates.
     ///
-    /// Overflow is not reported: the caller checks the values. One that [`integrator`](super::integrator) built checks that
-    /// `t` and `h` are finite; for a method by itself they must be.
+    /// Does not report overflow: the caller checks the values. `t` and `h` must be finite; an integrator built by
+    /// [`integrator`](super::integrator) checks this, a bare method does not.
     ///
     /// # Errors
-    /// If the method gives up or is not for the system; `state` is then undefined.
+    /// If the method gives up or does not step this system; `state` is then undefined.
     fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped;
 
     /// Advances from `t` to `t + h` in `n` equal steps: one dynamic call for a whole tick.
@@ -61,21 +60,21 @@ pub trait Integrator<S: System>: CloneIntegrator<S> + Send + Sync {
         Ok(())
     }
 
-    /// Clears the memory of the method. Call it if the state or the forces jump. A method detects a
-    /// change of the step length itself.
+    /// Clears the memory of the method. Call it if the state or the forces jump. A method detects a change of the step
+    /// length itself.
     fn reset(&mut self) {}
 
-    /// Replaces what its card or the body says; a method that has no such number ignores it.
+    /// Overrides a setting of the card or the body. A method without this setting ignores it.
     fn set(&mut self, _override: Override) {}
 
-    /// The time in seconds that the method has left out of its steps since it was built: 0 of one that
-    /// [keeps time](super::Method::keeps_time).
+    /// The time in seconds that the method has left out of its steps since it was built; 0 if it [keeps
+    /// time](super::Method::keeps_time).
     fn lost_time(&self) -> f64 {
         0.0
     }
 }
 
-/// Copies an [`Integrator`] behind a pointer. Every integrator that is `Clone` has it.
+/// Clones an [`Integrator`] behind a pointer. Implemented for every integrator that is `Clone`.
 pub trait CloneIntegrator<S: System> {
     /// A copy with the same memory: from equal states both make steps of equal bits.
     fn clone_boxed(&self) -> Box<dyn Integrator<S>>;
@@ -94,13 +93,13 @@ impl<S: System> Clone for Box<dyn Integrator<S>> {
 }
 
 impl<S: System> fmt::Debug for dyn Integrator<S> {
-    /// The type of the method is not known here, nor is its memory.
+    /// Neither the type of the method nor its memory is known here.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Integrator").finish_non_exhaustive()
     }
 }
 
-/// What a method may be given in place of what its card or the body says.
+/// An override of a setting of the card or the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Override {
@@ -155,7 +154,7 @@ impl Tolerance {
     }
 }
 
-/// The larger number; unlike `f64::max` it keeps a NaN, so that a worthless step is rejected.
+/// The larger number. Unlike `f64::max` it keeps a NaN, so that a worthless step is rejected.
 #[inline]
 fn larger(a: f64, b: f64) -> f64 {
     if b <= a || a.is_nan() { a } else { b }

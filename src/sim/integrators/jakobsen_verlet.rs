@@ -19,14 +19,14 @@ pub(super) const CARD: Method = Method {
     ..AS_PRINTED
 };
 
-/// What is left of the displacement of the last step.
+/// The fraction of the last step's displacement that is kept.
 const KEPT: f64 = 0.99;
 
 /// `x' = x + 0.99 (x - p) + h² a`, with `p = x - h v` the position one step ago, and the velocity read off the
 /// positions: `v' = (x' - x) / h = 0.99 v + h a`.
 ///
-/// Positions and velocities say the same, so that nothing is carried: after a kick or a change of step `p` is where
-/// the velocity puts it.
+/// Positions and velocities agree, so that nothing is carried: after a kick or a change of step, the velocity
+/// determines `p`.
 #[derive(Clone)]
 pub struct JakobsenVerlet<V> {
     a: V,

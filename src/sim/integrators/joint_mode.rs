@@ -2,31 +2,31 @@
 
 use std::f64::consts::TAU;
 
-/// A way to set a spring in an engine: one setting for its stiffness and one for its damping.
+/// A way to set a spring in an engine, by one setting for stiffness and one for damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointMode {
     /// Kebab-case name, unique among the modes of the engine.
     pub id: &'static str,
-    /// What sets the stiffness.
+    /// The setting for the stiffness.
     pub stiffness: Setting,
-    /// What sets the damping.
+    /// The setting for the damping.
     pub damping: Setting,
-    /// Whether the engine computes the spring's force at the start of a substep, as it does a force of user code.
+    /// Whether the engine computes the spring's force at the start of a substep, like a force of user code.
     pub is_explicit: bool,
-    /// Lines of code that set it, in the engine's own language. The name of a setting in braces stands for its value.
+    /// Lines of code that set it, in the engine's own language, with the names of settings in braces.
     pub code: &'static str,
 }
 
-/// A number that an engine takes.
+/// A numerical setting of an engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {
     /// Its name in the engine.
     pub name: &'static str,
-    /// What it is.
+    /// Its quantity.
     pub quantity: JointQuantity,
 }
 
-/// What a setting of a joint is.
+/// The quantity of a joint's setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointQuantity {
     /// k, in N/m.
@@ -48,7 +48,7 @@ pub enum JointQuantity {
 use JointQuantity::*;
 
 impl JointQuantity {
-    /// Its unit; empty if it has none.
+    /// The unit; empty if it has none.
     pub fn unit(self) -> &'static str {
         match self {
             Stiffness => "N/m",
@@ -61,7 +61,7 @@ impl JointQuantity {
         }
     }
 
-    /// Its value for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on a mass in kg.
+    /// The value for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on a mass in kg.
     pub fn of(self, [stiffness, damping]: [f64; 2], mass_kg: f64) -> f64 {
         match self {
             Stiffness => stiffness * mass_kg,
@@ -76,19 +76,19 @@ impl JointQuantity {
 }
 
 impl JointMode {
-    /// What sets the stiffness, and what sets the damping.
+    /// The settings for the stiffness and for the damping.
     pub fn settings(&self) -> [Setting; 2] {
         [self.stiffness, self.damping]
     }
 
-    /// The values of its settings for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on a
-    /// mass in kg.
+    /// The values of its settings for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on
+    /// a mass in kg.
     pub fn values(&self, joint: [f64; 2], mass_kg: f64) -> [f64; 2] {
         self.settings().map(|setting| setting.quantity.of(joint, mass_kg))
     }
 
-    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, that these values of its settings are on a
-    /// mass in kg.
+    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, of these values of its settings on a mass
+    /// in kg.
     pub fn joint(&self, [first, second]: [f64; 2], mass_kg: f64) -> [f64; 2] {
         let stiffness = match self.stiffness.quantity {
             Stiffness => first / mass_kg,
@@ -120,7 +120,7 @@ pub fn in_code(value: f64) -> String {
     format!("{:?}", rounded.unwrap_or(value))
 }
 
-/// A mode, which is implicit or as the engine has it.
+/// A mode that is not explicit.
 pub(super) const fn mode(
     id: &'static str,
     stiffness: (&'static str, JointQuantity),
@@ -132,7 +132,7 @@ pub(super) const fn mode(
     JointMode { id, stiffness, damping, is_explicit: false, code }
 }
 
-/// A [`mode`] whose settings are called `stiffness`, in N/m, and `damping`, in N s/m.
+/// A [`mode`] with the settings `stiffness`, in N/m, and `damping`, in N s/m.
 pub(super) const fn si_mode(id: &'static str, code: &'static str) -> JointMode {
     mode(id, ("stiffness", Stiffness), ("damping", Damping), code)
 }

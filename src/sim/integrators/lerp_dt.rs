@@ -1,4 +1,4 @@
-//! Lerp by the frame's duration: explicit Euler of the law of first order.
+//! Lerp by the frame's duration: explicit Euler on the first-order law.
 
 use super::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Lerp per frame: a tenth of the way in every step, however long the step is.
+//! Lerp per frame: a tenth of the way in every step, whether the step is long or short.
 
 use super::prelude::*;
 
@@ -18,7 +18,7 @@ pub(super) const CARD: Method = Method {
     ..FIRST_ORDER_FOLLOWER
 };
 
-/// The part of the way that each step goes: a usual value. The higher it is, the faster the chase at every rate.
+/// The fraction of the way that each step covers: a usual value. The higher it is, the faster the chase at every rate.
 const PART: f64 = 0.1;
 
 /// Lerp per frame, by the [formula](Method::formula) on its card.

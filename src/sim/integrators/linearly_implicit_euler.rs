@@ -1,4 +1,4 @@
-//! Linearly implicit Euler: implicit Euler with one iteration of Newton's, from the start of the step.
+//! Linearly implicit Euler: implicit Euler with one Newton iteration, from the start of the step.
 
 use super::prelude::*;
 use super::shared::linearisation::Linearisation;
@@ -15,8 +15,8 @@ pub(super) const CARD: Method = Method {
     ..LINEARISED
 };
 
-/// `(I - h ∂f/∂y) (y' - y) = h f(t + h, y)` on the whole state `y = (q, v)`: with `v' = v + h x` and
-/// `q' = q + h v'`, this is `(I - h² ∂a/∂q - h ∂a/∂v) x = a + h ∂a/∂q v`.
+/// `(I - h ∂f/∂y) (y' - y) = h f(t + h, y)` on the whole state `y = (q, v)`: with `v' = v + h x` and `q' = q + h v'`,
+/// this is `(I - h² ∂a/∂q - h ∂a/∂v) x = a + h ∂a/∂q v`.
 ///
 /// On a linear system it is implicit Euler.
 #[derive(Clone)]

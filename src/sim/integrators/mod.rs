@@ -1,9 +1,10 @@
 //! The methods: one file each, one line each in the table below.
 //!
-//! A method implements [`Integrator`] for every [`System`] and describes itself on a [`Method`] card. If it
-//! is for some bodies [only](Only), its card says which, and its step fails on others.
-//! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
-//! of each card, both ways. A [custom](Method::custom) method needs no place in the table. To add one, copy `midpoint.rs`, declare it, and name it in `methods!`.
+//! A method implements [`Integrator`] for every [`System`] and describes itself on a [`Method`] card. If it steps
+//! [only](Only) some bodies, its card says which, and its step fails on others. Menus, command line, help and tests
+//! loop over [`METHODS`]; the conformance suite measures each field of each card, both ways. A
+//! [custom](Method::custom) method needs no place in the table. To add one, copy `midpoint.rs`, declare it, and name
+//! it in `methods!`.
 
 use super::state::Vector;
 use super::system::{BodyClass, Counted, Coupling, System};
@@ -90,16 +91,16 @@ pub use integrator::{CloneIntegrator, Integrator, Override, Tolerance};
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
 
-/// A system whose type is forgotten, with coordinates of type `V`, so that the methods are compiled for all of them once. It
+/// A system of erased type with coordinates of type `V`, so that methods are compiled only once for all of them. It
 /// counts evaluations.
 pub type Problem<V> = Counted<Box<dyn System<Vector = V>>>;
 
-/// This system as a problem, with nothing counted.
+/// This system as a problem, with its counter at zero.
 pub fn problem<S: System<Vector: Vector> + 'static>(system: S) -> Problem<S::Vector> {
     Counted::new(Box::new(system))
 }
 
-/// An integrator of systems of the type `S` that steps every other with its vector too, as all methods do.
+/// An integrator of systems of type `S` and, as all methods are, of every other system with the same vector.
 pub trait MethodOf<S: System>:
     Integrator<S> + Integrator<Problem<S::Vector>> + AnyIntegrator<S::Vector> + Clone + 'static
 {
@@ -110,18 +111,17 @@ impl<S: System, I> MethodOf<S> for I where
 {
 }
 
-/// What [`construct`] builds from an integrator whose type is chosen at run time.
+/// Builds a value from an integrator whose type is chosen at run time; see [`construct`].
 pub trait Construct<S: System> {
-    /// The result.
+    /// The built value.
     type Output;
-    /// The class of the bodies; `None` if it is not known. No method is compiled that refuses them.
+    /// The class of the bodies; `None` if unknown. Methods that refuse this class are not compiled.
     const CLASS: Option<BodyClass> = None;
-    /// Builds the result from integrators of the type `I`, which `new` makes for coordinate vectors shaped like the
-    /// one that it is given.
+    /// Builds the value from integrators of type `I`; `new` makes one for coordinate vectors shaped like its argument.
     fn of<I: MethodOf<S>>(self, new: impl FnOnce(&S::Vector) -> I) -> Self::Output;
 }
 
-/// Why a method steps no system of the type for which `C` constructs; `None` if it may step some.
+/// Why a method steps no system that `C` constructs for; `None` if it may step some.
 const fn refusal<S: System, C: Construct<S>>(card: &Method) -> Option<&'static str> {
     match (&card.only, C::CLASS) {
         (Some(only), Some(class)) => only.incompatibility(class),
@@ -129,7 +129,7 @@ const fn refusal<S: System, C: Construct<S>>(card: &Method) -> Option<&'static s
     }
 }
 
-/// The type of a method on coordinates of type `V`: its own, or that of the family of its rule.
+/// The type of a method on coordinates of type `V`: its own, or that of its rule's family.
 macro_rules! method_type {
     ($V:ty, $Type:ident) => { $Type<$V> };
     ($V:ty, $Rule:ident, $Family:ident) => { $Family<$V, $Rule> };
@@ -145,7 +145,7 @@ macro_rules! carded {
     };
 }
 
-/// Returns the result of `construct` if `method` is this one, and is one that steps blocks.
+/// Returns the result of `construct` if `method` is this one and steps blocks.
 #[cfg(feature = "batch")]
 macro_rules! construct_in_blocks {
     ($S:ident, $method:ident, $construct:ident, $file:ident, $Type:ident, blocks) => {
@@ -177,7 +177,7 @@ macro_rules! methods {
 
         /// Calls `construct` with the integrator type of `method`, for systems with this coupling.
         ///
-        /// A method that steps no such system is one that [refuses](StepFailure::Refused) every step.
+        /// If the method steps no such system, the integrator [refuses](StepFailure::Refused) every step.
         ///
         /// # Panics
         /// If `method` is neither from [`METHODS`] nor [from outside](Method::is_from_outside).
@@ -212,8 +212,8 @@ macro_rules! methods {
             construct.of(|_| Unfit { reason })
         }
 
-        /// Calls `construct` with the integrator type of a `method` that steps each number by itself, as blocks of bodies
-        /// need. `None` for all others.
+        /// Calls `construct` with the integrator type of `method` for blocks of bodies. `None` unless the method steps
+        /// each number by itself.
         #[cfg(feature = "batch")]
         pub(in crate::sim) fn construct_in_blocks<S: System, C: Construct<S>>(
             method: &Method,
@@ -223,7 +223,7 @@ macro_rules! methods {
             None
         }
 
-        /// Whether `method` steps each number by itself, so that it steps copies in blocks.
+        /// Whether `method` steps each number by itself, and can thus step copies in blocks.
         #[cfg(feature = "batch")]
         pub(crate) fn steps_in_blocks(method: &Method) -> bool {
             [$($(id_in_blocks!($file, $blocks),)?)+].contains(&method.id)
@@ -285,7 +285,7 @@ methods! {
     held_force::HeldForce as EngineMethod,
 }
 
-/// An integrator of `method` for bodies of this class and coupling, compiled once for their type of vector.
+/// An integrator of `method` for bodies of this class and coupling, compiled once for each vector type.
 ///
 /// # Panics
 /// As [`construct`].
@@ -309,7 +309,7 @@ pub(in crate::sim) fn any_integrator<V: Vector>(
     }
 }
 
-/// The number of leading [`METHODS`] that step every body.
+/// Number of leading [`METHODS`] that step every body.
 const GENERAL_COUNT: usize = {
     let mut count = 0;
     while count < METHODS.len() && METHODS[count].only.is_none() {
@@ -318,10 +318,10 @@ const GENERAL_COUNT: usize = {
     count
 };
 
-/// The methods that step every body: those of [`METHODS`] that come before any that is for [`Only`] some.
+/// The methods that step every body: the part of [`METHODS`] before the first method for [`Only`] some bodies.
 pub static GENERAL_METHODS: &[Method] = METHODS.split_at(GENERAL_COUNT).0;
 
-/// The id of a value in the table of all.
+/// The id of a value in a table of all values.
 fn id_in<T: PartialEq>(all: &[(&'static str, T)], value: T) -> &'static str {
     all.iter().find(|(_, listed)| *listed == value).expect("the table has every value").0
 }
@@ -331,9 +331,8 @@ pub fn method(id: &str) -> Option<&'static Method> {
     METHODS.iter().find(|method| method.id == id)
 }
 
-/// A new integrator of `method` for any system with coordinates shaped `like` these. It
-/// [resets](Integrator::reset) itself if it is given a state other than it returned; a jump of the
-/// forces must be reported by the caller.
+/// A new integrator of `method` for any system with coordinates shaped `like` these. It [resets](Integrator::reset)
+/// itself if its state is not the one it returned; the caller must report a jump of the forces.
 ///
 /// ```
 /// # use regatta::sim::{State, bodies::Spring, integrators::{integrator, method}};
@@ -350,8 +349,8 @@ pub fn integrator<S: System<Vector: Vector> + 'static>(
     integrator_for(method, Coupling::All, like)
 }
 
-/// As [`integrator()`], for systems with this [coupling](System::coupling) alone: a method that solves equations saves much
-/// of the work where few of many coordinates act on each.
+/// As [`integrator()`], only for systems with this [coupling](System::coupling). A method that solves equations saves
+/// much of the work if each coordinate depends on few others.
 pub fn integrator_for<S: System<Vector: Vector> + 'static>(
     method: &Method,
     coupling: Coupling,
@@ -367,8 +366,8 @@ pub fn integrator_for<S: System<Vector: Vector> + 'static>(
     construct::<S, _>(method, coupling, Boxed(like))
 }
 
-/// A fresh [integrator](integrator()) for problems of one coordinate. What is generic is compiled again in each crate
-/// that uses it, and this is not.
+/// A fresh [integrator](integrator()) for problems of one coordinate. Generic functions are compiled again in each
+/// crate that uses them; this one is not.
 pub fn fresh(method: &Method) -> Box<dyn Integrator<Problem<f64>>> {
     integrator(method, &0.0)
 }

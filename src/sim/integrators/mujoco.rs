@@ -47,11 +47,11 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// Where a coordinate, velocity or acceleration is beyond this in SI units, MuJoCo warns and puts the model back.
+/// The largest coordinate, velocity or acceleration in SI units; beyond it MuJoCo warns and resets the model.
 const MAX_VALUE: f64 = 1e10;
 
-/// Before a step: whether the body is put back to the origin at rest, where a model is written (`qpos0`). What user code
-/// applies is lost with it until the next tick.
+/// Before a step: resets a body with a value out of range to the origin at rest, where the model is defined (`qpos0`).
+/// Returns whether it did. The force of user code is lost with it until the next tick.
 pub(super) fn puts_back<V: Vector>(
     settings: EngineSettings,
     force: &V,

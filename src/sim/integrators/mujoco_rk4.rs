@@ -1,4 +1,4 @@
-//! MuJoCo with its Runge-Kutta integrator, which holds what user code applies.
+//! MuJoCo with its Runge-Kutta integrator, which holds the force of user code.
 
 use super::mujoco::puts_back;
 use super::prelude::*;

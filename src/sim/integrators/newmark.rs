@@ -23,9 +23,9 @@ pub struct Newmark<V> {
     newton: Newton<V, 1>,
 }
 
-/// The mean acceleration over the step. A smaller β is stable only up to some step.
+/// The weight for a mean acceleration over the step. With a smaller β the method is stable only up to some step.
 const BETA: f64 = 0.25;
-/// The only γ of second order.
+/// The only γ with second order.
 const GAMMA: f64 = 0.5;
 
 impl<S: System<Vector: Vector>> Integrator<S> for Newmark<S::Vector> {

@@ -6,7 +6,7 @@ use super::prelude::*;
 pub(super) const FREE_SPIN: Option<FreeSpin> =
     Some(FreeSpin { default: SpinMap::Constant, opt_in: Some(SpinMap::ScaledMomentum) });
 
-/// The drives of PhysX itself, whatever its solver.
+/// The drives of PhysX itself, under any of its solvers.
 pub(super) const DRIVES: [JointMode; 2] = [
     si_mode(
         "force-drive",

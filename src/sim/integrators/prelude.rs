@@ -1,4 +1,4 @@
-//! What the file of a method names: its card, what it implements, and the vectors that it steps.
+//! Imports for the file of a method: its card, its traits, and its vectors.
 
 pub(super) use super::card::{
     ADAPTIVE, AS_PRINTED, ENGINE, EXPLICIT, Engine, FIRST_ORDER_FOLLOWER, FollowerQuantity,

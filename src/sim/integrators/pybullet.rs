@@ -28,7 +28,8 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// pybullet, multibody: a tick by the [formula](Method::formula) on its card. It takes d from a second: `1 - e^(-C·1 s)`.
+/// pybullet, multibody: a tick by the [formula](Method::formula) on its card. It computes d over a whole second:
+/// `1 - e^(-C·1 s)`.
 #[derive(Clone)]
 pub struct Pybullet;
 

@@ -1,11 +1,11 @@
-//! A method that detects changes of its state by the caller.
+//! A wrapper that detects when the caller changes the state of a method.
 
 use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{Coupling, StateOf, System};
 
-/// A method that is [reset](Integrator::reset) if it is given a state other than it returned.
+/// A method that [resets](Integrator::reset) if its state is not the one it returned.
 #[derive(Clone)]
 pub(super) struct ResetOnChange<I, V> {
     method: I,
@@ -13,7 +13,7 @@ pub(super) struct ResetOnChange<I, V> {
 }
 
 impl<I, V: Vector> ResetOnChange<I, V> {
-    /// This method, on states shaped `like` this.
+    /// Wraps this method, on states shaped `like` this one.
     pub(super) fn around(method: I, like: &V) -> Self {
         Self { method, returned: State { q: like.clone(), v: like.clone() } }
     }

@@ -25,8 +25,8 @@ pub(super) const CARD: Method = Method {
 
 /// Runge-Kutta 4, by the [formula](Method::formula) on its card.
 ///
-/// A slope `k` is a velocity and an acceleration, here `(v, a1)`, `(v2, a2)`, `(v3, a3)` and `(v4, a4)`: the velocity of a
-/// stage is its slope's, and is not copied.
+/// A slope `k` is a velocity and an acceleration, here `(v, a1)`, `(v2, a2)`, `(v3, a3)` and `(v4, a4)`. The velocity
+/// of a stage is that of its slope, and is not copied.
 #[derive(Clone)]
 pub struct Rk4<V> {
     a1: V,
@@ -36,7 +36,7 @@ pub struct Rk4<V> {
     v2: V,
     v3: V,
     v4: V,
-    /// The coordinates at which a stage is evaluated.
+    /// The coordinates of the stage to evaluate.
     stage: V,
 }
 

@@ -1,4 +1,4 @@
-//! Runge-Kutta 4 as the chapter prints it: four slopes of the velocity alone, which moves the position.
+//! Runge-Kutta 4 as the chapter prints it: four slopes of the velocity alone, which then moves the position.
 
 use super::prelude::*;
 
@@ -27,7 +27,7 @@ pub struct Rk4AsPrinted<V> {
     k2: V,
     k3: V,
     k4: V,
-    /// The velocity at which a stage is evaluated.
+    /// The velocity of the stage to evaluate.
     stage: V,
 }
 

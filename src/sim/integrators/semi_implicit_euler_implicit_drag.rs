@@ -1,4 +1,4 @@
-//! Semi-implicit Euler with implicit drag: the kick divides by what the drag takes, and cannot overshoot.
+//! Semi-implicit Euler with implicit drag: the kick is divided by `1 − h ∂a/∂v`, so that drag cannot overshoot.
 
 use super::prelude::*;
 use super::shared::linearisation::Linearisation;

@@ -31,7 +31,7 @@ pub struct SspRk3<V> {
     k1: State<V>,
     k2: State<V>,
     k3: State<V>,
-    /// The state at which a stage is evaluated.
+    /// The state of the stage to evaluate.
     stage: State<V>,
 }
 

@@ -1,13 +1,13 @@
-//! A method by the lines of a person, which are read when the program runs.
+//! A method made of a person's own lines, which are read at run time.
 
 use super::failure::StepFailure;
 use super::prelude::*;
 use crate::sim::law::{StepRegisters, StepText};
 
-/// A method by lines that call the acceleration.
+/// A method made of lines that call the acceleration.
 #[derive(Clone)]
 pub(super) struct StepMethod<V> {
-    /// With the numbers that it carries; `None` refuses every step.
+    /// The lines, and the numbers they carry; `None` refuses every step.
     lines: Option<(&'static StepText, StepRegisters)>,
     q: V,
     v: V,
@@ -24,7 +24,7 @@ impl<V: Vector> StepMethod<V> {
 }
 
 impl<S: System<Vector: Vector>> Integrator<S> for StepMethod<S::Vector> {
-    /// Refuses every step: which lines they are, its card says.
+    /// Refuses every step, because only the card knows the lines.
     fn new(like: &S::Vector) -> Self {
         let [q, v, a] = [(); 3].map(|()| like.clone());
         Self { lines: None, q, v, a }

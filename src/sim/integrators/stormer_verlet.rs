@@ -1,4 +1,4 @@
-//! Störmer-Verlet: the next position from the last two and the force; the velocity is read off them.
+//! Störmer-Verlet: the next position from the last two and the force; the velocity follows from the positions.
 
 use super::prelude::*;
 use super::shared::LastStep;
@@ -23,8 +23,8 @@ pub(super) const CARD: Method = Method {
 
 /// Störmer-Verlet, by the [formula](Method::formula) on its card. `p` is the position one step ago.
 ///
-/// The plain difference `(q' - q) / h` is the velocity half a step ago, and first order. Half a kick by
-/// the force at the end, which the next step needs anyway, makes it second order.
+/// The plain difference `(q' - q) / h` is the velocity half a step ago, and first order. Half a kick by the force at
+/// the end, which the next step needs anyway, makes it second order.
 #[derive(Clone)]
 pub struct StormerVerlet<V> {
     p: V,

@@ -28,7 +28,7 @@ pub struct TrBdf2<V> {
     stage: State<V>,
 }
 
-/// `2 - √2`, at which both equations have the same weight of the new slope, and the method is L-stable.
+/// `2 - √2`, for which the new slope has the same weight in both equations, and the method is L-stable.
 const GAMMA: f64 = 2.0 - std::f64::consts::SQRT_2;
 /// That weight: `γ/2 = (1 - γ) / (2 - γ)`.
 const D: f64 = GAMMA / 2.0;

@@ -21,8 +21,8 @@ pub(super) const CARD: Method = Method {
 
 /// Velocity Verlet, by the [formula](Method::formula) on its card.
 ///
-/// The force at the end uses the predicted velocity there, which keeps second order under drag; with
-/// the half-step velocity `v½` it would be first order.
+/// The force at the end uses the predicted velocity there, which keeps second order under drag; with the half-step
+/// velocity `v½` it would be first order.
 #[derive(Clone)]
 pub struct VelocityVerlet<V> {
     a: V,

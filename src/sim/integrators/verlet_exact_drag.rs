@@ -30,7 +30,7 @@ pub(super) const CARD: Method = Method {
 /// `v½ = v1 + h r(t, q, v1) / 2`, `q' = q + h v½`, `v2 = v½ + h r(t + h, q', v½ + h r / 2) / 2`,
 /// `v' = exp(h D / 2) v2`.
 ///
-/// `D` is the whole matrix, with what couples the coordinates.
+/// `D` is the full matrix, including the coupling of coordinates.
 #[derive(Clone)]
 pub struct VerletExactDrag<V> {
     /// `a`, and then `r`.
@@ -40,12 +40,12 @@ pub struct VerletExactDrag<V> {
     /// `D`
     drag: Jacobian<V>,
     decay: LinearFlow,
-    /// Nothing drives the decay.
+    /// Zeros, because nothing drives the decay.
     zeros: Vec<f64>,
 }
 
 impl<V: Vector> VerletExactDrag<V> {
-    /// `v = exp(h D / 2) v` of several coordinates.
+    /// `v = exp(h D / 2) v` for several coordinates.
     fn decay(&mut self, system: &dyn System<Vector = V>, h: f64, v: &mut V) -> Stepped {
         let Self { drag, decay, zeros, .. } = self;
         let [_, rate] = drag.norms(system);
@@ -91,7 +91,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for VerletExactDrag<S::Vector> {
         system.acceleration(t, &y.q, &y.v, &mut self.a);
         self.drag.take(system, t, h, y, &self.a);
         let State { q, v } = y;
-        // The exponential of one coordinate, which serves both halves.
+        // The exponential of a single coordinate, used for both halves.
         let alone = (v.components().len() == 1).then(|| libm::exp(h / 2.0 * self.drag.of_one()[1]));
         match alone {
             Some(decay) => v.components_mut()[0] *= decay,

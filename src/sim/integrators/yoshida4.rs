@@ -1,5 +1,4 @@
-//! Yoshida 4: three position Verlet steps, the middle one backwards, chosen so that their third-order
-//! errors cancel.
+//! Yoshida 4: three position Verlet steps, the middle one backwards, chosen so that their third-order errors cancel.
 
 use super::prelude::*;
 use super::shared::compose;

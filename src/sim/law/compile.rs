@@ -1,4 +1,4 @@
-//! From the text of a law to its tapes: which names each part may use.
+//! Compiles the text of a law to its tapes, and decides which names each part may use.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use super::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 use super::token::is_name_start;
 use super::{LawText, T};
 
-/// The most characters of a name, which labels a marker.
+/// The most characters of a name, because it labels a marker.
 const MAX_NAME_CHARS: usize = 24;
 
 /// A tape, or all faults of its text.
@@ -28,7 +28,8 @@ struct PartScope<'t> {
 }
 
 impl PartScope<'_> {
-    /// All names with the slots of their inputs, in that order: a constant comes before a start of the same name.
+    /// All names with the slots of their inputs, in the order of lookup: a constant comes before a start of the same
+    /// name.
     fn all(&self) -> impl Iterator<Item = (String, usize)> {
         let names = self.text.coordinates.iter().map(|coordinate| &coordinate.name);
         ["t", "throttle", "rudder"]
@@ -99,7 +100,7 @@ impl Compiler<'_> {
         self.tape(self.text.energy.iter().map(|text| (Part::Energy, &**text)).collect())
     }
 
-    /// The tape of the exact solution, which every coordinate must have.
+    /// The tape of the exact solution. If one coordinate has one, all must.
     pub(super) fn exact(&self) -> Compiled {
         let rows = self.text.coordinates.iter().enumerate();
         let missing = rows.clone().filter(|(_, row)| row.exact.is_none());
@@ -118,7 +119,7 @@ impl Compiler<'_> {
         Err(missing.into_iter().chain(tape.err().into_iter().flatten()).collect())
     }
 
-    /// The tape of the places: x and y of each coordinate that has one.
+    /// The tape of the drawing positions: x and y of each coordinate that has one.
     pub(super) fn places(&self) -> Compiled {
         let rows = self.text.coordinates.iter().enumerate();
         let placed = rows.filter_map(|(i, row)| Some((i, row.at.as_ref()?)));

@@ -1,5 +1,4 @@
-//! An expression, read from text in one pass: the names are looked up and the types are checked while
-//! it is parsed.
+//! An expression, read from text in one pass: the parser looks up names and checks types as it goes.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -15,14 +14,13 @@ mod call;
 /// The most bytes of an expression: several lines of a file.
 pub const MAX_BYTES: usize = 4096;
 
-/// The most brackets, signs and functions within each other. The parser calls itself for each, about
-/// ten calls deep.
+/// The deepest nesting of brackets, signs and functions. The parser calls itself for each, about ten calls deep.
 pub const MAX_DEPTH: usize = 64;
 
-/// The largest whole exponent that is written out as a product; a larger one is `libm::pow`'s.
+/// The largest whole exponent that becomes a product; a larger one is `libm::pow`'s.
 const MAX_PRODUCT: u32 = 16;
 
-/// One operation of an expression. Its arguments come before it.
+/// One operation of an expression. Its arguments precede it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) op: Op,
@@ -51,19 +49,19 @@ impl Node {
         Self { index, ..Self::leaf(Op::Input) }
     }
 
-    /// The same operation among nodes that follow `before` others.
+    /// The same operation, for nodes appended after `before` others.
     pub(super) fn after(self, before: usize) -> Self {
         self.reading(|operand| operand + before)
     }
 
-    /// The same operation on other nodes.
+    /// The same operation, with other nodes as arguments.
     pub(super) fn reading(self, other: impl Fn(usize) -> usize) -> Self {
         let mut operands = self.operands;
         operands[..self.count].iter_mut().for_each(|operand| *operand = other(*operand));
         Self { operands, ..self }
     }
 
-    /// The nodes that it reads.
+    /// The indices of its argument nodes.
     pub(super) fn arguments(&self) -> &[usize] {
         &self.operands[..self.count]
     }
@@ -73,7 +71,7 @@ impl Node {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Expression {
     pub(super) nodes: Vec<Node>,
-    /// The bytes of each node.
+    /// The byte range of each node in the text.
     pub(super) spans: Vec<Range<usize>>,
     pub(super) tables: Vec<Curve>,
 }
@@ -84,9 +82,9 @@ pub(super) trait Scope {
     fn input(&self, name: &str) -> Option<usize>;
     /// All names.
     fn names(&self) -> Vec<String>;
-    /// Why a name that other expressions may use cannot be used here.
+    /// Why this name, allowed in other expressions, is not allowed here.
     fn why_not(&self, name: &str) -> Option<String>;
-    /// Whether a call of this name is one of the acceleration.
+    /// Whether a call of this name is a call of the acceleration.
     fn is_acceleration(&self, _name: &str) -> bool {
         false
     }
@@ -96,12 +94,12 @@ pub(super) trait Scope {
     }
 }
 
-/// Reads an expression. Its last node is its value.
+/// Reads an expression. Its last node is the value.
 pub(super) fn parse(text: &str, scope: &dyn Scope) -> Parsed<Expression> {
     parse_as(text, scope, |parser, value| parser.want_number(value))
 }
 
-/// Reads a condition. Its last node is its value.
+/// Reads a condition. Its last node is the value.
 pub(super) fn parse_condition(text: &str, scope: &dyn Scope) -> Parsed<Expression> {
     parse_as(text, scope, |parser, value| parser.want_truth(value))
 }
@@ -133,7 +131,7 @@ fn parse_as(
     }
     want(&parser, value)?;
     let mut expression = parser.expression;
-    // The value of a name alone, or of a repeated part, need not be the last node.
+    // If the value is a single name or a repeated part, it need not be the last node.
     if value + 1 != expression.nodes.len() {
         let (node, span) = (expression.nodes[value], expression.spans[value].clone());
         expression.nodes.push(node);
@@ -156,7 +154,7 @@ impl Parser<'_> {
         self.tokens[self.next].0
     }
 
-    /// The bytes of the next token.
+    /// The byte range of the next token.
     fn span(&self) -> Range<usize> {
         self.tokens[self.next].1.clone()
     }
@@ -169,7 +167,7 @@ impl Parser<'_> {
         self.peek() == Token::Name && self.written() == word
     }
 
-    /// Takes the next token if it is this symbol.
+    /// Consumes the next token if it is this symbol.
     fn takes(&mut self, symbol: &str) -> bool {
         let is_it = matches!(self.peek(), Token::Symbol(found) if found == symbol);
         self.next += usize::from(is_it);
@@ -192,13 +190,13 @@ impl Parser<'_> {
         fault(self.here(), what, format!("write `{symbol}` after {after}"))
     }
 
-    /// The next token follows a value without an operator.
+    /// The fault of a token that follows a value without an operator.
     fn juxtaposed(&self) -> ExpressionFault {
         let what = format!("`{}` follows a complete expression", quoted(self.written()));
         ExpressionFault::new(self.span(), what, "write an operator before it, such as `*`")
     }
 
-    /// The bytes of the next token; at the end of the text, the last character.
+    /// The byte range of the next token; at the end of the text, of the last character.
     fn here(&self) -> Range<usize> {
         match self.peek() {
             Token::End => {
@@ -209,7 +207,7 @@ impl Parser<'_> {
         }
     }
 
-    /// One level deeper into brackets, signs or functions.
+    /// Reads one level deeper into brackets, signs or functions.
     fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
         if self.depth == MAX_DEPTH {
             let what = format!("the expression is nested more than {MAX_DEPTH} deep");
@@ -225,7 +223,7 @@ impl Parser<'_> {
         self.operation(None)
     }
 
-    /// Operands joined by operators that bind more tightly than those `outside`.
+    /// Reads operands joined by operators that bind more tightly than those `outside`.
     fn operation(&mut self, outside: Option<Level>) -> Parsed<usize> {
         let mut left = self.operand(outside)?;
         while let Some(infix) = self.infix().filter(|infix| Some(infix.level) > outside) {
@@ -254,13 +252,13 @@ impl Parser<'_> {
         Ok(left)
     }
 
-    /// The operator that comes next.
+    /// The next token as an operator.
     fn infix(&self) -> Option<&'static Infix> {
         let is_sign = matches!(self.peek(), Token::Symbol(_) | Token::Name);
         INFIXES.iter().find(|infix| is_sign && infix.sign == self.written())
     }
 
-    /// What stands before an operator that binds more tightly than those `outside`.
+    /// Reads the first operand of operators that bind more tightly than those `outside`.
     fn operand(&mut self, outside: Option<Level>) -> Parsed<usize> {
         let start = self.span().start;
         if outside <= Some(Level::And) && self.is_word("not") {
@@ -281,7 +279,7 @@ impl Parser<'_> {
         Ok(self.push(Op::Negate, &[operand], start..self.span_of(operand).end))
     }
 
-    /// The power of `base`, before whose sign the parser stands. It groups to the right.
+    /// Reads the power of `base`, starting at its sign. It groups to the right.
     fn raised(&mut self, base: usize) -> Parsed<usize> {
         self.next += 1;
         let base = self.want_number(base)?;
@@ -305,7 +303,7 @@ impl Parser<'_> {
         Ok(product)
     }
 
-    /// The magnitude of a whole number with or without a sign, and whether it is negative.
+    /// The magnitude of a small whole number with or without a sign, and whether it is negative.
     fn whole(&self, node: usize) -> Option<(u32, bool)> {
         let nodes = &self.expression.nodes;
         let (node, is_negative) = match nodes[node].op {
@@ -342,7 +340,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A name, a function or a word.
+    /// Reads a name, a function or a word.
     fn named(&mut self) -> Parsed<usize> {
         let (span, name) = (self.span(), self.written().to_owned());
         self.next += 1;

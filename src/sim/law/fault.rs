@@ -1,4 +1,4 @@
-//! Why the text of a law is refused.
+//! Faults of a law's text.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ pub enum Part {
     Acceleration(usize),
     /// The exact solution of the coordinate with this index.
     Exact(usize),
-    /// Where the coordinate with this index is drawn: its x (0) or y (1).
+    /// The drawing position of the coordinate with this index: its x (0) or y (1).
     Place(usize, usize),
     /// The energy.
     Energy,
@@ -24,9 +24,9 @@ pub enum Part {
 pub struct LawFault {
     /// The part at fault.
     pub part: Part,
-    /// The bytes of that part at fault, within its text.
+    /// The byte range at fault, within the text of that part.
     pub span: Range<usize>,
-    /// What is wrong.
+    /// The error message.
     pub what: String,
     /// How to fix it.
     pub remedy: Remedy,
@@ -35,13 +35,13 @@ pub struct LawFault {
 /// How to fix a fault.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Remedy {
-    /// In these words.
+    /// An instruction in these words.
     Words(String),
-    /// Write a known name instead of an unknown one.
+    /// A known name to write instead of an unknown one.
     Name {
         /// The unknown name.
         written: String,
-        /// The names known in its place.
+        /// The names known at its position.
         known: Vec<String>,
     },
 }
@@ -49,9 +49,9 @@ pub enum Remedy {
 /// A fault of one expression, or of the lines of a step. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpressionFault {
-    /// The bytes at fault.
+    /// The byte range at fault.
     pub span: Range<usize>,
-    /// What is wrong.
+    /// The error message.
     pub what: String,
     /// How to fix it.
     pub remedy: Remedy,
@@ -66,17 +66,17 @@ impl ExpressionFault {
         Self { span, what: what.into(), remedy: Remedy::Words(remedy.into()) }
     }
 
-    /// The fault of this part of a law.
+    /// The same fault, located in this part of a law.
     pub(super) fn of(self, part: Part) -> LawFault {
         let Self { span, what, remedy } = self;
         LawFault { part, span, what, remedy }
     }
 }
 
-/// What is read from an expression.
+/// The result of reading text.
 pub(super) type Parsed<T> = Result<T, ExpressionFault>;
 
-/// The error of a [fault](ExpressionFault::new).
+/// An `Err` with a [fault](ExpressionFault::new).
 pub(super) fn fault<T>(
     span: Range<usize>,
     what: impl Into<String>,
@@ -85,7 +85,7 @@ pub(super) fn fault<T>(
     Err(ExpressionFault::new(span, what, remedy))
 }
 
-/// The most characters of an expression in one message.
+/// The most characters of an expression quoted in a message.
 const MAX_QUOTED_CHARS: usize = 40;
 
 /// Text of an expression for a message, shortened.

@@ -1,4 +1,4 @@
-//! Linearity and angles of a motion, from the form of its tape.
+//! Finds linearity and angles of a motion from the form of its tape.
 
 use super::op::Op;
 use super::tape::Tape;
@@ -11,8 +11,8 @@ enum Dependence {
     Any,
 }
 
-/// Whether every output is a linear function of the inputs that `moves` names, apart from a constant, with
-/// coefficients that do not change in time. `t` is the input that is the time.
+/// Whether every output is a linear function of the inputs that `moves` selects, plus a constant, with coefficients
+/// that do not change in time. `t` is the index of the time among the inputs.
 pub(super) fn is_linear(
     tape: &Tape,
     inputs: usize,
@@ -56,8 +56,7 @@ pub(super) fn is_linear(
     tape.outputs.iter().all(|&output| of[output as usize] < Dependence::Any)
 }
 
-/// Whether this input is used, and by sines, cosines and tangents alone, so that a full turn of it changes
-/// nothing.
+/// Whether this input is used, and only by sines, cosines and tangents, so that a full turn of it changes nothing.
 pub(super) fn is_angle(tape: &Tape, input: usize) -> bool {
     let is_it = |slot: &u16| usize::from(*slot) == input;
     let mut uses = tape.operations().filter(|(_, operands, ..)| operands.iter().any(is_it));

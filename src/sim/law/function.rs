@@ -10,12 +10,12 @@ use super::switch::{Pieces, Switch, Value};
 /// A function that an expression can call.
 pub(super) struct Function {
     pub(super) name: &'static str,
-    /// Its arguments, for messages.
+    /// The names of its arguments, for messages.
     pub(super) arguments: &'static [&'static str],
     pub(super) meaning: Meaning,
 }
 
-/// What a call becomes.
+/// The operation that a call compiles to.
 pub(super) enum Meaning {
     Smooth(Smooth),
     Switch(Switch),
@@ -27,11 +27,11 @@ pub(super) enum Meaning {
     Table,
     /// `a + (b - a) * part`.
     Between,
-    /// `base ^ exponent`, without products for whole exponents.
+    /// `base ^ exponent` by `pow`, also for whole exponents.
     Power,
 }
 
-/// A function of one or two arguments that is smooth wherever it is defined. Two are equal if they are the same row.
+/// A function of one or two arguments that is smooth wherever it is defined. Equal only if both are the same row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Smooth {
     /// The value. A function of one argument ignores the second.
@@ -104,7 +104,7 @@ pub(super) static FUNCTIONS: [Function; 21] = [
         [slope, -2.0 * x * slope * slope]
     }),
     smooth("atan2", &["y", "x"], libm::atan2, |y, x| {
-        // The derivative of the angle, and that of this derivative.
+        // The first and second derivative of the angle.
         let radius2 = sum(product(y, y), product(x, x));
         let numerator = [x[0] * y[1] - y[0] * x[1], x[0] * y[2] - y[0] * x[2], 0.0];
         let slope = quotient(numerator, [radius2[0], radius2[1], 0.0]);
@@ -123,13 +123,13 @@ pub(super) static FUNCTIONS: [Function; 21] = [
     function("table", &["x", "[[x0, y0], [x1, y1]]"], Meaning::Table),
 ];
 
-/// The functions that the lines of a step have beside those of laws.
+/// The functions of step lines that laws do not have.
 pub(super) static STEP_FUNCTIONS: [Function; 2] = [
     function("lerp", &["a", "b", "part"], Meaning::Between),
     function("pow", &["base", "exponent"], Meaning::Power),
 ];
 
-/// Names in other languages of what is called otherwise here.
+/// Names from other languages, each with ours.
 const ALIASES: [(&str, &str); 16] = [
     ("mix", "lerp"),
     ("lerpf", "lerp"),
@@ -183,17 +183,17 @@ impl Function {
         self
     }
 
-    /// How it is called: `min(a, b)`.
+    /// Its call with named arguments: `min(a, b)`.
     pub(super) fn usage(&self) -> String {
         format!("{}({})", self.name, self.arguments.join(", "))
     }
 
-    /// The function of laws with this name.
+    /// The function of this name in laws.
     pub(super) fn named(name: &str) -> Option<&'static Self> {
         FUNCTIONS.iter().find(|function| function.name == name)
     }
 
-    /// The function of the lines of a step with this name, or with this name in another language.
+    /// The function of this name in step lines, also by its name in another language.
     pub(super) fn named_in_steps(name: &str) -> Option<&'static Self> {
         let alias = ALIASES.iter().find(|(alias, _)| *alias == name);
         let name = alias.map_or(name, |(_, name)| name);
@@ -224,7 +224,7 @@ mod tests {
 
     type Reference = fn(f64, f64) -> f64;
 
-    /// A call of every function, and its value by the standard library.
+    /// A call of every function, with the standard library's value.
     const REFERENCES: &[(&str, Reference)] = &[
         ("sqrt(x)", |x, _| x.sqrt()),
         ("abs(x)", |x, _| x.abs()),
@@ -251,7 +251,7 @@ mod tests {
         }),
     ];
 
-    /// Whether both are the same within `most`, or neither is a number.
+    /// Whether both are equal within `most`, or both are NaN.
     fn is_near(a: f64, b: f64, most: f64) -> bool {
         a.is_nan() && b.is_nan() || (a - b).abs() <= most * (1.0 + b.abs())
     }

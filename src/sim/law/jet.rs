@@ -1,4 +1,5 @@
-//! A value with its first and second derivative by one variable: forward differentiation, exact to rounding.
+//! A value with its first and second derivative with respect to one variable: forward differentiation, exact to
+//! rounding.
 
 /// A value, its derivative and its second derivative.
 pub(super) type Jet = [f64; 3];

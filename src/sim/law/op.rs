@@ -20,12 +20,12 @@ pub(super) enum Op {
     If,
     Smooth(&'static Smooth),
     Switch(Switch),
-    /// The acceleration that a step asks for, of a place and a velocity. A third operand says whether it is asked for.
+    /// The acceleration that a step calls, at a position with a velocity. A third operand guards the call.
     Call,
 }
 
 impl Op {
-    /// Whether the value is true or false, not a number.
+    /// Whether the value is a truth value, rather than a number.
     pub(super) fn is_truth(self) -> bool {
         match self {
             Op::And | Op::Or | Op::Not => true,
@@ -35,7 +35,7 @@ impl Op {
         }
     }
 
-    /// Whether its points are those of a table.
+    /// Whether the operation reads a table.
     pub(super) fn is_table(self) -> bool {
         self == Op::Switch(Switch::TABLE)
     }
@@ -57,7 +57,7 @@ pub(super) struct Infix {
     pub(super) sign: &'static str,
     pub(super) level: Level,
     pub(super) op: Op,
-    /// Whether its operands change places.
+    /// Whether the operands are swapped.
     pub(super) is_swapped: bool,
 }
 
@@ -92,7 +92,7 @@ pub(super) const OPERATOR_WORDS: [&str; 3] = ["and", "or", "not"];
 /// The names that every law knows.
 pub(super) const VALUE_WORDS: [&str; 4] = ["t", "throttle", "rudder", "pi"];
 
-/// Whether the language takes this name for something else than a function.
+/// Whether this name is an operator or a value.
 pub(super) fn is_word(name: &str) -> bool {
     OPERATOR_WORDS.contains(&name) || VALUE_WORDS.contains(&name)
 }

@@ -1,11 +1,11 @@
-//! Where a law is evaluated: on one motion, and on several at once.
+//! The registers that a law is evaluated in: for one motion, and for several at once.
 
 use super::jet::Jet;
 use super::tape::Tape;
 use super::{Equations, FIRST_COORDINATE, RUDDER, T, THROTTLE};
 
-/// The registers of one copy of a law, and its values: constants, then the coordinates at the start, then
-/// the velocities at the start.
+/// The registers of one copy of a law, with its values: constants, then the coordinates at the start, then the
+/// velocities at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Registers {
     pub(super) motion: Vec<f64>,
@@ -56,15 +56,15 @@ impl Registers {
     }
 }
 
-/// Where `W` motions by a law of one coordinate are evaluated.
+/// The registers of `W` motions by a law of one coordinate.
 pub(in crate::sim) struct LawLanes<const W: usize> {
     slots: Vec<[f64; W]>,
-    /// The slots that have the same value in all motions.
+    /// For each slot, whether it has the same value in all motions.
     alike: Vec<bool>,
 }
 
 impl<const W: usize> LawLanes<W> {
-    /// Motions with these values, as those of [`Registers`], and this throttle and rudder.
+    /// Motions with the `values` of [`Registers`], and this throttle and rudder.
     pub(in crate::sim) fn new(equations: &Equations, values: &[f64], steering: [f64; 2]) -> Self {
         let mut slots = vec![[0.0; W]; equations.motion.slots];
         [slots[THROTTLE], slots[RUDDER]] = steering.map(|part| [part; W]);

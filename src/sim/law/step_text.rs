@@ -1,8 +1,8 @@
-//! The lines of a step, as a game has them: `v += (target - x) * 40 * dt; x += v * dt`.
+//! The lines of a step, as in a game: `v += (target - x) * 40 * dt; x += v * dt`.
 //!
 //! Expressions are those of laws. All lines become one tape, so that a step has the same bits everywhere and allocates
-//! nothing: of an `if`, both blocks are evaluated, and the values of one are taken. A name that is read before the lines
-//! assign it is carried from step to step, as `x` and `v` are.
+//! nothing. Both blocks of an `if` are evaluated, and one of them gives the values. A name that is read before the
+//! lines assign it is carried from step to step, like `x` and `v`.
 
 use std::ops::Range;
 
@@ -31,7 +31,7 @@ mod statements;
 /// The most bytes of a text: a few screens of lines.
 pub const MAX_STEP_BYTES: usize = 1 << 14;
 
-/// The inputs of the tape; then come the names that the lines assign.
+/// Indices of the inputs of the tape; the names that the lines assign follow.
 const X: usize = 0;
 const V: usize = 1;
 const H: usize = 2;
@@ -47,7 +47,7 @@ enum Line {
     End,
 }
 
-/// A number that a step leaves to the next.
+/// A number carried from one step to the next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Carried {
     /// `x`, `v`, or a name of the text.
@@ -57,36 +57,36 @@ pub struct Carried {
     input: usize,
 }
 
-/// The lines of a step, read.
+/// The lines of a step, parsed.
 #[derive(Debug)]
 pub struct StepText {
     source: String,
     names: Vec<String>,
     lines: Vec<Line>,
     carried: Vec<Carried>,
-    /// Its values are the carried numbers after a step, in their order.
+    /// The outputs are the carried numbers after a step, in their order.
     tape: Tape,
-    /// The bytes of the first call of the acceleration; `None` in a rule.
+    /// The bytes of the first call of the acceleration; `None` in a rule, which has no call.
     call: Option<Range<usize>>,
     calls: Vec<StepCall>,
 }
 
-/// The carried numbers of one body, and where its steps are evaluated.
+/// The carried numbers of one body, and the scratch of its steps.
 #[derive(Clone, Debug)]
 pub struct StepRegisters {
-    /// Those of a coordinate after those of the one before.
+    /// The slots, coordinate after coordinate.
     slots: Vec<f64>,
     next: Vec<f64>,
-    /// Of each coordinate, where the acceleration is asked for, with which velocity, and what it is.
+    /// For each coordinate: the position and the velocity of a call, and the acceleration there.
     asked: [Vec<f64>; 3],
 }
 
-/// The carried numbers after a step and their derivatives, by each carried number and then by the target.
+/// The carried numbers after a step, and their derivatives with respect to each carried number and then the target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepMap {
     /// The carried numbers, in their order.
     pub values: Vec<f64>,
-    /// A column for each number that changes.
+    /// One column of derivatives per carried number, then one for the target.
     pub columns: Vec<Vec<f64>>,
 }
 
@@ -110,10 +110,10 @@ impl OwnLines {
 }
 
 impl StepText {
-    /// Reads a text.
+    /// Parses a text.
     ///
     /// # Errors
-    /// The first fault, with its bytes in the text.
+    /// The first fault, with its byte range in the text.
     pub fn read(text: &str) -> Result<Self, ExpressionFault> {
         if text.len() > MAX_STEP_BYTES {
             let end = text.floor_char_boundary(MAX_STEP_BYTES);
@@ -128,7 +128,7 @@ impl StepText {
         Ok(Self { source: text.to_owned(), ..reader.finish()? })
     }
 
-    /// The text as it was written.
+    /// The original text.
     pub fn source(&self) -> &str {
         &self.source
     }
@@ -150,11 +150,11 @@ impl StepText {
 
     /// Whether a step is an affine function of the carried numbers and the target.
     pub fn is_linear(&self) -> bool {
-        // No input is a time of its own.
+        // No input is a time.
         is_linear(&self.tape, self.names.len(), usize::MAX, |input| input != H)
     }
 
-    /// For each carried number, the indices of those that its next value depends on.
+    /// For each carried number, the indices of the carried numbers that its next value depends on.
     pub fn reads(&self) -> Vec<Vec<usize>> {
         let mut sets = vec![0_u64; self.tape.slots];
         (0..self.names.len()).for_each(|input| sets[input] = 1 << input);
@@ -169,7 +169,7 @@ impl StepText {
         self.tape.outputs.iter().map(of).collect()
     }
 
-    /// Whether a step leaves this carried number as it is.
+    /// Whether a step leaves this carried number unchanged.
     pub fn keeps(&self, index: usize) -> bool {
         usize::from(self.tape.outputs[index]) == self.carried[index].input
     }
@@ -204,12 +204,12 @@ impl StepText {
         }
     }
 
-    /// A carried number of a body.
+    /// The value of a carried number of a body.
     pub fn value(&self, registers: &StepRegisters, index: usize) -> f64 {
         registers.slots[self.carried[index].input]
     }
 
-    /// Puts a carried number of a body.
+    /// Sets a carried number of a body.
     pub fn set(&self, registers: &mut StepRegisters, index: usize, value: f64) {
         registers.slots[self.carried[index].input] = value;
     }
@@ -246,7 +246,7 @@ mod tests {
         StepText::read(text).unwrap_or_else(|fault| panic!("{text}: {fault:?}"))
     }
 
-    /// x and v after some steps of 1/60 s from 0.25 and 0.5, the target at 1.
+    /// x and v after some steps of 1/60 s from 0.25 and 0.5, with the target at 1.
     fn run(text: &str, steps: u32) -> [f64; 2] {
         let text = read(text);
         let mut registers = text.registers();

@@ -1,5 +1,4 @@
-//! The switches of a tape: operations that are smooth only piece by piece, and the mode in which each
-//! is.
+//! The switches of a tape: operations that are smooth only piece by piece, and the mode of each.
 
 use super::jet::{Jet, chain, constant};
 use crate::sim::curve::{Curve, above, below};
@@ -11,7 +10,7 @@ pub(super) struct Switch {
     pub(super) value: Value,
 }
 
-/// How the mode follows from the operands.
+/// The rule for the mode, given the operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Pieces {
     /// 1 if a ≥ 0, else 0.
@@ -32,7 +31,7 @@ pub(super) enum Pieces {
     Table,
 }
 
-/// The value in a mode.
+/// The value in each mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Value {
     /// The mode as a number.
@@ -47,15 +46,15 @@ pub(super) enum Value {
     Magnitude,
     /// a in mode 1, else b.
     Choice,
-    /// That of the curve's piece.
+    /// The value of the curve's piece.
     Table,
 }
 
 impl Switch {
-    /// The curve of `table(x, …)`.
+    /// The switch of `table(x, …)`.
     pub(super) const TABLE: Self = Self { pieces: Pieces::Table, value: Value::Table };
 
-    /// Whether the value is true or false, not a number.
+    /// Whether the value is a truth value, rather than a number.
     pub(super) fn is_truth(self) -> bool {
         match self.value {
             Value::Truth | Value::Equal | Value::NotEqual => true,
@@ -63,7 +62,7 @@ impl Switch {
         }
     }
 
-    /// The mode at these values.
+    /// The mode at these operands.
     #[inline]
     pub(super) fn mode(self, a: f64, b: f64, table: Option<&Curve>) -> i64 {
         match self.pieces {
@@ -73,18 +72,18 @@ impl Switch {
             Pieces::Greater => i64::from(a > b),
             Pieces::Sign => i64::from(a > 0.0) - i64::from(a < 0.0),
             Pieces::Order => i64::from(a > b) - i64::from(a < b),
-            // It saturates where no number has a fraction.
+            // It saturates at magnitudes where no number has a fraction.
             Pieces::Floor => libm::floor(a) as i64,
             Pieces::Table => table.map_or(0, |table| table.piece(a)),
         }
     }
 
-    /// The value at these values.
+    /// The value at these operands.
     #[inline]
     pub(super) fn value(self, a: f64, b: f64, table: Option<&Curve>) -> f64 {
         match self.pieces {
             Pieces::Floor => libm::floor(a),
-            // No mode tells a NaN, which equals nothing.
+            // No mode distinguishes a NaN, which equals nothing.
             Pieces::Order if self.value == Value::Equal => f64::from(u8::from(a == b)),
             Pieces::Order if self.value == Value::NotEqual => f64::from(u8::from(a != b)),
             _ => self.value_on(self.mode(a, b, table), a, b, table),
@@ -98,7 +97,7 @@ impl Switch {
             Value::Mode | Value::Truth => mode as f64,
             Value::Equal => f64::from(u8::from(mode == 0)),
             Value::NotEqual => f64::from(u8::from(mode != 0)),
-            // Adding 0 takes the sign of a negative zero.
+            // Adding 0 removes the sign of a negative zero.
             Value::Magnitude if mode == 1 => a + 0.0,
             Value::Magnitude => -a,
             Value::Choice if mode == 1 => a,
@@ -107,7 +106,7 @@ impl Switch {
         }
     }
 
-    /// The value with its derivatives at these values.
+    /// The value with its derivatives at these operands.
     pub(super) fn jet(self, [a, b]: [Jet; 2], table: Option<&Curve>) -> Jet {
         let mode = self.mode(a[0], b[0], table);
         let value = self.value_on(mode, a[0], b[0], table);
@@ -147,7 +146,7 @@ impl Switch {
     pub(super) fn neighbour(self, mode: i64, side: usize) -> i64 {
         let beyond = 2 * side as i64 - 1;
         match self.pieces {
-            // A value is equal to another for no time, unless it starts so.
+            // Equality lasts for no time, unless the motion starts in it.
             Pieces::Sign | Pieces::Order => beyond,
             Pieces::NotNegative | Pieces::Less | Pieces::LessEqual | Pieces::Greater => {
                 mode + beyond

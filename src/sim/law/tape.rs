@@ -1,7 +1,7 @@
 //! A flat tape of operations, evaluated from the first to the last.
 //!
-//! What depends on constants alone is a prelude, which is evaluated only when a constant changes. Equal
-//! operations on equal operands are done once. Neither changes a bit of the result.
+//! Operations that depend only on constants form a prelude, which runs only when a constant changes. Equal operations
+//! on equal operands are evaluated once. Neither changes a bit of the result.
 
 use std::array::from_fn;
 use std::collections::HashMap;
@@ -26,24 +26,24 @@ struct Instruction {
     op: Op,
     to: u16,
     operands: [u16; 3],
-    /// How many operands it reads.
+    /// Number of operands.
     count: u8,
     /// The index of its table.
     table: u16,
 }
 
-/// A call among the operations: its place in the main part, and the slots of its operands and its value.
+/// A call among the operations: its index in the main part, and the slots of its operands and its value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Call {
     pub(super) at: usize,
     pub(super) x: usize,
     pub(super) v: usize,
-    /// 1 where it is asked for; `None` if it always is.
+    /// The slot of the guard, which is 1 if the call is made; `None` if it always is.
     pub(super) guard: Option<usize>,
     pub(super) to: usize,
 }
 
-/// Where an operation stands in the text.
+/// The position of an operation in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Origin {
     pub(super) part: Part,
@@ -62,11 +62,11 @@ pub(in crate::sim) struct Tape {
     /// The switches of the main part.
     switches: Vec<(Switch, Instruction)>,
     tables: Vec<Curve>,
-    /// Where each operation comes from, by its slot.
+    /// The origin of each operation, by its slot.
     origins: HashMap<u16, Origin>,
 }
 
-/// A tape is too long, or has too many switches, from the expression with this index on.
+/// The fault of a tape that is too long or has too many switches, from the expression with this index on.
 pub(super) struct TooLong {
     pub(super) expression: usize,
     pub(super) are_switches: bool,
@@ -76,8 +76,7 @@ pub(super) struct TooLong {
 type Key = (Op, [u16; 3], u64, Vec<[u64; 2]>);
 
 impl Tape {
-    /// The tape of these expressions over `inputs` inputs, of which those that are `fixed` change only when
-    /// a parameter does.
+    /// The tape of these expressions over `inputs` inputs. Inputs that are `fixed` change only when a parameter does.
     pub(super) fn new(
         inputs: usize,
         fixed: impl Fn(usize) -> bool,
@@ -119,7 +118,7 @@ impl Tape {
         Ok(tape)
     }
 
-    /// The slot of an operation, which is a new one unless an equal operation has one.
+    /// The slot of an operation: that of an equal earlier operation, or a new one.
     fn place(
         &mut self,
         node: &Node,
@@ -132,7 +131,7 @@ impl Tape {
         let table = node.op.is_table().then(|| &expression.tables[node.index]);
         let points = table.map_or(&[][..], Curve::points);
         let bits = points.iter().map(|point| point.map(f64::to_bits)).collect();
-        // Each call is made, also of equal operands.
+        // Each call is made, even if the operands are equal.
         let number = if node.op == Op::Call { node.index as u64 } else { node.number.to_bits() };
         let key = (node.op, operands, number, bits);
         if let Some(&slot) = known.get(&key) {
@@ -163,7 +162,7 @@ impl Tape {
         to
     }
 
-    /// Writes the numbers and all that depends on constants alone, once the constants are in their slots.
+    /// Writes the numbers and runs the prelude. The slots of the constants must be set.
     pub(super) fn prepare<const W: usize>(&self, slots: &mut [[f64; W]]) {
         self.numbers.iter().for_each(|&(slot, number)| slots[slot as usize] = [number; W]);
         self.run_lanes(&self.prelude, slots, &[], Switch::value);
@@ -175,14 +174,14 @@ impl Tape {
         self.run(slots, Switch::value);
     }
 
-    /// Evaluates a part of the main operations.
+    /// Evaluates a range of the main operations.
     #[inline]
     pub(super) fn evaluate_part(&self, part: Range<usize>, slots: &mut [f64]) {
         let (slots, _) = slots.as_chunks_mut::<1>();
         self.run_lanes(&self.main[part], slots, &[], Switch::value);
     }
 
-    /// How many operations the main part has.
+    /// Number of operations of the main part.
     pub(super) fn length(&self) -> usize {
         self.main.len()
     }
@@ -204,7 +203,7 @@ impl Tape {
         self.run_lanes(&self.main, slots, alike, Switch::value);
     }
 
-    /// The slots that have the same value in all motions, if all inputs but these have.
+    /// The slots with the same value in all motions, if only inputs that satisfy `differs` differ.
     pub(super) fn alike(&self, differs: impl Fn(usize) -> bool) -> Vec<bool> {
         let mut alike: Vec<bool> = (0..self.slots).map(|slot| !differs(slot)).collect();
         for (_, operands, to, _) in self.operations() {
@@ -213,7 +212,7 @@ impl Tape {
         alike
     }
 
-    /// Evaluates the tape with every switch in its mode of `modes`.
+    /// Evaluates the tape with each switch in its mode of `modes`.
     pub(super) fn evaluate_on(&self, modes: &[i64], slots: &mut [f64]) {
         let mut modes = modes.iter();
         self.run(slots, |switch, a, b, table| {
@@ -221,7 +220,7 @@ impl Tape {
         });
     }
 
-    /// The modes of the switches at the values of the last evaluation.
+    /// Writes the modes of the switches at the values of the last evaluation.
     pub(super) fn write_modes(&self, slots: &[f64], modes: &mut [i64]) {
         for ((switch, instruction), to) in self.switches.iter().zip(modes) {
             let [a, b, _] = instruction.operands.map(|slot| slots[slot as usize]);
@@ -229,7 +228,7 @@ impl Tape {
         }
     }
 
-    /// The distances of the switches to the boundaries of these modes, at the values of the last evaluation.
+    /// Writes the distances of the switches to the boundaries of these modes, at the values of the last evaluation.
     pub(super) fn write_distances(&self, slots: &[f64], modes: &[i64], to: &mut [[f64; 2]]) {
         for (((switch, instruction), &mode), to) in self.switches.iter().zip(modes).zip(to) {
             let [a, b, _] = instruction.operands.map(|slot| slots[slot as usize]);
@@ -237,7 +236,7 @@ impl Tape {
         }
     }
 
-    /// Evaluates the tape with derivatives, given the slots of the inputs.
+    /// Evaluates the tape with derivatives; the slots of the inputs must be set.
     pub(super) fn evaluate_jets(&self, slots: &mut [Jet]) {
         for &(slot, number) in &self.numbers {
             slots[slot as usize] = jet::constant(number);
@@ -248,7 +247,7 @@ impl Tape {
         }
     }
 
-    /// How many switches there are.
+    /// Number of switches.
     pub(super) fn switches(&self) -> usize {
         self.switches.len()
     }
@@ -258,7 +257,7 @@ impl Tape {
         self.switches[index].0.neighbour(mode, side)
     }
 
-    /// The operations of the prelude and of the main part, with their operands and where they write.
+    /// The operations of the prelude and of the main part, with their operands, output slot and table.
     pub(super) fn operations(&self) -> impl Iterator<Item = (Op, &[u16], u16, Option<&Curve>)> {
         self.prelude.iter().chain(&self.main).map(|instruction| {
             let operands = &instruction.operands[..usize::from(instruction.count)];
@@ -266,14 +265,14 @@ impl Tape {
         })
     }
 
-    /// Whether an operation reads this slot, or it is a value.
+    /// Whether an operation reads this slot, or it is an output.
     pub(super) fn reads(&self, slot: usize) -> bool {
         let is_it = |read: &u16| usize::from(*read) == slot;
         self.operations().any(|(_, operands, ..)| operands.iter().any(is_it))
             || self.outputs.iter().any(is_it)
     }
 
-    /// Where the operation that writes this slot stands; `None` for an input.
+    /// The origin of the operation that writes this slot; `None` for an input.
     pub(super) fn origin(&self, slot: u16) -> Option<&Origin> {
         self.origins.get(&slot)
     }
@@ -291,8 +290,8 @@ impl Tape {
         self.run_lanes::<1>(&self.main, slots.as_chunks_mut().0, &[], switched);
     }
 
-    /// Evaluates instructions on `W` motions at once, each with the bits that it has alone. A slot whose place in `alike`
-    /// is set has the same value in all motions: a function is called once for it.
+    /// Evaluates instructions on `W` motions at once, each with the same bits as alone. If `alike` is set for a slot,
+    /// all motions have the same value there, so that a function is called only once.
     #[inline(always)]
     fn run_lanes<const W: usize>(
         &self,
@@ -323,7 +322,7 @@ impl Tape {
                     let table = self.table(instruction);
                     from_fn(|i| switched(switch, a[i], b[i], table))
                 }
-                // The caller writes them.
+                // The caller writes these slots.
                 Op::Number | Op::Input | Op::Call => slots[to],
             };
             slots[to] = value;
@@ -335,7 +334,7 @@ fn jet(op: Op, [a, b, c]: [Jet; 3], table: Option<&Curve>) -> Jet {
     match op {
         // Already in their slots.
         Op::Number | Op::Input => a,
-        // The caller knows no derivative of it.
+        // The derivative of a call is unknown.
         Op::Call => [f64::NAN; 3],
         Op::Negate => a.map(|x| -x),
         Op::Add => jet::sum(a, b),
@@ -353,7 +352,7 @@ fn jet(op: Op, [a, b, c]: [Jet; 3], table: Option<&Curve>) -> Jet {
     }
 }
 
-/// Whether the value depends on each node.
+/// For each node, whether the value depends on it.
 fn used(expression: &Expression) -> Vec<bool> {
     let mut used = vec![false; expression.nodes.len()];
     if let Some(last) = used.last_mut() {

@@ -1,4 +1,4 @@
-//! The text of a law, as a scene writes it.
+//! The text of a law in a scene.
 
 use std::ops::Range;
 
@@ -13,25 +13,25 @@ pub struct LawText {
     pub coordinates: Vec<CoordinateText>,
     /// The conserved energy in joules, of coordinates, velocities and constants.
     pub energy: Option<String>,
-    /// The indices of the coordinates that are drawn as x and y of one point.
+    /// The indices of the coordinates drawn as x and y of one point.
     pub plane: Option<[usize; 2]>,
-    /// How the first coordinates lie in space.
+    /// The placement of the first coordinates in space.
     pub layout: Layout,
 }
 
-/// The inputs of its tapes, by their slots: after the time and the steering what moves, and then what is fixed.
+/// The slots of the tape's inputs: the time and the steering, then the moving inputs, then the fixed ones.
 impl LawText {
     /// The coordinates, then the velocities.
     pub(super) fn slots_of_motion(&self) -> Range<usize> {
         FIRST_COORDINATE..FIRST_COORDINATE + 2 * self.coordinates.len()
     }
 
-    /// The constants, after which come the coordinates and the velocities at the start.
+    /// The constants, followed by the coordinates and the velocities at the start.
     pub(super) fn slots_of_constants(&self) -> Range<usize> {
         self.slots_of_motion().end..self.slots_of_motion().end + self.constants.len()
     }
 
-    /// How many there are.
+    /// Number of inputs.
     pub(super) fn inputs(&self) -> usize {
         self.slots_of_constants().end + 2 * self.coordinates.len()
     }
@@ -40,29 +40,29 @@ impl LawText {
 /// The text of one coordinate.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct CoordinateText {
-    /// Its name; its velocity is called `v` and this.
+    /// Its name; its velocity has the same name with a `v` before it.
     pub name: String,
     /// One of [`UNITS`](super::UNITS).
     pub unit: &'static str,
     /// Its acceleration.
     pub acceleration: String,
-    /// Where it is at time `t`, of `t`, constants and starts, as long as nobody intervenes.
+    /// Its value at time `t` if nobody intervenes, as an expression of `t`, constants and starts.
     pub exact: Option<String>,
-    /// Where it is drawn, of coordinates and constants: x to the right and y up, in metres.
+    /// Its drawing position as expressions of coordinates and constants: x to the right and y up, in metres.
     pub at: Option<[String; 2]>,
 }
 
-/// How the first coordinates of a law lie in space, for whoever draws them.
+/// The placement of a law's first coordinates in space, for drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Layout {
-    /// Each on a line of its own, to the right.
+    /// Each on its own line, to the right.
     #[default]
     Beads,
     /// Heights above 0.
     Vertical,
     /// The heights of a carriage and of its wheel, each from its rest.
     Carriage,
-    /// A place to the right, and the place that it follows, if the second has the same unit.
+    /// A position to the right, and the position that it follows, if the second has the same unit.
     Follower,
 }
 
@@ -75,7 +75,7 @@ impl Layout {
         ("follower", Layout::Follower),
     ];
 
-    /// Its name.
+    /// The name of the layout.
     pub fn id(self) -> &'static str {
         let named = Self::ALL.iter().find(|(_, layout)| *layout == self);
         named.expect("every layout is in the table").0

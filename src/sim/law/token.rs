@@ -17,16 +17,16 @@ pub(super) enum Token {
     End,
 }
 
-/// The operators, brackets and commas; a longer one is before its beginning.
+/// The operators, brackets and commas; a longer symbol comes before its own prefix.
 const SYMBOLS: [&str; 16] =
     ["<=", ">=", "==", "!=", "+", "-", "*", "/", "^", "(", ")", "[", "]", ",", "<", ">"];
 
-/// Of those, the signs that stand between or before values.
+/// The symbols that stand between or before values.
 pub(super) fn operator_signs() -> impl Iterator<Item = &'static str> {
     SYMBOLS.into_iter().filter(|symbol| !["(", ")", "[", "]", ","].contains(symbol))
 }
 
-/// Signs of other notations, and what to write for them.
+/// Signs of other notations, each with ours.
 const FOREIGN: [(&str, &str); 11] = [
     ("**", "^"),
     ("&&", "and"),
@@ -41,7 +41,7 @@ const FOREIGN: [(&str, &str); 11] = [
     ("÷", "/"),
 ];
 
-/// The tokens of `text` with their bytes; the last is [`Token::End`].
+/// The tokens of `text` with their byte ranges; the last is [`Token::End`].
 pub(super) fn tokens(text: &str) -> Parsed<Vec<(Token, Range<usize>)>> {
     let mut tokens = Vec::new();
     let mut at = 0;
@@ -81,12 +81,12 @@ fn foreign(rest: &str) -> Option<(&'static str, &'static str)> {
     FOREIGN.into_iter().find(|(sign, _)| !is_ours && rest.starts_with(sign))
 }
 
-/// The length in bytes of the first characters of `text` that are `wanted`.
+/// The length in bytes of the longest prefix of `text` with only `wanted` characters.
 fn span_of(text: &str, wanted: impl Fn(char) -> bool) -> usize {
     text.find(|c| !wanted(c)).unwrap_or(text.len())
 }
 
-/// A number at the beginning of `rest`, which begins at byte `at`, and its length.
+/// Reads the number at the beginning of `rest`, which starts at byte `at`. Returns it with its length.
 fn number(rest: &str, at: usize) -> Parsed<(Token, usize)> {
     let mut length = span_of(rest, |c| c.is_ascii_digit() || c == '.');
     if rest[length..].starts_with(['e', 'E']) {

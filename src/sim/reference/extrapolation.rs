@@ -1,7 +1,6 @@
-//! One step of Bulirsch and Stoer's extrapolation: the midpoint rule with 2, 4, 6 … substeps,
-//! extrapolated to step size zero. Bulirsch & Stoer, *Numerical treatment of ordinary differential
-//! equations by extrapolation methods* (1966); Hairer, Nørsett & Wanner, *Solving Ordinary Differential
-//! Equations I*, II.9.
+//! One step of Bulirsch and Stoer's extrapolation: the midpoint rule with 2, 4, 6 … substeps, extrapolated to step
+//! size zero. Bulirsch & Stoer, *Numerical treatment of ordinary differential equations by extrapolation methods*
+//! (1966); Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.9.
 
 use crate::sim::body::{Body, Distances, NO_BOUNDARIES, Piece};
 use crate::sim::state::{State, Vector, largest};
@@ -10,8 +9,7 @@ use crate::sim::system::System;
 /// The number of columns of the extrapolation table; the last has order 16. More gain nothing in `f64`.
 const COLUMNS: usize = 8;
 
-/// The first column whose intermediate states are checked against the boundaries of the piece of the
-/// force law.
+/// The first column whose intermediate states are checked against the boundaries of the force law's piece.
 const FIRST_SAMPLED: usize = 2;
 
 /// One smooth piece of the force law of a body, continued beyond its boundaries.
@@ -46,10 +44,9 @@ pub(super) struct Extrapolation<V> {
     pub(super) min_distances: Distances,
     /// Evaluations so far.
     pub(super) evaluations: u64,
-    /// The largest coordinate and velocity at the starts of steps so far, of lengths and of angles, for a
-    /// body with [`Body::has_jumps`]. Its force may be the difference of large terms, whose rounding does
-    /// not become smaller as the motion settles. It is kept when the body is placed, which the curve between ticks
-    /// does at every tick.
+    /// The largest coordinate and velocity at the starts of steps so far, of lengths and of angles, for a body with
+    /// [`Body::has_jumps`]. Its force may be the difference of large terms, whose rounding does not shrink as the
+    /// motion settles. A placement keeps these values: the curve between ticks places the body at every tick.
     pub(super) largest: [[f64; 2]; 2],
 }
 
@@ -97,10 +94,9 @@ impl<V: Vector> Extrapolation<V> {
         }
     }
 
-    /// Attempts a step of `h` from `y` by the given piece of the force law. Returns how many columns it
-    /// needed; `None` if no column reaches `tolerance`, relative to the largest value of the same unit.
-    /// The estimated error is that of the column before the one returned, so that the actual error is
-    /// far smaller.
+    /// Attempts a step of `h` from `y` by the given piece of the force law. Returns the number of columns needed;
+    /// `None` if no column reaches `tolerance`, relative to the largest value of the same unit. The estimated error is
+    /// that of the column before the one returned, so that the actual error is far smaller.
     pub(super) fn attempt<B: Body<Vector = V>>(
         &mut self,
         body: &B,
@@ -126,8 +122,8 @@ impl<V: Vector> Extrapolation<V> {
         None
     }
 
-    /// Writes the increment from `y` by `n` substeps of the midpoint rule to the next entry of the
-    /// table. It is kept separate from `y`, so that round-off is relative to the small increment.
+    /// Writes the increment from `y` by `n` substeps of the midpoint rule to the next entry of the table. It is kept
+    /// separate from `y`, so that round-off is relative to the small increment.
     fn midpoint<B: Body<Vector = V>>(
         &mut self,
         body: &B,
@@ -168,8 +164,8 @@ impl<V: Vector> Extrapolation<V> {
         sum.add_scaled(0.5 * part, d);
     }
 
-    /// Whether the last two columns agree to `tolerance`, relative to the magnitude of the state and
-    /// its change. Angles and lengths are scaled separately.
+    /// Whether the last two columns agree to `tolerance`, relative to the magnitude of the state and its change.
+    /// Angles and lengths are scaled separately.
     fn passes<B: Body<Vector = V>>(&self, body: &B, h: f64, y: &State<V>, tolerance: f64) -> bool {
         let part = |y: &V, slope: &V, last: &V, before: &V, angles: bool, most: f64| {
             let of = |x: &V| largest_of(x, |i| body.is_angle(i) == angles);

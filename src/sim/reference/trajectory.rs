@@ -11,49 +11,49 @@ const FEW_COLUMNS: usize = 6;
 /// The factor that shortens a rejected step.
 const REJECTED_FACTOR: f64 = 0.25;
 
-/// The largest magnitude of an angle before full turns are removed: slightly more than half a turn, so
-/// that a motion about half a turn does not alternate.
+/// The largest magnitude of an angle before full turns are removed: slightly more than half a turn, so that a motion
+/// about half a turn does not alternate.
 const MAX_ANGLE: f64 = 3.3;
 
-/// How close a step must end to the boundary of a piece of the force law, relative to its distance. The
-/// error of the state is of second order in this.
+/// The largest distance from the boundary of a piece at which a step may end, relative to the distances at both ends.
+/// The error of the state is of second order in this.
 const BOUNDARY_TOLERANCE: f64 = 1e-9;
 
-/// [`BOUNDARY_TOLERANCE`] where the force jumps: the error of the state is of first order in this.
+/// [`BOUNDARY_TOLERANCE`] if the force jumps: the error of the state is of first order in this.
 const JUMP_TOLERANCE: f64 = 2e-15;
 
-/// A boundary crossed by less than this part of the switch's extent is rounding, where the force can jump: a
-/// motion that comes to rest at a corner would otherwise cross it for ever.
+/// If the force can jump, crossing a boundary by less than this fraction of the switch's extent is rounding. A motion
+/// that comes to rest at a corner would otherwise cross it for ever.
 const CROSSING_ROUNDING: f64 = 1e-13;
 
-/// The largest number of boundaries crossed one after another without a step. A motion that is pushed back
-/// to a jump of the force from both sides, such as one at rest under dry friction, crosses it for ever.
+/// The largest number of boundaries crossed one after another without a step. A motion pushed back to a jump of the
+/// force from both sides, such as rest under dry friction, crosses it for ever.
 const MAX_STANDS: usize = 4 * MAX_SWITCHES;
 
 /// The largest number of attempts to end a step at a boundary; the search converges superlinearly.
 const MAX_SEARCH_STEPS: u32 = 60;
 
-/// A boundary crossed by less than this within a step, and crossed back, is ignored: the error is far
-/// smaller, because the two forces agree at the corner.
+/// A step may cross a boundary by less than this and cross back: the error is far smaller, because the two forces
+/// agree at the corner.
 const IGNORED_CROSSING: f64 = 1e-9;
 
-/// How often a step is halved if it leaves its piece and comes back to it.
+/// The most halvings of a step that leaves its piece and comes back to it.
 const MAX_HALVINGS: u32 = 8;
 
-/// After so many evaluations within one call it is seen how far they have come: what is stiff beyond hope, such as a ship that
-/// turns in 10⁻¹⁴⁰ s, would take all that is saved, seconds of work, for each run of it.
+/// Evaluations within one call after which the progress is checked. A hopelessly stiff body, such as a ship that turns
+/// in 10⁻¹⁴⁰ s, would otherwise spend all saved evaluations, seconds of work, on each run.
 const STRETCH: u64 = 200_000;
 
-/// The steps of a stretch may still grow so many times on the rest of the way, as after a near collision.
+/// The factor by which the steps of a stretch may still grow on the rest of the way, as after a near collision.
 const HOPE: f64 = 1e3;
 
-/// How a trajectory chooses its steps.
+/// The step size strategy of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StepControl {
     /// Steps as long as the tolerance allows.
     Long,
-    /// At least two steps of unequal length per call, with a larger tolerance, so that rounding and
-    /// truncation errors differ from those of the other solution.
+    /// At least two steps of unequal length per call, with a larger tolerance, so that rounding and truncation errors
+    /// differ from those of the other solution.
     Uneven,
 }
 
@@ -75,22 +75,22 @@ const FIRST_UNEVEN_STEP: f64 = 0.57;
 struct Crossing {
     /// The switch whose mode changes.
     switch: usize,
-    /// To the mode below (0) or above (1).
+    /// 0 for the mode below, 1 for the mode above.
     side: usize,
     /// The distance to the boundary at the start of the step and at its end.
     begun: f64,
     ended: f64,
 }
 
-/// What became of a step that was tried.
+/// The outcome of a trial step.
 enum Tried {
     /// It was too long for the tolerance.
     Rejected,
-    /// It left its piece of the force law on the way, and came back.
+    /// It left its piece of the force law and came back.
     LeftPiece,
-    /// It ended after this part of it, at the boundary of its piece, and the piece was changed.
+    /// It ended after this fraction, at the boundary of its piece, and the piece changed.
     AtBoundary { part: f64 },
-    /// It was taken, with this number of columns.
+    /// It succeeded with this number of columns.
     Accepted { columns: usize },
 }
 
@@ -105,7 +105,7 @@ pub(super) enum Ended {
 
 #[derive(Clone, Debug)]
 pub(super) struct Trajectory<V> {
-    /// The current state, angles without full turns.
+    /// The current state, with angles reduced by full turns.
     at: State<V>,
     /// The low half of `at` in double-double precision.
     low: State<V>,
@@ -115,7 +115,7 @@ pub(super) struct Trajectory<V> {
     step: Option<f64>,
     /// The current piece of the force law.
     piece: Piece,
-    /// The largest distance of each switch to a boundary so far, where the force can jump; otherwise 0.
+    /// The largest distance of each switch to a boundary so far, if the force can jump; otherwise 0.
     extents: [f64; MAX_SWITCHES],
     control: StepControl,
 }
@@ -172,7 +172,7 @@ impl<V: Vector> Trajectory<V> {
         }
     }
 
-    /// Writes the difference of this trajectory from `other`.
+    /// Writes this trajectory minus `other`.
     pub(super) fn subtract(&self, other: &Self, to: &mut State<V>) {
         to.assign(&self.at);
         to.add_scaled(-1.0, &other.at);
@@ -249,8 +249,8 @@ impl<V: Vector> Trajectory<V> {
         Err(Ended::Budget)
     }
 
-    /// Tries one step of `h` from `t`, after this many halvings for leaving the piece. Moves the state if it is accepted,
-    /// and changes the piece at a boundary.
+    /// Tries one step of `h` from `t`, after this many halvings for leaving the piece. Moves the state if the step is
+    /// accepted, and changes the piece at a boundary.
     fn try_step<B: Body<Vector = V>>(
         &mut self,
         body: &B,
@@ -289,7 +289,7 @@ impl<V: Vector> Trajectory<V> {
         Tried::Accepted { columns }
     }
 
-    /// Takes the finite distances of a state into the extents.
+    /// Extends the extents by the finite distances of a state.
     fn extend<B: Body<Vector = V>>(&mut self, body: &B, distances: &Distances) {
         if !body.has_jumps() {
             return;
@@ -300,8 +300,8 @@ impl<V: Vector> Trajectory<V> {
         }
     }
 
-    /// The crossing that seems first from the distances at both ends of a step: of boundaries beyond which
-    /// the step ends, unless it started further beyond.
+    /// The first crossing of a step, as estimated from the distances at both ends. Only boundaries count that the step
+    /// ends beyond, unless it started further beyond.
     fn first_crossing(
         &self,
         switches: usize,
@@ -324,7 +324,7 @@ impl<V: Vector> Trajectory<V> {
         first.map(|(_, crossing)| crossing)
     }
 
-    /// Whether a step that ends in its piece left it on the way, by these least distances.
+    /// Whether a step that ends in its piece left it in between, by these least distances.
     fn leaves_piece<B: Body<Vector = V>>(&self, body: &B, least: &Distances) -> bool {
         least.iter().zip(self.extents).take(body.switches()).any(|(least, extent)| {
             let ignored =
@@ -333,9 +333,9 @@ impl<V: Vector> Trajectory<V> {
         })
     }
 
-    /// The fraction of the step `h` at which the first boundary is reached, and which boundary that is, given
-    /// the distances at the start and the crossing that seems first. The last attempt is then the step to
-    /// that boundary, unless the fraction is 0. `None` if an attempt fails.
+    /// Finds the first boundary within the step `h`, given the distances at the start and the crossing that seems
+    /// first. Returns the fraction of the step there, and the boundary. The last attempt is then the step to that
+    /// boundary, unless the fraction is 0. `None` if an attempt fails.
     fn find_first_boundary<B: Body<Vector = V>>(
         &self,
         body: &B,
@@ -362,8 +362,8 @@ impl<V: Vector> Trajectory<V> {
         None
     }
 
-    /// The fraction of the step `h` at which a boundary is reached that the step crosses: the Illinois
-    /// variant of regula falsi. The last attempt is then the step to the boundary.
+    /// The fraction of the step `h` at which it reaches a boundary that it crosses: the Illinois variant of regula
+    /// falsi. The last attempt is then the step to the boundary.
     fn find_boundary<B: Body<Vector = V>>(
         &self,
         body: &B,

@@ -1,29 +1,28 @@
-//! What a method makes of a motion: the map of a step, its eigenvalues, and these compared with the true modes.
+//! The stability of a method on a motion: the eigenvalues of its one-step map, compared with the true modes.
 
 use super::Tick;
 use super::spectrum::{Eigenvalue, eigenvalues, has_memory, linear_maps};
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 
-/// How a method treats small deviations of a body from its present state.
+/// The effect of a method on small deviations of a body from its present state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stability {
     /// The spectral radius of the one-tick map; infinite if the map overflows.
     pub spectral_radius: f64,
-    /// The largest growth rate of a mode in excess of its true growth; for a mode that truly decays, in
-    /// excess of zero. Natural logarithm of the factor per second, negative if all modes decay.
+    /// The largest growth rate of a mode in excess of its true growth; for a mode that truly decays, in excess of
+    /// zero. Natural logarithm of the factor per second, negative if all modes decay.
     pub growth_per_s: f64,
-    /// The largest decay rate of a mode that is truly conserved: natural logarithm per second, 0
-    /// without such a mode.
+    /// The largest decay rate of a mode that is truly conserved: natural logarithm per second, 0 without such a mode.
     pub loss_per_s: f64,
-    /// The largest frequency error of a mode, relative to its true frequency. `None` if no mode
-    /// oscillates, if the method turns an oscillation into a real eigenvalue, or if a mode makes half a
-    /// turn or more in the tick: the one-tick map does not determine the number of turns.
+    /// The largest frequency error of a mode, relative to its true frequency. `None` if no mode oscillates, or if the
+    /// method turns an oscillation into a real eigenvalue. Also `None` if a mode makes half a turn or more in the
+    /// tick, because the one-tick map does not determine the number of turns.
     pub frequency_error: Option<f64>,
 }
 
-/// An amplitude that takes longer than this to double counts as bounded: a year, in seconds. No game
-/// runs as long, and at 10 000 Hz a smaller growth is indistinguishable from rounding.
+/// An amplitude that takes longer than this to double counts as bounded: a year, in seconds. No game runs as long, and
+/// at 10 000 Hz a smaller growth is indistinguishable from rounding.
 pub const FOREVER_S: f64 = 365.0 * 86_400.0;
 
 impl Stability {
@@ -69,16 +68,16 @@ impl Mode {
 /// A motion of a linear body whose coordinates a method steps together.
 #[derive(Clone, Debug)]
 pub(super) struct LinearMotion {
-    /// Its shapes, of length 1 and at right angles.
+    /// Its shapes, orthogonal and of length 1.
     pub(super) shapes: Vec<Vec<f64>>,
     pub(super) truth: Vec<Mode>,
-    /// The unit of velocity, per second: in it the fastest mode makes circles. 0 if no force acts.
+    /// The unit of velocity, per second, in which the fastest mode makes circles; 0 if no force acts.
     pub(super) rate: f64,
 }
 
 impl LinearMotion {
-    /// The stability of a tick of `times` times `step` of the method of `stepper`, from runs that begin at this `amplitude`;
-    /// and whether the method has memory.
+    /// The stability of a tick made of `times` times `step` of the method of `stepper`, from runs that start at this
+    /// `amplitude`. Also returns whether the method has memory.
     ///
     /// # Errors
     /// The failure of the method in the first steps.
@@ -94,13 +93,13 @@ impl LinearMotion {
         if let Some(mut values) = eigenvalues(&maps) {
             self.keep_what_drifts(&mut values);
             stability = compare(&self.truth, &values, step.h);
-            // The map of a tick is a power of that of a step, in which the modes turn less.
+            // The map of a tick is a power of the map of a step, in which the modes turn less.
             stability.spectral_radius = libm::pow(stability.spectral_radius, f64::from(times));
         }
         Ok((stability, has_memory(&maps)))
     }
 
-    /// Sets to 1 as many of the eigenvalues nearest 1 as there are force-free modes: methods preserve uniform drift,
+    /// Sets the eigenvalues nearest to 1 to exactly 1, one for each force-free mode. Methods preserve uniform drift,
     /// but rounding splits a double eigenvalue by √ε.
     fn keep_what_drifts(&self, values: &mut [Eigenvalue]) {
         let still = self.truth.iter().filter(|mode| mode.is_still()).count();
@@ -115,14 +114,13 @@ impl LinearMotion {
     }
 }
 
-/// The furthest that rounding moves a double eigenvalue.
+/// The largest shift of a double eigenvalue by rounding.
 const SPLIT: f64 = 1e-6;
 
-/// A growth per tick below this is zero: it is the rounding of the differences.
+/// A growth per tick below this counts as zero: it is the rounding of the differences.
 const NO_GROWTH: f64 = 1e-9;
 
-/// A mode that truly grows may grow faster or slower by this fraction: neither rate predicts the long
-/// run.
+/// A mode that truly grows may grow faster or slower by this fraction: neither rate predicts the long run.
 const IGNORED_EXCESS: f64 = 0.1;
 
 /// Pairs the eigenvalues of a map over `h` (s) with the true modes and compares them.
@@ -148,8 +146,8 @@ fn compare(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stability {
 /// A mode of the method, with its true mode if it has one.
 type Pair = (Option<Mode>, Mode);
 
-/// The eigenvalues of a map over `h` (s), each with its true mode; those without are of the method alone. And the
-/// [error](Stability::frequency_error) of the frequencies.
+/// The eigenvalues of a map over `h` (s), each with its true mode; those without one belong to the method alone. Also
+/// the [error](Stability::frequency_error) of the frequencies.
 fn pairs(truth: &[Mode], values: &[Eigenvalue], h: f64) -> (Vec<Pair>, Option<f64>) {
     let (swinging, creeping): (Vec<Mode>, Vec<Mode>) =
         truth.iter().partition(|m| m.frequency > 0.0);
@@ -196,7 +194,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// Modes that grow by these rates per second and do not swing.
+    /// Modes with these growth rates per second that do not swing.
     fn creeping<const N: usize>(rates: [f64; N]) -> [Mode; N] {
         rates.map(|growth_per_s| Mode { growth_per_s, frequency: 0.0 })
     }
@@ -223,7 +221,7 @@ mod tests {
             let found = compare(&creeping([0.0, -1.0, -1.0]), &values(case), h);
             assert!(near(found.loss_per_s, -libm::log(nearest) / h), "{case:?}: {found:?}");
         }
-        // The nearest to e^0.2 and to e³.
+        // The nearest values to e^0.2 and to e³.
         let found = compare(&creeping([2.0, 30.0]), &values([(19.0, 0.0), (1.2, 0.0)]), h);
         assert_eq!(found.growth_per_s, 0.0);
     }
@@ -263,8 +261,7 @@ mod tests {
         let error = |of| compare(&truth, &turning(of), 0.01).frequency_error.unwrap();
         assert!(near(error([10.1, 38.8]), -0.03));
         assert!(near(error([40.4, 10.3]), 0.03));
-        // A mode that has become a negative eigenvalue does not oscillate, so no frequency error is
-        // known.
+        // A mode that becomes a negative eigenvalue does not oscillate, so that no frequency error is known.
         let flipped = values([(1.0, 0.1), (1.0, 0.1), (1.0, PI), (1.0, PI)]);
         assert_eq!(compare(&truth, &flipped, 0.01).frequency_error, None);
     }

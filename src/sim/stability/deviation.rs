@@ -1,4 +1,4 @@
-//! A small deviation of a body from a state, under linearised forces: a body that any method steps.
+//! A small deviation of a body from a state, under linearised forces, as a body that any method steps.
 
 use nalgebra::DMatrix;
 
@@ -16,7 +16,7 @@ pub(super) fn acceleration_at(body: &dyn Stepper, t: f64, state: &[f64]) -> Vec<
     a
 }
 
-/// The derivative of the acceleration of a body in a direction, by a difference to one side over `part` of it, from the
+/// The derivative of the acceleration of a body in a direction: a one-sided difference over `part` of it, from the
 /// acceleration `here` in the state `at`.
 fn slope(
     body: &dyn Stepper,
@@ -32,8 +32,8 @@ fn slope(
     slope
 }
 
-/// The Jacobian of the acceleration of a body with respect to coordinates and velocities, by differences over `by` to one
-/// side.
+/// The Jacobian of the acceleration of a body with respect to coordinates and velocities, by one-sided differences
+/// over `by`.
 pub(super) fn force_slopes(body: &dyn Stepper, at: &[f64], by: f64, t: f64) -> DMatrix<f64> {
     let here = acceleration_at(body, t, at);
     let column = |j: usize| {
@@ -44,7 +44,7 @@ pub(super) fn force_slopes(body: &dyn Stepper, at: &[f64], by: f64, t: f64) -> D
     DMatrix::from_vec(here.len(), at.len(), (0..at.len()).flat_map(column).collect())
 }
 
-/// A system by its acceleration on slices: coordinates, velocities, output.
+/// A system given by its acceleration on slices: coordinates, velocities, output.
 #[derive(Clone)]
 struct Forces<F>(F);
 
@@ -56,7 +56,7 @@ impl<F: Fn(&[f64], &[f64], &mut [f64])> System for Forces<F> {
     }
 }
 
-/// A body of `n` coordinates at 0 with this acceleration.
+/// A body of `n` coordinates at 0 with this acceleration, under `method`.
 fn under(
     acceleration: impl Fn(&[f64], &[f64], &mut [f64]) + Clone + Send + 'static,
     n: usize,
@@ -67,7 +67,7 @@ fn under(
     stepper(body, Solver::Method(method))
 }
 
-/// A deviation with an acceleration that is `jacobian` times coordinates and velocities, one row per coordinate.
+/// A deviation whose acceleration is `jacobian` times coordinates and velocities, one row per coordinate.
 pub(super) fn linear(jacobian: DMatrix<f64>, method: &'static Method) -> Box<dyn Stepper> {
     let n = jacobian.nrows();
     let acceleration = move |q: &[f64], v: &[f64], a: &mut [f64]| {
@@ -79,8 +79,8 @@ pub(super) fn linear(jacobian: DMatrix<f64>, method: &'static Method) -> Box<dyn
     under(acceleration, n, method)
 }
 
-/// A deviation from the state of `body` at time `t` (s), under the forces linearised there. They are differences along the
-/// deviation, over `displacement` times the size of the state. Velocities count times `h`.
+/// A deviation from the state of `body` at time `t` (s), under the forces linearised there. Their slopes are
+/// differences along the deviation, over `displacement` times the size of the state. Velocities are scaled by `h`.
 pub(super) fn along(
     body: &dyn Stepper,
     t: f64,
@@ -114,7 +114,7 @@ mod tests {
         apart.fold(0.0, f64::max)
     }
 
-    /// The state that three steps in 0.05 s lead to.
+    /// The state after three steps in 0.05 s.
     fn reached(stepper: &mut dyn Stepper, q: f64, v: f64) -> Vec<f64> {
         stepper.set(0.0, &[q], &[v]);
         stepper.advance(0.0, 0.05, 3).unwrap();
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn the_difference_of_two_motions_of_a_linear_body_is_a_deviation() {
         let rk4 = method("rk4").unwrap();
-        // From a state in which coordinate, velocity and force are all nonzero.
+        // Starts in a state in which coordinate, velocity and force are all nonzero.
         let values = [2.0, 180.0, 3.0, 0.7, 1.5, 1.0];
         let body = (kind("spring").unwrap().build)(&values, Solver::Truth);
         let found = reached(&mut *along(&*body, 0.0, 0.05, 1e-3, rk4), 0.2, -4.0);

@@ -1,8 +1,8 @@
-//! The normal modes of a linear body, and the stability of a method on each; and the long-term drift of its energy.
+//! The normal modes of a linear body, the stability of a method on each, and the long-term drift of its energy.
 //!
-//! The modes come from the body's acceleration. A method acts on each mode of a linear body
-//! separately, so that its map is found mode by mode from the stepper: of size 2 without memory,
-//! instead of twice the number of coordinates.
+//! The modes come from the body's acceleration. A method acts on each mode of a linear body separately, so that its
+//! map is found mode by mode from the stepper. Without memory the map has size 2, instead of twice the number of
+//! coordinates.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -31,7 +31,7 @@ impl NormalMode {
         (squared > 0.0).then(|| squared.sqrt())
     }
 
-    /// The rate at which its amplitude decays in the end, per second.
+    /// The asymptotic decay rate of its amplitude, per second.
     pub fn decay_per_s(&self) -> f64 {
         -self.true_modes()[0].growth_per_s
     }
@@ -58,8 +58,8 @@ impl NormalMode {
         }
     }
 
-    /// Stability of a method with equal steps on this mode of `body`, which must be [`unforced`]. The
-    /// frequency is compared if the mode makes less than half a turn in a step.
+    /// Stability of a method with equal steps on this mode of `body`, which must be [`unforced`]. Compares the
+    /// frequency if the mode makes less than half a turn in a step.
     ///
     /// # Errors
     /// The failure of the method in the first ticks.
@@ -75,8 +75,7 @@ impl NormalMode {
             self.motion().stability(&mut *stepper, (step, times), 1.0)?;
         let is_blurred = (stability.growth_per_s * step.h).abs() <= NEUTRAL_WITH_MEMORY;
         if has_memory && is_blurred && self.is_conserved() && self.omega_squared > 0.0 {
-            // The map of a method with memory is not accurate enough for a small growth; the energy
-            // over many ticks is.
+            // With memory, the map is not accurate enough for a small growth; the energy over many ticks is.
             stepper.set(step.t, &self.shape, &vec![0.0; self.shape.len()]);
             let scale = stepper.energy().unwrap_or(0.0);
             if scale > 0.0 && scale.is_finite() {
@@ -88,8 +87,8 @@ impl NormalMode {
         Ok(stability)
     }
 
-    /// As [`NormalMode::stability`], from the map of a small motion alone: quick, but with memory a growth of less than 1e-9
-    /// per step counts as zero.
+    /// As [`NormalMode::stability`], only from the map of a small motion. It is quick, but with memory a growth of
+    /// less than 1e-9 per step counts as zero.
     ///
     /// # Errors
     /// As [`NormalMode::stability`].
@@ -114,11 +113,11 @@ impl NormalMode {
 /// method has the same bits as at amplitude 1.
 const SMALL: f64 = 1.0 / (1 << 20) as f64;
 
-/// Ticks over which the energy of a mode is followed.
+/// Ticks over which to follow the energy of a mode.
 const FOLLOWED_TICKS: u64 = 1 << 14;
 
-/// A copy of `body` with throttle 0, so that its equation is homogeneous but for a target, and deviations
-/// obey the same equation.
+/// A copy of `body` with throttle 0. Its equation is then homogeneous except for a target, and deviations obey the
+/// same equation.
 pub fn unforced(body: &dyn Stepper) -> Box<dyn Stepper> {
     let mut free = body.with_solver(Solver::Truth, 0.0);
     free.input(0.0, Input::Throttle(0.0));
@@ -159,14 +158,12 @@ pub(super) fn modes_of(jacobian: &DMatrix<f64>) -> Option<Vec<NormalMode>> {
 /// Coupling below this fraction of the largest entry is rounding.
 const COUPLING: f64 = 1e-10;
 
-/// The growth rate of the amplitude of `body`, as the natural logarithm of the factor per second, from
-/// its energy over `ticks` ticks of length `tick.h`, starting at `tick.t`. `scale` is its energy in
-/// joules in excess of that at rest.
+/// The growth rate of the amplitude of `body`, as the natural logarithm of the factor per second, from its energy over
+/// `ticks` ticks of length `tick.h`, starting at `tick.t`. `scale` is its energy in joules above that at rest.
 ///
-/// It is half the trend of the energy: the mean over the second half less that over the first. Both are
-/// weighted by a bump function, whose means of quasiperiodic functions converge faster than any power
-/// of the time (Das, Saiki, Sander & Yorke, Quantitative quasiperiodicity, 2017). Valid for small
-/// growth over the stretch.
+/// It is half the trend of the energy: the mean over the second half minus that over the first. Both are weighted by a
+/// bump function, whose means of quasiperiodic functions converge faster than any power of the time (Das, Saiki,
+/// Sander & Yorke, Quantitative quasiperiodicity, 2017). Valid for small growth over the stretch.
 ///
 /// # Errors
 /// The failure of the method; [`StepFailure::NotFinite`] if the energy is not finite.

@@ -1,5 +1,5 @@
-//! The spectral radius of the one-tick map of a body of many coordinates, by power iteration: without the
-//! map, from differences of the stepper itself.
+//! The spectral radius of the one-tick map of a body of many coordinates, by power iteration: without the map, from
+//! differences of the stepper itself.
 
 use super::{Tick, deviation};
 use crate::sim::integrators::{Method, StepFailure};
@@ -7,21 +7,20 @@ use crate::sim::numerics::{XorShift, quotient};
 use crate::sim::state::largest;
 use crate::sim::{Solver, Stepper};
 
-/// The most iterations: they tell the radius to a thousandth.
+/// The most iterations: enough for a radius accurate to a thousandth.
 const MAX_ITERATIONS: usize = 2048;
-/// The fewest that tell anything.
+/// The fewest iterations with a usable result.
 const MIN_ITERATIONS: usize = 64;
-/// By how much the radius after three quarters of the iterations may differ from that after all.
+/// The largest difference between the radius after three quarters of the iterations and that after all.
 const SETTLED: f64 = 5e-3;
 /// The displacement of the state, relative to its size: between rounding and the curvature of the forces.
 const DISPLACEMENT: f64 = 1e-7;
-/// The size of a deviation at the start of a run that is continued: from here it may grow by 450 decades and shrink by
-/// 150.
+/// The initial size of a deviation in a continued run: from here it may grow by 450 decades and shrink by 150.
 const START: f64 = 1e-150;
 
-/// The power iteration that leads to the spectral radius of a tick, one tick at a time.
+/// The power iteration for the spectral radius of a tick, one tick at a time.
 pub struct PowerIteration {
-    /// Makes the next tick, and returns the logarithm of the length of the deviation after it.
+    /// Runs the next tick, and returns the logarithm of the length of the deviation after it.
     tick: Box<TickOfDeviation>,
     logs: Vec<f64>,
 }
@@ -29,9 +28,9 @@ pub struct PowerIteration {
 type TickOfDeviation = dyn FnMut() -> Result<Option<f64>, StepFailure> + Send;
 
 impl PowerIteration {
-    /// The iteration with ticks of `solver` on `body`, linearised about its current state: with the map of state and
-    /// memory for a method with memory. `None` if `max_evaluations` are too few, for a method that chooses its
-    /// substeps, and for an implicit one with memory.
+    /// The iteration with ticks of `solver` on `body`, linearised about its current state. For a method with memory,
+    /// it iterates the map of state and memory. `None` if `max_evaluations` is too small, for a method that chooses
+    /// its substeps, and for an implicit one with memory.
     ///
     /// # Errors
     /// The failure of the method.
@@ -46,7 +45,7 @@ impl PowerIteration {
             return Ok(None);
         };
         let evaluations = method.evaluations_per_tick(tick.substeps);
-        // Fewer ticks tell nothing, and one of them may take an implicit method seconds on a large body.
+        // With fewer ticks there is no result, and one of them may take an implicit method seconds on a large body.
         if max_evaluations / u64::from(evaluations.unwrap_or(1)) < MIN_ITERATIONS as u64 {
             return Ok(None);
         }
@@ -61,7 +60,7 @@ impl PowerIteration {
         Ok(Some(Self { tick, logs: Vec::with_capacity(MAX_ITERATIONS) }))
     }
 
-    /// Makes a tick. Returns whether the iteration continues: while the deviation is finite.
+    /// Runs a tick. Returns whether the iteration continues, which it does while the deviation is finite.
     ///
     /// # Errors
     /// The failure of the method.
@@ -76,15 +75,15 @@ impl PowerIteration {
 
     /// The spectral radius; `None` if the iteration has not settled.
     ///
-    /// Up to rounding, n iterations grow like ρⁿ nᵖ (p > 0 for a drifting body); a second difference of the
-    /// logarithm removes p.
+    /// Up to rounding, n iterations grow like ρⁿ nᵖ (p > 0 for a drifting body); a second difference of the logarithm
+    /// removes p.
     pub fn radius(&self) -> Option<f64> {
         settled_radius(&self.logs)
     }
 }
 
-/// Power iteration for a method without memory: each tick starts from the state of `body` plus the deviation, and the
-/// iteration ends if that vanishes or overflows.
+/// Power iteration for a method without memory. Each tick starts from the state of `body` plus the deviation, and the
+/// iteration ends if the deviation vanishes or overflows.
 fn displaced_ticks(
     body: &dyn Stepper,
     solver: Solver,
@@ -108,7 +107,7 @@ fn displaced_ticks(
     Ok(move || -> Result<Option<f64>, StepFailure> {
         let is_affordable = stepper.evaluations() - before <= max_evaluations;
         let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
-        // Displaced by this much in the largest component.
+        // The largest component is displaced by `distance`.
         let longest = largest(&direction);
         if longest == 0.0 || !length.is_finite() || !is_affordable {
             return Ok(None);
@@ -126,14 +125,14 @@ fn displaced_ticks(
         quotient(along_v, &image[1], part / h);
         let pushed = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
         log += libm::log(pushed / length);
-        // A long product would overflow.
+        // Scaled, because a long product would overflow.
         direction.iter_mut().for_each(|x| *x /= pushed);
         Ok(Some(log))
     })
 }
 
-/// At most `max_ticks` ticks of one run of the deviation under the linearised forces, in which the method keeps its memory.
-/// They end where the method fails.
+/// At most `max_ticks` ticks of one run of the deviation under the linearised forces, in which the method keeps its
+/// memory. They end if the method fails.
 fn continued_run(
     body: &dyn Stepper,
     method: &'static Method,
@@ -155,7 +154,7 @@ fn continued_run(
         let mut state = [deviation.q(), deviation.v()].concat();
         state[n..].iter_mut().for_each(|v| *v *= h);
         let longest = largest(&state);
-        // Relative to the longest, whose square may overflow.
+        // Relative to the largest component, whose square may overflow.
         let square: f64 = state.iter().map(|x| (x / longest) * (x / longest)).sum();
         Ok(Some(libm::log(longest) + libm::log(square) / 2.0))
     }
@@ -179,12 +178,12 @@ fn radius(logs: &[f64]) -> Option<f64> {
     };
     // Windows of equal length, so that a trend moves their peaks equally.
     let [first, middle, last] = [count / 4, count / 2, count].map(|end| peak(end - count / 8..end));
-    // A length of ρⁿ nᵖ: each of the differences has the same part from nᵖ.
+    // For a length of ρⁿ nᵖ, both differences have the same part from nᵖ.
     let rate = ((last - middle) - (middle - first)) / (count / 4) as f64;
     Some(libm::exp(rate))
 }
 
-/// A vector with a part in every mode, the same on every run.
+/// A vector with a component in every mode, the same on every run.
 fn start_vector(components: usize) -> Vec<f64> {
     let mut random = XorShift::new(0x9E37_79B9_7F4A_7C15);
     (0..components).map(|_| random.next()).collect()

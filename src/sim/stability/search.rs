@@ -1,17 +1,16 @@
-//! Search for the slowest whole tick rate with a property.
+//! A search for the slowest whole tick rate that passes a test.
 
-/// The searched rates, in Hz.
+/// The rates to search, in Hz.
 pub const RATES_HZ: std::ops::RangeInclusive<u32> = 1..=10_000;
 
-/// The number of further rungs of the ladder, above the first that passes, that must pass too. Each is
-/// about 1.4 times the one before.
+/// Number of rungs above the first passing one that must pass too. Each is about 1.4 times the one before.
 const CONFIRMATIONS: u32 = 2;
 
 /// Searches [`RATES_HZ`], one rate per call, for the slowest that passes a test.
 ///
-/// It climbs a ladder of two rates per octave until one rung and the next two pass, then bisects the
-/// gap below. The rate found passes, and the rate one hertz slower fails. Neither stability nor error
-/// need be monotone in the rate: a failing gap between the rungs above is not noticed.
+/// It climbs a ladder of two rates per octave until one rung and the next two pass, then bisects the gap below. The
+/// rate found passes, and the rate one hertz slower fails. Neither stability nor error need be monotone in the rate:
+/// the search misses a failing gap between the rungs above.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateSearch {
     state: SearchState,
@@ -19,8 +18,8 @@ pub struct RateSearch {
 
 #[derive(Clone, Debug, PartialEq)]
 enum SearchState {
-    /// Trying this rung. `held` is the first of the rungs in a row that passed, with the number of
-    /// confirmations; `fails` is the last rate that failed.
+    /// Trying this rung. `held` is the first of the rungs in a row that passed, with the number of confirmations;
+    /// `fails` is the last rate that failed.
     Climbing {
         rung: u32,
         held: Option<(u32, u32)>,
@@ -39,7 +38,7 @@ impl RateSearch {
         Self { state: SearchState::Climbing { rung: 0, held: None, fails: 0 } }
     }
 
-    /// The slowest rate that passes, or `Some(None)` if none does; `None` while the search goes on.
+    /// The slowest rate that passes, or `Some(None)` if none does; `None` while the search continues.
     pub fn found(&self) -> Option<Option<u32>> {
         match self.state {
             SearchState::Found(hz) => Some(hz),

@@ -1,5 +1,5 @@
-//! Small motions of a body about rest, all coordinates together: also of a body that has no normal modes,
-//! because its damping couples them.
+//! Small motions of a body about rest, with all coordinates together. They also cover a body without normal modes,
+//! whose damping couples them.
 
 use std::fmt;
 
@@ -13,15 +13,15 @@ use super::spectrum::{self, Eigenvalue};
 use crate::sim::Stepper;
 use crate::sim::integrators::{Method, StepFailure};
 
-/// The equation of small deviations of a body from rest, `x″ = A x + B x′`, without throttle. On a linear body it
-/// holds for deviations of any size.
+/// The equation of small deviations of a body from rest, `x″ = A x + B x′`, without throttle. On a linear body it is
+/// valid for deviations of any size.
 #[derive(Clone, Debug)]
 pub struct SmallMotion {
     /// A, and B to its right.
     jacobian: DMatrix<f64>,
 }
 
-/// A [`SmallMotion`] with its true modes, whose coordinates a method steps together.
+/// A [`SmallMotion`] with its true modes; a method steps its coordinates together.
 #[derive(Clone, Debug)]
 pub struct CoupledMotion {
     jacobian: DMatrix<f64>,
@@ -31,15 +31,15 @@ pub struct CoupledMotion {
 /// Why a body has no small motions about rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoSmallMotion {
-    /// It rests neither at its origin nor near its start.
+    /// The body rests neither at its origin nor near its start.
     NoRest,
-    /// Its force has a corner or a jump where it rests, so that no linear equation describes it there.
+    /// The force has a corner or a jump at rest, so that no linear equation describes it there.
     Corner,
-    /// Its stiffness or its damping changes in time.
+    /// The stiffness or the damping changes in time.
     Unsteady,
-    /// Its force or the derivative of that is not finite where it rests.
+    /// The force or its derivative is not finite at rest.
     NotFinite,
-    /// It has more coordinates that act on each other than are taken together.
+    /// The body has too many coordinates to analyse together.
     TooManyCoordinates,
 }
 
@@ -62,15 +62,15 @@ impl fmt::Display for NoSmallMotion {
     }
 }
 
-/// The most coordinates that are stepped together: the work for a point grows as their cube.
+/// The most coordinates to step together: the work for a point grows as their cube.
 const MAX_COUPLED: usize = 16;
 
 impl SmallMotion {
-    /// The small motions of `body` about its origin if it rests there, or else about a place of rest near its start.
-    /// A linear body needs no place of rest.
+    /// The small motions of `body` about its origin if it rests there, or else about a place of rest near its start. A
+    /// linear body needs no place of rest.
     ///
     /// # Errors
-    /// Why it has none.
+    /// Why the body has no small motions.
     pub fn of(body: &dyn Stepper) -> Result<Self, NoSmallMotion> {
         if body.is_sparse() {
             return Err(NoSmallMotion::TooManyCoordinates);
@@ -82,7 +82,7 @@ impl SmallMotion {
             let rest = place_of_rest(&*free)?;
             let jacobian = smooth_jacobian(&*free, &rest, 0.0)?;
             for t in LATER_S {
-                // A corner that comes to rest later is one that a drive brings there.
+                // A corner that appears at rest later is brought there by a drive.
                 let later =
                     smooth_jacobian(&*free, &rest, t).map_err(|_| NoSmallMotion::Unsteady)?;
                 if !agree(&jacobian, &later) {
@@ -105,7 +105,7 @@ impl SmallMotion {
     /// The motion of all coordinates together.
     ///
     /// # Errors
-    /// If there are too many, or if their modes cannot be found because the rates overflow.
+    /// If there are too many, or if overflowing rates prevent finding their modes.
     pub fn coupled(self) -> Result<CoupledMotion, NoSmallMotion> {
         if self.jacobian.nrows() > MAX_COUPLED {
             return Err(NoSmallMotion::TooManyCoordinates);
@@ -117,14 +117,14 @@ impl SmallMotion {
     }
 }
 
-/// The normal modes of `body`; `None` if it is not [linear](crate::sim::PlacedBody::is_linear), if damping couples the modes,
-/// or if a mode grows.
+/// The normal modes of `body`. `None` if it is not [linear](crate::sim::PlacedBody::is_linear), if damping couples the
+/// modes, or if a mode grows.
 pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
     if body.is_linear() { SmallMotion::of(body).ok()?.normal_modes() } else { None }
 }
 
 impl CoupledMotion {
-    /// How many coordinates there are.
+    /// Number of coordinates.
     pub fn coordinates(&self) -> usize {
         self.jacobian.nrows()
     }
@@ -134,8 +134,8 @@ impl CoupledMotion {
         self.motion.truth.iter().any(|mode| mode.growth_per_s > 0.0)
     }
 
-    /// Stability of `method` with equal steps on this motion, from the map of all coordinates over a step. Growth that
-    /// the true motion has too is not counted, nor is the frequency compared beyond half a turn in a step.
+    /// Stability of `method` with equal steps on this motion, from the map of all coordinates over a step. It ignores
+    /// growth that the true motion shares, and frequencies beyond half a turn in a step.
     ///
     /// # Errors
     /// The failure of the method in the first steps.
@@ -151,10 +151,11 @@ impl CoupledMotion {
     }
 }
 
-/// Times in seconds at which the derivatives of the force must be those of the start.
+/// Times in seconds at which the derivatives of the force must equal those of the start.
 const LATER_S: [f64; 2] = [0.37, 2.9];
 
-/// Rates below this fraction of the largest count as zero: twice the digits that a double eigenvalue keeps.
+/// Rates below this fraction of the largest count as zero. It is above √ε, by which rounding splits a double
+/// eigenvalue.
 const FORCE_FREE: f64 = 1e-7;
 
 /// A true growth below this fraction of the largest rate is rounding.
@@ -188,8 +189,8 @@ fn true_modes(jacobian: &DMatrix<f64>) -> Option<(Vec<Mode>, f64)> {
     Some((values.iter().map(mode).collect(), largest))
 }
 
-/// A place where `free` rests at any time: the origin, if it rests there at the start, or else what Newton's iteration
-/// finds from the start.
+/// A place where `free` rests at any time: the origin, if it rests there at the start, or else the result of Newton's
+/// iteration from the start.
 fn place_of_rest(free: &dyn Stepper) -> Result<Vec<f64>, NoSmallMotion> {
     let n = free.q().len();
     let origin = vec![0.0; n];
@@ -210,7 +211,7 @@ fn place_of_rest(free: &dyn Stepper) -> Result<Vec<f64>, NoSmallMotion> {
         let is_near = step.iter().zip(&q).all(|(step, q)| step.abs() <= AT_REST * (1.0 + q.abs()));
         q.iter_mut().zip(step.iter()).for_each(|(q, step)| *q -= step);
         if is_near {
-            // Under a drive it is a place of rest for a moment only.
+            // Under a drive it may be a place of rest only for a moment.
             let still = LATER_S.iter().all(|&t| (push(&q, t) - push(&q, 0.0)).amax() == 0.0);
             return if still { Ok(q) } else { Err(NoSmallMotion::NoRest) };
         }
@@ -218,14 +219,14 @@ fn place_of_rest(free: &dyn Stepper) -> Result<Vec<f64>, NoSmallMotion> {
     Err(NoSmallMotion::NoRest)
 }
 
-/// Steps of Newton's iteration: from a start with the right stiffness about 5 are enough.
+/// The most steps of Newton's iteration: from a start with the right stiffness about 5 are enough.
 const MAX_ITERATIONS: u32 = 30;
 
-/// The last step of Newton's iteration, relative to the coordinate: the next would be at rounding level.
+/// The size of the last step of Newton's iteration, relative to the coordinate: the next would be at rounding level.
 const AT_REST: f64 = 1e-9;
 
-/// The Jacobian of the force at rest at `q`, if its differences over two distances and on either side agree, or come
-/// together as the distances shrink.
+/// The Jacobian of the force at rest at `q`. Its differences over two distances and on either side must agree, or
+/// converge as the distances shrink.
 fn smooth_jacobian(free: &dyn Stepper, q: &[f64], t: f64) -> Result<DMatrix<f64>, NoSmallMotion> {
     let n = q.len();
     let at = [q, &vec![0.0; n]].concat();
@@ -256,8 +257,8 @@ fn spread(found: &[DMatrix<f64>; 4], row: usize) -> f64 {
     found.iter().map(off).fold(0.0, f64::max)
 }
 
-/// Pairs of distances of the differences, in the units of the coordinates. A smooth force that bends over the first pair
-/// is straight over the second.
+/// Pairs of distances for the differences, in the units of the coordinates. A smooth force that bends over the first
+/// pair is straight over the second.
 const DISTANCES: [[f64; 2]; 2] = [[1e-5, 1e-6], [1e-7, 1e-8]];
 
 /// Whether two Jacobians agree in each row.
@@ -266,7 +267,7 @@ fn agree(a: &DMatrix<f64>, b: &DMatrix<f64>) -> bool {
     rows.into_iter().all(|(a, b)| (a - b).amax() <= SMOOTH * a.amax().max(b.amax()))
 }
 
-/// Slopes agree to this part of the largest in the row: far above their rounding, and far below a corner.
+/// The largest relative difference between agreeing slopes of a row: far above their rounding, and far below a corner.
 const SMOOTH: f64 = 1e-3;
 
 #[cfg(test)]

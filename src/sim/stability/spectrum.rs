@@ -7,7 +7,7 @@ use super::deviation::acceleration_at;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 
-/// An eigenvalue; a conjugate pair is given by its upper half.
+/// An eigenvalue; the upper half represents a conjugate pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Eigenvalue {
     pub(super) modulus: f64,
@@ -35,9 +35,9 @@ impl Eigenvalue {
 /// The maps of the state over 1, 2 and 3 ticks after a fresh start.
 pub(super) type Maps = [DMatrix<f64>; 3];
 
-/// The maps of a linear body over 1, 2 and 3 ticks, in the span of `shapes`, which are of length 1 and at right angles:
-/// first the displacements along each, then the velocities in units of `rate` per second. The runs begin at `amplitude`
-/// in one of them.
+/// The maps of a linear body over 1, 2 and 3 ticks, in the span of `shapes`, which must be orthogonal and of length 1.
+/// The displacements along the shapes come first, then the velocities in units of `rate` per second. Each run starts
+/// at `amplitude` in one of them.
 ///
 /// # Errors
 /// The failure of the method in one of the ticks.
@@ -50,7 +50,7 @@ pub(super) fn linear_maps(
     let (n, count) = (body.q().len(), shapes.len());
     let rest = vec![0.0; 2 * n];
     let stays_at_rest = stays_at_rest(body, tick.t);
-    // The parts along the shapes after each tick from a state.
+    // The components along the shapes after each tick from a state.
     let mut run = |state: &[f64]| {
         body.set(tick.t, &state[..n], &state[n..]);
         let mut after = |k: u32| {
@@ -61,7 +61,7 @@ pub(super) fn linear_maps(
         };
         Ok([after(0)?, after(1)?, after(2)?])
     };
-    // What a target does to the body at rest is no part of the map.
+    // The effect of a target on the body at rest is no part of the map.
     let driven = if stays_at_rest { [(); 3].map(|()| vec![0.0; 2 * count]) } else { run(&rest)? };
     let unit = |index: usize| if index < count { 1.0 } else { rate };
     let from = |column: usize| {
@@ -79,7 +79,7 @@ pub(super) fn linear_maps(
     }))
 }
 
-/// The part of `values` along a shape of length 1.
+/// The component of `values` along a shape of length 1.
 pub(super) fn part(shape: &[f64], values: &[f64]) -> f64 {
     shape.iter().zip(values).map(|(shape, value)| shape * value).sum()
 }
@@ -95,31 +95,30 @@ pub(super) fn has_memory(maps: &Maps) -> bool {
     memory_defect(maps).1
 }
 
-/// The defect of the two-tick map against the product of two one-tick maps, and whether it shows
-/// memory.
+/// The defect of the two-tick map against the product of two one-tick maps, and whether it shows memory.
 fn memory_defect([once, twice, _]: &Maps) -> (f64, bool) {
     let off = (twice - once * once).amax();
     (off, off > MEMORY * (1.0 + twice.amax()))
 }
 
-/// A defect above this shows memory: well above the rounding of the differences, and well below the
-/// contribution of a multistep method at any useful step.
+/// A defect above this shows memory: well above the rounding of the differences, and well below the contribution of a
+/// multistep method at any useful step.
 const MEMORY: f64 = 1e-10;
 /// Pivots below this fraction of the largest are rounding.
 const RANK: f64 = 1e-10;
 /// The largest number of QR sweeps per row; about 3 are usual.
 const SWEEPS_PER_ROW: usize = 60;
 
-/// Eigenvalues of the map: of the state alone if the method has no memory, otherwise of state and
-/// memory together, reconstructed from successive states.
+/// Eigenvalues of the map: of the state alone if the method has no memory, otherwise of state and memory together,
+/// reconstructed from successive states.
 ///
 /// `None` if they are not finite or the iteration does not converge.
 pub(super) fn eigenvalues(maps: &Maps) -> Option<Vec<Eigenvalue>> {
     if maps.iter().any(|map| map.iter().any(|x| !x.is_finite())) {
         return None;
     }
-    // Strongly connected components are solved separately: exact zeros keep neutral eigenvalues exactly
-    // neutral, while an iteration over the whole would perturb double eigenvalues.
+    // Strongly connected components are solved separately: exact zeros keep neutral eigenvalues exactly neutral, while
+    // an iteration over the whole would perturb double eigenvalues.
     let mut values = Vec::new();
     for part in strongly_connected_components(&maps.each_ref()) {
         let maps =
@@ -191,13 +190,12 @@ fn eigenvalues_of_two_rows(matrix: &DMatrix<f64>) -> [Eigenvalue; 2] {
     }
 }
 
-/// With memory, a modulus this close to 1 is 1.
+/// With memory, a modulus this close to 1 counts as 1.
 pub(super) const NEUTRAL_WITH_MEMORY: f64 = 1e-9;
-/// Without memory, the tolerance in units of the two-tick defect, which is the rounding of the
-/// differences. It is large for a method that computes velocities from differences of positions.
+/// Without memory, the tolerance in units of the two-tick defect, which is the rounding of the differences. It is
+/// large for a method that computes velocities from differences of positions.
 const NEUTRAL_IN_DEFECTS: f64 = 10.0;
-/// A modulus further from 1 is never taken for 1: the defect of a map that grows without limit says
-/// nothing.
+/// A modulus further from 1 never counts as 1: the defect of a map that grows without limit is no measure of rounding.
 const MAX_NEUTRAL: f64 = 1e-3;
 
 fn snapped_to_neutral(value: Eigenvalue, tolerance: f64) -> Eigenvalue {
@@ -205,9 +203,9 @@ fn snapped_to_neutral(value: Eigenvalue, tolerance: f64) -> Eigenvalue {
     Eigenvalue { modulus: if neutral { 1.0 } else { value.modulus }, ..value }
 }
 
-/// The map of (state, state one tick ago), restricted to the reachable subspace. Its action on two
-/// pairs of states after a fresh start, one and two ticks later, is known. The memory of a method, be
-/// it forces, slopes or an older state, follows from two successive states.
+/// The map of (state, state one tick ago), restricted to the reachable subspace. Its action on two pairs of states
+/// after a fresh start, one and two ticks later, is known. A method's memory follows from two successive states,
+/// whether it consists of forces, slopes or an older state.
 fn with_memory([once, twice, thrice]: &Maps) -> Option<DMatrix<f64>> {
     let n = once.nrows();
     let identity = DMatrix::identity(n, n);
@@ -220,7 +218,7 @@ fn with_memory([once, twice, thrice]: &Maps) -> Option<DMatrix<f64>> {
     let factors = ColPivQR::new(reached);
     let (q, r) = (factors.q(), factors.r());
     let rank = (0..2 * n).take_while(|&i| r[(i, i)].abs() > RANK * r[(0, 0)].abs()).count();
-    // NaN or overflow.
+    // `once` has a NaN or overflows.
     if rank == 0 {
         return None;
     }
@@ -245,14 +243,14 @@ mod tests {
             &[1.0, 0.1, 0.0, 0.0, 0.0, 0.9, 0.0, 0.2, 0.3, 0.0, 1.0, 0.0, 0.0, 0.5, 0.0, 1.0],
         );
         assert_eq!(strongly_connected_components(&[&map]), [vec![0], vec![1, 3], vec![2]]);
-        // Two neutral coordinates, of which one drives the other, stay neutral to the bit.
+        // Two neutral coordinates, one driving the other, stay neutral to the bit.
         let values = eigenvalues_of_map(&map).unwrap();
         assert_eq!(values.iter().filter(|value| value.modulus == 1.0).count(), 2);
     }
 
     #[test]
     fn the_eigenvalue_of_a_memory_is_found() {
-        // x' = 1.2 x + 0.3 x_before, which begins as if x_before were x.
+        // x' = 1.2 x + 0.3 x_before, with x_before = x at the start.
         let recur = |states: &[f64]| {
             let before = if states.len() > 1 { states[states.len() - 2] } else { states[0] };
             1.2 * states[states.len() - 1] + 0.3 * before

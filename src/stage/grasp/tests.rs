@@ -6,7 +6,7 @@ use crate::studio::{RunCommand, ViewCommand};
 
 const SIZE: [f32; 2] = [800.0, 500.0];
 
-/// The scene of a kind's name, some way into its course and paused.
+/// The built-in scene for this kind, paused a few ticks after its start.
 fn studio(kind: &str) -> Studio {
     let mut studio = Studio::new(Scene::built_in(kind).expect("a scene for each kind"));
     studio.apply(ViewCommand::TogglePause);
@@ -43,7 +43,7 @@ fn every_handle_of_every_kind_can_be_grabbed_and_is_at_least_12_points_wide() {
 fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
     for kind in BODIES.iter() {
         let mut studio = studio(kind.id);
-        // Zoomed and panned, too.
+        // The same while zoomed and panned.
         let zoom_pan = studio.view().zoom_pan(0).zoomed(1.25, [0.1, 0.05]).panned([0.03, -0.02]);
         studio.apply(ViewCommand::ZoomPan { body: 0, zoom_pan });
         let before = picture(&studio);
@@ -56,7 +56,7 @@ fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
         assert!(held.v.iter().all(|v| *v == 0.0) || kind.id == "chain", "{}", kind.id);
         let (q, v) = (held.q.clone(), held.v.clone());
         studio.apply(RunCommand::Act(crate::scene::Action::Place { body: 0, q, v }));
-        // A camera that follows the truth follows it there.
+        // A camera that follows the truth moves with it.
         let body = &studio.race().entrants()[0].lane.bodies()[0];
         assert_eq!(body.stepper.q(), &held.q[..]);
         let handles = Look::of(body).handles(body.stepper.q());
@@ -191,7 +191,7 @@ fn no_trail_leads_to_where_a_body_was_put() {
         studio.apply(RunCommand::Act(crate::scene::Action::Place { body: 0, q, v }));
         for _ in 0..3 {
             studio.tick();
-            // Trails are known by their widths.
+            // The width identifies a trail.
             let picture = picture(&studio);
             let trails = picture.paths().filter(|path| path.points[0].radius == 1.2);
             for trail in trails {

@@ -23,7 +23,7 @@ fn step_of(studio: &Studio) -> Option<OneStep> {
     one_step(&studio.deck, &studio.viewer)
 }
 
-/// A scene that the method steps.
+/// A scene that the method can step.
 fn scene_for(method: &Method) -> &'static str {
     let fits = |name: &&str| Scene::built_in(name).unwrap().refusal(method).is_none();
     ["spring", "ship", "follow", "lerp"].into_iter().find(fits).expect("one of them")

@@ -1,5 +1,5 @@
-//! The hint under the stage. The scene's own asks for its first key; when that is pressed, the hints lead on through
-//! what the program can do. Only what is so here is told: in this mode, under this method, at this rate.
+//! The hint under the stage. The scene's own asks for its first key; after that, further hints present the program. A
+//! hint appears only where it is true: in this mode, under this method, at this rate.
 
 use super::Situation;
 use crate::measure::Outcome;
@@ -10,14 +10,14 @@ use crate::studio::display::Arrangement;
 use crate::studio::instrument::Instrument;
 use crate::studio::key::KEYS;
 
-/// What a hint after the scene's own asks for.
+/// A hint after the scene's own.
 struct Lead {
-    /// The sentence; `None` where it would not be so. Keys stand between backticks.
+    /// The sentence; `None` where it would not be true. Keys stand between backticks.
     text: fn(&Situation<'_>) -> Option<&'static str>,
     is_done_by: fn(&Command) -> bool,
 }
 
-/// How long a run has lasted that is worth going back in, in seconds.
+/// Least duration (s) of a run that is worth rewinding.
 const WORTH_GOING_BACK_S: f64 = 1.0;
 
 static LEADS: [Lead; 8] = [
@@ -107,21 +107,21 @@ static LEADS: [Lead; 8] = [
     },
 ];
 
-/// Which hints a person has followed.
+/// The hints that a person has followed.
 #[derive(Clone, Debug, Default)]
 pub(in crate::studio) struct Hints {
-    /// That of the open scene.
+    /// Whether the person followed the open scene's hint.
     scene: bool,
     leads: [bool; LEADS.len()],
 }
 
 impl Hints {
-    /// For a scene that has just been opened.
+    /// The state for a scene just opened.
     pub(in crate::studio) fn of_next_scene(&self) -> Self {
         Self { scene: false, leads: self.leads }
     }
 
-    /// Marks the hints that this command fulfils. `hint` is the scene's.
+    /// Marks the hints that this command follows. `hint` is the scene's.
     pub(in crate::studio) fn see(&mut self, command: &Command, hint: Option<&str>) {
         self.scene |= hint.and_then(asked).is_some_and(|asked| asked.contains(&command));
         for (done, lead) in self.leads.iter_mut().zip(&LEADS) {
@@ -129,8 +129,8 @@ impl Hints {
         }
     }
 
-    /// The present hint: the scene's, or else the first that was not followed, of those that are so. `outcome` is that of
-    /// the selected lane's verdict.
+    /// The present hint: the scene's, or else the first true one that the person has not followed. `outcome` is the
+    /// verdict on the selected lane.
     pub(in crate::studio) fn text(
         &self,
         now: &Situation<'_>,
@@ -151,8 +151,9 @@ impl Hints {
     }
 }
 
-/// Whether a scene's hint is of the moment: the scene has its own tick rate and values, and what the hint says of a method, it
-/// says of the opening one, with the digits of the scene's own lanes, in the mode in which the scene opens.
+/// Whether the scene's hint applies now: at the scene's own tick rate and values. A hint about the mode or its lanes
+/// needs the opening mode, and one about a method also the opening method. Its digits must be among the scene's own
+/// lanes.
 fn is_so(hint: &str, now: &Situation<'_>) -> bool {
     use StageCommand::{Method, MethodBeside, Pick, ToggleArrangement, ToggleRace};
     let asked: Vec<&StageCommand> = keys(hint)
@@ -180,7 +181,7 @@ fn is_so(hint: &str, now: &Situation<'_>) -> bool {
         && !asked.iter().any(is_beyond)
 }
 
-/// What a method would have done, in words that follow its name; `None` if that is not known.
+/// Describes how a method would have done, in words that follow its name; `None` if unknown.
 fn reaction(outcome: Option<Outcome>) -> Option<&'static str> {
     match outcome? {
         Outcome::Rounding | Outcome::Accurate => Some("would have kept to the exact motion"),
@@ -199,12 +200,12 @@ fn asked(hint: &str) -> Option<Vec<&'static Command>> {
     (!commands.is_empty()).then_some(commands)
 }
 
-/// The names of the keys in a text, which stand between backticks.
+/// Names of the keys in a text, which stand between backticks.
 fn keys(text: &str) -> impl Iterator<Item = &str> {
     text.split('`').skip(1).step_by(2)
 }
 
-/// The commands of the key that people call so.
+/// The commands of the key with this name for people.
 fn bound_to(name: &str) -> impl Iterator<Item = &'static Command> {
     let bound = KEYS.iter().flat_map(|binding| binding.keys);
     bound.filter(move |(key, _)| key.to_string() == name).map(|(_, command)| command)

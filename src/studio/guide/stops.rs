@@ -6,7 +6,7 @@ use crate::run::race::{Interpolation, Mode};
 use crate::studio::instrument::Instrument;
 use crate::studio::key::Key;
 
-/// What most stops about a ship have in common.
+/// Common defaults of the stops about a ship.
 const SHIP: Stop = Stop {
     title: "",
     scene: "ship",
@@ -24,7 +24,7 @@ const SHIP: Stop = Stop {
     answer: "",
 };
 
-/// What most stops about a spring have in common.
+/// Common defaults of the stops about a spring.
 const SPRING: Stop = Stop {
     scene: "spring",
     tick_hz: 60,

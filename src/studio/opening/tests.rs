@@ -180,14 +180,14 @@ fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
     assert!(shown(&studio) && studio.race().state_hash() == hash);
     assert_eq!(studio.apply(ViewCommand::Escape), None);
     assert!(!shown(&studio));
-    // Whoever comes back to it is told again.
+    // Returning to the scene shows its mistakes again.
     studio.apply(StageCommand::SceneBeside(Step::Next));
     assert!(!shown(&studio));
     studio.apply(StageCommand::SceneBeside(Step::Previous));
     assert!(shown(&studio));
     reload_file(&mut studio, Path::new(PATH), scene(text("spring")));
     assert!(!shown(&studio));
-    // Of a file that is not open, nothing is shown yet.
+    // The mistakes of a file that is not open wait.
     studio.apply(StageCommand::SceneBeside(Step::Next));
     reload_failed(
         &mut studio.deck,
@@ -287,7 +287,7 @@ fn a_recording_that_differs_runs_beside_the_run_as_a_ghost_at_every_tick() {
     assert!(lines.iter().all(|line| line.chars().count() < 60), "{lines:?}");
     let notice = studio.viewer.notice.clone().unwrap();
     assert_eq!(notice.parts(), lines);
-    // The recording, run again by itself.
+    // The recording in a separate run.
     let alone = |tick: u64| {
         let mut race = crate::run::Session::racing(recording.clone().into());
         race.run(tick);
@@ -312,7 +312,7 @@ fn a_recording_that_differs_runs_beside_the_run_as_a_ghost_at_every_tick() {
     holds(&mut studio, 20);
     studio.apply(StageCommand::Second(Step::Next));
     holds(&mut studio, 80);
-    // A scene of other bodies has none to show.
+    // A scene with other bodies has none to show.
     let spec = studio.selected().spec;
     let other = Scene::built_in("ship").unwrap();
     assert!(studio.deck.compared().unwrap().body(&other, &spec, 0).is_none());

@@ -1,33 +1,33 @@
-//! What may have made a log: the methods of the table, each under several counts of substeps.
+//! The candidates for the origin of a log: the methods of the table, each with several counts of substeps.
 
 use std::fmt;
 
 use super::logged::LoggedBody;
 use crate::sim::integrators::{JointMode, METHODS, Method};
 
-/// How a method is told of a spring.
+/// How a method applies the body's spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpringAs {
-    /// As a part of the acceleration; also where there is no spring.
+    /// As a part of the acceleration; also if there is no spring.
     Acceleration,
-    /// As a joint of an engine, in this way or one that does the same.
+    /// As an engine's joint in this mode, or in an equivalent one.
     Joint(&'static JointMode),
-    /// As a force of user code, which is read once a tick and held through it.
+    /// As a force of user code, read once a tick and held through it.
     HeldForce,
 }
 
-/// A method with what a lane would say of it.
+/// A method with its settings, as a lane would name them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
     /// The method.
     pub method: &'static Method,
-    /// Its substeps.
+    /// Its substeps per tick.
     pub substeps: u32,
-    /// How it is told of the spring.
+    /// How it applies the spring.
     pub spring: SpringAs,
 }
 
-/// Its id, its substeps, and how it is told of the spring where that is not the engine's first way.
+/// Writes the id, the substeps and, unless it is the engine's first, the way it applies the spring.
 impl fmt::Display for Candidate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} ×{}", self.method.id, self.substeps)?;
@@ -35,31 +35,30 @@ impl fmt::Display for Candidate {
     }
 }
 
-/// The substeps that people set of an engine.
+/// Counts of substeps that people set in engines.
 const USUAL_OF_ENGINES: &[u32] = &[1, 2, 4, 8, 16];
-/// The substeps that people set of a method of their own.
+/// Counts of substeps that people set for a method of their own.
 const USUAL: &[u32] = &[1, 2, 4];
-/// The most substeps that are tried.
 const MAX_SUBSTEPS: u32 = 16;
 
-/// Twice the logarithm of the odds against a spring's force that is held in an engine.
+/// Twice the log-odds against an engine that holds a spring's force through the tick.
 const HELD_RARITY: f64 = 12.0;
-/// Twice the logarithm of the odds against an engine that is not set by default.
+/// Twice the log-odds against an engine with a usual count of substeps other than its default.
 const CHANGED_ENGINE_RARITY: f64 = 8.0;
-/// Twice the logarithm of the odds against substeps of a method that a game implements itself.
+/// Twice the log-odds against substeps in a method that a game implements itself.
 const CHANGED_METHOD_RARITY: f64 = 20.0;
-/// Twice the logarithm of the odds against a count of substeps that few set.
+/// Twice the log-odds against a count of substeps that few people set.
 const UNUSUAL_SUBSTEPS_RARITY: f64 = 24.0;
 
 impl Candidate {
-    /// Whether people set this count of substeps: a power of 2, not too high, or what the engine has by default.
+    /// Whether people set this count of substeps: a small power of 2, or the method's default.
     fn is_usual(&self) -> bool {
         let usual = if self.method.is_engine() { USUAL_OF_ENGINES } else { USUAL };
         usual.contains(&self.substeps) || self.substeps == self.method.default_substeps
     }
 
-    /// How the engine is told of the spring, if not in its first way: words for a force that is held where it could be a
-    /// joint, or the mode of the joint.
+    /// Label of the way the spring is applied, unless it is the engine's first: `force held` where a joint was
+    /// possible, or the id of the joint's mode.
     pub fn told(&self) -> Option<&'static str> {
         match self.spring {
             SpringAs::HeldForce if !self.method.holds_force() => Some("force held"),
@@ -68,7 +67,7 @@ impl Candidate {
         }
     }
 
-    /// Whether the game applies the spring as a force of its own, and not as a joint of the engine.
+    /// Whether the game applies the spring as a force of its own, not as a joint of the engine.
     pub fn is_held(&self) -> bool {
         self.spring == SpringAs::HeldForce
     }
@@ -78,7 +77,7 @@ impl Candidate {
         self.substeps == self.method.default_substeps && !self.method.is_as_printed()
     }
 
-    /// What is added to twice the logarithm of the likelihood that something else made a log.
+    /// Penalty on the deviance for rare settings: twice the log-odds that something else made a log.
     pub(super) fn rarity(&self) -> f64 {
         let is_rare = self.is_held() && !self.method.holds_force();
         let held = if is_rare { HELD_RARITY } else { 0.0 };
@@ -91,7 +90,8 @@ impl Candidate {
         held + set
     }
 
-    /// Which comes first among candidates that do the same: an engine as it is set by default, then any engine.
+    /// Sort key of equivalent candidates: default engines come first, then usual substeps, the engine's first way to
+    /// apply the spring, and other engines.
     pub(super) fn preference(&self) -> (bool, bool, bool, bool, u32, Option<usize>) {
         let is_as_set = self.method.is_engine() && self.is_as_set();
         let is_told = self.told().is_some();
@@ -100,8 +100,8 @@ impl Candidate {
     }
 }
 
-/// The ways of telling a method of a body's spring under which it moves differently: of an engine its joints, by the modes
-/// that `port` inverts, and a held force.
+/// The ways to apply the body's spring under which the method moves differently. For an engine these are its first
+/// joint of each kind, explicit or not, and a held force.
 fn ways(method: &Method, body: &LoggedBody) -> Vec<SpringAs> {
     if method.holds_force() {
         return vec![SpringAs::HeldForce];
@@ -115,7 +115,7 @@ fn ways(method: &Method, body: &LoggedBody) -> Vec<SpringAs> {
     joints.chain([SpringAs::HeldForce]).collect()
 }
 
-/// All candidates for a body; those with usual counts only where its spring is not known.
+/// All candidates for a body. If its spring is unknown, only those with usual substeps.
 pub(super) fn candidates(body: &LoggedBody) -> Vec<Candidate> {
     let mut all = Vec::new();
     let stepped = METHODS.iter().filter(|method| method.tolerance.is_none());

@@ -1,4 +1,4 @@
-//! What the fits of candidates to a log say.
+//! Decides from the fits of all candidates which method made a log.
 
 use std::collections::BTreeSet;
 
@@ -7,47 +7,49 @@ use super::candidates::{Candidate, candidates};
 use super::fit::Fit;
 use super::logged::LoggedBody;
 
-/// The least residual of rounding in a run, in units of the largest values: in double precision.
+/// Least residual due to rounding in a run of double precision, in units of the largest values.
 const MIN_ROUNDING: f64 = 1e-9;
-/// The largest residual of rounding in a log of single precision.
+/// Largest residual due to rounding in a log of single precision.
 const MAX_ROUNDING_IN_SINGLE: f64 = 3e-5;
-/// The largest residual of rounding in a log of double precision.
+/// Largest residual due to rounding in a log of double precision.
 const MAX_ROUNDING_IN_DOUBLE: f64 = 3e-6;
-/// Residuals below this multiple of the smallest count as rounding, up to the largest.
+/// Residuals below this multiple of the smallest count as rounding, within the bounds above.
 const TIMES_CLOSEST: f64 = 10.0;
-/// An equivalent candidate is not reported if its residual exceeds the smallest by this factor.
+/// An equivalent candidate ranks behind the others if its residual exceeds the smallest by this factor.
 const TIMES_NEAREST: f64 = 3.0;
-/// Candidates whose runs are nowhere farther apart, with the same spring, do the same.
+/// Candidates are equivalent if their runs and springs differ by at most this.
 const SAME: f64 = 1e-5;
-/// So do those that are nowhere farther apart than this part of the residual.
+/// So are candidates that differ by at most this share of the residual.
 const SAME_PART: f64 = 0.2;
-/// The least difference of twice the logarithm of the likelihood that tells candidates apart: four standard deviations.
+/// Least difference of deviance that decides between candidates: four standard deviations.
 const DECISIVE: f64 = 16.0;
-/// A larger residual is no fit, whatever its form.
+/// A larger residual is no fit, even if it looks like noise.
 pub(super) const NO_FIT: f64 = 0.01;
-/// Where the residual may be neither noise nor rounding, a method is named only if its rival's is larger by this factor.
+/// If the residual may be neither noise nor rounding, a method is named only if its rival's is larger by this factor.
 const CLEAR: f64 = 3.0;
-/// A log that this part of all methods explain says nothing.
+/// If this share of all methods explains a log, the log decides nothing.
 const NEARLY_ALL: f64 = 0.8;
 
-/// The residual that counts as rounding in a log of this precision if the smallest is `closest`.
+/// Largest residual that counts as rounding in a log of this precision, if the smallest is `closest`.
 pub(super) fn rounding(closest: f64, is_double: bool) -> f64 {
     let largest = if is_double { MAX_ROUNDING_IN_DOUBLE } else { MAX_ROUNDING_IN_SINGLE };
     (TIMES_CLOSEST * closest).clamp(MIN_ROUNDING, largest)
 }
 
-/// What the fits say.
+/// The conclusion, with the candidates behind it.
 pub(super) struct Decision<'a> {
     pub(super) conclusion: Conclusion,
-    /// The best, and those that do the same.
+    /// The best candidate, then its equivalents.
     pub(super) same: Vec<&'a (Candidate, Fit)>,
-    /// Others that explain the log as well and are set aside, as they are rare.
+    /// Others that explain the log as well, but are set aside as rare.
     pub(super) unusual: Vec<&'a (Candidate, Fit)>,
-    /// The nearest that does something else; where the log says nothing, another that does the same.
+    /// The nearest candidate that moves differently. If it is implausible and nearly all methods fit, an equivalent
+    /// candidate of another method.
     pub(super) rival: Option<&'a (Candidate, Fit)>,
 }
 
-/// Decides between the candidates for a body, fitted to a log of double precision or of single; `None` if there are none.
+/// Decides between the candidates for a body by their fits to a log of double or single precision; `None` without
+/// fits.
 pub(super) fn decide<'a>(
     fits: &'a [(Candidate, Fit)],
     body: &LoggedBody,
@@ -102,7 +104,7 @@ pub(super) fn decide<'a>(
     Some(Decision { conclusion, same, unusual, rival })
 }
 
-/// Whether the log says nothing, because too many methods do the same.
+/// Whether nearly all methods explain the log, so that it decides nothing.
 fn explained_by_nearly_all(same: &[&(Candidate, Fit)], body: &LoggedBody) -> bool {
     let methods = |all: &mut dyn Iterator<Item = Candidate>| {
         all.map(|candidate| candidate.method.id).collect::<BTreeSet<_>>().len() as f64

@@ -1,4 +1,4 @@
-//! A candidate fitted to a log: the start, and what is not known of the body, by least squares.
+//! Fits a candidate to a log by least squares: the start, and the unknown numbers of the body.
 
 use super::candidates::Candidate;
 use super::effective::Effective;
@@ -6,58 +6,59 @@ use super::logged::{Log, LoggedBody};
 use super::motion::run;
 use crate::sim::least_squares;
 
-/// The iterations of Gauss and Newton where the velocity at the start was logged: a linear motion needs one.
+/// Gauss-Newton iterations if the log has the initial velocity: a linear motion needs one.
 const ITERATIONS: usize = 1;
-/// Where it was not, another is for the last digits.
+/// Iterations without that velocity: the second is for the last digits.
 const ITERATIONS_WITHOUT_VELOCITY: usize = 2;
-/// Those where the spring is fitted too.
+/// Iterations if the spring is fitted too.
 const ITERATIONS_WITH_SPRING: usize = 12;
-/// A displacement for the derivatives, in units of the scale.
+/// Displacement for the derivatives, in units of the scale.
 const DISPLACEMENT: f64 = 1e-4;
-/// Residuals up to this may be rounding in a log of single precision.
+/// Largest residual that may be rounding in a log of single precision.
 const PRECISE_IN_SINGLE: f64 = 5e-5;
-/// Residuals up to this may be rounding in a log of double precision by an engine, which may keep a mass in single
+/// Largest residual that may be rounding in a log of double precision by an engine, which may keep a mass in single
 /// precision.
 const PRECISE_OF_ENGINE: f64 = 1e-5;
-/// Residuals up to this may be rounding in a log of double precision by any other method.
+/// Largest residual that may be rounding in a log of double precision by any other method.
 const PRECISE_IN_DOUBLE: f64 = 1e-8;
 /// A residual up to this is rounding alone.
 const EXACT: f64 = 1e-9;
-/// The displacement, in units of the scale, in a run that starts from nothing.
+/// Displacement in a run that starts from nothing, in units of the scale.
 const DISPLACEMENT_FROM_NOTHING: f64 = 1e-9;
-/// The start of a runaway is below this part of the scale, and so below the noise.
+/// A runaway starts below this share of the scale, and so below the noise.
 const NOTHING: f64 = 0.01;
-/// How often a step that leads no nearer is halved.
+/// How often a step that does not improve the fit is halved.
 const HALVINGS: u32 = 8;
-/// In fewer rows than this, noise cannot be told from what follows from row to row.
+/// Fewer rows cannot separate noise from autocorrelation.
 const MIN_ROWS_OF_NOISE: usize = 20;
 /// Autocorrelation tolerated beyond the 3σ bound of white noise.
 const FOLLOWING: f64 = 0.1;
-/// How many rows apart residuals are compared.
+/// Largest lag of the autocorrelation, in rows.
 const LAGS: usize = 3;
 
-/// A candidate's run beside a log.
+/// A candidate fitted to a log.
 pub(super) struct Fit {
-    /// The body with what was fitted.
+    /// The body with its fitted numbers.
     pub(super) body: LoggedBody,
-    /// The coordinate and the velocity of the first row, as fitted.
+    /// Fitted coordinate and velocity of the first row.
     pub(super) start: [f64; 2],
-    /// The run at the rows of the log, in units of the scale.
+    /// The run at the log's rows, in units of the scale.
     run: Vec<[f64; 2]>,
-    /// A residual up to this may be rounding alone.
+    /// Largest residual that may be rounding alone.
     precise: f64,
-    /// The residuals of the coordinate, and of the velocity if it was logged.
+    /// Residuals of the coordinate and, if logged, of the velocity.
     residuals: Vec<Vec<f64>>,
 }
 
-/// The velocity at the start: the logged one, or the slope to the next row.
+/// Velocity of the first row if logged, else the slope to the next row.
 fn first_velocity(log: &Log, tick_s: f64) -> f64 {
     let [first, second] = [log.rows()[0], log.rows()[1]];
     let slope = (second.x - first.x) / ((second.tick - first.tick) as f64 * tick_s);
     first.v.unwrap_or(slope)
 }
 
-/// Fits `candidate` to a log at this tick rate, from a rest that may be guessed where it is to be fitted; `None` if it cannot be run on the body or its run leaves all scales.
+/// Fits `candidate` to a log at this tick rate. The fit of an unknown rest starts at `first_rest`. `None` if the
+/// candidate cannot run on the body, or its run diverges.
 pub(super) fn fit(
     log: &Log,
     body: &LoggedBody,
@@ -134,10 +135,10 @@ pub(super) fn fit(
     is_finite.then_some(Fit { body, start, run: now, precise, residuals })
 }
 
-/// How many numbers can be fitted: coordinate and velocity at the start, stiffness, damping and the rest.
+/// Number of parameters: coordinate and velocity at the start, stiffness, damping and rest.
 const PARAMETERS: usize = 5;
 
-/// Adds `by` to the number with this index.
+/// Adds `by` to the parameter with this index.
 fn displace(index: usize, by: f64, start: &mut [f64; 2], body: &mut LoggedBody) {
     match (index, &mut body.spring) {
         (0 | 1, _) => start[index] += by,
@@ -147,7 +148,7 @@ fn displace(index: usize, by: f64, start: &mut [f64; 2], body: &mut LoggedBody) 
     }
 }
 
-/// The units of what is fitted.
+/// Units of the parameters.
 fn start_unit(scale: [f64; 2], body: &LoggedBody, tick_s: f64) -> [f64; PARAMETERS] {
     let [stiffness, _] = body.spring.unwrap_or_default();
     let stiffness = stiffness.abs().max(1e-6);
@@ -159,7 +160,7 @@ fn in_units(states: &[[f64; 2]], scale: [f64; 2]) -> Vec<[f64; 2]> {
     states.iter().map(|[x, v]| [x / scale[0], v / scale[1]]).collect()
 }
 
-/// All coordinates, then all velocities that were logged.
+/// All coordinates, then all logged velocities.
 fn flat(log: &Log, states: &[[f64; 2]]) -> Vec<f64> {
     let x = states.iter().map(|state| state[0]);
     let logged = states.iter().zip(log.rows()).filter(|(_, row)| row.v.is_some());
@@ -183,18 +184,18 @@ fn mean_square(residuals: &[f64]) -> f64 {
 }
 
 impl Fit {
-    /// The sum of squares of the residual.
+    /// Sum of the squared residuals.
     pub(super) fn squares(&self) -> f64 {
         squares(&self.residuals)
     }
 
-    /// The root mean square of the residual.
+    /// Root mean square of the residuals.
     pub(super) fn residual(&self) -> f64 {
         mean_square(&self.residuals.concat()).sqrt()
     }
 
-    /// Minus twice the logarithm of the likelihood, up to a constant, where each column has a noise of its own
-    /// and none has less than `rounding`.
+    /// Minus twice the log-likelihood, up to a constant. Each column has noise of its own, never less than
+    /// `rounding`.
     pub(super) fn deviance(&self, rounding: f64) -> f64 {
         let of = |residuals: &Vec<f64>| {
             residuals.len() as f64 * libm::log(mean_square(residuals) + rounding * rounding)
@@ -202,7 +203,8 @@ impl Fit {
         self.residuals.iter().map(of).sum()
     }
 
-    /// The largest distance between two runs and between their springs, in units of the scale.
+    /// Largest difference between the two runs, in units of the scale, or between their springs, relative to this
+    /// one.
     pub(super) fn distance(&self, other: &Fit) -> f64 {
         let [a, b] = [self, other].map(|fit| fit.body.spring.unwrap_or_default());
         let critical = 2.0 * a[0].abs().sqrt();
@@ -219,7 +221,7 @@ impl Fit {
         self.run.iter().zip(&other.run).map(apart).fold(0.0, f64::max)
     }
 
-    /// Whether there are too few rows to tell whether the residual is noise.
+    /// Whether there are too few rows to recognise noise.
     pub(super) fn is_short(&self) -> bool {
         self.run.len() < MIN_ROWS_OF_NOISE
     }

@@ -1,4 +1,4 @@
-//! A log of one coordinate, from text, and the body of which it is.
+//! Reads a log of one coordinate from text, and describes the body that it records.
 
 use csv::ByteRecord;
 
@@ -9,37 +9,37 @@ use crate::table::{Decimal, Reading, TableError, TableReader, Utf8, number};
 /// A row of a log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogRow {
-    /// The number of its tick; in an uneven log that of its row.
+    /// Tick number; in an uneven log, the row number.
     pub tick: u64,
-    /// The time after the first row, in seconds.
+    /// Time after the first row, in seconds.
     pub t_s: f64,
-    /// The coordinate, in metres.
+    /// Coordinate, in metres.
     pub x: f64,
-    /// The velocity in metres per second, if it was logged.
+    /// Velocity in metres per second, if logged.
     pub v: Option<f64>,
 }
 
-/// A log of a body: rows at rising ticks, with velocities in all of them or in none.
+/// A log of a body. Ticks rise from row to row, and either all rows have velocities or none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Log {
     rows: Vec<LogRow>,
-    /// The columns that were read, with what was found out about the time.
+    /// Names of the columns read; times in milliseconds are marked.
     columns: String,
-    /// The largest coordinate and velocity; a velocity that was not logged has the scale 1.
+    /// Largest coordinate and velocity. The velocity's scale is 1 if the log has none.
     scale: [f64; 2],
     is_uneven: bool,
 }
 
-/// The names of a log's columns.
+/// Names of a log's columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColumnNames {
-    /// The number of the tick; it may be absent if there are times.
+    /// Tick number; optional if there are times.
     pub tick: String,
-    /// The time in seconds; it may be absent if there are ticks.
+    /// Time in seconds; optional if there are ticks.
     pub t: String,
-    /// The coordinate in metres.
+    /// Coordinate in metres.
     pub x: String,
-    /// The velocity in metres per second; it may be absent.
+    /// Velocity in metres per second; optional.
     pub v: String,
 }
 
@@ -50,20 +50,20 @@ impl Default for ColumnNames {
     }
 }
 
-/// Why a log cannot be read, with its place.
+/// The fault that makes a log unreadable, with its place.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{name}:{line}: {fault}")]
 pub struct LogError {
-    /// What the caller calls the log.
+    /// The caller's name for the log.
     pub name: String,
-    /// The line of the fault, from 1.
+    /// Line of the fault, from 1.
     pub line: u64,
-    /// What the caller may have said wrong of the log, if it is that.
+    /// The caller's setting that may be wrong, if the fault suggests one.
     pub mistaken: Option<LogSetting>,
     fault: String,
 }
 
-/// What [`Log::parse`] is told of a log.
+/// A setting of [`Log::parse`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LogSetting {
     /// [`ColumnNames::tick`].
@@ -80,13 +80,13 @@ pub enum LogSetting {
     TickRate,
 }
 
-/// Numbers of single precision that were written with nine digits lose less than this part when they are read as such
-/// again; those of double precision lose more in the mean.
+/// Largest mean part that numbers of single precision lose when written with nine digits and read as single precision
+/// again. Numbers of double precision lose more.
 const LOST_IN_SINGLE: f64 = 8e-9;
-/// A time may be off its tick by this part of a tick.
+/// Largest distance of a row from its tick, in ticks.
 const OFF_TICK: f64 = 0.05;
 
-/// A fault, before its place is known.
+/// A fault whose place is not known yet.
 struct Fault {
     mistaken: Option<LogSetting>,
     what: String,
@@ -98,7 +98,7 @@ impl From<String> for Fault {
     }
 }
 
-/// Where a log has which column, from 0.
+/// The columns of a log by their index, from 0.
 struct Columns {
     names: Vec<String>,
     time: TimeColumn,
@@ -109,20 +109,21 @@ struct Columns {
 
 enum TimeColumn {
     Ticks(usize),
-    /// With how many of its unit are a second.
+    /// The column, and how many of its units are a second.
     Time(usize, f64),
 }
 
-/// Other names of the columns of ticks, of seconds and of milliseconds, in whatever case.
+/// Other names for columns of ticks, seconds and milliseconds. Case does not matter.
 const OF_TICKS: [&str; 3] = ["tick", "frame", "step"];
 const OF_SECONDS: [&str; 6] = ["t", "time", "t_s", "time_s", "seconds", "elapsed"];
 const OF_MILLISECONDS: [&str; 5] = ["t_ms", "time_ms", "ms", "timestamp_ms", "elapsed_ms"];
 const MS: f64 = 1e3;
-/// A log whose second row seems this many ticks after the first has its times in milliseconds.
+/// If a log's second row seems this many ticks after the first, its times are in milliseconds.
 const TOO_FAR: f64 = 500.0;
 
 impl Columns {
-    /// Finds the columns; `per_second` is how many of the unit of a column of times are a second, where its name does not say.
+    /// Finds the columns. `per_second` is the number of time units per second, unless the column's name gives the
+    /// unit.
     fn find(
         header: Vec<String>,
         decimal: Decimal,
@@ -153,7 +154,7 @@ impl Columns {
                 return Err(absent(&format!("{wanted:?}"), setting));
             }
         }
-        // A name that was given leaves no other.
+        // If the caller names a time column, other names for ticks do not count.
         let tick = tick.or_else(|| one_of(&OF_TICKS).filter(|_| names.t == usual.t));
         let seconds = t.or_else(|| one_of(&OF_SECONDS));
         let milliseconds = one_of(&OF_MILLISECONDS);
@@ -167,7 +168,7 @@ impl Columns {
         Ok(Self { names: header, time, x, v, decimal })
     }
 
-    /// The columns that are read, for people.
+    /// Names of the columns read, for people.
     fn read_names(&self) -> String {
         let (time, unit) = match self.time {
             TimeColumn::Ticks(at) => (at, ""),
@@ -184,7 +185,7 @@ impl Columns {
         matches!(self.time, TimeColumn::Time(_, 1.0))
     }
 
-    /// How many ticks a row lies after the first, which lies at `first` by the log's own count.
+    /// Ticks between the first row and this one. `first` is the first row's own count, set by the first call.
     fn ticks_since(
         &self,
         record: &ByteRecord,
@@ -212,13 +213,13 @@ impl Columns {
     }
 }
 
-/// Whether a row that lies this far after the first, in ticks, is at a whole tick.
+/// Whether a row lies on a whole tick, `since` ticks after the first.
 fn is_at_a_tick(since: f64) -> bool {
     (since - since.round()).abs() <= OFF_TICK
 }
 
-/// What is wrong with rows that lie this far after the first, in ticks, where the first of them that is off its tick does: the
-/// rate, if they are even by another. `None` if they are uneven.
+/// The fault of rows off their ticks that are evenly spaced at another rate. `since` is each row's distance from the
+/// first, in ticks. `None` if the rows are uneven, or all on their ticks.
 fn off_ticks(since: &[f64], tick_hz: f64) -> Option<Fault> {
     let off = since.iter().find(|since| !is_at_a_tick(**since))?;
     let steps = since.len() as f64 - 1.0;
@@ -234,21 +235,21 @@ fn off_ticks(since: &[f64], tick_hz: f64) -> Option<Fault> {
     })
 }
 
-/// The columns that there are, for a message.
+/// The columns of the header, for a message.
 fn listed(header: &[String]) -> String {
     let names: Vec<String> = header.iter().map(|name| format!("\"{name}\"")).collect();
     clip_list(names.iter().map(String::as_str))
 }
 
 impl Log {
-    /// The fewest rows with velocities: two numbers more than a start has.
+    /// Fewest rows with velocities: two numbers more than a start has.
     const MIN_ROWS: usize = 2;
-    /// The fewest rows without velocities.
+    /// Fewest rows without velocities.
     const MIN_ROWS_WITHOUT_VELOCITY: usize = 4;
-    /// Rows after this many ticks are not used.
+    /// Rows after this many ticks are ignored; in an uneven log, after this many rows.
     pub const MAX_TICKS: u64 = 3000;
 
-    /// Reads a log from the text of a table with a header; `name` is the file's, for messages.
+    /// Reads a log from the text of a table with a header. `name` is the file's, for messages.
     ///
     /// # Errors
     /// The first fault of the text.
@@ -312,7 +313,7 @@ impl Log {
                 }
                 off = off.or(Some(line));
             }
-            // Rows at the same tick may be at two uneven times.
+            // Two rows of an uneven log may round to the same tick.
             let follows = ticks.last().is_none_or(|before| match off {
                 Some(_) => since > *before,
                 None => since.round() > before.round(),
@@ -358,13 +359,13 @@ impl Log {
         Ok(Log { rows, columns: columns.read_names(), scale: [x, v], is_uneven })
     }
 
-    /// The same log with its rest at 0.
+    /// The same log, moved so that its rest is at 0.
     pub(super) fn resting_at_zero(&self, rest: f64) -> Log {
         let rows = self.rows.iter().map(|row| LogRow { x: row.x - rest, ..*row });
         Log { rows: rows.collect(), ..self.clone() }
     }
 
-    /// What was read, for people: its rows, their rate and its columns.
+    /// A summary for people: rows, rate and columns.
     pub fn summary(&self) -> String {
         let last = self.rows[self.rows.len() - 1];
         let rate = significant((self.rows.len() - 1) as f64 / last.t_s, 4);
@@ -374,64 +375,64 @@ impl Log {
         format!("read {rows} in {seconds} s: {even}{rate} a second, columns {}", self.columns)
     }
 
-    /// Whether its rows are at uneven times, at which no method makes ticks.
+    /// Whether its rows are at uneven times, so that no method can run beside it.
     pub fn is_uneven(&self) -> bool {
         self.is_uneven
     }
 
-    /// The part up to this tick, and as many rows as a log has at least. Its scale is that of the whole.
+    /// The rows up to this tick, and at least the minimum of a log. The scale stays that of the whole log.
     pub(super) fn head(&self, last_tick: u64) -> Log {
         let least = Self::MIN_ROWS_WITHOUT_VELOCITY.min(self.rows.len());
         let count = self.rows.partition_point(|row| row.tick <= last_tick).max(least);
         Log { rows: self.rows[..count].to_vec(), ..self.clone() }
     }
 
-    /// The largest coordinate and velocity; a velocity that was not logged has the scale 1.
+    /// Largest coordinate and velocity. The velocity's scale is 1 if the log has none.
     pub(super) fn scale(&self) -> [f64; 2] {
         self.scale
     }
 
-    /// Whether the coordinates have more digits than single precision has.
+    /// Whether the coordinates have more digits than single precision.
     pub(super) fn is_double(&self) -> bool {
         let moved = self.rows.iter().map(|row| row.x).filter(|x| *x != 0.0);
         let lost: Vec<f64> = moved.map(|x| ((f64::from(x as f32) - x) / x).abs()).collect();
         lost.iter().sum::<f64>() > LOST_IN_SINGLE * lost.len() as f64
     }
 
-    /// Whether velocities were logged.
+    /// Whether the log has velocities.
     pub fn has_velocities(&self) -> bool {
         self.rows[0].v.is_some()
     }
 
-    /// How many coordinates and velocities it has.
+    /// Number of logged coordinates and velocities.
     pub(super) fn numbers(&self) -> usize {
         self.rows.len() * if self.has_velocities() { 2 } else { 1 }
     }
 
-    /// The rows, whose ticks count from the first.
+    /// The rows; ticks and times count from the first.
     pub fn rows(&self) -> &[LogRow] {
         &self.rows
     }
 }
 
-/// A body on a line: a spring, drag and a constant push, any of which may be 0. By default it is a spring of which nothing is
-/// known.
+/// A body on a line with a spring, drag and a constant push, any of which may be 0. By default, an unknown spring
+/// alone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoggedBody {
-    /// k/m in 1/s² and c/m in 1/s of the spring; `None` if they are to be fitted.
+    /// k/m in 1/s² and c/m in 1/s of the spring; `None` to fit them.
     pub spring: Option<[f64; 2]>,
-    /// The damping setting of the body, in 1/s.
+    /// The body's damping setting, in 1/s.
     pub drag: f64,
-    /// The constant force for each kilogram, in m/s².
+    /// Constant force per unit of mass, in m/s².
     pub push: f64,
-    /// Where the spring rests, in metres; `None` if it is 0, or to be fitted where nothing fits so.
+    /// The spring's rest, in metres. `None` means 0 or, if nothing fits with 0, a fitted rest.
     pub rest: Option<f64>,
-    /// The velocity of the first row in m/s, where it was not logged; `None` if it is to be fitted.
+    /// Velocity of the first row in m/s, if the log has none; `None` to fit it.
     pub v0: Option<f64>,
 }
 
 impl LoggedBody {
-    /// Whether there is a spring, known or not.
+    /// Whether the body has a spring, known or not.
     pub fn has_spring(&self) -> bool {
         self.spring != Some([0.0; 2])
     }

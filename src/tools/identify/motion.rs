@@ -1,11 +1,11 @@
-//! The run of a log's body under a candidate.
+//! Runs a log's body under a candidate.
 
 use super::candidates::{Candidate, SpringAs};
 use super::logged::LoggedBody;
 use crate::sim::integrators::{fresh, problem};
 use crate::sim::{Query, State, System};
 
-/// A body whose numbers are known, as a system.
+/// A body with known numbers, as a system.
 #[derive(Clone, Debug)]
 pub(super) struct Known {
     pub(super) spring: [f64; 2],
@@ -38,10 +38,10 @@ impl System for Known {
     }
 }
 
-/// A run is over where a value has left all scales.
+/// A run fails once a value exceeds this.
 const LOST: f64 = 1e150;
 
-/// The states of a run at these ticks, which rise; `None` if the candidate cannot make it.
+/// The states of a run at these rising ticks; `None` if the candidate cannot make it, or if it diverges.
 pub(crate) fn run(
     candidate: Candidate,
     body: &LoggedBody,
@@ -49,7 +49,7 @@ pub(crate) fn run(
     tick_s: f64,
     ticks: impl Iterator<Item = u64>,
 ) -> Option<Vec<[f64; 2]>> {
-    // An explicit joint reads its force again in each substep, as if that were a tick.
+    // An explicit joint reads its force again in each substep, as if each were a tick.
     let (is_held, parts) = match candidate.spring {
         SpringAs::Joint(mode) if mode.is_explicit => (true, candidate.substeps),
         spring => (spring == SpringAs::HeldForce, 1),

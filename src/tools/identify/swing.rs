@@ -1,38 +1,38 @@
-//! The damped swing that comes nearest to a log at the times of its rows, which need not be even.
+//! Fits a damped swing to a log, whose rows may be at uneven times.
 
 use super::effective::Effective;
 use super::logged::{Log, LoggedBody};
 use crate::sim::least_squares;
 
-/// The iterations of Gauss and Newton, and how often a step that leads no nearer is halved.
+/// Gauss-Newton iterations, and how often a step that does not improve the fit is halved.
 const ITERATIONS: usize = 30;
 const HALVINGS: i32 = 10;
-/// A displacement for the derivatives, in units of a parameter.
+/// Displacement for the derivatives, in units of a parameter.
 const DISPLACEMENT: f64 = 1e-5;
-/// The change, in units of a parameter, below which the fit has ended.
+/// The fit ends once every parameter changes by less than this, in its unit.
 const SETTLED: f64 = 1e-12;
-/// The fewest rows more than parameters.
+/// Fewest rows beyond the number of parameters.
 const SPARE_ROWS: usize = 2;
-/// The part of k below which the square of half the damping is that of critical damping.
+/// Damping counts as critical if k - (c/2)² is below this share of k.
 const CRITICAL: f64 = 1e-8;
 
 /// A damped swing fitted to a log by least squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FittedSwing {
-    /// What a player sees.
+    /// The motion that a player sees.
     pub seen: Effective,
-    /// Where it rests, in metres.
+    /// The rest, in metres.
     pub rest: f64,
-    /// The standard errors of the undamped frequency in hertz and of the damping ratio.
+    /// Standard errors of the undamped frequency in hertz and of the damping ratio.
     pub errors: [f64; 2],
-    /// The root mean square of the residual of x, as a part of the largest distance from the rest.
+    /// Root mean square of the residual of x, as a share of the largest distance from the rest.
     pub residual: f64,
 }
 
-/// The parameters: stiffness and damping for each kilogram, the rest, and the coordinate and velocity of the first row.
+/// Stiffness and damping per unit of mass, the rest, and the coordinate and velocity of the first row.
 type Parameters = [f64; 5];
 
-/// The distance from the rest after `t` seconds of x″ = -k x - c x′ from these, by the closed form.
+/// Distance from the rest `t` seconds after the start `[x, v]`, by the closed form of x″ = -k x - c x′.
 fn swung([k, c]: [f64; 2], [x, v]: [f64; 2], t: f64) -> f64 {
     let half = c / 2.0;
     let square = k - half * half;
@@ -49,13 +49,13 @@ fn swung([k, c]: [f64; 2], [x, v]: [f64; 2], t: f64) -> f64 {
     libm::exp(-half * t) * (x * even + slope * odd)
 }
 
-/// The coordinates at the times of the log.
+/// Coordinates at the times of the log.
 fn run(log: &Log, [k, c, rest, x, v]: Parameters) -> Vec<f64> {
     let at = |t: f64| rest + swung([k, c], [x - rest, v], t);
     log.rows().iter().map(|row| at(row.t_s)).collect()
 }
 
-/// A first guess, from the equation of motion integrated twice: noise in x is not amplified as by its slopes.
+/// A first guess, from the equation of motion integrated twice. Derivatives of x would amplify its noise.
 fn guess(log: &Log) -> Option<Parameters> {
     let rows = log.rows();
     let (mut once, mut twice) = (vec![0.0], vec![0.0]);
@@ -63,7 +63,7 @@ fn guess(log: &Log) -> Option<Parameters> {
         let h = pair[1].t_s - pair[0].t_s;
         let last = once[once.len() - 1];
         let next = last + h * (pair[0].x + pair[1].x) / 2.0;
-        // x is a line between two rows.
+        // x is a straight line between two rows.
         let area = h * last + h * h * (pair[0].x / 3.0 + pair[1].x / 6.0);
         twice.push(twice[twice.len() - 1] + area);
         once.push(next);
@@ -83,7 +83,7 @@ fn guess(log: &Log) -> Option<Parameters> {
     (k > 0.0).then(|| [k, c, pull / k, x, slope - c * x])
 }
 
-/// The swing that is nearest to a log of a body with a spring; `None` if there is none, or if the log is too short.
+/// The damped swing nearest to a log; `None` if the body has no spring, no swing fits, or the log is too short.
 pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> {
     if !body.has_spring() || log.rows().len() < 5 + SPARE_ROWS {
         return None;
@@ -93,7 +93,7 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
     let residual = |run: &[f64]| -> Vec<f64> { x.iter().zip(run).map(|(x, y)| x - y).collect() };
     let squares = |residual: &[f64]| residual.iter().map(|r| r * r).sum::<f64>();
     let size = x.iter().map(|x| (x - now[2]).abs()).fold(0.0, f64::max);
-    // A rest and a velocity that are known are not fitted.
+    // A known rest or velocity is not fitted.
     let is_free = [true, true, body.rest.is_none(), true, body.v0.is_none()];
     now[2] = body.rest.unwrap_or(now[2]);
     now[4] = body.v0.unwrap_or(now[4]);
@@ -139,7 +139,7 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
     let square = squares(&off);
     let variance = square / (x.len() - is_free.iter().filter(|free| **free).count()) as f64;
     let [of_k, of_c] = deviations(&slopes(&now, &base), variance)?;
-    // ω is √k, and ζ is c / (2 ω); the units are k and ω.
+    // ω = √k and ζ = c / (2 ω); the deviations are in units of k and ω.
     let omega_error = of_k * omega / 2.0;
     let ratio_error = libm::hypot(of_c / 2.0, seen.damping_ratio()? * of_k / 2.0);
     let found = FittedSwing {
@@ -152,8 +152,8 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
     numbers.iter().all(|number| number.is_finite()).then_some(found)
 }
 
-/// The standard deviations of the first two parameters of a fit with these slopes, in their units: what is left of a slope
-/// that no sum of the others makes says how well its parameter is known.
+/// Standard deviations of the first two parameters of a fit with these slopes, in their units. The residual of a
+/// slope, fitted by the other slopes, shows how well its parameter is known.
 fn deviations(slopes: &[Vec<f64>], variance: f64) -> Option<[f64; 2]> {
     let of = |i: usize| {
         let others: Vec<Vec<f64>> = slopes
@@ -178,7 +178,7 @@ mod tests {
     use super::*;
     use crate::tools::identify::ColumnNames;
 
-    /// A log of x at uneven times, of a spring that rests at 3.
+    /// A log of a spring that rests at 3, with x at uneven times.
     fn log(noise: f64) -> Log {
         let (mut t, mut text) = (0.0, "t,x\n".to_owned());
         for row in 0..400 {

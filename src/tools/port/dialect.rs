@@ -1,6 +1,6 @@
-//! How the springs of user interfaces are told a motion, and what the frame rate makes of it.
+//! Ports a motion to the springs of user-interface libraries, and shows the effect of the frame rate on it.
 //!
-//! Each takes the distance to the target for the stretch, on a mass of 1 where it has none of its own.
+//! Each library takes the distance to the target as the stretch, on a mass of 1 if it has none of its own.
 
 use std::fmt::Write;
 
@@ -23,121 +23,119 @@ pub use cards::DIALECTS;
 /// A number that a library takes.
 #[derive(Debug)]
 pub struct Key {
-    /// As the library spells it.
+    /// Name as the library spells it.
     pub name: &'static str,
-    /// What it is where it is not given.
+    /// The library's default.
     pub usual: f64,
-    /// The least and the most that it may be.
+    /// Least and largest valid value.
     pub range: [f64; 2],
     /// The range in words.
     pub wanted: &'static str,
-    /// What it is if it is a switch, whose values are 0 and 1.
+    /// Set if the number is a switch, with the values 0 and 1.
     pub switch: Option<Switch>,
 }
 
-/// A number that is on or off.
+/// A setting that is on or off.
 #[derive(Debug)]
 pub struct Switch {
-    /// The statement of code that turns it on.
+    /// The statement that turns it on.
     code: &'static str,
-    /// What a person is to know where it is on.
+    /// A note for people while it is on.
     pub note: &'static str,
 }
 
-/// The values of the keys of a dialect; where it has fewer, the others are 0.
+/// Values of a dialect's keys; unused places are 0.
 type Values = [f64; 4];
 
-/// How a library comes from frame to frame.
+/// How a library advances from frame to frame.
 #[derive(Clone, Copy, Debug)]
 enum Steps {
     /// By the closed form.
     Exact,
-    /// By the closed form, at times that are cut to whole milliseconds.
+    /// By the closed form, at times cut to whole milliseconds.
     WholeMilliseconds,
     /// Along straight lines between points of the closed form.
     Sampled,
     /// By semi-implicit Euler once a frame.
     PerFrame,
-    /// By semi-implicit Euler in steps of 1 ms, whose count is rounded up, but no more than 64 a frame.
+    /// By semi-implicit Euler in steps of 1 ms. A frame's count of steps is rounded up, to at most 64.
     Milliseconds,
     /// By the follower `smooth-damp` once a frame.
     SmoothDamp,
 }
 
-/// How a library is told a spring.
+/// A library's way to set a spring.
 #[derive(Debug)]
 pub struct Dialect {
-    /// Its id on the command line.
+    /// Id on the command line.
     pub id: &'static str,
-    /// An id that it had in an earlier release, which stands for it still.
+    /// Id in an earlier release, still accepted.
     pub former_id: Option<&'static str>,
-    /// Its name.
+    /// Name for people.
     pub name: &'static str,
     /// The numbers that it takes, up to four.
     pub keys: &'static [Key],
-    /// The file or page that says how it reads them and how it steps.
+    /// The file or page that shows how it reads them and how it steps.
     pub source: &'static str,
-    /// The release, or the commit, that all of this is held against; empty for code of your own.
+    /// The release or commit against which the card was checked; empty for code of your own.
     pub version: &'static str,
-    /// What was done with that version.
+    /// How that version was checked.
     pub evidence: &'static str,
-    /// What they mean; `None` if they do not tell the motion.
+    /// Converts values to a motion; `None` if they do not determine one.
     read: Option<fn(Values) -> Wish>,
-    /// Those that come nearest to a motion.
+    /// The values that come nearest to a motion.
     write: fn(&Wish) -> Values,
     steps: Steps,
-    /// The motion at which it departs from the closed form.
+    /// Where a motion departs from the closed form, if it does.
     departure: fn(&Wish) -> Option<Departure>,
-    /// A line of code, with the names of keys in `<>` where their values stand; `:decimal` follows the name where the
-    /// language has no exponents.
+    /// A line of code with `<name>` in place of a key's value, or `<name:decimal>` if the language has no exponents.
     code: &'static str,
 }
 
-/// Where a library leaves the closed form.
+/// The point at which a library leaves the closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
-    /// When, in seconds from the start.
+    /// Time from the start, in seconds.
     pub at_s: f64,
-    /// The part of the way that is left then.
+    /// Share of the way that is left at that time.
     pub left: f64,
-    /// The damping ratio from then on; `None` if it jumps to its end.
+    /// Damping ratio from then on; `None` if the motion jumps to its end.
     pub damping_ratio: Option<f64>,
 }
 
-/// What a library is told for a wish, and what is seen then.
+/// A library's settings for a wish, and the motion that they show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DialectPort {
-    /// Whether it shows the wish: unreachable is what it damps more, and what explodes.
+    /// Whether they show the wish. It is unreachable if the library damps more or explodes.
     pub reach: Reach,
-    /// The values of its keys, in their order.
+    /// Values of the keys, in their order.
     pub values: Vec<f64>,
-    /// The frames per second below which it explodes; `None` if the frame rate does not decide that.
+    /// Frames per second below which the motion explodes; `None` if the frame rate does not decide that.
     pub explodes_below_hz: Option<f64>,
-    /// Whether it does not explode at the frame rate.
+    /// Whether the motion stays bounded at the frame rate.
     pub is_stable: bool,
-    /// What is seen at the frame rate; `None` if nothing swings, or decays without changing sides at each step, or if it is
-    /// not one motion.
+    /// The visible motion at the frame rate; `None` if it is not that of one damped spring.
     pub seen: Option<Effective>,
-    /// Where it leaves the motion.
+    /// Where it leaves the closed form, if it does.
     pub departure: Option<Departure>,
-    /// How far what is shown is off at most, as a part of the way, where it is drawn through points.
+    /// Largest error of a motion drawn through points, as a share of the way.
     pub error: Option<f64>,
-    /// The line of code.
+    /// The line of code; empty if the library has no values for the wish.
     pub code: String,
 }
 
-/// In how many places the error is looked for.
+/// Number of places at which the error is sampled.
 const PLACES: u32 = 20_000;
-/// Points that miss more of the way than this show another motion.
+/// Points with a larger error, as a share of the way, show another motion.
 const ASTRAY: f64 = 0.1;
-/// Frames per second between which an explosion is sought.
+/// Frames per second between which the limit of stability is sought, and how often the interval is halved.
 const RATES: [f64; 2] = [1e-6, 1e12];
 const HALVINGS: u32 = 60;
-/// The step of react-spring in seconds, and the most of them in a frame.
+/// Step of react-spring in seconds, and the most steps in a frame.
 const STEP_S: f64 = 1e-3;
 const MAX_STEPS: f64 = 64.0;
 
-/// The part of the way that is left at this angle, the time times ω, to a spring of this damping ratio that began at rest.
+/// Share of the way left at this angle (ω times the time) to a spring that starts at rest with this damping ratio.
 fn left(damping_ratio: f64, angle: f64) -> f64 {
     let spring =
         Spring { mass: 1.0, stiffness: 1.0, damping: 2.0 * damping_ratio, ..Spring::default() };
@@ -145,13 +143,13 @@ fn left(damping_ratio: f64, angle: f64) -> f64 {
     left.expect("a spring has a closed form").q
 }
 
-/// A number as [`in_code`], without an exponent.
+/// Formats a number as [`in_code`] does, but without an exponent.
 fn decimal(value: f64) -> String {
     let rounded = format!("{value:.8e}").parse::<f64>();
     rounded.unwrap_or(value).to_string()
 }
 
-/// The points of a way, written as in a style sheet, and how far the lines between them are off.
+/// The points of a motion as a style sheet writes them, and the largest error of the lines between them.
 fn curve(wish: &Wish, [duration, points, ..]: Values) -> (String, f64) {
     let pieces = points as u32 - 1;
     let at = |place: f64| 1.0 - left(wish.damping_ratio, wish.omega() * duration * place);
@@ -174,23 +172,23 @@ fn curve(wish: &Wish, [duration, points, ..]: Values) -> (String, f64) {
 }
 
 impl Dialect {
-    /// The dialect with this id.
+    /// The dialect with this id or former id.
     pub fn of_id(id: &str) -> Option<&'static Self> {
         DIALECTS.iter().find(|dialect| dialect.ids().any(|own| own == id))
     }
 
-    /// Its id, and the one that it had.
+    /// Its id, then its former one.
     pub fn ids(&self) -> impl Iterator<Item = &'static str> + use<> {
         [self.id].into_iter().chain(self.former_id)
     }
 
-    /// The version that it is held against and how, in words; `None` of code of your own.
+    /// The version that it was checked against, and how, in words; `None` for code of your own.
     pub fn held_against(&self) -> Option<String> {
         let Self { version, evidence, .. } = self;
         (!version.is_empty()).then(|| format!("held against {version}, {evidence}"))
     }
 
-    /// Whether a motion can be read from it.
+    /// Whether its values determine a motion.
     pub fn is_read(&self) -> bool {
         self.read.is_some()
     }
@@ -200,10 +198,10 @@ impl Dialect {
         self.keys.iter().any(|key| key.name == "mass")
     }
 
-    /// The motion that these values of its keys tell.
+    /// The motion that these values of its keys determine.
     ///
     /// # Errors
-    /// If they tell none, or the first value that is out of its range, in words.
+    /// If they determine none, or the first value out of its range, in words.
     pub fn read(&self, values: &[f64]) -> Result<Wish, String> {
         let read = self.read.ok_or_else(|| {
             format!("{} is points of a motion, from which it cannot be told", self.name)
@@ -219,7 +217,7 @@ impl Dialect {
         Ok(read(all))
     }
 
-    /// How it steps: `exact`, or a method's id.
+    /// Its stepping method: `exact`, or a method's id.
     pub fn steps(&self) -> &'static str {
         match self.steps {
             Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => "exact",
@@ -228,8 +226,8 @@ impl Dialect {
         }
     }
 
-    /// What it is told for a wish, whose numbers must [have a meaning](Wish::check_numbers), and what is seen at this many
-    /// frames per second.
+    /// Its settings for a wish, whose numbers must [have a meaning](Wish::check_numbers), and the motion visible at
+    /// this many frames per second.
     pub fn port(&self, wish: &Wish, frame_hz: f64) -> DialectPort {
         let values = (self.write)(wish);
         let is_told = values.iter().all(|value| value.is_finite());
@@ -281,14 +279,14 @@ impl Dialect {
         }
     }
 
-    /// The switches that are on in these values of its keys.
+    /// The switches that these values turn on.
     pub fn switched_on(&self, values: &[f64]) -> impl Iterator<Item = &'static Switch> {
         let is_on =
             |(key, value): (&'static Key, &f64)| key.switch.as_ref().filter(|_| *value == 1.0);
         self.keys.iter().zip(values).filter_map(is_on)
     }
 
-    /// The map of a step of a motion that it is told; `None` of a closed form.
+    /// The map of one step of this motion; `None` for a closed form.
     fn map(&self, told: &Wish, frame_hz: f64) -> Option<StepMap> {
         let (step_s, pace) = match self.steps {
             Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => return None,
@@ -300,12 +298,12 @@ impl Dialect {
             Steps::SmoothDamp => map_of_frame(method, told.omega(), frame_hz),
             _ => map_of_step(method, told.joint(), step_s),
         };
-        // A map beyond all numbers is of a motion that is.
+        // A step without a finite map is unstable.
         let map = map.unwrap_or(Matrix2::from_element(f64::INFINITY));
         Some(StepMap { map, step_s, pace })
     }
 
-    /// The frames per second below which a motion that it is told explodes.
+    /// Frames per second below which this motion explodes.
     fn explodes_below_hz(&self, told: &Wish) -> Option<f64> {
         let Steps::PerFrame = self.steps else { return None };
         let explodes = |log| self.map(told, libm::exp(log)).is_some_and(|map| !map.is_stable());
@@ -313,7 +311,7 @@ impl Dialect {
         Some(libm::exp(high))
     }
 
-    /// What the frame rate does to what it was told, in words.
+    /// The effect of the frame rate on a port, in words.
     pub fn at_frame_rates(&self, port: &DialectPort, frame_hz: f64) -> String {
         let percent = |part: f64| significant(100.0 * part.abs(), 2);
         match self.steps {
@@ -367,22 +365,22 @@ impl Dialect {
     }
 }
 
-/// What a step makes of distance and velocity.
+/// The map of distance and velocity over a step.
 struct StepMap {
     map: Matrix2<f64>,
-    /// The seconds that the step is told.
+    /// Length of the step, in seconds.
     step_s: f64,
-    /// How many of them pass in a second.
+    /// Simulated seconds per second.
     pace: f64,
 }
 
 impl StepMap {
-    /// Whether no motion of it grows.
+    /// Whether no motion grows.
     fn is_stable(&self) -> bool {
         is_stable(self.map.trace(), self.map.determinant())
     }
 
-    /// The damped spring that it looks like.
+    /// The damped spring with the same motion.
     fn seen(&self) -> Option<Effective> {
         let Self { map, step_s, pace } = self;
         let Effective { omega, decay } = seen(map.trace(), map.determinant(), *step_s)?;
@@ -390,7 +388,7 @@ impl StepMap {
     }
 }
 
-/// How fast the clock of react-spring runs, whose frames are rounded up to steps.
+/// Simulated seconds per second in react-spring, which rounds each frame up to whole steps.
 fn pace(frame_hz: f64) -> f64 {
     libm::ceil(1.0 / STEP_S / frame_hz).min(MAX_STEPS) * STEP_S * frame_hz
 }

@@ -1,40 +1,40 @@
-//! How stiff and how damped a drive may be.
+//! Finds the limits of a drive's stiffness and damping.
 
 use super::seen::NO_GROWTH;
 use super::{MAX_SUBSTEPS, Setup};
 use crate::sim::numerics::bisect;
 use crate::tools::identify::Effective;
 
-/// The gains that are stable.
+/// A range of stable gains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GainRange {
-    /// The least; 0 if all below the most are.
+    /// Least stable gain; 0 if there is no lower limit.
     pub least: f64,
-    /// The most; `None` if all above the least are, and 0 if none is.
+    /// Largest stable gain; `None` if there is no upper limit, 0 if no gain is stable.
     pub most: Option<f64>,
 }
 
-/// The limits of a drive: of an engine's own, or of a force of user code that is held through some ticks.
+/// The limits of an engine's own drive, or of a force that user code holds through some ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriveLimits {
-    /// The ticks through which user code holds the force; `None` for the engine's own drive.
+    /// Ticks through which user code holds the force; `None` for the engine's own drive.
     pub held_ticks: Option<u32>,
-    /// The stable stiffnesses with the damping given, per unit of mass, in 1/s².
+    /// Stable stiffnesses at the given damping, per unit of mass, in 1/s².
     pub stiffness: GainRange,
-    /// The stable dampings with the stiffness given, per unit of mass, in 1/s.
+    /// Stable dampings at the given stiffness, per unit of mass, in 1/s.
     pub damping: GainRange,
-    /// The largest part of the state that a tick keeps with the pair given: it is stable up to 1. `None` if the engine makes
-    /// nothing of it.
+    /// Spectral radius of a tick's map for the given pair, which is stable up to 1. `None` if the engine cannot run
+    /// the pair.
     pub spectral_radius: Option<f64>,
-    /// The fewest substeps with which the pair given is stable, up to 64; `None` if it is with none.
+    /// Fewest substeps, up to 64, at which the given pair is stable; `None` if there are none.
     pub fewest_substeps: Option<u32>,
-    /// What a player sees of the pair given; `None` if nothing swings or decays.
+    /// Visible motion with the given pair; `None` if it neither swings nor decays.
     pub sees: Option<Effective>,
 }
 
-/// Gains beyond this multiple of the given one are not sought.
+/// The search ends at this multiple of its first gain.
 const MAX_MULTIPLE: f64 = 1e9;
-/// The factor from gain to gain, and how often the last step is halved.
+/// Ratio of successive gains, and how often the last step is halved.
 const STEP: f64 = 1.02;
 const HALVINGS: u32 = 50;
 
@@ -61,7 +61,7 @@ pub fn drive_limits(setup: Setup, joint: [f64; 2], held_ticks: Option<u32>) -> D
     }
 }
 
-/// The gains that hold, from `first` up, or from 0 if that holds.
+/// The first range of gains that hold, from `first` up. It starts at 0 if `first` holds.
 fn range(first: f64, holds: impl Fn(f64) -> bool) -> GainRange {
     let gains = || std::iter::successors(Some(first), |gain| Some(gain * STEP));
     let within = |gain: &f64| *gain < first * MAX_MULTIPLE;

@@ -1,4 +1,4 @@
-//! The rates with which every follower approaches its target equally fast, at every rate of frames.
+//! Finds the settings with which every follower approaches its target equally fast, at every frame rate.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -10,59 +10,60 @@ use crate::sim::integrators::{
 use crate::sim::law::Powers;
 use crate::sim::numerics::bisect;
 
-/// How fast a value approaches a target that rests.
+/// The pace at which a value approaches a resting target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approach {
-    /// The time in which the distance halves, in seconds: of a value with a velocity of its own, from rest.
+    /// Time in which the distance halves, in seconds. A value with a velocity of its own starts at rest.
     pub half_life_s: f64,
 }
 
-/// The setting of a follower for an approach.
+/// A follower's setting for an approach.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FollowerPort {
     /// The follower.
     pub method: &'static Method,
     /// Frames per second.
     pub fps: f64,
-    /// The name of its setting.
+    /// Name of the setting.
     pub setting: &'static str,
-    /// Its value.
+    /// Value of the setting.
     pub value: f64,
-    /// The line of code that does it.
+    /// The line of code with this value.
     pub code: String,
 }
 
-/// ω times the time in which a critically damped spring gets half the way from rest: (1 + z) exp(-z) is a half.
+/// Solution z of (1 + z) exp(-z) = ½: ω times the half-life of a critically damped spring that starts at rest.
 const CRITICAL_HALF: f64 = 1.678_346_990_016_660_8;
-/// The rates of frames.
+/// Frames per second for which settings are listed.
 pub(super) const FRAME_RATES: [f64; 5] = [30.0, 60.0, 120.0, 144.0, 240.0];
-/// The rates per second between which a follower's is sought, and how often the interval of their logarithms is halved.
+/// Rates per second between which a follower's is sought, and how often the interval of their logarithms is halved.
 const RATES: [f64; 2] = [1e-6, 1e9];
 const HALVINGS: u32 = 60;
-/// Frames after which half of the way is looked for first, and how often they are doubled: to a year at 240 a second.
+/// First number of frames tried for half of the way, and how often it doubles: up to a year at 240 frames per second.
 const FIRST_SPAN: f64 = 1.0 / 64.0;
 const DOUBLINGS: u32 = 40;
 
 impl Approach {
-    /// Of a value that goes this part of the way in each of `fps` frames per second.
+    /// The approach of a value that covers this part of the distance in each of `fps` frames per second.
     pub fn of_lerp(part: f64, fps: f64) -> Self {
         Self { half_life_s: -std::f64::consts::LN_2 / libm::log1p(-part) / fps }
     }
 
-    /// Of a critically damped spring with this smoothing time in seconds, which is 2/ω.
+    /// The approach of a critically damped spring with this smoothing time in seconds, which is 2/ω.
     pub fn of_smooth_time(seconds: f64) -> Self {
         Self { half_life_s: CRITICAL_HALF * seconds / 2.0 }
     }
 
-    /// k in x′ = k (g - x), per second.
+    /// The rate k of x′ = k (g - x), per second.
     pub fn rate(&self) -> f64 {
         std::f64::consts::LN_2 / self.half_life_s
     }
 }
 
-/// The map of a frame of a follower with this rate, whose target rests; of the first order its velocity stays.
+/// Map of a frame of a follower with this rate and a resting target. A follower of the first order keeps its
+/// velocity.
 pub(super) fn map_of_frame(method: &Method, rate: f64, fps: f64) -> Option<Matrix2<f64>> {
-    // Its target rests at 0.
+    // The target rests at 0.
     let order = method.law_order()? as usize;
     let system = problem(Follow { order, rate, ..Follow::default() });
     let step = |x: f64, v: f64| {
@@ -73,7 +74,7 @@ pub(super) fn map_of_frame(method: &Method, rate: f64, fps: f64) -> Option<Matri
     Some(Matrix2::from_columns(&[step(1.0, 0.0)?, step(0.0, 1.0)?]))
 }
 
-/// The time in which a follower with this rate halves the distance, in seconds; `None` if it overshoots within a frame.
+/// Time in which a follower with this rate halves the distance, in seconds; `None` if it overshoots within a frame.
 fn half_life(method: &Method, rate: f64, fps: f64) -> Option<f64> {
     let map = map_of_frame(method, rate, fps)?;
     if method.law_order()? == 1 {
@@ -82,8 +83,8 @@ fn half_life(method: &Method, rate: f64, fps: f64) -> Option<f64> {
     Some(frames_to_half(&map)? / fps)
 }
 
-/// The frames after which half of the distance is left, from rest; between two frames by the map's own powers. `None` if
-/// the map changes sides, or does not decay.
+/// Frames until half of the distance is left, from rest. Powers of the map interpolate between frames. `None` if the
+/// map changes sides or does not decay.
 fn frames_to_half(map: &Matrix2<f64>) -> Option<f64> {
     let (half, determinant) = (map.trace() / 2.0, map.determinant());
     let powers = Powers::of(map.trace(), determinant)?;
@@ -98,8 +99,8 @@ fn frames_to_half(map: &Matrix2<f64>) -> Option<f64> {
     Some(high)
 }
 
-/// The setting of every follower at 30 to 240 frames per second, and at `fps`, with which it halves the distance in the
-/// same time.
+/// Settings with which every follower halves the distance in the same time, at 30 to 240 frames per second and at
+/// `fps`.
 pub fn followers(approach: Approach, fps: Option<f64>) -> Vec<FollowerPort> {
     let mut rates: Vec<f64> = FRAME_RATES.into_iter().chain(fps).collect();
     rates.sort_by(f64::total_cmp);
@@ -116,7 +117,7 @@ pub fn followers(approach: Approach, fps: Option<f64>) -> Vec<FollowerPort> {
     all.flat_map(of_follower).collect()
 }
 
-/// The setting with which a follower is as fast as wished.
+/// Value of a follower's setting for an approach.
 fn value(approach: Approach, method: &Method, quantity: FollowerQuantity, fps: f64) -> f64 {
     match quantity {
         FollowerQuantity::Rate => rate(approach, method, fps),
@@ -125,7 +126,7 @@ fn value(approach: Approach, method: &Method, quantity: FollowerQuantity, fps: f
     }
 }
 
-/// The rate with which a follower is as fast as wished, per second.
+/// A follower's rate for an approach, per second.
 fn rate(approach: Approach, method: &Method, fps: f64) -> f64 {
     let is_slow = |rate| half_life(method, rate, fps).is_some_and(|s| s > approach.half_life_s);
     let search = |is_low: &dyn Fn(f64) -> bool| {
@@ -136,7 +137,8 @@ fn rate(approach: Approach, method: &Method, fps: f64) -> f64 {
     if !is_slow(found) {
         return found;
     }
-    // Smooth-damp halves nothing in less than a third of a frame: then a frame leaves as much as an exponential does.
+    // Smooth-damp needs at least a third of a frame to halve a distance. For a faster approach, a frame leaves as
+    // much as an exponential does.
     let left = libm::exp(-approach.rate() / fps);
     search(&|rate| map_of_frame(method, rate, fps).is_some_and(|map| map.m11 > left))
 }

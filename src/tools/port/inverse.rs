@@ -1,42 +1,41 @@
-//! The stiffness and damping under which a map shows a spring.
+//! Finds the stiffness and damping under which a map shows a wanted spring.
 
 use crate::sim::numerics::bisect;
 use crate::tools::identify::Effective;
 
-/// What is seen of a joint, by its stiffness in 1/s² and damping in 1/s.
+/// The visible motion of a joint with this stiffness in 1/s² and damping in 1/s.
 pub(super) type Sees<'a> = &'a dyn Fn([f64; 2]) -> Option<Effective>;
 
-/// A joint, and how near it is.
+/// A joint with its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Found {
     /// Stiffness in 1/s² and damping in 1/s.
     pub(super) joint: [f64; 2],
-    /// What is seen of it.
+    /// Its visible motion.
     pub(super) seen: Effective,
-    /// The logarithm of the frequency's ratio to the one wanted, and the difference of the damping ratios, added up
-    /// without signs.
+    /// Sum of the absolute values of [`residual`].
     pub(super) missed: f64,
 }
 
-/// Where the wanted frequency is approached from, as the share of it, and by how much from stage to stage.
+/// First stage of the approach to the wanted frequency, as a share of it, and the factor between stages.
 const FIRST_STAGE: f64 = 1.0 / 64.0;
 const STAGE: f64 = 1.5;
-/// Iterations of Newton at a stage, and how often a step that leads no nearer is halved.
+/// Newton iterations at a stage, and how often a step that does not come nearer is halved.
 const ITERATIONS: u32 = 30;
 const HALVINGS: u32 = 12;
 /// Displacement for the derivatives.
 const DISPLACEMENT: f64 = 1e-6;
-/// Where a residual is at rounding level.
+/// An error below this is rounding.
 const ROUNDING: f64 = 1e-13;
-/// A damping that is negative by this, in units of the frequency, is 0.
+/// A damping closer to 0 than this, in units of the frequency, counts as 0.
 const NO_DAMPING: f64 = 1e-9;
-/// How far stiffness and damping are searched, from the wanted one's up and down, as exponents of e, and in how many
+/// Range of the search in stiffness and damping, as exponents of e around the wanted frequency, and its number of
 /// steps.
 const SPAN: [f64; 2] = [-12.0, 24.0];
 const STEPS: u32 = 240;
-/// The grids of a search in two numbers: how far the first reaches, as an exponent of e, and its cells from the middle to a
-/// side. It is laid anew from the nearest found, so that it leaves a ridge. Then the cells of those that follow, how much
-/// smaller each is, and how many are laid.
+/// The grids of a search in two numbers: the reach of each first grid, as an exponent of e, and its cells on each
+/// side. Each starts at the nearest joint found, to leave a ridge. Then the cells of the grids that follow, the ratio
+/// of their sizes, and their number.
 const REACHES: [(f64, i32); 3] = [(10.0, 20), (2.0, 10), (0.5, 10)];
 const CELLS: i32 = 4;
 const ZOOM: f64 = 0.7;
@@ -44,7 +43,7 @@ const ROUNDS: u32 = 40;
 /// How often an interval is halved: to rounding.
 const HALVED: u32 = 60;
 
-/// The joint of which `wanted` is seen, or what is nearest to it; `None` if nothing is seen of any.
+/// The joint that shows `wanted`, or the nearest one; `None` if no joint shows a motion.
 pub(super) fn invert(sees: Sees, wanted: &Effective) -> Option<Found> {
     let solved = in_stages(sees, wanted);
     if let Some(found) = solved.filter(|found| found.missed <= super::REACHED) {
@@ -58,19 +57,20 @@ pub(super) fn invert(sees: Sees, wanted: &Effective) -> Option<Found> {
     Some(least_stiff(sees, wanted, best))
 }
 
-/// How near a joint is.
+/// The joint with its visible motion and its error; `None` if it shows no motion.
 fn found(sees: Sees, wanted: &Effective, joint: [f64; 2]) -> Option<Found> {
     let seen = sees(joint)?;
     let missed = residual(&seen, wanted).into_iter().map(f64::abs).sum();
     Some(Found { joint, seen, missed })
 }
 
-/// The logarithm of the frequency's ratio to the one wanted, and the difference of the damping ratios.
+/// Logarithm of the frequency's ratio to the wanted one, and difference of the damping ratios.
 fn residual(seen: &Effective, wanted: &Effective) -> [f64; 2] {
     [libm::log(seen.omega / wanted.omega), seen.decay / seen.omega - wanted.decay / wanted.omega]
 }
 
-/// Newton's method, from a frequency so low that every map is near the motion, up to the one wanted.
+/// Applies Newton's method in stages, from a frequency so low that every map is near the motion, up to the wanted
+/// one.
 fn in_stages(sees: Sees, wanted: &Effective) -> Option<Found> {
     let mut part = FIRST_STAGE;
     let ratio = wanted.decay / wanted.omega;
@@ -79,7 +79,7 @@ fn in_stages(sees: Sees, wanted: &Effective) -> Option<Found> {
     loop {
         let omega = wanted.omega * part;
         let target = Effective { omega, decay: ratio * omega };
-        // In units of the frequency of the stage.
+        // In units of the stage's frequency.
         let scaled = |[k, c]: [f64; 2]| [k * omega * omega, c * omega];
         let at = |joint| found(sees, &target, scaled(joint));
         solution = newton(&at, &target, joint).or(solution.filter(|_| part < 1.0));
@@ -92,18 +92,18 @@ fn in_stages(sees: Sees, wanted: &Effective) -> Option<Found> {
         part = (part * STAGE).min(1.0);
     }
     let Found { joint: [stiffness, damping], .. } = solution?;
-    // What needs a negative damping is out of reach.
+    // A wish that needs a negative damping is out of reach.
     let damping = if damping.abs() < NO_DAMPING * wanted.omega { 0.0 } else { damping };
     (damping >= 0.0).then(|| found(sees, wanted, [stiffness, damping]))?
 }
 
-/// The best that Newton's method finds from `joint` on, in units of the target's frequency.
+/// The best joint that Newton's method finds from `joint`, which is in units of the target's frequency.
 fn newton(
     at: &dyn Fn([f64; 2]) -> Option<Found>,
     target: &Effective,
     joint: [f64; 2],
 ) -> Option<Found> {
-    // The stiffness by its logarithm: it stays positive.
+    // The logarithm keeps the stiffness positive.
     let of = |[s, c]: [f64; 2]| at([libm::exp(s), c]);
     let mut place = [libm::log(joint[0]), joint[1]];
     let mut best = of(place)?;
@@ -138,7 +138,7 @@ fn newton(
     Some(best)
 }
 
-/// The least stiffness with which an undamped spring has the frequency `omega` in rad/s, and its damping ratio.
+/// Least stiffness with which an undamped spring has the frequency `omega` in rad/s, and its damping ratio.
 pub(super) fn min_damping(sees: Sees, omega: f64) -> Option<(f64, f64)> {
     let at = |s: f64| sees([omega * omega * libm::exp(s), 0.0]);
     let is_fast = |s: f64| at(s).map(|seen| seen.omega >= omega);
@@ -154,14 +154,14 @@ pub(super) fn min_damping(sees: Sees, omega: f64) -> Option<(f64, f64)> {
     Some((omega * omega * libm::exp(high), ratio))
 }
 
-/// The steps of a search.
+/// Intervals of a search through [`SPAN`].
 fn intervals() -> impl Iterator<Item = (f64, f64)> {
     let step = (SPAN[1] - SPAN[0]) / f64::from(STEPS);
     let place = move |i: u32| SPAN[0] + step * f64::from(i);
     (0..STEPS).map(move |i| (place(i), place(i + 1)))
 }
 
-/// The nearest on a grid of joints, which is laid ever closer around the nearest.
+/// The nearest joint on grids that shrink around the nearest one found.
 fn zoomed(sees: Sees, wanted: &Effective) -> Option<Found> {
     let damping_of = |s: f64| wanted.omega * (libm::exp(s) - libm::exp(SPAN[0])).max(0.0);
     let of = |[s, d]: [f64; 2]| {
@@ -191,7 +191,7 @@ fn zoomed(sees: Sees, wanted: &Effective) -> Option<Found> {
     best
 }
 
-/// The least stiffness of which the same is seen: the limit, if there is one.
+/// Lowers the stiffness while the visible motion stays the same, down to the engine's limit if it has one.
 fn least_stiff(sees: Sees, wanted: &Effective, best: Found) -> Found {
     let [stiffness, damping] = best.joint;
     let joint = |s: f64| [stiffness * libm::exp(s), damping];

@@ -1,31 +1,31 @@
-//! What a player sees of a spring in an engine, read off the map of its tick.
+//! Computes the visible motion of a spring in an engine from the map of a tick.
 
 use nalgebra::{Matrix2, RowVector2, Vector2};
 
 use crate::sim::integrators::{JointMode, Method};
 use crate::tools::identify::{Candidate, Effective, LoggedBody, SLOW, SpringAs, run};
 
-/// How an engine is told a spring, and how often it ticks.
+/// An engine's settings for a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setup {
     /// The engine.
     pub method: &'static Method,
-    /// How it is told.
+    /// Its mode for the joint.
     pub mode: &'static JointMode,
     /// Its ticks per second.
     pub tick_hz: f64,
-    /// Its substeps.
+    /// Substeps per tick.
     pub substeps: u32,
 }
 
 /// A map of coordinate and velocity.
 type Map = Matrix2<f64>;
 
-/// Iterations of Newton on the eigenvalue that a memory adds; it is near 0, and three are enough.
+/// Newton iterations for the eigenvalue that a memory adds. It is near 0, and three iterations are enough.
 const ITERATIONS: u32 = 20;
 
 impl Setup {
-    /// The lines of code that set these values, and the substeps where these are not the engine's own.
+    /// The code for these values, with the substeps unless they are the engine's default.
     pub fn code(&self, values: [f64; 2]) -> String {
         let &Self { method, mode, tick_hz, substeps } = self;
         let of_substeps = method.engine.and_then(|engine| engine.substeps_code(substeps, tick_hz));
@@ -36,14 +36,14 @@ impl Setup {
             .join("\n")
     }
 
-    /// What a player sees of a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass. `None` if nothing
-    /// swings or decays so: the body jumps to the other side at every tick, say.
+    /// Visible motion of a joint with this stiffness in 1/s² and damping in 1/s, each per unit of mass. `None` if no
+    /// damped spring moves so, for example because the body changes sides at every tick.
     pub fn sees(&self, joint: [f64; 2]) -> Option<Effective> {
         let [trace, determinant] = self.invariants(joint)?;
         seen(trace, determinant, 1.0 / self.tick_hz)
     }
 
-    /// The trace and the determinant of the map of a tick; of an engine with a memory those of the two slowest motions.
+    /// Trace and determinant of a tick's map. In an engine with a memory, those of the two slowest motions.
     fn invariants(&self, joint: [f64; 2]) -> Option<[f64; 2]> {
         let has_memory = self.method.restart.is_some();
         let maps = self.maps(joint, if has_memory { 3 } else { 1 })?;
@@ -54,13 +54,13 @@ impl Setup {
         }
     }
 
-    /// The largest part of the state that a tick keeps: the swing grows if it is more than 1.
+    /// Spectral radius of a tick's map: the swing grows if it exceeds 1.
     pub(super) fn growth(&self, joint: [f64; 2]) -> Option<f64> {
         let [trace, determinant] = self.invariants(joint)?;
         Some(spectral_radius(trace, determinant))
     }
 
-    /// The maps of 1 to `ticks` ticks, from a start without memory.
+    /// Maps of 1 to `ticks` ticks, from a start without memory.
     fn maps(&self, spring: [f64; 2], ticks: u64) -> Option<Vec<Map>> {
         let &Self { method, mode, tick_hz, substeps } = self;
         let body = LoggedBody { spring: Some(spring), ..LoggedBody::default() };
@@ -69,7 +69,7 @@ impl Setup {
         columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)
     }
 
-    /// The map of `ticks` ticks through which user code holds the spring's force.
+    /// Map of `ticks` ticks through which user code holds the spring's force.
     fn held_map(&self, [stiffness, damping]: [f64; 2], ticks: u32) -> Option<Map> {
         let &Self { method, tick_hz, substeps, .. } = self;
         let candidate = Candidate { method, substeps, spring: SpringAs::Acceleration };
@@ -78,25 +78,25 @@ impl Setup {
             run(candidate, &body, start, 1.0 / tick_hz, [0, u64::from(ticks)].into_iter())
         };
         let free = columns(&after([SLOW, 0.0], 0.0)?, &after([0.0, SLOW], 0.0)?)?;
-        // What a force of 1 N/kg that is held does to a body at rest.
+        // Response of a body at rest to a held force of 1 N/kg.
         let pushed = Vector2::from(*after([0.0; 2], 1.0)?.last()?);
         Some(free[0] - pushed * RowVector2::new(stiffness, damping))
     }
 
-    /// What a player sees of a spring whose force user code holds through `ticks` ticks.
+    /// Visible motion of a spring whose force user code holds through `ticks` ticks.
     pub fn sees_held(&self, joint: [f64; 2], ticks: u32) -> Option<Effective> {
         let map = self.held_map(joint, ticks)?;
         seen(map.trace(), map.determinant(), f64::from(ticks) / self.tick_hz)
     }
 
-    /// As [`Setup::growth`], of a force that is held through `ticks` ticks.
+    /// As [`Setup::growth`], for a force held through `ticks` ticks.
     pub(super) fn held_growth(&self, joint: [f64; 2], ticks: u32) -> Option<f64> {
         let map = self.held_map(joint, ticks)?;
         Some(spectral_radius(map.trace(), map.determinant()))
     }
 }
 
-/// The map of a step in seconds of a method that is told a spring, per unit of mass, as a part of the acceleration.
+/// Map of a step of `step_s` seconds, for a method with the spring, per unit of mass, as a part of the acceleration.
 pub(super) fn map_of_step(method: &'static Method, joint: [f64; 2], step_s: f64) -> Option<Map> {
     let candidate = Candidate { method, substeps: 1, spring: SpringAs::Acceleration };
     let body = LoggedBody { spring: Some(joint), ..LoggedBody::default() };
@@ -104,22 +104,22 @@ pub(super) fn map_of_step(method: &'static Method, joint: [f64; 2], step_s: f64)
     columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)?.pop()
 }
 
-/// The maps whose columns are these runs, without their starts.
+/// Maps whose columns are these runs, without their starts; `None` if they are not finite.
 fn columns(first: &[[f64; 2]], second: &[[f64; 2]]) -> Option<Vec<Map>> {
     let map = |(a, b): (&[f64; 2], &[f64; 2])| Map::from([*a, *b]) / SLOW;
     let maps: Vec<Map> = first.iter().zip(second).skip(1).map(map).collect();
     maps.iter().flatten().all(|x| x.is_finite()).then_some(maps)
 }
 
-/// A motion that grows by no more than this in a step does not grow.
+/// Growth in a step up to this counts as none.
 pub(in crate::tools) const NO_GROWTH: f64 = 1.0 + 1e-9;
 
-/// Whether no motion of a map with these invariants grows.
+/// Whether no motion of a map with this trace and determinant grows.
 pub(super) fn is_stable(trace: f64, determinant: f64) -> bool {
     spectral_radius(trace, determinant) <= NO_GROWTH
 }
 
-/// The largest modulus of an eigenvalue.
+/// Largest modulus of an eigenvalue.
 pub(in crate::tools) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
     let half = trace / 2.0;
     match half * half - determinant {
@@ -128,7 +128,7 @@ pub(in crate::tools) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
     }
 }
 
-/// The damped spring whose map over `tick_s` has these invariants.
+/// The damped spring whose map over `tick_s` has this trace and determinant.
 pub(in crate::tools) fn seen(trace: f64, determinant: f64, tick_s: f64) -> Option<Effective> {
     let half = trace / 2.0;
     let square = half * half - determinant;
@@ -137,7 +137,7 @@ pub(in crate::tools) fn seen(trace: f64, determinant: f64, tick_s: f64) -> Optio
     }
     let decay = -libm::log(determinant) / 2.0 / tick_s;
     let apart = libm::sqrt(square.abs());
-    // Of a pair of eigenvalues the angle, of two real ones half the difference of their logarithms.
+    // For a pair of eigenvalues, their angle; for two real ones, half the difference of their logarithms.
     let omega_square = match square < 0.0 {
         true => decay * decay + libm::pow(libm::atan2(apart, half) / tick_s, 2.0),
         false => decay * decay - libm::pow(libm::atanh(apart / half) / tick_s, 2.0),
@@ -145,14 +145,14 @@ pub(in crate::tools) fn seen(trace: f64, determinant: f64, tick_s: f64) -> Optio
     (omega_square > 0.0).then(|| Effective { omega: libm::sqrt(omega_square), decay })
 }
 
-/// The invariants of the two slowest motions of a map with one number of memory, from its first three ticks.
+/// Trace and determinant of the two slowest motions of a map with one number of memory, from its first three ticks.
 ///
-/// With A the map of state alone, what the memory adds to a tick is w: none at the first, C of the state there at the
-/// second, and ρ times the last beside at the third. All w have one direction.
+/// With A the map of the state alone, the memory adds w to a tick: nothing to the first, C times the state to the
+/// second. To the third it adds the same and ρ times the previous w. All w have one direction.
 fn with_memory(once: &Map, twice: &Map, thrice: &Map) -> Option<[f64; 2]> {
     let added = twice - once * once;
     let rest = thrice - once * twice - added * once;
-    // Along the direction, which is that of the larger column.
+    // The direction is that of the larger column.
     let lengths = added.column_iter().map(|column| column.norm()).collect::<Vec<_>>();
     let larger = usize::from(lengths[1] > lengths[0]);
     if lengths[larger] == 0.0 {
@@ -161,7 +161,7 @@ fn with_memory(once: &Map, twice: &Map, thrice: &Map) -> Option<[f64; 2]> {
     let along = added.column(larger) / lengths[larger];
     let [from_state, last] = [added, rest].map(|map| along.transpose() * map);
     let kept = last[larger] / from_state[larger];
-    // λ³ - s λ² + m λ - d of the state with its memory.
+    // Characteristic polynomial λ³ - s λ² + m λ - d of the state with its memory.
     let s = once.trace() + kept;
     let m = once.determinant() + kept * once.trace() - along.dot(&from_state.transpose());
     let d = kept * once.determinant() - (from_state * adjugate(once) * along).x;
@@ -175,7 +175,7 @@ fn with_memory(once: &Map, twice: &Map, thrice: &Map) -> Option<[f64; 2]> {
     (root.is_finite() && is_slower).then_some([trace, determinant])
 }
 
-/// The matrix whose product with `map` is its determinant.
+/// The matrix whose product with `map` is the determinant.
 fn adjugate(map: &Map) -> Map {
     Map::new(map.m22, -map.m12, -map.m21, map.m11)
 }

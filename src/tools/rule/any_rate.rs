@@ -1,4 +1,4 @@
-//! A rule as code that moves the same at any frame rate, in the language of `assets/methods`.
+//! Writes a rule as code that moves the same at any frame rate, in the language of `assets/methods`.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -6,13 +6,13 @@ use super::Rule;
 use crate::sim::law::{Frame, NO_RETURN, Powers, StepCode};
 use crate::tools::source_code::{Language, rule_code};
 
-/// Eigenvalues whose logarithms are this far apart are written as two exponentials: of closer ones the difference of those
-/// would be rounding.
+/// If the logarithms of the eigenvalues are this far apart, the code has two exponentials. For closer ones, the
+/// difference of the exponentials would be rounding.
 const APART: f64 = 1e-3;
-/// A rest as near to the target as this is the target, but for rounding.
+/// A coefficient of the target this close to 0 or 1 counts as that number: the difference is rounding.
 const AT_TARGET: f64 = 1e-11;
 
-/// Why a rule has no closed form.
+/// The reason why a rule has no closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NoClosedForm {
     NotLinear,
@@ -35,21 +35,21 @@ impl NoClosedForm {
     }
 }
 
-/// A rule in a language.
+/// The code of a rule in a language.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuleCode {
     /// The function.
     pub text: String,
-    /// Why it makes fixed steps; `None` if it is the closed form.
+    /// The reason for fixed steps; `None` for the closed form.
     pub steps_because: Option<&'static str>,
 }
 
 impl Rule {
-    /// Code that moves the same at any frame rate: the closed form, or else fixed steps of the author's frames with
-    /// interpolation. `written` is the rule for the comment.
+    /// Code that moves the same at any frame rate: the closed form or, failing that, fixed steps of the author's
+    /// frames with interpolation. The comment above it quotes `written`, the rule's text.
     ///
     /// # Errors
-    /// Why other languages have no word for the rule, in a clause.
+    /// A clause that explains why other languages cannot express the rule.
     pub fn code(&self, written: &str, language: Language) -> Result<RuleCode, String> {
         let fps = self.fps;
         let lines = written.lines().map(|line| line.trim().to_owned());
@@ -75,7 +75,7 @@ impl Rule {
         }
     }
 
-    /// The names of the two numbers in the source.
+    /// Names of the two numbers in the source.
     fn names(&self) -> Vec<String> {
         let name = |index: &usize| match index {
             0 | 1 => self.text.carried()[*index].name.clone(),
@@ -84,7 +84,7 @@ impl Rule {
         self.state.iter().map(name).collect()
     }
 
-    /// What stands before the first line: the target, and the numbers that are carried beside x and v.
+    /// The declarations before the first line: the target, and the carried numbers besides x and v.
     fn head(&self, takes_target: bool, carried: impl Iterator<Item = usize>) -> String {
         let mut head = String::new();
         if takes_target {
@@ -107,7 +107,7 @@ impl Rule {
             _ if self.stays => self.coasting(&frame)?,
             _ => self.swinging(&frame)?,
         };
-        // Compilers warn of what is not read.
+        // Compilers warn of unused variables.
         let is_read = |line: &&String| {
             let Some((name, _)) = line.strip_prefix("let ").and_then(|rest| rest.split_once(" ="))
             else {
@@ -142,7 +142,7 @@ impl Rule {
         }])
     }
 
-    /// Of an eigenvalue 1 and another one.
+    /// The closed form if one eigenvalue is 1.
     fn coasting(&self, frame: &Frame) -> Result<Vec<String>, NoClosedForm> {
         let (names, fps) = (self.names(), self.fps);
         let kept = frame.map.trace() - 1.0;
@@ -156,7 +156,7 @@ impl Rule {
         let mut lines =
             vec![format!("let first = {}", names[0]), format!("let second = {}", names[1])];
         let is_free = (1.0 - kept).abs() <= NO_RETURN;
-        // What a frame changes, how much of that comes of the offset, and what comes every frame.
+        // The offset acts through the change of the map, and directly in every frame.
         let (by_offset, drift) = if is_free {
             lines.push(format!("let gone = {} * h", number(fps)));
             lines.push("let again = gone * (gone - 1.0) / 2.0".into());
@@ -267,12 +267,12 @@ memory.shown = memory.before + ({shown} - memory.before) * (memory.unspent / FRA
 
 /// A number in a source, in brackets if it has a sign.
 fn number(value: f64) -> String {
-    // A negative zero is 0.
+    // Adding 0 turns a negative zero into 0.
     let value = value + 0.0;
     if value < 0.0 { format!("({value:?})") } else { format!("{value:?}") }
 }
 
-/// The rest for these parts of the target and of 1.
+/// The rest, from its coefficient of the target and its constant part.
 fn rest([by_target, offset]: [f64; 2]) -> String {
     let is_target = (by_target - 1.0).abs() <= AT_TARGET;
     let by_target = if by_target.abs() <= AT_TARGET { 0.0 } else { by_target };
@@ -287,7 +287,7 @@ fn rest([by_target, offset]: [f64; 2]) -> String {
     }
 }
 
-/// The sum of these names, each times a number.
+/// The sum of these names, each times its factor.
 fn sum(terms: &[(f64, &str)]) -> String {
     let mut written = String::new();
     for (factor, name) in terms.iter().filter(|(factor, _)| *factor != 0.0) {
@@ -302,7 +302,7 @@ fn sum(terms: &[(f64, &str)]) -> String {
     if written.is_empty() { "0.0".into() } else { written }
 }
 
-/// A sum in brackets.
+/// The expression, in brackets if it is a sum or negative.
 fn grouped(sum: &str) -> String {
     if sum.contains(' ') || sum.starts_with('-') { format!("({sum})") } else { sum.to_owned() }
 }

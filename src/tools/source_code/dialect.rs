@@ -1,4 +1,4 @@
-//! The languages, and how each of them writes what methods are written with.
+//! The languages of printed methods, and the templates of their statements.
 
 use std::fmt;
 
@@ -8,20 +8,20 @@ pub enum Language {
     /// Rust.
     #[default]
     Rust,
-    /// C99, which is C++ too.
+    /// C99, which is also valid C++.
     C,
-    /// C#, as of version 3.
+    /// C#, from version 3.
     CSharp,
     /// GDScript of Godot 4.
     GdScript,
 }
 
 impl Language {
-    /// All of them.
+    /// All languages.
     pub const ALL: [Language; 4] =
         [Language::Rust, Language::C, Language::CSharp, Language::GdScript];
 
-    /// The id: one lower-case word.
+    /// Id: one lower-case word.
     pub fn id(self) -> &'static str {
         match self {
             Language::Rust => "rust",
@@ -31,7 +31,7 @@ impl Language {
         }
     }
 
-    /// The name for people.
+    /// Name for people.
     pub fn name(self) -> &'static str {
         match self {
             Language::Rust => "Rust",
@@ -41,7 +41,7 @@ impl Language {
         }
     }
 
-    /// Why it cannot compute in this precision, if it cannot.
+    /// The reason why it cannot compute in this precision, if it cannot.
     pub(super) fn refusal(self, precision: Precision) -> Option<&'static str> {
         (self == Language::GdScript && precision == Precision::Single)
             .then_some("its `float` has double precision always")
@@ -63,7 +63,7 @@ impl Dialect {
         self.types[precision as usize]
     }
 
-    /// A template with what the precision decides filled in.
+    /// Fills in the parts of a template that depend on the precision.
     pub(super) fn written(&self, template: &str, precision: Precision) -> String {
         let type_name = self.type_in(precision);
         let (suffix, cast) = match precision {
@@ -90,19 +90,18 @@ pub enum Precision {
     Single,
 }
 
-/// How a language writes a statement. In the templates `NAME` and `VALUE` are replaced, `TYPE` by the type of a number,
-/// `SUFFIX` by what ends the name of a function of C in this precision, and `CAST` by what makes a number of this
-/// precision of a `double`.
+/// A language's templates for statements. `NAME` and `VALUE` are placeholders, and `TYPE` is the type of a number.
+/// `SUFFIX` ends the name of a C function in this precision; `CAST` converts a `double` to it.
 pub(super) struct Dialect {
     pub(super) comment: &'static str,
     pub(super) indent: &'static str,
-    /// The types of a number of double and of single precision.
+    /// Type of a number in double and in single precision.
     pub(super) types: [&'static str; 2],
-    /// What ends a number of single precision.
+    /// Suffix of a number in single precision.
     pub(super) single_suffix: &'static str,
-    /// A whole number where a number is wanted.
+    /// A whole number, converted to a number.
     pub(super) converted: &'static str,
-    /// The type of a whole number.
+    /// Type of a whole number.
     pub(super) whole: &'static str,
     pub(super) constant: &'static str,
     pub(super) number: &'static str,
@@ -114,12 +113,12 @@ pub(super) struct Dialect {
     pub(super) while_block: &'static str,
     /// Empty where indentation ends a block.
     pub(super) end: &'static str,
-    /// What ends a line whose expression goes on in the next.
+    /// Ends a line whose expression continues on the next.
     pub(super) line_break: &'static str,
     pub(super) return_value: &'static str,
-    /// The value at the end of a function.
+    /// Value at the end of a function.
     pub(super) last_value: &'static str,
-    /// The words that are not as in the sources, each with how they are written.
+    /// Words spelt differently from the sources, each with its spelling.
     pub(super) words: &'static [(&'static str, &'static str)],
 }
 

@@ -1,16 +1,16 @@
-//! The comment above a method's function: what it is and what its limits are, by its card.
+//! The comment above a method's function: its description and its limits, from its card.
 
 use super::dialect::Language;
 use super::program::{MethodInput, Program};
 use crate::sim::integrators::{Engine, Family, Method};
 
-/// The width of the comment, in characters.
+/// Width of the comment, in characters.
 const WIDTH: usize = 96;
 
-/// The functions of which a method takes slopes, to divide by them.
+/// Shared functions that divide by slopes. With several coordinates, the slopes are matrices.
 const SOLVERS: [&str; 2] = ["slope", "solve"];
 
-/// The lines of the comment.
+/// The lines of the comment above a method's function.
 pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) -> Vec<String> {
     let claim = |id: &str, general: String| program.claim(id).map_or(general, Into::into);
     let (order, stability) =
@@ -39,7 +39,7 @@ pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) 
     paragraphs.push(String::new());
     let solves = program.functions.iter().any(|function| SOLVERS.contains(&function.name));
     let several = match (program.takes("force"), solves) {
-        // Of engines only what they are told is known.
+        // An engine is known only by its inputs, so the header promises nothing about several coordinates.
         (true, _) => String::new(),
         (false, false) => "; for several that feel each other, make them vectors".into(),
         (false, true) => "; for several that feel each other, slopes are matrices and a division is the solution of a \
@@ -61,7 +61,7 @@ pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) 
     paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
 }
 
-/// The lines of the comment above the function of a rule.
+/// The lines of the comment above a rule's function.
 pub(super) fn of_rule(about: &[String], program: &Program<'_>, language: Language) -> Vec<String> {
     let mut paragraphs = about.to_vec();
     paragraphs.push(String::new());
@@ -157,7 +157,7 @@ fn input(input: &MethodInput<'_>) -> String {
     }
 }
 
-/// How the function gives its result.
+/// A sentence on the form of the function's result.
 fn answer(language: Language, program: &Program<'_>) -> String {
     let takes_function = program.inputs.iter().any(|input| !input.arguments.is_empty());
     match language {
@@ -175,7 +175,7 @@ fn yes(is: bool) -> &'static str {
     if is { "yes" } else { "no" }
 }
 
-/// The words of a paragraph in lines.
+/// Breaks a paragraph into lines.
 fn wrapped(paragraph: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in paragraph.split(' ') {

@@ -1,28 +1,28 @@
-//! How the names of a source, and the expressions made of them, are written in a language.
+//! Writes the names and expressions of a source in a language.
 
 use super::dialect::{Language, Precision};
 use super::program::{Function, MethodInput};
 
 /// The names inside one function.
 pub(super) struct Names<'a> {
-    /// The id of the method.
+    /// Id of the method.
     pub(super) id: &'a str,
     pub(super) language: Language,
     pub(super) precision: Precision,
-    /// The whole numbers.
+    /// Names of the whole numbers.
     pub(super) whole: Vec<&'a str>,
-    /// What the function takes.
+    /// Inputs of the function.
     pub(super) inputs: &'a [MethodInput<'a>],
-    /// The functions that it can call.
+    /// Functions that it can call.
     pub(super) functions: &'a [Function<'a>],
 }
 
-/// Whether one of these is a function.
+/// Whether one of the inputs is a function.
 pub(super) fn takes_function(inputs: &[MethodInput<'_>]) -> bool {
     inputs.iter().any(|input| !input.arguments.is_empty())
 }
 
-/// `adams_bashforth_2` as `AdamsBashforth2`.
+/// Converts `adams_bashforth_2` to `AdamsBashforth2`.
 pub(super) fn pascal(snake: &str) -> String {
     let capital = |word: &str| {
         let (first, rest) = word.split_at(word.len().min(1));
@@ -32,13 +32,13 @@ pub(super) fn pascal(snake: &str) -> String {
 }
 
 impl Names<'_> {
-    /// The name of a number, or of an input.
+    /// Name of a number or an input.
     pub(super) fn name(&self, name: &str) -> String {
         if self.language != Language::CSharp {
             return name.to_owned();
         }
         let pascal = pascal(name);
-        // A constant is in capitals.
+        // Constants are in capitals in the source, and in Pascal case here.
         if name.chars().any(|c| c.is_ascii_lowercase()) {
             let (first, rest) = pascal.split_at(pascal.len().min(1));
             return first.to_lowercase() + rest;
@@ -46,7 +46,7 @@ impl Names<'_> {
         pascal
     }
 
-    /// The function's name, prefixed with the method's id so that several fit in one file.
+    /// The function's name, prefixed with the method's id so that several methods fit in one file.
     pub(super) fn function(&self, name: &str) -> String {
         match self.language {
             Language::CSharp => pascal(name),
@@ -54,19 +54,19 @@ impl Names<'_> {
         }
     }
 
-    /// A number, word by word: whole numbers in it are converted.
+    /// Writes an expression word by word, with whole numbers converted.
     pub(super) fn expression(&self, text: &str) -> String {
         self.written(text, true)
     }
 
-    /// A condition, or what changes a whole number.
+    /// Writes a condition, or an expression that changes a whole number.
     pub(super) fn unconverted(&self, text: &str) -> String {
         self.written(text, false)
     }
 
     fn written(&self, text: &str, converts: bool) -> String {
         let mut written = String::with_capacity(text.len());
-        // For each open parenthesis, whether C's `user` is the last argument in it.
+        // For each open parenthesis, whether its last argument is C's `user`.
         let mut takes_user = Vec::new();
         let mut calls_with_user = false;
         let mut rest = text;
@@ -105,7 +105,7 @@ impl Names<'_> {
         written
     }
 
-    /// Whether C's `user` is handed to this function.
+    /// Whether C passes `user` to this function.
     fn takes_user(&self, name: &str) -> bool {
         let is_input = self.inputs.iter().any(|input| input.name == name);
         let function = self.functions.iter().find(|function| function.name == name);
@@ -114,7 +114,8 @@ impl Names<'_> {
         self.language == Language::C && is_given
     }
 
-    /// The number `token`, or in single precision the one that `after` has for it, and what follows.
+    /// The number `token` or, in single precision, its alternative at the start of `after`; and the text that
+    /// follows.
     fn number<'t>(&self, token: &'t str, after: &'t str) -> (String, &'t str) {
         let (double, (single, after)) = match after.strip_prefix('|') {
             Some(after) => (token, after.split_at(number_end(after))),
@@ -156,7 +157,7 @@ impl Names<'_> {
     }
 }
 
-/// Where the number ends with which `text` begins.
+/// Index of the end of the number that begins `text`.
 fn number_end(text: &str) -> usize {
     let mut before = '0';
     let is_end = |c: char| {

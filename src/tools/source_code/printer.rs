@@ -4,10 +4,10 @@ use super::dialect::{Dialect, Language, Precision};
 use super::names::{Names, pascal, takes_function};
 use super::program::{Function, Line, MethodInput, Program, whole_numbers};
 
-/// The longest line that is not broken at its commas.
+/// Longest line that is not broken at its commas.
 const LINE_CHARS: usize = 100;
 
-/// Prints the program of the method `id` below the lines of its header.
+/// Prints the program of the method `id` below its header.
 pub(super) fn print(
     id: &str,
     program: &Program<'_>,
@@ -37,12 +37,11 @@ impl Printer<'_> {
         self.language.dialect()
     }
 
-    /// The type of a number.
     fn number_type(&self) -> &'static str {
         self.dialect().type_in(self.precision)
     }
 
-    /// The names inside a function that takes `inputs`.
+    /// Names inside a function with these inputs.
     fn names<'a>(&'a self, inputs: &'a [MethodInput<'a>], body: &'a [Line<'a>]) -> Names<'a> {
         let Self { id, language, precision, .. } = *self;
         let whole = whole_numbers(inputs, body);
@@ -77,7 +76,7 @@ impl Printer<'_> {
         }
     }
 
-    /// The type of the memory, with its values before the first step.
+    /// Prints the type of the memory, with its values before the first step.
     fn memory(&mut self, snake: &str, pascal: &str) {
         let fields = &self.program.memory;
         if fields.is_empty() {
@@ -122,7 +121,7 @@ impl Printer<'_> {
         }
     }
 
-    /// A function that returns a number.
+    /// Prints a function that returns a number.
     fn function(&mut self, function: &Function<'_>) {
         let (name, number) = (self.names(&[], &[]).function(function.name), self.number_type());
         let (open, close) = match self.language {
@@ -139,10 +138,10 @@ impl Printer<'_> {
         self.end();
     }
 
-    /// The function of the step itself.
+    /// Prints the function of the step.
     fn step(&mut self, snake: &str, pascal: &str) {
         let program = self.program;
-        // What is not used is marked, or compilers warn of it.
+        // Marks unused parameters, so that compilers do not warn of them.
         let v = if program.reads("v") || !program.replaces("v") { "" } else { "_" };
         let h = if program.reads("h") { "" } else { "_" };
         let number = self.number_type();
@@ -202,7 +201,7 @@ impl Printer<'_> {
         self.end();
     }
 
-    /// The parameters of a function for these inputs.
+    /// Parameters of a function with these inputs.
     fn parameters(&self, inputs: &[MethodInput<'_>]) -> Vec<String> {
         let names = self.names(inputs, &[]);
         let number = self.number_type();
@@ -231,7 +230,7 @@ impl Printer<'_> {
         parameters
     }
 
-    /// The head of a function, with each parameter on a line if they are too long for one.
+    /// Prints the head of a function, with each parameter on a line of its own if they are too long for one.
     fn signature(&mut self, open: &str, parameters: &[String], close: &str) {
         let whole = format!("{open}{}{close}", parameters.join(", "));
         let dialect = self.dialect();
@@ -242,7 +241,7 @@ impl Printer<'_> {
             self.depth += 1;
             for (n, parameter) in parameters.iter().enumerate() {
                 let is_last = n + 1 == parameters.len();
-                // Only Rust takes a comma after the last.
+                // Only Rust allows a comma after the last.
                 let comma = if is_last && self.language != Language::Rust { "" } else { "," };
                 self.lines(&[&format!("{parameter}{comma}")]);
             }
@@ -312,7 +311,7 @@ impl Printer<'_> {
         }
     }
 
-    /// Ends the step without a result if it fails, else with what x and v are.
+    /// Ends the step: without a result if it fails, else with the present x and v.
     fn end_early(&mut self, fails: bool) {
         let number = self.number_type();
         let lines: &[&str] = match (self.language, fails) {
@@ -350,7 +349,7 @@ impl Printer<'_> {
     }
 }
 
-/// A template with its places filled in.
+/// Fills in the placeholders of a template.
 fn filled(template: &str, name: &str, value: &str) -> String {
     template.replace("NAME", name).replace("VALUE", value)
 }

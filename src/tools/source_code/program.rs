@@ -2,20 +2,20 @@
 
 use super::dialect::Language;
 
-/// What a function takes beside `x`, `v` and `h`.
+/// An input of the function besides `x`, `v` and `h`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MethodInput<'a> {
     /// Its name.
     pub name: &'a str,
-    /// What it is a function of; empty for a number.
+    /// Arguments of a function; empty for a number.
     pub arguments: Vec<&'a str>,
     /// Whether it is a whole number.
     pub is_whole: bool,
-    /// What it is: a phrase in lower case.
+    /// Description: a phrase in lower case.
     pub about: &'a str,
 }
 
-/// A number that is carried from step to step.
+/// A number carried from step to step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StateVariable<'a> {
     pub(super) name: &'a str,
@@ -32,7 +32,7 @@ pub(super) struct Function<'a> {
     pub(super) body: Vec<Line<'a>>,
 }
 
-/// A statement. An expression that was written on several lines still is.
+/// A statement. An expression keeps its line breaks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Line<'a> {
     Blank,
@@ -49,7 +49,7 @@ pub(super) enum Line<'a> {
         name: &'a str,
         value: String,
     },
-    /// The declaration of a whole number that counts.
+    /// Declares a whole number that counts.
     Counter {
         name: &'a str,
         value: String,
@@ -72,14 +72,14 @@ impl Line<'_> {
     }
 }
 
-/// The source of a method, read.
+/// The parsed source of a method.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Program<'a> {
-    /// The comments at its head.
+    /// Comments at its head.
     pub(super) notes: Vec<&'a str>,
-    /// What the header says of a [claim](CLAIMS) in place of the card's general sentence.
+    /// Words of the source that replace the card's sentence on a [claim](CLAIMS) in the header.
     claims: Vec<(&'a str, &'a str)>,
-    /// The ids of languages, empty for all, and the reason.
+    /// Ids of languages without the function, empty for all, each with the reason.
     refusals: Vec<(&'a str, &'a str)>,
     pub(super) inputs: Vec<MethodInput<'a>>,
     pub(super) memory: Vec<StateVariable<'a>>,
@@ -87,11 +87,11 @@ pub(super) struct Program<'a> {
     pub(super) body: Vec<Line<'a>>,
 }
 
-/// What the header says that a source can put in its own words: claims of the card, what becomes of several
-/// coordinates, and where in the step a force that depends on time is held.
+/// Parts of the header that a source can word itself: claims of the card, use on several coordinates, and the moment
+/// at which it holds a time-dependent force.
 const CLAIMS: [&str; 5] = ["order", "stability", "symplectic", "several", "held"];
 
-/// The functions that several methods use.
+/// Functions that several methods share.
 const SHARED: [(&str, &str); 4] = [
     ("slope", include_str!("../../../assets/methods/shared/slope.step")),
     ("solve", include_str!("../../../assets/methods/shared/solve.step")),
@@ -138,7 +138,7 @@ impl<'a> Program<'a> {
                     let head = rest.strip_suffix(") {").expect("a function opens a block");
                     let (name, taken) = head.split_once('(').expect("a function takes something");
                     let inputs = inputs(taken, "");
-                    // Up to the brace in the first column.
+                    // The function ends at the brace in the first column.
                     let inside = std::iter::from_fn(|| lines.next_if(|line| *line != "}"));
                     let body = statements(inside);
                     lines.next();
@@ -148,7 +148,7 @@ impl<'a> Program<'a> {
                 "#" => comments.push(rest),
                 "" => {}
                 _ => {
-                    // The first statement of the step: all that follows is the step, with the comments above.
+                    // The first statement of the step: everything from here on is the step, with the comments above.
                     let above = comments.drain(..).map(Line::Comment);
                     program.body = above.collect();
                     program.body.extend(statements(std::iter::once(line).chain(lines)));
@@ -159,7 +159,7 @@ impl<'a> Program<'a> {
         program
     }
 
-    /// Whether the step uses the value that `name` has before it: for anything but to be assigned.
+    /// Whether the step uses the value of `name` other than to assign it.
     pub(super) fn reads(&self, name: &str) -> bool {
         self.body.iter().any(|line| {
             let text = match line {
@@ -188,7 +188,7 @@ impl<'a> Program<'a> {
         self.body.iter().any(|line| line.assigns(name))
     }
 
-    /// Whether every step gives `name` a new value.
+    /// Whether every step assigns `name`.
     pub(super) fn replaces(&self, name: &str) -> bool {
         let mut depth = 0;
         self.body.iter().any(|line| {
@@ -206,12 +206,12 @@ impl<'a> Program<'a> {
         self.claims.iter().find(|(known, _)| *known == claim).map(|(_, words)| *words)
     }
 
-    /// Whether it takes an input of this name.
+    /// Whether it has an input with this name.
     pub(super) fn takes(&self, name: &str) -> bool {
         self.inputs.iter().any(|input| input.name == name)
     }
 
-    /// Why there is no function in this language, if there is none.
+    /// The reason why this language has no function, if it has none.
     pub(super) fn refusal(&self, language: Language) -> Option<&'a str> {
         let mut refusals = self.refusals.iter();
         let of_it = refusals.find(|(id, _)| id.is_empty() || *id == language.id());
@@ -219,7 +219,7 @@ impl<'a> Program<'a> {
     }
 }
 
-/// The names of the whole numbers: inputs, and counters that are declared in `body`.
+/// Names of the whole numbers: inputs, and counters declared in `body`.
 pub(super) fn whole_numbers<'a>(inputs: &[MethodInput<'a>], body: &[Line<'a>]) -> Vec<&'a str> {
     let of_input = |input: &MethodInput<'a>| input.is_whole.then_some(input.name);
     let of_line = |line: &Line<'a>| match line {
@@ -229,7 +229,7 @@ pub(super) fn whole_numbers<'a>(inputs: &[MethodInput<'a>], body: &[Line<'a>]) -
     inputs.iter().filter_map(of_input).chain(body.iter().filter_map(of_line)).collect()
 }
 
-/// Reads inputs that are separated by commas: `a(x, v), x, whole n`.
+/// Reads inputs separated by commas: `a(x, v), x, whole n`.
 fn inputs<'a>(mut text: &'a str, about: &'a str) -> Vec<MethodInput<'a>> {
     let mut inputs = Vec::new();
     while !text.is_empty() {
@@ -251,7 +251,7 @@ fn inputs<'a>(mut text: &'a str, about: &'a str) -> Vec<MethodInput<'a>> {
     inputs
 }
 
-/// Reads statements, of which those that begin with an operator continue the one before.
+/// Reads statements. A line that begins with an operator continues the one before.
 fn statements<'a>(lines: impl Iterator<Item = &'a str>) -> Vec<Line<'a>> {
     let mut lines = lines.map(str::trim).peekable();
     let mut read = Vec::new();
@@ -271,7 +271,7 @@ fn continues(line: &str) -> bool {
     ["+", "-", "*", "/", "and", "or"].contains(&word)
 }
 
-/// Reads the statement whose first line is `first`.
+/// Reads the statement whose first line is `first`; `rest` continues it.
 fn statement<'a>(first: &'a str, rest: &str) -> Line<'a> {
     let (word, after) = first.split_once(' ').unwrap_or((first, ""));
     let named = || {

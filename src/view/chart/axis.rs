@@ -1,31 +1,31 @@
-//! How values lie along an axis, and where they are marked: at round values, at least three of them wherever they fit.
+//! Axis scales and their marks. Marks lie at round values, at least three of them wherever they fit.
 
 use crate::stage::number::{grouped, round, superscript};
 
-/// How values lie along an axis.
+/// Spacing of values along an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AxisScale {
     /// Evenly.
     Linear,
     /// By their decimal logarithm.
     Log,
-    /// By sign and logarithm, evenly round zero as far as this value.
+    /// By sign and logarithm, roughly evenly within this distance of zero.
     SymLog(f64),
 }
 
-/// Where a mark lies along its axis, and its number.
+/// Place of a mark along its axis, and its number as text.
 pub(in crate::view) type AxisMark = (f64, String);
 
-/// The fewest marks of an axis: with two, nothing says whether it is linear.
+/// Minimum number of marks on an axis: two do not show whether it is linear.
 const MIN_MARKS: usize = 3;
-/// The most significant digits of a mark.
+/// Maximum number of significant digits of a mark.
 const MAX_DIGITS: usize = 15;
-/// Numbers of this size are written out on an even axis, others with a power of ten.
+/// Range of numbers that a linear axis writes out. Others get a power of ten.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e6;
-/// The powers of ten that are written out on an axis of logarithms.
+/// Exponents of the powers of ten that a logarithmic axis writes out.
 const PLAIN_POWERS: std::ops::RangeInclusive<i32> = -3..=5;
 
-/// What the numbers at the marks of a logarithmic axis begin with, from few to many.
+/// Leading digits of the marks on a logarithmic axis, from sparse to dense.
 const DIGITS: [&[f64]; 5] = [
     &[1.0],
     &[1.0, 3.0],
@@ -33,11 +33,11 @@ const DIGITS: [&[f64]; 5] = [
     &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0],
     &[1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0],
 ];
-/// How much nearer marks may be where none are further apart.
+/// Factor by which marks may move closer together if too few fit otherwise.
 const NEARER: f64 = 0.6;
 
 impl AxisScale {
-    /// Where a value lies.
+    /// Place of a value along the axis.
     pub(in crate::view) fn place(self, value: f64) -> f64 {
         match self {
             Self::Linear => value,
@@ -57,8 +57,8 @@ impl AxisScale {
         }
     }
 
-    /// The marks between two places that are `room` points of the screen apart: at least three, and as many as fit at
-    /// least `apart` points from each other.
+    /// The marks between two places that lie `room` screen points apart: as many as fit at least `apart` points from
+    /// each other, but at least three.
     pub(in crate::view) fn marks(self, range: [f64; 2], room: f32, apart: f64) -> Vec<AxisMark> {
         let apart = apart * (range[1] - range[0]) / f64::from(room.max(1.0));
         match self {
@@ -69,7 +69,7 @@ impl AxisScale {
         .unwrap_or_else(|| self.distinct(range, apart))
     }
 
-    /// Evenly, in as many digits as tell the marks apart.
+    /// Evenly spaced marks, with just enough digits to differ from each other.
     fn distinct(self, range: [f64; 2], apart: f64) -> Vec<AxisMark> {
         let (places, _) = multiples(range, apart);
         let texts = |digits: usize| -> Vec<AxisMark> {
@@ -100,12 +100,12 @@ impl AxisScale {
     }
 }
 
-/// Multiples of 1, 2 or 5 times a power of ten, at least `apart` from each other unless that leaves fewer than [`MIN_MARKS`],
-/// and that step.
+/// Multiples of 1, 2 or 5 times a power of ten, and their step. They lie at least `apart` from each other unless that
+/// leaves fewer than [`MIN_MARKS`].
 fn multiples([low, high]: [f64; 2], apart: f64) -> (Vec<f64>, f64) {
     let mut decade = libm::ceil(libm::log10(apart)) as i32 + 1;
     let mut found = (Vec::new(), apart);
-    // From coarse to fine: the last that is coarse enough, or the first with enough marks.
+    // From coarse to fine: the last step that is coarse enough, or the first with enough marks.
     loop {
         for digit in [5.0, 2.0, 1.0] {
             let step = digit * libm::pow(10.0, f64::from(decade));
@@ -121,7 +121,7 @@ fn multiples([low, high]: [f64; 2], apart: f64) -> (Vec<f64>, f64) {
     }
 }
 
-/// Marks at multiples of a round step, in as many digits as the step has.
+/// Marks at multiples of a round step, with as many digits as the step has.
 fn linear(range: [f64; 2], apart: f64) -> Option<Vec<AxisMark>> {
     let (places, step) = multiples(range, apart);
     let decade = |x: f64| libm::floor(libm::log10(x) + 1e-9) as i32;
@@ -142,8 +142,8 @@ fn linear(range: [f64; 2], apart: f64) -> Option<Vec<AxisMark>> {
     Some(places.into_iter().map(|place| (place, text(place))).collect())
 }
 
-/// Marks at powers of ten, every few where they crowd, and between them where there is room; `None` if there are fewer
-/// than [`MIN_MARKS`] or crowded ones only.
+/// Marks at powers of ten: fewer where they crowd, and more in between where there is room. `None` if that gives
+/// fewer than [`MIN_MARKS`] or only crowded ones.
 fn logarithmic([low, high]: [f64; 2], apart: f64) -> Option<Vec<AxisMark>> {
     let powers = |step: i64| -> Vec<(f64, i32)> {
         let [first, last] =
@@ -176,12 +176,11 @@ fn logarithmic([low, high]: [f64; 2], apart: f64) -> Option<Vec<AxisMark>> {
     Some(marks.into_iter().map(named).collect())
 }
 
-/// Where a digit times a power of ten lies.
 fn place_of((digit, exponent): &(f64, i32)) -> f64 {
     libm::log10(*digit) + f64::from(*exponent)
 }
 
-/// The number `digit · 10^exponent`, its thousands apart where it is written out.
+/// Text of `digit · 10^exponent`. A number that is written out has its thousands grouped.
 fn power(digit: f64, exponent: i32, is_written_out: bool) -> String {
     if !is_written_out {
         let factor = if digit == 1.0 { String::new() } else { format!("{digit}·") };
@@ -201,7 +200,7 @@ mod tests {
         scale.marks(range, room, apart).into_iter().map(|(_, text)| text).collect()
     }
 
-    /// The marks of a logarithmic axis between two values.
+    /// Texts of the marks on a logarithmic axis between two values.
     fn decades(range: [f64; 2], room: f32, apart: f64) -> Vec<String> {
         texts(AxisScale::Log, range.map(libm::log10), room, apart)
     }

@@ -1,5 +1,6 @@
-//! Curves too crowded for a line: the band between their least and greatest value in each column of pixels, as
-//! oscilloscopes draw them. A line through few points of a fast swing would beat against pixels and samples.
+//! Bands for curves too crowded to draw as a line. Like an oscilloscope, they fill each column of pixels from the
+//! curve's least to its greatest value. A line through few samples of a fast swing would beat against pixels and
+//! samples.
 
 use std::ops::Range;
 
@@ -8,27 +9,27 @@ use egui::{Color32, Pos2, Rect, pos2};
 
 use crate::view::lines::{Joint, shown};
 
-/// How much of its colour a band has between its edges.
+/// Opacity of a band between its edges.
 const FILL: f32 = 0.35;
-/// The width of the edges, in points.
+/// Width of the edges, in points.
 const EDGE: f32 = 1.0;
 
-/// A column spans what this many points on either side of it do: some among twice as many are near the peaks of a swing,
-/// wherever the samples fall on it.
+/// A column also spans this many points of the curve on either side. Among twice as many, some lie near the peaks of
+/// a swing, wherever the samples fall on it.
 const NEIGHBOURS: f32 = 8.0;
 
-/// The least and the greatest height of a curve in a column, if it passes there.
+/// Least and greatest y of a curve in a column; `None` if the curve does not pass there.
 type Span = Option<(f32, f32)>;
 
-/// A band without a gap, in columns of equal width: the heights of its edges in each.
+/// A band without a gap, in columns of equal width, with the y of both edges in each.
 pub(super) struct Band {
     left: f32,
     step: f32,
     heights: Vec<[f32; 2]>,
 }
 
-/// The bands of a curve of this width through `points`, which do not go back, as far as they are `seen`, in columns of
-/// this width; `swept` has the heights that it comes to on the way to each point, where they are known.
+/// Bands of a curve of this width through `points`, which never go back. They cover the `seen` rectangle in columns
+/// `step` points wide. `swept` holds the heights that the curve reaches on the way to each point, where known.
 pub(super) fn of(
     points: &[Pos2],
     swept: &[[f32; 2]],
@@ -51,12 +52,12 @@ pub(super) fn of(
 }
 
 impl Band {
-    /// The left edge of each column, and the heights of the band in it.
+    /// Left edge of each column, with the band's extent there.
     fn columns(&self) -> impl DoubleEndedIterator<Item = (f32, [f32; 2])> {
         (0..self.heights.len()).map(|i| (self.left + self.step * i as f32, self.heights[i]))
     }
 
-    /// What is between its edges.
+    /// The area between the edges.
     pub(super) fn fill(&self, colour: Color32) -> Mesh {
         let mut fill = Mesh::default();
         for (x, heights) in self.columns() {
@@ -71,17 +72,17 @@ impl Band {
         fill
     }
 
-    /// The points of its lower or its upper edge.
+    /// Points of one of the two edges.
     fn edge(&self, i: usize) -> impl DoubleEndedIterator<Item = Pos2> {
         self.columns().map(move |(x, heights)| pos2(x + self.step / 2.0, heights[i]))
     }
 
-    /// The corners of what is between its edges, and its colour.
+    /// Corners of the area between the edges, and its colour.
     pub(super) fn outline(&self, colour: Color32) -> (Vec<Pos2>, Color32) {
         (self.edge(0).chain(self.edge(1).rev()).collect(), colour.gamma_multiply(FILL))
     }
 
-    /// What shows of its edges in a window.
+    /// Visible parts of both edges in a window.
     pub(super) fn edges(&self, colour: Color32, window: Rect) -> Vec<Vec<Joint>> {
         let joint = |at: Pos2| Joint { at, radius: EDGE / 2.0, colour };
         let edge = |i: usize| shown(self.edge(i).map(joint), window.expand(EDGE));
@@ -97,8 +98,8 @@ struct Columns {
 }
 
 impl Columns {
-    /// What the line through `points` covers in each column, and what is `swept` between them; it breaks off at a point
-    /// that is not finite.
+    /// Extent in each column of the line through `points` and of the heights `swept` between them. The line breaks
+    /// off at a point that is not finite.
     fn spans(&self, points: &[Pos2], swept: &[[f32; 2]]) -> Vec<Span> {
         let mut spans = vec![None; self.count];
         for (i, &to) in points.iter().enumerate() {
@@ -141,7 +142,7 @@ impl Columns {
         }
     }
 
-    /// Columns that the curve goes on by from one point to the next, on average.
+    /// Average number of columns between neighbouring points.
     fn apart(&self, points: &[Pos2]) -> f32 {
         let mut finite = points.iter().filter(|point| point.is_finite());
         let Some((first, last)) = finite.next().zip(finite.next_back()) else { return 0.0 };
@@ -149,8 +150,8 @@ impl Columns {
     }
 }
 
-/// Each span with what those beside it cover, as far as [`NEIGHBOURS`] points that are so many columns `apart`. A gap
-/// stays a gap, and nothing reaches across it.
+/// Widens each span by its neighbours within [`NEIGHBOURS`] points, which lie `apart` columns from each other. A gap
+/// stays a gap, and no span widens across it.
 fn widened(spans: &[Span], apart: f32) -> Vec<Span> {
     let reach = (NEIGHBOURS * apart).ceil() as usize;
     let mut widened = spans.to_vec();
@@ -168,7 +169,7 @@ fn widened(spans: &[Span], apart: f32) -> Vec<Span> {
     widened
 }
 
-/// The columns without a gap.
+/// Ranges of columns without a gap.
 fn stretches(spans: &[Span]) -> Vec<Range<usize>> {
     let mut stretches: Vec<Range<usize>> = Vec::new();
     for (column, _) in spans.iter().enumerate().filter(|(_, span)| span.is_some()) {
@@ -192,7 +193,7 @@ mod tests {
 
     #[test]
     fn a_column_spans_what_the_line_covers_in_it() {
-        // Up and down within a column, and a slope over two more.
+        // Up and down within one column, then a slope over two more.
         let found = spans(&[[10.1, 0.0], [10.2, 4.0], [10.3, -2.0], [10.5, 0.0], [11.5, 2.0]]);
         assert_eq!(found[0], Some((-2.0, 4.0)));
         assert_eq!(found[1], Some((0.0, 1.0)));
@@ -243,7 +244,7 @@ mod tests {
     fn a_band_is_widened_by_its_neighbours_up_to_its_gaps() {
         let at = |y: f32| Some((y, y));
         let row = [at(1.0), at(5.0), at(2.0), None, at(9.0), at(3.0)];
-        // An eighth of a column apart: one column on either side.
+        // At an eighth of a column apart, a span widens by one column on either side.
         let first = [Some((1.0, 5.0)), Some((1.0, 5.0)), Some((2.0, 5.0))];
         let second = [Some((3.0, 9.0)); 2];
         assert_eq!(widened(&row, 0.125), [&first[..], &[None], &second].concat());

@@ -1,7 +1,7 @@
 //! The curves of a plot.
 //!
-//! A shape for every piece of a dash between two samples, seen or not, would be a hundred thousand triangles for a race,
-//! most of them smaller than a pixel. Here a straight piece is two.
+//! A shape for every piece of a dash between two samples, visible or not, would cost a hundred thousand triangles for
+//! a race. Most of them would be smaller than a pixel. Here a straight piece costs two triangles.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use super::bands::{self, Band};
 use crate::view::lines::{Joint, shown};
 use crate::view::strokes::StrokeMesh;
 
-/// How a curve is drawn.
+/// Line and dots of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::view) struct LineStyle {
     pub(in crate::view) colour: Color32,
@@ -25,19 +25,18 @@ pub(in crate::view) struct LineStyle {
 }
 
 impl LineStyle {
-    /// A line without gaps and dots.
+    /// A line without gaps or dots.
     pub(in crate::view) fn solid(colour: Color32, width: f32) -> Self {
         Self { colour, width, dash: [1.0, 0.0], dots: Dots::None }
     }
 }
 
-/// A curve of a plane.
+/// A curve in a plane.
 #[derive(Clone)]
 pub(in crate::view) struct Curve {
     pub(in crate::view) style: LineStyle,
     pub(in crate::view) points: Vec<[f64; 2]>,
-    /// For each point the least and the greatest height since the point before; empty where the points are all that is
-    /// known.
+    /// Lowest and highest value on the way to each point from the one before. Empty if only the points are known.
     pub(in crate::view) swept: Vec<[f64; 2]>,
 }
 
@@ -46,18 +45,17 @@ pub(in crate::view) struct Curve {
 pub(in crate::view) struct ScreenCurve {
     pub(in crate::view) style: LineStyle,
     pub(in crate::view) points: Vec<Pos2>,
-    /// For each point the least and the greatest height since the point before; empty where the points are all that is
-    /// known.
+    /// Least and greatest y on the way to each point from the one before. Empty if only the points are known.
     pub(in crate::view) swept: Vec<[f32; 2]>,
 }
 
 impl Curve {
-    /// A curve of which the points are all that is known.
+    /// A curve of which only the points are known.
     pub(in crate::view) fn new(style: LineStyle, points: Vec<[f64; 2]>) -> Self {
         Self { style, points, swept: Vec::new() }
     }
 
-    /// The same curve as it lies on the screen.
+    /// Maps the curve to the screen.
     pub(super) fn on_screen(&self, area: &PlotArea) -> ScreenCurve {
         ScreenCurve {
             style: self.style,
@@ -68,59 +66,60 @@ impl Curve {
 }
 
 impl ScreenCurve {
-    /// A curve of which the points are all that is known.
+    /// A curve of which only the points are known.
     pub(in crate::view) fn new(style: LineStyle, points: Vec<Pos2>) -> Self {
         Self { style, points, swept: Vec::new() }
     }
 }
 
-/// Which points of a curve have a dot.
+/// Points of a curve that get a dot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::view) enum Dots {
     None,
-    /// Each, of this radius in points.
+    /// Every point, with a dot of this radius in points.
     Each(f32),
-    /// Those further than [`SPARSE`] from the next one along the x axis: the straight line between them is
-    /// not to be taken for motion.
+    /// Points further than [`SPARSE`] from a neighbour along the x axis, because the straight line between them is
+    /// not motion.
     SparseAlongX,
-    /// Those further than that from the next one.
+    /// Points further than [`SPARSE`] from a neighbour.
     Sparse,
 }
 
-/// The least distance between points, in points of the screen, at which each can be told from the next.
+/// Minimum distance of points, in screen points, for a viewer to distinguish them.
 const SPARSE: f32 = 3.0;
-/// The radius of their dots, in points of the screen.
+/// Radius of the dots of sparse points, in screen points.
 const SAMPLE: f32 = 1.5;
 
-/// Above this coverage of its bounding box a curve is drawn solid, because dashes would not be visible.
+/// Coverage of its bounding box from which a curve is drawn solid, because its dashes would not be visible.
 const CROWDED: f32 = 0.5;
-/// Added to that box on all sides, in points, for a curve that has only begun.
+/// Margin around that box, in points, for a curve that has only begun.
 const BEGINNING: f32 = 8.0;
-/// The radius of an arrow and its distance from the edges of the plot, in points.
+/// Radius of an arrow and its distance from the edges of the plot, in points.
 const ARROW: f32 = 5.0;
 const ARROW_INSET: f32 = 9.0;
 
-/// A crowded curve with more turns than this part of its points, or than these in a point of the screen, is not drawn as
-/// a line: it would beat against the samples or the pixels.
+/// Turns per curve point, and per screen point, up to which a crowded curve is drawn as a line. With more turns the
+/// line would beat against the samples or the pixels.
 const MAX_TURNS: f32 = 0.25;
 const MAX_TURNS_PER_POINT: f32 = 0.5;
 
-/// A curve that goes further than this beyond the line through its points, in points of the screen, on more than this
-/// part of the ways between them, is not drawn as a line either: that would show a swing that nothing made.
+/// Distance from the line through its points, in screen points, beyond which a stretch of a curve counts as hidden. A
+/// curve with a larger share of hidden stretches is not drawn as a line either, because the line would show a false
+/// swing.
 const HIDDEN: f32 = 2.0;
 const MAX_HIDDEN: f32 = 1.0 / 16.0;
 
-/// How a curve is drawn.
+/// Shapes that draw a curve.
 pub(super) enum CurveDrawing {
-    /// What shows of its line, and its dash.
+    /// Visible parts of the line, and its dash.
     Line(Vec<Vec<Joint>>, [f32; 2]),
-    /// The band of swings that are too narrow to be told apart.
+    /// Bands in place of swings that are too narrow to resolve.
     Bands(Vec<Band>),
-    /// By its dots alone: a crowded curve that goes back and forth has no band.
+    /// Dots alone: a crowded curve that goes back and forth has no band.
     Scattered,
 }
 
-/// How a curve is drawn as far as it is `seen`, a band in columns of this width.
+/// Chooses how to draw a curve within the `seen` rectangle. A band has columns `column` points wide.
 pub(super) fn drawn(
     ScreenCurve { style, points, swept }: &ScreenCurve,
     (seen, column): (Rect, f32),
@@ -138,8 +137,8 @@ pub(super) fn drawn(
     CurveDrawing::Line(runs, [drawn, if is_crowded { 0.0 } else { gap }])
 }
 
-/// Draws a curve as far as the painter's clip shows it, in the way of [`drawn`]. What the painter gets for a line is a
-/// [`StrokeMesh`] for [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether more is drawn than its dots.
+/// Draws a curve within the painter's clip, as [`drawn`] chooses. A line reaches the painter as a [`StrokeMesh`] for
+/// [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether the curve is more than its dots.
 pub(super) fn paint(painter: &Painter, curve: &ScreenCurve) -> bool {
     let colour = curve.style.colour;
     let (seen, px_per_point) = (painter.clip_rect(), painter.pixels_per_point());
@@ -161,14 +160,14 @@ pub(super) fn paint(painter: &Painter, curve: &ScreenCurve) -> bool {
     true
 }
 
-/// Whether swings are too narrow for their samples, or for the screen.
+/// Whether swings are too narrow for their samples or for the screen.
 fn beats(points: &[Pos2]) -> bool {
     let turns = turns(points);
     let wide = points.first().zip(points.last()).map_or(0.0, |(from, to)| (to.x - from.x).abs());
     turns > MAX_TURNS || turns * points.len() as f32 > MAX_TURNS_PER_POINT * wide.max(BEGINNING)
 }
 
-/// Whether the line through `points` would leave out much of what the curve sweeps over between them.
+/// Whether the line through `points` would hide much of the curve's motion between them.
 fn hides(points: &[Pos2], swept: &[[f32; 2]]) -> bool {
     let hides = |(ends, swept): &(&[Pos2], &[f32; 2])| {
         let (high, low) = (ends[0].y.min(ends[1].y), ends[0].y.max(ends[1].y));
@@ -178,7 +177,7 @@ fn hides(points: &[Pos2], swept: &[[f32; 2]]) -> bool {
     hidden as f32 > MAX_HIDDEN * points.len() as f32
 }
 
-/// The part of the points at which a curve turns up or down.
+/// Share of the points at which a curve turns up or down.
 fn turns(points: &[Pos2]) -> f32 {
     let is_turn = |at: &&[Pos2]| (at[1].y - at[0].y) * (at[2].y - at[1].y) < 0.0;
     points.windows(3).filter(is_turn).count() as f32 / points.len().max(1) as f32
@@ -193,7 +192,7 @@ fn is_crowded(runs: &[Vec<Joint>], width: f32) -> bool {
     length * width > CROWDED * room.expand(BEGINNING).area()
 }
 
-/// The dots of a curve through these points of the screen, each with its radius.
+/// Dots of a curve through these screen points, each with its radius.
 pub(super) fn dots(points: &[Pos2], dots: Dots) -> impl Iterator<Item = (Pos2, f32)> {
     let are_apart = move |a: Pos2, b: Pos2| match dots {
         Dots::SparseAlongX => (a.x - b.x).abs() >= SPARSE,
@@ -211,7 +210,7 @@ pub(super) fn dots(points: &[Pos2], dots: Dots) -> impl Iterator<Item = (Pos2, f
     })
 }
 
-/// Arrows where curves leave a plot, none on another.
+/// Arrows where curves leave a plot. No two overlap.
 pub(super) struct Arrows {
     frame: Rect,
     placed: Vec<Pos2>,
@@ -222,8 +221,7 @@ impl Arrows {
         Self { frame, placed: Vec::new() }
     }
 
-    /// The corners of an arrow for a curve that leaves the plot on its way between two points of the screen; `None` if it
-    /// does not.
+    /// Corners of an arrow for a curve that leaves the plot between two screen points; `None` if it does not leave.
     pub(super) fn place(&mut self, ends: [Pos2; 2]) -> Option<[Pos2; 3]> {
         let (mut at, towards) = exit(self.frame, ends)?;
         while self.placed.iter().any(|other| other.distance(at) < 2.0 * ARROW) {
@@ -236,9 +234,9 @@ impl Arrows {
     }
 }
 
-/// Where the arrow of a curve goes that leaves `frame` between two points, and which way it shows.
+/// Position and direction of the arrow for a curve that leaves `frame` between two points.
 fn exit(frame: Rect, [from, to]: [Pos2; 2]) -> Option<(Pos2, Vec2)> {
-    // No room for an arrow.
+    // The frame has no room for an arrow.
     if frame.size().min_elem() < 2.0 * ARROW_INSET {
         return None;
     }

@@ -12,30 +12,30 @@ use crate::view::theme::{colour, palette};
 /// A picture of one chart or several.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// What it shows.
+    /// Heading of the picture.
     pub title: String,
-    /// What has to be known to make it again.
+    /// Footnote with everything needed to reproduce the figure.
     pub note: String,
-    /// How many charts stand side by side; the last takes what its row has left.
+    /// Number of charts side by side. The last chart takes the rest of its row.
     pub columns: usize,
-    /// Row by row.
+    /// The charts, row by row.
     pub charts: Vec<Chart>,
 }
 
 /// Curves over a pair of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// What tells it from the figure's other charts; empty for one alone.
+    /// Distinguishes the chart from the figure's others; empty for a single chart.
     pub title: String,
-    /// Where its curves are named.
+    /// Place of the names of the curves.
     pub legend: Legend,
-    /// Along, and up.
+    /// Horizontal and vertical axis.
     pub axes: [Axis; 2],
-    /// The first is drawn at the bottom.
+    /// Curves from bottom to top.
     pub curves: Vec<FigureCurve>,
 }
 
-/// Where a chart's curves are named.
+/// Place of the names of a chart's curves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Legend {
     /// Below the figure's title, once for all charts that have them.
@@ -44,29 +44,29 @@ pub enum Legend {
     Own,
 }
 
-/// What a chart measures in one direction.
+/// One axis of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// The quantity, with its unit.
     pub name: &'static str,
-    /// The least and the greatest value in view.
+    /// Lowest and highest value in view.
     pub view: [f64; 2],
-    /// How values are laid out along it. Everything in view of a logarithmic one is above 0.
+    /// Scale of the axis. On a logarithmic one, all values in view must be above 0.
     pub scale: AxisScale,
 }
 
-/// A curve of a diagram.
+/// A curve of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FigureCurve {
-    /// Its name in the legend.
+    /// Name in the legend.
     pub name: String,
-    /// Its colour.
+    /// Colour of the line and its dots.
     pub colour: Rgba,
     /// Drawn length and gap in points; a gap of 0 is solid.
     pub dash: [f32; 2],
     /// Radius in points of a dot on each point; 0 for none.
     pub dots: f32,
-    /// Its points.
+    /// Points, in values of the two axes.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -76,13 +76,13 @@ const NOTE: f32 = 19.6;
 /// Room between the charts of a figure, in points.
 const GAP: f32 = 22.0;
 
-/// The least distance between marks along and up, in points, as long as three fit.
+/// Minimum distance between marks, horizontally and vertically, in points, as long as three fit.
 const MARKS_APART: [f64; 2] = [44.0, 26.0];
 
 /// The width of a curve, in points.
 const CURVE: f32 = 1.6;
 
-/// From an edge to where the axes of a chart begin, in points.
+/// Distance from an edge to the axes of a chart, in points.
 const INDENT: f32 = 58.0;
 
 /// Shows the figure in all of `ui`.
@@ -128,7 +128,7 @@ pub(in crate::view) fn show(ui: &mut Ui, figure: &Figure) {
     });
 }
 
-/// Where each chart goes.
+/// Rectangle of each chart.
 fn places(figure: &Figure, room: Rect) -> impl Iterator<Item = Rect> {
     let (columns, charts) = (figure.columns.max(1), figure.charts.len());
     let rows = charts.div_ceil(columns);
@@ -173,7 +173,7 @@ fn show_chart(ui: &mut Ui, chart: &Chart, place: Rect) {
     paint(ui.painter(), &all);
 }
 
-/// A curve as it lies in the chart; what is not finite there is left out.
+/// The curve at its places in the chart, without points that are not finite there.
 fn laid_out(curve: &FigureCurve, chart: &Chart) -> Curve {
     let [along, up] = [0, 1].map(|axis| chart.axes[axis].scale);
     let points = curve.points.iter().map(|&[x, y]| [along.place(x), up.place(y)]);
@@ -182,7 +182,7 @@ fn laid_out(curve: &FigureCurve, chart: &Chart) -> Curve {
     Curve::new(style, points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect())
 }
 
-/// The names of these curves: in one row, or where that is too long in columns.
+/// Shows the legend of these curves in one row, or in columns if one row is too long.
 fn show_legend(ui: &mut Ui, curves: &[&FigureCurve]) {
     let entry = |curve: &&FigureCurve| legend::Entry {
         name: curve.name.clone(),

@@ -7,7 +7,7 @@ use egui::{Align2, Color32, FontId, Galley, Pos2, Response, Sense, Stroke, Ui, p
 use super::{Primitive, Text, paint, text_width};
 use crate::view::theme::{PanelPalette, palette, strong_font};
 
-/// The length of a line, the room behind it, and between two entries, in points.
+/// Length of a line, gap after it, and gap between two entries, in points.
 const SWATCH: f32 = 26.0;
 const BEFORE_NAME: f32 = 6.0;
 pub(in crate::view) const BETWEEN: f32 = 13.0;
@@ -23,7 +23,7 @@ pub(in crate::view) struct Entry {
     pub(in crate::view) colour: Color32,
     /// Drawn length and gap in points; a gap of 0 is solid.
     pub(in crate::view) dash: [f32; 2],
-    /// Whether its name stands out.
+    /// Whether the name stands out.
     pub(in crate::view) is_front: bool,
 }
 
@@ -33,12 +33,12 @@ impl Entry {
         ui.painter().layout_no_wrap(self.name.clone(), font, palette(ui).text)
     }
 
-    /// The width that it takes, in points.
+    /// Width of the entry, in points.
     pub(in crate::view) fn width(&self, ui: &Ui) -> f32 {
         SWATCH + BEFORE_NAME + self.words(ui).size().x
     }
 
-    /// Shows it, at least this wide.
+    /// Shows the entry, at least `min_width` points wide.
     fn show(&self, ui: &mut Ui, min_width: f32) -> Response {
         let words = self.words(ui).size();
         let size = vec2((SWATCH + BEFORE_NAME + words.x).max(min_width), words.y);
@@ -47,7 +47,7 @@ impl Entry {
         response
     }
 
-    /// The line, from `from` to the right, and the name.
+    /// Lays out the line, from `from` to the right, and the name.
     fn layout(&self, from: Pos2, palette: &PanelPalette) -> Vec<Primitive> {
         let at = from + vec2(SWATCH + BEFORE_NAME, 0.0);
         let colour = if self.is_front { palette.text } else { palette.dim };
@@ -67,7 +67,7 @@ pub(in crate::view) fn show(ui: &mut Ui, entries: &[Entry]) -> Vec<Response> {
     .inner
 }
 
-/// Shows a legend in the row that is there, each entry at least this wide.
+/// Shows a legend in the current row, each entry at least `width` points wide.
 pub(in crate::view) fn show_here(ui: &mut Ui, entries: &[Entry], width: f32) -> Vec<Response> {
     ui.spacing_mut().item_spacing.x = BETWEEN;
     entries.iter().map(|entry| entry.show(ui, width)).collect()
@@ -91,7 +91,7 @@ pub(in crate::view) fn swatch(
     dashes
 }
 
-/// A legend in one row, whose line is at the height of `from`.
+/// Lays out a legend in one row, with its lines at the height of `from`.
 pub(in crate::view) fn layout(
     entries: &[Entry],
     from: Pos2,

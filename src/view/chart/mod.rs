@@ -1,4 +1,4 @@
-//! Charts: curves over a pair of axes, laid out to [primitives](Primitive) that a panel paints and a file keeps.
+//! Charts: curves over a pair of axes, laid out as [primitives](Primitive) for a panel to paint or a file to keep.
 
 use egui::{Align2, Color32, Pos2, Rect, Stroke, pos2, vec2};
 
@@ -19,21 +19,21 @@ pub(super) mod legend;
 mod primitive;
 pub(super) mod svg;
 
-/// The radius of the ring round a switch, in points of the screen.
+/// The radius of the ring around a switch, in screen points.
 const RING: f32 = 4.0;
-/// The radius of the dots of a curve that is drawn by its dots alone.
+/// The radius of the dots of a curve without a line.
 const SCATTERED: f32 = 1.0;
-/// The size of a number and of a name at an axis, in points.
+/// Font size of a number and of a name at an axis, in points.
 pub(super) const NUMBER: f32 = 11.5;
 pub(super) const NAME: f32 = 12.5;
-/// The height of the line above a plot, of the numbers below it, and of the name of its axis along, in points.
+/// Heights in points: the line above a plot, the numbers below it, and the name of its horizontal axis.
 pub(super) const ABOVE: f32 = 19.0;
 pub(super) const NUMBERS: f32 = 17.0;
 pub(super) const NAMES: f32 = 16.0;
-/// Between the numbers of the upright axis and the plot, in points.
+/// Gap between the numbers of the vertical axis and the plot, in points.
 const BESIDE: f32 = 6.0;
 
-/// A lane leaving the plot: its last point inside and its first outside. Equal if it was never inside.
+/// A lane leaving the plot: its last point inside and its first outside. Both are equal if the lane was never inside.
 pub(super) struct Arrow {
     pub(super) from: [f64; 2],
     pub(super) to: [f64; 2],
@@ -46,19 +46,19 @@ pub(super) struct Switch {
     pub(super) colour: Color32,
 }
 
-/// Everything in a plot.
+/// Contents of a plot.
 #[derive(Default)]
 pub(super) struct Drawing {
-    /// The first at the bottom, and over all of them their dots.
+    /// Curves from bottom to top, with all their dots over them.
     pub(super) curves: Vec<Curve>,
-    /// Over the others and their dots.
+    /// Exact curves, drawn over the others and their dots.
     pub(super) truth: Vec<Curve>,
     pub(super) arrows: Vec<Arrow>,
     pub(super) switches: Vec<Switch>,
     pub(super) switch_mark: SwitchMark,
 }
 
-/// What marks a switch.
+/// Mark of a switch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum SwitchMark {
     /// A line across the plot, at its time.
@@ -68,13 +68,13 @@ pub(super) enum SwitchMark {
     Ring,
 }
 
-/// About how wide words of this size are, in points.
+/// Approximate width of text in this font size, in points.
 pub(super) fn text_width(words: &str, size: f32) -> f32 {
     0.6 * size * words.chars().count() as f32
 }
 
-/// A plot in which nothing is drawn yet: a grid line at each mark along and up with its number, if it has one, none of which
-/// goes on beyond `right`, and the edge.
+/// An empty plot: a grid line at each mark with its number, if it has one, and the edge. No number extends beyond
+/// `right`.
 pub(super) fn axes(
     area: &PlotArea,
     marks: [Vec<AxisMark>; 2],
@@ -84,7 +84,7 @@ pub(super) fn axes(
     plot(area, marks, &Drawing::default(), palette, right)
 }
 
-/// A plot with [its axes](axes) and all that is in it.
+/// A plot with [its axes](axes) and contents.
 pub(super) fn plot(
     area: &PlotArea,
     marks: [Vec<AxisMark>; 2],
@@ -105,7 +105,7 @@ pub(super) fn plot(
         let x = area.at([place, area.bounds[1][0]]).x;
         all.push(Primitive::Line([pos2(x, rect.top()), pos2(x, rect.bottom())], grid));
         let half = text_width(&text, NUMBER) / 2.0;
-        // A narrow plot has no room for all of them.
+        // A narrow plot lacks room for all numbers.
         if x - half >= free_from {
             all.extend(number(pos2(x, rect.bottom() + 3.0), Align2::CENTER_TOP, text));
             free_from = x + half;
@@ -115,9 +115,9 @@ pub(super) fn plot(
     for (place, text) in upwards {
         let y = area.height(place);
         all.push(Primitive::Line([pos2(rect.left(), y), pos2(rect.right(), y)], grid));
-        // Not in the line above.
+        // Keeps the number out of the line above the plot.
         let at = pos2(rect.left() - BESIDE, y.max(rect.top() + 5.0));
-        // A low plot has no room for all of them.
+        // A low plot lacks room for all numbers.
         if (at.y - last).abs() >= NUMBER {
             all.extend(number(at, Align2::RIGHT_CENTER, text));
             last = at.y;
@@ -128,7 +128,7 @@ pub(super) fn plot(
     all
 }
 
-/// The name of the axis along, below its numbers, and that of the upright axis above the plot, from `left` on.
+/// Names of the axes: the horizontal one below its numbers, the vertical one above the plot, from `left` on.
 pub(super) fn names<S: Into<String>>(
     area: &PlotArea,
     left: f32,
@@ -144,7 +144,7 @@ pub(super) fn names<S: Into<String>>(
     ]
 }
 
-/// Everything in a plot, cut off at its edges.
+/// Contents of a plot, cut off at its edges.
 fn contents(area: &PlotArea, drawing: &Drawing) -> Primitive {
     let rect = area.rect;
     let switch = |Switch { at, colour }: &Switch| {
@@ -171,8 +171,8 @@ fn contents(area: &PlotArea, drawing: &Drawing) -> Primitive {
     Primitive::Clip(rect, all.collect())
 }
 
-/// The rectangle of a plot in a room, with these lines above and below it and `left` points for the numbers of its
-/// upright axis.
+/// The rectangle of a plot in a room. It leaves room for the lines above and below, and `left` points for the numbers
+/// of the vertical axis.
 pub(super) fn inside(room: Rect, left: f32, right: f32) -> Rect {
     Rect::from_min_max(room.min + vec2(left, ABOVE), room.max - vec2(right, NUMBERS + NAMES))
 }

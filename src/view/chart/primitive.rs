@@ -1,4 +1,4 @@
-//! What a laid-out chart is made of, in points, and how a panel paints it.
+//! Primitives of a laid-out chart, in points, and their painting in a panel.
 
 use egui::epaint::PathStroke;
 use egui::text::{LayoutJob, TextFormat};
@@ -8,7 +8,7 @@ use super::SCATTERED;
 use super::curves::{self, Dots, ScreenCurve, dots};
 use crate::view::theme::strong_font;
 
-/// Between words and their tail, in points.
+/// Gap between words and their tail, in points.
 pub(super) const BEFORE_TAIL: f32 = 14.0;
 
 /// A part of a laid-out chart. Later ones lie over earlier ones.
@@ -16,7 +16,7 @@ pub(super) const BEFORE_TAIL: f32 = 14.0;
 pub(in crate::view) enum Primitive {
     /// A filled rectangle.
     Area(Rect, Color32),
-    /// The edge of a rectangle, on its outside.
+    /// The outer edge of a rectangle.
     Edge(Rect, Stroke),
     Line([Pos2; 2], Stroke),
     /// A circle of this radius.
@@ -28,30 +28,30 @@ pub(in crate::view) enum Primitive {
     Text(Text),
     /// Curves, and over all of them their dots.
     Curves(Vec<ScreenCurve>),
-    /// What shows within a rectangle only.
+    /// Primitives clipped to a rectangle.
     Clip(Rect, Vec<Primitive>),
 }
 
-/// Words in a chart.
+/// Text in a chart.
 #[derive(Clone, Debug)]
 pub(in crate::view) struct Text {
     pub(in crate::view) at: Pos2,
-    /// Where `at` is on the words.
+    /// Part of the text that lies at `at`.
     pub(in crate::view) anchor: Align2,
     pub(in crate::view) words: String,
     pub(in crate::view) size: f32,
     pub(in crate::view) is_strong: bool,
     pub(in crate::view) colour: Color32,
-    /// The words end here at the latest.
+    /// Right limit of the text.
     pub(in crate::view) right: f32,
-    /// The width of a line.
+    /// Maximum width of a line.
     pub(in crate::view) wrap: f32,
-    /// More words behind them, in a colour of their own.
+    /// More words after the text, in their own colour.
     pub(in crate::view) tail: Option<(String, Color32)>,
 }
 
 impl Text {
-    /// Words in one line, however long.
+    /// Text in one line of any length.
     pub(in crate::view) fn new(
         at: Pos2,
         anchor: Align2,
@@ -64,7 +64,7 @@ impl Text {
         Self { at, anchor, words, size, is_strong: false, colour, right, wrap, tail: None }
     }
 
-    /// The same words in strong type.
+    /// The same text in strong type.
     pub(in crate::view) fn strong(self) -> Self {
         Self { is_strong: true, ..self }
     }
@@ -93,7 +93,7 @@ impl From<Text> for Primitive {
     }
 }
 
-/// Paints a chart, as far as the painter's clip shows it.
+/// Paints a chart within the painter's clip.
 pub(in crate::view) fn paint(painter: &Painter, primitives: &[Primitive]) {
     for primitive in primitives {
         match primitive {

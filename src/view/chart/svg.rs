@@ -7,12 +7,13 @@ use super::primitive::{BEFORE_TAIL, Text};
 use super::{Primitive, SCATTERED, text_width};
 use crate::view::lines::Joint;
 
-/// The height of a line of text, in parts of its size.
+/// Height of a line of text, relative to the font size.
 const LINE: f32 = 1.25;
-/// How far below the top and the middle of a line of text its letters stand, in parts of their size.
+/// Distance from the top, the middle and the bottom of a line of text down to its baseline, relative to the font
+/// size.
 const BASELINE: [f32; 3] = [0.95, 0.35, -0.25];
 
-/// The file, of this size in its own pixels.
+/// Writes a chart as an SVG file of this size in its own pixels.
 pub(in crate::view) fn file([width, height]: [f32; 2], primitives: &[Primitive]) -> String {
     let mut svg = Svg { text: String::new(), clips: 0 };
     svg.line(&format!(
@@ -34,7 +35,7 @@ impl Svg {
         self.text.push('\n');
     }
 
-    /// Adds what is `seen` of a chart.
+    /// Adds the part of a chart within `seen`.
     fn add(&mut self, primitives: &[Primitive], seen: Rect) {
         for primitive in primitives {
             match primitive {
@@ -151,7 +152,7 @@ impl Svg {
     }
 }
 
-/// Points as an attribute has them.
+/// Points in the syntax of an SVG attribute.
 fn listed(points: &[Pos2]) -> String {
     let points: Vec<_> = points.iter().map(|at| format!("{:.2},{:.2}", at.x, at.y)).collect();
     points.join(" ")
@@ -161,7 +162,7 @@ fn escaped(words: &str) -> String {
     words.replace('&', "&amp;").replace('<', "&lt;")
 }
 
-/// The lines of a text that are about as wide as it may be.
+/// Breaks a text into lines of about its maximum width.
 fn wrapped(Text { words, size, wrap, .. }: &Text) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in words.split(' ') {
@@ -177,12 +178,12 @@ fn wrapped(Text { words, size, wrap, .. }: &Text) -> Vec<String> {
     lines
 }
 
-/// The attributes of a line that fills nothing.
+/// Attributes of a line without fill.
 fn outline(stroke: Stroke) -> String {
     format!(r#"fill="none" stroke-width="{}" {}"#, stroke.width, paint("stroke", stroke.color))
 }
 
-/// A colour of `attribute`, with its opacity.
+/// The colour `attribute`, with its opacity.
 fn paint(attribute: &str, colour: Color32) -> String {
     let [r, g, b, a] = colour.to_srgba_unmultiplied();
     let opacity = match a {

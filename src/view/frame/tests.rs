@@ -14,7 +14,7 @@ fn red_everywhere() -> Picture {
     Picture { shapes, ..Picture::default() }
 }
 
-/// A panel 40 points wide at the left; the stage is the rest.
+/// A panel 40 points wide on the left, and the stage in the rest.
 fn show(ui: &mut egui::Ui, picture: &Picture) -> Option<Stage> {
     let frame = egui::Frame::NONE.fill(egui::Color32::GREEN);
     egui::Panel::left("panel").exact_size(40.0).frame(frame).show(ui, |_| ());
@@ -99,7 +99,7 @@ fn a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip() {
     for x in 10..128 {
         let [dashed, solid] = [20, 40].map(|y| pixels.at(x, y)[0]);
         assert_eq!(solid > 250, x < 100, "{x}");
-        // At the ends of a dash lie its blur and its roundness.
+        // The ends of a dash are blurred and round.
         let into_pattern = (x as f32 + 0.5 - 10.0) % 14.0;
         if x < 100 && (1.0..7.0).contains(&into_pattern) {
             assert!(dashed > 250, "{x} is in a dash");
@@ -153,7 +153,8 @@ fn the_first_frame_of_any_size_is_laid_out_like_the_next() {
     }
 }
 
-/// Two targets with a renderer each: nothing can be copied to the second, so that all of it is drawn at every frame.
+/// Two targets with a renderer each. The second target does not accept copies, so its renderer draws every frame in
+/// full.
 fn with_and_without_copies(gpu: &Gpu, size_px: [u32; 2]) -> [(FrameRenderer, Offscreen); 2] {
     let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
     let texture = texture(gpu, "plain", size_px, Offscreen::FORMAT, usage);
@@ -181,7 +182,7 @@ fn what_is_kept_of_the_panels_changes_no_pixel() {
         let [kept, drawn] = renderers.each_mut().map(|(renderer, target)| {
             let input = egui::RawInput { time: Some(0.1 * f64::from(n)), ..Default::default() };
             if n % 7 == 5 {
-                // Somebody paints a frame, and never shows it.
+                // A frame that is painted and never shown.
                 let (_, layout) = renderer.lay_out(&gpu, size_px, 1.0, input.clone(), &studio);
                 _ = renderer.paint(&gpu, &target.view, size_px, layout);
             }

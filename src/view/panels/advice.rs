@@ -1,5 +1,5 @@
-//! Which method to take for the scene at its tick rate: the answer as far as it is known, then what is known of every
-//! method, as a table.
+//! Advice on the method for the scene at its tick rate: the answer so far, then a table of the findings on every
+//! method.
 
 use std::sync::Arc;
 
@@ -21,18 +21,18 @@ use crate::studio::{Command, RunCommand, Studio, ViewCommand};
 use crate::tools::source_code::{Language, Precision, function_code};
 use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
-/// What is written in a cell, where there is room for it and where there is not.
+/// Notes above the table: with room for evaluations in its cells, and without.
 const CELLS: [&str; 2] = [
     "click a cell to use it: substeps per tick · force evaluations per second",
     "click a cell to use it: substeps per tick",
 ];
-/// The size of the type in the table, in points.
+/// Font size of the table, in points.
 const SMALL: f32 = 11.5;
-/// The height of a line, the room between two columns and the least width of a method's name, in points.
+/// Height of a line, gap between two columns, and minimum width of a method's name, in points.
 const LINE: f32 = 20.0;
 const APART: f32 = 6.0;
 const MIN_NAME: f32 = 120.0;
-/// The part of the room below the answer that the code has.
+/// Share of the room below the answer that the code takes.
 const CODE_PART: f32 = 0.5;
 /// The width of a criterion's name before its answer, in points.
 const CRITERION: f32 = 76.0;
@@ -79,17 +79,17 @@ fn which_bodies(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-/// The method to take for a criterion.
+/// Index of the method to take for a criterion.
 fn best(advice: &Advice, criterion: usize) -> Option<usize> {
     recommended(&advice.advised, criterion)
 }
 
-/// A line, which is cut off rather than to widen the panel.
+/// A line of text, truncated where it would widen the panel.
 fn line(ui: &mut Ui, text: RichText) -> Response {
     ui.add(Label::new(text).truncate())
 }
 
-/// Something in a place of this width, at its left and cut off at its right.
+/// Lays out content at the left of a slot of this width, cut off at its right.
 fn slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
     let layout = Layout::left_to_right(Align::Center);
     let place = ui.allocate_ui_with_layout(vec2(width, LINE), layout, |ui| {
@@ -99,7 +99,7 @@ fn slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
     place.inner
 }
 
-/// What to take for each criterion, of the methods judged by now.
+/// Recommends a method for each criterion, from the methods judged so far.
 fn answer(
     ui: &mut Ui,
     studio: &Studio,
@@ -156,8 +156,8 @@ fn answer(
     }
 }
 
-/// A method and its substeps in this colour, with a mark if they leave no reserve. The name gives way to both. The tooltip has
-/// the cheaper method that it is taken instead of.
+/// Shows a method and its substeps in this colour, with a mark if they leave no reserve. The name gives way to both.
+/// The tooltip names the cheaper method that was passed over.
 fn taken_line(
     ui: &mut Ui,
     (name, colour): (&str, Color32),
@@ -183,7 +183,7 @@ fn taken_line(
     line(ui, substeps).on_hover_text(about);
 }
 
-/// The language in which methods are copied.
+/// The menu of languages in which methods are copied.
 fn language_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let chosen = studio.viewer.language();
     let text = RichText::new(format!("code: {chosen}")).size(SMALL);
@@ -216,7 +216,7 @@ fn copy_button(ui: &mut Ui, studio: &Studio, spec: LaneSpec, commands: &mut Vec<
     response.context_menu(|ui| super::lanes::menu(ui, studio, entry, commands));
 }
 
-/// The method on the stage as a function, and how to call it at this tick rate.
+/// Shows the method on the stage as a function, and its call at this tick rate.
 fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let (spec, language) = (studio.selected().spec, studio.viewer.language());
     let id = Id::unique(("code", spec.method.id, language.id()));
@@ -245,8 +245,8 @@ fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-/// The width of the column of a criterion, in points, as wide as its widest cell, and whether that has room for the
-/// evaluations too, beside the names of the methods.
+/// Width of a criterion's column, in points, as wide as its widest cell. Also returns whether the column can show
+/// evaluations and still leave room for the names of the methods.
 fn cell_width(ui: &Ui, advice: &Advice, room: f32) -> (f32, bool) {
     let width = |words: &str| {
         let font = FontId::proportional(SMALL);
@@ -265,7 +265,7 @@ fn cell_width(ui: &Ui, advice: &Advice, room: f32) -> (f32, bool) {
     (if has_rates { with_rates } else { widest(false) }, has_rates)
 }
 
-/// What is known of each method; `whose` says of what bodies the evaluations are.
+/// The table of findings on each method. `whose` names the bodies that the evaluations are for.
 fn table(
     ui: &mut Ui,
     advice: &Advice,
@@ -306,7 +306,7 @@ fn table(
     table.show(ui, rows, commands, |_, _, _| {});
 }
 
-/// What is known of a method.
+/// A row: the findings on a method.
 struct Row<'a> {
     advised: &'a MethodAdvice,
     index: usize,
@@ -315,7 +315,7 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Shows what the method needs to meet a criterion. A click uses it.
+    /// Shows the substeps that the method needs to meet a criterion. A click applies them.
     fn cell(&self, ui: &mut Ui, criterion: usize, rect: Rect, commands: &mut Vec<Command>) {
         let MethodAdvice { spec, met, .. } = self.advised;
         let mut ui = ui.new_child(
@@ -374,7 +374,7 @@ impl TableRow for Row<'_> {
     }
 }
 
-/// What is written in the cell of a method that meets a criterion.
+/// Text in the cell of a method that meets a criterion.
 fn cell_text(met: &CriterionMet, has_rates: bool) -> String {
     let substeps = met.substeps;
     match has_rates {
@@ -383,7 +383,7 @@ fn cell_text(met: &CriterionMet, has_rates: bool) -> String {
     }
 }
 
-/// What is behind a cell.
+/// Tooltip of a cell.
 fn told_of(met: &CriterionMet) -> String {
     format!(
         "{} a tick, {} evaluations per simulated second; {}",
@@ -393,7 +393,7 @@ fn told_of(met: &CriterionMet) -> String {
     )
 }
 
-/// A count in as few figures as tell it.
+/// A count as text; a large one is rounded to three digits.
 fn whole(count: f64) -> String {
     if count < 1e5 { format!("{}", count.round()) } else { significant(count, 3) }
 }
@@ -409,7 +409,7 @@ mod tests {
     use crate::view::panels;
     use crate::view::testing::{ShownText, TestWindow};
 
-    /// Shows frames of this size. Returns the stage and every text that is seen whole, with where it stands.
+    /// Shows frames of this size. Returns the stage, and every text that is fully visible, with its place.
     fn shown(studio: &Studio, size: [f32; 2]) -> (Rect, Vec<(Pos2, String)>) {
         let mut window = TestWindow::new(size);
         let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, studio).1);
@@ -449,7 +449,7 @@ mod tests {
         }
     }
 
-    /// Has so many methods judged.
+    /// Works until this number of methods is judged.
     fn judge(studio: &mut Studio, worker: &mut AnalysisWorker, count: usize) {
         while studio.viewer.advice().is_none_or(|advice| advice.advised.len() < count) {
             worker.work();
@@ -467,7 +467,7 @@ mod tests {
             let stage_to = size[0] * (1.0 - panels::INSTRUMENTS);
             assert!((stage.right() - stage_to).abs() < 1.0, "{size:?}: {stage:?}");
             for criterion in &CRITERIA {
-                // It stands before its answer too, which is above the column.
+                // The name also stands before its answer, above the column.
                 let at = texts.iter().filter(|(_, text)| text == criterion.name());
                 let head = at.map(|(at, _)| *at).max_by(|a, b| a.y.total_cmp(&b.y));
                 let head = head.unwrap_or_else(|| panic!("{size:?}: {texts:?}"));
@@ -494,13 +494,13 @@ mod tests {
             let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, &studio).1);
             (0..2).for_each(|_| drop(frame()));
             let (stage, shown) = frame();
-            // Those of the answer are strong.
+            // The names in the answer are in strong type.
             let size_of_name = |text: &ShownText| {
                 let galley = &text.shape.galley;
                 let font = &galley.job.sections.first()?.format.font_id;
                 let is_name = studio.entries().iter().any(|it| it.method.name == galley.text());
                 let is_plain = font.family == FontFamily::Proportional;
-                // Below the stage are the methods by their digits.
+                // Below the stage, methods stand beside their digits.
                 let is_beside =
                     text.shape.pos.x > stage.right() && text.shape.pos.y < stage.bottom();
                 (is_name && is_plain && is_beside).then_some(font.size)
@@ -527,7 +527,7 @@ mod tests {
         of(&studio, "none yet");
         judge(&mut studio, &mut worker, 2);
         of(&studio, &told(2));
-        // The cells of the table have more words.
+        // A cell of the table has more words, so this is the answer.
         assert!(of(&studio, "×1") < of(&studio, "method"));
     }
 
@@ -545,7 +545,7 @@ mod tests {
             euler.met[0].met().unwrap().evaluations_per_s
         };
         assert_eq!([counts(true), counts(false)], [60.0, 120.0]);
-        // A lane's verdict is one body's, and so is the advice until all are asked for.
+        // A lane's verdict is about one body, and so is the advice until the user asks for all.
         let studio = Studio::new(Scene::built_in("harbour").unwrap());
         assert!(studio.display().advises_on_one_body);
     }

@@ -1,5 +1,5 @@
-//! The cost of a tick by lane: evaluations of the force, which are the same on every machine, and the time that the
-//! window measures.
+//! Cost of a tick by lane: force evaluations, which are the same on every machine, and the time measured in the
+//! window.
 
 use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 
@@ -11,19 +11,19 @@ use crate::stage::number::significant;
 use crate::studio::{Command, StageCommand, Studio};
 use crate::view::theme::{PanelPalette, palette, strong_font};
 
-/// The height of a row and the size of type in the heads, in points.
+/// Height of a row and font size of the heads, in points.
 const ROW: f32 = 22.0;
 const HEAD_TYPE: f32 = 11.0;
-/// The least width of a method's name, in points.
+/// Minimum width of a method's name, in points.
 const MIN_NAME: f32 = 104.0;
 /// A frame at 60 Hz, in nanoseconds.
 const FRAME_NS: f64 = 1e9 / 60.0;
-/// Said below the table.
+/// Notes below the table.
 const MEASURED: &str = "Fastest of several timed runs, repeated once per second.";
 const NOT_MEASURED: &str = "Time is measured in the window.";
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
-    // Solo, those that a digit switches to, for comparison.
+    // Solo, the methods that a digit selects, for comparison.
     let is_shown = |entry: &usize| match studio.mode() {
         Mode::Solo if studio.viewer.is_asked() => *entry == studio.active(),
         Mode::Solo => *entry < studio.deck.offered(),
@@ -54,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     ui.add(Label::new(RichText::new(note).size(12.0).color(palette(ui).dim)).wrap());
 }
 
-/// The columns; the longest bar is of `most` evaluations.
+/// The columns of the table. The longest bar shows `most` evaluations.
 fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
     let about = "the line of this method in the plots and on the stage";
     let style =
@@ -113,7 +113,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
     all
 }
 
-/// A lane.
+/// A row: a lane.
 struct Row<'a> {
     studio: &'a Studio,
     entry: usize,
@@ -171,7 +171,7 @@ fn time(ns: f64) -> String {
     }
 }
 
-/// The part of a frame that ticks at this rate take, if each frame is 1/60 s.
+/// Share of a frame of 1/60 s that its ticks take at this rate.
 fn share(ns: f64, tick_hz: TickRate) -> String {
     let ticks = f64::from(tick_hz) / 60.0;
     let percent = 100.0 * ns * ticks / FRAME_NS;
@@ -208,7 +208,7 @@ mod tests {
         let [plain, halved] = ["explicit-euler", "adaptive-euler"]
             .map(|id| studio.deck.evaluations_of_next_tick(entry(id)));
         assert!(plain == 1 && (3..100).contains(&halved), "{plain} {halved}");
-        // As many as it takes once it flies.
+        // The method takes as many when it flies.
         studio.apply(StageCommand::Pick(entry("adaptive-euler")));
         let flown = studio.deck.evaluations_of_next_tick(studio.active());
         assert_eq!(flown, halved);

@@ -1,4 +1,4 @@
-//! The line under everything: what happened last, or what to try next, and a few keys.
+//! The status line below everything: the last notice or a hint, and a few keys.
 
 use egui::{Align, Layout, Sense, Ui, vec2};
 
@@ -15,7 +15,7 @@ pub(super) const HEIGHT: f32 = 32.0;
 /// The room between two hints, in points.
 const GAP: f32 = 16.0;
 
-/// A key, what it does, and the command.
+/// A key, its effect, and its command.
 type KeyHint = (&'static str, String, Option<Command>);
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         if width >= breakpoints::KEYS_BESIDE_HINT {
-            // From the right: the first are the last to go.
+            // From the right, because the last hints disappear first.
             for hint in key_hints(studio) {
                 if ui.available_width() - width_of(ui, &hint) < room_for_hint {
                     break;
@@ -42,7 +42,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-/// The parts of the notice, or else of the hint, or else what the scene is about; and whether it is one of the first two.
+/// The parts of the notice, else of the hint, else the scene's description. Also returns whether they are a notice or
+/// a hint.
 fn told(studio: &Studio) -> (Vec<String>, bool) {
     if let Some(notice) = &studio.viewer.notice {
         return (notice.parts().to_vec(), true);
@@ -58,7 +59,7 @@ fn told(studio: &Studio) -> (Vec<String>, bool) {
     }
 }
 
-/// The verdict on the method that is flown, and this line, as sentences for whoever does not see them.
+/// The verdict on the active method and the status line, as sentences for a screen reader.
 pub(in crate::view) fn spoken(studio: &Studio) -> String {
     let verdict = lanes::verdict_on(studio, studio.active());
     let is_known = studio.loop_lab().is_none() && verdict.sign.is_some();
@@ -68,14 +69,14 @@ pub(in crate::view) fn spoken(studio: &Studio) -> String {
     verdict.into_iter().chain([line]).collect::<Vec<_>>().join(" ")
 }
 
-/// As many of the parts as this width takes, and the first in any case.
+/// As many parts as fit this width, but at least the first.
 fn fitting(ui: &Ui, parts: &[String], width: f32) -> String {
     let mut sentences = (1..=parts.len()).rev().map(|count| parts[..count].join("; "));
     let fits = |sentence: &String| keycap::line_width(ui, sentence) <= width;
     sentences.find(fits).unwrap_or_else(|| parts[0].clone())
 }
 
-/// Two hints, from right to left: the help, and before it what goes on from here.
+/// Two hints, from right to left: the help, and the next step.
 fn key_hints(studio: &Studio) -> [KeyHint; 2] {
     let hint = |key, what: &str, command| (key, what.to_owned(), Some(command));
     let next = if let Some(input) = input_in_use(studio) {
@@ -93,7 +94,7 @@ fn key_hints(studio: &Studio) -> [KeyHint; 2] {
     [hint("H", "all keys", Command::View(ViewCommand::ToggleHelp)), next]
 }
 
-/// The input of the body that is looked at, or one that is in use.
+/// The first input of the displayed body, or one that is in use.
 fn input_in_use(studio: &Studio) -> Option<KeyHint> {
     let inputs = [
         ("throttle", "↑ ↓", studio.race().throttle(), 1.0),
@@ -112,7 +113,7 @@ fn width_of(ui: &Ui, (key, what, _): &KeyHint) -> f32 {
     keycap::line_width(ui, &format!("`{key}` {what}")) + GAP
 }
 
-/// Shows a hint. A click on it does what the key does.
+/// Shows a hint. A click does the same as the key.
 fn show_hint(ui: &mut Ui, hint: KeyHint, commands: &mut Vec<Command>) {
     let size = vec2(width_of(ui, &hint), keycap::HEIGHT);
     let (key, what, command) = hint;

@@ -1,4 +1,4 @@
-//! The guide, under the stage: the question of its stop, the choices, the key to press, and the answer.
+//! The guide below the stage: the question of its stop, the choices, the key to press, and the answer.
 
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
@@ -7,12 +7,12 @@ use crate::studio::guide::{STOPS, Tour};
 use crate::studio::{Command, Step, ViewCommand};
 use crate::view::theme::{palette, strong_font};
 
-/// The usual height, the least, and what is left for the stage where that is possible, in points.
+/// The usual height, the minimum, and the height left for the stage if possible, in points.
 const HEIGHT: f32 = 172.0;
 const MIN_HEIGHT: f32 = 96.0;
 const FOR_STAGE: f32 = 150.0;
 
-/// The height of the guide above which there is so much room, in points, for it and the stage: a low one is scrolled.
+/// Height of the guide, if it and the stage have `room` points together. A low guide scrolls.
 pub(super) fn height(room: f32) -> f32 {
     HEIGHT.min((room - FOR_STAGE).max(MIN_HEIGHT)).min(0.6 * room)
 }
@@ -20,7 +20,7 @@ pub(super) fn height(room: f32) -> f32 {
 pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing = vec2(6.0, 5.0);
     head(ui, tour, commands);
-    // A low guide is no higher than it is said to be, or it would lie over the stage.
+    // Without this a low guide would exceed its height and lie over the stage.
     let scrolled = ScrollArea::vertical().auto_shrink(false).min_scrolled_height(0.0);
     scrolled.show(ui, |ui| {
         let stop = tour.stop();
@@ -87,7 +87,7 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     }
 }
 
-/// The predictions to choose from. Once the task is done, the right one is marked.
+/// Shows the predictions to choose from. Once the task is done, the right one is marked.
 fn choices(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     let stop = tour.stop();
     ui.horizontal_wrapped(|ui| {

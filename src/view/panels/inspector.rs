@@ -1,4 +1,4 @@
-//! The inspector: everything that can be edited while a run goes on, made from the tables of parameters and methods.
+//! The inspector: everything that can be edited during a run, from the tables of parameters and methods.
 
 use egui::{
     Align, Button, CollapsingHeader, Label, Layout, Response, RichText, ScrollArea, Slider, Ui,
@@ -22,16 +22,16 @@ mod sweep;
 
 /// The height of a line, in points.
 const LINE: f32 = 20.0;
-/// The widths of a line's parts, in points: a name and a typed number as parts of the line, at most so much, and the
-/// button that restores.
+/// Widths of a line's parts in points: a name and a number field, as shares of the line with a maximum, and the
+/// restore button.
 const NUMBER_PART: f32 = 0.3;
 const MAX_NUMBER: f32 = 108.0;
 const RESTORE: f32 = 20.0;
 const NAME_PART: f32 = 0.32;
 const MAX_NAME: f32 = 150.0;
-/// A name that is longer takes up to this part of the line.
+/// Maximum share of the line for a longer name.
 const MAX_NAME_PART: f32 = 0.42;
-/// Scenes of more bodies than this open with one of them unfolded, the displayed one.
+/// Scenes with more bodies than this open with only the displayed body unfolded.
 const FEW_BODIES: usize = 3;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         });
     });
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        // Room for the bar at the right, which lies over what is under it.
+        // Leaves room for the bar at the right, which covers its content.
         ui.set_max_width(ui.available_width() - 8.0);
         let bodies = &studio.scene().bodies;
         for (index, body) in bodies.iter().enumerate() {
@@ -131,9 +131,9 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
         let buttons = RESTORE + sweep::BUTTON + 3.0 * ui.spacing().item_spacing.x;
         let slider = vec2((room - number - buttons).max(1.0), LINE);
         let reach = SliderRange::of(parameter.range, values);
-        // Of what acts from the next start nothing would be seen.
+        // A sweep of a parameter that acts from the next start would show nothing.
         let swept_reach = reach.filter(|_| parameter.acts == Acts::AtOnce);
-        // A sweep ends with the scene: another has other parameters at the same places.
+        // A sweep ends with its scene, because another scene has other parameters at the same indices.
         let of = field.id.with(studio.deck.openings());
         let swept = sweep::show(ui, of, swept_reach, values, &name);
         commands.extend(swept.filter(|value| check(*value).is_ok()).map(set));
@@ -146,11 +146,11 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
     });
 }
 
-/// A slider that reaches round the value that the scene has. Returns what it was moved to.
+/// A slider around the scene's value. Returns the new value if the slider was moved.
 fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -> Option<f64> {
     let id = ui.scope_id().with((row.body, row.index, "reach"));
     let fresh = SliderRange::of(row.parameter.range, values)?;
-    // Under the mouse it stays, though the value that it sets brings its end nearer.
+    // A dragged slider keeps its range, although the value that it sets would move the ends.
     let held = ui.data(|data| data.get_temp::<SliderRange>(id));
     let SliderRange { low, high, spacing } = held.unwrap_or(fresh);
     let mut value = values.present;
@@ -171,7 +171,7 @@ fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -
     (value != values.present).then_some(value)
 }
 
-/// A line with a name at its left, and the rest, which is told its width and that of a typed number.
+/// A line with a name at its left. `rest` lays out the remainder, given its width and that of a number field.
 fn line(ui: &mut Ui, name: &str, about: &str, rest: impl FnOnce(&mut Ui, [f32; 2])) {
     let width = ui.available_width();
     let font = egui::TextStyle::Body.resolve(ui.style());
@@ -190,7 +190,7 @@ fn line(ui: &mut Ui, name: &str, about: &str, rest: impl FnOnce(&mut Ui, [f32; 2
     });
 }
 
-/// The button that restores what was changed; its place is kept where nothing was.
+/// The restore button, or an empty place if nothing was changed.
 fn restore(ui: &mut Ui, is_changed: bool, about: &str, name: &str, then: impl FnOnce()) {
     if !is_changed {
         ui.allocate_exact_size(vec2(RESTORE, LINE), egui::Sense::hover());
@@ -211,7 +211,7 @@ fn named(ui: &mut Ui, button: Button<'_>, about: &str) -> Response {
     response
 }
 
-/// Commands that restore every edited value; empty if nothing was edited.
+/// Commands that restore every edited value.
 fn restoring(studio: &Studio) -> Vec<Command> {
     let changed = (0..studio.scene().bodies.len()).flat_map(|body| {
         let changed = move |row: Row| {
@@ -237,10 +237,10 @@ mod tests {
     use crate::studio::StageCommand;
     use crate::view::testing::TestWindow;
 
-    /// Every text that is seen in a frame that is high enough for all of the inspector.
+    /// Every visible text in a frame that is high enough for all of the inspector.
     fn texts(studio: &Studio) -> Vec<String> {
         let mut window = TestWindow::new([1280.0, 3000.0]);
-        // A header learns in the first frame how high it is.
+        // A header learns its height in the first frame.
         window.panels(studio, Vec::new());
         window.panels(studio, Vec::new()).1.words()
     }
@@ -281,13 +281,13 @@ mod tests {
             }
             for entrant in studio.race().entrants() {
                 let name = entrant.spec.method.name;
-                // In the list of lanes too.
+                // The list of lanes has it too.
                 assert!(named(name) >= 2, "{}: {name}", scene.name);
             }
             for text in ["tick rate", "length"] {
                 assert!(count(text) >= 1, "{}: {text}", scene.name);
             }
-            // A net has no parameters of its start.
+            // A net has no start parameters.
             let mut parameters = bodies.iter().flat_map(|body| &body.kind.parameters);
             let has_start = parameters.any(|parameter| parameter.acts == Acts::AtStart);
             assert_eq!(count("from the next start") >= 1, has_start, "{}", scene.name);

@@ -1,7 +1,7 @@
-//! The instrument beside the stage: tabs in one row, and the chosen instrument in all the room below.
+//! The instrument beside the stage: tabs in one row, and the selected instrument below.
 //!
-//! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
-//! arrow in its colour says so.
+//! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an arrow in its
+//! colour marks it.
 
 use egui::{Button, Color32, ComboBox, Rect, Response, RichText, Sense, Stroke, Ui, vec2};
 
@@ -36,21 +36,21 @@ mod plot_set;
 #[cfg(test)]
 mod tests;
 
-/// The room between two tabs, and beside the words of a tab where the panel is narrow, in points.
+/// The gap between two tabs, and the padding of a tab in a narrow panel, in points.
 const BETWEEN_TABS: f32 = 2.0;
 const TIGHT: f32 = 2.5;
-/// The room between two groups of tabs, in points.
+/// The gap between two groups of tabs, in points.
 const BETWEEN_GROUPS: f32 = 10.0;
-/// With more lines than this there is no legend either: the table below has the names, and the plots need the room.
+/// Maximum number of lines in a legend. With more, the table below has the names, and the plots need the room.
 const MAX_IN_LEGEND: usize = 12;
-/// The most lines of a legend beside the title.
+/// Maximum number of lines in a legend beside the title.
 const BESIDE_TITLE: usize = 2;
 /// The height of a line of the title or the legend, in points.
 const HEAD: f32 = 22.0;
-/// The room before a legend that is beside the title, in points.
+/// The gap before a legend beside the title, in points.
 const BEFORE_LEGEND: f32 = 8.0;
 
-/// The least height of an instrument with its tabs, in points: below it the plot is a smudge, or words lie over words.
+/// Minimum height of an instrument with its tabs, in points. Below it the plot is a smudge, or words lie over words.
 pub(super) fn min_height(instrument: Instrument) -> f32 {
     match instrument {
         Instrument::OneStep => 430.0,
@@ -60,14 +60,14 @@ pub(super) fn min_height(instrument: Instrument) -> f32 {
     }
 }
 
-/// Shows the tabs, `indent` points from the left, and the chosen instrument.
+/// Shows the tabs, `indent` points from the left, and the selected instrument.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
     tabs(ui, studio, indent, commands);
     ui.add_space(2.0);
     show_alone(ui, studio, commands);
 }
 
-/// Shows the chosen instrument without tabs.
+/// Shows the selected instrument without tabs.
 pub(super) fn show_alone(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let room = ui.available_size() - vec2(10.0, 2.0);
     match studio.display().instrument {
@@ -85,7 +85,7 @@ pub(super) fn show_alone(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Comman
     }
 }
 
-/// How closely a person looks at the plots in all that is left of `ui`.
+/// Detail of the plots in the rest of `ui`. It is higher if the user points at them or has zoomed.
 fn detail(ui: &Ui, studio: &Studio) -> Detail {
     let room = ui.available_rect_before_wrap();
     match ui.rect_contains_pointer(room) || chart::is_zoomed(studio) {
@@ -94,7 +94,7 @@ fn detail(ui: &Ui, studio: &Studio) -> Detail {
     }
 }
 
-/// The plots of the chosen instrument, if it has any.
+/// The plots of the selected instrument, if it has any.
 fn plot_set_of(studio: &Studio, detail: Detail) -> Option<PlotSet> {
     if let Some(loops) = studio.loop_lab() {
         return by_loop::plot_set(studio, loops, studio.display().instrument);
@@ -113,7 +113,8 @@ fn plot_set_of(studio: &Studio, detail: Detail) -> Option<PlotSet> {
     }
 }
 
-/// One row of tabs, the groups apart: where not all fit, of each other group its name, and where those do not fit, a menu.
+/// One row of tabs in groups. If they do not fit, the other groups shrink to their names. If those do not fit either,
+/// a menu replaces the row.
 fn tabs(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
     let room = ui.available_width() - indent;
     let usual = ui.spacing().button_padding.x;
@@ -162,14 +163,14 @@ fn tabs(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) 
     });
 }
 
-/// The instruments of a group that are there.
+/// The available instruments of a group.
 fn cards(studio: &Studio, group: InstrumentGroup) -> impl Iterator<Item = &'static InstrumentCard> {
     let is_in_loop_lab = studio.loop_lab().is_some();
     let of_group = INSTRUMENTS.iter().filter(move |card| card.group == group);
     of_group.filter(move |card| !is_in_loop_lab || card.instrument.is_in_loop_lab())
 }
 
-/// The width of tabs, of which any may be the chosen one, with this much beside the words of each, in points.
+/// Width of tabs with this padding around their words, in points. It suffices whichever tab is selected.
 fn tabs_width<'a>(ui: &Ui, names: impl Iterator<Item = &'a str>, padding: f32) -> f32 {
     let tab = |name: &str| {
         let words = ui.painter().layout_no_wrap(name.into(), strong_font(TYPE), palette(ui).text);
@@ -178,7 +179,7 @@ fn tabs_width<'a>(ui: &Ui, names: impl Iterator<Item = &'a str>, padding: f32) -
     names.map(tab).sum()
 }
 
-/// A menu of the instruments.
+/// The menu of instruments.
 fn tabs_menu(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.add_space(indent);
@@ -204,10 +205,10 @@ fn tab(ui: &mut Ui, name: &str, about: &str, is_chosen: bool) -> bool {
     response.on_hover_text(about).clicked()
 }
 
-/// An instrument of plots, below its title, its choices and its legend.
+/// Shows an instrument of plots, below its title, its menus and its legend.
 fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let entries = legend_entries(set);
-    // One method and the exact solution are told apart by the table and the stage.
+    // The table and the stage distinguish one method from the exact solution.
     let is_needed = set.styles.is_race || entries.len() > BESIDE_TITLE || is_picture(ui);
     let has_legend =
         is_needed && ui.available_height() >= breakpoints::LEGEND && entries.len() <= MAX_IN_LEGEND;
@@ -216,13 +217,13 @@ fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command
         && studio.display().instrument == Instrument::Motion;
     let for_plots = ui.available_height() - HEAD * (1.0 + f32::from(u8::from(has_legend)));
     let is_beside = ui.horizontal_wrapped(|ui| {
-        // Else its tab says so.
+        // In a window its tab is the title.
         if is_picture(ui) {
             ui.label(RichText::new(&set.title).font(strong_font(15.0)).color(palette(ui).text));
         }
         choices(ui, studio, commands);
         if !layout::all_fit(set.plots.len(), for_plots) {
-            // Else the menu is there already.
+            // All other instruments have the menu already.
             if studio.display().instrument == Instrument::Motion {
                 body_choice(ui, studio, commands);
             }
@@ -246,7 +247,7 @@ fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command
     chart::show(ui, studio, set, commands);
 }
 
-/// What can be chosen in an instrument: a metric, a body.
+/// The menus of an instrument, such as the metric and the body.
 fn choices(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let instrument = studio.display().instrument;
     if instrument == Instrument::Error {
@@ -268,7 +269,7 @@ fn choices(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         choice(ui, "metric", offered, chosen, commands);
     }
     let has_all = instrument == Instrument::Motion && studio.loop_lab().is_none();
-    // In a picture the axes say what is usual.
+    // In a picture, the axes name the usual quantity.
     let is_said = studio.display().quantity.is_some() || !is_picture(ui);
     if has_all && is_said {
         let named = |quantity: Option<Quantity>| {
@@ -317,7 +318,7 @@ fn coordinate_choice(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) 
     }
 }
 
-/// Offers commands by name, as a menu.
+/// Shows commands by name, as a menu.
 fn choice<N: AsRef<str>>(
     ui: &mut Ui,
     id: &str,
@@ -332,7 +333,7 @@ fn choice<N: AsRef<str>>(
     let menu = ComboBox::from_id_salt(id).selected_text(chosen.1).width(0.0).show_ui(ui, |ui| {
         let mut height = None;
         for (command, name) in offered {
-            // A net offers thousands, of which a few are in sight.
+            // A net has thousands, of which a few are visible.
             let place = Rect::from_min_size(ui.cursor().min, vec2(1.0, height.unwrap_or_default()));
             if height.is_some() && !ui.is_rect_visible(place) {
                 ui.allocate_space(place.size());
@@ -348,10 +349,10 @@ fn choice<N: AsRef<str>>(
     menu.response.on_hover_text(id);
 }
 
-/// All whose curves are shown, in the order of [`PlotSet::shown`], and the exact solution.
+/// Legend entries of all visible curves, in the order of [`PlotSet::shown`], and of the exact solution.
 fn legend_entries(set: &PlotSet) -> Vec<Entry> {
     let series = set.shown().map(|(place, SeriesStyle { name, colour, dash, .. })| {
-        // Alone, a lane has a number only where a key picks it.
+        // Solo, a lane has a number only if a key selects it.
         let name = match set.styles.is_race {
             true => format!("{} {name}", place + 1),
             false => numbered(place, name),
@@ -368,7 +369,7 @@ fn legend_entries(set: &PlotSet) -> Vec<Entry> {
     series.chain(exact).collect()
 }
 
-/// Picks the lane of a race whose entry of the legend was clicked.
+/// Selects the lane of a race after a click on its legend entry.
 fn pick_by_legend(
     set: &PlotSet,
     (entries, shown): (&[Entry], &[Response]),

@@ -1,11 +1,11 @@
-//! Keys drawn as boxes, and sentences with keys in them: a key stands between backticks.
+//! Keys drawn as boxes, and sentences with keys between backticks.
 
 use egui::{Align2, Color32, FontId, Painter, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
 use super::parts::short;
 use crate::view::theme::{TYPE, palette, strong_font};
 
-/// The height of a box, the least room round its letter, and the room between it and a word, in points.
+/// Height of a box, minimum padding around its letter, and gap between it and a word, in points.
 pub(super) const HEIGHT: f32 = 22.0;
 const PADDING: f32 = 7.0;
 const GAP: f32 = 5.0;
@@ -17,7 +17,7 @@ enum Piece<'a> {
     Key(&'a str),
 }
 
-/// The words and the keys of a sentence.
+/// Splits a sentence into its words and keys.
 fn pieces(sentence: &str) -> impl Iterator<Item = Piece<'_>> {
     let parts = sentence.split('`').enumerate().filter(|(_, part)| !part.trim().is_empty());
     parts.map(|(i, part)| match i % 2 {
@@ -26,12 +26,12 @@ fn pieces(sentence: &str) -> impl Iterator<Item = Piece<'_>> {
     })
 }
 
-/// How much closer than others words stand to the key before them: a stop belongs to it.
+/// Reduction of the gap before words that begin with punctuation, because it belongs to the key before.
 fn closer(words: &str) -> f32 {
     if words.starts_with(['.', ',', ':', ';']) { GAP - 1.0 } else { 0.0 }
 }
 
-/// A sentence as it is read aloud: without the marks of its keys.
+/// A sentence to read aloud, without the backticks around its keys.
 pub(super) fn plain(sentence: &str) -> String {
     sentence.replace('`', "")
 }
@@ -42,7 +42,7 @@ pub(super) fn width(painter: &Painter, key: &str) -> f32 {
     (text.size().x + 2.0 * PADDING).max(HEIGHT)
 }
 
-/// Draws a key's box with its left edge here, and returns its width.
+/// Draws a key's box with its left edge at `left`, and returns its width.
 pub(super) fn paint(ui: &Ui, left: f32, middle: f32, key: &str, colour: Color32) -> f32 {
     let width = width(ui.painter(), key);
     let rect =
@@ -53,7 +53,7 @@ pub(super) fn paint(ui: &Ui, left: f32, middle: f32, key: &str, colour: Color32)
     width
 }
 
-/// The width of a sentence in one line.
+/// The width of a sentence on one line.
 pub(super) fn line_width(ui: &Ui, sentence: &str) -> f32 {
     let of = |piece| match piece {
         Piece::Key(key) => width(ui.painter(), key) + GAP,
@@ -66,8 +66,8 @@ pub(super) fn line_width(ui: &Ui, sentence: &str) -> f32 {
     pieces(sentence).map(of).sum()
 }
 
-/// Shows a sentence in one line of this width. What does not fit is left out behind an ellipsis, and the tooltip has all
-/// of it.
+/// Shows a sentence in one line of this width. An ellipsis replaces the end of a sentence that is too long, and the
+/// tooltip has all of it.
 pub(super) fn line(ui: &mut Ui, sentence: &str, room: f32, colour: Color32) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(room.max(0.0), HEIGHT), Sense::hover());
     let spoken = plain(sentence);

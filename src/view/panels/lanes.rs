@@ -1,4 +1,5 @@
-//! The table of lanes: key, colour, method and verdict, then numbers. Solo, it is the flown lane's alone, a row for each body.
+//! The table of lanes: key, colour, method and verdict, then numbers. Solo, it has only the active lane, with a row
+//! for each body.
 
 use egui::{Color32, RichText, Ui};
 
@@ -20,7 +21,7 @@ mod verdict;
 /// The height of a row, in points.
 pub(super) const ROW: f32 = 26.0;
 
-/// The most rows in sight. The rest is scrolled to.
+/// Maximum number of rows in sight. The list scrolls to the rest.
 const ROWS: usize = 8;
 
 pub(super) fn height(studio: &Studio) -> f32 {
@@ -30,12 +31,12 @@ pub(super) fn height(studio: &Studio) -> f32 {
     })
 }
 
-/// The height of a table of `rows` rows, as far as they are in sight.
+/// Height of a table of `rows` rows, or of the most that are in sight.
 pub(super) fn height_of(rows: usize) -> f32 {
     ROW * (rows.clamp(1, ROWS) + 1) as f32
 }
 
-/// Shows the table. Returns the index of the lane whose row the pointer or the keyboard's focus is on.
+/// Shows the table. Returns the index of the lane whose row has the pointer or the keyboard focus.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
     let mut pointed = None;
     table(studio).show(ui, groups(studio), commands, |row, response, commands| {
@@ -47,12 +48,12 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
     pointed
 }
 
-/// What is said of the method on this index of the list.
+/// Verdict on the method at this index of the list.
 pub(super) fn verdict_on(studio: &Studio, entry: usize) -> VerdictText {
     verdict::text_of(studio, entry, studio.deck.flown(entry), (None, None))
 }
 
-/// The card of the method on this index of the list, and the whole verdict on it.
+/// Shows the card of the method at this index of the list, and the whole verdict on it.
 pub(super) fn tooltip(ui: &mut Ui, studio: &Studio, entry: usize) {
     let exact = vec![None; studio.scene().bodies.len()];
     let mut rows = Row::of_method(studio, (entry, &studio.entries()[entry]), &exact, None);
@@ -85,7 +86,7 @@ fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
         .collect()
 }
 
-/// The menu of a row: a spring's settings in its engine, and its method as code, in each language.
+/// The context menu of a row. It copies a spring's settings for its engine, or its method as code, in each language.
 pub(super) fn menu(ui: &mut Ui, studio: &Studio, entry: usize, commands: &mut Vec<Command>) {
     let has_joint = joint_code(&studio.deck, &studio.viewer, entry).is_some();
     if has_joint && ui.button("Copy the spring's settings (Ctrl C)").clicked() {

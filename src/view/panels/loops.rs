@@ -1,5 +1,5 @@
-//! The panels of the loop lab, and the instrument *Loop*: what each loop shows when, or what this window's own loop does,
-//! as a picture and as text.
+//! The panels of the loop lab, and the instrument *Loop*. It charts the moment that each loop shows, or the timing of
+//! this window's own loop, as a picture and as text.
 
 use std::iter;
 
@@ -23,15 +23,15 @@ mod row;
 pub(super) mod slider;
 pub(super) mod table;
 
-/// What the charts of the loop lab show.
+/// Title of the charts of the loop lab.
 const TITLE: &str = "Moment shown against moment of display";
-/// The part of the height that the two small plots take.
+/// Share of the height for the two small plots.
 const TWO: f32 = 0.4;
-/// Between the two, and between them and the moments, in points.
+/// Gap between the two small plots, and above them, in points.
 const GAP: f32 = 10.0;
 const ABOVE_TWO: f32 = 3.0;
 
-/// Shows what each loop of the loop lab shows, or what the window's own loop does.
+/// Shows the charts of the loop lab, or of the window's own loop.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     match studio.loop_lab() {
         Some(loops) => show_lab(ui, loops, room, commands),
@@ -67,7 +67,7 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
     }
 }
 
-/// The title of the charts in a room, to be saved, what names their curves, and the charts; `None` before the first frame.
+/// Lays out the charts in a room for a file, with their title and the legend. `None` before the first frame.
 pub(super) fn layout(
     studio: &Studio,
     room: Rect,
@@ -88,7 +88,7 @@ pub(super) fn layout(
     Some((TITLE, legend_entries(loops, &lanes, palette), all))
 }
 
-/// The room of the moments, and with enough room two more below.
+/// The room of the moments and, if it is large enough, of two small plots below.
 fn parts(room: Rect) -> (Rect, Option<[Rect; 2]>) {
     if room.height() < breakpoints::TWO_PLOTS_BELOW {
         return (room.with_max_y(room.bottom() - ABOVE_TWO), None);
@@ -104,7 +104,7 @@ fn series(lanes: &[ShownLane<'_>]) -> Vec<counts::Series> {
     lanes.iter().map(counts::Series::of_lane).collect()
 }
 
-/// A lane on the stage, and how it is drawn.
+/// A lane on the stage, with its style.
 struct ShownLane<'a> {
     index: usize,
     lane: &'a LoopLane,
@@ -123,7 +123,7 @@ fn on_stage<'a>(loops: &'a LoopLab, palette: &PanelPalette) -> Vec<ShownLane<'a>
     loops.on_stage().iter().map(lane).collect()
 }
 
-/// The names of the lines.
+/// The legend of the charts.
 fn legend_entries(loops: &LoopLab, lanes: &[ShownLane<'_>], palette: &PanelPalette) -> Vec<Entry> {
     let entry = |lane: &ShownLane<'_>| {
         let name = format!("{} {}", lane.index + 1, lane.lane.card().name);

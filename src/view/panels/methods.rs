@@ -1,4 +1,4 @@
-//! The methods that digits switch to: each with its digit, its name, and its verdict's sign.
+//! The methods that digits select: each with its digit, its name, and its verdict's sign.
 
 use egui::{FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
 
@@ -7,37 +7,37 @@ use super::{breakpoints, keycap, lanes};
 use crate::studio::{Command, DIGITS, StageCommand, Studio};
 use crate::view::theme::{TYPE, palette, strong_font};
 
-/// The height of one row, and what each further one adds, in points.
+/// Height of one row, and of each further row, in points.
 pub(super) const HEIGHT: f32 = 40.0;
 const FURTHER: f32 = BUTTON + CLOSE;
-/// The most of a narrow window's height that rows take in which every method has its name.
+/// Maximum share of a narrow window's height for rows that name every method.
 const ROWS: f32 = 1.0 / 6.0;
 
-/// The height of a method, the room between two, also where it is scarce, and the room beside its parts, in points.
+/// In points: height of a method, gap between two, gap where room is scarce, and padding of a method's parts.
 const BUTTON: f32 = 30.0;
 const BETWEEN: f32 = 10.0;
 const CLOSE: f32 = 4.0;
 const PADDING: f32 = 7.0;
 /// The size of names in two lines, in points.
 const SMALL: f32 = 10.5;
-/// The room that the sign of its verdict takes, in points.
+/// Room for the sign of the verdict, in points.
 const SIGN: f32 = 12.0;
 
-/// How the names of the methods stand beside their digits.
+/// Style of the names of methods beside their digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Naming {
     OneLine,
     TwoLines,
-    /// The chosen one's alone.
+    /// Only the name of the selected method.
     Chosen,
     None,
 }
 
 impl Naming {
-    /// Each that leaves no method out, the best first.
+    /// All styles, the best first. The first one that fits every method applies.
     const ALL: [Self; 4] = [Self::OneLine, Self::TwoLines, Self::Chosen, Self::None];
 
-    /// The name of a method as it stands beside its digit, and its size; `None` where it does not.
+    /// Name of a method beside its digit, and its font; `None` if it has no name there.
     fn name(self, ui: &Ui, studio: &Studio, entry: usize) -> Option<(String, FontId)> {
         let is_chosen = entry == studio.active();
         let name = studio.lane_name(entry);
@@ -52,7 +52,7 @@ impl Naming {
     }
 }
 
-/// A name with a break at the blank or the hyphen that makes it narrowest.
+/// Breaks a name at the blank or the hyphen that makes it narrowest.
 fn in_two_lines(ui: &Ui, name: &str) -> String {
     let breaks = name.match_indices([' ', '-']).map(|(at, sign)| {
         let end = if sign == "-" { at + 1 } else { at };
@@ -69,7 +69,7 @@ fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, palette(ui).text).size().x
 }
 
-/// The height of the methods in a panel of this width, in a window of this size.
+/// Height of the methods in a panel of width `room`, in a window of this size.
 pub(super) fn height(ui: &Ui, studio: &Studio, room: f32, window: Vec2) -> f32 {
     let rows = rows(ui, studio, room);
     let height = HEIGHT + FURTHER * rows.len().saturating_sub(1) as f32;
@@ -77,7 +77,7 @@ pub(super) fn height(ui: &Ui, studio: &Studio, room: f32, window: Vec2) -> f32 {
     if is_narrow && height <= ROWS * window.y { height } else { HEIGHT }
 }
 
-/// The methods in rows of this width, each with its name.
+/// Splits the methods, each with its name, into rows of this width.
 fn rows(ui: &Ui, studio: &Studio, room: f32) -> Vec<Vec<usize>> {
     let (mut rows, mut left) = (Vec::<Vec<usize>>::new(), 0.0);
     for entry in 0..studio.deck.offered().min(DIGITS) {
@@ -94,8 +94,8 @@ fn rows(ui: &Ui, studio: &Studio, room: f32) -> Vec<Vec<usize>> {
     rows
 }
 
-/// Shows the scene's methods, or else those with a digit: with their names where all have room, also in several rows or in
-/// two lines each. Returns the index of the method that the pointer or the keyboard's focus is on.
+/// Shows the scene's methods, or else those with a digit. All have their names if there is room for them, if need be
+/// in several rows or in two lines each. Returns the index of the method that has the pointer or the keyboard focus.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
     let count = studio.deck.offered().min(DIGITS);
     let room = ui.available_width();
@@ -139,14 +139,14 @@ fn digit(entry: usize) -> String {
 }
 
 fn width(ui: &Ui, studio: &Studio, entry: usize, naming: Naming) -> f32 {
-    // In the strong type, so that a choice moves no other.
+    // Measured in strong type, so that a selection moves no other method.
     let name = naming.name(ui, studio, entry);
     let named = name.map(|(name, font)| text_width(ui, &name, strong_font(font.size)) + PADDING);
     let digit = keycap::width(ui.painter(), &digit(entry));
     3.0 * PADDING + digit + named.unwrap_or_default() + SIGN
 }
 
-/// Shows a method. A click on it does what its digit does.
+/// Shows a method. A click on it does the same as its digit.
 fn method(
     ui: &mut Ui,
     studio: &Studio,
@@ -205,7 +205,7 @@ mod tests {
     use crate::view::panels;
     use crate::view::testing::TestWindow;
 
-    /// The words in the row on a window this wide, the lines of a name apart by a blank.
+    /// Words of the row in a window this wide. A blank joins the lines of a name.
     fn words(studio: &Studio, width: f32) -> Vec<String> {
         let mut window = TestWindow::new([width, 100.0]);
         let ((), shown) = window.show(Vec::new(), |ui| {

@@ -1,4 +1,4 @@
-//! The panels round the stage: they read the studio and return commands, and touch nothing.
+//! The panels around the stage. They read the studio, return commands, and change nothing.
 
 use egui::epaint::PathShape;
 use egui::{Frame, Key, Margin, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
@@ -41,7 +41,7 @@ pub(super) use footer::spoken;
 pub(super) use inspector::is_under_way;
 pub(super) use instruments::{csv, svg};
 
-/// What a frame shows beside the stage.
+/// Panels that a frame shows beside the stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Panels {
     /// Every panel that fits.
@@ -53,20 +53,21 @@ pub enum Panels {
     Instrument,
 }
 
-/// The part of the width that the instruments take, and the most of the height that the table takes, if nobody has moved
-/// their boundary; and how far into the panel a pointer takes hold of that, in points.
+/// Default shares: the instruments' width, and the table's height at most. And the reach of a boundary's grip into
+/// its panel, in points.
 pub(super) const INSTRUMENTS: f32 = 0.38;
 const TABLE: f32 = 0.4;
 const GRIP: f32 = 6.0;
 
-/// The handle at the right edge of a stage that stands alone, in points.
+/// Size of the handle at the right edge of a stage without panels beside it, in points.
 const EDGE: Vec2 = vec2(16.0, 80.0);
 
-/// The part of their height that the inspector takes at first, where it leaves them enough, and the least that it has.
+/// Initial share of the instruments' height for the inspector, if it leaves them enough, and the inspector's minimum
+/// height in points.
 const INSPECTOR: f32 = 0.62;
 const MIN_INSPECTOR: f32 = 130.0;
 
-/// Shows all panels. Returns what was asked for and the rectangle left for the stage, in points.
+/// Shows all panels. Returns the commands and the rectangle left for the stage, in points.
 pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     let mut commands = Vec::new();
     let whole = ui.max_rect();
@@ -87,7 +88,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         panel.show(ui, |ui| footer::show(ui, studio, &mut commands));
     }
     let mut pointed = None;
-    // A race has them all in its table.
+    // The table of a race has them all.
     let has_methods = studio.loop_lab().is_none()
         && (studio.mode() == Mode::Solo || !studio.display().measure)
         && size.y >= breakpoints::LANES
@@ -115,7 +116,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     let mut stage = ui.available_rect_before_wrap();
     if !studio.display().measure {
         if studio.display().enlarged {
-            // In place of the stage.
+            // Takes the place of the stage.
             let frame = parts::frame(palette(ui).background);
             egui::CentralPanel::default_margins()
                 .frame(frame)
@@ -130,7 +131,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         help::show(ui, studio.viewer.preferences.is_page, &mut commands);
     }
     if let Some(dialog) = studio.viewer.dialog() {
-        // Beside the instruments, whose letters it would cut.
+        // Keeps a dialog off the instruments, because it would cut their letters.
         let is_wide = stage.width() >= breakpoints::DIALOG_ON_STAGE;
         let along = if is_wide { stage } else { whole };
         let over = Rect::from_x_y_ranges(along.x_range(), whole.y_range());
@@ -153,8 +154,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     (commands, stage)
 }
 
-/// Shows the table, the timeline and the instruments, in a window of this size. Returns the index of the lane in the table
-/// that the pointer or the keyboard's focus is on.
+/// Shows the table, the timeline and the instruments, in a window of this size. Returns the index of the lane in the
+/// table that has the pointer or the keyboard focus.
 fn round_the_stage(
     ui: &mut Ui,
     studio: &Studio,
@@ -162,14 +163,14 @@ fn round_the_stage(
     commands: &mut Vec<Command>,
 ) -> Option<usize> {
     let mut pointed = None;
-    // An instrument that is enlarged has the table's room too.
+    // An enlarged instrument also takes the room of the table.
     if size.y >= breakpoints::LANES && !studio.display().enlarged {
         let height = studio.loop_lab().map_or_else(|| lanes::height(studio), loops::table::height);
         let height = match studio.display().splits.table {
             Some(percent) => size.y * percent as f32 / 100.0,
             None => height.min(size.y * TABLE),
         };
-        // Without a margin: a row reaches from edge to edge.
+        // Without a margin, because a row reaches from edge to edge.
         let frame = Frame::new().fill(palette(ui).panel);
         let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame);
         let shown = panel.show(ui, |ui| match studio.loop_lab() {
@@ -198,7 +199,7 @@ fn round_the_stage(
         let part = studio.display().splits.instruments;
         let beside = size.x * part.map_or(INSTRUMENTS, |percent| percent as f32 / 100.0);
         let (width, indent) = match studio.display().enlarged {
-            // The tabs stay where they are, under the pointer.
+            // The tabs keep their place under the pointer.
             true => (size.x, size.x - beside),
             false => (beside, 0.0),
         };
@@ -206,7 +207,7 @@ fn round_the_stage(
             .exact_size(width)
             .frame(parts::frame(palette(ui).background));
         let shown = panel.show(ui, |ui| {
-            // What is wider than the panel does not move its edge.
+            // Contents wider than the panel must not move its edge.
             let room = ui.available_rect_before_wrap();
             ui.allocate_rect(room, egui::Sense::hover());
             let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(room));
@@ -224,8 +225,7 @@ fn round_the_stage(
     pointed
 }
 
-/// The boundary of a panel along `edge`, which is dragged to where `put` takes it, or by a double click to where it usually
-/// is.
+/// The boundary of a panel along `edge`. A drag moves it through `put`, and a double click resets it.
 fn split(
     ui: &Ui,
     edge: Rect,
@@ -236,7 +236,7 @@ fn split(
     let is_upright = edge.height() > edge.width();
     let sense = egui::Sense::CLICK | egui::Sense::DRAG;
     let id = egui::Id::unique(("split", is_upright));
-    // Of the panel alone: the stage beside it is for the hand that moves bodies.
+    // On the panel alone, because a hand on the stage moves bodies.
     let grip = edge.with_max_x(edge.right().max(edge.left() + GRIP));
     let grip = grip.with_max_y(edge.bottom().max(edge.top() + GRIP));
     let response = ui.interact(grip, id, sense);
@@ -259,7 +259,7 @@ fn split(
     }
 }
 
-/// A handle at the right edge of a stage that stands alone, from where the instruments slide in.
+/// A handle at the right edge of a stage without panels beside it, which slides the instruments in.
 fn edge(ui: &Ui, stage: Rect, commands: &mut Vec<Command>) {
     let rect = Rect::from_center_size(stage.right_center() - EDGE / 2.0 * Vec2::X, EDGE);
     let area = egui::Area::new(egui::Id::unique("edge")).fixed_pos(rect.min).constrain(false);
@@ -280,7 +280,7 @@ fn edge(ui: &Ui, stage: Rect, commands: &mut Vec<Command>) {
     });
 }
 
-/// Shows the instrument alone, for a picture in which nothing can be clicked.
+/// Shows the instrument alone, for a picture without anything to click.
 pub(super) fn show_instrument(ui: &mut Ui, studio: &Studio) {
     let frame = Frame::new().fill(palette(ui).background).inner_margin(Margin::symmetric(8, 4));
     let panel = egui::CentralPanel::default_margins().frame(frame);
@@ -293,7 +293,7 @@ pub(super) fn show_instrument(ui: &mut Ui, studio: &Studio) {
     });
 }
 
-/// The instruments; with the inspector open they keep the upper part, where there is room for both.
+/// Shows the instruments. An open inspector takes the lower part, or everything if there is no room for both.
 fn beside_the_stage(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
     let most = ui.available_height() - instruments::min_height(studio.display().instrument);
     if !studio.display().inspector || studio.display().enlarged {
@@ -354,7 +354,7 @@ mod tests {
                 let mut window = TestWindow::new(SIZE);
                 window.context.enable_accesskit();
                 let mut frame = || window.show(Vec::new(), |ui| show(ui, &studio));
-                // What lies over the stage is there from the second frame on.
+                // Anything over the stage appears from the second frame on.
                 drop(frame());
                 let ((_, stage), shown) = frame();
                 assert_eq!(stage.width() == SIZE.x, !measure, "{stage}");

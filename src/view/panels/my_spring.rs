@@ -1,4 +1,4 @@
-//! A custom spring: its numbers, each of which can be typed, and a button that asks for advice on it.
+//! A custom spring: fields for its numbers, and a button that asks for advice on it.
 
 use egui::{Align2, Button, ComboBox, FontId, Id, Rect, RichText, Sense, Ui, vec2};
 
@@ -12,7 +12,7 @@ use crate::tools::source_code::Language;
 use crate::view::theme::{TYPE, palette};
 
 const TITLE: &str = "My spring";
-/// The frames per second at which a library is told its numbers, on which these do not depend.
+/// Frames per second for a library's numbers, which do not depend on it.
 const USUAL_FRAME_HZ: f64 = 60.0;
 /// The widths of a name and of a number, and the height of a line, in points.
 const NAME: f32 = 118.0;
@@ -57,9 +57,9 @@ pub(super) fn show(
         ui.horizontal(|ui| {
             let words = format!("Run it at {tick_hz:.3} Hz");
             let advise = ui.add(Button::new(RichText::new(words).size(TYPE).strong()));
-            // A number that was clicked has it just now.
+            // A number that was just clicked keeps the focus.
             if !is_new && !has_focus && ui.memory(|m| m.focused().is_none()) {
-                // After a number was typed, Enter goes on.
+                // After a typed number, Enter presses the button.
                 advise.request_focus();
             }
             if advise.clicked() {
@@ -89,8 +89,7 @@ fn is_new(ui: &Ui) -> bool {
     last.is_none_or(|last| last + 1 < now)
 }
 
-/// The library whose numbers are shown too, which a menu chooses, and what it is told; with a button that copies its line
-/// of code.
+/// A menu of libraries, which shows the spring's numbers in the selected one. A button copies its line of code.
 fn speaks(ui: &mut Ui, spring: MySpring) -> Option<(&'static Dialect, DialectPort)> {
     let id = Id::unique("my spring speaks");
     let chosen = ui.data(|data| data.get_temp::<Option<usize>>(id)).flatten();

@@ -1,4 +1,4 @@
-//! One step: what the selected method does in the next tick, in the phase plane of the displayed body.
+//! One step: the next tick of the selected method, in the phase plane of the displayed body.
 
 use std::sync::Arc;
 
@@ -24,28 +24,28 @@ mod loupe;
 const LEFT: f32 = 62.0;
 const BELOW: f32 = 20.0;
 const NAME: f32 = 21.0;
-/// From this width on, in points, the table stands beside the plot; and the table's width there.
+/// Width in points from which the table stands beside the plot, and the table's width there.
 const ROOM_BESIDE: f32 = 700.0;
 const TABLE: f32 = 380.0;
-/// The least part of the height that the plot takes above the table, and its least height in points.
+/// Minimum share of the height for the plot above the table, and the plot's minimum height in points.
 const PLOT: f32 = 0.42;
 const MIN_PLOT: f32 = 108.0;
 /// The height of a row of the table and of a line of the formula, in points.
 const ROW: f32 = 20.0;
 const FORMULA: f32 = 20.0;
-/// The size of a formula beside numbers, and the room that those take with the badge, in points.
+/// Font size of a formula beside numbers, and the room for the numbers and the badge, in points.
 const BESIDE_NUMBERS: f32 = 14.0;
 const NUMBERS: f32 = 185.0;
 /// The radius of a state and of the badge of an evaluation, in points.
 const STATE: f32 = 5.0;
 const BADGE: f32 = 8.0;
-/// The length of the longest slope, as a part of the plot's diagonal.
+/// The length of the longest slope, relative to the plot's diagonal.
 const SLOPE: f32 = 0.13;
-/// How much of its colour an orbit of constant energy has.
+/// Opacity of an orbit of constant energy.
 const ORBIT: f32 = 0.7;
-/// The most evaluations that are drawn: an implicit or an adaptive method may take hundreds.
+/// Maximum number of drawn evaluations: an implicit or an adaptive method may take hundreds.
 const MAX_DRAWN: usize = 12;
-/// How much wider the plot is than what it shows.
+/// Margin of the plot on each side, relative to the size of its contents.
 const MARGIN: f64 = 0.16;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
@@ -66,12 +66,12 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
             });
         });
     } else {
-        // What the step does is seen whole; what the table has no room for is scrolled to.
+        // The effect of the step is visible in full; the table scrolls if it needs to.
         let said = said(ui, studio, &step, room.x);
         let left = height - said.size().y - ui.spacing().item_spacing.y;
         let plot_height = (left - table_height(ui, &step, room.x)).max(PLOT * left);
         plot(ui, studio, &step, vec2(room.x, plot_height.max(MIN_PLOT.min(0.58 * height))));
-        // Where there is hardly room for the plot, the words are scrolled too.
+        // With hardly any room for the plot, the words scroll too.
         let scrolled = if plot_height < MIN_PLOT {
             Some(said)
         } else {
@@ -82,7 +82,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
     }
 }
 
-/// [`words`] as they are painted.
+/// [`words`], laid out to paint.
 fn said(ui: &Ui, studio: &Studio, step: &OneStep, width: f32) -> Arc<Galley> {
     let words = match studio.viewer.is_asked() {
         true => "Where this tick lands is shown after your prediction.".into(),
@@ -109,14 +109,14 @@ fn head(ui: &mut Ui, step: &OneStep) {
     });
 }
 
-/// The evaluations that are drawn, each with its number and its colour.
+/// The evaluations to draw, each with its number and its colour.
 fn drawn<'s>(ui: &Ui, step: &'s OneStep) -> Vec<(usize, Color32, &'s Slope)> {
     let theme = palette(ui).theme;
     let numbered = step.evaluations.iter().enumerate().take(MAX_DRAWN);
     numbered.map(|(i, slope)| (i + 1, colour(theme.evaluation(i)), slope)).collect()
 }
 
-/// The range along an axis of all that is drawn.
+/// Range along an axis of everything that is drawn.
 fn range(step: &OneStep, axis: usize) -> [f64; 2] {
     let evaluated = step.evaluations.iter().take(MAX_DRAWN).map(|slope| &slope.at);
     let ends = std::iter::once(&step.from).chain(&step.landing);
@@ -227,7 +227,7 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
                     (other.y - at.y).abs() < 14.0 && (other.x - at.x).abs() < half + own + 12.0
                 })
         };
-        // Where there is no room the colours have to say it.
+        // Without room for a label, its colour has to suffice.
         let Some(&at) = places.iter().find(is_free) else { continue };
         label(&painter, (at, 0.0), text, [colour, palette.plot]);
         named.push((at, half));
@@ -240,7 +240,7 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &about));
 }
 
-/// The weighted slopes one after the other, or where the landing is no such sum, one arrow to it.
+/// Draws the weighted slopes head to tail. If the landing is not their sum, draws one arrow to it.
 fn chain(
     painter: &egui::Painter,
     step: &OneStep,
@@ -272,7 +272,7 @@ fn direction(area: &PlotArea, slope: &Slope) -> Vec2 {
     vec2((along / (x1 - x0)) as f32 * size.x, -(up / (y1 - y0)) as f32 * size.y)
 }
 
-/// A place beside a point where no other badge or state is.
+/// A place beside a point, clear of all badges and states.
 fn badge_place(at: Pos2, rect: Rect, taken: &[Pos2]) -> Pos2 {
     let around = (0..24).map(|i| {
         let (turn, ring) = ((i % 8) as f32, (i / 8) as f32);
@@ -302,8 +302,8 @@ fn table_height(ui: &Ui, step: &OneStep, width: f32) -> f32 {
     }
 }
 
-/// The lines of a formula, each group beside the evaluation that it ends with, and those after the last. `None` if the
-/// formula does not tell of every evaluation, as where a solve takes as many as it needs.
+/// The lines of a formula, grouped by the evaluation at the end of each group, and the lines after the last. `None`
+/// if the formula does not list every evaluation, as with a solve of unknown length.
 fn beside<'f>(formula: &[&'f str], evaluations: usize) -> Option<Vec<Vec<&'f str>>> {
     let mut rows = vec![Vec::new()];
     for line in formula {
@@ -319,12 +319,12 @@ fn beside<'f>(formula: &[&'f str], evaluations: usize) -> Option<Vec<Vec<&'f str
     (rows.len() == evaluations + 1 && evaluations <= MAX_DRAWN).then_some(rows)
 }
 
-/// How many figures the numbers of a table of this width have, and the gap between its columns in points.
+/// Number of digits in a table of this width, and the gap between its columns in points.
 fn figures_and_gap(width: f32) -> (usize, f32) {
     if width < breakpoints::FOUR_FIGURES { (3, 5.0) } else { (4, 14.0) }
 }
 
-/// [`beside`] of the step's method, if a table of this width has room for it.
+/// Lines of the step's method as in [`beside`], if a table of this width has room for them.
 fn rows_of_formula(ui: &Ui, step: &OneStep, width: f32) -> Option<Vec<Vec<&'static str>>> {
     let rows = beside(step.spec.method.formula, step.evaluations.len())?;
     let line_width = |line: &&str| {
@@ -335,7 +335,7 @@ fn rows_of_formula(ui: &Ui, step: &OneStep, width: f32) -> Option<Vec<Vec<&'stat
     (widest + NUMBERS + 4.0 * figures_and_gap(width).1 <= width).then_some(rows)
 }
 
-/// Every evaluation in numbers, beside its line of the formula, and where the tick ends.
+/// Shows every evaluation in numbers, beside its line of the formula, and the end of the tick.
 fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>) {
     let coordinate = &shown_coordinate(studio);
     let (q, v) = (&coordinate.name, &coordinate.velocity);
@@ -428,10 +428,10 @@ fn signed(value: f64, figures: usize) -> String {
     format!("{sign}{}", significant(value, figures))
 }
 
-/// A change of the swing below this part is rounding.
+/// A relative change of the swing below this is rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// What the tick does to the swing, and what a tick half as long would.
+/// Describes the effect of the tick on the swing, and that of a tick half as long.
 fn swing([whole, halves]: [f64; 2]) -> String {
     if whole.abs() < ROUNDING {
         return "One tick keeps the swing.".into();
@@ -451,7 +451,7 @@ fn swing([whole, halves]: [f64; 2]) -> String {
     format!("One tick {does} the swing by {percent} %{half}.")
 }
 
-/// What the tick does to the swing, how far it misses, and what is not drawn.
+/// Describes the effect of the tick on the swing, its error, and anything that is not drawn.
 fn words(step: &OneStep, coordinate: &Coordinate) -> String {
     let mut words = match (step.landing, step.exact_landing()) {
         (None, _) => "The method fails in this tick.".into(),
@@ -491,7 +491,7 @@ mod tests {
         assert_eq!(midpoint[2], ["y′ = y + h k₂"]);
         let verlet = of("velocity-verlet", 1).unwrap();
         assert_eq!((verlet[0].len(), verlet[1].len()), (3, 1));
-        // A solve takes as many as it needs, and PEFRL tells of drifts and kicks.
+        // A solve takes a varying number of evaluations, and PEFRL lists drifts and kicks.
         assert_eq!(of("implicit-midpoint", 5), None);
         assert_eq!(of("pefrl", 4), None);
     }

@@ -1,4 +1,4 @@
-//! Opening a scene file: a field for its path, and what is wrong with it.
+//! Dialogs for opening a file: a field for its path, and a report of its mistakes.
 
 use egui::{Id, Key, Label, Rect, RichText, ScrollArea, TextStyle, TextWrapMode, Ui};
 
@@ -9,10 +9,10 @@ use crate::scene::Mistake;
 use crate::studio::{Command, DriverRequest, Studio, ViewCommand};
 use crate::view::theme::palette;
 
-/// The width of a path that can be read without scrolling, in points.
+/// Width of a path that is readable without scrolling, in points.
 const WIDTH: f32 = 460.0;
 
-/// A field that has the focus as long as it is there: what is typed is meant for it.
+/// A field for a path. It has the focus as long as it is open, because all typing is meant for it.
 pub(super) fn path(
     ui: &Ui,
     studio: &Studio,
@@ -31,7 +31,7 @@ pub(super) fn path(
         let id = Id::unique("path of a scene file");
         let is_new = !ui.memory(|memory| memory.has_focus(id));
         if is_new {
-            // What was typed last time can be edited or typed over.
+            // The last path can be edited or typed over.
             select(ctx, id, 0);
             ui.memory_mut(|memory| memory.request_focus(id));
         }
@@ -49,7 +49,7 @@ pub(super) fn path(
         }
         if ui.input(|input| input.key_pressed(Key::Enter)) {
             commands.push(Command::Ask(DriverRequest::OpenTypedPath));
-            // It is being read; what is refused is edited at its end.
+            // After Enter the path can be edited at its end, in case it is refused.
             ui.memory_mut(|memory| memory.request_focus(id));
             select(ctx, id, usize::MAX);
         }
@@ -66,7 +66,7 @@ pub(super) fn path(
     });
 }
 
-/// The report, as the command line prints it, in a window of its own.
+/// A dialog with the report that the command line prints.
 pub(super) fn mistakes(
     ui: &Ui,
     file: &str,
@@ -93,14 +93,14 @@ pub(super) fn mistakes(
     });
 }
 
-/// Writes a report into this room, scrolled where it is larger: messages are wrapped, lines of the file are not, as
-/// what is marked in them would lose its mark.
+/// Writes a report into this room, scrolled if it is larger. Messages wrap. Lines of the file do not, because the
+/// marks below them would lose their places.
 fn report_within(ui: &mut Ui, report: &[Mistake], room: egui::Vec2) {
     let room = room.max(egui::Vec2::ZERO);
     ScrollArea::both().max_width(room.x).max_height(room.y).show(ui, |ui| {
         for Mistake { message, quoted } in report {
             let message = RichText::new(message).monospace().color(palette(ui).bad);
-            // A scroll area as such has no right edge to wrap at.
+            // A scroll area by itself has no right edge to wrap at.
             ui.scope(|ui| {
                 ui.set_max_width(room.x);
                 ui.add(Label::new(message).wrap());
@@ -120,7 +120,7 @@ mod tests {
     use crate::studio::{Dialog, refuse_typed_path, show_mistakes};
     use crate::view::testing::TestWindow;
 
-    /// The size of the only window over the studio, in points.
+    /// Size of the only window over the studio, in points.
     fn size_of_dialog(studio: &Studio, title: &str) -> egui::Vec2 {
         let mut window = TestWindow::new([800.0, 600.0]);
         for _ in 0..3 {

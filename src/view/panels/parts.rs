@@ -1,4 +1,4 @@
-//! What several panels are made of: the frame of a panel, the window of a dialog, a line of words or of a formula, and the
+//! Parts that panels share: the frame of a panel, the window of a dialog, a line of words or of a formula, and the
 //! colours of verdicts.
 
 use std::sync::Arc;
@@ -11,25 +11,25 @@ use egui::{
 use crate::measure::{Outcome, Severity};
 use crate::view::theme::{colour, formula_font, palette, quantity_font};
 
-/// The tag of a panel that is a picture of an instrument.
+/// Tag of a panel in a picture of an instrument.
 pub(super) const PICTURE: &str = "picture of an instrument";
 
-/// Whether this is part of a picture, which has words where a window has buttons and menus.
+/// Whether `ui` belongs to a picture, which has words in place of buttons and menus.
 pub(super) fn is_picture(ui: &Ui) -> bool {
     ui.stack().iter().any(|part| part.tags().contains(PICTURE))
 }
 
-/// The frame of a panel of this colour.
+/// A panel's frame, filled with this colour.
 pub(super) fn frame(fill: Color32) -> Frame {
     Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 4))
 }
 
-/// The name of a method after the digit that picks it, if there is one.
+/// Name of a method after the digit that selects it, if there is one.
 pub(super) fn numbered(entry: usize, name: &str) -> String {
     if entry < 9 { format!("{} {name}", entry + 1) } else { name.to_owned() }
 }
 
-/// Words in one line of this width, with an ellipsis where they do not fit, and whether they fit.
+/// Lays out words in one line of this width, with an ellipsis if they are too long. Also returns whether they fit.
 pub(super) fn short(
     ui: &Ui,
     words: &str,
@@ -44,17 +44,15 @@ pub(super) fn short(
     (galley, is_whole)
 }
 
-/// The colour of a verdict.
 pub(super) fn tone(ui: &Ui, word: Outcome) -> Color32 {
     severity_tone(ui, word.severity())
 }
 
-/// The colour of a severity.
 pub(super) fn severity_tone(ui: &Ui, severity: Severity) -> Color32 {
     colour(palette(ui).theme.palette().of_severity(severity))
 }
 
-/// A line of a formula in type of this size, as it is printed: quantities in a serif italic, figures and words upright.
+/// Lays out a line of a formula as in print: quantities in serif italic, digits and words upright.
 pub(super) fn formula(line: &str, size: f32, colour: Color32) -> LayoutJob {
     let mut job = LayoutJob::default();
     let letters: Vec<char> = line.chars().collect();
@@ -67,12 +65,12 @@ pub(super) fn formula(line: &str, size: f32, colour: Color32) -> LayoutJob {
     job
 }
 
-/// Whether it stands for a quantity where it stands alone; indices and the sign of a sum do not.
+/// Whether a letter by itself is a quantity. Indices and the sum sign are not.
 fn is_letter(sign: char) -> bool {
     sign.is_alphabetic() && !matches!(sign, 'ᵢ' | 'ⱼ' | 'Σ')
 }
 
-/// The window of a dialog over this part of the whole window.
+/// The window of a dialog over the part `over` of the whole window.
 pub(super) fn dialog(title: &str, over: Rect) -> Window<'_> {
     Window::new(title)
         .id(Id::unique(title))

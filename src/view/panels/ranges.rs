@@ -1,23 +1,23 @@
-//! What part of each axis a plot shows: the truth and the healthy lanes. A lane far beyond them is cut off
-//! and does not change an axis.
+//! Ranges of the axes of plots: they include the truth and the healthy lanes. A lane far beyond them is cut off and
+//! does not change an axis.
 
 use super::tracks::Track;
 use crate::view::chart::AxisScale;
 
-/// Errors below this are round-off: the plot's floor, as a power of ten.
+/// Smaller errors are rounding. This is the floor of a plot of errors, as a power of ten.
 const FLOOR: f64 = -17.0;
-/// A share (%) of more than this is not healthy, and stretches no axis while another lane is healthy.
+/// A larger share (%) is not healthy, and stretches no axis while another lane is healthy.
 const HEALTHY_SHARE: f64 = 25.0;
-/// And of more than this is lost.
+/// A larger share (%) is lost.
 const LOST_SHARE: f64 = 300.0;
-/// A drift (%) of more than this is lost, and one below is rounding.
+/// A larger drift (%) is lost, and one below the minimum is rounding.
 const LOST_DRIFT: f64 = 1e4;
 const MIN_DRIFT: f64 = 1e-9;
-/// The least half range of an axis, against the values on it: a body that has not moved yet is shown with labels no
-/// longer than when it has.
+/// Minimum half range of an axis, relative to its values. A body that has not moved yet then has labels no longer
+/// than later.
 const MIN_HALF_RANGE: f64 = 0.02;
 
-/// The range of the truth along an axis, stretched to take in what is at most `healthy` times as far out.
+/// Range of the truth along an axis, extended to all values of the lanes up to `healthy` times as far out.
 pub(super) fn around_truth(
     truth: impl Iterator<Item = f64>,
     lanes: &[Track],
@@ -35,7 +35,7 @@ pub(super) fn around_truth(
     (low - pad, high + pad)
 }
 
-/// The range of the truth along an axis, and of the lanes that are nowhere more than `healthy` times as far out.
+/// Range of the truth along an axis, and of the lanes that are nowhere more than `healthy` times as far out.
 pub(super) fn around_orbit(
     truth: impl Iterator<Item = f64> + Clone,
     lanes: &[Track],
@@ -49,8 +49,7 @@ pub(super) fn around_orbit(
     around_truth(lanes.chain([low, high]), &[], axis, healthy)
 }
 
-/// The decades that hold the errors, up to ten times the size of what they are errors of: beyond that a
-/// lane is lost.
+/// The decades of the errors, up to ten times the `size` of the quantity. A lane beyond that is lost.
 pub(super) fn of_decades(lanes: &[Track], size: f64) -> (f64, f64) {
     let lost = libm::log10(size.max(1e-300)).ceil() + 1.0;
     let all = lanes.iter().flat_map(|lane| lane.along(1));
@@ -58,8 +57,7 @@ pub(super) fn of_decades(lanes: &[Track], size: f64) -> (f64, f64) {
     (low.floor() - 0.2, high.ceil().max(low.floor() + 2.0) + 0.2)
 }
 
-/// The range of shares in percent of what the truth has: zero, and the healthy lanes; where none is, all
-/// that is not lost.
+/// Range of shares in percent of the truth: zero and the healthy lanes, or without any, all values that are not lost.
 pub(super) fn of_shares(lanes: &[Track]) -> (f64, f64) {
     let most = |lane: &&Track| lane.along(1).map(f64::abs).fold(0.0, f64::max);
     let healthy = lanes.iter().filter(|lane| !lane.is_empty() && most(lane) <= HEALTHY_SHARE);
@@ -68,7 +66,7 @@ pub(super) fn of_shares(lanes: &[Track]) -> (f64, f64) {
     padded(range(values).or_else(|| range(all())))
 }
 
-/// The drift (%) up to which a symmetric scale is even: just below the drift of the lane that drifts least.
+/// The drift (%) up to which a symmetric scale is linear. It is just below the drift of the lane that drifts least.
 pub(super) fn linear_drift(lanes: &[Track]) -> f64 {
     let most = |lane: &Track| lane.along(1).map(f64::abs).fold(0.0, f64::max);
     let least = lanes.iter().map(most).filter(|&drift| drift > 0.0).fold(f64::INFINITY, f64::min);
@@ -79,19 +77,19 @@ pub(super) fn linear_drift(lanes: &[Track]) -> f64 {
     }
 }
 
-/// The range of drifts placed on a symmetric scale: zero, and all lanes that are not lost.
+/// Range of drifts on a symmetric scale: zero and all values that are not lost.
 pub(super) fn of_drift(lanes: &[Track], scale: AxisScale) -> (f64, f64) {
     let lost = scale.place(LOST_DRIFT);
     let all = lanes.iter().flat_map(|lane| lane.along(1)).filter(|y| y.abs() <= lost);
     padded(range(all))
 }
 
-/// The range of all values, and of zero: of a count or a sum.
+/// Range of all values and zero, for a count or a sum.
 pub(super) fn from_zero(lanes: &[Track]) -> (f64, f64) {
     padded(range(lanes.iter().flat_map(|lane| lane.along(1))))
 }
 
-/// These values and zero, with a little room on both sides.
+/// Extends a range to zero, and adds a little room on both sides.
 fn padded(values: Option<(f64, f64)>) -> (f64, f64) {
     let (low, high) = values.map_or((0.0, 1.0), |(low, high)| (low.min(0.0), high.max(0.0)));
     let wide = if high > low { high - low } else { 1.0 };
@@ -122,7 +120,7 @@ mod tests {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(StageCommand::ToggleRace);
         (0..600).for_each(|_| studio.tick());
-        // Explicit Euler is some thousand per cent off, semi-implicit Euler swings by five.
+        // Explicit Euler is off by some thousand per cent, semi-implicit Euler swings by five.
         let (low, high) = of_shares(&lanes(&studio, Metric::ENERGY_DRIFT));
         assert!((-8.0..-4.0).contains(&low) && (4.0..8.0).contains(&high), "{low} to {high} %");
         studio.apply(StageCommand::Pick(0));

@@ -1,4 +1,4 @@
-//! Whose curves the plots show: the methods of a run, or the loops of the loop lab.
+//! Styles of the curves in plots: those of a run's methods, or of the loop lab's loops.
 
 use egui::Color32;
 
@@ -8,13 +8,13 @@ use crate::run::race::Mode;
 use crate::studio::{Studio, shown_s};
 use crate::view::theme::{colour, palette_of};
 
-/// Whose curves the plots show.
+/// Styles of the curves in a plot.
 pub(super) struct SeriesStyles {
-    /// By the index that a track calls its entry.
+    /// Indexed by the entry of a track.
     pub(super) series: Vec<SeriesStyle>,
-    /// The index of the one in front.
+    /// Index of the front curve.
     pub(super) front: usize,
-    /// Whether there are several at a time, which are told apart by their digits.
+    /// Whether several run at a time. Their digits then distinguish them.
     pub(super) is_race: bool,
     /// The name of the exact curve.
     pub(super) exact: String,
@@ -24,7 +24,7 @@ pub(super) struct SeriesStyles {
     pub(super) length_s: f64,
 }
 
-/// One of them.
+/// Style of one method or loop.
 pub(super) struct SeriesStyle {
     pub(super) id: String,
     pub(super) name: String,
@@ -34,7 +34,7 @@ pub(super) struct SeriesStyle {
 }
 
 impl SeriesStyles {
-    /// The methods of the run, or of the open loop lab its loops.
+    /// Styles of the run's methods, or of the loops if the loop lab is open.
     pub(super) fn of(studio: &Studio) -> Self {
         match studio.loop_lab() {
             Some(loops) => Self::of_loops(studio, loops),

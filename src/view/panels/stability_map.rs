@@ -1,5 +1,4 @@
-//! The stability map: where each method is stable, in the plane of the tick rate and of a parameter, and where the
-//! run is.
+//! The stability map: the regions of tick rate and a parameter where each method is stable, and the place of the run.
 
 use std::sync::Arc;
 
@@ -30,20 +29,20 @@ const LEFT: f32 = 58.0;
 /// Room for the numbers below, and for an axis's name, in points.
 const BELOW: f32 = 18.0;
 const NAME: f32 = 19.0;
-/// How opaque the water is where every method is stable.
+/// Opacity of the water where every method is stable.
 const DEEPEST: f32 = 0.7;
-/// What the cross is known by.
+/// Id of the cross.
 const CROSS_ID: &str = "cross of the stability map";
 /// The size of the cross, in points.
 const CROSS: f32 = 13.0;
-/// The steps of an arrow key in a factor of ten of the parameter.
+/// Steps of an arrow key over a factor of ten of the parameter.
 const STEPS_OF_DECADE: f64 = 20.0;
-/// How far a boundary's label is from it, and from the middle of any other label or boundary, in points.
+/// Distance of a label from its boundary, and from the middle of any other label or boundary, in points.
 const BESIDE: f32 = 10.0;
 const APART: f32 = 13.0;
 /// Half the height of the letters of a label, in points.
 const HALF_LETTER: f32 = 6.0;
-/// The height of a row of the key, and what the piece of a line takes of its width.
+/// Height of a row of the key, and width of the piece of a line in it, in points.
 const ROW: f32 = 16.0;
 const KEY_LINE: f32 = 32.0;
 
@@ -85,7 +84,7 @@ fn parameter(studio: &Studio, index: usize) -> &Parameter {
     &studio.scene().bodies[studio.view().body].kind.parameters[index]
 }
 
-/// The title, and the menu of the parameters.
+/// The title and the menu of parameters.
 fn head(ui: &mut Ui, studio: &Studio, index: usize, commands: &mut Vec<Command>) {
     let body = &studio.scene().bodies[studio.view().body];
     ui.horizontal(|ui| {
@@ -139,12 +138,12 @@ fn plot(ui: &mut Ui, studio: &Studio, map: &StabilityMap, size: Vec2, commands: 
     cross(ui, studio, map, &area, commands);
 }
 
-/// Tints the plane: deeper where more methods are stable. A method that is stable everywhere tints nothing.
+/// Tints the plane: the more methods are stable, the deeper. A method that is stable everywhere adds no tint.
 fn water(ui: &Ui, map: &StabilityMap, area: &PlotArea) {
     let painter = ui.painter().with_clip_rect(area.rect);
     let part: Vec<_> =
         map.regions.iter().filter(|region| region.coverage == Coverage::Part).collect();
-    // As many layers as there are methods leave this much of the land.
+    // All layers together leave `1 - DEEPEST` of the land visible.
     let layer = 1.0 - libm::powf(1.0 - DEEPEST, 1.0 / part.len().max(1) as f32);
     let theme = palette(ui).theme;
     let [sea, blue] = [theme.palette().sea[0], theme.evaluation(1)].map(colour);
@@ -163,7 +162,7 @@ fn water(ui: &Ui, map: &StabilityMap, area: &PlotArea) {
     }
 }
 
-/// Each method's boundary in its colour with its name and its limit beside it, the selected method's last.
+/// Draws each method's boundary in its colour, with its name and its limit beside it. The selected method comes last.
 fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
     let painter = ui.painter().with_clip_rect(area.rect);
     let lines: Vec<(usize, Vec<Pos2>)> = map
@@ -212,7 +211,7 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
         let others =
             lines.iter().filter(|(other, _)| other != entry).flat_map(|(_, points)| points);
         let others: Vec<Pos2> = others.copied().collect();
-        // The name alone where there is no room for both.
+        // Without room for both, the name alone.
         let texts: Vec<String> = with_limit.into_iter().chain([name]).collect();
         let placed = |text: &String, is_at_all: bool| {
             let width = 7.0 * text.chars().count() as f32;
@@ -221,7 +220,7 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
                 places.into_iter().find(|place| is_at_all || is_clear(place, width, &others));
             place.map(|place| (place, width, text.clone()))
         };
-        // Boundaries that lie on each other share their names.
+        // A label may lie near another boundary if both coincide.
         let found = texts.iter().find_map(|text| placed(text, false));
         let found = found.or_else(|| texts.last().and_then(|text| placed(text, true)));
         if let Some(((at, angle), width, text)) = found {
@@ -254,8 +253,8 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
     }
 }
 
-/// Names the boundaries at which no name has room, each beside a piece of its line, in the corner where the rate is least and
-/// the parameter greatest, off the places that are `taken`. Returns the places along the names.
+/// Names the boundaries without room for a label, each beside a piece of its line. The list lies in the corner of the
+/// lowest rate and the greatest parameter, off the `taken` places. Returns the places along the names.
 fn key(ui: &Ui, studio: &Studio, entries: &[usize], area: &PlotArea, taken: &[Pos2]) -> Vec<Pos2> {
     let painter = ui.painter().with_clip_rect(area.rect);
     let mut rows = (0..).map(|row| area.rect.left_top() + vec2(8.0, 30.0 + ROW * row as f32));
@@ -282,7 +281,7 @@ fn key(ui: &Ui, studio: &Studio, entries: &[usize], area: &PlotArea, taken: &[Po
     places
 }
 
-/// The lines along which a player sees the same damping ratio of the selected engine.
+/// Lines along which a player sees the same damping ratio, for the selected engine.
 fn seen_lines(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64, Vec<Pos2>)> {
     let found = map.regions.iter().zip(&map.request.specs);
     let selected = found.filter(|(_, (entry, _))| *entry == studio.active());
@@ -296,7 +295,7 @@ fn seen_lines(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64,
     lines.map(line).collect()
 }
 
-/// The limit of a method on the map, as a formula: `ω h < 2`.
+/// Stability limit of a method on the map, as a formula: `ω h < 2`.
 fn limit(map: &StabilityMap, entry: usize) -> Option<String> {
     let index = map.request.specs.iter().position(|(listed, _)| *listed == entry)?;
     Some(format!("ω h < {}", round(map.regions.get(index)?.limit?, 4)))
@@ -309,7 +308,7 @@ fn along(at: Pos2, angle: f32, width: f32) -> impl Iterator<Item = Pos2> {
     (0..=steps as u32).map(move |i| ends + Vec2::angled(angle) * (width * i as f32 / steps))
 }
 
-/// Where the label of a boundary can stand, at which angle: beside it, within `rect`, off the places that are `taken`.
+/// Places and angles for the label of a boundary: beside it, within `rect`, off the `taken` places.
 fn label_places(points: &[Pos2], width: f32, rect: Rect, taken: &[Pos2]) -> Vec<(Pos2, f32)> {
     let inside: Vec<Pos2> = points.iter().copied().filter(|at| rect.contains(*at)).collect();
     let candidates = [0.5, 0.62, 0.38, 0.74, 0.26, 0.85, 0.15].into_iter().flat_map(|part| {
@@ -336,12 +335,13 @@ fn label_places(points: &[Pos2], width: f32, rect: Rect, taken: &[Pos2]) -> Vec<
         .collect()
 }
 
-/// Whether a label lies at no boundary of `others`, so that nobody takes it for theirs.
+/// Whether a label is clear of the boundaries in `others`, so that it cannot be taken for theirs.
 fn is_clear((at, angle): &(Pos2, f32), width: f32, others: &[Pos2]) -> bool {
     along(*at, *angle, width).all(|at| others.iter().all(|other| other.distance(at) >= BESIDE))
 }
 
-/// Names the methods that are stable everywhere, in the corner where as a rule no other is. Returns the places along that.
+/// Names the methods that are stable everywhere, in a corner that usually has no other name. Returns the places along
+/// the text.
 fn only_everywhere(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<Pos2> {
     let found = map.regions.iter().zip(&map.request.specs);
     let mut everywhere = found.filter(|(region, _)| region.coverage == Coverage::Everywhere);
@@ -369,14 +369,14 @@ fn only_everywhere(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea
     along(rect.center(), 0.0, rect.width()).collect()
 }
 
-/// Where the run is; a value below the map is at its lower end.
+/// Place of the run on the map. A value beyond the map lies at its edge.
 fn cross_at(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Option<Pos2> {
     let value = studio.race().values(map.request.body).get(map.request.parameter)?;
     let hz = f64::from(studio.clock().tick_hz());
     Some(area.rect.clamp(area.at([hz, value.max(f64::MIN_POSITIVE)].map(libm::log10))))
 }
 
-/// The cross, which sets the tick rate and the parameter when it is dragged.
+/// Shows the cross. A drag of it sets the tick rate and the parameter.
 fn cross(
     ui: &Ui,
     studio: &Studio,
@@ -394,7 +394,7 @@ fn cross(
         point_in_words(studio, index, studio.clock().tick_hz(), value)
     );
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &here));
-    // Where it is let go may be the first that is heard of the way there.
+    // The release may be the first event of a drag.
     let is_moved = response.dragged() || response.drag_stopped() || response.clicked();
     if let Some(pointer) = response.interact_pointer_pos().filter(|_| is_moved) {
         go_to(studio, map, area.point(pointer), commands);
@@ -429,7 +429,7 @@ fn cross(
     painter.galley(chip.min + vec2(6.0, 3.0), galley, palette.on_accent);
 }
 
-/// The words beside a cross at this place of a map, and their frame.
+/// Lays out the words beside a cross at this place of a map, and their frame.
 fn you_are_here(ui: &Ui, at: Pos2, map: Rect) -> (Rect, Arc<Galley>) {
     let colour = palette(ui).on_accent;
     let words = ui.painter().layout_no_wrap("you are here".into(), strong_font(12.0), colour);
@@ -469,7 +469,7 @@ fn go_to(studio: &Studio, map: &StabilityMap, [x, y]: [f64; 2], commands: &mut V
     set(studio, map, libm::pow(10.0, y), commands);
 }
 
-/// Sets the parameter to three digits of a value.
+/// Sets the parameter to a value, rounded to three digits.
 fn set(studio: &Studio, map: &StabilityMap, value: f64, commands: &mut Vec<Command>) {
     let (body, parameter) = (map.request.body, map.request.parameter);
     let value = to_three_digits(value);

@@ -1,5 +1,5 @@
-//! Tables: columns in which rows are shown, as many as fit, sorted by a click on a head. A row can be selected by mouse and
-//! keyboard, and who hears it hears its numbers.
+//! Tables with as many columns as fit. A click on a head sorts the rows. Mouse and keyboard can select a row, and a
+//! screen reader reads its numbers.
 
 use egui::{Align2, Color32, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
@@ -10,43 +10,43 @@ use crate::view::chart;
 use crate::view::chart::legend::swatch;
 use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
-/// The width of the bar at the left of the selected row, and of the margin that it stands in, in points.
+/// Width of the bar at the left of the selected row, and of the margin around it, in points.
 const BAR: f32 = 4.0;
 pub(super) const MARGIN: f32 = 8.0;
 /// The room between two columns, in points.
 pub(super) const GAP: f32 = 8.0;
-/// The smallest type of a cell, in points.
+/// Minimum font size of a cell, in points.
 const MIN_TYPE: f32 = 9.0;
-/// In a column narrower than this, in points, names have this size.
+/// Width of a column below which names have the smaller font size, both in points.
 const NARROW: f32 = 140.0;
 const NARROW_TYPE: f32 = 10.5;
-/// The room between the words of a head and those at its right end, in points.
+/// Gap between the words of a head and those at its right end, in points.
 const BESIDE_HEAD: f32 = 30.0;
 
 /// A row of a table.
 pub(super) trait TableRow {
-    /// What is heard of it before its numbers.
+    /// Text for a screen reader, before the numbers.
     fn spoken(&self) -> String;
 
-    /// Whether it is the one that keys and the stage are about.
+    /// Whether keys and stage refer to this row.
     fn is_selected(&self) -> bool;
 
-    /// The colour of the bar at its left where it is selected, and that of its numbers.
+    /// Colours of the bar that marks a selected row, and of the row's numbers.
     fn colours(&self, palette: &PanelPalette) -> [Color32; 2];
 
-    /// The colour of its numbers.
+    /// Colour of the numbers.
     fn text(&self, ui: &Ui) -> Color32 {
         self.colours(palette(ui))[1]
     }
 
-    /// What a click asks for; `None` if it cannot be clicked.
+    /// Command of a click; `None` if a click does nothing.
     fn command(&self) -> Option<Command>;
 
-    /// Shows more about it.
+    /// Shows further details of the row.
     fn tooltip(&self, ui: &mut Ui);
 }
 
-/// What a column is sorted by. Rows without a value come last.
+/// Sort key of a row in a column. Rows without a value come last.
 #[derive(Debug, PartialEq, PartialOrd)]
 pub(super) enum SortKey {
     Number(f64),
@@ -60,30 +60,30 @@ impl From<Option<f64>> for SortKey {
     }
 }
 
-/// The text of a number of a row.
+/// Text of a number in a row; `None` if it has no value.
 type NumberText<R> = Box<dyn Fn(&R) -> Option<String>>;
-/// Shows something of a row in a rectangle, which may ask for something.
+/// Shows a cell of a row in a rectangle, and may issue commands.
 type ShowCell<R> = Box<dyn Fn(&mut Ui, &R, Rect, &mut Vec<Command>)>;
 
-/// What a cell shows.
+/// Contents of a cell.
 pub(super) enum CellContent<R> {
-    /// A number, at the right.
+    /// A number, right-aligned.
     Number(NumberText<R>),
     Shown(ShowCell<R>),
 }
 
 /// A column of a table of rows `R`.
 pub(super) struct Column<R> {
-    /// Its name among the table's columns, and for who hears it.
+    /// Unique name among the table's columns, also for a screen reader.
     pub(super) name: &'static str,
     pub(super) head: String,
-    /// What is written at the right end of its head where there is room.
+    /// Text at the right end of the head, if there is room.
     pub(super) beside_head: Option<String>,
-    /// The tooltip of its head.
+    /// Tooltip of the head.
     pub(super) about: String,
-    /// Its width in points. The one without a width takes the rest.
+    /// Width in points. The only column of width 0 takes the rest.
     pub(super) width: f32,
-    /// The order in which columns are taken in while there is room, from 0; those with 0 are always there.
+    /// Columns join in this order while there is room, from 0. Columns with 0 are always there.
     pub(super) priority: u8,
     pub(super) cell: CellContent<R>,
     pub(super) sort_key: Box<dyn Fn(&R) -> SortKey>,
@@ -110,7 +110,7 @@ impl<R> Column<R> {
         }
     }
 
-    /// A column of numbers: the text of each, and what it is sorted by.
+    /// A column of numbers, with the text and the sort key of each.
     pub(super) fn number(
         name: &'static str,
         (width, priority): (f32, u8),
@@ -135,7 +135,7 @@ impl<R> Column<R> {
 }
 
 impl<R: TableRow> Column<R> {
-    /// The keys that select the first ten indices; a row without an index has none.
+    /// Keys that select the first ten indices. A row without an index has no key.
     pub(super) fn key(about: &str, index: impl Fn(&R) -> Option<usize> + Copy + 'static) -> Self {
         let show = move |ui: &mut Ui, row: &R, rect: Rect, _: &mut Vec<Command>| {
             let Some(index) = index(row).filter(|index| *index < 10) else { return };
@@ -149,7 +149,7 @@ impl<R: TableRow> Column<R> {
         Self::shown("Key", 26.0, about, show, move |row| by_index(index(row)))
     }
 
-    /// The lines of rows in the plots: colour and dash. A row without an index has none.
+    /// Lines of the rows in the plots, with colour and dash. A row without an index has no line.
     pub(super) fn line(
         about: &str,
         index: impl Fn(&R) -> Option<usize> + Copy + 'static,
@@ -170,23 +170,22 @@ fn by_index(index: Option<usize>) -> SortKey {
     index.map(|index| index as f64).into()
 }
 
-/// A table.
 pub(super) struct Table<R> {
-    /// Its name among all tables.
+    /// Unique name among all tables.
     pub(super) id: &'static str,
     /// From left to right.
     pub(super) columns: Vec<Column<R>>,
-    /// The least width in points that the column without a width keeps beside those of a priority.
+    /// Minimum width in points of the column that takes the rest, beside columns up to a priority.
     pub(super) min_rest: fn(u8) -> f32,
-    /// The height of a row, and the size of type in the heads, in points.
+    /// Height of a row, and font size of the heads, in points.
     pub(super) row_height: f32,
     pub(super) head_type: f32,
 }
 
-/// The column by which rows are sorted, and whether in reverse; `None` in the order in which they are given.
+/// Column that sorts the rows, and whether in reverse. `None` leaves the rows in their given order.
 pub(super) type Order = Option<(&'static str, bool)>;
 
-/// The order after a click on the head of a column: by it, in reverse, and no more.
+/// The order after a click on the head of a column: by that column, then in reverse, then none.
 fn clicked(order: Order, name: &'static str) -> Order {
     match order {
         Some((by, false)) if by == name => Some((name, true)),
@@ -195,7 +194,7 @@ fn clicked(order: Order, name: &'static str) -> Order {
     }
 }
 
-/// What stands after the head of a column: an arrow up where values rise from row to row.
+/// Arrow after the head of a column. It points up if values rise from row to row.
 fn arrow(order: Order, name: &str) -> &'static str {
     match order {
         Some((by, false)) if by == name => " ↑",
@@ -210,7 +209,7 @@ impl<R: TableRow> Table<R> {
         self.row_height - 2.0
     }
 
-    /// Shows the rows, of which those of a group stay together. `each` gets every row with its response.
+    /// Shows the rows. Those of a group stay together. `each` gets every row with its response.
     pub(super) fn show(
         &self,
         ui: &mut Ui,
@@ -223,10 +222,10 @@ impl<R: TableRow> Table<R> {
         let columns = self.fitting(width - 2.0 * MARGIN);
         let order = self.heads(ui, &columns, width);
         let rows: Vec<R> = self.sorted(groups, order).into_iter().flatten().collect();
-        // The last row in sight is as clear as the others.
+        // The last row in sight must be as clear as the others.
         ui.spacing_mut().scroll.fade.strength = 0.0;
         let mut list = ScrollArea::vertical().id_salt(self.id).auto_shrink(false);
-        // A panel beside may leave it no row.
+        // A panel beside the table may leave it no row.
         list = list.min_scrolled_height(0.0);
         let selected = rows.iter().position(R::is_selected).unwrap_or_default();
         if let Some(offset) = self.offset_to_follow(ui, selected, rows.len()) {
@@ -241,7 +240,7 @@ impl<R: TableRow> Table<R> {
         });
     }
 
-    /// The columns that fit this width, each with its left edge and its own width.
+    /// The columns that fit this width, each with its left edge and its width.
     pub(super) fn fitting(&self, width: f32) -> Vec<(&Column<R>, f32, f32)> {
         let taken = |most: u8| self.columns.iter().filter(move |column| column.priority <= most);
         let rest = |most: u8| width - taken(most).map(|column| column.width + GAP).sum::<f32>();
@@ -258,7 +257,7 @@ impl<R: TableRow> Table<R> {
         placed.collect()
     }
 
-    /// Shows the heads, and returns the order that a person has chosen with them.
+    /// Shows the heads. Returns the order that the user has chosen with them.
     fn heads(&self, ui: &mut Ui, columns: &[(&Column<R>, f32, f32)], width: f32) -> Order {
         let id = Id::unique(("order of a table", self.id));
         let mut order = ui.data(|data| data.get_temp::<Order>(id)).flatten();
@@ -295,7 +294,7 @@ impl<R: TableRow> Table<R> {
         order
     }
 
-    /// The groups in this order: each goes by its first row.
+    /// Sorts the groups by their first rows.
     pub(super) fn sorted(&self, mut groups: Vec<Vec<R>>, order: Order) -> Vec<Vec<R>> {
         let by = order.and_then(|(name, is_reversed)| {
             Some((self.columns.iter().find(|column| column.name == name)?, is_reversed))
@@ -305,7 +304,7 @@ impl<R: TableRow> Table<R> {
             groups.sort_by(|a, b| {
                 let (a, b) = (key(a), key(b));
                 let by_key = a.partial_cmp(&b).unwrap_or(std::cmp::Ordering::Equal);
-                // Those without a value stay last.
+                // Rows without a value stay last.
                 let is_last = [&a, &b].contains(&&SortKey::Nothing);
                 if is_reversed && !is_last { by_key.reverse() } else { by_key }
             });
@@ -348,13 +347,13 @@ impl<R: TableRow> Table<R> {
             commands.extend(command);
         }
         let is_in_sight = ui.is_rect_visible(rect);
-        // Over the row: what can be clicked in a cell takes the click.
+        // Cells lie over the row, so that their buttons take the click.
         for &(column, left, own) in columns {
             let from = pos2(rect.left() + MARGIN + left, rect.top());
             let cell = Rect::from_min_size(from, vec2(own, self.row_height));
             match &column.cell {
                 CellContent::Shown(show) => show(ui, row, cell, commands),
-                // What can be clicked and gone to is in cells of the other kind.
+                // Buttons are only in cells of the other kind.
                 CellContent::Number(_) if !is_in_sight => {}
                 CellContent::Number(words) => {
                     let (at, font) = (cell.right_center(), FontId::proportional(TYPE));
@@ -366,8 +365,8 @@ impl<R: TableRow> Table<R> {
         response
     }
 
-    /// The scroll offset that shows a newly selected row; `None` if the selection has not changed, for a person may scroll
-    /// away from it.
+    /// The scroll offset that shows a newly selected row. `None` if the selection has not changed, because the user
+    /// may scroll away from it.
     fn offset_to_follow(&self, ui: &Ui, selected: usize, rows: usize) -> Option<f32> {
         let id = Id::unique(("selected row of a table", self.id));
         let known = ui.data_mut(|data| {
@@ -378,13 +377,13 @@ impl<R: TableRow> Table<R> {
         let room = ui.available_height();
         let bottom = self.row_height * (selected + 1) as f32;
         let hidden = (self.row_height * rows as f32 - room).max(0.0);
-        // From the top, as long as the row is in sight there: a race shows its lanes.
+        // From the top as long as the row is in sight there, because a race then shows its lanes.
         let offset = if bottom <= room { 0.0 } else { bottom - (self.row_height + room) / 2.0 };
         (known != Some(selected)).then(|| offset.clamp(0.0, hidden))
     }
 }
 
-/// Writes words into a cell, rather smaller than cut.
+/// Writes words into a cell, and shrinks them before it cuts them.
 pub(super) fn show_words(ui: &Ui, rect: Rect, words: &str, is_strong: bool, colour: Color32) {
     let mut size = TYPE;
     let galley = loop {
@@ -399,7 +398,7 @@ pub(super) fn show_words(ui: &Ui, rect: Rect, words: &str, is_strong: bool, colo
     ui.painter().galley(at, galley, colour);
 }
 
-/// Writes a name into a cell of a column in which all names have one size, and cuts one that is too long.
+/// Writes a name into a cell, and cuts it if it is too long. All names in a column have the same size.
 pub(super) fn show_name(ui: &Ui, rect: Rect, name: &str, colour: Color32) {
     let size = if rect.width() < NARROW { NARROW_TYPE } else { TYPE };
     let (galley, _) = short(ui, name, FontId::proportional(size), rect.width(), colour);

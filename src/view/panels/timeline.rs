@@ -1,7 +1,7 @@
-//! The timeline: the run from its start to its end, with what happened on the way. The present is its handle.
+//! The timeline: the run from its start to its end, with its events. The present is its handle.
 //!
-//! Click or drag to go to a tick, turn the wheel to zoom about the pointer, scroll sideways to move, double click to
-//! see all.
+//! A click or a drag seeks to a tick, the wheel zooms about the pointer, scrolling sideways moves, and a double click
+//! shows everything.
 
 use egui::{
     Align2, Color32, EventFilter, FontId, Key, Painter, Pos2, Rangef, Rect, Response, Sense, Shape,
@@ -24,28 +24,28 @@ use crate::view::touch::wheel_or_pinch;
 mod marks;
 mod span;
 
-/// The panel's height, in points, with the times of the ticks written under the track and without.
+/// Height of the panel in points: with the times of the ticks written below the track, and without.
 pub(super) const HEIGHT: f32 = 38.0;
 pub(super) const HEIGHT_OF_TRACK: f32 = 19.0;
 
-/// The track's thickness and how far its middle is from the panel's top, in points.
+/// Thickness of the track, and distance of its middle from the panel's top, in points.
 pub(super) const THICKNESS: f32 = 6.0;
 pub(super) const TRACK_Y: f32 = 16.0;
 const TRACK_Y_ALONE: f32 = 12.0;
-/// Its least length, in points.
+/// Minimum length of the track, in points.
 const MIN_LENGTH: f32 = 40.0;
 pub(super) const MEMORY: f32 = 104.0;
-/// What the ends of the track keep free for half a number, and for the *undo* button where nothing else is there.
+/// Room at the ends of the track for half a number, and for the *undo* button if nothing else is there.
 pub(super) const MARGIN: f32 = 14.0;
 const UNDO: f32 = 52.0;
-/// The memory is shown from this part of its bound on.
+/// The memory appears from this share of its bound on.
 const NEAR_THE_BOUND: f64 = 0.75;
-/// The least distances in points between the numbers along the track, and between two marks.
+/// Minimum distances in points between the numbers along the track, and between two marks.
 const NUMBERS_APART: f64 = 120.0;
 const MARKS_APART: f32 = 15.0;
 /// The ticks in the closest view.
 const MIN_TICKS: f64 = 12.0;
-/// The most marks that a tooltip tells of.
+/// Maximum number of marks that a tooltip lists.
 const MAX_TOLD: usize = 8;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
@@ -79,7 +79,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     groove.write(&painter, span, track.palette);
     fill(&painter, studio, &events, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
-    // As on the stage and in the plots.
+    // The same moment as on the stage and in the plots.
     let shown_s = shown_s(&studio.deck, &studio.viewer);
     let present = span.x(shown_s, along);
     if along.expand(1.0).contains(present) {
@@ -108,17 +108,18 @@ fn groove(studio: &Studio, room: Rect) -> Option<Groove> {
     Groove::new(room, if studio.run().undoes().is_some() { UNDO } else { 0.0 })
 }
 
-/// Where a track lies on its panel.
+/// Place of a track on its panel.
 #[derive(Clone, Copy)]
 pub(super) struct Groove {
     room: Rect,
-    /// The height of its middle.
+    /// The y of its middle.
     pub(super) y: f32,
     pub(super) along: Rangef,
 }
 
 impl Groove {
-    /// With so much room at the right, in points, where there is none for words; `None` if the track would be too short.
+    /// A track with `beside` points free at the right, if there is no room for words there. `None` if the track would
+    /// be too short.
     pub(super) fn new(room: Rect, beside: f32) -> Option<Self> {
         let has_words = room.width() >= breakpoints::WORDS_BESIDE_TIMELINE;
         let right = if has_words { MEMORY } else { beside };
@@ -132,21 +133,21 @@ impl Groove {
         ui.interact(grab, ui.scope_id().with("track"), Sense::click_and_drag())
     }
 
-    /// The part of the track between two places, as far as it is in view.
+    /// The visible part of the track between two places.
     pub(super) fn piece(&self, from: f32, to: f32) -> Rect {
         let [from, to] = [from, to].map(|x| self.along.clamp(x));
         let half = 0.5 * THICKNESS;
         Rect::from_min_max(pos2(from, self.y - half), pos2(to, self.y + half))
     }
 
-    /// Writes times at round steps below, where there is room.
+    /// Writes round times below the track, if there is room.
     pub(super) fn write(&self, painter: &Painter, span: Span, palette: &PanelPalette) {
         if is_tall(self.room) {
             numbers(painter, (span, self.along), self.y, self.room.bottom(), palette);
         }
     }
 
-    /// Writes words at an end of the panel, where there is room.
+    /// Writes words at an end of the panel, if there is room.
     pub(super) fn write_at(
         &self,
         painter: &Painter,
@@ -160,7 +161,7 @@ impl Groove {
         }
     }
 
-    /// The present.
+    /// Draws the handle at the present.
     pub(super) fn handle(
         &self,
         painter: &Painter,
@@ -181,7 +182,7 @@ fn is_tall(room: Rect) -> bool {
     room.height() > 0.5 * (HEIGHT + HEIGHT_OF_TRACK)
 }
 
-/// The track as it lies on the panel.
+/// The track on the panel, with its view of the run.
 struct Track<'a> {
     groove: Groove,
     span: Span,
@@ -199,7 +200,7 @@ impl Track<'_> {
     }
 }
 
-/// The part of the run that is in view, after what the wheel and the clicks of this frame make of it.
+/// The visible part of the run, after this frame's wheel and clicks.
 fn viewed(ui: &Ui, studio: &Studio, times: &TimeScale, response: &Response, along: Rangef) -> Span {
     let id = response.id;
     let whole = Span::whole(studio.scene().seconds, times.t(studio.run().end()));
@@ -228,7 +229,7 @@ fn viewed(ui: &Ui, studio: &Studio, times: &TimeScale, response: &Response, alon
     span
 }
 
-/// Goes to where the mouse is pressed; with the focus, the arrows go by ticks.
+/// Seeks to the pressed tick. If the track has the focus, the arrow keys step by ticks.
 fn seek(
     ui: &Ui,
     studio: &Studio,
@@ -248,10 +249,10 @@ fn seek(
     step(ui, response, commands);
 }
 
-/// Where a track is pressed.
+/// Place of a press on a track.
 pub(super) fn pressed(ui: &Ui, response: &Response, along: Rangef) -> Option<f32> {
-    // A press that is over before the next frame is only seen by its end. An end without anything new goes nowhere: a key
-    // of the same frame has gone on from there.
+    // A press that is over before the next frame shows only in its release. A release without new input seeks
+    // nowhere, because a key in the same frame may have moved on from there.
     let is_new = ui.input(|i| i.pointer.any_pressed() || i.pointer.delta() != Vec2::ZERO);
     let has_ended = response.clicked() || response.drag_stopped();
     let is_other = ui.input(|i| i.pointer.secondary_down() || i.pointer.secondary_released());
@@ -261,7 +262,7 @@ pub(super) fn pressed(ui: &Ui, response: &Response, along: Rangef) -> Option<f32
     Some(along.clamp(pointer.x))
 }
 
-/// Goes back and forth by the arrow keys while a track has the focus.
+/// Steps back and forth by the arrow keys while a track has the focus.
 pub(super) fn step(ui: &Ui, response: &Response, commands: &mut Vec<Command>) {
     if response.has_focus() {
         let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
@@ -277,7 +278,7 @@ pub(super) fn step(ui: &Ui, response: &Response, commands: &mut Vec<Command>) {
     }
 }
 
-/// Times at round steps under a track whose middle is at `y`.
+/// Writes times at round steps below a track whose middle is at `y`.
 fn numbers(
     painter: &Painter,
     (span, along): (Span, Rangef),
@@ -299,7 +300,7 @@ fn numbers(
     }
 }
 
-/// The track: what was run up to the present in the colours of the methods, what was run beyond it in grey.
+/// Draws the track: the run up to the present in the colours of the methods, the run beyond it in grey.
 fn fill(painter: &Painter, studio: &Studio, events: &[Event], track: &Track<'_>) {
     let round = 0.5 * THICKNESS;
     let (groove, along) = (track.groove, track.groove.along);
@@ -330,7 +331,7 @@ fn strength(colour: Color32, mode: Mode, palette: &PanelPalette) -> Color32 {
     }
 }
 
-/// A sign above the track, with the number of marks that it stands for.
+/// Draws the sign of a group above the track, with the number of its marks.
 fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
     let (x, foot) = (group.x, track.groove.y - 0.5 * THICKNESS);
     let mark = group.shown();
@@ -382,7 +383,7 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
 fn beside(ui: &mut Ui, studio: &Studio, room: Rect, commands: &mut Vec<Command>) {
     let timeline = studio.run();
     let is_near = timeline.bytes() as f64 >= NEAR_THE_BOUND * timeline.limit() as f64;
-    // A recording of the picture says nothing of the machine that it is made on.
+    // A recorded picture must not depend on the machine that makes it.
     let is_told = studio.viewer.pace.is_some() && room.width() >= MEMORY - 1.0;
     if is_told && is_near && room.height() > HEIGHT_OF_TRACK {
         let text = memory(timeline.bytes(), timeline.limit());
@@ -408,13 +409,13 @@ fn beside(ui: &mut Ui, studio: &Studio, room: Rect, commands: &mut Vec<Command>)
     }
 }
 
-/// So much memory of so much.
+/// The used memory and its bound as text.
 fn memory(bytes: usize, limit: usize) -> String {
     let megabytes = |bytes: usize| bytes as f64 / f64::from(1 << 20);
     format!("{:.1} of {:.0} MB", megabytes(bytes), megabytes(limit))
 }
 
-/// What happened under the pointer; where nothing did, the moment.
+/// Shows the events under the pointer or, if there are none, the moment.
 fn tooltip(
     ui: &Ui,
     response: Response,
@@ -425,7 +426,7 @@ fn tooltip(
     let x = track.groove.along.clamp(x);
     let line = Stroke::new(1.0, palette(ui).text.gamma_multiply(0.5));
     ui.painter().vline(x, Rangef::new(track.groove.y - 12.0, track.groove.y + 4.0), line);
-    // Above the pointer: below are the heads of the table.
+    // Above the pointer, because the heads of the table are below.
     let mut above = egui::Tooltip::for_enabled(&response).at_pointer().gap(12.0);
     above.popup = above.popup.align(egui::RectAlign::TOP);
     above.show(|ui| {

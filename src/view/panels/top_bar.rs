@@ -1,4 +1,4 @@
-//! The top bar: what runs, how fast, and where time has got to.
+//! The top bar: the scene, its transport and speed, and the present time.
 
 use egui::{
     Align, Button, ComboBox, Frame, Label, Layout, RichText, Sense, TextWrapMode, Ui, vec2,
@@ -21,7 +21,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let width = ui.available_width();
     ui.horizontal_centered(|ui| {
         scene_menu(ui, studio, width, commands);
-        // Below that the menu of scenes has it.
+        // Below this width, the menu of scenes has the spring.
         if width >= breakpoints::SPRING {
             let about = "a spring of your own: the recommended method, and its code (S)";
             let words = if width >= breakpoints::MY_SPRING { "My spring" } else { "Spring" };
@@ -79,7 +79,7 @@ fn word(ui: &mut Ui, width: f32, word: &str) {
     }
 }
 
-/// Each scene by its name, with its title beside it, below the heading of its group.
+/// The menu of scenes by name, each with its title beside it, below the heading of its group.
 fn scene_menu(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) {
     let name = studio.deck.scene_name();
     let menu = ComboBox::from_id_salt("scene").selected_text(&name).height(480.0);
@@ -152,7 +152,7 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
     ui.add_space(4.0);
     let is_in_loops = studio.loop_lab().is_some();
     let toggle_loops = Command::Loop(LoopCommand::ToggleLab);
-    // From the loop lab, the command for a race leads to the other mode.
+    // In the loop lab, the command for a race leads to the other mode.
     let to_mode = |mode: Mode| match is_in_loops && studio.mode() == mode {
         true => toggle_loops.clone(),
         false => Command::Stage(StageCommand::ToggleRace),
@@ -177,7 +177,7 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
     let frame = Frame::new().fill(palette(ui).raised).corner_radius(5.0);
     frame.show(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
-        // A bar that has no room for a tick forward has none for wide margins either.
+        // A bar without room for a tick forward has none for wide margins either.
         let margin = match width {
             _ if width >= breakpoints::TICK_FORWARD => 12.0,
             _ if width >= breakpoints::WIDE_PARTS_OF_TOP_BAR => 7.0,

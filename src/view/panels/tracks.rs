@@ -1,5 +1,5 @@
-//! The lanes as curves of a plot: every piece in the colour of the method that flew it, and nothing of a
-//! lane that has left the plot.
+//! The lanes as curves of a plot. Each piece has the colour of the method that flew it, and a lane that has left the
+//! plot is not drawn.
 
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
@@ -14,26 +14,26 @@ use crate::view::chart::{Arrow, Bounds, Curve, Dots, Drawing, LineStyle, Switch}
 #[derive(Clone, Copy, Debug)]
 struct Point {
     t: f64,
-    /// The method that flew the lane there, by its index on the list.
+    /// Index on the list of the method that flew the lane there.
     entry: usize,
     at: [f64; 2],
-    /// The least and the greatest height on the way there.
+    /// Lowest and highest value on the way there.
     swept: [f64; 2],
-    /// Whether the body was put there, so that no path leads from the point before.
+    /// Whether the body was put there. No path then leads from the point before.
     jumped: bool,
 }
 
-/// How closely a plot is looked at.
+/// Level of detail of a plot.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Detail {
-    /// Every sample counts.
+    /// Every sample.
     Samples,
-    /// The number of pixel columns on which it is seen.
+    /// Enough samples for this number of pixel columns.
     Columns(f32),
 }
 
 impl Detail {
-    /// The number of a curve's points that is enough.
+    /// Number of points that suffices for a curve.
     fn min_points(self) -> usize {
         match self {
             Self::Samples => usize::MAX,
@@ -42,7 +42,7 @@ impl Detail {
     }
 }
 
-/// The least and the greatest value along an axis on the way to a point.
+/// Lowest and highest value along an axis on the way to a point.
 fn ends(axis: usize) -> impl Fn(&Point) -> [f64; 2] + Clone {
     move |point| if axis == 1 { point.swept } else { [point.at[axis]; 2] }
 }
@@ -58,27 +58,27 @@ fn finite(points: impl Iterator<Item = Point>) -> Vec<Point> {
 #[derive(Clone, Debug)]
 pub(super) struct Track {
     points: Vec<Point>,
-    /// The method of the lane now, by its index on the list.
+    /// Index on the list of the lane's present method.
     pub(super) entry: usize,
     /// Whether it is drawn in front: the lane in solo mode, or the selected lane of a race.
     pub(super) is_front: bool,
-    /// What of the lane it is, where several tracks are of one lane; else empty.
+    /// The part of the lane, such as an energy, if several tracks show one lane; else empty.
     pub(super) part: &'static str,
-    /// Drawn length and gap in points, where it is not the method's.
+    /// Drawn length and gap in points, if they are not the method's.
     dash: Option<[f32; 2]>,
-    /// How much of its colour it has.
+    /// Opacity of the colour.
     strength: f32,
-    /// Whether it stays at each sample until the next, as a display does.
+    /// Whether the track holds each sample until the next, as a display does.
     is_held: bool,
 }
 
-/// A lane that re-enters the plot is drawn again once it has stayed for this fraction of the visible time: a diverging swing
-/// crosses the plot again and again.
+/// A lane that re-enters the plot is drawn again once it has stayed for this fraction of the run's length. A
+/// diverging swing only crosses the plot again and again.
 const RETURNED: f64 = 0.1;
 
 impl Track {
-    /// A track for each lane, of `place` of its samples of the body; those that are not finite are left out. The one in
-    /// front is the last.
+    /// A track for each lane, at `place` of its samples of the body, without places that are not finite. The front
+    /// track is the last.
     pub(super) fn of(
         studio: &Studio,
         body: usize,
@@ -90,8 +90,7 @@ impl Track {
         })
     }
 
-    /// A track for each lane, of a quantity of the body over time; of a coordinate with all that it comes to between
-    /// samples.
+    /// A track for each lane, of a quantity of the body over time. A position includes its extremes between samples.
     pub(super) fn of_quantity(
         studio: &Studio,
         body: usize,
@@ -141,7 +140,7 @@ impl Track {
         tracks
     }
 
-    /// A track of these times (s) and places, under the one at place `entry` of the styles.
+    /// A track of these times (s) and places, in the style at index `entry`.
     pub(super) fn of_places(
         entry: usize,
         is_front: bool,
@@ -153,23 +152,23 @@ impl Track {
         Self { points, entry, is_front, part: "", dash: None, strength: 1.0, is_held: false }
     }
 
-    /// The same track, which stays at each sample until the next.
+    /// The same track, which holds each sample until the next.
     pub(super) fn held(self) -> Self {
         Self { is_held: true, ..self }
     }
 
-    /// The same track as a part of its lane, with a dash of its own, and so much of its colour.
+    /// The same track as a part of its lane, with its own dash and opacity.
     pub(super) fn into_part(self, part: &'static str, dash: [f32; 2], strength: f32) -> Self {
         Self { part, dash: Some(dash), strength, ..self }
     }
 
-    /// The method that flew the lane at time `t` (s), and where it was, between samples on the line through them.
+    /// The method of the lane at time `t` (s), and its place: between samples, on the line through them.
     pub(super) fn at(&self, t: f64) -> Option<(usize, [f64; 2])> {
         if self.is_held {
             let last = self.points.partition_point(|point| point.t <= t).checked_sub(1)?;
             return Some((self.points[last].entry, [t, self.points[last].at[1]]));
         }
-        // Where the body was put at that time, it is there.
+        // If the body was put elsewhere at that time, the new place counts.
         let after = self.points.partition_point(|point| point.t <= t);
         let from = self.points[after.checked_sub(1)?];
         if from.t == t {
@@ -180,17 +179,17 @@ impl Track {
         Some((to.entry, [0, 1].map(|axis| from.at[axis] + part * (to.at[axis] - from.at[axis]))))
     }
 
-    /// When the lane was sampled, the method that flew it, and where it was, oldest first.
+    /// Time, method and place of each sample, oldest first.
     pub(super) fn places(&self) -> impl Iterator<Item = (f64, usize, [f64; 2])> {
         self.points.iter().map(|point| (point.t, point.entry, point.at))
     }
 
-    /// The methods that flew it, in order.
+    /// The methods that flew the lane, in order.
     pub(super) fn flown(&self) -> impl Iterator<Item = usize> {
         self.points.chunk_by(|a, b| a.entry == b.entry).map(|run| run[0].entry)
     }
 
-    /// Goes on at a place where the body is put at time `t` (s).
+    /// Adds the place where the body is put at time `t` (s).
     pub(super) fn put(&mut self, t: f64, at: [f64; 2]) {
         let entry = self.points.last().map_or(self.entry, |last| last.entry);
         self.points.push(Point { t, entry, at, swept: [at[1]; 2], jumped: true });
@@ -201,13 +200,13 @@ impl Track {
         self.points.drain(..self.points.len().saturating_sub(count));
     }
 
-    /// The values along an axis, with those between samples.
+    /// Values along an axis, including those between samples.
     pub(super) fn along(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
         self.points.iter().flat_map(ends(axis))
     }
 
-    /// The values along an axis of the lane in front from time `t` (s) on, with those between samples: the axes of a plot
-    /// always show them.
+    /// Values of the front lane along an axis from time `t` (s) on, including those between samples. The axes of a
+    /// plot always show them.
     pub(super) fn front_since(
         tracks: &[Self],
         axis: usize,
@@ -219,8 +218,8 @@ impl Track {
         points.flat_map(ends(axis)).filter(|value| value.is_finite())
     }
 
-    /// The tracks that an axis is fitted to: without what was before a body was put elsewhere or a parameter changed, but
-    /// for the moments after that.
+    /// The tracks that an axis is fitted to. They start at the last placement or change of a parameter, but include
+    /// everything earlier while the motion after that has just begun.
     pub(super) fn fitted<'t>(studio: &Studio, tracks: &'t [Self]) -> Cow<'t, [Self]> {
         let since_s = studio.past().swing_since_s(studio.race().t());
         if since_s == f64::NEG_INFINITY {
@@ -229,7 +228,7 @@ impl Track {
         Cow::Owned(tracks.iter().map(|track| track.since(since_s)).collect())
     }
 
-    /// The track from time `t` (s) on; where the body was put elsewhere at that time, from there.
+    /// The track from time `t` (s) on, or from the place where the body was put at that time.
     fn since(&self, t: f64) -> Self {
         let later = self.points.partition_point(|point| point.t < t);
         let put = self.points.iter().rposition(|point| point.t == t && point.jumped);
@@ -248,19 +247,19 @@ impl Track {
 
 /// The width of the curve in front, in points.
 const FRONT: f32 = 2.8;
-/// How much of its colour a lane of a race has that is not selected, and by how much its curve is thinner, in points.
+/// Opacity of the lanes of a race that are not selected, and the width that their curves lack, in points.
 const DIM: f32 = 0.62;
 const THINNER: f32 = 1.0;
 
-/// How tracks are drawn.
+/// Style of the tracks in a plot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrackStyle {
     pub(super) dots: Dots,
-    /// Whether the axis along is time: no lane leaves the plot by it, for the plot follows.
+    /// Whether the horizontal axis is time. No lane leaves such a plot sideways, because the plot follows.
     pub(super) is_over_time: bool,
 }
 
-/// The lanes within `bounds`, with an arrow where one leaves them and a mark where one was switched.
+/// Draws the lanes within `bounds`, with an arrow where one leaves them and a mark at each switch.
 pub(super) fn drawing(
     styles: &SeriesStyles,
     tracks: &[Track],
@@ -288,7 +287,7 @@ fn add(
     let series = |point: &Point| &styles.series[point.entry];
     let strength = if is_dim { DIM } else { track.strength };
     let rgba = |point: &Point| series(point).colour.gamma_multiply(strength);
-    // A body that had halted has no samples from there to the switch.
+    // A halted body has no samples between its halt and the switch.
     for pair in points.windows(2).filter(|pair| pair[0].entry != pair[1].entry) {
         drawing.switches.push(Switch { at: pair[1].at, colour: rgba(&pair[1]) });
     }
@@ -304,7 +303,7 @@ fn add(
     let mut is_drawn = vec![false; points.len()];
     for stay in stays(points, within, RETURNED * styles.length_s) {
         let (first, last) = stay.into_inner();
-        // To the edge on both sides, and not across a switch on the way in.
+        // Extends to the edge on both sides, but not across a switch on the way in.
         let enters = first > 0 && goes_on(&points[first - 1], &points[first]);
         let leaves = points.get(last + 1).is_some_and(|next| !next.jumped);
         let piece = first - usize::from(enters)..=last + usize::from(leaves);
@@ -323,7 +322,7 @@ fn add(
             drawing.arrows.push(Arrow { from: points[last].at, to: points[last + 1].at, colour });
         }
     }
-    // A method of whose flight nothing shows has an arrow where it ended.
+    // A method whose flight is out of view has an arrow at its end.
     let mut end = 0;
     for run in points.chunk_by(goes_on) {
         let start = end;
@@ -355,8 +354,8 @@ fn goes_on(from: &Point, to: &Point) -> bool {
     from.entry == to.entry && !to.jumped
 }
 
-/// The ranges of samples that are within, but for short visits of a lane that has left: what begins at
-/// the start, or with another method, or where the body was put, or lasts.
+/// Ranges of samples within the plot, without short visits of a lane that has left it. A range counts if it begins at
+/// the start, with another method or where the body was put, or if it lasts `min_s`.
 fn stays(
     points: &[Point],
     within: impl Fn(&Point) -> bool,
@@ -376,8 +375,8 @@ fn stays(
     stays
 }
 
-/// The parts flown by one method each; each begins where the one before ends, unless the body was put elsewhere or had
-/// halted there and was taken up again later.
+/// Parts of a lane under one method each. Each part begins where the one before ends, unless the body was put
+/// elsewhere, or was resumed some time after a halt.
 fn runs(points: &[Point]) -> impl Iterator<Item = &[Point]> {
     let mut start = 0;
     points.chunk_by(goes_on).map(move |run| {

@@ -7,17 +7,17 @@ use super::parts::{severity_tone, short};
 use crate::measure::{Severity, Sign};
 use crate::view::theme::{TYPE, palette};
 
-/// Half the size of a sign, and the room that it takes, in points.
+/// Half the size of a sign, and the room for it, in points.
 const HALF: f32 = 4.5;
 const ROOM: f32 = 17.0;
 
-/// What is said in a row.
+/// Verdict in a row.
 pub(super) struct VerdictText {
-    /// The sign and its colour; `None` while it is being judged.
+    /// The sign and its colour; `None` before the judgement.
     pub(super) sign: Option<(Sign, Severity)>,
-    /// From the longest to the shortest.
+    /// Wordings from the longest to the shortest.
     pub(super) wordings: Vec<String>,
-    /// How bad it is, once that is known.
+    /// Rank for sorting, once it is known.
     pub(super) rank: Option<f64>,
 }
 
@@ -44,12 +44,12 @@ fn paint(sign: Sign, ui: &Ui, at: Pos2, colour: Color32) {
 }
 
 impl VerdictText {
-    /// Everything.
+    /// The longest wording.
     pub(super) fn whole(&self) -> &str {
         &self.wordings[0]
     }
 
-    /// Shows the sign alone, with its middle here.
+    /// Shows the sign alone, centred at `at`.
     pub(super) fn paint_sign(&self, ui: &Ui, at: Pos2) {
         if let Some((sign, severity)) = self.sign {
             paint(sign, ui, at, severity_tone(ui, severity));

@@ -21,7 +21,7 @@ impl Table {
         (0..9).for_each(|_| studio.tick());
         let window = TestWindow { frame_s: 0.05, ..TestWindow::new([900.0, 600.0]) };
         let mut table = Self { studio, touch: Touch::default(), window };
-        // A layer can be pointed at from the second frame on.
+        // A layer receives the pointer from the second frame on.
         table.frame(Vec::new());
         table
     }
@@ -30,14 +30,14 @@ impl Table {
         compose(&self.studio, STAGE.size().into())
     }
 
-    /// Where the body of the first cell is, in points of the frame.
+    /// Place of the body in the first cell, in points of the frame.
     fn body(&self) -> Pos2 {
         let picture = self.picture();
         let grip = picture.cells[0].grips(&self.studio).find(|grip| grip.whose != Whose::Truth);
         Pos2::from(grip.unwrap().at) + STAGE.min.to_vec2()
     }
 
-    /// A frame 50 ms after the last; what it asks for is done, as the window does it.
+    /// Lays out a frame 50 ms after the last, and applies its commands as the window does.
     fn frame(&mut self, events: Vec<Event>) -> Vec<Command> {
         let (picture, mut commands) = (self.picture(), Vec::new());
         let Self { studio, touch, window } = self;
@@ -70,7 +70,7 @@ fn button(pos: Pos2, pressed: bool, shift: bool) -> Event {
     Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers }
 }
 
-/// The one action among some commands.
+/// The only action among some commands.
 fn placed(commands: &[Command]) -> Option<&Action> {
     let mut actions = commands.iter().filter_map(|command| match command {
         Command::Run(RunCommand::Act(action)) => Some(action),
@@ -154,7 +154,7 @@ fn a_click_on_the_verdict_brings_the_instruments_and_another_leaves_them() {
         let wanted = is_first.then_some(Command::View(ViewCommand::ToggleMeasure));
         assert_eq!(asked, Vec::from_iter(wanted));
         assert!(table.studio.display().measure);
-        // Not a double click.
+        // Long enough after the click for no double click.
         table.window.time_s += 1.0;
     }
 }
@@ -232,7 +232,7 @@ fn over_each_other_a_click_on_a_lanes_body_brings_it_to_the_front() {
     table.release(at, false);
     assert_eq!(table.studio.active(), entry);
     assert_eq!(table.picture().cells[0].entry, entry);
-    // On the empty sea it changes nothing.
+    // A click on the empty sea changes nothing.
     let sea = STAGE.max - vec2(8.0, 8.0);
     table.press(sea);
     table.release(sea, false);
@@ -256,7 +256,7 @@ fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_f
             modifiers: Modifiers::NONE,
         },
     ]);
-    // It turns smoothly, over some frames.
+    // The wheel turns smoothly, over some frames.
     (0..40).for_each(|_| _ = table.frame(Vec::new()));
     let zoom = table.studio.view().zoom_pan(0).zoom();
     assert!((1.1..2.0).contains(&zoom), "{zoom}");

@@ -14,14 +14,14 @@ use crate::sim::state::{State, Vector};
 use crate::sim::stepper::Solver;
 use crate::sim::system::{StateOf, System};
 
-/// The key of the parameter of a body that is given none.
+/// The key of the only parameter of a body without parameters of its own.
 const FORCE: &str = "force";
 
-/// The largest number of coordinates. Larger systems need a sparse Jacobian; write a body.
+/// The largest number of coordinates. A larger system needs a sparse Jacobian, and so a body of its own.
 const MAX_COORDINATES: usize = 256;
 
-/// The kind of bodies that move as `system` does, from `start`. What `extras` claims is held against the motion at the
-/// ticks of `horizon`. Its parameters have the numbers of `system` as defaults.
+/// The kind of bodies that move as `system` does, from `start`. Checks the claims of `extras` against the motion at
+/// the ticks of `horizon`. The defaults of its parameters are the numbers of `system`.
 ///
 /// # Errors
 /// If the start, a name or a unit is unfit, or if a claim of `extras` does not hold.
@@ -147,7 +147,7 @@ fn is_name(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_letter)
 }
 
-/// The given plane, or that of two coordinates in metres.
+/// The given plane, or else the plane of two coordinates in metres.
 fn plane(
     given: Option<[usize; 2]>,
     coordinates: &[Coordinate],
@@ -187,11 +187,11 @@ fn check_keys(parameters: &[Parameter]) -> Result<(), CustomFault> {
     Ok(())
 }
 
-/// Copies of a custom body of one coordinate, which threads do not share: each has one of its own.
+/// Copies of a custom body of one coordinate. Threads do not share a motion: each copy has its own.
 #[derive(Clone)]
 struct CustomCopies(Arc<Mutex<Box<dyn Motion>>>);
 
-/// Copies of a body that is custom; `None` if its coordinates are not one `f64`.
+/// A batch of copies of a custom body; `None` if its coordinate vector is not one `f64`.
 fn batch(
     body: &dyn Any,
     set: InstructionSet,

@@ -1,4 +1,4 @@
-//! What a law claims, for the [checker](crate::sim::bodies::claims).
+//! The claims of a law, for the [checker](crate::sim::bodies::claims).
 
 use std::sync::Arc;
 
@@ -49,11 +49,11 @@ impl Claimant for Law {
     }
 }
 
-/// Checks these values of a law's parameters: the accelerations are finite at the start, and the text's claims hold, at
-/// every tick of the horizon too.
+/// Checks a law with these parameter values: the accelerations are finite at the start, and the text's claims hold,
+/// also at every tick of the horizon.
 ///
 /// # Errors
-/// The first of these that does not hold, with its position in the text.
+/// The first violation, with its position in the text.
 pub fn check_law(
     equations: &Arc<Equations>,
     values: &[f64],
@@ -76,7 +76,7 @@ pub(super) fn check_start(law: &Law) -> Result<(), LawFault> {
     law.equations.not_finite(&law.registers.borrow()).map_or(Ok(()), Err)
 }
 
-/// The key of a parameter for a fault of the text as a whole: the first.
+/// The key that a fault of the whole text points to: the first parameter.
 pub(super) fn first_key(text: &[CoordinateText], constants: &[String]) -> String {
     constants.first().cloned().unwrap_or_else(|| format!("{}.start", text[0].name))
 }

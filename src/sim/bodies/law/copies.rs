@@ -1,4 +1,4 @@
-//! Copies of a law of one coordinate: its tape runs over blocks.
+//! Copies of a law of one coordinate, whose tape runs over blocks.
 
 use std::any::Any;
 use std::array::{from_mut, from_ref};
@@ -16,15 +16,14 @@ use crate::sim::system::System;
 /// Copies of a law of one coordinate.
 #[derive(Clone)]
 struct LawCopies {
-    /// The law.
     equations: Arc<Equations>,
-    /// Its values, as those of [`Registers`](crate::sim::law::Registers).
+    /// The values of [`Registers`](crate::sim::law::Registers).
     values: Arc<[f64]>,
     /// Throttle and rudder.
     steering: [f64; 2],
 }
 
-/// Copies of a body that is a law; `None` if it has several coordinates.
+/// A batch of copies of a law; `None` if it has several coordinates.
 pub(super) fn batch(
     body: &dyn Any,
     set: InstructionSet,
@@ -67,7 +66,7 @@ impl<const W: usize> System for LawBlock<W> {
     }
 }
 
-/// An evaluation of a block, compiled apart from the methods: it is long.
+/// The evaluation of a block. It is long, so it is compiled apart from the methods.
 struct Evaluation<'a, const W: usize> {
     equations: &'a Equations,
     lanes: &'a mut LawLanes<W>,
@@ -83,7 +82,7 @@ impl<const W: usize> Kernel for Evaluation<'_, W> {
     }
 }
 
-/// One copy, as a block of one.
+/// A single copy, as a block of one.
 struct LawAlone(LawBlock<1>);
 
 impl System for LawAlone {

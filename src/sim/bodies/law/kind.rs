@@ -32,7 +32,7 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<LawFault>> {
     let first_key: Text = first_key(&text.coordinates, &text.constants).into();
     let parameters = parameters(text);
     let leading = leading(&equations).map(|index| text.constants[index].clone().into());
-    // All bodies are its clones, so that they share the findings on their claims.
+    // All bodies are clones of this one, so that they share the findings on their claims.
     let template = Law::new(equations.clone(), &vec![1.0; parameters.len()]);
     Ok(Arc::new(Kind {
         id: "law",
@@ -76,7 +76,7 @@ fn parameters(text: &LawText) -> Vec<Parameter> {
     parameters
 }
 
-/// The index of the constant with which ∂a/∂q grows most, with all constants about 1; `None` if it grows with none.
+/// The index of the constant that ∂a/∂q grows most with, with all constants about 1; `None` if it grows with none.
 fn leading(equations: &Arc<Equations>) -> Option<usize> {
     let text = equations.text();
     let (n, constants) = (text.coordinates.len(), text.constants.len());
@@ -104,6 +104,6 @@ fn leading(equations: &Arc<Equations>) -> Option<usize> {
     let plain = stiffness(None);
     let growths = (0..constants).map(|index| (index, stiffness(Some(index)) - plain));
     let growing = growths.filter(|(_, growth)| *growth > 1e-9 * plain && growth.is_finite());
-    // The first of equal ones.
+    // The first of equal growths.
     growing.reduce(|most, next| if next.1 > most.1 { next } else { most }).map(|(index, _)| index)
 }

@@ -1,28 +1,28 @@
-//! What acts in a net: on a node by itself, and along a spring.
+//! The forces in a net: on a node by itself, and along a spring.
 
-/// What is summed on each node of a net, from `N` vectors of pairs of numbers at the nodes.
+/// A sum of forces on each node of a net, from `N` vectors of pairs of numbers at the nodes.
 pub(super) trait Forces<const N: usize>: Copy + Send + Sync {
-    /// What acts on a node by itself.
+    /// The force on a node by itself.
     fn on_node(&self, node: [[f64; 2]; N]) -> [f64; 2];
 
-    /// What acts on the first end of a spring; its negative acts on the other. The constants are stiffness and damping
-    /// divided by the mass of a node, and the length at rest.
+    /// The force on the first end of a spring; the other end gets its negative. The constants are stiffness and
+    /// damping divided by the mass of a node, and the rest length.
     fn along(&self, constants: &[f64; 3], from: [[f64; 2]; N], to: [[f64; 2]; N]) -> [f64; 2];
 }
 
-/// The accelerations of nodes at a state: places and velocities.
+/// Accelerations of nodes at a state: places and velocities.
 #[derive(Clone, Copy)]
 pub(super) struct Accelerations {
-    /// Divided by the mass of a node.
+    /// Drag divided by the mass of a node.
     pub(super) drag: f64,
     pub(super) gravity: f64,
 }
 
-/// The derivative of the accelerations at a state in the direction of another: places, velocities, and those of the
-/// direction.
+/// Derivatives of the accelerations at a state in the direction of another. The four vectors are places, velocities,
+/// and those of the direction.
 #[derive(Clone, Copy)]
 pub(super) struct Derivatives {
-    /// Divided by the mass of a node.
+    /// Drag divided by the mass of a node.
     pub(super) drag: f64,
 }
 
@@ -32,7 +32,7 @@ impl Forces<2> for Accelerations {
         [-self.drag * v[0], -self.gravity - self.drag * v[1]]
     }
 
-    /// A spring of no length has no direction, and does not pull.
+    /// A spring of length 0 has no direction, and does not pull.
     #[inline(always)]
     fn along(&self, [k, c, rest]: &[f64; 3], from: [[f64; 2]; 2], to: [[f64; 2]; 2]) -> [f64; 2] {
         let [d, w] = apart(from, to);
@@ -61,7 +61,7 @@ impl Forces<4> for Derivatives {
     }
 }
 
-/// The numbers of the second node less those of the first.
+/// The numbers of the second node minus those of the first.
 #[inline(always)]
 fn apart<const N: usize>(from: [[f64; 2]; N], to: [[f64; 2]; N]) -> [[f64; 2]; N] {
     let mut apart = to;
@@ -71,7 +71,7 @@ fn apart<const N: usize>(from: [[f64; 2]; N], to: [[f64; 2]; N]) -> [[f64; 2]; N
     apart
 }
 
-/// The length of a spring, its inverse, and its direction.
+/// The length of a spring, its inverse, and its unit direction.
 #[inline(always)]
 fn direction(d: [f64; 2]) -> (f64, f64, [f64; 2]) {
     let length = (d[0] * d[0] + d[1] * d[1]).sqrt();

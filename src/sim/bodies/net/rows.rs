@@ -1,9 +1,9 @@
-//! A grid of springs, row by row: springs of one direction are evaluated side by side, on all cores.
+//! A grid of springs, evaluated row by row: springs of one direction side by side, on all cores.
 //!
-//! The sum on a node is that of its springs in the order of the plan, so that it has the bits that the same net has as
-//! lists: first what acts on the node alone, then the springs to up left, up, up right, left, down left, right, down and
-//! down right, and then those to fixed nodes. No partial sum passes from one node to another, so that neither the width
-//! of vectors nor the number of threads changes a bit.
+//! The sum on a node follows the order of the plan, so that it has the same bits as the net given as lists. First
+//! comes the force on the node alone. Then come the springs to up left, up, up right, left, down left, right, down and
+//! down right, and then those to fixed nodes. No partial sum passes from one node to another, so neither the vector
+//! width nor the number of threads changes a bit.
 
 use std::ops::Range;
 use std::slice;
@@ -13,46 +13,46 @@ use crate::sim::batch::{InstructionSet, Kernel};
 use crate::sim::cores::{self, split};
 use crate::sim::net_plan::{Grid, Way, distance};
 
-/// The numbers of a vector at the nodes, as x and y.
+/// A vector over the nodes, as pairs of x and y.
 pub(super) type Nodes<'a> = &'a [[f64; 2]];
 
-/// Columns that are evaluated at a time. What is kept of them, of a slope too, fits into the first cache.
+/// Columns evaluated at a time. Their buffers, also those of a slope, fit into the first-level cache.
 const TILE: usize = 63;
 
-/// Springs of one direction that are evaluated side by side.
+/// Springs of one direction evaluated side by side.
 const WIDTH: usize = 8;
 
-/// Nodes of a tile with one more on either side, in whole blocks and one node more.
+/// Lanes of a tile's buffer: its nodes and one more on either side, rounded up to whole blocks, and one more.
 const LANES: usize = TILE + 1 + WIDTH;
 
-/// The nodes that a thread takes at a time: some ten microseconds of work. Smaller nets are stepped by one thread.
+/// Nodes that a thread takes at a time: some ten microseconds of work. One thread steps a smaller net.
 const GRAIN: usize = cores::GRAIN / 4;
 
-/// One number of each node of a part of a row.
+/// One number for each node of a part of a row.
 type Lanes = [f64; LANES];
 
-/// The numbers of a part of a row, as x and y of `N` vectors.
+/// A part of a row of `N` vectors, as x and y.
 type Row<const N: usize> = [[Lanes; 2]; N];
 
-/// Where the free nodes of a grid are in a vector. The first place has the node that is shown, and all others follow by
-/// their number.
+/// The index of each free node of a grid in a vector. The shown node comes first, and all others follow by their
+/// number.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rows {
     pub(super) grid: Grid,
-    /// The number of the node at the first place.
+    /// The number of the node that comes first.
     first: usize,
 }
 
-/// The lengths at rest of the springs of a grid, by direction.
+/// Rest lengths of the springs of a grid, by direction.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RestLengths {
-    /// Of the spring to the right of each column, after one that does not exist.
+    /// Springs to the right of each column, after a dummy entry.
     across: Vec<f64>,
-    /// Of the springs below each row.
+    /// Springs below each row.
     down: Vec<f64>,
-    /// Of both diagonals of each square, as of `across`, for each distance that rows have.
+    /// Both diagonals of each square, indexed as `across`, for each distinct row distance.
     diagonal: Vec<Vec<f64>>,
-    /// The index of the diagonals below each row.
+    /// The index into `diagonal` for the squares below each row.
     diagonal_of: Vec<u32>,
 }
 
@@ -83,7 +83,7 @@ impl RestLengths {
         Self { across, down, diagonal, diagonal_of }
     }
 
-    /// Of the spring that begins at a column of a row.
+    /// Rest length of the spring that begins at a column of a row.
     pub(super) fn of(&self, row: usize, column: usize, way: Way) -> f64 {
         match way {
             Way::Right => self.across[column + 1],
@@ -103,18 +103,18 @@ impl Rows {
         Self { grid, first: kicked.unwrap_or_else(|| grid.free_node(last)) }
     }
 
-    /// How many free nodes there are.
+    /// Number of free nodes.
     pub(super) fn len(&self) -> usize {
         self.grid.free_before(self.grid.nodes())
     }
 
-    /// The place of a free node in a vector.
+    /// The index of a free node in a vector.
     #[inline]
     pub(super) fn index_of(&self, node: usize) -> usize {
         if node == self.first { 0 } else { 1 + self.rank(node) }
     }
 
-    /// The number of the node at a place of a vector.
+    /// The number of the node at an index of a vector.
     pub(super) fn node_at(&self, index: usize) -> usize {
         if index == 0 {
             return self.first;
@@ -123,13 +123,13 @@ impl Rows {
         self.grid.free_node(free)
     }
 
-    /// How many free nodes other than the first come before a node.
+    /// Number of free nodes before a node, without the first one.
     fn rank(&self, node: usize) -> usize {
         self.grid.free_before(node) - usize::from(node > self.first)
     }
 
-    /// Overwrites `sums` with what acts on each node by itself and by the springs to free nodes, with vectors at the free
-    /// nodes, on an instruction set that this processor has.
+    /// Overwrites `sums` with the force on each node, by itself and by the springs to free nodes. `vectors` are over
+    /// the free nodes. This processor must have the instruction set.
     pub(super) fn sum<const N: usize>(
         &self,
         set: InstructionSet,
@@ -146,8 +146,8 @@ impl Rows {
         split(all, Band::halve, |band| set.run(band));
     }
 
-    /// Calls `see` with the indices of the ends of each spring between free nodes, and with its row, column and direction,
-    /// in the order of the plan.
+    /// Calls `see` for each spring between free nodes, in the order of the plan, with the indices of its ends, and its
+    /// row, column and direction.
     pub(super) fn each_spring(&self, mut see: impl FnMut([usize; 2], (usize, usize, Way))) {
         for row in 0..self.grid.rows {
             for (column, way) in self.grid.springs(row) {
@@ -159,8 +159,8 @@ impl Rows {
         }
     }
 
-    /// The free ones of these columns of a row, in runs that stand one after the other in a vector, each with the index of
-    /// its first: those before the first node, that, and those after it.
+    /// The free nodes among these columns of a row, as runs that are contiguous in a vector, each with the index of
+    /// its first node. The runs are those before the shown node, that node, and those after it.
     fn runs(&self, row: usize, columns: Range<usize>) -> [(Range<usize>, usize); 3] {
         let free = self.grid.free_columns(row);
         let start = columns.start.max(free.start);
@@ -178,22 +178,22 @@ impl Rows {
     }
 }
 
-/// The forces of a grid, and the vectors that they are of.
+/// The forces of a grid, and the vectors they are evaluated on.
 #[derive(Clone, Copy)]
 struct GridForces<'a, F, const N: usize> {
     rows: Rows,
     forces: F,
-    /// Stiffness and damping of every spring, as those of [`Forces::along`].
+    /// Stiffness and damping of every spring, as for [`Forces::along`].
     constants: [f64; 2],
     rest: &'a RestLengths,
     vectors: [Nodes<'a>; N],
 }
 
-/// Where the sums of some nodes are written.
+/// The destination of the sums on some nodes.
 struct Sink<'a> {
-    /// Of the first node, if it is one of them.
+    /// The sum on the shown node, if it is among them.
     first: Option<&'a mut [f64; 2]>,
-    /// Of all others.
+    /// The sums on all other nodes.
     others: &'a mut [[f64; 2]],
 }
 
@@ -206,7 +206,8 @@ struct Band<'a, F, const N: usize> {
 }
 
 impl<F: Forces<N>, const N: usize> Band<'_, F, N> {
-    /// Its halves: of its rows, or of its columns if it is one row. It itself if one thread takes it.
+    /// Splits the band into halves: by rows, or by columns if it is one row. `Err(self)` if it is small enough for one
+    /// thread.
     fn halve(self) -> Result<[Self; 2], Self> {
         let (across, down) = (self.columns.len(), self.rows.len());
         if across * down <= GRAIN || self.rows.is_empty() {
@@ -263,16 +264,16 @@ impl<F: Forces<N>, const N: usize> Kernel for Band<'_, F, N> {
     }
 }
 
-/// Some columns, from the top down. Lane 0 is the column before the first of them.
+/// Some columns, evaluated from the top row down. Lane 0 is the column before the first of them.
 struct Tile<'a, F, const N: usize> {
     part: GridForces<'a, F, N>,
     columns: Range<usize>,
-    /// The nodes of the row at hand and of the one below, in turn.
+    /// The nodes of the current row and of the one below, in turn.
     nodes: [Row<N>; 2],
-    /// The forces on the first end of the springs to the right in the row at hand.
+    /// The forces on the first end of the springs to the right in the current row.
     right: [Lanes; 2],
-    /// Those of the springs that go down from the row at hand and from the one above, in turn: straight, falling and
-    /// rising.
+    /// The forces of the springs that go down from the current row and from the one above, in turn: straight, falling
+    /// and rising.
     down: [[[Lanes; 2]; 3]; 2],
 }
 
@@ -301,12 +302,12 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
             self.load(row + 1);
             self.pull_down(row);
         } else {
-            // They change no sum.
+            // The bottom row: zeros that change no sum.
             self.down[row % 2].as_flattened_mut().iter_mut().for_each(|lanes| lanes.fill(-0.0));
         }
     }
 
-    /// The sums on nodes of the row at hand, from this lane on.
+    /// The sums on nodes of the current row, from this lane on.
     #[inline(always)]
     fn sum(&self, row: usize, lane: usize, to: &mut [[f64; 2]]) {
         let (forces, count) = (self.part.forces, to.len());
@@ -338,14 +339,14 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
         }
     }
 
-    /// How many lanes are evaluated: whole blocks with all columns, and the springs to the first of them.
+    /// Number of lanes to evaluate: whole blocks with all columns, and the springs to the first of them.
     #[inline(always)]
     fn lanes(&self) -> usize {
         (self.columns.len() + 1).next_multiple_of(WIDTH).min(TILE + 1)
     }
 
-    /// Loads the nodes of a row, and of a column more on either side. Fixed nodes and those beyond the border stay as they
-    /// are.
+    /// Loads the nodes of a row, with one more column on either side. Leaves fixed nodes and those beyond the border
+    /// unchanged.
     #[inline(always)]
     fn load(&mut self, row: usize) {
         let Range { start, end } = self.columns;
@@ -367,7 +368,7 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
         }
     }
 
-    /// The springs from a row to the one below, both of which are loaded.
+    /// Evaluates the springs from a row to the one below; both must be loaded.
     #[inline(always)]
     fn pull_down(&mut self, row: usize) {
         self.pull(row, Way::Down);
@@ -377,7 +378,7 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
         }
     }
 
-    /// The springs of one direction that begin in a row.
+    /// Evaluates the springs of one direction that begin in a row.
     #[inline(always)]
     fn pull(&mut self, row: usize, way: Way) {
         let GridForces { rows, forces, constants: [k, c], rest, .. } = self.part;
@@ -427,7 +428,7 @@ fn one(pairs: &[Lanes; 2], from: usize, count: usize) -> [&[f64]; 2] {
     pairs.each_ref().map(|numbers| &numbers[from..from + count])
 }
 
-/// Those of every vector.
+/// Numbers of neighbouring lanes of every vector.
 #[inline(always)]
 fn cut<const N: usize>(row: &Row<N>, from: usize, count: usize) -> [[&[f64]; 2]; N] {
     row.each_ref().map(|vector| one(vector, from, count))

@@ -1,4 +1,4 @@
-//! A grid by rows has the bits of the same net as lists, whatever its size, its pins, and the width of vectors.
+//! A grid by rows has the same bits as the net given as lists, for all sizes, pins and vector widths.
 
 use super::*;
 use crate::sim::batch::InstructionSet;
@@ -29,7 +29,7 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
 
-/// At the start, where many numbers are zeros, and at states about it: each with a direction.
+/// The start, where many numbers are zeros, and states around it, each with a direction.
 fn states(net: &Net) -> Vec<[State<Vec<f64>>; 2]> {
     let State { q, v } = net.start();
     let state = |(seed, size): (u64, f64)| {

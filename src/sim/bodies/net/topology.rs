@@ -1,36 +1,36 @@
-//! A plan prepared for stepping: which nodes are free, and where each is in a vector.
+//! A plan prepared for stepping: the free nodes, and the index of each in a vector.
 
 use std::sync::Arc;
 
 use super::rows::Rows;
 use crate::sim::net_plan::{Form, Lists, NetPlan, PlannedSpring};
 
-/// The index of a fixed node, which is no coordinate.
+/// The index of a fixed node, which has no coordinates.
 const FIXED: u32 = u32::MAX;
 
-/// The fewest nodes of a grid that is stepped by rows: smaller ones are as fast as lists.
+/// The fewest nodes of a grid that is stepped by rows: lists are as fast for smaller ones.
 const MIN_ROWS_NODES: usize = 2048;
 
-/// What the bodies of one plan share.
+/// The data that all bodies of one plan share.
 #[derive(Debug)]
 pub(super) struct Topology {
     pub(super) plan: Arc<NetPlan>,
     pub(super) storage: Storage,
-    /// How many nodes are free.
+    /// Number of free nodes.
     pub(super) free: usize,
     /// For each spring with a fixed end: index of its free node, position of its anchor.
     pub(super) anchors: Vec<(u32, [f64; 2])>,
-    /// Whether a kick hits only the first of the free nodes, and not all of them.
+    /// Whether a kick hits only the first free node, rather than all of them.
     pub(super) kicks_first: bool,
 }
 
-/// Where the free nodes are in a vector: the kicked node, or else the last one, comes first, because plots show the
-/// first coordinate, and the others follow by their numbers.
+/// The order of the free nodes in a vector. The kicked node, or else the last one, comes first, because plots show the
+/// first coordinate; the others follow by their numbers.
 #[derive(Debug)]
 pub(super) enum Storage {
-    /// Of a large grid.
+    /// A large grid.
     Rows(Rows),
-    /// Of lists, and of a small grid as lists.
+    /// A net of lists, or a small grid converted to lists.
     Arrays(Arrays),
 }
 
@@ -52,7 +52,7 @@ impl Topology {
         Self::laid_out(plan, by_rows)
     }
 
-    /// Prepares a plan, a grid by rows or as lists.
+    /// Prepares a plan; a grid by rows, or as lists.
     pub(super) fn laid_out(plan: Arc<NetPlan>, by_rows: bool) -> Self {
         let storage = match &plan.form {
             Form::Grid(grid) if by_rows => Storage::Rows(Rows::new(*grid, plan.kicked)),
@@ -76,7 +76,8 @@ impl Topology {
         topology
     }
 
-    /// The springs whose constants are kept, in the order of the sums: of lists all, of rows those with a fixed end.
+    /// The springs whose constants are kept, in the order of the sums: all springs of lists, or those of rows with a
+    /// fixed end.
     pub(super) fn kept(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
         let is_kept = |_: &PlannedSpring| matches!(self.storage, Storage::Arrays(_));
         let inner = self.plan.springs().filter(is_kept).filter(|it| !self.is_anchored(it));
@@ -88,12 +89,12 @@ impl Topology {
         self.plan.springs().filter(|spring| self.is_anchored(spring))
     }
 
-    /// Whether an end of a spring is fixed.
+    /// Whether either end of a spring is fixed.
     fn is_anchored(&self, spring: &PlannedSpring) -> bool {
         spring.between.iter().any(|&node| self.index_of(node).is_none())
     }
 
-    /// Where a node stands at the start.
+    /// The place of a node at the start.
     pub(super) fn place(&self, node: usize) -> [f64; 2] {
         match &self.plan.form {
             Form::Grid(grid) => grid.place(node),
@@ -120,7 +121,7 @@ impl Topology {
         }
     }
 
-    /// Where the free nodes stand at the start.
+    /// The places of the free nodes at the start.
     pub(super) fn start(&self) -> Vec<f64> {
         (0..self.free).flat_map(|index| self.place(self.node_at(index))).collect()
     }

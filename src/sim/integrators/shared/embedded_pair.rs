@@ -1,5 +1,5 @@
-//! Embedded Runge-Kutta pairs: two solutions of neighbouring orders from the same stages. The more
-//! accurate one is kept, and their difference is the error estimate.
+//! Embedded Runge-Kutta pairs: two solutions of neighbouring orders from the same stages. The method keeps the more
+//! accurate one, and their difference is the error estimate.
 
 use std::marker::PhantomData;
 
@@ -9,9 +9,9 @@ use crate::sim::integrators::integrator::{Integrator, Override, Tolerance};
 use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::{StateOf, System};
 
-/// The tableau of a pair of `N` stages. The last stage is at the kept solution, so that its slope is
-/// the first of the next step: it is evaluated if the error needs it or another step follows, and carried to the next
-/// tick in the first case.
+/// The tableau of a pair of `N` stages. The last stage is at the kept solution, so that its slope is the first of the
+/// next step. It is evaluated if the error needs it or another step follows; in the first case it is carried to the
+/// next tick.
 pub trait Pair<const N: usize>: Clone + Send + Sync + 'static {
     /// The order of the kept solution.
     const ORDER: u32;
@@ -35,9 +35,9 @@ pub trait Pair<const N: usize>: Clone + Send + Sync + 'static {
 #[derive(Clone)]
 pub struct EmbeddedPair<V, P, const N: usize> {
     step_size: StepSize,
-    /// The slopes at the stages; the first may be carried to the next tick.
+    /// The slopes at the stages; the first may carry over to the next tick.
     k: [State<V>; N],
-    /// The state at which a stage is evaluated.
+    /// The state of the stage to evaluate.
     stage: State<V>,
     error: State<V>,
     pair: PhantomData<P>,

@@ -1,4 +1,4 @@
-//! The derivatives of the acceleration by coordinates and by velocities, and their products with vectors.
+//! The derivatives of the acceleration with respect to coordinates and velocities, and their products with vectors.
 //!
 //! Stored as matrices; for [`Coupling::Few`], computed as directional derivatives on demand.
 
@@ -18,14 +18,14 @@ pub(in crate::sim::integrators) struct Jacobian<V> {
     at: State<V>,
     along: State<V>,
     slope: V,
-    /// How far from the diagonal the entries lie; `None` if no matrix is kept.
+    /// The largest distance of an entry from the diagonal; `None` if no matrix is kept.
     reach: Option<usize>,
-    /// Column by column, of each the rows that it [reaches](Self::rows); `da_dq` is empty if it is not asked for.
+    /// Column by column, the [rows](rows()) kept of each column. `da_dq` is empty for a Jacobian by velocity alone.
     da_dq: Vec<f64>,
     da_dv: Vec<f64>,
 }
 
-/// The first and the number of the rows that are kept of column `j` of `n`.
+/// The first row and the number of rows kept in column `j` of `n`.
 #[inline]
 fn rows(j: usize, reach: usize, n: usize) -> (usize, usize) {
     let height = n.min(2 * reach + 1);
@@ -33,13 +33,13 @@ fn rows(j: usize, reach: usize, n: usize) -> (usize, usize) {
 }
 
 impl<V: Vector> Jacobian<V> {
-    /// For both derivatives.
+    /// A Jacobian with both derivatives.
     pub(in crate::sim::integrators) fn new(like: &V, coupling: Coupling) -> Self {
         let by_v = Self::by_velocity(like, coupling);
         Self { da_dq: by_v.da_dv.clone(), ..by_v }
     }
 
-    /// For `∂a/∂v` alone.
+    /// A Jacobian with `∂a/∂v` alone.
     pub(in crate::sim::integrators) fn by_velocity(like: &V, coupling: Coupling) -> Self {
         let n = like.components().len();
         let reach = coupling.reach(n);
@@ -57,7 +57,7 @@ impl<V: Vector> Jacobian<V> {
         }
     }
 
-    /// Takes the derivatives at `t` and `y`, where the acceleration is `a`, for a step of `h`.
+    /// Computes the derivatives at `t` and `y`, where the acceleration is `a`, for a step of `h`.
     #[inline]
     pub(in crate::sim::integrators) fn take(
         &mut self,
@@ -100,7 +100,7 @@ impl<V: Vector> Jacobian<V> {
         [self.da_dq.first().copied().unwrap_or(0.0), self.da_dv[0]]
     }
 
-    /// `∂a/∂q q + ∂a/∂v v`. An empty `q` stands for 0.
+    /// `∂a/∂q q + ∂a/∂v v`. An empty `q` counts as 0.
     #[inline]
     pub(in crate::sim::integrators) fn times(
         &mut self,
@@ -133,7 +133,7 @@ impl<V: Vector> Jacobian<V> {
         slope
     }
 
-    /// Bounds of the largest row sums of `∂a/∂q` and of `∂a/∂v`.
+    /// Bounds on the largest row sums of `∂a/∂q` and of `∂a/∂v`.
     pub(in crate::sim::integrators) fn norms(
         &mut self,
         system: &dyn System<Vector = V>,

@@ -1,23 +1,23 @@
-//! Linear equations without a matrix: BiCGSTAB(2) in storage allocated once. Sleijpen & Fokkema,
-//! *BiCGstab(ℓ) for linear equations involving unsymmetric matrices with complex spectrum* (1993).
+//! Linear equations without a matrix: BiCGSTAB(2) in storage allocated once. Sleijpen & Fokkema, *BiCGstab(ℓ) for
+//! linear equations involving unsymmetric matrices with complex spectrum* (1993).
 //!
-//! The matrix is not symmetric where springs are damped, and indefinite where they are compressed, which
-//! rules out conjugate gradients; that of several stages has complex eigenvalues, at which BiCGSTAB stalls;
-//! GMRES keeps a vector for each iteration, and these vectors are in every snapshot. Written out because
-//! nalgebra-sparse has no solver for such a matrix, and faer is many times the size of this layer and chooses
-//! its sums by the processor: ours have the same bits everywhere.
+//! The matrix is not symmetric for damped springs, and indefinite for compressed ones, which rules out conjugate
+//! gradients. That of several stages has complex eigenvalues, at which BiCGSTAB stalls. GMRES keeps a vector for each
+//! iteration, and these vectors would be in every snapshot. The solver is written out because nalgebra-sparse has none
+//! for such a matrix. faer is many times the size of this layer and chooses its sums by the processor, while ours have
+//! the same bits everywhere.
 
 use crate::sim::state::largest;
 
-/// The most products of matrix and vector in one step of a method. A soft net needs tens and a stiff one
-/// hundreds; without a limit, equations that have no solution would never end.
+/// The most products of matrix and vector in one step of a method. A soft net needs tens and a stiff one hundreds;
+/// without a limit, equations without a solution would never end.
 const MAX_PRODUCTS: u32 = 12_000;
-/// Products in one iteration.
+/// Products per iteration.
 const PRODUCTS: u32 = 4;
 /// The relative residual of the linear equations of a descent.
 const DESCENT_TOLERANCE: f64 = 1e-2;
-/// Right-hand sides below this are scaled up: the fourth power of what a tolerance of 1e-10 leaves of it is a normal
-/// number, and products of inner products are of that size.
+/// Right-hand sides below this are scaled up. At this size, the fourth power of a residual at a tolerance of 1e-10 is
+/// still a normal number, and products of inner products are of that order.
 const TINY: f64 = f64::from_bits((1023 - 200) << 52);
 
 /// A matrix: overwrites its second argument with the product of the matrix and the first.
@@ -53,8 +53,8 @@ impl Krylov {
         self.left < PRODUCTS
     }
 
-    /// Overwrites the right-hand side `b` with the solution, to a residual of `tolerance` times `b`, or as
-    /// near as the products left allow.
+    /// Overwrites the right-hand side `b` with the solution, to a residual of `tolerance` times `b`, or as near as the
+    /// products left allow.
     pub(super) fn solve(&mut self, matrix: &mut Matrix<'_>, tolerance: f64, b: &mut [f64]) {
         let unit = unit(b);
         self.r.iter_mut().zip(&*b).for_each(|(r, b)| *r = b / unit);
@@ -64,9 +64,10 @@ impl Krylov {
         b.iter_mut().zip(&self.x).for_each(|(b, x)| *b = x * unit);
     }
 
-    /// Overwrites the residual `b` with a direction down the energy whose gradient it is: the solution by
-    /// conjugate gradients, as far as the energy curves upwards (Steihaug, *The conjugate gradient method and
-    /// trust regions in large scale optimization*, 1983). Returns whether it does so along all that was tried.
+    /// Overwrites the residual `b` with a descent direction of the energy whose gradient it is. The direction is the
+    /// solution by conjugate gradients, for as long as the energy curves upwards (Steihaug, *The conjugate gradient
+    /// method and trust regions in large scale optimization*, 1983). Returns whether it curved upwards along every
+    /// direction tried.
     pub(super) fn descend(&mut self, matrix: &mut Matrix<'_>, b: &mut [f64]) -> bool {
         let Self { left, x, r, u: p, v: product, .. } = self;
         let unit = unit(b);
@@ -91,7 +92,7 @@ impl Krylov {
             assign_sum(p, r, next / size);
             size = next;
         }
-        // Of an energy that curves downwards at once, the steepest direction.
+        // If the energy curves downwards at once, takes the steepest direction.
         if dot(x, x) == 0.0 {
             x.copy_from_slice(r);
         }
@@ -99,8 +100,8 @@ impl Krylov {
         curves_upwards
     }
 
-    /// The iteration by its textbook letters: `x` the solution, `r` the residual, `u` a direction, and `v`,
-    /// `s`, `w` and `t` their products.
+    /// The iteration with its textbook letters: `x` the solution, `r` the residual, `u` a direction, and `v`, `s`, `w`
+    /// and `t` their products.
     fn iterate(&mut self, matrix: &mut Matrix<'_>, enough: f64) {
         let Self { left, x, r, shadow, u, v, s, w, t } = self;
         let mut multiply = |left: &mut u32, x: &[f64], y: &mut [f64]| {
@@ -144,11 +145,11 @@ impl Krylov {
             }
             multiply(left, s, t);
 
-            // The residual is made as small as can be along its two products.
+            // Minimises the residual along its two products.
             let (along, across, both) = (dot(s, s), dot(s, t), dot(t, t));
             let first = dot(r, s);
             let apart = both - across * across / along;
-            // Where all point one way, as in equal bodies apart, the first product alone ends it.
+            // If they are parallel, as for equal separate bodies, the first product alone solves it.
             if apart <= 0.0 {
                 add(x, first / along, r);
                 return;
@@ -175,7 +176,7 @@ pub(super) fn add(to: &mut [f64], times: f64, x: &[f64]) {
     to.iter_mut().zip(x).for_each(|(to, x)| *to += times * x);
 }
 
-/// The length of a vector, whose squares do not underflow.
+/// The length of a vector, computed so that squares do not underflow.
 pub(super) fn length(x: &[f64]) -> f64 {
     let unit = unit(x);
     unit * x.iter().fold(0.0, |sum, x| sum + (x / unit) * (x / unit)).sqrt()

@@ -1,32 +1,32 @@
 //! The flow of a linear equation, by the exponential of its matrix applied to a vector.
 //!
-//! The Taylor series acts on the vector, over as many pieces of the step as the size of the matrix asks (Al-Mohy
-//! & Higham, *Computing the action of the matrix exponential*, 2011). If that takes too many pieces and the matrix
-//! is small, scaling and squaring is used instead. Both use products and sums only.
+//! The Taylor series acts on the vector, over a number of pieces of the step that grows with the size of the matrix
+//! (Al-Mohy & Higham, *Computing the action of the matrix exponential*, 2011). If that takes too many pieces and the
+//! matrix is small, scaling and squaring replaces it. Both use products and sums only.
 
 use crate::sim::integrators::failure::{StepFailure, Stepped};
 use crate::sim::state::largest;
 use crate::sim::system::Coupling;
 
-/// The degree of the Taylor polynomial. Over a piece of norm 1 it leaves out 1/19!, less than a unit of round-off.
+/// The degree of the Taylor polynomial. Over a piece of norm 1 it omits 1/19!, less than a unit of round-off.
 const DEGREE: u32 = 18;
-/// More pieces than this are left to scaling and squaring, which is then cheaper.
+/// Beyond this many pieces, scaling and squaring is cheaper.
 const MAX_PIECES_IF_SMALL: f64 = 8.0;
-/// The most pieces of a step: without a limit a stiff net would never end.
+/// The most pieces in a step: without a limit a stiff net would never end.
 const MAX_PIECES: f64 = 1000.0;
-/// The largest system that is scaled and squared; three matrices of this size are 28 kB.
+/// The largest system to scale and square; three matrices of this size are 28 kB.
 const SMALL: usize = 32;
 
-/// The terms of the series of a [`response`]: what they leave out is below a unit of round-off.
+/// The terms of the series of a [`response`]: the omitted terms are below a unit of round-off.
 const TERMS: usize = 12;
-/// The largest root of the equation of a response whose series is summed; from there it is doubled.
+/// The largest root of a response's equation for which the series is summed; longer times are doubled from there.
 const SHORT: f64 = 0.25;
 
-/// How `x″ = y x + z x′` answers a push at time 0, at time 1: the displacement `s(1)` that a unit of velocity makes, its
-/// integral, and the integral of that. It is the exponential of one coordinate.
+/// The response of `x″ = y x + z x′` at time 1 to a push at time 0: the displacement `s(1)` from a unit of velocity,
+/// its integral, and the integral of that. It is the exponential of one coordinate.
 ///
-/// Products and sums only: the series over a part of the time, doubled until it is the whole. No term cancels another
-/// of a motion that decays.
+/// Uses products and sums only: the series over a part of the time, doubled until it is the whole. For a decaying
+/// motion, no term cancels another.
 #[inline]
 pub(in crate::sim::integrators) fn response(y: f64, z: f64) -> [f64; 3] {
     let (mut y, mut z, mut doublings) = (y, z, 0);
@@ -46,7 +46,7 @@ pub(in crate::sim::integrators) fn response(y: f64, z: f64) -> [f64; 3] {
     }
     let mut s = 1.0 + y * s2 + z * s1;
     for _ in 0..doublings {
-        // The displacement and the velocity, halfway, of a unit of displacement and of one of velocity.
+        // The displacement from a unit of displacement, and the velocity from a unit of velocity, halfway.
         let (p, v) = (1.0 + y * s1, 1.0 + y * s1 + z * s);
         s2 = (s2 + s1 + s * (s1 - z * s2) + v * s2) / 8.0;
         s1 = (s1 + s * (s - z * s1) + v * s1) / 4.0;
@@ -77,18 +77,18 @@ pub(in crate::sim::integrators) struct LinearFlow {
 }
 
 impl LinearFlow {
-    /// For `size` equations of coordinates with this coupling.
+    /// Scratch for `size` equations of coordinates with this coupling.
     pub(in crate::sim::integrators) fn new(size: usize, coupling: Coupling) -> Self {
         let is_small = coupling != Coupling::Few && size <= SMALL;
         let squaring = is_small.then(|| Box::new(Squaring::new(size + 2)));
         Self { term: vec![0.0; size], next: vec![0.0; size], squaring }
     }
 
-    /// Advances `x` by `x' = A x + b + t c` from `t = 0` to 1, where `product` overwrites its second argument with
-    /// `A` times its first, and `norm` bounds the largest row sum of `A`.
+    /// Advances `x` by `x' = A x + b + t c` from `t = 0` to 1, where `product` overwrites its second argument with `A`
+    /// times its first, and `norm` bounds the largest row sum of `A`.
     ///
     /// # Errors
-    /// [`StepFailure::TooManySubsteps`] if a large matrix asks for too many pieces.
+    /// [`StepFailure::TooManySubsteps`] if a large matrix needs too many pieces.
     pub(in crate::sim::integrators) fn advance(
         &mut self,
         x: &mut [f64],
@@ -242,7 +242,7 @@ mod tests {
         for (coupling, w) in [(Few, 0.6), (Few, 40.0), (All, 0.6), (All, 40.0)] {
             let found = flow(coupling, [w, 0.0], [0.0, w], [0.0, 0.0]).unwrap();
             near(found, [1.0 - libm::cos(w), libm::sin(w)], 40.0);
-            // A push that grows: x = t - sin(wt)/w, x' = (1 - cos(wt))/w.
+            // A growing push: x = t - sin(wt)/w, x' = (1 - cos(wt))/w.
             let found = flow(coupling, [w, 0.0], [0.0; 2], [0.0, w]).unwrap();
             near(found, [1.0 - libm::sin(w) / w, (1.0 - libm::cos(w)) / w], 40.0);
         }
@@ -267,7 +267,7 @@ mod tests {
                 let (s, v) = (e * sin / w, e * (cos + alpha * sin / w));
                 let s1 = (v - 1.0 - z * s) / y;
                 let wanted = [s, s1, (s - 1.0 - z * s1) / y];
-                // What the equation cancels to find the integrals.
+                // Room for the cancellation in `wanted`, whose integrals come from the equation.
                 for (i, (found, wanted)) in found.into_iter().zip(wanted).enumerate() {
                     let room = 1e-14 * (1.0 + w) * [1.0, 1.0 / y.abs(), 1.0 / (y * y)][i];
                     assert!(
@@ -277,7 +277,7 @@ mod tests {
                 }
             }
         }
-        // Decay alone, as slow and as fast as it may be: s = (e^z - 1)/z.
+        // Decay alone, from very slow to very fast: s = (e^z - 1)/z.
         for z in [-1e-9, -0.1, -3.0, -50.0, -1e9] {
             let [s, s1, s2] = response(0.0, z);
             let wanted = libm::expm1(z) / z;

@@ -1,8 +1,9 @@
-//! The forces of a step linearised at its stages, and the linear equations `X - ∂a/∂A X = b` for the accelerations there.
+//! Linearises the forces of a step at its stages, and solves the linear equations `X - ∂a/∂A X = b` for the
+//! accelerations there.
 //!
-//! The matrix is factored: as a band where each coordinate is acted on by its neighbours alone. Where
-//! [few](Coupling::Few) coordinates at any index act on each it is never formed: its equations are solved by iteration.
-//! All that a method learns of the derivatives of a force is [slopes](Slopes) along directions.
+//! The matrix is factored, as a band if each coordinate depends only on its neighbours. If each depends on
+//! [few](Coupling::Few) others at any index, the matrix is never formed, and iteration solves its equations. A method
+//! learns the derivatives of a force only as [slopes](Slopes) along directions.
 
 use super::krylov::{Krylov, add};
 use super::lu::StageLu;
@@ -12,22 +13,22 @@ use crate::sim::integrators::failure::{StepFailure, Stepped};
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Coupling, System};
 
-/// The residual to which an iteration solves the equations of a step, relative to the right-hand side.
+/// The residual at which an iteration has solved the equations of a step, relative to the right-hand side.
 const TOLERANCE: f64 = 1e-10;
 
-/// The states at the stages of a step, and how the forces change from there.
+/// The states at the stages of a step, and the slopes of the forces there.
 #[derive(Clone)]
 pub(in crate::sim::integrators) struct Linearisation<V, const S: usize> {
-    /// Where the forces are linearised.
+    /// The states to linearise the forces at.
     pub(in crate::sim::integrators) at: [State<V>; S],
     pub(in crate::sim::integrators) slopes: Slopes<V>,
     along: State<V>,
     slope: V,
-    /// The matrix, if there is one equation in all.
+    /// The matrix of a single equation.
     alone: f64,
-    /// `None` if the matrix is not formed, or alone.
+    /// The factored matrix; `None` if it is not formed, or a single number.
     matrix: Option<StageLu>,
-    /// Solves without a matrix.
+    /// The solver without a matrix.
     krylov: Option<Box<Krylov>>,
 }
 
@@ -52,9 +53,9 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         self.krylov.is_some()
     }
 
-    /// Forms and factors the matrix, of slopes by [forward](Forward) differences from the forces `evaluated` at the
-    /// stages, if they are given with how far to go in units of `A`. Shows each entry of `∂a/∂A` that is not 0 for certain to
-    /// `see`, with its row.
+    /// Forms and factors the matrix. If `forward` gives the forces evaluated at the stages and a displacement in units
+    /// of `A`, its slopes are [forward](Forward) differences from them. Calls `see` with the row and value of each
+    /// entry of `∂a/∂A` that may be nonzero.
     #[inline(always)]
     pub(super) fn factor(
         &mut self,
@@ -77,7 +78,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
             *alone = 1.0 - slope;
             return;
         };
-        // Coordinates that act on different ones are moved together.
+        // Coordinates that act on different ones are displaced together.
         let apart = matrix.apart();
         matrix.begin();
         for s in 0..S {
@@ -91,8 +92,8 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         matrix.lu.factor();
     }
 
-    /// Overwrites the right-hand side `x` with the solution by the matrix last factored. A singular matrix gives values
-    /// that are not finite.
+    /// Overwrites the right-hand side `x` with the solution by the last factored matrix. A singular matrix gives
+    /// values that are not finite.
     #[inline]
     pub(super) fn solve(&mut self, x: &mut [f64]) {
         match &mut self.matrix {
@@ -101,7 +102,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         }
     }
 
-    /// Grants the iterations the products of a step.
+    /// Resets the iterations' budget of products for a new step.
     pub(super) fn begin_step(&mut self) {
         self.krylov.iter_mut().for_each(|krylov| krylov.begin_step());
     }
@@ -122,7 +123,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         self.with_products(system, stages, |krylov, matrix| krylov.solve(matrix, tolerance, b));
     }
 
-    /// Overwrites the residual `b` with a direction down the energy, as [`Krylov::descend`].
+    /// Overwrites the residual `b` with a descent direction of the energy, as [`Krylov::descend`].
     pub(super) fn descend(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -159,7 +160,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         })
     }
 
-    /// Largest acceleration at the first stage when neighbours are displaced by ±`distance`: an estimate of the
+    /// The largest acceleration at the first stage when neighbours are displaced by ±`distance`: an estimate of the
     /// stiffest mode.
     pub(super) fn largest_change(
         &mut self,
@@ -193,11 +194,11 @@ impl<V: Vector> Linearisation<V, 1> {
         x.add_scaled(times, &self.slope);
     }
 
-    /// Overwrites the right-hand side `x` with the solution of `(I - α ∂a/∂q - β ∂a/∂v) x' = x`, with the
-    /// derivatives at `t` and `y`. A singular matrix gives values that are not finite.
+    /// Overwrites the right-hand side `x` with the solution of `(I - α ∂a/∂q - β ∂a/∂v) x' = x`, with the derivatives
+    /// at `t` and `y`. A singular matrix gives values that are not finite.
     ///
     /// # Errors
-    /// [`StepFailure::LinearSolveFailed`] if an iteration comes to no end.
+    /// [`StepFailure::LinearSolveFailed`] if an iteration does not converge.
     #[inline]
     pub(in crate::sim::integrators) fn solve_at(
         &mut self,
@@ -247,7 +248,7 @@ mod tests {
     use super::*;
     use crate::sim::integrators::{Family, METHODS, integrator};
 
-    /// Springs apart from each other, all equal or each stiffer than the last.
+    /// Separate springs, all equal or each stiffer than the last.
     struct Apart {
         stiffness: f64,
         stiffer: f64,

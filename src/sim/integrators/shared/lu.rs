@@ -7,33 +7,34 @@
 #[derive(Clone)]
 pub(super) struct Lu {
     size: usize,
-    /// How far from the diagonal an entry of a band may lie; `None` if all entries are stored.
+    /// The largest distance of a band's entry from the diagonal; `None` if all entries are stored.
     band: Option<usize>,
-    /// The rows that are stored of a column. Of a band those from twice the reach above the diagonal on, to where pivoting
-    /// moves entries; some may lie outside the matrix.
+    /// Rows stored per column. For a band they start twice the reach above the diagonal, because pivoting moves
+    /// entries that far; some may lie outside the matrix.
     height: usize,
     /// Column by column.
     entries: Vec<f64>,
-    /// The row that was swapped with each row in turn.
+    /// The row swapped with each row in turn.
     swaps: Vec<usize>,
 }
 
 impl Lu {
-    /// A matrix of `size` rows whose entries lie at most `reach` from the diagonal. All are stored where that is no more.
+    /// A matrix of `size` rows whose entries lie at most `reach` from the diagonal. Stores all entries if a band would
+    /// not be smaller.
     pub(super) fn new(size: usize, reach: usize) -> Self {
         let band = Some(reach).filter(|reach| 3 * reach + 1 < size);
         let height = band.map_or(size, |reach| 3 * reach + 1);
         Self { size, band, height, entries: vec![0.0; size * height], swaps: vec![0; size] }
     }
 
-    /// What is stored of column `j` from this row on.
+    /// The stored entries of column `j` from this row on.
     #[inline]
     fn column_from(&mut self, j: usize, row: usize) -> &mut [f64] {
         let (diagonal, _) = self.stored(j, self.band);
         &mut self.entries[j * self.height..][..self.height][diagonal + row - j..]
     }
 
-    /// Factors the matrix. A singular matrix gives solutions that are not finite. Common bands are compiled for themselves.
+    /// Factors the matrix. A singular matrix gives solutions that are not finite. Common bands get code of their own.
     #[inline]
     pub(super) fn factor(&mut self) {
         match self.band {
@@ -55,7 +56,8 @@ impl Lu {
         }
     }
 
-    /// The index of the diagonal in what is stored of column `j`, and the end of the rows that may have entries below it.
+    /// The index of the diagonal in the stored entries of column `j`, and the end of the rows that may have entries
+    /// below it.
     #[inline(always)]
     fn stored(&self, j: usize, band: Option<usize>) -> (usize, usize) {
         match band {
@@ -80,7 +82,7 @@ impl Lu {
                 }
             }
             self.swaps[k] = k + largest;
-            // Behind a branch, which seldom is taken: a swap in memory would delay each column.
+            // Behind a branch that is seldom taken: a swap in memory would delay each column.
             if largest > 0 {
                 column.swap(0, largest);
             }
@@ -95,7 +97,7 @@ impl Lu {
                     right.swap(0, largest);
                 }
                 let factor = right[0];
-                // Few entries of a band that pivoting has not widened.
+                // A band that pivoting has not widened has few nonzero factors.
                 if factor != 0.0 {
                     for (entry, below) in right[1..].iter_mut().zip(&column[1..]) {
                         *entry -= factor * below;
@@ -129,16 +131,16 @@ impl Lu {
 }
 
 /// The factored equations of several stages of `n` coordinates each: an [`Lu`] whose unknowns are ordered stage by
-/// stage, or coordinate by coordinate where that keeps the band narrow.
+/// stage, or coordinate by coordinate if that keeps the band narrow.
 #[derive(Clone)]
 pub(super) struct StageLu {
     pub(super) lu: Lu,
     n: usize,
-    /// How far from each other two coordinates that act on each other are.
+    /// The largest distance between two coordinates that act on each other.
     reach: usize,
-    /// The distance between the unknowns of neighbouring coordinates, and of neighbouring stages.
+    /// The distances between the unknowns of neighbouring coordinates and of neighbouring stages.
     strides: [usize; 2],
-    /// The right-hand side in the order of the unknowns, where that is not stage by stage.
+    /// The right-hand side in the order of the unknowns; empty if that is stage by stage.
     ordered: Vec<f64>,
 }
 
@@ -154,20 +156,21 @@ impl StageLu {
         }
     }
 
-    /// Coordinates this far apart, and farther, act on different ones.
+    /// Coordinates at least this far apart act on different ones.
     #[inline]
     pub(super) fn apart(&self) -> usize {
         (2 * self.reach + 1).min(self.n)
     }
 
-    /// Begins a matrix: swaps of the last leave entries outside its band.
+    /// Clears the matrix before it is filled: swaps of the last factorisation leave entries outside its band.
     #[inline]
     pub(super) fn begin(&mut self) {
         self.lu.entries.fill(0.0);
     }
 
-    /// Puts the `slopes` at stage `i` along coordinate `first` at stage `s`, and along those [apart](Self::apart) from it,
-    /// into their columns, as entries of `I - slopes`. Shows each with its row of the matrix stage by stage to `see`.
+    /// Stores the `slopes` at stage `i` as entries of `I - slopes`. They are along coordinate `first` at stage `s`,
+    /// and along all coordinates [apart](Self::apart) from it, each in its own column. Calls `see` with each slope and
+    /// its row of the matrix ordered stage by stage.
     #[inline]
     pub(super) fn put(
         &mut self,
@@ -177,7 +180,7 @@ impl StageLu {
         see: &mut impl FnMut(usize, f64),
     ) {
         let (reach, apart, [stride, _]) = (self.reach, self.apart(), self.strides);
-        // Counted by hand: `step_by` divides.
+        // A loop by hand, because `step_by` divides.
         let mut j = first;
         while j < self.n {
             let rows = j.saturating_sub(reach)..(j + reach + 1).min(self.n);
@@ -266,7 +269,7 @@ mod tests {
             let (size, mut random) = (12, XorShift::new(5));
             let (mut band, mut full) = (Lu::new(size, reach), Lu::new(size, size));
             let b: Vec<f64> = (0..size).map(|_| random.next()).collect();
-            // Twice, for what the first factors leave behind.
+            // Twice, to test for leftovers of the first factors.
             for _ in 0..2 {
                 band.entries.fill(0.0);
                 full.entries.fill(0.0);
@@ -291,7 +294,7 @@ mod tests {
 
     #[test]
     fn what_the_swaps_of_a_matrix_leave_is_not_in_the_next() {
-        // Bands that are stored as such, and one so small that all of it is.
+        // Bands stored as such, and one so small that it is stored whole.
         for n in [4, 9] {
             let mut matrix = StageLu::new(1, n, 1);
             let [once, again] = [(); 2].map(|()| {

@@ -16,10 +16,10 @@ pub(super) mod step_size;
 
 /// Composition of drifts and kicks, for symplectic methods of higher order.
 ///
-/// For each `(c, d)` of `stages` a drift `q += c h v` and a kick `v += d h a`, then the `last` drift.
+/// For each `(c, d)` of `stages`: a drift `q += c h v` and a kick `v += d h a`. Then the `last` drift.
 ///
-/// Time advances with the drifts, and a kick uses the current velocity: forces that depend on velocity
-/// reduce the order.
+/// Time advances with the drifts, and a kick uses the current velocity: forces that depend on velocity reduce the
+/// order.
 #[inline(always)]
 pub(in crate::sim::integrators) fn compose<S: System>(
     system: &S,
@@ -42,27 +42,27 @@ pub(in crate::sim::integrators) fn compose<S: System>(
 
 /// The length of the last step of a method with memory, which is valid only for a next step of the same length.
 ///
-/// A method compares step lengths by itself. A jump of the state or the forces is reported by
-/// [`Integrator::reset`](crate::sim::integrators::Integrator::reset), because detecting it would cost a
-/// copy of the state and a comparison per step.
+/// A method compares step lengths itself. The caller reports a jump of the state or the forces by
+/// [`Integrator::reset`](crate::sim::integrators::Integrator::reset): detecting it would cost a copy of the state and
+/// a comparison per step.
 #[derive(Clone)]
 pub(in crate::sim::integrators) struct LastStep {
-    /// In seconds; NaN, which equals nothing, if there is no valid memory.
+    /// In seconds; NaN, which equals nothing, without valid memory.
     h: f64,
 }
 
 impl LastStep {
-    /// Before the first step and after a jump: no memory.
+    /// No memory: the state before the first step and after a jump.
     pub(in crate::sim::integrators) const NONE: Self = Self { h: f64::NAN };
 
-    /// Whether a step of `h` is as long as the last one. The last step is forgotten until the next
-    /// [ends](Self::end), so that a step that fails leaves no memory.
+    /// Whether a step of `h` is as long as the last one. Forgets the last step until the next [ends](Self::end), so
+    /// that a failed step leaves no memory.
     #[inline(always)]
     pub(in crate::sim::integrators) fn is_continued_by(&mut self, h: f64) -> bool {
         std::mem::replace(&mut self.h, f64::NAN) == h
     }
 
-    /// Remembers that a step of `h` has ended.
+    /// Records that a step of `h` has ended.
     #[inline(always)]
     pub(in crate::sim::integrators) fn end(&mut self, h: f64) {
         self.h = h;

@@ -1,12 +1,12 @@
 //! Newton's iteration for the accelerations at the stages of an implicit method.
 //!
-//! Coordinates and velocities of a stage are sums of known terms and of the accelerations, which are
-//! therefore the only unknowns. The Jacobian is taken once per step, and again if convergence is slow. The iteration
-//! continues to round-off, because a method conserves a quantity only as well as its equations are solved. If it does
-//! not converge, the solution is continued from a shorter step.
+//! Coordinates and velocities of a stage are sums of known terms and of the accelerations, which are therefore the
+//! only unknowns. The Jacobian is computed once per step, and again if convergence is slow. The iteration continues to
+//! round-off, because a method conserves a quantity only as well as its equations are solved. If it does not converge,
+//! continuation from a shorter step replaces it.
 //!
-//! Of a body of many coordinates that feel [few](crate::sim::Coupling::Few) others each no matrix is formed: its linear
-//! equations are solved roughly, and a correction that makes the residual larger is taken in part.
+//! For a body of many coordinates that depend on [few](crate::sim::Coupling::Few) others each, no matrix is formed:
+//! its linear equations are solved roughly, and a correction that increases the residual is shortened.
 
 use super::linearisation::Linearisation;
 use super::stages::{Stages, largest_of};
@@ -19,20 +19,19 @@ use continuation::SolutionCurve;
 mod continuation;
 mod sparse;
 
-/// The largest number of iterations in one step. Usual are 2 to 5; without a limit a discontinuous
-/// force would never end.
+/// The largest number of iterations in one step. 2 to 5 are usual; without a limit a discontinuous force would never
+/// end.
 const MAX_ITERATIONS: u32 = 30;
-/// An iteration that reduces the error by less than this factor needs a new Jacobian, or is at the end of what rounding
-/// allows.
+/// An iteration that reduces the error by less than this factor needs a new Jacobian, or has reached the limit of
+/// rounding.
 const SLOW_CONVERGENCE: f64 = 0.1;
-/// The residual at rounding level, relative to the rounding scale: how much a unit of round-off grows
-/// in the force law.
+/// The residual at rounding level, relative to the rounding scale: the growth of a unit of round-off in the force law.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
-/// Relative differences for the Jacobian, of accelerations and velocities, and of coordinates. The
-/// first is the cube root of round-off, which balances truncation and rounding. The second is much
-/// smaller because a coordinate may be far from the centre of its force.
+/// Relative differences for the Jacobian: of accelerations and velocities, and of coordinates. The first is the cube
+/// root of round-off, which balances truncation and rounding. The second is much smaller because a coordinate may be
+/// far from the centre of its force.
 const RELATIVE_DIFFERENCES: (f64, f64) = (6e-6, 1e-11);
-/// The bounds of a difference: below underflow, above overflow.
+/// Bounds on a difference: below the first it underflows, above the second it overflows.
 const EXTREMES: (f64, f64) = (1e-150, 1e150);
 
 /// Solves `A_i = a(t_i, Q_i, V_i)` for all `S` stages at once, where `Q_i = q_i + Σ α_ij A_j` and
@@ -50,37 +49,37 @@ pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
     residual: Vec<f64>,
     /// The last correction of `A`.
     correction: Vec<f64>,
-    /// `A` where an attempt began that may fail.
+    /// The `A` at the start of an attempt that may fail.
     kept: Vec<f64>,
     /// The scale of the rounding error of `evaluated`, in units of round-off; empty without a matrix.
     rounding_scale: Vec<f64>,
-    /// For steps at which the iteration alone fails.
+    /// The solution curve for steps at which the iteration alone fails.
     curve: SolutionCurve<V, S>,
 }
 
-/// How an iteration converges.
+/// The convergence of an iteration.
 struct Convergence {
-    /// The size of the last correction; NaN before the first, after which no rate is known.
+    /// The size of the last correction; NaN before the first, when no rate is known.
     last: f64,
 }
 
-/// What a correction says about the convergence.
+/// The verdict on a correction.
 enum Progress {
-    /// What is left is rounding.
+    /// The remaining error is rounding.
     Solved,
     /// The Jacobian serves for another iteration.
     Fast,
     /// A new Jacobian is needed.
     Slow,
-    /// Nothing finite is left.
+    /// The unknowns are no longer finite.
     Lost,
 }
 
 impl Convergence {
     const BEGUN: Self = Self { last: f64::NAN };
 
-    /// Judges a correction that brought the largest unknown to `size`, of a residual that may have been at rounding
-    /// level.
+    /// Judges a correction after which the largest unknown is `size`. `is_at_rounding`: whether its residual was at
+    /// rounding level.
     #[inline]
     fn judge(&mut self, correction: f64, size: f64, is_at_rounding: bool) -> Progress {
         let rate = correction / self.last;
@@ -189,10 +188,8 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         false
     }
 
-    /// Computes and factors the Jacobian at the current `A`, by differences suited to the weights of
-    /// `whole`.
-    // Without inlining it would leave the loop, because it is called from two places; that costs a
-    // fourteenth of a step.
+    /// Computes and factors the Jacobian at the current `A`, by differences suited to the weights of `whole`.
+    // Called from two places, so that without `inline(always)` it would leave the loop, at a fourteenth of a step.
     #[inline(always)]
     fn factor(
         &mut self,
@@ -258,7 +255,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         }
     }
 
-    /// Keeps `A`.
+    /// Saves `A`.
     fn keep(&mut self) {
         let n = self.kept.len() / S;
         for (kept, a) in self.kept.chunks_exact_mut(n).zip(&self.a) {
@@ -266,7 +263,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         }
     }
 
-    /// Goes back to the `A` that was kept.
+    /// Restores the saved `A`.
     fn go_back(&mut self) {
         let n = self.kept.len() / S;
         for (kept, a) in self.kept.chunks_exact(n).zip(&mut self.a) {

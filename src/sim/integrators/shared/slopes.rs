@@ -1,22 +1,22 @@
 //! The derivative of the acceleration in a direction: by the system's formula, or by a difference.
 //!
-//! A difference is central where the result of a step depends on it. It then reaches about as far as the step is going
-//! to move the state: the rounding of the acceleration changes a step by a few units of round-off, so that the
-//! derivative of a linear force is exact in effect, and that of a curved force is off by `O(h²)`, which keeps second
-//! order. Where it only steers an iteration it is a forward one, from the force that is known, and so short that a
-//! corner of the force is seldom within its reach.
+//! A difference is central if the result of a step depends on it. It then reaches about as far as the step will move
+//! the state. The rounding of the acceleration changes a step by a few units of round-off, so that the derivative of a
+//! linear force is exact in effect. That of a curved force is off by `O(h²)`, which keeps second order. A difference
+//! that only steers an iteration is a forward one, from the known force, and so short that a corner of the force is
+//! seldom within its reach.
 
 use crate::sim::cores::assert_length;
 use crate::sim::numerics::quotient;
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Query, System};
 
-/// The reach of a difference as a part of the motion of a step. A larger part takes more of a bend for
-/// slope, a smaller one more rounding.
+/// The reach of a difference, as a fraction of the motion of a step. If larger, curvature distorts the slope more; if
+/// smaller, rounding does.
 const PART: f64 = 1.0 / 16.0;
 
-/// The least reach, in metres or radians and per second, and relative to the state: the root of round-off.
-/// Without it a body at rest would have rounding for a slope.
+/// The least reach, in metres or radians and per second, and relative to the state: the root of round-off. Without it,
+/// the slope of a body at rest would be rounding.
 const MIN_REACH: f64 = 1.5e-8;
 
 /// Base value and step of a forward difference.
@@ -25,11 +25,11 @@ pub(in crate::sim::integrators) struct Forward<'a, V> {
     pub(in crate::sim::integrators) part: f64,
 }
 
-/// Overwrites `x` with a `weight` at the coordinates `first`, `first + apart` and so on, and 0 elsewhere.
+/// Overwrites `x` with `weight` at the coordinates `first`, `first + apart` and so on, and 0 elsewhere.
 #[inline(always)]
 pub(super) fn comb<V: Vector>(x: &mut V, first: usize, apart: usize, weight: f64) {
     let x = x.components_mut();
-    // The one coordinate stays in a register.
+    // A single coordinate stays in a register.
     if let [x] = x {
         *x = weight;
         return;
@@ -67,8 +67,8 @@ impl<V: Vector> Slopes<V> {
         self.reach = [reach(h.abs() * change, q), reach(change, v)];
     }
 
-    /// Overwrites `slope` with the derivative of the acceleration at `y` in the direction `along`, by a central
-    /// difference if none is given.
+    /// Overwrites `slope` with the derivative of the acceleration at `y` in the direction `along`. A difference is
+    /// central unless a forward one is given.
     #[inline]
     pub(in crate::sim::integrators) fn take(
         &mut self,

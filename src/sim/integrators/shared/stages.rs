@@ -3,8 +3,7 @@
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::System;
 
-/// The times of the stages, and the weights α and β of the accelerations in their coordinates and
-/// velocities.
+/// The times of the stages, and the weights α and β of the accelerations in their coordinates and velocities.
 #[derive(Clone, Copy)]
 pub(in crate::sim::integrators) struct Stages<const S: usize> {
     pub(in crate::sim::integrators) t: [f64; S],

@@ -1,9 +1,9 @@
-//! Step size control of an adaptive method: which substep of a tick it tries, whether it accepts it,
-//! and what it tries next. The step size is carried from tick to tick.
+//! Step size control of an adaptive method: which substep of a tick to try, whether to accept it, and which to try
+//! next. The step size carries over from tick to tick.
 //!
-//! The error of a substep is compared with the tolerance as it is, not divided by the step. All pairs
-//! here propagate the better of their two solutions, so that the error per second is proportional to
-//! the tolerance, and a method of order p takes `tolerance^(-1/p)` substeps.
+//! The control compares the error of a substep with the tolerance, without dividing it by the step. All pairs here
+//! propagate the better of their two solutions, so that the error per second is proportional to the tolerance, and a
+//! method of order p takes `tolerance^(-1/p)` substeps.
 
 use super::LastStep;
 use crate::sim::integrators::failure::StepFailure;
@@ -14,14 +14,13 @@ use crate::sim::state::{State, Vector};
 const SAFETY: f64 = 0.9;
 /// The smallest and the largest change of the step in one attempt.
 const FACTORS: (f64, f64) = (0.2, 5.0);
-/// A step that could grow by less than this keeps its size, which saves a power. If larger, steps stay
-/// shorter than necessary.
+/// A step that could grow by less than this keeps its size, which saves a power. If larger, steps stay shorter than
+/// necessary.
 const MIN_GROWTH: f64 = 1.25;
-/// A step keeps its size up to this error, relative to the tolerance. If larger, the next step is often
-/// rejected.
+/// A step keeps its size up to this error, relative to the tolerance. If larger, the next step is often rejected.
 const MAX_STEADY_ERROR: f64 = 0.8;
-/// The largest number of attempts in one tick. Usual ticks take 1 to 50; without a limit a
-/// discontinuous force would never end.
+/// The largest number of attempts in one tick. Ticks usually take 1 to 50; without a limit a discontinuous force would
+/// never end.
 const MAX_ATTEMPTS: u32 = 10_000;
 
 /// The factor for the next step; `root` is the error relative to the tolerance, to the power 1 / p.
@@ -63,8 +62,8 @@ impl StepSize {
         *self = Self::new(self.tolerance);
     }
 
-    /// Begins a tick of `h`: with the substep carried from the last tick, or with a single substep if
-    /// that tick had another length.
+    /// Begins a tick of `h`: with the substep carried from the last tick, or with a single substep if that tick had
+    /// another length.
     #[inline]
     pub(super) fn begin_tick(&mut self, h: f64) -> TickProgress<'_> {
         let continues = self.last_step.is_continued_by(h);
@@ -86,7 +85,7 @@ pub(super) struct TickProgress<'a> {
 }
 
 impl TickProgress<'_> {
-    /// The substep to try next; the last one ends exactly where the tick does.
+    /// The substep to try next; the last one ends exactly with the tick.
     #[inline]
     pub(super) fn trial(&mut self) -> Result<f64, StepFailure> {
         if self.attempts == MAX_ATTEMPTS {
@@ -109,8 +108,9 @@ impl TickProgress<'_> {
         self.left == 0.0
     }
 
-    /// Accepts or rejects a substep from `y` that is off by its length times `error`. `factor` gives the factor for the next
-    /// step from the error relative to the tolerance; it is not used after a substep cut short by the end of the tick.
+    /// Accepts or rejects a substep from `y` whose error is its length times `error`. `factor` maps the error relative
+    /// to the tolerance to the factor for the next step. It is not called after a substep cut short by the end of the
+    /// tick.
     #[inline]
     pub(super) fn accepts<V: Vector>(
         &mut self,

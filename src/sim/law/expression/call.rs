@@ -12,7 +12,7 @@ use crate::sim::law::token::Token;
 use crate::sim::parameter::MAX_POINTS;
 
 impl Parser<'_> {
-    /// The call of a function whose name has been taken.
+    /// Reads the call of a function after its name.
     pub(super) fn call(
         &mut self,
         function: &'static Function,
@@ -74,7 +74,7 @@ impl Parser<'_> {
         })
     }
 
-    /// The call of the acceleration, whose name has been taken: at a place, with a velocity, after a time.
+    /// Reads a call of the acceleration after its name: at a position, with a velocity, at a time.
     pub(super) fn acceleration(&mut self, name: Range<usize>) -> Parsed<usize> {
         self.next += 1;
         let mut arguments = vec![self.nested(Self::any)?];
@@ -95,7 +95,7 @@ impl Parser<'_> {
         Ok(self.push(Op::Call, &arguments, span))
     }
 
-    /// The points of a table.
+    /// Reads the points of a table.
     fn table(&mut self) -> Parsed<Curve> {
         let start = self.span().start;
         self.expect("[", "the comma, before the points `[[x0, y0], [x1, y1]]`")?;
@@ -129,7 +129,7 @@ impl Parser<'_> {
         Ok(Curve::new(points))
     }
 
-    /// A number with or without a sign.
+    /// Reads a number with or without a sign.
     fn literal(&mut self) -> Parsed<f64> {
         let sign = if self.takes("-") { -1.0 } else { 1.0 };
         let Token::Number(number) = self.peek() else {

@@ -1,4 +1,4 @@
-//! The lines in the language of `assets/methods`, which has a printer for other languages.
+//! Translates the lines to the language of `assets/methods`, which has a printer for other languages.
 
 use super::reader::FIELD;
 use super::{BUILT_IN, Carried, H, Line, StepText, V};
@@ -6,19 +6,20 @@ use crate::sim::law::expression::Expression;
 use crate::sim::law::function::{FUNCTIONS, Meaning};
 use crate::sim::law::op::{INFIXES, Level, Op};
 
-/// The lines of a step as code.
+/// The lines of a step, as code.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepCode {
-    /// The functions that the lines call and not every language has.
+    /// Functions that the lines call and some languages lack.
     pub functions: Vec<&'static str>,
     /// The fields of `memory`, each with its first value.
     pub memory: Vec<(String, f64)>,
-    /// The lines. Carried numbers of the text are fields of `memory`, the length of a step is called [`STEP`](Self::STEP).
+    /// The lines. Carried numbers of the text are fields of `memory`; the length of a step is called
+    /// [`STEP`](Self::STEP).
     pub lines: Vec<String>,
 }
 
 impl StepCode {
-    /// The name of the length of a step of a rule.
+    /// The name of the step length in a rule.
     pub const STEP: &str = "step_s";
 
     /// The code of a method in the language of `assets/methods`.
@@ -38,7 +39,7 @@ impl StepCode {
 /// The most bytes of an expression.
 const MAX_CODE_BYTES: usize = 4096;
 
-/// The functions that not every language has.
+/// Functions that some languages lack, written out.
 const WRITTEN_OUT: [(&str, &str); 3] = [
     (
         "sign",
@@ -48,7 +49,7 @@ const WRITTEN_OUT: [(&str, &str); 3] = [
     ("hypot", "fn hypot(x, y) {\n    return sqrt(x * x + y * y)\n}\n"),
 ];
 
-/// Names that a language, or the code around the lines, has for something else.
+/// Names that a language, or the code around the lines, already uses.
 const TAKEN: [&str; 45] = [
     "FRAME_S",
     "memory",
@@ -97,7 +98,7 @@ const TAKEN: [&str; 45] = [
     StepCode::STEP,
 ];
 
-/// Code and how tightly its outermost operator binds; `None` for a name, a number or a call.
+/// Code with the level of its outermost operator; `None` for a name, a number or a call.
 type Written = (String, Option<Level>);
 
 impl Carried {
@@ -108,10 +109,10 @@ impl Carried {
 }
 
 impl StepText {
-    /// The lines as code.
+    /// Translates the lines to code.
     ///
     /// # Errors
-    /// What other languages cannot be told, in a clause.
+    /// The construct that has no equivalent in other languages, as a clause.
     pub fn code(&self) -> Result<StepCode, String> {
         let memory = self.carried.iter().filter(|carried| carried.input > V);
         let memory = memory.map(|carried| (carried.field(), carried.start)).collect();
@@ -156,7 +157,7 @@ impl StepText {
         Ok(code)
     }
 
-    /// Whether a name has a number before the first line.
+    /// Whether a name has a value before the first line.
     fn is_state(&self, name: usize) -> bool {
         name < BUILT_IN.len() || self.carried.iter().any(|carried| carried.input == name)
     }
@@ -224,7 +225,7 @@ impl StepText {
     }
 }
 
-/// Code within an operator that binds as tightly as `outside`.
+/// Code as an operand of an operator of level `outside`, in brackets if needed.
 fn within((text, level): &Written, outside: Option<Level>) -> String {
     match level {
         Some(level) if Some(*level) <= outside => format!("({text})"),
@@ -232,7 +233,7 @@ fn within((text, level): &Written, outside: Option<Level>) -> String {
     }
 }
 
-/// The function that an operation is a call of.
+/// The name of the function that an operation calls.
 fn name_of(op: Op) -> Option<&'static str> {
     let is_it = |meaning: &Meaning| match (op, meaning) {
         (Op::Smooth(called), Meaning::Smooth(smooth)) => called == smooth,
@@ -242,7 +243,7 @@ fn name_of(op: Op) -> Option<&'static str> {
     FUNCTIONS.iter().find(|function| is_it(&function.meaning)).map(|function| function.name)
 }
 
-/// A name of the text that no language takes for something else.
+/// A name of the text, changed if a language already uses it.
 fn own(name: &str) -> String {
     if TAKEN.contains(&name) { format!("{name}_own") } else { name.to_owned() }
 }

@@ -332,7 +332,10 @@ mod tests {
             ("x = target", "in one frame"),
             ("x += 3", "in one frame"),
             ("x = -x", "in one frame"),
-            ("a = b; b = x - b; x += 0.1 * (a - b)", "more than two"),
+            (
+                "in += (target - x) * dt; v += in * 0.1 + (target - x) * 2 - v; x += v * dt",
+                "more than two",
+            ),
             ("v += (target - 0.5) * dt; v *= 0.9; x += v", "no rest"),
         ] {
             let [found, _] = rule(text, 60).unwrap_err();

@@ -1,4 +1,4 @@
-//! The lines of a method, which call the acceleration: stepped for all coordinates of a body at once.
+//! The lines of a method, which call the acceleration: a step advances all coordinates of a body together.
 
 use std::ops::Range;
 
@@ -9,13 +9,13 @@ use crate::sim::law::tape::Call;
 #[derive(Clone, Copy, Debug)]
 pub struct StepCall {
     call: Call,
-    /// When, as a part of the step.
+    /// The time of the call, as a fraction of the step.
     pub part: f64,
 }
 
 impl StepCall {
-    /// The calls of a text in the order in which they are made, given the slots of their times. A time is what that slot is
-    /// in a step of 1 s from 0, with a velocity of 1 and without a force.
+    /// The calls of a text in the order in which they are made, given the slots of their times. The time of a call is
+    /// the value of its slot in a step of 1 s from 0, with a velocity of 1 and without a force.
     pub(super) fn all(text: &StepText, times: Vec<u16>) -> Vec<Self> {
         let mut slots = text.registers().slots;
         (slots[X], slots[V], slots[H]) = (0.0, 1.0, 1.0);
@@ -28,7 +28,7 @@ impl StepCall {
 }
 
 impl StepText {
-    /// The bytes of the first call of the acceleration, which makes the lines those of a method; `None` of a rule.
+    /// The bytes of the first call of the acceleration, which makes the lines those of a method; `None` for a rule.
     pub fn acceleration_at(&self) -> Option<Range<usize>> {
         self.call.clone()
     }
@@ -38,12 +38,12 @@ impl StepText {
         &self.calls
     }
 
-    /// How many numbers a coordinate takes.
+    /// Numbers per coordinate.
     pub fn slots(&self) -> usize {
         self.tape.slots
     }
 
-    /// A body of this many coordinates before its first step by a method.
+    /// The registers of a body with this many coordinates, before its first step by a method.
     pub fn method_registers(&self, coordinates: usize) -> StepRegisters {
         let one = self.registers();
         StepRegisters {
@@ -53,7 +53,7 @@ impl StepText {
         }
     }
 
-    /// Gives all carried numbers but `x` and `v` the values that they have before the first step.
+    /// Resets all carried numbers but `x` and `v` to their values before the first step.
     pub fn forget(&self, registers: &mut StepRegisters) {
         for slots in registers.slots.chunks_exact_mut(self.tape.slots) {
             for carried in self.carried.iter().filter(|carried| carried.input > V) {
@@ -62,9 +62,9 @@ impl StepText {
         }
     }
 
-    /// Steps all coordinates by `h` seconds, from positions and velocities that it replaces. `acceleration` is given the time
-    /// since the start of the step in seconds, positions, velocities and what to overwrite. A call in a block is made if
-    /// the block is run for some coordinate. Never allocates.
+    /// Steps all coordinates by `h` seconds, and replaces positions and velocities. The arguments of `acceleration`
+    /// are the time since the start of the step in seconds, positions, velocities and the output. A call in a block is
+    /// made if the block runs for any coordinate. Never allocates.
     pub fn step_method(
         &self,
         registers: &mut StepRegisters,

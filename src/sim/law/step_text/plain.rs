@@ -1,25 +1,26 @@
-//! The text without what only its language wants: remarks, the `f` of `0.2f`, the `Mathf.` of `Mathf.Exp`.
+//! Blanks the parts of a text that only its own language needs: comments, the `f` of `0.2f`, the `Mathf.` of
+//! `Mathf.Exp`.
 
-/// What stands before a name in other languages and has no meaning here.
+/// Prefixes of names in other languages, without meaning here.
 const PREFIXES: [&str; 10] =
     ["Mathf.", "MathF.", "Math.", "math.", "Time.", "std::", "f32::", "f64::", "self.", "this."];
 
-/// What begins a line of `assets/methods` that says something about the method, for people.
+/// Beginnings of lines of `assets/methods` that describe a method for people.
 const HEADINGS: [&str; 6] =
     ["takes a(", "order: ", "stability: ", "symplectic: ", "several: ", "held: "];
 
-/// What stands before a number that is carried, where another of its name is not.
+/// The prefix of a carried number, if a name without it means another number.
 const MEMORY: &str = "memory";
 
-/// What may end a number in other languages.
+/// Suffixes of numbers in other languages.
 const SUFFIXES: [&str; 8] = ["_f64", "_f32", "f64", "f32", "f", "F", "d", "D"];
 
-/// Whether this can stand within a name.
+/// Whether a name can contain this byte.
 pub(super) fn is_name_part(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// The text with blanks in the place of what has no meaning here, so that every byte stays where it is.
+/// The text with blanks in place of parts without meaning here, so that all other bytes keep their positions.
 pub(super) fn plain(text: &str) -> String {
     let mut plain = text.as_bytes().to_vec();
     if text.starts_with('\u{feff}') {
@@ -59,7 +60,7 @@ pub(super) fn plain(text: &str) -> String {
                     None => {
                         let length = rest.iter().take_while(|byte| is_name_part(**byte)).count();
                         if &rest[..length] == MEMORY.as_bytes() && rest.get(length) == Some(&b'.') {
-                            // One name, as long.
+                            // Joins both into one name of the same length.
                             plain[at + length] = b'_';
                             length + 1
                         } else {
@@ -71,7 +72,7 @@ pub(super) fn plain(text: &str) -> String {
             _ => 1,
         };
     }
-    // Whole characters are blanked, or none of their bytes.
+    // Blanks only whole characters, so that the text stays valid UTF-8.
     String::from_utf8(plain).unwrap_or_default()
 }
 
@@ -99,7 +100,7 @@ fn number_length(rest: &[u8]) -> (usize, usize) {
     (length.max(1), suffix.map_or(0, |suffix| suffix.len()))
 }
 
-/// Writes the name at the start as functions are called here: `Lerp` as `lerp`, `PI` as `pi`.
+/// Lower-cases the name at the start to the spelling of functions here: `Lerp` to `lerp`, `PI` to `pi`.
 fn lower_name(plain: &mut [u8]) {
     let length = plain.iter().take_while(|byte| is_name_part(**byte)).count();
     let name = &mut plain[..length];

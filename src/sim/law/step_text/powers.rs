@@ -1,9 +1,9 @@
-//! The powers of a map of two numbers, also between whole ones.
+//! Powers of a map of two numbers, with exponents that need not be whole.
 
-/// Logarithms of eigenvalues that are closer than this are those of a double one: their difference is rounding.
+/// Eigenvalues whose logarithms are closer than this count as a double one: the difference is rounding.
 const SAME: f64 = 1e-7;
 
-/// The powers of a map of two numbers whose eigenvalues are a pair, or real and positive.
+/// Powers of a map of two numbers whose eigenvalues are a complex pair, or real and positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Powers {
     /// The logarithm of the root of the determinant, by which a step scales.

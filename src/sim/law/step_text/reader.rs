@@ -1,4 +1,4 @@
-//! From the statements of a step to its operations: which number a name has where it is read.
+//! Translates the statements of a step to operations: finds the current value of each name that is read.
 
 use std::ops::Range;
 
@@ -11,10 +11,10 @@ use crate::sim::law::function::Function;
 use crate::sim::law::op::{OPERATOR_WORDS, Op};
 use crate::sim::law::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 
-/// The most names of a text, so that one word holds a set of them.
+/// The most names of a text, so that one word can represent a set of them.
 const MAX_STEP_NAMES: usize = 64;
 
-/// The most blocks within each other.
+/// The deepest nesting of blocks.
 const MAX_BLOCKS: usize = 32;
 
 /// The most calls of the acceleration in a step.
@@ -23,52 +23,52 @@ const MAX_CALLS: usize = 64;
 /// Other names of the length of a step.
 const STEP_NAMES: [&str; 5] = ["dt", "delta", "deltaTime", "delta_time", "delta_seconds"];
 
-/// What games call `x`, `v` and `target`, where the lines have no such name.
+/// Names that games use for `x`, `v` and `target`, valid unless the text uses the original name.
 const OTHER_NAMES: [(usize, &[&str]); 3] = [
     (X, &["pos", "position", "value", "current"]),
     (V, &["vel", "velocity", "speed"]),
     (TARGET, &["goal", "desired", "targetPos", "target_pos", "targetPosition", "target_position"]),
 ];
 
-/// The names by which lines call the acceleration.
+/// Names for the call of the acceleration.
 const ACCELERATION: [&str; 3] = ["a", "accel", "acceleration"];
 
-/// What a field of `memory` begins with once it is one name.
+/// The prefix of a field of `memory` after it is joined into one name.
 pub(super) const FIELD: &str = "memory_";
 
-/// The values of the names where the reader stands.
+/// The node of each name's current value.
 type Values = Vec<Option<usize>>;
 
 /// An open block.
 struct Block {
     condition: usize,
     before: Values,
-    /// The values at the end of the first branch, once the second is open.
+    /// The values at the end of the first branch, while the second is open.
     first: Option<Values>,
-    /// The guard of what stands around it.
+    /// The guard of the lines around it.
     outside: Option<usize>,
-    /// Whether it ends with the block around it, as that of `else if` does.
+    /// Whether it ends with the block around it, as an `else if` does.
     is_chained: bool,
 }
 
-/// Takes the statements of a text, one by one.
+/// Consumes the statements of a text, one by one.
 pub(super) struct Reader<'t> {
     text: &'t str,
     names: Vec<String>,
-    /// Of each name whether it may be read before a line assigns it.
+    /// For each name, whether it may be read before a line assigns it.
     is_carried: Vec<bool>,
     starts: Vec<f64>,
     lines: Vec<Line>,
-    /// The operations of all lines. The node of an input is that of the number before the step.
+    /// The operations of all lines. An input's node is the number before the step.
     nodes: Expression,
     values: Values,
     carried: Vec<usize>,
     blocks: Vec<Block>,
-    /// The first call of the acceleration, which makes a method of the lines.
+    /// The first call of the acceleration, which makes the lines a method.
     call: Option<Range<usize>>,
     /// The nodes of the calls, and of their times.
     calls: Vec<[usize; 2]>,
-    /// Of a method, whether the lines here are among those that are run.
+    /// In a method, the node that tells whether the current lines run.
     guard: Option<usize>,
 }
 
@@ -118,7 +118,7 @@ impl Scope for Reader<'_> {
 }
 
 impl<'t> Reader<'t> {
-    /// A reader that knows which names the text assigns.
+    /// A reader that already knows which names the text assigns.
     pub(super) fn new(text: &'t str) -> Parsed<Self> {
         let mut reader = Reader {
             text,
@@ -157,7 +157,7 @@ impl<'t> Reader<'t> {
         other.map(|(index, _)| *index).or_else(known)
     }
 
-    /// The name that a statement declares: of a memory that lines read as `memory.name`, that.
+    /// The name that a statement declares. If the lines read a memory as `memory.name`, its name includes that prefix.
     fn declared(&self, span: Range<usize>, is_memory: bool) -> String {
         let name = &self.text[span];
         let field = format!("{FIELD}{name}");
@@ -191,11 +191,11 @@ impl<'t> Reader<'t> {
         Ok(())
     }
 
-    /// Takes the next statement.
+    /// Consumes the next statement.
     pub(super) fn take(&mut self, statement: Statement) -> Parsed<()> {
         match statement {
             Statement::Assign { name, joins, value, is_declared } => {
-                // A game declares where its value starts above the lines of its frames.
+                // A game declares the initial value above the lines of its frames.
                 let index = self.index(&self.text[name.clone()]).filter(|index| *index <= V);
                 let is_first = index.is_some_and(|index| self.values[index].is_none());
                 let start = match is_declared && is_first && self.blocks.is_empty() {
@@ -209,7 +209,7 @@ impl<'t> Reader<'t> {
                 Ok(())
             }
             Statement::Memory { name, value } => {
-                // No step is of that length, so that lines can tell the first.
+                // NaN equals no step length, so that the lines can recognise the first step.
                 let start = match self.text[value.clone()].trim() {
                     "nan" => f64::NAN,
                     _ => self.alone(&self.expression(value.clone(), false)?, value)?,
@@ -248,7 +248,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Reads an expression, or a condition.
+    /// Reads an expression or a condition.
     fn expression(&self, span: Range<usize>, is_condition: bool) -> Parsed<Expression> {
         let text = &self.text[span.clone()];
         let read = if is_condition { parse_condition(text, self) } else { parse(text, self) };
@@ -268,7 +268,7 @@ impl<'t> Reader<'t> {
         read.map_err(in_text)
     }
 
-    /// The value of an expression of numbers alone.
+    /// The value of an expression made only of numbers.
     fn alone(&self, expression: &Expression, span: Range<usize>) -> Parsed<f64> {
         let reads = expression.nodes.iter().any(|node| matches!(node.op, Op::Input | Op::Call));
         let tape = Tape::new(0, |_| false, &[(Part::Energy, expression)]).ok().filter(|_| !reads);
@@ -338,7 +338,7 @@ impl<'t> Reader<'t> {
         Ok(())
     }
 
-    /// Whether lines are run that stand within a block of this condition.
+    /// The node that tells whether the lines within a block of this condition run.
     fn within(&mut self, outside: Option<usize>, condition: usize, at: &Range<usize>) -> usize {
         match outside {
             Some(outside) => self.push(Node::new(Op::And, &[outside, condition]), at),
@@ -346,7 +346,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Chooses the values of the branch that is taken.
+    /// Closes a block: chooses the values of the branch taken.
     fn close(&mut self, block: Block, brace: &Range<usize>) {
         let Block { condition, before, first, outside, is_chained: _ } = block;
         self.guard = outside;
@@ -362,7 +362,7 @@ impl<'t> Reader<'t> {
                 self.values[index] = branches[0];
                 continue;
             }
-            // A number that only one branch declares ends with it.
+            // A number that only one branch declares ends with that branch.
             if branches.contains(&None) && !self.is_carried[index] {
                 continue;
             }
@@ -372,7 +372,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// The node of a name's number where the reader stands.
+    /// The node of a name's current number.
     fn value(&mut self, index: usize, at: &Range<usize>) -> usize {
         self.values[index].unwrap_or_else(|| self.before_step(index, at))
     }
@@ -391,7 +391,7 @@ impl<'t> Reader<'t> {
         self.nodes.nodes.len() - 1
     }
 
-    /// Adds the operations of an expression, with the numbers that its names have here.
+    /// Adds the operations of an expression, which read the current numbers of its names.
     fn splice(&mut self, expression: &Expression, at: usize) -> usize {
         let at = at..at;
         let mut read: Vec<(usize, usize)> = Vec::new();
@@ -407,7 +407,7 @@ impl<'t> Reader<'t> {
             if node.op.is_table() {
                 node.index += tables;
             }
-            // Stands for its number, which an operation reads in its place.
+            // A placeholder: operations read the name's current number instead.
             self.push(if node.op == Op::Input { zero } else { node }, &at);
         }
         self.nodes.tables.extend(expression.tables.iter().cloned());
@@ -423,7 +423,7 @@ impl<'t> Reader<'t> {
         number_of(self.nodes.nodes.len() - 1)
     }
 
-    /// A call of the acceleration by these lines, if they are run.
+    /// The node of a call of the acceleration, guarded if these lines are in a block.
     fn called(&mut self, call: &Node, node: usize) -> Node {
         let &[x, v, ref time @ ..] = call.arguments() else { return *call };
         let index = self.calls.len();
@@ -446,7 +446,7 @@ impl<'t> Reader<'t> {
         fault(at, what, "write fewer")
     }
 
-    /// The lines, once all statements are taken.
+    /// The parsed lines, after all statements.
     pub(super) fn finish(mut self) -> Parsed<StepText> {
         if !self.blocks.is_empty() {
             let end = self.text.trim_end().len();
@@ -462,7 +462,7 @@ impl<'t> Reader<'t> {
         let mut carried = self.carried.clone();
         carried.sort_unstable();
         let ends: Vec<usize> = carried.iter().map(|index| self.value(*index, &last)).collect();
-        // Calls in the order written, also those that decide nothing.
+        // Calls in the order written, including calls without effect.
         let asked = [0, 1].map(|of| self.calls.iter().map(move |call| call[of]));
         let outputs: Vec<usize> = asked.into_iter().flatten().chain(ends).collect();
         let whole = |node: usize| Expression {

@@ -1,4 +1,4 @@
-//! The statements of a step, and where each stands in the text.
+//! The statements of a step, with their positions in the text.
 
 use std::ops::Range;
 
@@ -6,10 +6,10 @@ use super::plain::is_name_part;
 use crate::sim::law::fault::{Parsed, fault, quoted};
 use crate::sim::law::token::is_name_start;
 
-/// A statement with the bytes of its parts.
+/// A statement with the byte ranges of its parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Statement {
-    /// `name = value`, with the operator that joins the value to the number before: empty in `=`.
+    /// `name = value`, with the operator that combines the value with the previous number; empty for `=`.
     Assign { name: Range<usize>, joins: &'static str, value: Range<usize>, is_declared: bool },
     /// `memory name = value`.
     Memory { name: Range<usize>, value: Range<usize> },
@@ -21,11 +21,11 @@ pub(super) enum Statement {
     End(Range<usize>),
 }
 
-/// The words that declare a number in some language.
+/// Words that declare a number in some language.
 const DECLARERS: [&str; 10] =
     ["let", "var", "const", "float", "double", "auto", "local", "mut", "final", "static"];
 
-/// The words that begin what no step can have.
+/// Words that begin a line that no step can have, each with a remedy.
 const REFUSED: [(&str, &str); 8] = [
     ("while", "write the lines of one step, which has no loops"),
     ("for", "write the lines of one step, which has no loops"),
@@ -37,7 +37,7 @@ const REFUSED: [(&str, &str); 8] = [
     ("function", "write the lines inside the function"),
 ];
 
-/// The words that begin such a line in `assets/methods`, where no operator follows.
+/// Words that begin such a line in `assets/methods`, unless an operator follows.
 const REFUSED_ALONE: [(&str, &str); 5] = [
     ("takes", "a method takes `a(x, v)` alone"),
     ("use", "write the lines inside the functions"),
@@ -46,11 +46,11 @@ const REFUSED_ALONE: [(&str, &str); 5] = [
     ("stay", "write the lines in an `if` of the opposite"),
 ];
 
-/// The operators of an assignment, each with the one that joins the value to the number before.
+/// The assignment operators, each with the operator that combines the value with the previous number.
 const ASSIGNMENTS: [(&str, &str); 6] =
     [("+=", "+"), ("-=", "-"), ("*=", "*"), ("/=", "/"), (":=", ""), ("=", "")];
 
-/// The statements of a text without remarks.
+/// The statements of a text without comments.
 pub(super) fn statements(text: &str) -> Parsed<Vec<Statement>> {
     let mut reader = Reader { text, at: 0 };
     let mut statements = Vec::new();
@@ -74,7 +74,7 @@ impl Reader<'_> {
         self.at += self.rest().len() - self.rest().trim_start_matches(blank).len();
     }
 
-    /// The bytes of the name that comes next; none if none does.
+    /// The bytes of the next name; an empty range if the next token is none.
     fn name(&self) -> Range<usize> {
         let is_name = self.rest().starts_with(is_name_start);
         let length = self.rest().bytes().take_while(|byte| is_name && is_name_part(*byte)).count();
@@ -115,7 +115,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The condition after the `if` that comes next, up to the brace that it opens.
+    /// The condition of the next `if`, up to the brace that opens its block.
     fn condition(&mut self) -> Parsed<Range<usize>> {
         let word = self.name();
         self.at = word.end;
@@ -126,7 +126,7 @@ impl Reader<'_> {
         Ok(condition)
     }
 
-    /// Takes the brace that opens a block.
+    /// Consumes the brace that opens a block.
     fn opened(&mut self, word: Range<usize>) -> Parsed<()> {
         if !self.rest().starts_with('{') {
             return fault(word, "no `{` opens the block", "write `if condition { … }`");
@@ -135,7 +135,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Where the statement ends: at `;`, at a brace, or at the end of a line that does not go on.
+    /// The end of the statement: at `;`, at a brace, or at the end of a line that does not continue.
     fn end(&self) -> usize {
         let mut depth = 0_i32;
         for (at, sign) in self.rest().char_indices() {
@@ -222,7 +222,7 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a statement goes on after the end of a line.
+/// Whether a statement continues after the end of a line.
 fn goes_on(before: &str, after: &str) -> bool {
     let is_operator = |sign: char| "+-*/^=<>".contains(sign);
     let (before, after) = (before.trim_end(), after.trim_start());

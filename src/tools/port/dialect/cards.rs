@@ -1,4 +1,4 @@
-//! The springs of user interfaces, a card each, and what their libraries make of their numbers.
+//! One card for each user-interface spring, with the meaning of its numbers in its library.
 
 use std::f64::consts::TAU;
 
@@ -51,7 +51,7 @@ const EQUATION: Dialect = Dialect {
     code: "",
 };
 
-/// A spring by its damping ratio and its stiffness, which is the square of ω.
+/// A spring set by its damping ratio and its stiffness, which is the square of ω.
 const RATIO: Dialect = Dialect {
     read: Some(|[ratio, stiffness, ..]| wish(libm::sqrt(stiffness), ratio)),
     write: |wish| [wish.damping_ratio, wish.omega() * wish.omega(), 0.0, 0.0],
@@ -60,7 +60,7 @@ const RATIO: Dialect = Dialect {
     ..EQUATION
 };
 
-/// A spring by its period and its bounce: 1 less the damping ratio, or beyond 1 the reciprocal of that less 1.
+/// A spring set by its period and its bounce, which is 1 - ζ, or 1/ζ - 1 above critical damping.
 const BOUNCE: Dialect = Dialect {
     read: Some(|[duration, bounce, ..]| {
         wish(TAU / duration, if bounce < 0.0 { 1.0 / (1.0 + bounce) } else { 1.0 - bounce })
@@ -285,19 +285,19 @@ pub static DIALECTS: &[Dialect] = &[
     },
 ];
 
-/// The least damping ratio that Motion takes from a bounce, and the reciprocal of the largest.
+/// Least damping ratio that Motion takes from a bounce, and the reciprocal of the largest.
 const MOTION_LEAST: f64 = 0.05;
-/// The steps of Newton's method by which Motion finds a frequency.
+/// Newton steps with which Motion finds a frequency.
 const MOTION_STEPS: u32 = 11;
-/// Where Motion cuts a spring of a mass: at this angle of ω √(ζ² − 1) t, if that frequency is 1000 rad/s or more.
+/// Motion cuts a spring with a mass at this angle ω √(ζ² − 1) t, if ω √(ζ² − 1) is 1000 rad/s or more.
 const MOTION_CUT: f64 = 300.0;
 const MOTION_CUT_FROM: f64 = 1000.0;
-/// The least damping ratio of Slint after its duration, and how close to 1 one counts as 1.
+/// Slint's least damping ratio after the duration, and the excess over 1 that it leaves alone.
 const SLINT_LEAST: f64 = 0.13;
 const SLINT_CRITICAL: f64 = 1e-3;
-/// What is left of the way where it is over.
+/// A motion is over once this share of the way is left.
 const OVER: f64 = 1e-3;
-/// The error that points are to stay below as a part of the way, and the most points.
+/// Error that points should stay below, as a share of the way, and the most points.
 const SAMPLED: f64 = 5e-3;
 const MAX_POINTS: f64 = 100.0;
 
@@ -305,25 +305,26 @@ fn wish(omega: f64, damping_ratio: f64) -> Wish {
     Wish { frequency_hz: omega / TAU, damping_ratio, mass_kg: 1.0 }
 }
 
-/// With the duration rounded to milliseconds, as it is written.
+/// Rounds the duration to milliseconds, as code gives it.
 fn to_milliseconds([seconds, rest @ ..]: Values) -> Values {
     let [second, third, fourth] = rest;
     [(1e3 * seconds).round().max(1.0) / 1e3, second, third, fourth]
 }
 
-/// With the duration cut to milliseconds, as it is read.
+/// Cuts the duration to milliseconds, as the library reads it.
 fn cut_to_milliseconds([seconds, rest @ ..]: Values) -> Values {
     let [second, third, fourth] = rest;
-    // What is a whole number but for rounding is that number.
+    // The addition restores a whole number that rounding has lowered.
     [libm::floor(1e3 * seconds + 1e-6) / 1e3, second, third, fourth]
 }
 
-/// The angle at which a spring of a damping ratio of 1 or more has [`OVER`] of its way left.
+/// Angle ω t at which a spring with a damping ratio of 1 or more has [`OVER`] of its way left.
 fn angle_of(ratio: f64) -> f64 {
     bisect([0.0, 40.0 * ratio], HALVINGS, |angle| left(ratio, angle) > OVER)[0]
 }
 
-/// ω times the duration by which Motion has a spring swing out: where ζ / √(1 − ζ²) exp(−ζ ω t) is what is left.
+/// Angle ω t at which Motion considers a spring settled. Below critical damping, ζ / √(1 − ζ²) exp(−ζ ω t) is then
+/// [`OVER`].
 fn motion_angle(ratio: f64) -> f64 {
     match ratio < 1.0 {
         true => -libm::log(OVER * libm::sqrt(1.0 - ratio * ratio) / ratio) / ratio,
@@ -331,7 +332,7 @@ fn motion_angle(ratio: f64) -> f64 {
     }
 }
 
-/// What Motion finds of that: by few steps of Newton's method, which do not suffice close to critical damping.
+/// Angular frequency that Motion finds for a duration. Near critical damping, its few Newton steps do not suffice.
 fn motion_omega(ratio: f64, duration: f64) -> f64 {
     if ratio >= 1.0 {
         return motion_angle(ratio) / duration;
@@ -343,7 +344,8 @@ fn motion_omega(ratio: f64, duration: f64) -> f64 {
     })
 }
 
-/// The angle at which a spring of a damping ratio above 1 has as much left as a critically damped one at `critical`.
+/// Angle ω t at which a spring with a damping ratio above 1 has as much left as a critically damped one at
+/// `critical`.
 fn motion_overdamped_angle(ratio: f64, critical: f64) -> f64 {
     if ratio <= 1.0 {
         return critical;
@@ -357,7 +359,7 @@ fn motion_overdamped_angle(ratio: f64, critical: f64) -> f64 {
     })
 }
 
-/// Where Motion has a stiff, heavily damped spring jump to its end.
+/// Where Motion makes a stiff, heavily damped spring jump to its end.
 fn motion_cut(told: &Wish) -> Option<Departure> {
     let ratio = told.damping_ratio;
     let apart = libm::sqrt((ratio * ratio - 1.0).max(0.0));
@@ -369,7 +371,7 @@ fn motion_cut(told: &Wish) -> Option<Departure> {
     })
 }
 
-/// What Slint makes of a spring that its duration, the period, does not bring to rest.
+/// Where Slint changes a spring that does not rest after its duration, the period.
 fn slint_departure(told: &Wish) -> Option<Departure> {
     let ratio = told.damping_ratio;
     let later = if ratio >= 1.0 + SLINT_CRITICAL { 1.0 } else { ratio.max(SLINT_LEAST) };
@@ -381,14 +383,14 @@ fn slint_departure(told: &Wish) -> Option<Departure> {
     (later != ratio).then_some(departure)
 }
 
-/// The seconds after which less than [`OVER`] is left, and how many points are enough.
+/// Duration in seconds after which less than [`OVER`] is left, and enough points for [`SAMPLED`].
 fn sampling(wish: &Wish) -> Values {
     let ratio = wish.damping_ratio;
     let angle = match ratio < 1.0 {
         true => -libm::log(OVER * libm::sqrt(1.0 - ratio * ratio)) / ratio,
         false => angle_of(ratio),
     };
-    // A straight line is off by an eighth of the curvature, 1 at most, times the square of its length.
+    // A straight line is off by an eighth of the curvature, at most 1, times the square of its length.
     let points = libm::ceil(angle / libm::sqrt(8.0 * SAMPLED)) + 1.0;
     [angle / wish.omega(), points.clamp(2.0, MAX_POINTS), 0.0, 0.0]
 }

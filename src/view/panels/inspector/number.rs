@@ -1,4 +1,4 @@
-//! A number with a unit that can be dragged and typed in. Its fault is shown over it.
+//! A number with a unit, to drag or to type. Its error message appears over it.
 
 use egui::accesskit::Action;
 use egui::class::HasClasses as _;
@@ -11,18 +11,18 @@ use egui::{
 use crate::view::panels::text_field::{MAX_NUMBER, select, text_field};
 use crate::view::theme::palette;
 
-/// The largest width of a fault's text, in points.
+/// Maximum width of an error message, in points.
 const FAULT: f32 = 260.0;
-/// What one point of a drag changes, as a part of the number.
+/// Relative change of the number for each point of a drag.
 const SPEED: f64 = 0.004;
-/// And what it changes at least, so that a drag gets away from 0.
+/// Minimum change for each point, which lets a drag leave 0.
 const MIN_SPEED: f64 = 1e-4;
 
-/// What was wrong with what was typed last in a field.
+/// Error of the last entry in a field.
 #[derive(Clone)]
 struct Fault {
     text: String,
-    /// The number that the field had then, and kept.
+    /// The number of the field at that time, which it kept.
     value: f64,
 }
 
@@ -30,26 +30,26 @@ struct Fault {
 #[derive(Clone, Default)]
 struct Typed {
     text: String,
-    /// The number that the field had then: after it changed otherwise, the text is of no use.
+    /// The number of the field at that time. If the number changes otherwise, the text is useless.
     value: f64,
-    /// The frame that showed it.
+    /// The frame that showed the text.
     frame: u64,
 }
 
-/// A number as a field shows it.
+/// A field for a number.
 pub(in crate::view::panels) struct NumberField<'a> {
-    /// Tells it from all others.
+    /// Unique id of the field.
     pub(in crate::view::panels) id: Id,
     pub(in crate::view::panels) value: f64,
-    /// After the number.
+    /// Text after the number.
     pub(in crate::view::panels) unit: &'a str,
-    /// What a screen reader calls it.
+    /// Name for a screen reader.
     pub(in crate::view::panels) name: &'a str,
     pub(in crate::view::panels) is_whole: bool,
 }
 
 impl NumberField<'_> {
-    /// Shows the field. Returns what was entered, if `check` finds nothing wrong with it.
+    /// Shows the field. Returns the entered number if it passes `check`.
     pub(in crate::view::panels) fn show(
         &self,
         ui: &mut Ui,
@@ -93,14 +93,14 @@ impl NumberField<'_> {
         (response, taken)
     }
 
-    /// Takes the text that the frame before showed in the editor.
+    /// Takes the text that the editor showed in the previous frame.
     fn typed(&self, ui: &Ui, id: Id) -> Option<String> {
         let typed = ui.data_mut(|data| data.remove_temp::<Typed>(id))?;
         let is_of_last_frame = typed.frame + 1 >= ui.ctx().cumulative_frame_nr();
         (is_of_last_frame && typed.value == self.value).then_some(typed.text)
     }
 
-    /// Shows an editor, not egui's own of a [`DragValue`], whose text has no bound.
+    /// Shows an editor. egui's own for a [`DragValue`] would accept text of any length.
     fn edit(
         &self,
         ui: &mut Ui,
@@ -149,7 +149,7 @@ impl NumberField<'_> {
         response
     }
 
-    /// Shows the number. What was typed before the focus left is entered, unless Escape took it away.
+    /// Shows the number. Text typed before the focus left is entered, unless Escape discarded it.
     fn drag(
         &self,
         ui: &mut Ui,
@@ -174,12 +174,12 @@ impl NumberField<'_> {
         response
     }
 
-    /// What one point of a drag changes.
+    /// Change of the number for each point of a drag.
     fn speed(&self) -> f64 {
         if self.is_whole { 0.1 } else { (SPEED * self.value.abs()).max(MIN_SPEED) }
     }
 
-    /// The number that was typed. What was not touched stays what it is, to the last digit.
+    /// Parses the typed number. Unchanged text keeps the number to the last digit.
     fn parsed(&self, text: &str) -> Result<f64, String> {
         if text.trim() == plain(self.value) {
             return Ok(self.value);
@@ -202,8 +202,8 @@ impl NumberField<'_> {
         size.x + 2.0 * ui.spacing().button_padding.x
     }
 
-    /// Shows the fault of the last entry over the field. It takes no room, so that no other field moves, and the next one
-    /// stays in sight.
+    /// Shows the error of the last entry over the field. The message takes no room, so no other field moves, and the
+    /// next one stays visible.
     fn show_fault(&self, ui: &Ui, field: Rect) {
         let Some(fault) = ui.data(|data| data.get_temp::<Fault>(self.id)) else { return };
         if !ui.is_rect_visible(field) {
@@ -219,18 +219,18 @@ impl NumberField<'_> {
         });
     }
 
-    /// Whether something is wrong in any field.
+    /// Whether any field has an error.
     pub(super) fn has_faults(ui: &Ui) -> bool {
         ui.data(|data| data.count::<Fault>()) > 0
     }
 
-    /// Forgets what was wrong in all fields.
+    /// Clears the errors of all fields.
     pub(super) fn forget_faults(ui: &Ui) {
         ui.data_mut(|data| data.remove_by_type::<Fault>());
     }
 }
 
-/// The shortest text of a number that can be typed back in.
+/// Short text of a number that can be typed back in, with at most six digits.
 fn plain(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     match rounded.abs() {
@@ -239,7 +239,7 @@ fn plain(value: f64) -> String {
     }
 }
 
-/// The number that was typed, with its unit or without.
+/// Parses a typed number, with its unit or without.
 fn parsed(text: &str, unit: &str) -> Option<f64> {
     let text = text.trim();
     let number = text.strip_suffix(unit).unwrap_or(text).trim();
@@ -293,7 +293,7 @@ mod tests {
         assert!(!told(1.0, NumberField::forget_faults));
     }
 
-    /// The words of a window that shows a field of this value after each of these frames of events, and what was entered.
+    /// Words of a window that shows a field of this value after these frames of events, and the entered numbers.
     fn typed(value: f64, frames: Vec<Vec<Event>>) -> (Vec<String>, Vec<f64>) {
         let mut window = TestWindow::new([400.0, 300.0]);
         let (mut words, mut taken) = (Vec::new(), Vec::new());
@@ -322,7 +322,7 @@ mod tests {
         for (key, entered) in [(Key::Enter, &[2.5][..]), (Key::Tab, &[2.5]), (Key::Escape, &[])] {
             let (words, taken) = typed(1.0, vec![text(), vec![pressed(key)], vec![]]);
             assert_eq!(taken, entered, "{key:?}");
-            // Tab comes round to the only field.
+            // Tab returns to the only field.
             let shown = if key == Key::Tab { "1" } else { "1 kg" };
             assert_eq!(words.concat(), shown, "{key:?}");
         }

@@ -1,25 +1,25 @@
-//! What the inspector shows of a body: a row for each of its parameters, each with how far its slider reaches.
+//! The inspector's rows for a body: one for each parameter, with the range of its slider.
 
 use crate::stage::{Acts, Parameter, Range};
 use crate::studio::Studio;
 
-/// A slider reaches this many times below and above the value that the scene has.
+/// A logarithmic slider extends from the scene's value divided by this factor to the value times it.
 const REACH: f64 = 100.0;
-/// A slider that is not logarithmic reaches this many times above that value.
+/// A slider that is not logarithmic extends to this many times that value.
 const LINEAR_REACH: f64 = 4.0;
-/// How far the slider of a value reaches that the scene has at 0, which says nothing of its size.
+/// Range of a slider for a value that is 0 in the scene, which gives no scale.
 const FROM_NOTHING: f64 = 10.0;
-/// The fewest counts that a slider reaches.
+/// Minimum range of a slider for a count.
 const MIN_REACH: f64 = 16.0;
 
 /// A parameter of a body.
 pub(super) struct Row<'l> {
-    /// The body's index in the scene.
+    /// Index of the body in the scene.
     pub(super) body: usize,
-    /// The parameter's index among those of its kind.
+    /// Index of the parameter in its kind of body.
     pub(super) index: usize,
     pub(super) parameter: &'l Parameter,
-    /// Its value now, and in the scene as it was opened; `None` of a curve, which is no number.
+    /// Value now, and in the scene as opened. `None` for a curve, which is not a number.
     pub(super) values: Option<Values>,
 }
 
@@ -52,7 +52,7 @@ pub(super) fn rows<'l>(studio: &'l Studio, body: usize) -> Vec<Row<'l>> {
     rows
 }
 
-/// How far a slider reaches.
+/// Range of a slider.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SliderRange {
     pub(super) low: f64,
@@ -64,14 +64,14 @@ pub(super) struct SliderRange {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Spacing {
     Linear,
-    /// From this value up; 0 is at the end, if the slider reaches it.
+    /// Logarithmic from this value up. If the slider reaches 0, it is at the end.
     Logarithmic(f64),
     Whole,
 }
 
 impl SliderRange {
-    /// How far the slider of a value in this range reaches: round the value that the scene has, so that it does not move
-    /// with the value that it sets, and to the present one where that is further out. `None` of a curve.
+    /// Range of the slider for a parameter. It surrounds the scene's value, so that it does not move with the value
+    /// that it sets, and extends to the present value. `None` for a curve.
     pub(super) fn of(range: Range, Values { present, opened }: Values) -> Option<Self> {
         let size = if opened != 0.0 { opened.abs() } else { present.abs() };
         let (low, high, spacing) = match range {

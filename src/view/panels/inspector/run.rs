@@ -1,4 +1,4 @@
-//! What the inspector shows of lanes and time: methods, substeps, tolerances, the tick rate, the scene's length.
+//! The inspector's lanes and times: methods, substeps, tolerances, the tick rate, the scene's length.
 
 use egui::{ComboBox, RichText, Ui, vec2};
 
@@ -13,7 +13,7 @@ use crate::stage::Range;
 use crate::studio::{Command, RunCommand, StageCommand, Studio};
 use crate::view::theme::palette;
 
-/// The widths of the fields of a lane, in points.
+/// Widths of the fields of a lane, in points.
 const SUBSTEPS: f32 = 44.0;
 const TOLERANCE: f32 = 64.0;
 const LANE: f32 = 16.0;
@@ -24,7 +24,6 @@ pub(super) fn show_lanes(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Comman
     }
 }
 
-/// A lane's line.
 fn show_lane(ui: &mut Ui, studio: &Studio, entrant: &Entrant, commands: &mut Vec<Command>) {
     let lane = entrant.id;
     let spec = entrant.spec;
@@ -73,7 +72,7 @@ fn show_lane(ui: &mut Ui, studio: &Studio, entrant: &Entrant, commands: &mut Vec
     });
 }
 
-/// The number that a lane goes by: in solo that of the method's key, which follows every switch.
+/// Number of a lane. Solo, it is the digit of the method, which follows every switch.
 fn number(studio: &Studio, entrant: &Entrant) -> usize {
     match studio.mode() {
         Mode::Solo => studio.entry(entrant) + 1,
@@ -109,7 +108,7 @@ fn show_methods(
     });
 }
 
-/// What a lane is under in the scene as it was opened; in solo, the method that it is under now as the scene has it.
+/// Settings of a lane in the scene as opened. Solo, the scene's settings of the present method.
 fn opened(studio: &Studio, entrant: &Entrant) -> LaneSpec {
     let present = entrant.spec;
     let list = studio.deck.scene_as_opened().method_list();
@@ -169,7 +168,7 @@ pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command
     );
 }
 
-/// What makes lanes and time as the scene has them: nothing, where they are so.
+/// Commands that restore the scene's lanes and times; none if nothing differs.
 pub(super) fn restoring(studio: &Studio) -> impl Iterator<Item = Command> {
     let lanes = studio.race().entrants().iter().filter_map(|entrant| {
         let (lane, spec) = (entrant.id, opened(studio, entrant));

@@ -1,4 +1,4 @@
-//! A parameter that goes up its slider and back by itself.
+//! A sweep: a parameter moves up its slider and back by itself.
 
 use egui::{Button, Id, RichText, Ui};
 
@@ -8,19 +8,19 @@ use crate::view::theme::palette;
 
 /// The width of the button, in points.
 pub(super) const BUTTON: f32 = 18.0;
-/// How long it takes there and back, in seconds.
+/// Duration of the way there and back, in seconds.
 const SECONDS: f64 = 8.0;
-/// It goes up to this many times the value, which is enough to see something change.
+/// Factor by which the value rises. It is enough to see a change.
 const FACTOR: f64 = 10.0;
-/// From zero it goes this part of the way to the end of the slider.
+/// From zero, the sweep covers this share of the slider.
 const PART_FROM_ZERO: f64 = 0.1;
 
-/// What the sweep is known by.
+/// Id of the active sweep.
 const ID: &str = "sweep of a parameter";
-/// One that was shown no later than this is under way, in seconds.
+/// A sweep is active if it was shown within this time, in seconds.
 const FRESH_S: f64 = 0.5;
 
-/// The sweep that is under way. There is one at most.
+/// The active sweep. There is at most one.
 #[derive(Clone, Copy)]
 struct Sweep {
     of: Id,
@@ -36,14 +36,14 @@ impl Sweep {
     fn of(of: Id, began_s: f64, reach: SliderRange, Values { present: from, .. }: Values) -> Self {
         let is_logarithmic = matches!(reach.spacing, Spacing::Logarithmic(_)) && from > 0.0;
         let far = if from == 0.0 { PART_FROM_ZERO * reach.high } else { FACTOR * from };
-        // From the end of the slider it goes down, and so it does on the other side of zero.
+        // At the end of the slider the sweep goes the other way. The same holds below zero.
         let to = far.clamp(reach.low.min(from), reach.high.max(from));
         let to = if to == from { from / FACTOR } else { to };
         let is_whole = matches!(reach.spacing, Spacing::Whole);
         Self { of, began_s, shown_s: began_s, from, to, is_logarithmic, is_whole }
     }
 
-    /// The value at this moment, to three digits; at the end the one that it began with. `None` after that.
+    /// The value at this moment, to three digits. It ends at the first value, and is `None` after that.
     fn value_at(&self, now_s: f64) -> Option<f64> {
         let part = (now_s - self.began_s) / SECONDS;
         if part >= 1.0 {
@@ -61,14 +61,14 @@ impl Sweep {
     }
 }
 
-/// Whether a parameter is swept, which is one change, as if a pointer were held down.
+/// Whether a sweep is active. It counts as one change, as if a pointer were held down.
 pub(in crate::view) fn is_under_way(ui: &Ui) -> bool {
     let sweep = ui.data(|data| data.get_temp::<Sweep>(Id::unique(ID)));
     sweep.is_some_and(|sweep| ui.input(|input| input.time) - sweep.shown_s < FRESH_S)
 }
 
-/// The button that starts the sweep of the parameter with this id, or stops it where it is. Returns the value that the
-/// parameter is to have now.
+/// The button that starts the sweep of the parameter with this id, or stops it at its value. Returns the new value of
+/// the parameter.
 pub(super) fn show(
     ui: &mut Ui,
     of: Id,
@@ -104,7 +104,7 @@ pub(super) fn show(
                 None => data.remove::<Sweep>(id),
             });
             ui.request_repaint();
-            // To the last digit what it was, unless it was stopped.
+            // Its old value to the last digit, unless the sweep was stopped.
             let value = value.unwrap_or(if is_clicked { values.present } else { sweep.from });
             (value != values.present).then_some(value)
         }

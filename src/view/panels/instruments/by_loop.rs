@@ -1,4 +1,4 @@
-//! The plots of the loop lab: what each loop on the stage shows and holds, up to the moment of display.
+//! The plots of the loop lab: the states that each loop on the stage shows and holds, up to the moment of display.
 
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
@@ -13,14 +13,14 @@ use crate::run::{METRICS, Metric, Scale};
 use crate::studio::{Instrument, Studio};
 use crate::view::chart::{AxisScale, Bounds, Dots};
 
-/// The seconds in view where every frame shows.
+/// Time in view, in seconds, short enough to see every frame.
 const FRAMES_S: f64 = 1.0;
-/// As [`HEALTHY`], for an energy.
+/// Like [`HEALTHY`], for an energy.
 const HEALTHY_ENERGY: f64 = 50.0;
-/// What of the body is in a plot.
+/// Names of the two states of the body in plots: on the display, and after the last step.
 const SHOWN: &str = "as shown";
 const STEPPED: &str = "as stepped";
-/// Said where every value is zero, which has no logarithm.
+/// Message if every value is zero, which has no logarithm.
 const NO_ERROR: &str = "No error: every loop on the stage shows the exact place.";
 
 /// The instrument's plots; `None` if it has none in the loop lab.
@@ -131,7 +131,7 @@ impl Plots<'_> {
         PlotModel { tracks, exact: exact.into_iter().collect(), ..plot }
     }
 
-    /// A plot of the body as `shown` in which nothing is drawn yet.
+    /// An empty plot of the body as `shown`.
     fn plot(self, id: &str, shown: &str, axes: [PlotAxis; 2], fit: Bounds) -> PlotModel {
         PlotModel::new(self.studio.view().body, id.into(), self.title(shown), axes, fit)
     }
@@ -152,13 +152,13 @@ impl Plots<'_> {
         time_in_view(self.loops.end_ns() as f64 / 1e9, self.now_s())
     }
 
-    /// A track for each loop on the stage, of a value over time that each frame has until the next.
+    /// A track for each loop on the stage, of a value that stays from each frame to the next.
     fn held(self, value: impl Fn(&LoopFrame) -> f64) -> Vec<Track> {
         let tracks = self.tracks(|t, frame| [t, value(frame)]);
         tracks.into_iter().map(Track::held).collect()
     }
 
-    /// A track for each loop on the stage, of its frames so far; the selected one last.
+    /// A track for each loop on the stage, of its frames so far. The selected loop comes last.
     fn tracks(self, place: impl Fn(f64, &LoopFrame) -> [f64; 2]) -> Vec<Track> {
         let track = |&entry: &usize| {
             let places = self.frames(&self.loops.lanes()[entry], 1, &place);
@@ -169,13 +169,13 @@ impl Plots<'_> {
         tracks
     }
 
-    /// The exact solution at the frames of the selected loop so far, and at the next, by which it is known now.
+    /// The exact solution at the selected loop's frames so far and at the next, which makes it known at the present.
     fn exact(self, place: impl Fn(f64, &LoopFrame) -> [f64; 2]) -> ExactLine {
         let lane = &self.loops.lanes()[self.loops.selected()];
         ExactLine::of_places(self.studio, self.frames(lane, 2, &place))
     }
 
-    /// The frames up to so many after the last one before the present.
+    /// The frames of a lane so far. `after` is 1 to end with the frame on display, and 2 to include the next.
     fn frames<'f>(
         self,
         lane: &'f LoopLane,
@@ -249,7 +249,7 @@ mod tests {
         let track = motion.tracks.last().unwrap();
         assert!(track.is_front);
         assert_eq!(track.at(between).unwrap().1[1], one.q[0]);
-        // The cosine of the spring, between the exact values at two frames.
+        // The cosine of the spring, interpolated between the exact values at two frames.
         let exact = motion.exact[0].at((&studio, 0), between).unwrap()[1];
         let true_value = libm::cos(2.0 * std::f64::consts::PI * between);
         assert!((exact - true_value).abs() < 3e-3, "{exact} and {true_value}");

@@ -1,4 +1,4 @@
-//! Shows the plots of an instrument: axes, curves and crosshair, and what a pointer does on them.
+//! Shows the plots of an instrument, with axes, curves and a crosshair, and handles the pointer on them.
 
 use std::collections::BTreeMap;
 
@@ -14,12 +14,12 @@ use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
 use crate::view::theme::{PanelPalette, palette, strong_font};
 use crate::view::touch::wheel_or_pinch;
 
-/// The least room for the numbers of an upright axis, in points.
+/// Minimum room for the numbers of a vertical axis, in points.
 const LEFT: f32 = 40.0;
-/// How far from a curve a click still picks it, in points.
+/// Maximum distance of a click from the curve that it selects, in points.
 const NEAR: f32 = 9.0;
 
-/// What a person zooms and pans to: a range of each axis, by its name.
+/// The user's zoom and pan: a range for each axis, by its name.
 struct Views(BTreeMap<String, [f64; 2]>);
 
 impl Views {
@@ -32,14 +32,14 @@ impl Views {
         self.0.retain(|name, _| !names.contains(name));
     }
 
-    /// Shows what lies in `part` of the frame, in parts of its width and its height from the lower left corner.
+    /// Shows `part` of the frame, given in fractions of its width and height from the lower left corner.
     fn show(&mut self, cell: &Cell<'_>, part: [[f64; 2]; 2]) {
         let bounds = self.area(cell).bounds;
         for (axis, name) in cell.plot.axis_names().into_iter().enumerate() {
             let [low, high] = bounds[axis];
             let range = part[axis].map(|part| low + part * (high - low));
             let far = range[0].abs().max(range[1].abs());
-            // Not so near that the numbers have no digits left to differ in, nor beyond all numbers.
+            // Stops before the numbers have no digits left to differ in, or become too large.
             if range[1] - range[0] > 1e-9 * far && far < 1e30 {
                 self.0.insert(name, range);
             }
@@ -60,11 +60,11 @@ impl Views {
     }
 }
 
-/// The tick at which a click left the run for another.
+/// The tick that a click left for another.
 #[derive(Clone, Copy)]
 struct Left(u64);
 
-/// Shows a set in all that is left of `ui`.
+/// Shows a set in the rest of `ui`.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
     ui.allocate_rect(room, Sense::hover());
@@ -85,7 +85,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut V
         }
         if response.double_clicked() {
             views.fit(cell);
-            // The first of its clicks was not meant to go to another time.
+            // The first click of a double click was not meant to seek.
             let left = ui.data(|data| data.get_temp::<Option<Left>>(response.id)).flatten();
             commands.extend(left.map(|Left(tick)| Command::Run(RunCommand::Seek(tick))));
         } else if response.clicked() {
@@ -116,12 +116,12 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut V
     }
 }
 
-/// Whether a person has zoomed or panned.
+/// Whether the user has zoomed or panned.
 pub(super) fn is_zoomed(studio: &Studio) -> bool {
     !studio.view().plot_ranges.is_empty()
 }
 
-/// The room that the numbers of all plots take, in points.
+/// Room for the numbers of all plots, in points.
 fn room_for_numbers(ui: &Ui, cells: &[Cell<'_>], views: &Views) -> f32 {
     let marks = cells.iter().flat_map(|cell| cell.marks(&views.area(cell), 1));
     let widths = marks.map(|(_, text)| {
@@ -158,7 +158,7 @@ fn menu(ui: &mut Ui, cell: &Cell<'_>, views: &mut Views, commands: &mut Vec<Comm
     }
 }
 
-/// The command that goes to the time under a click.
+/// The command that seeks to the time under a click.
 fn went_to(
     studio: &Studio,
     cell: &Cell<'_>,
@@ -192,7 +192,7 @@ fn picked(
     Some(Command::Stage(StageCommand::Pick(nearest.1)))
 }
 
-/// The distance of a point from a straight piece.
+/// Distance of a point from a line segment.
 fn distance_to(at: Pos2, [from, to]: [Pos2; 2]) -> f32 {
     let along = to - from;
     let part = ((at - from).dot(along) / along.length_sq().max(1e-9)).clamp(0.0, 1.0);
@@ -235,7 +235,8 @@ fn show_plot(
     }
 }
 
-/// A plot with its axes and without its title, on so many columns of pixels. No number along goes on beyond `right`.
+/// Lays out a plot with its axes and without its title, on this number of pixel columns. No number of the horizontal
+/// axis extends beyond `right`.
 pub(super) fn layout(
     studio: &Studio,
     styles: &SeriesStyles,

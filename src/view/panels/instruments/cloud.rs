@@ -1,5 +1,5 @@
-//! Clouds: where the points of each method are, side by side on the same axes with the exact cloud in outline, and what
-//! becomes of their area over time.
+//! Clouds: the points of each method side by side on the same axes, with the exact cloud in outline, and the clouds'
+//! areas over time.
 
 use std::sync::Arc;
 
@@ -29,42 +29,43 @@ use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, Primiti
 use crate::view::panels::breakpoints;
 use crate::view::theme::{PanelPalette, palette, strong_font};
 
-/// The least room for the numbers of the axes at the left, and what these need besides their width; the room for those
-/// below, and for the axes' names, in points.
+/// Room in points: the minimum for the numbers at the left, the gap beside them, the numbers below, and the names of
+/// the axes.
 const LEFT: f32 = 32.0;
 const BESIDE_NUMBERS: f32 = 8.0;
 const NUMBERS: f32 = 17.0;
 const NAMES: f32 = 17.0;
-/// Between two numbers of the velocity, in points, at least.
+/// Minimum distance between two numbers of the velocity, in points.
 const UP_APART: f64 = 24.0;
 /// Between two clouds, in points.
 const GAP: f32 = 10.0;
-/// The part of the height that the areas over time take, and the least height that they have, in points.
+/// Share of the height for the areas over time, and their minimum height in points.
 const AREAS: f32 = 0.3;
 const MIN_AREAS: f32 = 110.0;
-/// How many times wider than high a cloud is at most.
+/// Maximum ratio of a cloud's width to its height.
 const MAX_ASPECT: f32 = 1.3;
-/// The most texels of a side of a cloud's image: each is two of the density or less.
+/// Maximum texels on a side of a cloud's image: at most two for each cell of the density.
 const MAX_TEXELS: usize = 1024;
-/// The least side of a cloud, in points.
+/// Minimum side of a cloud, in points.
 const MIN_SIDE: f32 = 30.0;
-/// The size of the words above a cloud, in points, and the least to which they shrink where a word would break.
+/// Font size of the words above a cloud, in points, and the minimum to which it shrinks before a word breaks.
 const WORDS: f32 = 12.0;
 const MIN_WORDS: f32 = 8.5;
 /// The width of the exact outline, in points.
 const OUTLINE: f32 = 1.1;
-/// The least side of a cloud that has its area below it as one large number, its size, and the room that it takes, in points.
+/// Side in points from which a cloud has its area below it as one large number, the font size of that number, and its
+/// room.
 const LARGE: f32 = 230.0;
 const AREA: f32 = 26.0;
 const AREA_ROOM: f32 = 34.0;
-/// An area that has grown or shrunk by more than this, as a power of ten, stretches no axis; and one axis shows at least
-/// this much on both sides of 1: half of it and twice.
+/// An area that has grown or shrunk by more than this, as a power of ten, does not stretch the axis. And the axis
+/// shows at least this much on both sides of 1: half of it and twice.
 const MAX_DECADES: f64 = 3.0;
 const MIN_DECADES: f64 = 0.31;
-/// Clouds that are this far behind the run say so, in seconds.
+/// Lag behind the run, in seconds, from which the clouds show it.
 const BEHIND_S: f64 = 0.25;
 
-/// The areas of all clouds over time; `None` while there are none.
+/// The areas of all clouds over time. `None` if there are no clouds, or for a section.
 pub(super) fn plot_set(studio: &Studio) -> Option<PlotSet> {
     let picture = shown_cloud(studio)?.picture.as_ref().ok()?;
     let body = studio.view().body;
@@ -98,7 +99,7 @@ pub(super) fn plot_set(studio: &Studio) -> Option<PlotSet> {
     })
 }
 
-/// Shows the clouds, and below them their areas where there is room.
+/// Shows the clouds, and below them their areas if there is room.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let bottom = ui.cursor().top() + room.y;
     head(ui, studio, commands);
@@ -129,7 +130,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     }
 }
 
-/// The title, and what can be chosen.
+/// The title and the menus.
 fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let chosen = studio.display().cloud;
     let picture = shown_cloud(studio).and_then(|found| found.picture.as_ref().ok());
@@ -160,7 +161,7 @@ fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-/// The time of the pictures, how far they are behind the run if that can be seen, and how many points keep up with it.
+/// Time of the pictures, their lag behind the run if it is visible, and the number of points if not all keep up.
 fn moment(studio: &Studio, picture: &CloudPicture) -> String {
     let Some(request) = cloud_request(studio) else { return String::new() };
     let mut words = format!("t = {:.2} s", request.t_s(picture));
@@ -174,7 +175,7 @@ fn moment(studio: &Studio, picture: &CloudPicture) -> String {
     words
 }
 
-/// How much is told above each cloud; a hover tells the rest.
+/// Detail of the caption above each cloud. A hover shows the rest.
 #[derive(Clone, Copy, PartialEq)]
 enum Told {
     Words,
@@ -183,14 +184,14 @@ enum Told {
     Name,
 }
 
-/// What is told, the most first, where the least side of a cloud is then not less than so many points.
+/// Details of a caption from most to least, each with the minimum side of a cloud, in points.
 const TOLD: [(Told, f32); 3] = [(Told::Words, 60.0), (Told::Numbers, 40.0), (Told::Name, MIN_SIDE)];
 
-/// What is told above each cloud, laid out again for each width.
+/// Captions of the clouds, laid out again for each width.
 struct Captions<'p> {
     told: Told,
     lanes: &'p [LaneCloud],
-    /// The name of each cloud, and what is told of it.
+    /// Name and text of each cloud.
     texts: Vec<[String; 2]>,
     /// The width of the longest word, in points.
     longest: f32,
@@ -217,7 +218,7 @@ impl<'p> Captions<'p> {
         Self { told, lanes, texts, longest }
     }
 
-    /// All of this width and in one size; `None` if a word would break.
+    /// Lays out all captions in this width and one font size; `None` if a word would break.
     fn laid_out(&self, ui: &Ui, studio: &Studio, width: f32) -> Option<Vec<Arc<Galley>>> {
         let longest = self.longest.max(width);
         let size = (WORDS * width / longest).max(MIN_WORDS);
@@ -245,12 +246,12 @@ impl<'p> Captions<'p> {
     }
 }
 
-/// What has become of a cloud.
+/// Summary of a cloud.
 fn words(points: usize, lane: &LaneCloud) -> String {
     parts(points, lane, Told::Words).join(", ")
 }
 
-/// What is told of a cloud: its area, in words too if these are asked for, and the points that are not seen.
+/// Parts of a cloud's summary: its area, in words too if requested, and the numbers of invisible points.
 fn parts(points: usize, lane: &LaneCloud, told: Told) -> Vec<String> {
     let name = if told == Told::Words { "area " } else { "" };
     let area = lane.area_ratio.map(|ratio| format!("{name}×{}", significant(ratio, 3)));
@@ -260,7 +261,7 @@ fn parts(points: usize, lane: &LaneCloud, told: Told) -> Vec<String> {
     [area, words, lost, hidden].into_iter().flatten().collect()
 }
 
-/// The clouds in as many columns as make them largest.
+/// Shows the clouds in the number of columns that makes them largest.
 fn side_by_side(
     ui: &Ui,
     studio: &Studio,
@@ -278,7 +279,7 @@ fn side_by_side(
         pos2(room.left() + LEFT.max(widest + BESIDE_NUMBERS), room.top()),
         pos2(room.right(), room.bottom() - NUMBERS - NAMES),
     );
-    // Their areas stand below in one row, which large clouds make.
+    // Large clouds in one row have their areas below them.
     let is_large = inner.width() / lanes.len() as f32 >= LARGE
         && inner.height() >= LARGE + AREA_ROOM
         && picture.section.is_none();
@@ -304,7 +305,7 @@ fn side_by_side(
     let found = TOLD.into_iter().find_map(largest);
     let Some((columns, size, captions, above)) = found else { return };
     let rows = lanes.len().div_ceil(columns);
-    // What is told of a cloud may be wider than that.
+    // The caption of a cloud may be wider than that.
     let wide = captions.iter().map(|words| words.size().x).fold(size.x, f32::max);
     for (place, (lane, words)) in lanes.iter().zip(captions).enumerate() {
         let (column, row) = (place % columns, place / columns);
@@ -329,7 +330,7 @@ fn side_by_side(
     ui.painter().text(at, egui::Align2::LEFT_BOTTOM, names, small, palette(ui).dim);
 }
 
-/// A cloud, with numbers at the left and below where it `has` them.
+/// Shows a cloud, with numbers at the left and below where `has` is set.
 fn cloud(
     ui: &Ui,
     studio: &Studio,
@@ -341,7 +342,7 @@ fn cloud(
 ) {
     let palette = palette(ui);
     let px_per_point = ui.pixels_per_point();
-    // On whole pixels, so that each texel is one.
+    // On whole pixels, so that each texel is one pixel.
     let whole = |at: f32| (at * px_per_point).round() / px_per_point;
     let rect = Rect::from_min_max(
         pos2(whole(rect.left()), whole(rect.top())),
@@ -357,7 +358,7 @@ fn cloud(
     let all = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
     let view = picture.view;
     let area = PlotArea { rect, bounds: [view.q, view.v] };
-    // A number that stands half beside its cloud would run into the next one's.
+    // A number that extends far beyond its cloud would run into the next cloud's.
     let fits = |at: f64, text: &str| {
         let off_centre = (area.at([at, view.v[0]]).x - rect.center().x).abs();
         off_centre + charts::text_width(text, charts::NUMBER) / 2.0 <= (rect.width() + GAP) / 2.0
@@ -395,7 +396,7 @@ fn cloud(
 fn outline(picture: &CloudPicture, rect: Rect, palette: &PanelPalette) -> Vec<ScreenCurve> {
     let area = PlotArea { rect, bounds: [[0.0, 1.0]; 2] };
     let style = LineStyle::solid(palette.exact, OUTLINE);
-    // An angle goes on at the other side, and what is between points far apart is not known.
+    // An angle continues at the other side, and the border between points far apart is unknown.
     let longest = MAX_LINE_PART as f32 * rect.size().max_elem();
     let goes_on = |a: &Pos2, b: &Pos2| a.distance(*b) <= longest;
     let mut curves = Vec::new();
@@ -408,10 +409,10 @@ fn outline(picture: &CloudPicture, rect: Rect, palette: &PanelPalette) -> Vec<Sc
     curves
 }
 
-/// The size in pixels, the theme and the colour of an image.
+/// Size in pixels, theme and colour of an image.
 type Style = ([usize; 2], Theme, Rgba);
 
-/// An image that was made, and what of.
+/// A cached image, with its source.
 #[derive(Clone)]
 struct Made {
     of: Arc<Density>,
@@ -419,7 +420,7 @@ struct Made {
     texture: TextureHandle,
 }
 
-/// The image of a density, which is made again only if that or its style changes.
+/// The image of a density. A change of the density or its style replaces the cached image.
 fn image(ui: &Ui, place: usize, density: &Arc<Density>, style: Style) -> TextureHandle {
     let id = egui::Id::unique(("image of a cloud", place));
     let made = ui.data(|data| data.get_temp::<Made>(id));

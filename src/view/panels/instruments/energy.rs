@@ -1,4 +1,4 @@
-//! The energies of the selected lane and of the exact solution, and the energy that every lane has gained.
+//! Energies of the selected lane and of the exact solution, and the energy that every lane has gained.
 
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
@@ -11,10 +11,10 @@ use crate::run::past::Energies;
 use crate::studio::Studio;
 use crate::view::chart::AxisScale;
 
-/// An energy: its name, its dash, how much of its colour it has, and how it is found.
+/// An energy: its name, its dash, its opacity, and its formula.
 type Part = (&'static str, [f32; 2], f32, fn(Energies) -> f64);
 
-/// The total, and what it is the sum of.
+/// The total, after the terms of its sum.
 const PARTS: [Part; 3] = [
     ("potential", [2.0, 3.0], 0.5, Energies::potential_j),
     ("kinetic", [8.0, 4.0], 0.5, |energies| energies.kinetic_j),
@@ -27,7 +27,7 @@ pub(super) fn plot_set(studio: &Studio) -> PlotSet {
     let drift = error::plot(studio, body, Metric::ENERGY_DRIFT, title.into());
     let energies = energies(studio, body);
     let conserves = !energies.exact.iter().all(|line| line.times.is_empty());
-    // Why there is no drift is said only where there is no energy either.
+    // The reason for a missing drift appears only if there is no energy either.
     let drift = Some(drift).filter(|plot| plot.nothing.is_none() || !conserves);
     let plots = conserves.then_some(energies).into_iter().chain(drift).collect();
     PlotSet { styles: SeriesStyles::of(studio), title: "Energy".into(), plots }

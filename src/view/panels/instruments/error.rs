@@ -1,4 +1,4 @@
-//! The chosen metric of the chosen body over time: an error, or a count.
+//! The selected metric of the selected body over time: an error or a count.
 
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
@@ -8,11 +8,11 @@ use crate::run::{METRICS, Metric, Scale, Unit};
 use crate::studio::Studio;
 use crate::view::chart::{AxisScale, Dots};
 
-/// Said where every error is zero, which has no logarithm.
+/// Message if every error is zero, which has no logarithm.
 pub(super) const NO_ERROR: &str =
     "No error: every method shown is on the exact curve to the last bit.";
 
-/// The metrics to choose from, by their places in [`METRICS`]: all that the energy instrument does not show.
+/// Indices in [`METRICS`] of the metrics to choose from: all that the energy instrument does not show.
 pub(super) fn choices() -> impl Iterator<Item = usize> {
     (0..METRICS.len()).filter(|&place| !METRICS[place].is_of_energy)
 }
@@ -67,7 +67,7 @@ fn scale(metric: &Metric, values: &[Track]) -> AxisScale {
     }
 }
 
-/// A name at the start of a sentence.
+/// Capitalises a name for the start of a sentence.
 pub(super) fn capitalised(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())

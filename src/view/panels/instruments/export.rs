@@ -1,4 +1,4 @@
-//! An instrument as text: its values as a table, and its plots as a drawing.
+//! Exports an instrument: its values as a table, its plots as a drawing.
 
 use egui::{Align2, Pos2, Rect, pos2, vec2};
 
@@ -12,13 +12,13 @@ use crate::studio::{Instrument, Studio};
 use crate::view::chart::{ABOVE, NAME, Primitive, Text, legend, svg};
 use crate::view::theme::{PanelPalette, palette_of};
 
-/// The size of a drawing, in its own pixels, and the room round its plots.
+/// Size of a drawing in its own pixels, and the margins around its plots.
 const SIZE: [f32; 2] = [960.0, 600.0];
 const MARGIN: f32 = 20.0;
 const HEAD: f32 = 62.0;
 const LEFT: f32 = 64.0;
-/// The values of the chosen instrument as comma-separated text, a line for each sample of each curve; `None` if it has no
-/// plots.
+/// Values of the selected instrument as comma-separated text, with a line for each sample of each curve. `None` if it
+/// has no plots.
 pub(in crate::view) fn csv(studio: &Studio) -> Option<Vec<String>> {
     if studio.display().instrument == Instrument::Loop {
         return Some(loops::csv(studio));
@@ -49,7 +49,7 @@ pub(in crate::view) fn csv(studio: &Studio) -> Option<Vec<String>> {
     Some(lines)
 }
 
-/// The plots of the chosen instrument as an SVG file; `None` if it has none.
+/// The plots of the selected instrument as an SVG file; `None` if it has none.
 pub(in crate::view) fn svg(studio: &Studio) -> Option<String> {
     let palette = palette_of(studio.display().theme);
     let all = Rect::from_min_size(Pos2::ZERO, SIZE.into());
@@ -70,7 +70,7 @@ pub(in crate::view) fn svg(studio: &Studio) -> Option<String> {
     Some(svg::file(SIZE, &drawing))
 }
 
-/// The plots of a set with their titles.
+/// Lays out the plots of a set with their titles.
 fn layout(
     studio: &Studio,
     set: &PlotSet,

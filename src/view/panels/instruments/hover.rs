@@ -1,4 +1,4 @@
-//! The crosshair of a plot, and the values of all curves beside it: where the pointer is, else now.
+//! The crosshair of a plot, and the values of all curves beside it: at the pointer, else now.
 
 use egui::{Align2, FontId, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 
@@ -12,12 +12,12 @@ use crate::view::theme::{palette, strong_font};
 /// The width of the crosshair and the radius of the dots on the curves, in points.
 const CROSSHAIR: f32 = 1.4;
 const DOT: f32 = 3.6;
-/// The least room between the number of a lane and its value, in points.
+/// Minimum gap between the number of a lane and its value, in points.
 const BETWEEN: f32 = 5.0;
 /// The height of a value beside the plot, in points.
 const LINE: f32 = 15.5;
 
-/// The moment (s) that a pointer is at: along the axis of time, else that of the nearest point of a curve.
+/// The moment (s) under a pointer: along the time axis, else that of the nearest point of a curve.
 pub(super) fn time_at(plot: &PlotModel, area: &PlotArea, at: Pos2) -> Option<f64> {
     if plot.is_over_time() {
         return Some(area.point(at)[0]);
@@ -31,8 +31,8 @@ pub(super) fn time_at(plot: &PlotModel, area: &PlotArea, at: Pos2) -> Option<f64
     near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, t)| t)
 }
 
-/// Shows the values at the moment `t` (s) with a crosshair there, or without one those of now. `has_tag` is whether the
-/// time is written above the plot.
+/// Shows the values at time `t` (s) with a crosshair, or those of now without one. `has_tag` adds the time above the
+/// plot.
 pub(super) fn show(
     ui: &Ui,
     studio: &Studio,
@@ -83,13 +83,13 @@ pub(super) fn show(
     }
 }
 
-/// A time in as many decimals as the zoom tells apart.
+/// A time in as many decimals as the zoom resolves.
 fn decimals(t: f64, wide: f64) -> String {
     let decimals = (2.5 - libm::log10(wide)).ceil().clamp(2.0, 9.0) as usize;
     format!("{t:.decimals$}")
 }
 
-/// The time at `x`, above the plot.
+/// Shows the time at `x`, above the plot.
 fn time_tag(ui: &Ui, frame: Rect, x: f32, text: &str) {
     let (painter, palette) = (ui.painter(), palette(ui));
     let words = painter.layout_no_wrap(text.to_owned(), strong_font(NAME), palette.on_accent);
@@ -101,7 +101,7 @@ fn time_tag(ui: &Ui, frame: Rect, x: f32, text: &str) {
     painter.galley(tag.min + vec2(7.0, 2.5), words, palette.on_accent);
 }
 
-/// Writes the values beside the plot, in an order that stays: the exact solution, then the lanes by their numbers.
+/// Writes the values beside the plot in a fixed order: the exact solution, then the lanes by number.
 fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
     let frame = cell.frame;
     let lines = |readout: &Readout| -> Vec<[String; 2]> {
@@ -110,7 +110,7 @@ fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
         shown.map(|(axis, place)| [axis.with_unit(place), axis.number(place)]).collect()
     };
     let most = ((frame.height() + 10.0) / LINE).floor().max(1.0) as usize;
-    // Those in front, where not all fit.
+    // Without room for all, keeps only those in front.
     let each = if cell.plot.is_over_time() { 1 } else { 2 };
     if readouts.len() * each > most {
         readouts.retain(|readout| readout.is_front);
@@ -132,7 +132,7 @@ fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
         };
         for (line, texts) in (0..).zip(lines(readout)) {
             let at = pos2(cell.right, y + LINE * line as f32);
-            // The axis says the unit too.
+            // The axis shows the unit too.
             let beside = if line == 0 { named.right() + BETWEEN } else { frame.right() };
             let has_room = beside + width(&texts[0]) <= cell.right;
             write(at, Align2::RIGHT_CENTER, &texts[usize::from(!has_room)]);

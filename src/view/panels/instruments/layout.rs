@@ -1,4 +1,4 @@
-//! Where the plots of an instrument and what is written round them go.
+//! Layout of an instrument's plots and of the texts around them.
 
 use std::collections::BTreeMap;
 
@@ -8,45 +8,45 @@ use super::plot_set::{PlotModel, PlotSet};
 use crate::view::chart::{ABOVE, AxisMark, NAMES, NUMBERS, PlotArea};
 use crate::view::panels::breakpoints;
 
-/// The least distance between marks along and up, in points, as long as three fit.
+/// Minimum distance between marks, horizontally and vertically, in points, as long as three fit.
 const MARKS_APART: [f64; 2] = [80.0, 34.0];
-/// Room at the right for values, in points, and for those that have names.
+/// Room at the right for values, in points, and for values with names.
 const RIGHT: f32 = 92.0;
 const RIGHT_OF_PARTS: f32 = 156.0;
 /// Between plots, in points.
 const GAP: f32 = 5.0;
-/// The least height of a plot, in points, and to what it shrinks where all fit then. Else there are fewer plots.
+/// Minimum height of a plot in points, and the height to which plots shrink if that lets all fit. Otherwise fewer
+/// plots appear.
 const MIN_HEIGHT: f32 = 70.0;
 const SHRUNK: f32 = 44.0;
-/// How many times higher the plot of the chosen body is than the others.
+/// Height of the selected body's plot, relative to the others.
 const CHOSEN: f32 = 2.0;
 
-/// A plot in its place.
+/// A plot at its place.
 pub(super) struct Cell<'s> {
     pub(super) plot: &'s PlotModel,
-    /// Where its curves are.
+    /// Rectangle of the curves.
     pub(super) frame: Rect,
-    /// The left edge of the numbers beside it.
+    /// Left edge of the numbers beside the plot.
     pub(super) left: f32,
-    /// The right edge of what is written beside it; that of the frame where there is no room.
+    /// Right edge of the values beside the plot, or of the frame if there is no room.
     pub(super) right: f32,
-    /// Whether no plot below has its axis along.
+    /// Whether no plot below shares the horizontal axis.
     pub(super) is_lowest: bool,
 }
 
 impl Cell<'_> {
-    /// The plot's area, where these ranges are chosen.
+    /// The plot's area under the ranges that the user has chosen.
     pub(super) fn area(&self, ranges: &BTreeMap<String, [f64; 2]>) -> PlotArea {
         PlotArea { rect: self.frame, bounds: self.plot.in_view(ranges) }
     }
 
-    /// The marks along an axis.
     pub(super) fn marks(&self, area: &PlotArea, axis: usize) -> Vec<AxisMark> {
         area.marks(axis, self.plot.axes[axis].scale, MARKS_APART[axis])
     }
 }
 
-/// How many plots of so many fit into a height, and the least height of each.
+/// The number of plots that fit into a height, and their minimum height.
 fn fit(plots: usize, height: f32) -> (usize, f32) {
     let height = (height - NUMBERS - NAMES).max(1.0);
     let of_least = |least: f32| ((height + GAP) / (ABOVE + least + GAP)).floor().max(1.0) as usize;
@@ -55,15 +55,15 @@ fn fit(plots: usize, height: f32) -> (usize, f32) {
     (plots.min(of_least(least)), least)
 }
 
-/// Whether so many plots all fit into a height.
+/// Whether all plots fit into a height.
 pub(super) fn all_fit(plots: usize, height: f32) -> bool {
     fit(plots, height).0 == plots
 }
 
-/// The plots that fit into `room`, that of `body` among them, with `left` points for the numbers of their axes.
+/// The plots that fit into `room`, including that of `body`, with `left` points for the numbers of their axes.
 pub(super) fn cells(set: &PlotSet, room: Rect, left: f32, body: usize) -> Vec<Cell<'_>> {
     let below = NUMBERS + NAMES;
-    // A plot over another axis than the one below it has numbers of its own.
+    // A plot with a different axis from the one below has its own numbers.
     let is_last_of_axis = |plots: &[PlotModel], i: usize| {
         let below = plots.get(i + 1).map(PlotModel::is_over_time);
         below != Some(plots[i].is_over_time())

@@ -1,4 +1,4 @@
-//! A quantity of every body over time, under all lanes and exactly.
+//! A quantity of every body over time: under all lanes, and exactly.
 
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
@@ -15,8 +15,7 @@ use crate::studio::{Studio, futures, shows_futures};
 use crate::view::chart::{Curve, Dots, LineStyle};
 use crate::view::theme::palette_of;
 
-/// A lane that is further out than what is looked at, the truth and the selected lane, by more than this factor stretches no
-/// axis.
+/// A lane stretches no axis if it is further out by more than this factor than the truth and the selected lane.
 pub(super) const HEALTHY: f64 = 1.6;
 
 /// The width of the curve of a future, in points.
@@ -33,7 +32,7 @@ pub(super) fn plot_set(studio: &Studio, detail: Detail) -> PlotSet {
     }
 }
 
-/// The track of a body that is steered across a plane, which says more than its coordinates over time.
+/// The track of a body that is steered across a plane, because it shows more than coordinates over time.
 fn track(studio: &Studio, body: usize) -> Option<PlotModel> {
     let truth = &studio.race().truth().bodies()[body];
     let is_steered = matches!(Look::of(truth).framing(), Framing::Follow { .. });
@@ -67,7 +66,7 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     put_in_hand(studio, body, &mut tracks, |t, [q, v]| [t, quantity.among([q, v])]);
     let exact = ExactLine::of_quantity(studio, body, quantity);
     let lanes = Track::fitted(studio, &tracks);
-    // What is looked at is the selected lane: beside one that has grown the truth may be a flat line.
+    // The view follows the selected lane too: beside one that has grown, the truth may be a flat line.
     let [from_s, _] = time_in_view(studio.scene().seconds, studio.race().t());
     let seen = Track::front_since(&lanes, 1, from_s).chain(exact.fitted(studio, 1));
     let futures = future_curves(studio, body, quantity);
@@ -85,7 +84,7 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     PlotModel { tracks, dots: Dots::SparseAlongX, exact: vec![exact], futures, ..plot }
 }
 
-/// The next second of a body under each method, and in truth, if they are shown.
+/// The next second of a body under each method and in truth, if the display has them.
 fn future_curves(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve> {
     if !shows_futures(studio) {
         return Vec::new();
@@ -105,7 +104,7 @@ fn future_curves(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve>
     futures(&studio.deck, body).into_iter().map(curve).collect()
 }
 
-/// The name of a body, and of a net which node it is that its plot shows.
+/// Name of a body; for a net, also the node that its plot shows.
 pub(super) fn name_of_plotted(studio: &Studio, body: usize, coordinate: &Coordinate) -> String {
     let plotted = &studio.scene().bodies[body];
     let name = capitalised(&plotted.name);
@@ -113,7 +112,7 @@ pub(super) fn name_of_plotted(studio: &Studio, body: usize, coordinate: &Coordin
     node.map_or(name.clone(), |(_, node)| format!("{name}, node {node}"))
 }
 
-/// Goes on in the selected lane at the place where a body that is held would be let go, which the stage shows too.
+/// Extends the selected lane to the place where a body in the user's hand would be released, as on the stage.
 pub(super) fn put_in_hand(
     studio: &Studio,
     body: usize,

@@ -1,5 +1,5 @@
-//! What an instrument shows, before it is drawn: plots over each other with one axis along. The window draws it, and what
-//! is copied or saved is made from it.
+//! The plots of an instrument before they are drawn, stacked over one horizontal axis. They are the source of the
+//! drawing in a window, and of copied and saved files.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -16,7 +16,7 @@ use crate::studio::{Studio, shows_futures};
 use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
 use crate::view::theme::palette_of;
 
-/// The width of the exact curve, in points: a lane that keeps to the truth is seen on both sides of it.
+/// The width of the exact curve, in points. A lane that keeps to the truth is visible on both sides of it.
 pub(super) const EXACT: f32 = 1.3;
 
 /// An instrument of plots.
@@ -28,22 +28,22 @@ pub(super) struct PlotSet {
 
 /// A plot of lanes and the exact solution.
 pub(super) struct PlotModel {
-    /// Names it among all plots of a scene, for its zoom.
+    /// Unique id among all plots of a scene, for its zoom.
     pub(super) id: String,
     pub(super) title: String,
-    /// The body, by its index in the scene.
+    /// Index of the body in the scene.
     pub(super) body: usize,
-    /// Along, and up.
+    /// Horizontal and vertical axis.
     pub(super) axes: [PlotAxis; 2],
-    /// What is in view unless a person has zoomed.
+    /// Bounds in view unless the user has zoomed.
     pub(super) fit: Bounds,
-    /// The one in front last.
+    /// The front track comes last.
     pub(super) tracks: Vec<Track>,
     pub(super) dots: Dots,
     pub(super) exact: Vec<ExactLine>,
-    /// The next second under each method, with a dot a tick, and in truth.
+    /// The next second under each method, with a dot for each tick, and in truth.
     pub(super) futures: Vec<Curve>,
-    /// Why there is nothing to show, in place of the plot.
+    /// The reason why there is nothing to show, in place of the plot.
     pub(super) nothing: Option<String>,
 }
 
@@ -61,23 +61,23 @@ pub(super) struct ExactLine {
     pub(super) curve: Curve,
     /// The time of each point, in seconds.
     pub(super) times: Vec<f64>,
-    /// What of the solution it is, where there are several; else empty.
+    /// The part of the solution, such as an energy, if there are several; else empty.
     pub(super) part: &'static str,
-    /// The points at which the body was put elsewhere, by their places: no path leads to them.
+    /// Indices of the points at which the body was put elsewhere: no path leads to them.
     jumps: Vec<usize>,
-    /// What it is of the samples over time, where it is known between the points too.
+    /// Quantity over time, if the solution is known between the points too.
     known: Option<Quantity>,
 }
 
 /// The value of one curve at a moment.
 pub(super) struct Readout {
-    /// Its index among the styles; `None` for the exact solution.
+    /// Index among the styles; `None` for the exact solution.
     pub(super) entry: Option<usize>,
     pub(super) colour: Color32,
     pub(super) is_front: bool,
-    /// The digit of the method's key, and what the curve is of its lane.
+    /// Digit of the method's key, and the curve's part of its lane.
     pub(super) name: String,
-    /// Where it lies in the plot.
+    /// Place in the plot.
     pub(super) at: [f64; 2],
 }
 
@@ -86,22 +86,22 @@ impl PlotAxis {
         Self { quantity: quantity.into(), unit: unit.into(), scale, is_time: false }
     }
 
-    /// A coordinate.
+    /// Axis of a coordinate.
     pub(super) fn of(coordinate: &Coordinate) -> Self {
         Self::new(&coordinate.name, coordinate.shown_unit(), AxisScale::Linear)
     }
 
-    /// The velocity of a coordinate.
+    /// Axis of a coordinate's velocity.
     pub(super) fn of_velocity(coordinate: &Coordinate) -> Self {
         Self::new(&coordinate.velocity, &Unit::Velocity.on(coordinate), AxisScale::Linear)
     }
 
-    /// A coordinate, and its velocity.
+    /// Axes of a coordinate and its velocity.
     pub(super) fn of_phase(coordinate: &Coordinate) -> [Self; 2] {
         [Self::of(coordinate), Self::of_velocity(coordinate)]
     }
 
-    /// A quantity of a coordinate.
+    /// Axis of a quantity of a coordinate.
     pub(super) fn of_quantity(quantity: Quantity, coordinate: &Coordinate) -> Self {
         match quantity {
             Quantity::Position => Self::of(coordinate),
@@ -109,7 +109,7 @@ impl PlotAxis {
         }
     }
 
-    /// Time in seconds.
+    /// Axis of time in seconds.
     pub(super) fn time(quantity: &str) -> Self {
         Self { is_time: true, ..Self::new(quantity, "s", AxisScale::Linear) }
     }
@@ -126,9 +126,9 @@ impl PlotAxis {
         if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
     }
 
-    /// The value at a place.
+    /// The value at a place, without its unit.
     pub(super) fn number(&self, place: f64) -> String {
-        /// A longer number is told less precisely.
+        /// A longer number is rounded to one digit.
         const MAX_CHARS: usize = 7;
         let value = self.scale.value(place);
         let number = significant(value, 3);
@@ -138,7 +138,7 @@ impl PlotAxis {
 }
 
 impl ExactLine {
-    /// The exact solution of a body at the times for which `place` finds a point.
+    /// The exact solution of a body, at the times for which `place` returns a point.
     pub(super) fn of(
         studio: &Studio,
         body: usize,
@@ -161,7 +161,7 @@ impl ExactLine {
         Self::through(studio, times, points, jumps)
     }
 
-    /// The exact solution at these times (s) and places; those that are not finite are left out.
+    /// The exact solution at these times (s) and places, without those that are not finite.
     pub(super) fn of_places(
         studio: &Studio,
         places: impl Iterator<Item = (f64, [f64; 2])>,
@@ -192,14 +192,14 @@ impl ExactLine {
         Self { curve: Curve { swept, ..line.curve }, known: Some(quantity), ..line }
     }
 
-    /// The same line as a part of the solution, with a dash of its own, and so much of its colour.
+    /// The same line as a part of the solution, with its own dash and opacity.
     pub(super) fn into_part(self, part: &'static str, dash: [f32; 2], strength: f32) -> Self {
         let colour = self.curve.style.colour.gamma_multiply(strength);
         let style = LineStyle { dash, colour, ..self.curve.style };
         Self { part, curve: Curve { style, ..self.curve }, ..self }
     }
 
-    /// The curve from jump to jump, for a plot with these times in view on this number of pixel columns.
+    /// The curve from jump to jump, for a plot with the times `view` on this number of pixel columns.
     fn curves(
         &self,
         studio: &Studio,
@@ -214,8 +214,8 @@ impl ExactLine {
         pieces.map(move |piece| self.piece(piece, (studio, body), view, columns))
     }
 
-    /// A piece of the curve without a jump, with a point of its own in every column where columns are narrower than
-    /// samples are apart and more is known than the points.
+    /// A piece of the curve without a jump. If columns are narrower than the distance of samples, and the solution is
+    /// known between them, every column gets a point.
     fn piece(
         &self,
         piece: Range<usize>,
@@ -240,8 +240,8 @@ impl ExactLine {
         Curve { points, swept: Vec::new(), ..self.curve }
     }
 
-    /// The values along an axis that it is fitted to, with those between samples: since a body was put elsewhere or a
-    /// parameter changed, but for the moments after that.
+    /// Values that an axis is fitted to, including those between samples. They start at the last placement or change
+    /// of a parameter, but include all earlier values while the motion after that has just begun.
     pub(super) fn fitted(&self, studio: &Studio, axis: usize) -> impl Iterator<Item = f64> + Clone {
         let since_s = studio.past().swing_since_s(studio.race().t());
         let later = self.times.partition_point(|&t| t < since_s);
@@ -252,12 +252,11 @@ impl ExactLine {
         points.map(move |point| point[axis]).chain(swept.copied())
     }
 
-    /// The values along an axis.
     pub(super) fn values(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
         self.curve.points.iter().map(move |point| point[axis])
     }
 
-    /// Where it was at time `t` (s): on the line between two points, unless more is known of `body`.
+    /// Place at time `t` (s): on the line between two points, unless the truth of `body` is known there.
     pub(super) fn at(&self, (studio, body): (&Studio, usize), t: f64) -> Option<[f64; 2]> {
         let after = self.times.partition_point(|&time| time <= t);
         let before = after.checked_sub(1)?;
@@ -277,7 +276,7 @@ impl ExactLine {
     }
 }
 
-/// The recent past of the exact solution of a body, up to now.
+/// Recent samples of the exact solution of a body, up to now.
 fn samples(studio: &Studio, body: usize) -> impl Iterator<Item = TruthSample> {
     let (curve, t) = (&studio.past().truth_curves()[body], studio.race().t());
     let truth = &studio.race().truth().bodies()[body];
@@ -286,14 +285,14 @@ fn samples(studio: &Studio, body: usize) -> impl Iterator<Item = TruthSample> {
     curve.samples().copied().chain(present)
 }
 
-/// A quantity over time at a sample, where it is known.
+/// A quantity over time at a sample; `None` if it is not finite.
 fn known(quantity: Quantity, sample: &TruthSample) -> Option<[f64; 2]> {
     let at = [sample.t, quantity.among([sample.q, sample.v])];
     at.iter().all(|x| x.is_finite()).then_some(at)
 }
 
 impl PlotModel {
-    /// A plot of a body in which nothing is drawn yet.
+    /// An empty plot of a body.
     pub(super) fn new(
         body: usize,
         id: String,
@@ -305,24 +304,24 @@ impl PlotModel {
         Self { id, title, body, axes, fit, tracks, dots: Dots::None, exact, futures, nothing: None }
     }
 
-    /// Whether the axis along is time.
+    /// Whether the horizontal axis is time.
     pub(super) fn is_over_time(&self) -> bool {
         self.axes[0].is_time
     }
 
-    /// The names of its axes among all of a scene. All plots over one time have the same time in view.
+    /// Names of the axes, unique in the scene. All plots over one time share its range.
     pub(super) fn axis_names(&self) -> [String; 2] {
         let along = if self.is_over_time() { &self.axes[0].quantity } else { &self.id };
         [format!("{along}, along"), format!("{}, up", self.id)]
     }
 
-    /// What is in view where these ranges are chosen.
+    /// Bounds in view under the ranges that the user has chosen.
     pub(super) fn in_view(&self, ranges: &BTreeMap<String, [f64; 2]>) -> Bounds {
         let names = self.axis_names();
         [0, 1].map(|axis| ranges.get(&names[axis]).copied().unwrap_or(self.fit[axis]))
     }
 
-    /// Everything in the plot with `bounds` in view on this number of pixel columns.
+    /// Contents of the plot with `bounds` in view on this number of pixel columns.
     pub(super) fn drawing(
         &self,
         studio: &Studio,
@@ -349,7 +348,7 @@ impl PlotModel {
         drawing
     }
 
-    /// The values of all curves at time `t` (s).
+    /// Values of all curves at time `t` (s).
     pub(super) fn readouts(&self, studio: &Studio, styles: &SeriesStyles, t: f64) -> Vec<Readout> {
         let lanes = self.tracks.iter().filter_map(|track| {
             let (entry, at) = track.at(t)?;
@@ -365,7 +364,7 @@ impl PlotModel {
     }
 }
 
-/// Where a curve first leaves what is in view upwards or downwards, or where it ends if it is nowhere in view.
+/// The point where a curve first leaves the view upwards or downwards, or its end if it is nowhere in view.
 fn departure(curve: &Curve, bounds: &Bounds) -> Option<Arrow> {
     let is_in_view = |axis: usize, at: &[f64; 2]| {
         let [low, high] = bounds[axis];
@@ -387,7 +386,7 @@ fn joined(key: &str, part: &str) -> String {
 }
 
 impl PlotSet {
-    /// Those whose curves the plots show, with their indices among the styles.
+    /// Styles of the visible curves, with their indices.
     pub(super) fn shown(&self) -> impl Iterator<Item = (usize, &SeriesStyle)> {
         let tracks = self.plots.iter().flat_map(|plot| &plot.tracks);
         let mut shown: Vec<usize> =
@@ -398,23 +397,23 @@ impl PlotSet {
     }
 }
 
-/// The time in view and the given range of values.
+/// Bounds of the time in view and this range of values.
 pub(super) fn over_time(studio: &Studio, (low, high): (f64, f64)) -> Bounds {
     let [from, to] = time_in_view(studio.scene().seconds, studio.race().t());
-    // The next second too, where that is shown.
+    // Includes the next second, if the plot shows it.
     let to = if shows_futures(studio) { to.max(studio.race().t() + 1.0) } else { to };
     [[from, to], [low, high]]
 }
 
-/// The zero that an axis shows while all time in view is the first of a run: a body that has hardly moved is not seen as
-/// through a microscope.
+/// The zero that an axis includes during the first view of a run. Without it, a body that has hardly moved would look
+/// as under a microscope.
 pub(super) fn origin(studio: &Studio) -> Option<f64> {
     let [_, to_s] = time_in_view(studio.scene().seconds, 0.0);
     (studio.race().t() <= to_s).then_some(0.0)
 }
 
-/// The time in view of a run of this length, in seconds: at first a quarter of it, then half of it, then all that has
-/// passed in its length.
+/// The time in view for a run of this length, in seconds. At first it is a quarter of the length, then half, then the
+/// last full length.
 pub(super) fn time_in_view(length_s: f64, now_s: f64) -> [f64; 2] {
     let windows = [0.25, 0.5, 1.0].map(|part| part * length_s);
     let to = windows.into_iter().find(|&to| now_s <= to).unwrap_or(now_s);

@@ -13,7 +13,7 @@ use crate::view::testing::{TestWindow, button};
 
 mod shown;
 
-/// Every text that can be seen in a frame of this size, with its place.
+/// Every text that is fully visible in a frame of this size, with its place.
 fn texts(studio: &Studio, size: Vec2) -> Vec<(Rect, String)> {
     TestWindow::new(size).panels(studio, Vec::new()).1.whole()
 }
@@ -30,7 +30,7 @@ fn assert_legible(studio: &Studio, what: &str) {
     let here: Vec<_> = texts.iter().filter(|(rect, _)| rect.left() > left).collect();
     let place = |wanted: &str| here.iter().find(|(_, text)| text == wanted).map(|(rect, _)| rect);
     for card in INSTRUMENTS {
-        // Where not all fit, a group has one tab, unless it is the chosen one.
+        // Without room for all, a group has one tab, unless it is the selected one.
         let is_chosen = card.group == studio.display().instrument.card().group;
         let group = place(card.group.name()).filter(|_| !is_chosen);
         assert!(place(card.name).or(group).is_some(), "{what}: no tab {}", card.name);
@@ -72,7 +72,7 @@ fn assert_legible(studio: &Studio, what: &str) {
     }
 }
 
-/// Each instrument and each body at the start and later, alone and racing, of which each pair is met.
+/// Each instrument and each body, at the start and later, alone and racing, so that each pair occurs.
 #[test]
 fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
     SCENES.par_iter().for_each(|scene| {
@@ -108,7 +108,7 @@ fn in_a_low_window_a_plot_has_the_room_of_its_legend() {
         let texts = texts(&studio, size);
         let beside = |rect: &Rect| rect.left() > (1.0 - panels::INSTRUMENTS) * size.x;
         let is_nought = |(rect, text): &&(Rect, String)| text == "0" && beside(rect);
-        // Of the times, and between 1 m and −1 m.
+        // One on the axis of time, and one between 1 m and −1 m.
         assert_eq!(texts.iter().filter(is_nought).count(), 2, "{size}: {texts:?}");
     }
 }
@@ -140,7 +140,7 @@ fn a_truth_that_halted_is_not_said_to_be_shown() {
     assert!(says(&studio, "no exact solution"));
 }
 
-/// A person at the plots of an instrument, which fill a frame.
+/// A user at the plots of an instrument, which fill a frame.
 struct Person(TestWindow);
 
 const FRAME: Vec2 = vec2(500.0, 420.0);
@@ -150,7 +150,7 @@ impl Person {
         Self(TestWindow::new(FRAME))
     }
 
-    /// Shows a frame after these events. Returns every text in it and what was asked for.
+    /// Shows a frame after these events. Returns every text in it and the commands.
     fn frame(&mut self, studio: &Studio, events: Vec<Event>) -> (Vec<String>, Vec<Command>) {
         let set = plot_set_of(studio, Detail::Samples).unwrap();
         let mut commands = Vec::new();
@@ -158,7 +158,7 @@ impl Person {
         (shown.whole().into_iter().map(|(_, text)| text).collect(), commands)
     }
 
-    /// Shows a frame after these events, and does what was asked for. Returns every number in it.
+    /// Shows a frame after these events, and applies its commands. Returns every number in it.
     fn numbers(&mut self, studio: &mut Studio, events: Vec<Event>) -> Vec<String> {
         let (texts, commands) = self.frame(studio, events);
         for command in commands {
@@ -272,11 +272,11 @@ fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() 
     let pieces = plot.drawing(&studio, &set.styles, &plot.fit, 400.0).truth;
     let starts: Vec<[f64; 2]> = pieces.iter().map(|curve| curve.points[0]).collect();
     assert_eq!(starts, [[0.0, 1.0], [2.0, 8.0], [7.0, 0.5]]);
-    // Where the exact line is out of view, arrows say so.
+    // Arrows mark where the exact line is out of view.
     let white = set.styles.exact_colour;
     let arrows = plot.drawing(&studio, &set.styles, &plot.fit, 400.0).arrows;
     assert!(arrows.iter().any(|arrow| arrow.colour == white && arrow.from[0] < 7.0));
-    // A parameter that is changed begins a new swing too, without a jump.
+    // A changed parameter begins a new swing too, without a jump.
     studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 4.0 }));
     let before = studio.past().changed_s();
     assert_eq!(before, studio.race().t());
@@ -348,7 +348,7 @@ fn where_the_scale_leaves_little_room_nothing_vanishes_in_silence() {
         assert_eq!(is_there("not all plots fit", left), !all, "{size:?}");
         let top: Vec<_> = texts.iter().filter(|(rect, _)| rect.bottom() < 40.0).collect();
         assert!(top.iter().any(|(_, text)| text == spring), "{size:?}: {top:?}");
-        // The top bar does not run into itself.
+        // No text of the top bar lies over another.
         for (at, (rect, text)) in top.iter().enumerate() {
             let over = top[at + 1..].iter().find(|(other, _)| other.shrink(1.0).intersects(*rect));
             assert!(over.is_none(), "{size:?}: {text} and {over:?}");

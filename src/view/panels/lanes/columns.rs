@@ -6,26 +6,26 @@ use crate::stage::number::{round, significant};
 use crate::studio::Studio;
 use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
 
-/// The least width of the verdict, in points, and the one that it keeps beside columns of what the stage or an instrument
-/// shows too, which are those from this priority on.
+/// Minimum width of the verdict, in points, and its width beside columns that repeat the stage or an instrument.
+/// Those columns have a priority from `EXTRAS` on.
 const MIN_VERDICT: f32 = 320.0;
 const ROOMY_VERDICT: f32 = 820.0;
 const EXTRAS: u8 = 5;
 
-/// The least width of the verdict beside columns of a priority.
+/// Minimum width of the verdict beside columns of this priority.
 pub(super) fn min_verdict(priority: u8) -> f32 {
     if priority < EXTRAS { MIN_VERDICT } else { ROOMY_VERDICT }
 }
 
-/// The columns of a run.
+/// The columns of the table in a run.
 pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
     let is_solo = studio.mode() == Mode::Solo;
     let mut truths = studio.race().truth().bodies().iter();
-    // Where there is nothing to compare with, the stage says so once.
+    // Without a truth to compare with, the stage says so once.
     let has_truth = truths.clone().any(|body| body.halted().is_none());
     let mut columns: Vec<_> = marks().into();
     if is_solo {
-        // Its digit and its name stand above the table.
+        // The digit and the name stand above the table.
         columns.retain(|column| column.name == "line");
     }
     if is_solo && studio.scene().bodies.len() > 1 {
@@ -91,7 +91,8 @@ fn body<'a>() -> Column<Row<'a>> {
     )
 }
 
-/// The verdicts, with the body in their head that all of them are about, and in a race the body of the numbers.
+/// The column of verdicts. Its head names the body if all verdicts are about one, and in a race the body of the
+/// numbers.
 fn verdict<'a>(studio: &Studio) -> Column<Row<'a>> {
     let about = "what this method does to the scene at this tick rate: its worst body, judged in a run of its own; a click sorts from best to worst";
     let bodies = &studio.scene().bodies;
@@ -131,7 +132,7 @@ fn error<'a>() -> Column<Row<'a>> {
     Column::number("error", (88.0, 2), about, text, Row::largest_error)
 }
 
-/// What becomes of a body that follows a target.
+/// Measures of a body that follows a target.
 fn chase<'a>() -> [Column<Row<'a>>; 2] {
     let half_life = Column::number(
         "half-life",

@@ -10,33 +10,33 @@ use crate::stage::number::significant;
 use crate::studio::{Studio, shown_state};
 use crate::view::panels::verdict::VerdictText;
 
-/// A value below this part of its scale is the rounding of a computation.
+/// A value below this share of its scale is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A method, or a body of the lane that is flown solo.
+/// A method, or a body of the active lane in solo.
 pub(super) struct Row<'a> {
     pub(super) studio: &'a Studio,
-    /// The method's index on the list.
+    /// Index of the method on the list.
     pub(super) entry: usize,
     pub(super) spec: &'a LaneSpec,
-    /// The lane that flies this method now.
+    /// The lane that flies this method, if any.
     pub(super) flown: Option<&'a Entrant>,
     /// The body whose numbers are shown.
     pub(super) body: usize,
-    /// Whether the row is of this body alone.
+    /// Whether the row is about this body alone.
     pub(super) is_of_body: bool,
     /// Whether it is the first row of its method.
     pub(super) is_first: bool,
     pub(super) is_selected: bool,
-    /// The first coordinate of the exact body at the moment shown, while there is one.
+    /// First coordinate of the exact body at the displayed moment, if it is known.
     exact: Option<f64>,
-    /// The body that is named above all rows as the judged one, if it is.
+    /// The judged body, if the head of the table names it.
     named_above: Option<usize>,
 }
 
 impl<'a> Row<'a> {
-    /// The rows of the method on this index of the list. `exact` holds where each exact body is; `named_above` is
-    /// the [judged body](judged_body) of all.
+    /// The rows of the method at this index of the list. `exact` holds the first coordinate of each exact body, and
+    /// `named_above` the [judged body](judged_body) of all rows.
     pub(super) fn of_method(
         studio: &'a Studio,
         (entry, spec): (usize, &'a LaneSpec),
@@ -66,13 +66,13 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// What is said of it.
+    /// Verdict of the row.
     pub(super) fn said(&self) -> VerdictText {
         let named = (self.is_of_body.then_some(self.body), self.named_above);
         verdict::text_of(self.studio, self.entry, self.flown, named)
     }
 
-    /// What else its verdict found.
+    /// Further findings of the verdict.
     pub(super) fn details(&self) -> Vec<String> {
         let verdict = self.studio.viewer.verdict(self.entry);
         let of_row = |verdict: &'a Verdict| match self.is_of_body {
@@ -82,12 +82,11 @@ impl<'a> Row<'a> {
         verdict.and_then(of_row).map(Verdict::details).unwrap_or_default()
     }
 
-    /// The body whose numbers are shown.
     pub(super) fn body_name(&self) -> &'a str {
         &self.studio.scene().bodies[self.body].name
     }
 
-    /// The method's name with its substeps and its tolerance.
+    /// The method's name with its substeps and tolerance.
     pub(super) fn method_name(&self) -> String {
         let within = self.spec.tolerance.map(|tolerance| format!(" {tolerance:e}"));
         self.spec.name_with_substeps(self.studio.entries()) + &within.unwrap_or_default()
@@ -106,12 +105,12 @@ impl<'a> Row<'a> {
         &self.studio.race().truth().bodies()[self.body]
     }
 
-    /// The largest values so far of the body, if it is flown.
+    /// Largest values of the body so far, if a lane flies the method.
     fn most(&self) -> Option<Most> {
         Some(self.studio.past().histories(self.flown?.id)[self.body].most())
     }
 
-    /// A value, or 0 where it is only the rounding of this scale.
+    /// The value, or 0 if it is only rounding at this scale.
     fn above_rounding(value: f64, scale: f64) -> f64 {
         if value.abs() < ROUNDING * scale { 0.0 } else { value }
     }
@@ -132,18 +131,18 @@ impl<'a> Row<'a> {
         self.flown_body().and(self.exact)
     }
 
-    /// The metric with this index in [`METRICS`], of the body, if it is flown.
+    /// The metric of the body at this index of [`METRICS`], if a lane flies the method.
     fn measure(&self, metric: usize) -> Option<f64> {
         (METRICS[metric].measure)(self.flown_body()?, self.truth())
     }
 
-    /// The largest position error so far, while there is a truth.
+    /// The largest position error so far, if there is a truth.
     pub(super) fn largest_error(&self) -> Option<f64> {
         self.most().filter(|_| self.has_truth()).map(|most| most.error)
     }
 
-    /// The energy that the body has more than in truth, in percent, or else in joules; where there is no truth, all that it
-    /// has. With its unit.
+    /// Energy of the body above the truth, in percent or else in joules, with its unit. Without a truth, its total
+    /// energy.
     pub(super) fn energy(&self) -> Option<(f64, &'static str)> {
         let (lane, truth) = (self.flown_body()?, self.truth());
         if !self.has_truth() {
@@ -158,13 +157,13 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// The half-life of the body in this lane, or else the one of the verdict.
+    /// Half-life of the body in this lane, or else in the verdict.
     pub(super) fn half_life_ms(&self) -> Option<f64> {
         let judged = || Some(1e3 * self.chase()?.half_life_s?);
         self.measure(Metric::HALF_LIFE).or_else(judged)
     }
 
-    /// The overshoot of the body in this lane, or else the one of the verdict.
+    /// Overshoot of the body in this lane, or else in the verdict.
     pub(super) fn overshoot_percent(&self) -> Option<f64> {
         let judged = || Some(self.chase()?.overshoot_percent);
         self.measure(Metric::OVERSHOOT).or_else(judged)
@@ -178,7 +177,7 @@ impl<'a> Row<'a> {
         Some(self.flown_body()?.stepper.evaluations())
     }
 
-    /// Evaluations per tick now: those of the method's card, or else of the last tick. `None` of a halted body.
+    /// Evaluations per tick, from the method's card or else from the last tick. `None` for a halted body.
     pub(super) fn cost(&self) -> Option<f64> {
         let body = self.flown_body();
         if body.is_some_and(|body| body.halted().is_some()) {
@@ -191,8 +190,8 @@ impl<'a> Row<'a> {
     }
 }
 
-/// The body that the verdicts on all methods of a race are about, if there are several bodies and it is one: it is
-/// named once, above them.
+/// The one body that the verdicts on all methods of a race are about, if the scene has several. The table names it
+/// once, above the rows.
 pub(super) fn judged_body(studio: &Studio) -> Option<usize> {
     if studio.mode() == Mode::Solo || studio.scene().bodies.len() < 2 {
         return None;

@@ -1,4 +1,4 @@
-//! The table of lanes: its rows, their order, and what is said in them.
+//! The table of lanes: its rows, their order, and their texts.
 
 use super::*;
 use crate::scene::Scene;
@@ -135,7 +135,7 @@ fn the_body_that_every_verdict_is_about_is_named_once() {
         Some("spring")
     );
     assert_eq!(names(&studio), 0, "{:?}", said(&studio));
-    // At a low rate the stiffest body of some lanes is another.
+    // At a low rate, another body is the stiffest of some lanes.
     studio.apply(StageCommand::TickHz(2.into()));
     studio.analyse();
     assert_eq!(row::judged_body(&studio), None, "{:?}", said(&studio));

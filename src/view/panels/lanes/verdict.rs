@@ -1,12 +1,12 @@
-//! What is said in a row of the table of lanes.
+//! Verdicts in the rows of the table of lanes.
 
 use crate::measure::Outcome;
 use crate::run::race::Entrant;
 use crate::studio::Studio;
 use crate::view::panels::verdict::VerdictText;
 
-/// What is said of the method on this index of the list, and of the lane under it if there is one. The judged body is
-/// named, unless the row is the body's own or it is the one `named_above`.
+/// Verdict on the method at this index of the list, and on its lane if there is one. It names the judged body, unless
+/// the row is about that body alone or `named_above` is the same body.
 pub(super) fn text_of(
     studio: &Studio,
     entry: usize,
@@ -19,7 +19,7 @@ pub(super) fn text_of(
     }
     let halts = flown.into_iter().flat_map(|entrant| entrant.lane.halts());
     let mut halts: Vec<_> = halts.filter(|halt| body.is_none_or(|b| b == halt.body)).collect();
-    // The displayed body first: of several, not all may fit.
+    // The displayed body first, because not all of several may fit.
     halts.sort_by_key(|halt| halt.body != studio.view().body);
     if let Some(first) = halts.first() {
         let did = first.how();

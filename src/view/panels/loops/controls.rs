@@ -1,4 +1,4 @@
-//! What is chosen in the loop lab, in the top bar: how slow it is played, and on which display.
+//! Controls of the loop lab in the top bar: the speed of its slow motion, and its display.
 
 use egui::{ComboBox, RichText, TextWrapMode, Ui};
 
@@ -9,9 +9,9 @@ use crate::studio::Command;
 use crate::view::panels::breakpoints;
 use crate::view::theme::palette;
 
-/// The most characters of a trace's name in the closed menu.
+/// Maximum number of characters of a trace's name in the closed menu.
 const MAX_CHARS: usize = 18;
-/// A name of a trace with more characters leaves no room for the number of the frame.
+/// A trace's name with more characters leaves no room for the number of the frame.
 const LONG_NAME: usize = 14;
 
 /// Whether the top bar has the menu of traces.
@@ -19,7 +19,7 @@ pub(in crate::view::panels) fn has_trace_menu_above(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() >= breakpoints::MENU_OF_TRACES
 }
 
-/// The speed of a slow motion.
+/// Speed of a slow motion as text.
 fn speed(slowness: u32) -> String {
     match slowness {
         1 => "1×".into(),
@@ -49,7 +49,7 @@ pub(in crate::view::panels) fn speed_menu(
     response.response.on_hover_text(about);
 }
 
-/// A trace's name as it fits into the closed menu.
+/// Shortens a trace's name for the closed menu.
 fn short(name: &str) -> String {
     match name.chars().count() {
         0..=MAX_CHARS => name.into(),
@@ -57,7 +57,7 @@ fn short(name: &str) -> String {
     }
 }
 
-/// What happens in a trace.
+/// Description of a trace.
 fn about_trace(trace: &FrameTrace) -> String {
     let built_in = TRACES.iter().find(|card| card.id == trace.name());
     let about = built_in.map_or("frames that were opened from a file", |card| card.about);
@@ -88,7 +88,7 @@ pub(in crate::view::panels) fn trace_menu(
     response.response.on_hover_text(about);
 }
 
-/// Where time has got to: in full, or as it fits beside the rest.
+/// The moment of display: in full, or short enough for a narrow bar.
 pub(in crate::view::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String {
     let t_s = loops.now_ns() as f64 / 1e9;
     let frame = loops.lanes()[loops.selected()].frame_at(loops.now_ns()).unwrap_or_default();
@@ -100,7 +100,7 @@ pub(in crate::view::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String 
     }
 }
 
-/// The display that is simulated.
+/// Shows the simulated display.
 pub(in crate::view::panels) fn display(ui: &mut Ui, loops: &LoopLab) {
     let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
     let text = RichText::new(format!("{hz} Hz display, simulated")).color(palette(ui).dim);

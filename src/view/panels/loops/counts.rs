@@ -8,7 +8,7 @@ use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
 use crate::view::panels::breakpoints;
 use crate::view::theme::{PanelPalette, palette};
 
-/// What a frame can have: the last is that or more.
+/// Names of the bins. The last one includes all higher counts.
 const NAMES: [&str; 4] = ["0", "1", "2", "3+"];
 /// Room for the title, the numbers at the left, those below, and the name of the axis, in points.
 pub(super) const TITLE: f32 = 24.0;
@@ -17,16 +17,16 @@ pub(super) const BELOW: f32 = 17.0;
 pub(super) const NAME: f32 = 15.0;
 /// Room for numbers over bars, in points.
 const ABOVE: f32 = 17.0;
-/// The part of a group's width that its bars take.
+/// Share of a group's width that its bars take.
 const BARS: f32 = 0.78;
-/// The least height of a bar in points: that of a share of nothing.
+/// Minimum height of a bar in points, for a share of zero.
 const MIN_HEIGHT: f32 = 1.5;
 
 /// The shares of one loop.
 pub(super) struct Series {
     colour: Color32,
     shares_percent: [f64; 4],
-    /// Whether its numbers are shown where there is no room for all.
+    /// Whether its numbers appear if there is no room for all.
     is_first: bool,
 }
 
@@ -41,7 +41,7 @@ impl Series {
     }
 }
 
-/// The frames with 0, 1, 2 and 3 or more ticks, in percent.
+/// Shares of the frames with 0, 1, 2, and 3 or more ticks, in percent.
 fn shares_percent(ticks: impl Iterator<Item = u32>) -> [f64; 4] {
     let mut counts = [0_u64; 4];
     ticks.for_each(|ticks| counts[(ticks as usize).min(3)] += 1);
@@ -58,7 +58,7 @@ fn percent(share: f64) -> String {
     }
 }
 
-/// The shares, for who hears them.
+/// The shares as text for a screen reader.
 fn in_words(series: &[Series]) -> String {
     let of_one = |series: &Series| {
         let shares = NAMES.iter().zip(series.shares_percent);
@@ -68,14 +68,14 @@ fn in_words(series: &[Series]) -> String {
     format!("Ticks per frame: {}", series.iter().map(of_one).collect::<Vec<_>>().join("; "))
 }
 
-/// Shows the shares, a bar for each loop.
+/// Shows the shares, with a bar for each loop.
 pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
     let bars = ui.interact(room, ui.scope_id().with("ticks per frame"), egui::Sense::hover());
     bars.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, in_words(series)));
     chart::paint(&ui.painter_at(room), &layout(room, series, palette(ui)));
 }
 
-/// The chart of the shares in a room.
+/// Lays out the chart of the shares in a room.
 pub(super) fn layout(room: Rect, series: &[Series], palette: &PanelPalette) -> Vec<Primitive> {
     let title = Text::new(room.left_top(), Align2::LEFT_TOP, "Ticks per frame", 13.0, palette.text);
     let mut all = vec![title.strong().into()];
@@ -93,7 +93,7 @@ pub(super) fn layout(room: Rect, series: &[Series], palette: &PanelPalette) -> V
     let group = rect.width() / NAMES.len() as f32;
     let width = group * BARS / series.len().max(1) as f32;
     let has_room = width >= breakpoints::NUMBER_ON_BAR;
-    // Without room for all numbers only that of the first, over the bar that it is of.
+    // Without room for all numbers, only the first series has them, each over its bar.
     let first = series.iter().position(|series| series.is_first);
     for (count, name) in NAMES.iter().enumerate() {
         let middle = rect.left() + group * (count as f32 + 0.5);
@@ -107,7 +107,7 @@ pub(super) fn layout(room: Rect, series: &[Series], palette: &PanelPalette) -> V
             let bar = Rect::from_x_y_ranges(left + 0.5..=left + width - 0.5, top..=rect.bottom());
             all.push(Primitive::Area(bar, series.colour));
             if has_room || first == Some(i) {
-                // Over a narrow bar a third digit would lie on the next bar.
+                // Over a narrow bar, a third digit would lie on the next bar.
                 let is_long = !has_room && share >= 10.0;
                 let text = if is_long { round(share, 2) } else { percent(share) };
                 let at = bar.center_top() - vec2(0.0, 1.0);

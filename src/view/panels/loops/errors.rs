@@ -9,35 +9,35 @@ use crate::stage::number::round;
 use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
 use crate::view::theme::{PanelPalette, palette};
 
-/// The number of frames shown.
+/// Number of frames in the chart.
 const FRAMES: usize = 24;
-/// The least reach of the axis, in milliseconds: less is not seen.
+/// Minimum reach of the axis, in milliseconds. Smaller errors are invisible.
 const MIN_MS: f64 = 1.0;
-/// The part of a frame's width that its bars take, and the least height of a bar in points.
+/// Share of a frame's width that its bars take, and minimum height of a bar in points.
 const BARS: f32 = 0.84;
 const MIN_HEIGHT: f32 = 1.0;
 
-/// The next of 1, 2, 5, 10 and so on.
+/// Rounds up to the next of 1, 2, 5, 10 and so on.
 pub(super) fn round_up(value: f64) -> f64 {
     let decade = libm::pow(10.0, libm::floor(libm::log10(value)));
     let steps = [1.0, 2.0, 5.0].map(|digit| digit * decade);
     steps.into_iter().find(|step| *step >= value * (1.0 - 1e-9)).unwrap_or(10.0 * decade)
 }
 
-/// The errors of the last frames of a lane in milliseconds, from the present frame back.
+/// Errors of the last frames of a lane in milliseconds, from the present frame back.
 fn errors_ms(loops: &LoopLab, lane: &ShownLane<'_>) -> impl Iterator<Item = f64> {
     let until = lane.lane.frame_at(loops.now_ns()).map_or(0, |index| index + 1);
     let frames = lane.lane.frames()[..until].iter().rev().take(FRAMES);
     frames.map(|frame| frame.animation_error_ms)
 }
 
-/// The largest error of the last frames in milliseconds, whatever its sign.
+/// Largest magnitude of the last frames' errors, in milliseconds.
 fn largest_ms(loops: &LoopLab, lanes: &[ShownLane<'_>]) -> f64 {
     let errors = lanes.iter().flat_map(|lane| errors_ms(loops, lane));
     errors.fold(0.0, |most, error| most.max(error.abs()))
 }
 
-/// Shows the error of each of the last frames, a bar for each lane.
+/// Shows the error of each of the last frames, with a bar for each lane.
 pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
     let bars = ui.interact(room, ui.scope_id().with("animation error"), egui::Sense::hover());
     let largest = round(largest_ms(loops, lanes), 3);
@@ -46,7 +46,7 @@ pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]
     chart::paint(&ui.painter_at(room), &layout(room, loops, lanes, palette(ui)));
 }
 
-/// The chart of the errors in a room.
+/// Lays out the chart of the errors in a room.
 pub(super) fn layout(
     room: Rect,
     loops: &LoopLab,

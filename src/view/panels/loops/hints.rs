@@ -1,19 +1,19 @@
-//! What to try next in the loop lab.
+//! Hints on the next step in the loop lab.
 
 use crate::loops::loop_lab::{LoopLab, RAW};
 use crate::loops::{NoLoop, POLICIES};
 use crate::stage::number::round;
 
-/// The loop that draws between ticks.
+/// Id of the loop that interpolates between ticks.
 const SMOOTH: &str = "fixed-linear";
-/// The trace in which frames and ticks nearly coincide.
+/// Id of the trace in which frames and ticks nearly coincide.
 const EDGE: &str = "edge";
-/// A share of frames that is worth a word, in percent.
+/// Minimum share of frames for a hint, in percent.
 const MANY_PERCENT: f64 = 1.0;
-/// Shares of frames are alike that differ by less than this factor.
+/// Two shares of frames that differ by less than this factor count as alike.
 const MUCH_MORE: f64 = 2.0;
 
-/// What is to be seen, and what to do next, the most important first. Keys stand between backticks.
+/// Parts of the hint, the most important first: an observation and the next step. Keys stand between backticks.
 pub(in crate::view::panels) fn parts(loops: &LoopLab) -> Vec<String> {
     if let Some((none, mut reasons)) = loops.none_advised() {
         reasons[0].insert_str(0, "None is recommended: ");
@@ -31,7 +31,7 @@ pub(in crate::view::panels) fn parts(loops: &LoopLab) -> Vec<String> {
     let report = loops.lanes()[raw].report().filter(|_| is_new);
     let doubled = report.and_then(|report| many(report.double_percent));
     let repeated = report.and_then(|report| many(report.repeated_percent));
-    // As many frames without a tick as with two: elsewhere most frames have none.
+    // About as many frames have no tick as have two. In other traces most frames have none.
     let flips = doubled.zip(repeated).is_some_and(|(two, none)| none < MUCH_MORE * two);
     if flips && loops.traces()[loops.trace()].name() == EDGE {
         let next = hz(next);

@@ -1,4 +1,4 @@
-//! The window's own loop: how long its last frames took, and what it made of them.
+//! The window's own loop: the duration of its last frames, and the ticks in each.
 
 use egui::{Color32, Label, Rect, RichText, Sense, Ui, Vec2, vec2};
 
@@ -14,12 +14,12 @@ use crate::view::theme::{PanelPalette, colour, palette, strong_font};
 pub(super) const TITLE: &str = "This window's own loop";
 /// The length of the plot in seconds.
 const LENGTH_S: f64 = 10.0;
-/// The plot reaches to this many times the frame time that 99 in 100 frames keep.
+/// The plot shows this many times the frame time that 99 in 100 frames keep.
 const REACH: f64 = 1.6;
-/// The part of the height that the histogram takes.
+/// Share of the height that the histogram takes.
 const COUNTS: f32 = 0.4;
 
-/// What is said of the frames, in milliseconds.
+/// Statistics of the frames, in milliseconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Summary {
     mean_ms: f64,
@@ -47,7 +47,6 @@ impl Summary {
     }
 }
 
-/// The colour of the window's own loop.
 fn own_colour(palette: &PanelPalette) -> Color32 {
     colour(palette.theme.evaluation(1))
 }
@@ -100,7 +99,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
     }
 }
 
-/// The charts in a room, to be saved; `None` before the first frame.
+/// Lays out the charts in a room for a file; `None` before the first frame.
 pub(super) fn layout(
     studio: &Studio,
     room: Rect,
@@ -117,7 +116,7 @@ pub(super) fn layout(
     Some(all)
 }
 
-/// The room of the frame times, and with enough room that of a histogram.
+/// The room of the frame times and, if it is large enough, of a histogram.
 fn parts(room: Rect) -> (Rect, Option<Rect>) {
     if room.height() < breakpoints::HISTOGRAM {
         return (room, None);
@@ -130,7 +129,7 @@ fn series(studio: &Studio, palette: &PanelPalette) -> Series {
     Series::new(own_colour(palette), studio.viewer.live.frames().map(|frame| frame.ticks))
 }
 
-/// The chart of the frame times against real time up to the last frame, in a room.
+/// Lays out the chart of the frame times in a room. They are drawn over real time, up to the last frame.
 fn frame_times(
     studio: &Studio,
     room: Rect,

@@ -1,4 +1,4 @@
-//! What moment each loop shows when: a staircase, because a display holds a frame until the next.
+//! The moment that each loop shows over time. It is a staircase, because a display holds a frame until the next.
 
 use std::iter;
 
@@ -13,9 +13,9 @@ use crate::view::chart::{
 };
 use crate::view::theme::{PanelPalette, palette, strong_font};
 
-/// The number of the display's frames that are shown.
+/// Number of the display's frames in the plot.
 const FRAMES: f64 = 12.0;
-/// Where a lane is further off, in lengths of the plot, it is off the plot.
+/// Distance from which a lane is off the plot, in lengths of the plot.
 const MAX_OFF: f64 = 1.0;
 /// The range ends at multiples of this, in milliseconds, so that it seldom changes.
 const RANGE_STEP_MS: f64 = 20.0;
@@ -24,7 +24,7 @@ const NAMES: f32 = 16.0;
 const LEFT: f32 = 44.0;
 /// The length of the mark of a tick or a frame, in points.
 const MARK: f32 = 6.0;
-/// The radii of the dots of neighbours, which may lie on each other.
+/// Radii of the dots of neighbouring lanes, which may lie on each other.
 const DOTS: [f32; 2] = [2.6, 4.4];
 
 /// The length of the plot in milliseconds.
@@ -32,14 +32,14 @@ fn length_ms(loops: &LoopLab) -> f64 {
     FRAMES * 1000.0 / loops.traces()[loops.trace()].refresh().hz()
 }
 
-/// The frames of a lane in the plot, from the one that is held at its left edge to the present one.
+/// Frames of a lane in the plot, from the one on display at its left edge to the present one.
 fn frames<'a>(loops: &LoopLab, lane: &'a LoopLane) -> &'a [LoopFrame] {
     let Some(present) = lane.frame_at(loops.now_ns()) else { return &[] };
     let from_ns = loops.now_ns() - (length_ms(loops) * 1e6) as i64;
     &lane.frames()[lane.frame_at(from_ns).unwrap_or(0)..=present]
 }
 
-/// How far a lane is off the plot, in words, if it is.
+/// Describes how far a lane is off the plot, if it is.
 pub(super) fn off_the_plot(loops: &LoopLab, lane: &LoopLane) -> Option<String> {
     let frame = &lane.frames()[lane.frame_at(loops.now_ns())?];
     let late_ms = loops.late_ms(frame);
@@ -48,17 +48,17 @@ pub(super) fn off_the_plot(loops: &LoopLab, lane: &LoopLane) -> Option<String> {
     is_off.then(|| format!("{} s {side}", round(late_ms.abs() / 1000.0, 2)))
 }
 
-/// The range of moments shown, in milliseconds from now, for frames that are so late.
+/// Range of the moments, in milliseconds from now, for frames this late.
 fn range_ms(length_ms: f64, late_ms: impl Iterator<Item = f64>) -> [f64; 2] {
     let on_plot = late_ms.filter(|late| late.abs() <= MAX_OFF * length_ms);
     let [behind, ahead] = on_plot
         .fold([0.0; 2], |[behind, ahead]: [f64; 2], late| [behind.max(late), ahead.max(-late)]);
-    // Rounding is no reason for more room.
+    // Rounding must not extend the range.
     let up = |ms: f64| ((ms - 1e-6) / RANGE_STEP_MS).ceil().max(0.0) * RANGE_STEP_MS;
     [-length_ms - up(behind), up(ahead)]
 }
 
-/// Shows the moments in a room, and what each lane shows under a pointer.
+/// Shows the moments in a room, and those of all lanes under the pointer.
 pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
     let Some(area) = area(room, loops, lanes) else { return };
     let painter = ui.painter_at(room.expand(1.0));
@@ -67,7 +67,7 @@ pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]
     hover(&painter, loops, lanes, &area, response, palette(ui));
 }
 
-/// Where the moments are in a room; `None` if there is none for them.
+/// Area of the moments in a room; `None` if the room is too small.
 pub(super) fn area(room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) -> Option<PlotArea> {
     let rect =
         Rect::from_min_max(room.min + vec2(LEFT, NAMES + 2.0), room.max - vec2(6.0, BELOW + NAMES));
@@ -77,7 +77,7 @@ pub(super) fn area(room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) -> Opti
     rect.is_positive().then_some(PlotArea { rect, bounds })
 }
 
-/// The chart of the moments: its axes with marks of ticks and frames, and a staircase for each lane.
+/// Lays out the chart of the moments: its axes with marks of ticks and frames, and a staircase for each lane.
 pub(super) fn layout(
     room: Rect,
     area: &PlotArea,
@@ -89,7 +89,7 @@ pub(super) fn layout(
     let mut all = vec![Primitive::Area(rect, palette.plot)];
     let numbers = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [56.0, 26.0][axis]));
     all.extend(chart::axes(area, numbers, palette, room.right()));
-    // The name of an axis, and behind it what the marks along it are.
+    // The name of an axis, followed by the meaning of the marks along it.
     let name = |at: Pos2, anchor: Align2, name: &str, marks: (String, Color32)| Text {
         tail: Some(marks),
         ..Text::new(at, anchor, name, NUMBER, palette.dim)
@@ -116,7 +116,6 @@ pub(super) fn layout(
     all
 }
 
-/// The staircase of a lane.
 fn staircase(
     loops: &LoopLab,
     area: &PlotArea,
@@ -162,7 +161,7 @@ fn marks(loops: &LoopLab, area: &PlotArea, palette: &PanelPalette) -> Vec<Primit
     ticks.chain(in_view.map(|at_ms| mark(at_ms, bottom, (1.2, palette.text)))).collect()
 }
 
-/// A line under the pointer, and what each lane shows there.
+/// Draws a line under the pointer, and the moment that each lane shows there.
 fn hover(
     painter: &Painter,
     loops: &LoopLab,

@@ -9,7 +9,6 @@ use crate::view::panels::table::TableRow;
 use crate::view::panels::verdict::VerdictText;
 use crate::view::theme::{PanelPalette, TYPE, colour, palette, strong_font};
 
-/// A loop as a row.
 pub(super) struct Row<'a> {
     loops: &'a LoopLab,
     pub(super) index: usize,
@@ -34,13 +33,13 @@ impl<'a> Row<'a> {
         Self { loops, index, lane, is_on_stage, verdict }
     }
 
-    /// Its colour and dash in the plots.
+    /// Colour and dash of the loop in the plots.
     pub(super) fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]) {
         let (rgba, dash) = palette.theme.loop_style(self.index);
         (colour(rgba), dash)
     }
 
-    /// Shows whether the loop is on the stage. A click changes it.
+    /// Shows whether the loop is on the stage. A click toggles that.
     pub(super) fn eye(&self, ui: &Ui, rect: Rect, commands: &mut Vec<Command>) {
         let id = egui::Id::unique(("loop on the stage", self.index));
         let response = ui.interact(rect, id, Sense::click());

@@ -1,4 +1,4 @@
-//! The timeline of the loop lab: from the first frame to the last. Click or drag to go to a moment.
+//! The timeline of the loop lab, from the first frame to the last. A click or a drag seeks to a moment.
 
 use egui::{Align2, Rangef, Response, Ui};
 
@@ -7,7 +7,6 @@ use crate::studio::Command;
 use crate::view::panels::timeline::{Groove, Span, THICKNESS, pressed, step};
 use crate::view::theme::palette;
 
-/// Shows it.
 pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
     let span = Span { from_s: 0.0, to_s: loops.end_ns() as f64 / 1e9 };
     let groove = Groove::new(ui.available_rect_before_wrap(), 0.0);
@@ -27,7 +26,7 @@ pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut
     groove.handle(painter, x, response.has_focus(), palette);
 }
 
-/// Goes to where the mouse is pressed; with the focus, the arrows go by frames.
+/// Seeks to the pressed moment. If the track has the focus, the arrow keys step by frames.
 fn seek(
     ui: &Ui,
     loops: &LoopLab,

@@ -1,5 +1,5 @@
-//! The table of loops: key, line, name and verdict, then numbers. A click selects a loop, and one on the eye takes it off
-//! the stage or brings it on.
+//! The table of loops: key, line, name and verdict, then numbers. A click selects a loop, and a click on its eye
+//! takes the loop off the stage or brings it on.
 
 use egui::Ui;
 
@@ -13,7 +13,7 @@ use crate::view::panels::lanes::{ROW, height_of};
 use crate::view::panels::table::{Column, SortKey, Table, TableRow, show_words};
 use crate::view::theme::TYPE;
 
-/// Rows in sight: the stage and the instrument need the room. The rest is scrolled to.
+/// Maximum number of rows in sight, because the stage and the instrument need the room. The list scrolls to the rest.
 const MAX_ROWS: usize = 6;
 
 pub(in crate::view::panels) fn height(loops: &LoopLab) -> f32 {
@@ -33,10 +33,10 @@ fn groups(loops: &LoopLab) -> Vec<Vec<Row<'_>>> {
     loops.listed().into_iter().map(|index| vec![Row::of(loops, index)]).collect()
 }
 
-/// The least width of the verdict, in points.
+/// The minimum width of the verdict, in points.
 const MIN_VERDICT: f32 = 264.0;
 
-/// A column of numbers: name, width in points, priority, the id of the metric, and how a value is written.
+/// A column of numbers: name, width in points, priority, id of the metric, and format of a value.
 type MetricColumn = (&'static str, f32, u8, &'static str, fn(f64, Unit) -> String);
 
 const METRICS: [MetricColumn; 8] = [
@@ -101,28 +101,28 @@ fn metric<'a>((name, width, priority, id, shown): MetricColumn) -> Option<Column
     Some(Column::number(name, (width, priority), &about, text, size))
 }
 
-/// From here on milliseconds are shown as seconds.
+/// From this value on, milliseconds appear as seconds.
 const MANY_MS: f64 = 10_000.0;
-/// From here on a share of the amplitude is that of a motion that has blown up.
+/// A share of the amplitude from this value on belongs to a motion that has blown up.
 const LOST_PERCENT: f64 = 1e5;
-/// A smaller mean latency is shown as 0: frames begin early and late by more than this.
+/// A smaller mean latency appears as 0, because frames begin early and late by more than this.
 const MIN_LATENCY_MS: f64 = 0.1;
-/// A smaller value is shown as <0.001.
+/// A smaller value appears as <0.001.
 const MIN_SHOWN: f64 = 1e-3;
-/// From here on three digits have no more than two decimals.
+/// A smaller value has three decimals instead of three digits.
 const SMALL: f64 = 0.1;
 
-/// A mean latency in milliseconds as the table has it.
+/// Text of a mean latency in milliseconds.
 fn latency(ms: f64, unit: Unit) -> String {
     match ms {
         ms if ms.abs() < MIN_LATENCY_MS => "0 ms".into(),
-        // It grows as long as the run goes on.
+        // The lead grows as long as the run continues.
         ahead if ahead < 0.0 => "ahead".into(),
         behind => shown(behind, unit),
     }
 }
 
-/// A value of a metric as the table has it.
+/// Text of a metric's value.
 pub(super) fn shown(value: f64, unit: Unit) -> String {
     let (value, unit) = match unit {
         Unit::Amplitudes => (100.0 * value, Unit::Percent),

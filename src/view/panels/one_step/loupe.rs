@@ -1,4 +1,4 @@
-//! A loupe for a landing that lies too close to the exact one to be told from it.
+//! A loupe for a landing that lies too close to the exact one to distinguish them.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Vec2, vec2};
 
@@ -7,22 +7,23 @@ use crate::stage::number::{enlargement, round};
 use crate::view::chart::PlotArea;
 use crate::view::theme::PanelPalette;
 
-/// Its radius, its least radius, and how far it keeps from the plot's edges and from all else in the plot, in points.
+/// Radius, minimum radius, and distance from the plot's edges and from everything else in the plot, in points.
 const RADIUS: f32 = 44.0;
 const MIN_RADIUS: f32 = 28.0;
 const INSET: f32 = 6.0;
 const APART: f32 = 8.0;
-/// Its radius is at most this part of the plot's height.
+/// Maximum radius, relative to the plot's height.
 const MAX_PART_OF_HEIGHT: f32 = 0.3;
-/// A landing further than this from the exact one can be told from it, in points.
+/// Distance of the landings up to which they need a loupe, in points.
 const SEEN: f64 = 9.0;
-/// The distance of both landings in the loupe, as a part of its radius.
+/// Distance of the landings in the loupe, relative to its radius.
 const REACH: f64 = 0.8;
 /// The radii of both landings, in points.
 const LANDING: f32 = 5.0;
 const EXACT: f32 = 7.0;
 
-/// Draws the loupe where it is furthest from what is `taken` and from the exact motion, if it is needed and there is room.
+/// Draws the loupe, if it is needed and there is room. Its place is the furthest from the `taken` places and from the
+/// exact motion.
 pub(super) fn show(
     painter: &Painter,
     area: &PlotArea,
@@ -70,7 +71,7 @@ mod tests {
     use crate::studio::{Instrument, StageCommand, Studio, ViewCommand};
     use crate::view::testing::TestWindow;
 
-    /// What the loupes in a frame are labelled with, under the method at this place of the spring's list.
+    /// Labels of the loupes in a frame, under the method at this index of the spring's list.
     fn labels(entry: usize) -> Vec<String> {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(StageCommand::Pick(entry));

@@ -39,7 +39,7 @@ fn the_cross_sets_rate_and_parameter_where_it_is_dragged_to() {
     for command in commands {
         studio.apply(command);
     }
-    // Where it is now, nothing changes.
+    // At its present place, the drag changes nothing.
     let (commands, _) = window.panels(&studio, vec![]);
     assert_eq!(commands, []);
     window.panels(&studio, vec![button(to, false)]);
@@ -51,7 +51,7 @@ fn the_sentence_counts_the_stable_methods() {
     let map = studio.viewer.stability_map().unwrap();
     assert_eq!(
         map.stable_here().split(" Explicit").next().unwrap(),
-        // At 60 Hz ω h is 1.67.
+        // At 60 Hz, ω h is 1.67.
         "2 of 5 methods are bounded, 1 chooses its own steps."
     );
     assert!(
@@ -126,7 +126,7 @@ fn the_lines_of_equal_damping_of_the_selected_engine_are_labelled_and_explained(
     for part in ["damping 0.05", "damping 0.1", "the damping ratio that a player sees of Box2D"] {
         assert!(shown.contains(part), "{part}: {shown}");
     }
-    // An undamped spring of Bullet is seen undamped.
+    // An undamped spring of Bullet looks undamped to a player.
     studio.apply(StageCommand::Pick(6));
     assert!(!words(&studio).contains("damping 0."));
 }

@@ -1,4 +1,4 @@
-//! The words beside the stability map, laid out.
+//! Texts beside the stability map, laid out.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ pub(super) fn letter(parameter: &Parameter) -> String {
     parameter.symbol.map_or_else(|| parameter.quantity(), str::to_owned)
 }
 
-/// The name of a parameter with its letter, if it has one: `stiffness k`.
+/// Name of a parameter with its letter, if it has one: `stiffness k`.
 pub(super) fn full_name(parameter: &Parameter) -> String {
     let (quantity, letter) = (parameter.quantity(), letter(parameter));
     if letter == quantity { quantity } else { format!("{quantity} {letter}") }
@@ -36,8 +36,8 @@ pub(super) fn point_in_words(
     text.trim_end().to_owned()
 }
 
-/// What the methods do at the present point, and what the map does not draw, wrapped to a width; and the room that is left
-/// for that, in points: it does not change while the cross is moved.
+/// Describes the methods at the present point, and everything that the map does not draw, wrapped to a width. Also
+/// returns a height for it in points, which stays the same while the cross moves.
 pub(super) fn sentence(
     ui: &Ui,
     studio: &Studio,
@@ -50,7 +50,7 @@ pub(super) fn sentence(
     wrapped(ui, studio, map, width, (13.0, &notes))
 }
 
-/// The same with the thin lines alone of what is drawn and what is not.
+/// A shorter form of [`sentence`]. Its only note is about the thin lines.
 pub(super) fn short_sentence(
     ui: &Ui,
     studio: &Studio,
@@ -60,7 +60,7 @@ pub(super) fn short_sentence(
     wrapped(ui, studio, map, width, (12.0, &seen_note(studio, map)))
 }
 
-/// What the methods do at the present point in type of this size, and the notes, wrapped to a width.
+/// Describes the methods at the present point in this font size, with the notes, wrapped to a width.
 fn wrapped(
     ui: &Ui,
     studio: &Studio,
@@ -86,7 +86,7 @@ fn counted_job(ui: &Ui, studio: &Studio, map: &StabilityMap, size: f32) -> Layou
     job(ui, &[here, does], size)
 }
 
-/// A point of the map, and what the methods do there.
+/// Lays out a point of the map and the behaviour of the methods there.
 fn job(ui: &Ui, [here, does]: &[String; 2], size: f32) -> LayoutJob {
     let mut job = LayoutJob::default();
     append(&mut job, &format!("{here}: "), strong_font(size), palette(ui).text);
@@ -94,7 +94,7 @@ fn job(ui: &Ui, [here, does]: &[String; 2], size: f32) -> LayoutJob {
     job
 }
 
-/// The longest that the words about a point of this map become.
+/// The longest text that any point of this map can have.
 fn longest(studio: &Studio, map: &StabilityMap) -> [String; 2] {
     let MapRequest { parameter, tick_hz, rates_hz, range, specs, .. } = &map.request;
     let names = map.method_names();
@@ -113,7 +113,7 @@ fn append(job: &mut LayoutJob, text: &str, font_id: FontId, color: Color32) {
     job.append(text, 0.0, TextFormat { font_id, color, ..TextFormat::default() });
 }
 
-/// What the thin lines are, if there are any.
+/// Explains the thin lines, if there are any.
 fn seen_note(studio: &Studio, map: &StabilityMap) -> String {
     let found = map.regions.iter().zip(&map.request.specs);
     let mut selected = found.filter(|(_, (entry, _))| *entry == studio.active());

@@ -1,4 +1,4 @@
-//! What happened in a run, as marks on its timeline: each with its sign, its colour and its words.
+//! Marks of the events of a run on its timeline, each with its sign, its colour and its words.
 
 use egui::Color32;
 
@@ -8,10 +8,10 @@ use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::studio::Compared;
 use crate::view::theme::PanelPalette;
 
-/// The sign of a mark. Of several in one place the last of this list is drawn.
+/// The sign of a mark. If several are in one place, the last in this order is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Sign {
-    /// A stroke across the track: beyond it nothing was run.
+    /// A stroke across the track: the end of the ticks that were run.
     End,
     /// A stroke: throttle, rudder.
     Input,
@@ -19,45 +19,45 @@ pub(super) enum Sign {
     Edit,
     /// A triangle: the tick rate.
     Rate,
-    /// A ring: a body put somewhere.
+    /// A ring: a placement of a body.
     Place,
     /// A diamond.
     Kick,
-    /// A disc: another method.
+    /// A disc: a switch of the method.
     Switch,
-    /// A flag: a body that halted.
+    /// A flag: a halt of a body.
     Halt,
-    /// A cross: where a recording differs.
+    /// A cross: the first difference from a recording.
     Parting,
 }
 
-/// Something that happened.
+/// A mark of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mark {
     pub(super) tick: u64,
     pub(super) sign: Sign,
     pub(super) colour: Color32,
-    /// The index of its event; `None` at the end of what was run, and where a recording differs.
+    /// Index of the event. `None` at the end of the run and at the difference from a recording.
     event: Option<usize>,
 }
 
-/// Marks that are drawn as one.
+/// Marks that share a sign.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Group {
-    /// Where, in points.
+    /// Place, in points.
     pub(super) x: f32,
     pub(super) marks: Vec<Mark>,
 }
 
 impl Group {
-    /// The mark that is drawn for all.
+    /// The mark that is drawn for the group.
     pub(super) fn shown(&self) -> &Mark {
         let shown = self.marks.iter().max_by_key(|mark| mark.sign);
         shown.expect("a group begins with a mark")
     }
 }
 
-/// What the marks of a run depend on.
+/// Inputs of the marks.
 pub(super) struct Context<'a> {
     pub(super) events: &'a [Event],
     pub(super) scene: &'a Scene,
@@ -65,12 +65,12 @@ pub(super) struct Context<'a> {
     pub(super) start: &'a Race,
     pub(super) times: &'a TimeScale,
     pub(super) palette: &'static PanelPalette,
-    /// Where a recording differs, and in what.
+    /// Comparison with a recording.
     pub(super) compared: Option<&'a Compared>,
 }
 
 impl Context<'_> {
-    /// The marks of the events, by tick: of what was done to the bodies, and of nothing that was undone at once.
+    /// Marks of the events that changed a body, by tick. An edit that was undone at once has none.
     pub(super) fn marks(&self) -> impl Iterator<Item = Mark> {
         let events = self.events.iter().enumerate().zip(self.lasting());
         events.filter(|(_, lasts)| *lasts).map(|((i, Event { tick, kind }), _)| {
@@ -82,8 +82,8 @@ impl Context<'_> {
         })
     }
 
-    /// Of each event, whether it does something to a body that lasts beyond its tick: a lane that has its old settings again
-    /// moves on as before, unless that takes up its bodies where they had halted.
+    /// Whether each event affects a body beyond its tick. A lane that gets its old settings again moves on as before,
+    /// unless the switch resumes its halted bodies.
     fn lasting(&self) -> Vec<bool> {
         let lanes = self.start.entrants().iter();
         let mut specs: Vec<(LaneId, LaneSpec)> = lanes.map(|it| (it.id, it.spec)).collect();
@@ -120,13 +120,13 @@ impl Context<'_> {
         Mark { tick, sign: Sign::End, colour: self.palette.text, event: None }
     }
 
-    /// The mark of the tick where a recording differs.
+    /// The mark of the first difference from a recording.
     pub(super) fn parting(&self) -> Option<Mark> {
         let tick = self.compared?.tick();
         Some(Mark { tick, sign: Sign::Parting, colour: self.palette.accent, event: None })
     }
 
-    /// When it happened, what and by whom.
+    /// Moment, description and author of a mark.
     pub(super) fn text(&self, mark: &Mark) -> String {
         let what = match mark.event {
             Some(event) => self.events[event].kind.words(self.scene),
@@ -153,7 +153,7 @@ impl Context<'_> {
     }
 }
 
-/// The lane whose settings an event changes, and how.
+/// The lane whose settings an event changes, and the change.
 fn setting(event: &Event) -> Option<(LaneId, impl Fn(&mut LaneSpec) + use<>)> {
     let EventKind::Done { action, .. } = &event.kind else { return None };
     let (lane, whole, substeps, tolerance) = match *action {
@@ -170,7 +170,7 @@ fn setting(event: &Event) -> Option<(LaneId, impl Fn(&mut LaneSpec) + use<>)> {
     Some((lane, set))
 }
 
-/// Marks in order, those less than `apart` points from the first of a group merged into it.
+/// Groups marks in order. A mark less than `apart` points from the first of a group joins it.
 pub(super) fn grouped(
     marks: impl Iterator<Item = Mark>,
     x: impl Fn(&Mark) -> f32,
@@ -187,7 +187,7 @@ pub(super) fn grouped(
     groups
 }
 
-/// The colours of the methods that a lane was under, each from a tick on; the first from the start.
+/// Colours of the methods of a lane, each with its first tick. The first starts at tick 0.
 pub(super) fn colours(
     lane: LaneId,
     events: &[Event],

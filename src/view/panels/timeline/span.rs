@@ -1,13 +1,13 @@
-//! The part of a run's time that the timeline shows: where a time is drawn, and how zooming changes it.
+//! The part of a run's time in the timeline: its mapping to a track, and its zoom.
 
 use egui::Rangef;
 
-/// The room ahead of a run that has outlasted its scene, as a part of the time since.
+/// Room ahead of a run that has outlasted its scene, relative to the time since.
 const AHEAD: f64 = 0.1;
-/// Where the present stands when the view has to follow it, as a part of the view.
+/// Place of the present when the view has to follow it, relative to the view.
 const FOLLOWED_AT: f64 = 0.8;
 
-/// From one time to a later one, in seconds.
+/// A range of time, in seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::view::panels) struct Span {
     pub(in crate::view::panels) from_s: f64,
@@ -15,7 +15,7 @@ pub(in crate::view::panels) struct Span {
 }
 
 impl Span {
-    /// All of a run that was run to `end_s`: to the end of the scene, or beyond that with room ahead.
+    /// All of a run that ends at `end_s`: to the end of the scene, or beyond that with room ahead.
     pub(in crate::view::panels) fn whole(scene_s: f64, end_s: f64) -> Self {
         Self { from_s: 0.0, to_s: scene_s.max(end_s + AHEAD * (end_s - scene_s)) }
     }
@@ -24,17 +24,18 @@ impl Span {
         self.to_s - self.from_s
     }
 
-    /// Where `t` is drawn on a track.
+    /// Place of time `t` on a track.
     pub(in crate::view::panels) fn x(self, t: f64, track: Rangef) -> f32 {
         track.min + ((t - self.from_s) / self.length_s()) as f32 * track.span()
     }
 
-    /// The time that is drawn at `x`.
+    /// Time at the place `x`.
     pub(in crate::view::panels) fn t(self, x: f32, track: Rangef) -> f64 {
         self.from_s + f64::from((x - track.min) / track.span()) * self.length_s()
     }
 
-    /// `factor` times closer, with `about_s` staying where it is; no less than `min_s`, and nothing outside `whole`.
+    /// The view `factor` times closer, with `about_s` at its place. It is at least `min_s` long and stays within
+    /// `whole`.
     pub(in crate::view::panels) fn zoomed(
         self,
         about_s: f64,
@@ -48,12 +49,12 @@ impl Span {
         Self { from_s, to_s: from_s + length_s }.within(whole)
     }
 
-    /// The same length `by_s` later, as far as that is in `whole`.
+    /// The same length, `by_s` later, but within `whole`.
     pub(in crate::view::panels) fn moved(self, by_s: f64, whole: Self) -> Self {
         Self { from_s: self.from_s + by_s, to_s: self.to_s + by_s }.within(whole)
     }
 
-    /// The same length moved to show `now_s`, if it does not.
+    /// The same length, moved to show `now_s` if it does not.
     pub(in crate::view::panels) fn following(self, now_s: f64, whole: Self) -> Self {
         if (self.from_s..=self.to_s).contains(&now_s) {
             return self;

@@ -1,14 +1,13 @@
-//! Continuation, for steps at which Newton's iteration does not converge: the solution is followed from
-//! a step of length zero, at which it is known.
+//! Continuation, for steps at which Newton's iteration does not converge: follows the solution from a step of length
+//! zero, at which it is known.
 //!
-//! The weights α and β are multiplied by λ. At λ = 0 the solution is the force at the known terms;
-//! at λ = 1 it is that of the step. The solutions in between form a curve, which turns back at folds,
-//! where two solutions meet. Parametrised by arc length (Keller, *Numerical solution of bifurcation and
-//! nonlinear eigenvalue problems*, 1977), it is followed through such folds. If the force is bounded
-//! and smooth, the curve cannot end before λ = 1.
+//! A factor λ multiplies the weights α and β. At λ = 0 the solution is the force at the known terms; at λ = 1 it is
+//! that of the step. The solutions in between form a curve, which turns back at folds, where two solutions meet.
+//! Parametrised by arc length (Keller, *Numerical solution of bifurcation and nonlinear eigenvalue problems*, 1977),
+//! the curve can be followed through such folds. If the force is bounded and smooth, it cannot end before λ = 1.
 //!
-//! No built-in scene needs it at its own rate. At 1 to 3 Hz the scene `pendulum` does, and at 1 to 8 Hz `kicked-rotor`: without
-//! it an implicit method halts within minutes.
+//! No built-in scene needs this at its own rate. At 1 to 3 Hz the scene `pendulum` does, and at 1 to 8 Hz
+//! `kicked-rotor`: without it an implicit method halts within minutes.
 
 use super::Newton;
 use crate::sim::integrators::shared::krylov::dot;
@@ -17,10 +16,10 @@ use crate::sim::numerics::quotient;
 use crate::sim::state::Vector;
 use crate::sim::system::System;
 
-/// The longest arc length of a step, in each of three attempts: longer steps can jump to a nearby curve
-/// that leads nowhere, shorter ones take longer.
+/// The longest arc length of a step, in each of three attempts. Longer steps can jump to a nearby curve that leads
+/// nowhere; shorter ones take longer.
 const MAX_STEP_LENGTHS: [f64; 3] = [0.25, 0.05, 0.01];
-/// The shortest arc length of a step: a force that is not smooth at this scale is given up.
+/// The shortest arc length of a step: the attempt fails for a force that is not smooth at this scale.
 const MIN_STEP_LENGTH: f64 = 1e-7;
 /// Growth factor of a converged step, and shrink factor of a failed one.
 const STEP_FACTORS: (f64, f64) = (1.5, 0.3);
@@ -28,8 +27,7 @@ const STEP_FACTORS: (f64, f64) = (1.5, 0.3);
 const MAX_STEPS: u32 = 1000;
 /// The largest number of corrector iterations of a step.
 const MAX_CORRECTIONS: u32 = 6;
-/// The size of the last correction. It can be coarse, because the end of the curve is solved to
-/// round-off.
+/// The size of the last correction. It can be coarse, because the end of the curve is solved to round-off.
 const CORRECTOR_TOLERANCE: f64 = 1e-6;
 /// The change of λ for the derivative with respect to it.
 const LAMBDA_DIFFERENCE: f64 = 1e-6;
@@ -40,7 +38,7 @@ pub(super) struct SolutionCurve<V, const S: usize> {
     lambda: f64,
     /// The unit of accelerations: the largest force found on the curve.
     scale: f64,
-    /// The forces a little further in λ.
+    /// The forces at a slightly larger λ.
     further: [V; S],
     /// The derivative of the solution with respect to λ.
     slope_by_lambda: Vec<f64>,
@@ -73,8 +71,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         MAX_STEP_LENGTHS.iter().any(|&longest| self.continue_by(system, stages, longest))
     }
 
-    /// Follows the curve by steps of at most `longest`, in units of λ, and of the force for
-    /// accelerations.
+    /// Follows the curve by steps of at most `longest`, in units of λ, and of the force for accelerations.
     fn continue_by(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -145,8 +142,8 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         *tangent_lambda = 1.0 / length;
     }
 
-    /// One step: predicts along the tangent by `step`, then corrects perpendicular to it. Returns
-    /// whether it converged to the curve.
+    /// One step: predicts along the tangent by `step`, then corrects perpendicular to it. Returns whether it converged
+    /// to the curve.
     fn predict_and_correct(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -192,8 +189,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         false
     }
 
-    /// Evaluates the force, the Jacobian and the derivative of the solution with respect to λ at the
-    /// current point.
+    /// Evaluates the force, the Jacobian and the derivative of the solution with respect to λ at the current point.
     fn linearise_on_curve(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) {
         let lambda = self.curve.lambda;
         let here = stages.scaled(lambda);

@@ -1,10 +1,10 @@
-//! Newton's iteration without a matrix: its linear equations are solved roughly, and a correction that
-//! makes the residual larger is taken in part.
+//! Newton's iteration without a matrix: it solves its linear equations roughly, and shortens a correction that
+//! increases the residual.
 //!
-//! Where a step turns and compresses springs a lot, that comes to a halt between solutions. The equations of
+//! If a step strongly turns and compresses springs, the iteration can stall between solutions. The equations of
 //! implicit Euler on springs are those of a minimum of an energy (Martin, Thomaszewski, Grinspun & Gross,
-//! *Example-based elastic materials*, 2011), and so nearly are those of the others: a descent comes
-//! near a solution, from which Newton's iteration goes on.
+//! *Example-based elastic materials*, 2011), and those of the other methods nearly are. A descent then comes near a
+//! solution, from which Newton's iteration continues.
 
 use super::{Convergence, MAX_ITERATIONS, Newton, Progress, ROUND_OFF};
 use crate::sim::integrators::shared::krylov::length;
@@ -12,30 +12,29 @@ use crate::sim::integrators::shared::stages::{Stages, largest_of};
 use crate::sim::state::{Vector, largest};
 use crate::sim::system::System;
 
-/// The relative residual to which the linear equations of an iteration are solved. The next iteration
-/// solves what is left.
+/// The relative residual of the linear equations of an iteration. The next iteration reduces the rest.
 const LINEAR_TOLERANCE: f64 = 1e-4;
-/// The least part of a correction that is tried.
+/// The smallest fraction of a correction to try.
 const MIN_PART: f64 = 1.0 / 64.0;
-/// The most steps down the energy.
+/// The most descent steps.
 const MAX_DESCENTS: u32 = 200;
-/// The least part of such a step.
+/// The smallest fraction of a descent step.
 const MIN_DESCENT: f64 = 1e-9;
-/// How steeply a step of a descent may end uphill, in units of how steeply it begins.
+/// The steepest uphill slope at the end of a descent step, relative to the slope at its start.
 const UPHILL: f64 = 0.5;
-/// The part of the residual that a whole correction must remove.
+/// The fraction of the residual that a full correction must remove.
 const MIN_PROGRESS: f64 = 1e-4;
 
 /// Residuals below this are rounding: near it forces lose digits to underflow.
 const UNDERFLOW: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
-/// What became of a step down the energy.
+/// The outcome of a descent step.
 enum Descent {
-    /// There is no way down, or no work left.
+    /// No direction leads down, or the budget is spent.
     Stuck,
-    /// The energy curves downwards, or is not nearly a parabola.
+    /// The energy curves downwards, or is far from a parabola.
     Curved,
-    /// A whole step was taken: Newton's iteration may converge from here.
+    /// A full step succeeded: Newton's iteration may converge from here.
     Near,
 }
 
@@ -74,7 +73,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         self.compute_residual();
     }
 
-    /// A step down the energy whose gradient is the residual.
+    /// Takes a step down the energy whose gradient is the residual.
     fn descend(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) -> Descent {
         self.evaluate_residual(system, stages);
         self.correction.copy_from_slice(&self.residual);
@@ -91,7 +90,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             self.add_correction(part - moved);
             moved = part;
             self.evaluate_residual(system, stages);
-            // Not far beyond the lowest point of this direction.
+            // Not far beyond the lowest point in this direction.
             if downhill(self) >= -UPHILL * steep {
                 let is_near = curves_upwards && part == 1.0;
                 return if is_near { Descent::Near } else { Descent::Curved };
@@ -138,7 +137,8 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         false
     }
 
-    /// The forces that rounding is relative to: at the stages, and by the rounding of the coordinates.
+    /// The scale of the forces' rounding: the forces at the stages, and their change from the rounding of the
+    /// coordinates.
     fn rounding_of_forces(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) -> f64 {
         let distances = self.base.iter().map(|base| largest(base.q.components()));
         let distance = distances.fold(0.0, f64::max);
