@@ -34,6 +34,7 @@ impl Theme {
         }
     }
 
+    /// The opposite theme: light for dark, dark for light.
     pub fn other(self) -> Self {
         match self {
             Theme::Dark => Theme::Light,
@@ -74,6 +75,7 @@ impl Theme {
     }
 }
 
+/// Colours of a theme, for drawing and for text.
 #[derive(Debug)]
 pub struct Palette {
     /// Background of the window.

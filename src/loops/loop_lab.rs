@@ -342,6 +342,7 @@ impl LoopLab {
         self.ask();
     }
 
+    /// Restarts all loops with this method.
     pub fn set_method(&mut self, method: &'static Method) {
         self.method = method;
         self.ask();

@@ -260,7 +260,7 @@ fn a_rule_is_exact_at_its_authors_rate_and_parts_from_itself_at_others() {
 
     for (text, fps, kind) in RULES {
         let scene = rule_scene("a/my rule.step", text, fps.parse().unwrap()).unwrap();
-        assert_eq!((&*scene.bodies[0].kind.id, &*scene.name), (kind, "my-rule"));
+        assert_eq!((scene.bodies[0].kind.id, scene.name.as_str()), (kind, "my-rule"));
         let mut race = Race::of_scene(&scene);
         let mut farthest = [0.0_f64; 3];
         // Through both kicks.
