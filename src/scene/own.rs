@@ -39,7 +39,7 @@ pub(super) static OWN_KEYS: [Key<OwnDraft, Method>; 3] = [
     Key {
         field: Field::optional(
             "fps",
-            "of a rule, the frames per second for which it was written",
+            "for a rule: the frames per second for which it was written",
             Wanted::TickRate,
         ),
         read: |own, row, field| own.fps = row.tick_rate(field),

@@ -932,6 +932,7 @@ gdscript\t''
 cpp\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
+complete -c regatta -n "__fish_regatta_using_subcommand rule" -l scene -d 'Print a scene of it instead: the lines raced at half, once and twice that rate'
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand show" -l as -d 'The language: rust, c, cpp, csharp or gdscript' -r -f -a "rust\t''
 c\t''
