@@ -224,7 +224,7 @@ fn an_argument_longer_than_any_path_is_refused_in_a_line() {
         let output = run_in(folder.path(), &format!("{command} {long}"));
         assert_eq!(output.status.code(), Some(2), "{command}");
         let said = stderr(&output);
-        let named = format!("argument {place} has 100000 bytes, and the most are 4096");
+        let named = format!("argument {place} has 100000 bytes, and the limit is 4096");
         assert!(said.contains(&named) && said.len() < 600, "{said:.900}");
     }
     let path = format!("{}.toml", "x".repeat(200));
