@@ -15,10 +15,7 @@ fn each_mistake_is_named_with_its_remedy() {
         ("trace --scene shp", "is called \"shp\"; did you mean ship?"),
         ("trace --scene Stiff", "did you mean stiff?"),
         ("trace --scene spring --method lerp-dt", "lerp-dt does not step the body \"spring\""),
-        (
-            "capture --out x --scene follow --method lerp-dt",
-            "only a `follow` of order 1; name another",
-        ),
+        ("capture --out x --scene follow --method lerp-dt", "such as `follow`; name another"),
         (
             "advise --scene lerp --method smooth-damp",
             "smooth-damp does not step the body \"camera\"",
