@@ -48,9 +48,9 @@ times as fast. The word is
                this frequency; or it explodes
 
 An engine without substeps, such as Chipmunk and Godot, runs N of them as N ticks of dt / N, made by the
-game; in PhysX they are position iterations. With --drive, port sets the gains of a drive: the engine's
-own, and a force in user code that the game holds for --decimation ticks. Gains that --from gives stay as
-they are.
+game; in PhysX they are position iterations. With --drive the wish gives the gains of
+a drive, as written in --from, and port finds their limits: in the engine's own drive, and in a force of
+user code held for --decimation ticks.
 
 Examples:
   regatta port --frequency 2.5Hz --damping-ratio 0.3 --mass 80
