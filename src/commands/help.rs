@@ -22,7 +22,7 @@ pub(super) const COLUMNS: usize = 80;
 /// Indent of a list row, in blanks.
 const ROW_INDENT: usize = 2;
 
-/// Print this help, that of a command, or a chapter of the manual
+/// Print this help, help on a command, or a chapter of the manual
 #[derive(Debug, Default, Args)]
 #[command(after_long_help = flowing(&manual()))]
 pub(super) struct HelpArgs {

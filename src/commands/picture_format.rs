@@ -41,7 +41,7 @@ pub(super) static FORMATS: [PictureFormat; 4] = [
         max_fps: Some(50),
         ..format(
             "gif",
-            "One GIF, each frame with a palette of its own",
+            "One GIF, each frame with its own palette",
             &["gif"],
             Movie(movie::gif),
         )

@@ -170,7 +170,7 @@ impl Notes {
         fs::remove_file(path).ok()?;
         let name = recording.display();
         let message = format!(
-            "a recording was not finished when its window ended; what there is of it is in {name}"
+            "a recording was not finished when its window ended; {name} has it so far"
         );
         recording.is_file().then_some(message)
     }

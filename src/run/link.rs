@@ -70,7 +70,7 @@ pub enum LinkError {
         remedy: String,
     },
     /// The link names a method that cannot step its scene.
-    #[error("the link names a method in vain: {reason}; name another")]
+    #[error("the link names a method that cannot run: {reason}; name another")]
     Refused {
         /// Why the method cannot.
         reason: String,

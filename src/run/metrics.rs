@@ -180,7 +180,8 @@ pub const METRICS: &[Metric] = &[
         scale: Scale::Linear,
         is_comparison: true,
         is_of_energy: true,
-        about: "energy gained, in percent of what the exact motion exchanges: the range of its kinetic energy, once both its ends were seen",
+        about: "energy gained, in percent of the energy that the exact motion exchanges: the range of its kinetic \
+                energy, once it has reached both ends",
         measure: |lane, truth| {
             let [lane, exact] = both(lane, truth)?;
             let exchanged = exact.extent()?.exchanged_j(&*exact.stepper)?;

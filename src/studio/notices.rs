@@ -45,7 +45,7 @@ fn of_halts(scene: &Scene, race: &Race) -> Vec<String> {
         let Some(entrant) = entrant else {
             let halted =
                 format!("the {truth} solution halted at tick {tick}: {} {failure}", body.name);
-            return vec![halted, "nothing is compared with it any more".into()];
+            return vec![halted, "comparisons with it have ended".into()];
         };
         let lanes: Vec<LaneSpec> = race.entrants().iter().map(|lane| lane.spec).collect();
         let name = entrant.spec.distinct_name(entrant.spec.method.name, &lanes);

@@ -52,7 +52,7 @@ impl Driver {
             match to_do {
                 ToDo::Own(Command::View(ViewCommand::AskForPath)) => files::ask(),
                 ToDo::Own(_) => {
-                    let told = "a page compares no recordings; `regatta diff` does";
+                    let told = "a page cannot compare recordings; `regatta diff` can";
                     self.frames.studio.viewer.set_notice(told);
                 }
                 ToDo::Request(DriverRequest::Screenshot) => self.saves_picture = true,

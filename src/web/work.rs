@@ -86,7 +86,7 @@ pub(crate) fn told_after_slice(replay: &mut Replay) -> Option<String> {
     if let Some(reached) = reached {
         let Check { tick, hash, .. } = replay.scene().checks[reached.row];
         if reached.hash != Some(hash) {
-            return Some(format!("not the run that was made: they differ from tick {tick} on"));
+            return Some(format!("not the run of the link: they differ from tick {tick} on"));
         }
     }
     replay.is_over().then(|| format!("the same to the bit as where it was made, to tick {last}"))

@@ -141,8 +141,8 @@ fn ticks_of_a_scene_are_read_with_a_warning_and_saved_as_seconds() {
     assert_eq!(said.len(), 3);
     assert_eq!(
         said[2],
-        "old.toml:16:8: `tick` in a scene is read for this release only: another tick rate would be \
-         another motion; write `at_s = 2.5` in its place"
+        "old.toml:16:8: `tick` in a scene is read in this release only: at another tick \
+         rate the motion would change; write `at_s = 2.5` in its place"
     );
     // At another rate, at the same times.
     let journal = Journal::of_script(&scene.script, 20);

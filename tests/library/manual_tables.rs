@@ -121,7 +121,8 @@ fn the_manual_lists_every_scene_and_times_every_general_method_in_the_order_of_t
         hold_text("src/manual/scenes.md", &names.join("\n"), &rows.join("\n"), remedy);
     }
     assert!(
-        SCENES.is_sorted_by_key(|scene| SceneGroup::ALL.iter().position(|g| *g == scene.group))
+        SCENES.is_sorted_by_key(|scene| SceneGroup::ALL.iter().position(|g| *g == scene.group)),
+        "list SCENES in the order of SceneGroup::ALL"
     );
 }
 
@@ -132,7 +133,8 @@ fn the_readme_lists_every_chapter_and_every_chapter_begins_with_its_title() {
         readme.split_once("| chapter | what it is about |\n|---|---|\n").expect("the table");
     let listed: Vec<&str> = after.lines().take_while(|line| line.starts_with('|')).collect();
     let rows = CHAPTERS.iter().map(|chapter| format!("| `{}` | {} |", chapter.id, chapter.about));
-    assert_eq!(listed, rows.collect::<Vec<_>>());
+    let remedy = "each chapter of CHAPTERS has this row there, by hand";
+    hold_text("README.md", &rows.collect::<Vec<_>>().join("\n"), &listed.join("\n"), remedy);
     for chapter in CHAPTERS {
         assert!(chapter.text.starts_with("# "), "{}", chapter.id);
     }

@@ -140,7 +140,7 @@ fn a_vec_of_another_length_is_told_to_whoever_wrote_the_acceleration() {
                 (0..3).try_for_each(|_| built.step(&Replaced(given), 0.0, 0.01, &mut state))
             });
             assert!(
-                told.contains("`acceleration` overwrites the numbers of `a`"),
+                told.contains("`acceleration` must overwrite the numbers of `a`"),
                 "{}: {told}",
                 card.id
             );

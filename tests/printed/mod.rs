@@ -62,7 +62,7 @@ impl Text {
         let Err(wrong) = has_lines(said, printed) else { return };
         let is_blessed = env::var_os("BLESS").is_some_and(|value| value == "1");
         let name = self.name;
-        assert!(is_blessed, "{name}: {wrong}\n{said}\nBLESS=1 replaces it");
+        assert!(is_blessed, "{name}: {wrong}\n{said}\nBLESS=1 with this test replaces the block");
         let written = blessed(said, printed);
         has_lines(said, &written).unwrap_or_else(|wrong| panic!("{name}: {wrong}"));
         // An earlier block of this text may have been replaced.
@@ -99,12 +99,12 @@ pub(crate) fn has_lines(said: &str, printed: &str) -> Result<(), String> {
             false => said.next().is_some_and(|said| is_line(said, line)),
         };
         if !found {
-            return Err(format!("not said: {line}"));
+            return Err(format!("the output lacks the line: {line}"));
         }
         may_skip = false;
     }
     match said.next().filter(|_| !may_skip) {
-        Some(more) => Err(format!("not printed: {more}")),
+        Some(more) => Err(format!("the text lacks the line: {more}")),
         None => Ok(()),
     }
 }
@@ -148,7 +148,9 @@ fn blessed(said: &str, printed: &str) -> String {
         let nearest = (at..all.len()).rev().max_by_key(common).filter(|index| common(index).1 > 0);
         let found = if may_skip { nearest } else { Some(at) };
         let found = found.filter(|index| *index < all.len());
-        let found = found.unwrap_or_else(|| panic!("nothing like this is said any more: {line}"));
+        let found = found.unwrap_or_else(|| {
+            panic!("no line of the output resembles {line}; edit the block by hand")
+        });
         written += &line_of(all[found], Some(line));
         (at, may_skip) = (found + 1, false);
     }

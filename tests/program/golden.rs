@@ -105,7 +105,11 @@ fn wrong(name: &str, drawn: &RgbaImage) -> Option<String> {
     }
     let golden = match image::open(&path) {
         Ok(golden) => golden.into_rgba8(),
-        Err(error) => return Some(format!("{name}: {error}; BLESS=1 writes it")),
+        Err(error) => {
+            return Some(format!(
+                "{name}: {error}; BLESS=1 cargo test --test program golden writes it"
+            ));
+        }
     };
     let bytes = std::fs::metadata(&path).unwrap().len() as usize;
     let (most, off) = difference(&golden, drawn);
@@ -116,7 +120,8 @@ fn wrong(name: &str, drawn: &RgbaImage) -> Option<String> {
     let kept = std::env::temp_dir().join(format!("regatta-{name}"));
     write_small(drawn, &kept);
     Some(format!(
-        "{name}: {off} pixels off by more than 1, the worst by {most}, {bytes} bytes; drawn now: {}",
+        "{name}: {off} pixels off by more than 1, the worst by {most}, {bytes} bytes; drawn now: {}; if intended, \
+         BLESS=1 cargo test --test program golden",
         kept.display()
     ))
 }

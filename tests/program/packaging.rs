@@ -47,7 +47,7 @@ fn the_pages_and_completions_of_a_package_are_those_of_the_command_line() {
         let kept = fs::read(&path).unwrap_or_default();
         assert!(
             kept == made,
-            "{name} is another; write it with BLESS=1 cargo test --test program packaging"
+            "assets/linux/{name} is out of date; write it with BLESS=1 cargo test --test program packaging"
         );
     }
     let listed = |part: &str| fs::read_dir(folder().join(part)).unwrap().count();

@@ -124,8 +124,8 @@ fn note(rounded: &[ErrorCurve]) -> String {
         ),
     };
     format!(
-        "Error: the largest of a coordinate or a velocity on the way, as a part of its amplitude, of \
-         the worst body. A point for each tick rate; none where a method is lost.{rounded}"
+        "Error: the largest of a coordinate or a velocity of the worst body, as a fraction of its amplitude. A point \
+         for each tick rate; none if a method is lost.{rounded}"
     )
 }
 

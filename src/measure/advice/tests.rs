@@ -23,10 +23,10 @@ fn margins_are_told_as_far_as_they_are_known() {
         (Some(50), Some(1e4), "holds down to 50 Hz, or more than 10000 × stiffness"),
         (Some(59), Some(1.0), "holds down to 59 Hz, or 1 × stiffness (no reserve)"),
         (Some(60), Some(1.1), "holds down to 60 Hz (no reserve), or 1.1 × stiffness"),
-        (Some(60), None, "holds down to 60 Hz (no reserve); how much stiffer, is not known"),
-        (Some(50), None, "holds down to 50 Hz; how much stiffer, is not known"),
-        (None, Some(1.4), "holds up to 1.4 × stiffness; how much slower, is not known"),
-        (None, None, "how much slower or stiffer, is not known"),
+        (Some(60), None, "holds down to 60 Hz (no reserve); with stiffer bodies not known"),
+        (Some(50), None, "holds down to 50 Hz; with stiffer bodies not known"),
+        (None, Some(1.4), "holds up to 1.4 × stiffness; with slower ticks not known"),
+        (None, None, "the reserve is not known"),
     ] {
         let met = met(slowest_hz, stiffness_factor);
         assert_eq!(met.margins(), told);

@@ -320,7 +320,7 @@ mod tests {
             ("v = 1\nx += lrep(x, 1, 2)", 11..15, "unknown function `lrep`"),
             ("x += (1", 6..7, "the text ends where `)` is missing"),
             ("let k = 2", 0..9, "no line assigns `x` or `v`"),
-            ("target = 1", 0..6, "`target` is where `x` goes, which no line changes"),
+            ("target = 1", 0..6, "`target` is the goal of `x`, and no line may change it"),
             ("let step = 1; x = step", 4..8, "`step` has a meaning of its own in expressions"),
             ("x = k; let k = 1", 4..5, "unknown name `k`"),
             ("let k += 1; x = k", 4..5, "`k` has no value yet"),

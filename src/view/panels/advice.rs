@@ -138,7 +138,7 @@ fn answer(
                 } else if all_miss {
                     format!("none with up to {MAX_ADVISED_SUBSTEPS} substeps")
                 } else {
-                    "unknown for those that might".into()
+                    "not known".into()
                 };
                 line(ui, RichText::new(none).color(palette(ui).text));
                 return;
@@ -330,9 +330,8 @@ impl Row<'_> {
                 return;
             }
             CriterionResult::Unknown => {
-                ui.label(dim("?")).on_hover_text(
-                    "unknown: there is no exact motion to compare with, or it takes too much work",
-                );
+                ui.label(dim("?"))
+                    .on_hover_text("not known: no exact motion to compare with, or too much work");
                 return;
             }
         };

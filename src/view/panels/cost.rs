@@ -107,7 +107,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
             time_of,
             ns,
         ));
-        let about = "the part of a frame at 60 Hz that its ticks take";
+        let about = "the share of a frame at 60 Hz that its ticks take";
         all.push(Column::number("60 Hz frame", (70.0, 2), about, share_of, ns));
     }
     all

@@ -71,7 +71,7 @@ pub(super) fn show(
         });
         let [others @ .., last] = Language::ALL.map(Language::name);
         let told = format!(
-            "Under the recommended method, whose code stands beside it in {} or {last}.",
+            "Under the recommended method, with its code in {} or {last}.",
             others.join(", ")
         );
         ui.label(RichText::new(told).size(11.5).color(palette(ui).dim));
@@ -106,7 +106,7 @@ fn speaks(ui: &mut Ui, spring: MySpring) -> Option<(&'static Dialect, DialectPor
                 }
             }
         });
-        let about = format!("the library whose numbers are taken: {}", name(chosen));
+        let about = format!("the library for its numbers: {}", name(chosen));
         menu.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &about));
         let code = told.as_ref().map(|(_, port)| port.code.clone()).filter(|code| !code.is_empty());
         let copy = ui.add_enabled(code.is_some(), Button::new("Copy"));

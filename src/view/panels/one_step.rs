@@ -85,7 +85,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
 /// [`words`], laid out to paint.
 fn said(ui: &Ui, studio: &Studio, step: &OneStep, width: f32) -> Arc<Galley> {
     let words = match studio.viewer.is_asked() {
-        true => "Where this tick lands is shown after your prediction.".into(),
+        true => "The end of this tick is shown after your prediction.".into(),
         false => words(step, &shown_coordinate(studio)),
     };
     ui.painter().layout(words, FontId::proportional(TYPE), palette(ui).text, width)

@@ -143,10 +143,10 @@ fn times_are_held_against_each_other_and_what_contradicts_is_said() {
     for (header, row, told) in [
         (presentmon, (&|n| format!("{},8,8", n * 0.0084)) as &dyn Fn(f64) -> String, "own time"),
         ("CPUStartTime,FrameTime,DisplayedTime", &|n| format!("{},8,8", n * 10.0), "own time"),
-        (&late, &|n| format!("0,{},8,8", 20.0 + 0.4 * n), "clocks of frames and of display"),
+        (&late, &|n| format!("0,{},8,8", 20.0 + 0.4 * n), "frame and display clocks"),
         ("fps,frametime,elapsed", &|n| format!("125,8,{}", n * 8.4e6), "own time"),
-        ("fps,frametime", &|_| "250,8".into(), "frames a second"),
-        ("frame;fps;frametime (ms)", &|n| format!("{n};250;8,0"), "frames a second"),
+        ("fps,frametime", &|_| "250,8".into(), "frame rates contradict"),
+        ("frame;fps;frametime (ms)", &|n| format!("{n};250;8,0"), "frame rates contradict"),
     ] {
         let trace = log(header, row);
         let said = trace.missing_display().unwrap_or_default();

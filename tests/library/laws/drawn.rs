@@ -149,7 +149,7 @@ fn places_that_cannot_be_are_refused_with_their_place_and_a_remedy() {
     };
     for (keys, at, wanted) in [
         ("", "['z', 'zz']", "mine.toml:7:12: unknown name `zz`"),
-        ("", "['vz', '0']", "a place is drawn by coordinates and constants alone, not by `vz`"),
+        ("", "['vz', '0']", "a place depends on coordinates and constants alone, not on `vz`"),
         ("", "['z']", "`at` is not an x and a y; write two expressions for x and y"),
         ("", "'z'", "mine.toml:7:6: `at` is the string"),
         (

@@ -84,7 +84,7 @@ fn an_exact_solution_that_a_constant_makes_false_for_a_while_is_no_truth() {
 fn a_constant_is_no_energy() {
     for constant in ["3", "k", "0*vx + 0*x"] {
         let said = said("", &format!("energy = '{constant}'"), "").expect("it says nothing");
-        assert!(said.contains("which says nothing of the motion"), "{said}");
+        assert!(said.contains("which says nothing about the motion"), "{said}");
     }
 }
 

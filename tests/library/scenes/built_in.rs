@@ -34,7 +34,8 @@ fn every_built_in_scene_parses_names_its_methods_and_says_what_to_try() {
     for scene in SCENES {
         let parsed = built_in(scene.name);
         assert_eq!(parsed.name, scene.name);
-        assert!(!parsed.about.is_empty() && parsed.hint.is_some(), "{}", scene.name);
+        let has_texts = !parsed.about.is_empty() && parsed.hint.is_some();
+        assert!(has_texts, "{}: write an `about` and a `hint`", scene.name);
         // Few enough to tell apart, and each with a digit key.
         assert!((2..=9).contains(&parsed.lanes.len()), "{}", scene.name);
         // By name, so that a new method changes no scene.

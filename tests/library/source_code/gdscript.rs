@@ -120,5 +120,9 @@ fn bdf2_in_gdscript_is_as_committed() {
     if env::var_os("BLESS").is_some() {
         fs::write(&path, &text).unwrap();
     }
-    assert_eq!(text, fs::read_to_string(path).unwrap(), "BLESS=1 writes it again");
+    assert_eq!(
+        text,
+        fs::read_to_string(path).unwrap(),
+        "BLESS=1 cargo test --test library gdscript writes bdf2.gd again"
+    );
 }

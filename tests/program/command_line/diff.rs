@@ -279,7 +279,7 @@ fn columns_can_be_chosen_and_each_says_from_where_on_it_differs() {
     assert_eq!(found["columns"][0]["first_tick"], 2);
     let (code, text, told) = diff("");
     assert_eq!(code, Some(1));
-    assert!(text.contains("rows belong together by their place; --key"), "{text}{told}");
+    assert!(text.contains("rows are matched by their number; --key"), "{text}{told}");
     let (code, _, told) = diff("--key nothing");
     assert_eq!(code, Some(2));
     assert!(

@@ -15,10 +15,7 @@ fn each_mistake_is_named_with_its_remedy() {
         ("trace --scene shp", "is called \"shp\"; did you mean ship?"),
         ("trace --scene Stiff", "did you mean stiff?"),
         ("trace --scene spring --method lerp-dt", "lerp-dt does not step the body \"spring\""),
-        (
-            "capture --out x --scene follow --method lerp-dt",
-            "only a `follow` of order 1; name another",
-        ),
+        ("capture --out x --scene follow --method lerp-dt", "such as `follow`; name another"),
         (
             "advise --scene lerp --method smooth-damp",
             "smooth-damp does not step the body \"camera\"",
@@ -224,7 +221,7 @@ fn an_argument_longer_than_any_path_is_refused_in_a_line() {
         let output = run_in(folder.path(), &format!("{command} {long}"));
         assert_eq!(output.status.code(), Some(2), "{command}");
         let said = stderr(&output);
-        let named = format!("argument {place} has 100000 bytes, and the most are 4096");
+        let named = format!("argument {place} has 100000 bytes, and the limit is 4096");
         assert!(said.contains(&named) && said.len() < 600, "{said:.900}");
     }
     let path = format!("{}.toml", "x".repeat(200));

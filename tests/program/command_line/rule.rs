@@ -123,7 +123,7 @@ fn what_is_no_rule_is_refused_with_its_place_and_a_remedy() {
         ("x += k * dt", "rule:1:6: unknown name `k`; write x, v, h or target, or give it"),
         (&*file, "camera.step:2:6: unknown name `speed`"),
         ("x += (1", "rule:1:7: the text ends where `)` is missing"),
-        ("pos.x += 1", "rule:1:1: `pos.x += 1` is a part of something; a step moves one number"),
+        ("pos.x += 1", "rule:1:1: `pos.x += 1` is one part of a value; a step moves one number"),
         ("x + 1", "\"x + 1\" is no rule and no file; write an assignment"),
         ("", "is no rule and no file"),
         ("v += a(x) * dt", "rule:1:6: a rule is the whole motion, and calls no acceleration"),

@@ -170,7 +170,7 @@ fn a_scene_file_that_has_changed_since_the_capture_is_told_of_and_not_run() {
         fs::write(&file, now).unwrap();
         let (code, stdout, stderr) = verify(folder.path(), "--physics-only");
         assert_eq!(code, Some(0), "{stdout}{stderr}");
-        let said = "mine.toml has changed since the capture; the scene as captured is run";
+        let said = "mine.toml has changed since the capture; verify runs the captured scene";
         assert_eq!(stderr.contains(said), is_told, "{stderr}");
     }
 }

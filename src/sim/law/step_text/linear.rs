@@ -125,7 +125,7 @@ impl LinearRule {
             return refused("the rule leaves `x` where it is", "say how it moves: `x += v * dt`");
         }
         if !text.is_linear() {
-            return refused("the rule is not linear, so that no exact motion is behind it", ask);
+            return refused("the rule is not linear, so it has no exact motion", ask);
         }
         let state = text.with_causes(vec![0]);
         let hz = fps.hz();

@@ -42,7 +42,7 @@ const REFUSED_ALONE: [(&str, &str); 5] = [
     ("takes", "a method takes `a(x, v)` alone"),
     ("use", "write the lines inside the functions"),
     ("count", "write the lines of one step, which has no loops"),
-    ("fail", "let the numbers be what they become"),
+    ("fail", "leave the numbers as they come out"),
     ("stay", "write the lines in an `if` of the opposite"),
 ];
 
@@ -190,8 +190,8 @@ impl Reader<'_> {
         let Some((sign, joins)) = operator.filter(|_| !self.rest().starts_with("==")) else {
             let (what, remedy) = match self.rest().chars().next() {
                 Some('.' | '[') => (
-                    format!("`{}` is a part of something", quoted(self.text[whole(self)].trim())),
-                    "a step moves one number: write `x` for where it is and `v` for how fast it moves",
+                    format!("`{}` is one part of a value", quoted(self.text[whole(self)].trim())),
+                    "a step moves one number: write `x` for its position and `v` for its velocity",
                 ),
                 Some('(') => (
                     format!("`{written}(…)` is a call"),

@@ -45,7 +45,7 @@ pub(in crate::view::panels) fn speed_menu(
             }
         }
     });
-    let about = "how slowly the frames are played (- and =); a monitor adds its own judder to what is faster";
+    let about = "playback speed of the frames (- and =); if faster, a monitor adds its own judder";
     response.response.on_hover_text(about);
 }
 
@@ -60,7 +60,7 @@ fn short(name: &str) -> String {
 /// Description of a trace.
 fn about_trace(trace: &FrameTrace) -> String {
     let built_in = TRACES.iter().find(|card| card.id == trace.name());
-    let about = built_in.map_or("frames that were opened from a file", |card| card.about);
+    let about = built_in.map_or("frames from a file", |card| card.about);
     let missing = trace.missing_display();
     about.to_owned() + &missing.map_or(String::new(), |missing| format!("; {missing}"))
 }

@@ -75,7 +75,7 @@ fn columns<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         },
         |row| SortKey::Number(row.index as f64),
     );
-    let about = "what this loop does to motion at this tick rate on this display; sorted from best to worst";
+    let about = "the effect of this loop on motion at this tick rate on this display; sorts from best to worst";
     let display = loops.traces()[loops.trace()].name();
     let verdict = Column::shown(
         "Verdict",
