@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn the_energy_gained_is_known_of_linear_bodies_at_once_and_of_no_other_before_it_is_exchanged()
+    fn energy_gained_is_known_at_once_only_for_linear_bodies()
     {
         let gained = |scene: &str, id: &str, ticks: u64, body: usize| {
             let scene = Scene::built_in(scene).unwrap();
@@ -356,14 +356,14 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_is_kicked_from_rest_is_held_against_the_speed_it_then_has() {
+    fn a_body_kicked_from_rest_is_compared_with_its_new_speed() {
         let mut race = race("rk4", [0.0, 0.0]);
         race.perform(&Action::Kick(1.0), &mut ());
         assert_eq!(measured("relative_speed_error", &race), Some(0.0));
     }
 
     #[test]
-    fn energy_is_held_against_what_the_motion_exchanges_and_against_nothing_else() {
+    fn energy_drift_is_relative_to_the_energy_exchanged() {
         let drifts = |bodies: &str, tick_hz: u32| {
             let head = "seconds = 60\nmethods = ['rk4', 'semi-implicit-euler']";
             let text = format!("title = 'x'\ntick_hz = {tick_hz}\n{head}\n{bodies}");
@@ -412,7 +412,7 @@ mod tests {
     }
 
     #[test]
-    fn a_truth_or_a_lane_that_halted_is_no_yardstick() {
+    fn a_halted_truth_or_lane_has_no_error() {
         let comparing =
             ["position_error", "velocity_error", "relative_speed_error", "energy_drift"];
         let mut lost = race("explicit-euler", [1.0, 0.0]);

@@ -120,7 +120,7 @@ mod tests {
     use crate::studio::Studio;
 
     #[test]
-    fn time_goes_on_at_each_rate_from_where_the_rate_was_set() {
+    fn a_new_rate_continues_from_its_own_time() {
         let scale = TimeScale::new(
             (0, 0.0),
             60.into(),

@@ -340,7 +340,7 @@ mod tests {
     }
 
     #[test]
-    fn a_clock_knows_its_tick_and_is_equal_to_one_that_owes_the_same() {
+    fn a_clock_knows_its_tick_length_and_clocks_with_equal_debt_are_equal() {
         assert_eq!(
             [60, 120, 7].map(|hz| Clock::new(hz).dt_s()),
             [1.0 / 60.0, 1.0 / 120.0, 1.0 / 7.0]

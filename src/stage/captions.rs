@@ -492,7 +492,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_beside_a_name_ends_before_the_chip_and_has_digits_only_while_the_body_is_held() {
+    fn text_beside_a_name_ends_before_the_chip_even_while_a_body_is_held() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.analyse();
         (0..60).for_each(|_| studio.tick());

@@ -188,7 +188,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_group_has_its_instruments_together_and_each_says_what_it_is() {
+    fn instruments_are_contiguous_by_group_and_described() {
         let mut groups: Vec<InstrumentGroup> = INSTRUMENTS.iter().map(|card| card.group).collect();
         groups.dedup();
         assert_eq!(groups, InstrumentGroup::ALL);

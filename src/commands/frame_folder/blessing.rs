@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_swap_stopped_after_any_step_is_carried_to_the_same_end() {
+    fn a_swap_interrupted_at_any_step_can_be_completed() {
         for moved in 0..=FRAMES.len() + 1 {
             let clip = tempfile::tempdir().unwrap();
             write(clip.path(), &FRAMES, "old");

@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn in_f64_these_are_the_methods_themselves_to_the_bit() {
+    fn the_f64_versions_match_the_methods_to_the_bit() {
         let ship = chapters_ship();
         for (id, formula) in FORMULAS {
             for h_log2 in [1, -1, -6] {
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn the_least_error_is_where_theory_says() {
+    fn the_error_is_smallest_where_theory_predicts() {
         for (id, width) in
             [("explicit-euler", Width::Single), ("rk4", Width::Single), ("rk4", Width::Double)]
         {

@@ -33,7 +33,7 @@ fn ids_are_unique_and_fit_to_be_typed() {
 }
 
 #[test]
-fn every_trace_begins_at_the_start_and_goes_on_at_every_rate() {
+fn every_trace_starts_at_zero_and_advances_at_every_rate() {
     for card in TRACES {
         for rate in [RefreshRate::new(1, 1), HZ_60, RefreshRate::new(1000, 1)] {
             for steps in [0, 1, 40] {
@@ -49,7 +49,7 @@ fn every_trace_begins_at_the_start_and_goes_on_at_every_rate() {
 }
 
 #[test]
-fn only_edge_and_heartbeat_display_a_frame_before_it_began() {
+fn only_edge_and_heartbeat_display_a_frame_before_its_start() {
     for card in TRACES {
         let frames = first(card.id, HZ_60, 2000, 1);
         let early = frames.iter().any(|f| f.displayed_ns.is_some_and(|at| at < f.began_ns));
@@ -122,7 +122,7 @@ fn a_spiral_frame_lasts_as_long_as_the_steps_before_it() {
 }
 
 #[test]
-fn jitter_misses_some_refreshes_and_never_runs_ahead_by_more_than_one_picture() {
+fn jitter_misses_some_refreshes_and_runs_ahead_by_at_most_one_frame() {
     let frames = first("jitter", HZ_60, 10_000, 0);
     let waits = frames.iter().map(|f| f.displayed_ns.unwrap() - f.began_ns);
     assert!(waits.clone().all(|ns| ns > REFRESH_NS / 2 && ns < 4 * REFRESH_NS + 2));

@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn more_than_eight_ticks_owed_are_dropped_with_all_that_is_owed() {
+    fn a_debt_over_eight_ticks_is_dropped_entirely() {
         let base = TimeBase::new(60, RefreshRate::new(60, 1));
         let mut policy = Snapped::new(base, FrameLimits::default());
         let mut total = Steps::default();

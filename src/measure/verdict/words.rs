@@ -370,7 +370,7 @@ mod tests {
     }
 
     #[test]
-    fn a_verdict_is_said_in_fewer_and_fewer_words() {
+    fn wordings_of_a_verdict_get_shorter_and_shorter() {
         let found = verdict("harbour", "improved-euler", 60);
         assert_eq!(
             found.wordings(true),
@@ -426,7 +426,7 @@ mod tests {
     }
 
     #[test]
-    fn moments_are_times_of_the_run_and_lengths_count_from_where_it_is_judged() {
+    fn moments_are_run_times_and_durations_count_from_the_judged_start() {
         for (scene, id, tick_hz, shown) in [
             ("spring", "explicit-euler", 60, "grows · swing ×2 in 2.1 s"),
             ("stiff", "semi-implicit-euler", 49, "blows up · at 104 s"),

@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn what_never_rests_exchanges_its_energy_once_both_ends_were_seen() {
+    fn a_restless_motion_has_an_energy_range_once_both_turns_were_seen() {
         let swing = |from: usize, to: usize| {
             (from..=to).map(|i| 3.0 + libm::sin(i as f64 * std::f64::consts::PI / 100.0).powi(2))
         };

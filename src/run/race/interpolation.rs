@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn a_monotone_cubic_goes_one_way_between_ticks_that_do_and_keeps_turns_and_parabolas() {
+    fn a_monotone_cubic_never_overshoots_and_keeps_turns_and_parabolas() {
         let path = |h: f64, q: [f64; 2], v: [f64; 2]| -> Vec<f64> {
             let v = monotone(h, q, v);
             (0..=100).map(|part| hermite(f64::from(part) / 100.0, h, q, v)).collect()

@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_read_before_it_is_assigned_is_carried() {
+    fn a_name_read_before_its_assignment_is_carried() {
         let text = read(
             "memory prev = 2*3; temp = x; x += (x - prev) * 0.5; prev = temp; count = count + 1",
         );

@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mode_of_a_chain_has_the_stability_of_a_spring_with_its_frequency_and_damping() {
+    fn a_chain_mode_is_as_stable_as_a_spring_of_its_frequency_and_damping() {
         for damping in [0.0, 0.3] {
             let chain = unforced(&*chain(damping));
             for mode in normal_modes(&*chain).unwrap() {

@@ -40,7 +40,7 @@ fn every_handle_of_every_kind_can_be_grabbed_and_is_at_least_12_points_wide() {
 }
 
 #[test]
-fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
+fn a_held_body_is_drawn_under_the_pointer() {
     for kind in BODIES.iter() {
         let mut studio = studio(kind.id);
         // The same while zoomed and panned.
@@ -122,7 +122,7 @@ fn a_bob_that_is_led_round_counts_its_turns_and_is_flung_along_its_circle() {
 }
 
 #[test]
-fn of_a_chain_only_the_bead_in_hand_moves() {
+fn dragging_a_bead_moves_no_other_bead_of_the_chain() {
     let studio = studio("chain");
     let picture = picture(&studio);
     let cell = &picture.cells[0];

@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_response_is_that_of_swing_decay_and_growth() {
+    fn the_response_matches_oscillation_decay_and_growth() {
         // s = e^(αt) sin(ωt)/ω with z = 2α and y = -α² - ω², and its integrals from the equation.
         for alpha in [0.0, -0.3, -4.0, 0.5] {
             for w in [1e-3, 0.2, 1.7, 30.0] {
