@@ -332,8 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn energy_gained_is_known_at_once_only_for_linear_bodies()
-    {
+    fn energy_gained_is_known_at_once_only_for_linear_bodies() {
         let gained = |scene: &str, id: &str, ticks: u64, body: usize| {
             let scene = Scene::built_in(scene).unwrap();
             let spec = LaneSpec::plain(method(id).unwrap());

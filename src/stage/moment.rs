@@ -142,8 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn the_displayed_speed_lies_between_the_speeds_at_the_two_ticks()
-    {
+    fn the_displayed_speed_lies_between_the_speeds_at_the_two_ticks() {
         let mut studio = Studio::new(Scene::built_in("surge").unwrap());
         for _ in 0..70 {
             studio.advance(137_000_000);

@@ -179,8 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn race_from_solo_selects_the_best_lane_unless_the_scene_names_one()
-     {
+    fn race_from_solo_selects_the_best_lane_unless_the_scene_names_one() {
         let brief = |name| Scene { seconds: 2.0, ..Scene::built_in(name).unwrap() };
         let mut studio = Studio::new(brief("spring"));
         studio.analyse();

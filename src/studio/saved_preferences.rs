@@ -134,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_remembered_is_read_as_it_was_written() {
+    fn preferences_survive_writing_and_reading() {
         for preferences in [
             SavedPreferences::default(),
             SavedPreferences { size: Some([800, 600]), ..SavedPreferences::default() },

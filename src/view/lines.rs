@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_simpler_line_keeps_its_ends_its_spikes_and_within_the_tolerance_all_else() {
+    fn simplifying_keeps_a_line_within_the_tolerance_with_its_ends_and_spikes() {
         let mut wave: Vec<Joint> =
             (0..400).map(|i| i as f32 / 8.0).map(|x| joint([x, 20.0 * (x / 5.0).sin()])).collect();
         wave[200].at.y += 30.0;
@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_line_keeps_the_joints_where_it_changes_its_width_or_its_colour() {
+    fn simplifying_keeps_joints_where_width_or_colour_changes() {
         let straight: Vec<Joint> = (0..30).map(|i| joint([i as f32, 0.0])).collect();
         assert_eq!(simple(&straight).len(), 2);
         let mut wider = straight.clone();

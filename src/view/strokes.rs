@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_without_gaps_has_room_for_its_round_ends_and_a_closed_one_has_none() {
+    fn a_solid_line_has_room_for_round_ends_unless_it_is_closed() {
         let straight = mesh([[0.0, 0.0], [10.0, 0.0]], SOLID);
         assert_eq!((straight.vertices.len(), straight.indices.len()), (4, 6));
         assert_eq!([0, 2].map(|i| straight.vertices[i].at), [[-2.0, -2.0], [12.0, -2.0]]);
@@ -344,8 +344,8 @@ mod tests {
     }
 
     #[test]
-    fn a_point_is_as_many_pixels_as_the_scale_says() {
-        let test = "a_point_is_as_many_pixels_as_the_scale_says";
+    fn the_scale_sets_the_pixels_per_point() {
+        let test = "the_scale_sets_the_pixels_per_point";
         let Some(gpu) = gpu_or_skip(test) else { return };
         let across = path(&[([-9.0, 8.0], 2.0), ([80.0, 8.0], 2.0)], [255; 4]);
         let clip = Rect { min: [4.0, 0.0], max: [12.0, 64.0] };

@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chosen_size_of_type_holds_as_far_as_the_window_has_room() {
+    fn a_chosen_type_size_is_limited_by_the_window() {
         for (size, percent, expected) in [
             ([1280.0, 720.0], 100, 1.0),
             ([1280.0, 720.0], 75, 0.75),

@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn what_an_address_asks_for_in_vain_is_refused_in_a_sentence_that_names_it() {
+    fn an_invalid_setting_of_an_address_is_refused_by_name() {
         for (written, word) in [
             ("#scene=tub", "\"tub\""),
             ("#method=rk5", "\"rk5\""),

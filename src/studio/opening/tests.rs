@@ -199,7 +199,7 @@ fn a_broken_file_shows_its_mistakes_and_keeps_the_run() {
 }
 
 #[test]
-fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
+fn the_rewind_limit_stays_the_same_for_every_opened_scene() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.deck.set_rewind_bytes(1 << 20);
     studio.apply(StageCommand::SceneBeside(Step::Next));
@@ -213,7 +213,7 @@ fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
 }
 
 #[test]
-fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
+fn preferences_survive_a_change_of_scene_and_the_view_does_not() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     let chosen = studio.viewer.preferences.clone();
     for command in [
@@ -236,7 +236,7 @@ fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
 }
 
 #[test]
-fn a_comparison_that_ends_in_the_loop_lab_marks_the_run_and_leaves_it_where_it_is() {
+fn a_comparison_ending_in_the_loop_lab_marks_the_run_without_moving_it() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..200).for_each(|_| studio.tick());
     studio.apply(LoopCommand::ToggleLab);
@@ -260,7 +260,7 @@ fn a_comparison_that_ends_in_the_loop_lab_marks_the_run_and_leaves_it_where_it_i
 }
 
 #[test]
-fn a_recording_that_differs_runs_beside_the_run_as_a_ghost_at_every_tick() {
+fn a_differing_recording_runs_along_as_a_ghost_at_every_tick() {
     use crate::run::diff::{Tolerance, diff};
     use crate::run::trace::Made;
     use crate::stage::compose;
@@ -321,7 +321,7 @@ fn a_recording_that_differs_runs_beside_the_run_as_a_ghost_at_every_tick() {
 }
 
 #[test]
-fn my_spring_runs_at_the_tick_rate_of_its_dialog_with_the_advice_beside_it() {
+fn my_spring_runs_at_the_tick_rate_of_its_dialog_and_opens_the_advice() {
     let mut studio = Studio::new(Scene::built_in("ship").unwrap());
     studio.viewer.preferences.display.measure = false;
     studio.apply(ViewCommand::AskForSpring);

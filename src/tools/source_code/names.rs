@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn a_function_that_is_handed_on_keeps_what_it_needs() {
+    fn a_forwarded_function_keeps_its_user_argument() {
         let text = "solve(a, (x), 1.5e-3)";
         let expected = [
             "my_method_solve(&a, (x), 1.5e-3)",

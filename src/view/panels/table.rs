@@ -452,7 +452,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_fill_the_width_and_the_rest_is_never_squeezed_out_by_a_number() {
+    fn columns_fill_the_width_and_no_number_squeezes_out_the_others() {
         let table = table();
         let mut before = 0;
         for width in (50..400).map(|width| width as f32) {

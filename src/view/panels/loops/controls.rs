@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn every_trace_says_what_happens_in_it() {
+    fn every_trace_has_a_description() {
         let display = RefreshRate::new(60, 1);
         assert!(TRACES.iter().all(|card| about_trace(&card.trace(display)) == card.about));
         let list = trace_file::read("times.txt", "16.7\n16.6\n").unwrap();
