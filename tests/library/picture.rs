@@ -51,7 +51,7 @@ fn nothing_that_blows_up_reaches_a_vertex() {
 }
 
 #[test]
-fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
+fn bodies_at_the_edge_of_the_valid_range_are_drawn() {
     let text = "title = \"far\"\ntick_hz = 10000\nseconds = 1\n\
          [[ship]]\nthrust_n = 0\ndrag_n_s_per_m = 0\nmass_kg = 1e-3\ns0_m = 1e15\nv0_m_per_s = 1e15\n\
          [[spring]]\nmass_kg = 1e15\nstiffness_n_per_m = 1e-3\nx0_m = -1e15\nv0_m_per_s = -1e15\n\
@@ -81,7 +81,7 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
 }
 
 #[test]
-fn a_body_of_two_coordinates_alone_has_a_cell_for_each_lane_that_fits_its_shape() {
+fn a_lone_planar_body_has_a_fitting_cell_for_each_lane() {
     for name in ["chain", "pendulum", "orbit", "helm"] {
         let mut studio = Studio::new(Scene::built_in(name).unwrap());
         studio.apply(StageCommand::ToggleRace);

@@ -22,7 +22,7 @@ fn verdict(scene: &Scene, id: &str) -> Verdict {
 }
 
 #[test]
-fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius_and_says_so() {
+fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius() {
     let scene = scene(1000.0, "");
     for (id, outcome, radius) in [
         ("explicit-euler", Outcome::BlewUp, 5.0..15.0),
@@ -53,7 +53,7 @@ fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius_and_says_so
 }
 
 #[test]
-fn velocity_verlet_on_a_damped_net_has_no_radius_of_a_net_that_stays() {
+fn velocity_verlet_on_a_damped_net_has_no_stable_radius() {
     let scene = |tick_hz: u32| {
         let net = scene(1000.0, "damping_n_s_per_m = 0.635");
         Scene::parse("t", &net.to_toml().replace("tick_hz = 60", &format!("tick_hz = {tick_hz}")))
@@ -74,7 +74,7 @@ fn velocity_verlet_on_a_damped_net_has_no_radius_of_a_net_that_stays() {
 }
 
 #[test]
-fn the_drift_of_a_conserved_energy_is_told_without_a_reference_too() {
+fn the_drift_of_a_conserved_energy_needs_no_reference() {
     let elastic = scene(1000.0, "");
     let drift = |scene: &Scene, id: &str| verdict(scene, id).energy_drift_percent();
     let lost = drift(&elastic, "implicit-euler").expect("it conserves its energy");
