@@ -42,8 +42,8 @@ fn two_reports_are_two_files() {
 }
 
 #[test]
-fn a_report_that_cannot_be_written_names_its_own_option() {
-    let Some(folder) = clip_or_skip("a_report_that_cannot_be_written_names_its_own_option") else {
+fn an_unwritable_report_names_its_own_option() {
+    let Some(folder) = clip_or_skip("an_unwritable_report_names_its_own_option") else {
         return;
     };
     let (code, stdout, stderr) = verify(folder.path(), "--physics-only --report json no/x");
@@ -100,8 +100,8 @@ fn a_report_through_a_link_is_written_to_its_target() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_report_to_what_is_open_already_is_added_to_it() {
-    let Some(folder) = clip_or_skip("a_report_to_what_is_open_already_is_added_to_it") else {
+fn a_report_to_standard_output_is_appended() {
+    let Some(folder) = clip_or_skip("a_report_to_standard_output_is_appended") else {
         return;
     };
     let log = folder.path().join("log");
