@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_given_up_leaves_nothing() {
+    fn an_abandoned_file_leaves_nothing() {
         let folder = tempfile::tempdir().unwrap();
         let mut file = AtomicFile::create(&folder.path().join("run.gif")).unwrap();
         file.write_all(b"half").unwrap();
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn two_writers_of_one_name_do_not_meet() {
+    fn two_writers_of_one_name_do_not_conflict() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("x");
         let [mut a, mut b] = [0, 1].map(|_| AtomicFile::create(&path).unwrap());
@@ -231,7 +231,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_new_file_has_the_permissions_that_any_new_file_has() {
+    fn a_new_file_has_the_usual_permissions() {
         use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().unwrap();
         let [ours, plain] = ["ours", "plain"].map(|name| folder.path().join(name));

@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn every_value_is_read_back_as_it_was_written() {
+    fn every_value_survives_writing_and_reading() {
         let q = [0.1, -0.0, f64::MAX, 5e-324, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
         let mark = LaneMark { hash: "0".into(), q: vec![q.to_vec(), vec![]], v: vec![] };
         let text = serde_json::to_string(&mark).unwrap();

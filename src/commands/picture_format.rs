@@ -137,7 +137,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_asks_for_its_format_and_contradicts_others() {
+    fn a_file_name_sets_its_format_and_must_not_contradict_it() {
         for (out, asked, expected) in [
             ("clip", None, Some("png")),
             ("clip", Some("gif"), Some("gif")),

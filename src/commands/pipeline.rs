@@ -316,8 +316,8 @@ mod tests {
     }
 
     #[test]
-    fn frames_come_in_order_with_the_same_bytes_as_one_at_a_time() {
-        let test = "frames_come_in_order_with_the_same_bytes_as_one_at_a_time";
+    fn pipelined_frames_keep_their_order_and_bytes() {
+        let test = "pipelined_frames_keep_their_order_and_bytes";
         let Some(mut renderer) = renderer_or_skip(test) else { return };
         let (mut studio, mut rgba, mut one_by_one) = (race(), Vec::new(), Vec::new());
         for frame in 0..SCHEDULE.frames {

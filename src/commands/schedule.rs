@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn seconds_make_whole_frames_and_at_least_the_start() {
+    fn durations_round_to_whole_frames_with_at_least_one() {
         assert_eq!(frames_in(20.0, 30).unwrap(), 600);
         assert_eq!(frames_in(0.0, 30).unwrap(), 1);
         assert_eq!(frames_in(0.05, 30).unwrap(), 2);

@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn a_peak_that_the_first_step_leaves_behind_counts_where_the_swing_decays() {
+    fn a_peak_before_the_first_step_counts_for_a_decaying_swing() {
         let (b, q) = libm::sincos(0.3);
         let truth = SwingCurve { q, b, growth_per_s: -0.01, frequency: 1.0 };
         let gap = 1.0 - libm::cos(0.3);

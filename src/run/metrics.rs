@@ -433,7 +433,7 @@ mod tests {
     }
 
     #[test]
-    fn a_difference_that_is_undefined_is_not_the_smallest() {
+    fn an_undefined_difference_does_not_rank_as_smallest() {
         let largest = |a: [f64; 3]| largest_difference(a.into_iter(), [0.0; 3].into_iter());
         assert_eq!(largest([1.0, 3.0, 2.0]), 3.0);
         assert!(largest([1.0, f64::NAN, 2.0]).is_nan());

@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn in_slices_it_reaches_every_check_of_its_recording_with_the_same_hash() {
+    fn a_sliced_replay_reaches_every_check_with_the_same_hash() {
         let mut session = Session::racing(Scene::built_in("harbour").unwrap().into());
         session.run(100);
         let recording = session.recording(100);

@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_is_taken_or_refused_in_the_words_of_the_scene_parser() {
+    fn an_edit_is_accepted_or_refused_like_a_value_in_a_scene_file() {
         let (mut taken, mut refused) = (0, 0);
         for kind in BODIES.iter() {
             let begun = parsed(&table(kind, None)).unwrap();

@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_is_the_ratio_that_its_digits_say() {
+    fn a_rate_is_the_exact_ratio_of_its_digits() {
         for (written, ratio) in [
             ("60", [60, 1]),
             ("60.0", [60, 1]),

@@ -515,7 +515,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chip_on_a_run_that_was_changed_says_that_the_verdict_is_of_another() {
+    fn the_chip_of_an_edited_run_marks_the_verdict_as_another_runs() {
         let words = |studio: &Studio, size| -> Vec<String> {
             let labels = compose(studio, size).labels.into_iter().map(|label| label.text);
             labels.filter(|text| text.contains("blow")).collect()

@@ -357,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn a_badge_says_how_far_in_a_cell_of_a_lane_of_its_own_too() {
+    fn a_badge_shows_the_distance_even_in_a_lanes_own_cell() {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.apply(StageCommand::ToggleRace);
         studio.viewer.preferences.display.arrangement = crate::studio::Arrangement::SideBySide;

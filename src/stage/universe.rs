@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn on_a_narrow_stage_the_sentence_reaches_beyond_neither_side() {
+    fn the_sentence_fits_a_narrow_stage() {
         let mut studio = watched("harbour", Motion::Live);
         (0..350).for_each(|_| studio.tick());
         for width in [320.0, 390.0, 460.0, 1280.0] {

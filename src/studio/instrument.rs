@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn next_and_previous_go_round() {
+    fn next_and_previous_wrap_around() {
         let mut instrument = Instrument::Motion;
         for _ in INSTRUMENTS {
             assert_eq!(instrument.beside(Step::Next).beside(Step::Previous), instrument);

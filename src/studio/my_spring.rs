@@ -195,7 +195,7 @@ mod tests {
     use crate::measure::{CRITERIA, recommended};
 
     #[test]
-    fn a_spring_is_the_same_by_its_stiffness_and_by_its_frequency() {
+    fn stiffness_and_frequency_describe_the_same_spring() {
         let spring = MySpring::default();
         assert!((spring.frequency_hz() - 75f64.sqrt() / TAU).abs() < 1e-15);
         assert!((spring.damping_ratio() - 4.0 / (2.0 * 10_800f64.sqrt())).abs() < 1e-15);

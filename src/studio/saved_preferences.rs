@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_broken_file_is_refused_and_a_newer_one_is_read() {
+    fn a_broken_file_is_refused_but_a_newer_format_is_read() {
         for (text, why) in [
             ("theme = 'blue'", "its theme cannot be understood"),
             ("scene = 5", "its scene cannot be understood"),

@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn shift_and_control_make_other_keys_and_other_modifiers_none() {
+    fn shift_and_control_select_other_keys_and_other_modifiers_no_key() {
         assert_eq!(pressed(Some(','), "<", true), Some(Key::ShiftSign(',')));
         assert_eq!(pressed(Some('.'), ">", true), Some(Key::ShiftSign('.')));
         assert_eq!(pressed(Some(','), ",", false), Some(Key::Sign(',')));

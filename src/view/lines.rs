@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_cut_off_at_the_window_and_taken_up_again_where_it_returns() {
+    fn a_line_is_clipped_at_the_window_and_resumes_where_it_returns() {
         let window = Rect::from_min_max(pos2(0.0, 0.0), pos2(10.0, 10.0));
         let there_and_back =
             line([[1.0, 5.0], [2.0, 5.0], [2.0, 25.0], [4.0, 25.0], [4.0, 5.0], [20.0, 5.0]]);
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_as_wide_and_as_bright_at_the_cut_as_it_was_there() {
+    fn clipping_keeps_width_and_brightness_at_the_cut() {
         let window = Rect::from_min_max(pos2(0.0, 0.0), pos2(10.0, 10.0));
         let from = Joint { radius: 1.0, colour: Color32::from_gray(200), ..joint([5.0, 5.0]) };
         let to = Joint { radius: 3.0, colour: Color32::from_gray(100), ..joint([15.0, 5.0]) };

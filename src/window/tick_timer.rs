@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn every_lane_of_a_race_takes_some_time() {
+    fn every_lane_of_a_race_has_a_time() {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.apply(StageCommand::ToggleRace);
         let lanes = studio.race().entrants().iter();

@@ -257,7 +257,7 @@ fn a_large_net_is_stepped_on_all_cores_without_allocating() {
 }
 
 #[test]
-fn a_large_net_takes_two_hundred_bytes_a_node() {
+fn a_large_net_uses_two_hundred_bytes_per_node() {
     let (net, bytes) = bytes_in(|| large_net(200, 100));
     let per_node = bytes as f64 / (net.q().len() / 2) as f64;
     // The state, eight vectors of the method, and for a moment two numbers of each node: all else is by row.

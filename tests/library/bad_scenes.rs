@@ -181,7 +181,7 @@ fn every_bad_scene_is_reported_with_its_lines() {
 }
 
 #[test]
-fn a_tolerance_is_accepted_wherever_the_lane_may_have_an_adaptive_method() {
+fn a_tolerance_is_accepted_for_any_lane_that_may_be_adaptive() {
     let head = "title = 'x'\ntick_hz = 60\nseconds = 10\nmethods = ['rk4', 'midpoint']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
     let command = |words: &str| format!("[[command]]\n{words}\n");

@@ -272,7 +272,7 @@ fn with_another(id: &str) -> String {
 }
 
 #[test]
-fn another_method_shows_in_its_own_hash_and_in_no_other() {
+fn another_method_changes_only_its_own_hash() {
     let hashes = |text: &str| {
         let mut race = Race::of_scene(&Scene::parse("stiff.toml", text).unwrap());
         race.run(600);

@@ -82,7 +82,7 @@ fn area_on_a_spring_follows_the_determinant_even_for_distant_points() {
 }
 
 #[test]
-fn a_body_that_is_not_linear_is_measured_about_many_points() {
+fn a_nonlinear_body_is_measured_about_many_points() {
     let ratio = |id: &str| {
         let mut cloud = cloud("liouville", id, CloudShape::Cat, 8000, 12);
         assert!(cloud.measured_in_words().ends_with("around 256 points"));
@@ -95,7 +95,7 @@ fn a_body_that_is_not_linear_is_measured_about_many_points() {
 }
 
 #[test]
-fn a_cloud_that_is_wound_up_keeps_its_area_under_a_symplectic_method_alone() {
+fn only_a_symplectic_method_keeps_the_area_of_a_wound_cloud() {
     let wound = |id: &str| {
         let mut cloud = cloud("pendulum", id, CloudShape::Cat, 2000, 60);
         cloud.advance(600);
@@ -144,7 +144,7 @@ fn adaptive_area_is_exact_even_across_kinks_of_the_force() {
 }
 
 #[test]
-fn an_area_is_the_same_whichever_way_a_tick_was_come_to() {
+fn an_area_does_not_depend_on_the_path_to_its_tick() {
     for id in ["rk4", "velocity-verlet", "adams-bashforth-2", "dormand-prince-54"] {
         let new = || cloud("pendulum", id, CloudShape::Disc, 400, 60).rewindable();
         let (mut straight, mut back) = (new(), new());
@@ -157,7 +157,7 @@ fn an_area_is_the_same_whichever_way_a_tick_was_come_to() {
 }
 
 #[test]
-fn a_view_of_points_that_are_all_lost_is_finite() {
+fn a_view_of_only_lost_points_is_finite() {
     let lost = [[f64::NAN, 1.0], [f64::INFINITY, f64::NAN]];
     let views = [
         PlaneView::around(&[], &[], 0.5, false),
@@ -172,7 +172,7 @@ fn a_view_of_points_that_are_all_lost_is_finite() {
 }
 
 #[test]
-fn a_start_that_blows_up_drops_out_of_the_count() {
+fn a_start_that_blows_up_is_not_counted() {
     let mut cloud = cloud("stiff", "explicit-euler", CloudShape::Disc, 50, 60);
     cloud.advance(300);
     assert_eq!(cloud.measure().points, 0);
@@ -248,7 +248,7 @@ fn shown(picture: &CloudPicture) -> String {
 }
 
 #[test]
-fn a_cloud_is_the_same_whichever_way_a_tick_was_come_to() {
+fn a_cloud_does_not_depend_on_the_path_to_its_tick() {
     // The second has a memory; the third has one too and steps its points one by one.
     let methods = ["rk4", "adams-bashforth-2", "dormand-prince-54", "implicit-euler"];
     let new = || race_of("liouville", &methods, CloudKind::default());
@@ -301,7 +301,7 @@ fn late_clouds_drop_points_and_regain_them_when_paused() {
 }
 
 #[test]
-fn the_axes_of_a_picture_fit_the_clouds_that_are_there() {
+fn the_axes_of_a_picture_fit_its_clouds() {
     let mut studio = race_of("liouville", &["rk4"], CloudKind::default());
     let picture = picture(&mut studio, &mut CloudWorker::default());
     let border = picture.border.concat();
@@ -360,7 +360,7 @@ fn a_recovering_area_is_neither_growing_nor_kept() {
 }
 
 #[test]
-fn points_that_fly_off_are_counted_and_do_not_rule_the_area() {
+fn escaping_points_are_counted_and_do_not_dominate_the_area() {
     let points = |picture: &CloudPicture| {
         let [lane] = &picture.lanes[..] else { panic!("one lane") };
         let shown: u32 = lane.density.counts().iter().sum();
@@ -495,7 +495,7 @@ impl System for Hertz {
 }
 
 #[test]
-fn a_custom_body_of_one_coordinate_is_a_cloud_with_the_bits_of_its_system() {
+fn a_custom_body_of_one_coordinate_has_a_bit_exact_cloud() {
     let start = State { q: 0.8, v: 0.1 };
     let scene = Scene::of(&Hertz, start, Options::default()).unwrap();
     let body = built(&scene);

@@ -122,7 +122,7 @@ fn motionless_or_disjoint_logs_are_never_called_the_same() {
 }
 
 #[test]
-fn nan_is_the_same_as_nan_and_zero_as_minus_zero_and_both_are_counted() {
+fn nan_equals_nan_and_zero_equals_minus_zero_with_a_count() {
     let found = compared("t,x,v\n0,0,NaN\n1,5,nan\n2,1,1", "t,x,v\n0,-0.0,-nan\n1,5,NaN\n2,1,1");
     assert!(found.is_same(), "{found:?}");
     assert_eq!((found.nans, found.zeros_of_two_signs), (2, 1));

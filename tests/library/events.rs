@@ -26,7 +26,7 @@ fn truth(scene: &Scene, times: u32, ticks: u64) -> Vec<Vec<f64>> {
 }
 
 #[test]
-fn at_four_tick_rates_the_truth_of_every_scene_is_one_curve() {
+fn the_truth_of_every_scene_is_one_curve_at_four_tick_rates() {
     for built_in in SCENES {
         let scene = Scene::built_in(built_in.name).unwrap();
         let seconds = scene.script.last().map_or(1.0, |last| last.at_s + 1.0);

@@ -243,7 +243,7 @@ fn same(card: &'static PolicyCard, rates: Rates, trace: &[i64], found: &[Answer]
 }
 
 #[test]
-fn every_file_is_a_snippet_and_every_card_has_one_in_rust() {
+fn every_snippet_file_is_used_and_every_card_has_one_in_rust() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/loops");
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let files: BTreeSet<_> = files

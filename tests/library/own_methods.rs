@@ -209,7 +209,7 @@ fn ids_come_from_file_names_and_never_shadow_built_in_methods() {
 }
 
 #[test]
-fn a_scene_its_recording_and_its_link_carry_the_lines() {
+fn scene_recording_and_link_carry_the_lines() {
     let lines = "// \"mine\" \\ é\r\nv += h * a(x, v)\n\tx += h * v\n";
     let lane = LaneSpec::from_step("dir/My_Euler.step", lines.as_bytes()).unwrap();
     assert_eq!(lane.method.id, "my-euler");

@@ -299,7 +299,7 @@ fn the_ghost_shows_only_on_request() {
 }
 
 #[test]
-fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
+fn the_stage_marks_halted_bodies_and_missing_truths() {
     let text = "title = 'x'\ntick_hz = 10\nseconds = 60\nmethods = ['explicit-euler', 'rk4']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 400\nkick_n_s = 0\n\
                 [[ship]]\nthrust_n = 20000\ndrag_n_s_per_m = 1000\nmass_kg = 10000\nkick_n_s = 1e15\n";

@@ -162,7 +162,7 @@ fn a_reached_target_shows_in_the_run_and_a_missed_one_has_no_nearer_setting() {
 }
 
 #[test]
-fn settings_go_to_another_engine_and_come_back() {
+fn settings_round_trip_through_another_engine() {
     let mut dice = Dice::new(282);
     let (mut there_and_back, mut worst) = (0, 0.0_f64);
     for _ in 0..wishes() {
@@ -235,7 +235,7 @@ fn a_target_beyond_every_engine_is_refused_with_the_reason() {
 }
 
 #[test]
-fn a_drive_is_stable_up_to_its_limits_and_not_beyond() {
+fn a_drive_is_stable_exactly_up_to_its_limits() {
     let euler = |m: &Setup| m.mode.is_explicit;
     let mujoco = setups(Some(&[method("engine-mujoco").unwrap()]), 500.0, None);
     let setup = *mujoco.iter().find(|setup| euler(setup)).unwrap();

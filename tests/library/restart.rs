@@ -29,7 +29,7 @@ fn a_restart_undoes_the_actions_of_the_script() {
 }
 
 #[test]
-fn a_restart_keeps_the_rate_and_the_method_that_a_person_chose() {
+fn a_restart_keeps_the_chosen_rate_and_method() {
     let mut studio = scripted();
     (0..10).for_each(|_| studio.tick());
     studio.apply(StageCommand::TickHz(7.into()));

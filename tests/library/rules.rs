@@ -280,7 +280,7 @@ fn the_visible_motion_of_a_spring_follows_from_its_eigenvalues() {
 }
 
 #[test]
-fn chases_and_frictions_are_no_springs() {
+fn chases_and_frictions_are_not_read_as_springs() {
     let chase = Rule::read("x += (target - x) * 20 * dt", 30.0).unwrap();
     let at_30 = chase.seen_at(30.0);
     assert!(is_near(at_30.halves_s, 0.02103) && at_30.hz.is_none() && !at_30.grows);

@@ -91,7 +91,7 @@ fn an_orbit_flung_out_is_not_judged_as_bounded() {
 }
 
 #[test]
-fn a_scene_of_512_periods_is_judged_as_one_of_511() {
+fn a_scene_of_512_periods_is_judged_like_one_of_511() {
     for (seconds, body) in [
         (511.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 39.47841760435743"),
         (512.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 39.47841760435743"),
@@ -119,7 +119,7 @@ fn a_pendulum_is_not_judged_by_the_map_about_one_of_its_states() {
 }
 
 #[test]
-fn an_orbit_is_bounded_only_where_it_stays() {
+fn an_orbit_is_bounded_only_if_it_stays() {
     let own = built_in("orbit");
     for hz in [5, 6, 8] {
         assert_eq!(verdict(&own, "rk4", hz).long_term.is_bounded, Some(false), "{hz} Hz");
@@ -184,7 +184,7 @@ fn an_undeterminable_growth_is_left_unknown() {
 }
 
 #[test]
-fn nothing_but_rounding_is_within_rounding() {
+fn only_rounding_errors_count_as_rounding() {
     assert_eq!(verdict(&built_in("ship"), "explicit-euler", 2).outcome(), Outcome::LooksRight);
     // A fast fly-by is nearly straight, and explicit Euler nearly right on it.
     let fast = scene(

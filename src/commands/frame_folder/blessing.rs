@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_blessing_given_up_leaves_the_clip_as_it_was() {
+    fn an_abandoned_blessing_keeps_the_old_clip() {
         let clip = tempfile::tempdir().unwrap();
         write(clip.path(), &FRAMES, "old");
         let before = content(clip.path());

@@ -172,7 +172,7 @@ fn methods_differ_in_colour_or_dash_and_neighbours_in_colour() {
 }
 
 #[test]
-fn the_wire_of_a_spring_stands_out_from_the_sea_in_both_themes() {
+fn the_wire_of_a_spring_contrasts_with_the_sea_in_both_themes() {
     for theme in [Theme::Dark, Theme::Light] {
         let palette = theme.palette();
         let [edge, _, light, _] = palette.wire;

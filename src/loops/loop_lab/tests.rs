@@ -124,7 +124,7 @@ fn a_recommended_loop_has_a_fixed_tick_and_is_green() {
 }
 
 #[test]
-fn a_motion_that_is_lost_is_never_green() {
+fn a_lost_motion_is_never_green() {
     let scene = Scene { tick_hz: 30.into(), ..Scene::built_in("stiff").unwrap() };
     let studio = lab_of(&scene);
     let linear = index_of("fixed-linear");

@@ -77,7 +77,7 @@ fn the_edge_is_half_a_millisecond_wide_on_both_sides() {
 }
 
 #[test]
-fn a_missed_refresh_shows_the_picture_late_and_then_begins_late() {
+fn a_missed_refresh_delays_its_picture_and_the_next_frame() {
     let frames = first("missed-vsync", HZ_60, 100, 0);
     let late: Vec<usize> =
         (0..100).filter(|&n| frames[n].displayed_ns != Some(frames[n].began_ns)).collect();
@@ -91,7 +91,7 @@ fn a_missed_refresh_shows_the_picture_late_and_then_begins_late() {
 }
 
 #[test]
-fn long_frames_last_as_their_names_say() {
+fn long_frames_last_as_long_as_named() {
     assert_eq!(
         odd_durations(&first("hitch-100ms", HZ_60, 300, 0)),
         [(120, 100_000_000), (241, 100_000_000)]
@@ -103,7 +103,7 @@ fn long_frames_last_as_their_names_say() {
 }
 
 #[test]
-fn a_heartbeat_is_long_and_short_by_turns_and_displayed_evenly() {
+fn a_heartbeat_alternates_long_and_short_frames_displayed_evenly() {
     let frames = first("heartbeat", HZ_60, 100, 0);
     for (n, ns) in durations(&frames).into_iter().enumerate() {
         let quarters = if n % 2 == 0 { 5 } else { 3 };

@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn a_duration_is_made_whole_near_one_to_eight_refreshes() {
+    fn a_duration_near_one_to_eight_refreshes_is_rounded() {
         let base = TimeBase::new(60, RefreshRate::new(100, 1));
         let snapped = |milliseconds| {
             Snapped::new(base, FrameLimits::default()).snapped(ms(base, milliseconds))

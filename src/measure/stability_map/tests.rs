@@ -105,7 +105,7 @@ fn is_end_of_window(method: &'static Method, z: f64) -> bool {
 }
 
 #[test]
-fn explicit_euler_needs_damping_and_no_more_than_it_can_follow() {
+fn explicit_euler_is_stable_only_between_two_dampings() {
     for damping in [1.0, 40.0] {
         let map = spring(damping, &["explicit-euler"]);
         // Jury's conditions on the step [[1, h], [-k h, 1 - c h]].
@@ -326,7 +326,7 @@ fn freely_drifting_masses_are_stable_under_damping_methods() {
 }
 
 #[test]
-fn a_law_that_cannot_be_linearised_says_why_and_true_growth_is_not_counted() {
+fn a_nonlinearisable_law_has_a_reason_and_true_growth_does_not_count() {
     let single = |acceleration: &str| {
         law(&format!(
             "constants = {{ k = 9.0, b = 1.0 }}\n[law.coordinates.x]\nstart = 0.3\nacceleration = '{acceleration}'"

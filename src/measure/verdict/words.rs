@@ -351,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn a_verdict_shows_as_its_outcome_and_the_number_behind_it() {
+    fn a_verdict_is_displayed_as_outcome_and_number() {
         for (scene, id, tick_hz, shown) in [
             ("spring", "explicit-euler", 60, "grows · swing ×2 in 2.1 s"),
             ("spring", "semi-implicit-euler", 60, "looks right · 17 ms early after 20 s"),
@@ -438,7 +438,7 @@ mod tests {
     }
 
     #[test]
-    fn the_details_of_a_failure_say_where_the_run_begins_and_why_it_ends() {
+    fn the_details_of_a_failure_name_the_start_of_the_run_and_its_cause() {
         let blows_up = verdict("stiff", "semi-implicit-euler", 49);
         let why = StepFailure::LinearSolveFailed;
         let finding = Finding::Failed {

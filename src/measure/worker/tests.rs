@@ -40,7 +40,7 @@ fn answer(worker: &mut AnalysisWorker, request: &AnalysisRequest) -> (usize, Vec
 }
 
 #[test]
-fn each_verdict_is_found_once_until_the_rate_the_run_or_the_scene_changes() {
+fn each_verdict_is_computed_once_until_rate_run_or_scene_changes() {
     let first = request("harbour");
     let mut worker = AnalysisWorker::new(first.clone());
     let (count, fine) = answer(&mut worker, &first);

@@ -34,7 +34,7 @@ fn near(found: [f64; 2], wanted: [f64; 2]) -> bool {
 }
 
 #[test]
-fn runge_kutta_4_evaluates_at_the_places_of_the_textbook() {
+fn rk4_evaluates_at_the_textbook_points() {
     let step = step_of(&studio("spring", "rk4", 7)).unwrap();
     let h = 1.0 / 60.0;
     let omega_squared = std::f64::consts::TAU * std::f64::consts::TAU;
@@ -120,7 +120,7 @@ fn rk4_loses_a_fixed_part_per_tick_and_a_32nd_of_it_in_half_ticks() {
 }
 
 #[test]
-fn an_orbit_has_the_energy_of_its_state_and_turns_where_it_has_no_speed() {
+fn an_undamped_orbit_has_the_energy_of_its_state_and_turns_at_zero_speed() {
     let studio = studio("spring", "rk4", 7);
     let tau = std::f64::consts::TAU;
     let size = |[q, v]: [f64; 2]| libm::hypot(q, v / tau);
@@ -170,7 +170,7 @@ fn each_predicted_future_matches_the_run_under_its_method() {
 }
 
 #[test]
-fn futures_are_shown_at_rest_if_asked_for_and_while_the_rate_is_dragged() {
+fn futures_are_shown_on_request_at_rest_and_while_the_rate_is_dragged() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     assert!(!shows_futures(&studio));
     studio.apply(ViewCommand::PointerDown(true));

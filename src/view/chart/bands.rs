@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn the_band_of_a_swing_is_as_wide_as_the_swing_wherever_its_samples_fall() {
+    fn the_band_of_a_swing_is_as_wide_as_the_swing_for_any_samples() {
         for turns_per_sample in [0.32, 0.41, 0.618, 4.77] {
             let swing = |i: usize| libm::sinf(std::f32::consts::TAU * turns_per_sample * i as f32);
             let points: Vec<Pos2> = (0..2000).map(|i| pos2(0.2 * i as f32, swing(i))).collect();

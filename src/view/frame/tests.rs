@@ -77,8 +77,8 @@ fn labels_are_written_on_the_stage() {
 }
 
 #[test]
-fn a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip() {
-    let test = "a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip";
+fn a_curve_is_drawn_dashed_and_clipped() {
+    let test = "a_curve_is_drawn_dashed_and_clipped";
     let Some(gpu) = gpu_or_skip(test) else { return };
     let target = Offscreen::new(&gpu, [128, 64]).unwrap();
     let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);

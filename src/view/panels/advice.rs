@@ -432,7 +432,7 @@ mod tests {
     }
 
     #[test]
-    fn no_row_of_the_table_lies_over_the_inspector() {
+    fn no_row_of_the_table_covers_the_inspector() {
         let (mut studio, mut worker) = asked("spring", false);
         judge(&mut studio, &mut worker, 4);
         studio.apply(RunCommand::ToggleInspector);
@@ -486,7 +486,7 @@ mod tests {
     }
 
     #[test]
-    fn the_names_of_methods_in_the_table_have_one_size_of_type() {
+    fn method_names_in_the_table_have_one_type_size() {
         let (mut studio, mut worker) = asked("spring", false);
         judge(&mut studio, &mut worker, 8);
         for size in SIZES {

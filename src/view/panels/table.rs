@@ -443,7 +443,7 @@ mod tests {
     }
 
     #[test]
-    fn a_second_click_reverses_and_a_third_ends_the_order() {
+    fn a_second_click_reverses_the_order_and_a_third_ends_it() {
         let by = clicked(None, "a");
         assert_eq!((by, arrow(by, "a"), arrow(by, "b")), (Some(("a", false)), " ↑", ""));
         let reversed = clicked(by, "a");

@@ -129,7 +129,7 @@ fn a_drag_throws_the_body_with_the_pointers_velocity_in_simulated_time() {
 }
 
 #[test]
-fn a_pointer_that_stopped_throws_nothing() {
+fn a_stopped_pointer_does_not_throw() {
     let mut table = Table::new("spring");
     let at = table.body();
     let to = at + vec2(60.0, 0.0);

@@ -117,7 +117,7 @@ fn the_force_rotates_with_the_ship() {
 }
 
 #[test]
-fn a_kick_is_ahead_and_throttle_and_rudder_stay_as_set() {
+fn a_kick_acts_ahead_and_keeps_throttle_and_rudder() {
     let mut body = helm(curve());
     let mut state = State { q: DVec3::new(0.0, 0.0, std::f64::consts::FRAC_PI_2), v: DVec3::ZERO };
     assert!(body.input(Input::Kick(2.0), &mut state));

@@ -62,7 +62,7 @@ fn pefrl_is_more_accurate_than_yoshida_4_at_the_same_cost() {
 }
 
 #[test]
-fn stormer_verlet_takes_velocity_verlets_path_under_drag_too() {
+fn stormer_verlet_follows_velocity_verlet_even_under_drag() {
     for ratio in [0.0, 0.1] {
         let paths = ["stormer-verlet", "velocity-verlet"]
             .map(|id| course(id, spring(3.0, ratio), 0.1, 1000));

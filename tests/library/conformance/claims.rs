@@ -51,7 +51,7 @@ fn misprints(card: &Method) -> Vec<(&'static str, Method)> {
 }
 
 #[test]
-fn each_claim_that_is_changed_is_seen_and_no_other() {
+fn exactly_the_changed_claims_are_detected() {
     // One each that is symplectic, has a memory of a slope, is explicit, chooses its steps, solves an equation.
     let ids =
         ["velocity-verlet", "adams-bashforth-2", "rk4", "bogacki-shampine-32", "implicit-midpoint"];

@@ -39,7 +39,7 @@ fn course(method: &Method, body: &Follow, h: f64, steps: u32) -> Vec<State<f64>>
 }
 
 #[test]
-fn behind_an_even_target_each_follower_has_the_order_on_its_card() {
+fn each_follower_has_the_order_on_its_card_behind_a_steady_target() {
     let span = 1.7;
     for method in followers() {
         let body = Follow { ramp: 0.8, ..still(method, 3.0) };
@@ -63,7 +63,7 @@ fn behind_an_even_target_each_follower_has_the_order_on_its_card() {
 }
 
 #[test]
-fn a_step_costs_the_evaluations_of_the_target_on_the_card() {
+fn a_step_evaluates_the_target_as_often_as_its_card_states() {
     for method in followers() {
         let counted = problem(still(method, 3.0));
         let mut state = still(method, 3.0).start();
@@ -97,7 +97,7 @@ fn a_follower_is_stable_up_to_its_limit_and_not_beyond() {
 }
 
 #[test]
-fn a_follower_loses_area_and_cannot_be_run_backwards() {
+fn a_follower_loses_area_and_is_not_reversible() {
     for method in followers() {
         let system = problem(Follow { ramp: 0.8, ..still(method, 3.0) });
         let step = |t: f64, h: f64, [q, v]: [f64; 2]| {

@@ -105,7 +105,7 @@ fn only_implicit_or_exact_drag_is_stable_at_any_step() {
 }
 
 #[test]
-fn verlet_with_exact_drag_decays_as_a_coasting_ship_does() {
+fn verlet_with_exact_drag_decays_like_a_coasting_ship() {
     let coasting = Ship { thrust: 0.0, v0: 20.0, ..SHIP };
     for h in [0.1, 3.0, 40.0] {
         let start = coasting.start();

@@ -145,7 +145,7 @@ fn custom_parameters_act_in_a_run_and_have_their_units() {
 }
 
 #[test]
-fn a_body_without_parameters_has_a_factor_of_its_force() {
+fn a_body_without_parameters_gets_a_force_factor() {
     let spring = Spring { mass: 1.0, stiffness: 40.0, damping: 0.0 };
     let scene = Scene::of(&spring, State { q: 1.0, v: 0.0 }, Options::default()).unwrap();
     let body = &scene.bodies[0];

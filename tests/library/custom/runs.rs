@@ -113,7 +113,7 @@ fn the_studio_continues_a_session_at_its_tick() {
 }
 
 #[test]
-fn a_custom_body_is_drawn_as_its_author_says_or_as_beads() {
+fn a_custom_body_has_its_authors_picture_or_beads() {
     let outline = |draw| {
         let start = State { q: DVec2::new(3.0, 0.0), v: DVec2::new(0.0, 3.0) };
         let options = Options { draw, ..Options::default() };

@@ -283,7 +283,7 @@ fn log_of(file: &str) -> Log {
 }
 
 #[test]
-fn noise_above_the_start_of_a_runaway_does_not_name_another_engine() {
+fn noise_above_the_start_of_a_runaway_identifies_no_other_engine() {
     let log = log_of("mujoco-Euler__spring_w100_z0_30hz.csv");
     let mut dice = Dice::new(3);
     for _ in 0..30 {

@@ -215,7 +215,7 @@ fn whole_exponents_have_the_bits_of_products() {
 }
 
 #[test]
-fn a_law_of_any_text_has_one_kind_and_the_table_of_bodies_has_none() {
+fn laws_share_one_kind_outside_the_table_of_bodies() {
     assert!(kind("law").is_none());
     let [a, b] = ["1", "2"].map(|k| {
         body(&format!(
@@ -237,7 +237,7 @@ fn a_law_of_any_text_has_one_kind_and_the_table_of_bodies_has_none() {
 }
 
 #[test]
-fn the_drone_is_lost_or_hovers_as_its_hint_says() {
+fn the_drone_is_lost_or_hovers_as_its_hint_states() {
     let scene = Scene::built_in("lift").unwrap();
     let place = TICK_LADDER.iter().position(|hz| scene.tick_hz == *hz).unwrap();
     assert_eq!(scene.tick_hz, 30);

@@ -227,7 +227,7 @@ fn a_jump_lowers_the_measured_order_and_the_verdict_claims_no_more() {
 }
 
 #[test]
-fn under_dry_friction_at_rest_there_is_no_truth_and_the_verdict_says_so() {
+fn the_verdict_reports_a_missing_truth_under_dry_friction_at_rest() {
     let scene =
         parse("[[law]]\n[law.coordinates.x]\nstart = 1\nacceleration = '-x - 0.3*sign(vx)'")
             .unwrap();

@@ -101,7 +101,7 @@ fn the_slope_of_the_force_matches_its_finite_differences() {
 }
 
 #[test]
-fn equations_that_are_not_solved_end_in_a_failure_within_bounded_work() {
+fn unsolvable_equations_fail_within_bounded_work() {
     // Far beyond what the two stages of Gauss and Legendre converge at.
     let values = Values { stiffness: 2e9, gravity: 9.81, ..PLAIN };
     let mut net = build(&grid(16, 12, Some(Pin::Corners)), values, with("gauss-legendre-4"));

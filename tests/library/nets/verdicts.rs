@@ -100,7 +100,7 @@ fn a_damped_net_may_lose_energy_and_a_kick_may_bring_it() {
 }
 
 #[test]
-fn a_soft_net_has_a_reference_with_which_methods_are_compared() {
+fn methods_on_a_soft_net_are_compared_with_a_reference() {
     let scene = scene(10.0, "");
     let verdict = verdict(&scene, "velocity-verlet");
     assert!(verdict.by_energy().is_none(), "{verdict}");
@@ -108,7 +108,7 @@ fn a_soft_net_has_a_reference_with_which_methods_are_compared() {
 }
 
 #[test]
-fn the_race_goes_on_without_a_truth() {
+fn a_race_runs_without_a_truth() {
     let scene = scene(1000.0, "");
     let mut race = Race::of_scene(&scene);
     race.run(30);
@@ -122,7 +122,7 @@ fn the_race_goes_on_without_a_truth() {
 }
 
 #[test]
-fn advice_without_a_truth_is_on_stability_only() {
+fn advice_without_a_truth_covers_stability_only() {
     let scene = edited(&scene(1000.0, ""), |scene| scene.seconds = 1.0);
     let adviser = Adviser::new(&scene, 60);
     let plain = |id: &str| LaneSpec::plain(method(id).unwrap());

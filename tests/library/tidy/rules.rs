@@ -31,7 +31,7 @@ fn streams(source: &Source) -> Vec<String> {
 }
 
 #[test]
-fn only_one_module_prints() {
+fn only_the_printers_write_to_the_standard_streams() {
     none(sources("src", &["rs"]).iter().flat_map(streams).collect());
     let bad = |path| streams(&source(path, "fn f() { writeln!(io::stderr(), x); }"));
     assert_eq!((bad("src/commands/trace.rs").len(), bad(PRINTERS[2]).len()), (1, 0));

@@ -266,7 +266,7 @@ fn a_method_with_more_reserve_at_little_more_cost_is_recommended() {
 }
 
 #[test]
-fn the_answer_says_which_cheaper_method_has_too_little_reserve() {
+fn the_answer_names_the_cheaper_method_with_too_little_reserve() {
     let two = "advise --k 900 --c 62.3538 --mass 12 --method adams-bashforth-2 --method midpoint";
     let text = stdout_of(two);
     let line = text.lines().find(|line| line.contains("looks-right")).unwrap();

@@ -35,7 +35,7 @@ fn help_names_the_chapters() {
 }
 
 #[test]
-fn a_list_or_a_chapter_is_printed_without_the_word_before_it() {
+fn a_list_or_chapter_is_printed_by_its_name_alone() {
     for list in ["keys", "scenes", "methods", "keys --format json"] {
         assert_eq!(stdout_of(list), stdout_of(&format!("list {list}")));
     }

@@ -197,7 +197,7 @@ fn checks_beyond_the_end_of_the_scene_are_announced_and_judged() {
 }
 
 #[test]
-fn reports_of_a_recording_are_written_for_programs() {
+fn reports_of_a_recording_are_machine_readable() {
     let folder = recorded();
     edit(&folder, |text| text.replacen("hash = \"", "hash = \"0000000000000000\" # \"", 1));
     let (code, ..) = verify(&folder, "--report json r.json --report junit r.xml");
@@ -239,7 +239,9 @@ fn play_records_the_run_but_keeps_an_existing_file() {
     let play = "play --scene spring --method rk4 --seconds 1 --record run.toml";
     let output = run_in(folder.path(), play);
     if stderr(&output).contains("graphics") {
-        return eprintln!("what_is_played_is_recorded: skipped, no graphics to draw with");
+        return eprintln!(
+            "play_records_the_run_but_keeps_an_existing_file: skipped, no graphics to draw with"
+        );
     }
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(stderr(&output).contains("recorded 60 ticks in run.toml"), "{}", stderr(&output));

@@ -250,7 +250,7 @@ fn only_a_conserved_energy_has_a_drift() {
 }
 
 #[test]
-fn a_blow_up_is_a_row() {
+fn a_blow_up_has_a_row() {
     let rows = rows("--scene stiff --method semi-implicit-euler --tick-hz 49,60");
     let [lost, kept] = &rows[..] else { panic!("{rows:?}") };
     assert_eq!(lost["verdict"]["word"], "blows-up");

@@ -197,7 +197,7 @@ fn a_method_not_listed_by_the_scene_is_refused() {
 }
 
 #[test]
-fn every_keeps_the_multiples_only() {
+fn the_every_option_keeps_only_multiples() {
     let csv = stdout_of("trace --scene ship --method rk4 --seconds 10 --every 6");
     let ticks: Vec<_> = rows(&csv).iter().map(|row| row[0].to_owned()).collect();
     assert_eq!(ticks, ["0", "0", "6", "6", "12", "12", "18", "18"]);

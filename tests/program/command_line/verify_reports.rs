@@ -9,8 +9,8 @@ use super::regatta;
 use super::verify::{clip_or_skip, verify};
 
 #[test]
-fn reports_are_written_for_programs() {
-    let Some(folder) = clip_or_skip("reports_are_written_for_programs") else { return };
+fn reports_are_machine_readable() {
+    let Some(folder) = clip_or_skip("reports_are_machine_readable") else { return };
     fs::remove_file(folder.path().join("clip/frame-000002.png")).unwrap();
     let report = |format: &str| {
         let (code, ..) = verify(folder.path(), &format!("--report {format} report"));
@@ -85,8 +85,9 @@ fn a_report_never_replaces_a_file_of_a_capture() {
 
 #[cfg(unix)]
 #[test]
-fn a_report_through_a_link_is_written_to_its_target() {
-    let Some(folder) = clip_or_skip("a_report_through_a_link_is_written_to_its_target") else {
+fn a_report_through_a_symbolic_link_is_written_to_its_target() {
+    let Some(folder) = clip_or_skip("a_report_through_a_symbolic_link_is_written_to_its_target")
+    else {
         return;
     };
     let [link, target] = ["link", "target"].map(|name| folder.path().join(name));

@@ -100,7 +100,7 @@ fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
 }
 
 #[test]
-fn in_a_low_window_a_plot_has_the_room_of_its_legend() {
+fn a_plot_in_a_low_window_takes_the_room_of_its_legend() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.apply(StageCommand::ToggleRace);
     (0..240).for_each(|_| studio.tick());

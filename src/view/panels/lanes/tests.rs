@@ -58,7 +58,7 @@ fn every_column_sorts_both_ways_with_missing_values_last() {
 }
 
 #[test]
-fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
+fn in_solo_the_rows_of_each_method_stay_together_under_every_order() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.apply(StageCommand::Pick(1));
     studio.tick();
@@ -122,7 +122,7 @@ fn a_verdict_predicts_a_blow_up_and_a_halt_reports_it() {
 }
 
 #[test]
-fn the_body_that_every_verdict_is_about_is_named_once() {
+fn the_common_body_of_all_verdicts_is_named_once() {
     let mut studio = judged_race(Scene::with_two_springs());
     let flown: Vec<usize> =
         studio.race().entrants().iter().map(|lane| studio.entry(lane)).collect();

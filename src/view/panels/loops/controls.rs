@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_name_of_a_trace_takes_no_more_room_than_a_short_one() {
+    fn a_long_trace_name_takes_no_extra_room() {
         assert!(TRACES.iter().all(|card| short(card.id) == card.id));
         assert_eq!(short("log.csv:PresentBench.exe-24892"), "log.csv:PresentBe…");
     }

@@ -62,7 +62,7 @@ fn the_sentence_counts_the_stable_methods() {
 }
 
 #[test]
-fn a_body_without_a_map_says_why() {
+fn a_body_without_a_map_shows_the_reason() {
     let mut window = window();
     let texts = window.panels(&studio("orbit"), Vec::new()).1.words();
     assert!(texts.iter().any(|text| text.starts_with("No stability map")), "{texts:?}");
@@ -148,7 +148,7 @@ fn every_boundary_has_its_name() {
 }
 
 #[test]
-fn a_corner_where_only_an_implicit_method_is_stable_says_so() {
+fn a_corner_with_only_an_implicit_method_stable_is_labelled() {
     let words = window().panels(&studio("quarter-car"), Vec::new()).1.words();
     assert!(words.contains(&"only 5 Implicit midpoint is bounded here".to_owned()), "{words:?}");
 }

@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_view_moves_no_further_than_the_run_and_follows_the_present() {
+    fn a_span_stays_within_the_run_and_follows_the_present() {
         let span = Span { from_s: 4.0, to_s: 8.0 };
         assert_near(span.moved(1.0, WHOLE), 5.0, 9.0);
         assert_near(span.moved(-9.0, WHOLE), 0.0, 4.0);

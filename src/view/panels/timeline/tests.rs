@@ -39,7 +39,7 @@ fn a_press_on_the_track_seeks_and_a_drag_follows() {
 }
 
 #[test]
-fn letting_go_of_the_track_does_not_undo_the_step_of_a_key() {
+fn releasing_the_track_does_not_undo_a_step_by_key() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..600).for_each(|_| studio.tick());
     let mut window = TestWindow::new(SIZE);

@@ -74,7 +74,7 @@ fn a_lane_that_leaves_the_plot_ends_with_an_arrow() {
 }
 
 #[test]
-fn a_lane_that_comes_back_to_stay_is_drawn_again() {
+fn a_lane_that_returns_for_good_is_drawn_again() {
     let points: Vec<Point> = (0..100)
         .map(|i| {
             let y = if (20..30).contains(&i) || i == 35 { 9.0 } else { 0.0 };

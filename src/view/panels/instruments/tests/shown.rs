@@ -272,7 +272,7 @@ fn the_helm_plots_its_track() {
 }
 
 #[test]
-fn a_lane_alone_has_a_number_in_the_legend_only_where_a_key_picks_it() {
+fn a_lone_lane_has_a_legend_number_only_if_a_key_picks_it() {
     let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
     for (id, told) in
         [("semi-implicit-euler", "2 Semi-implicit Euler"), ("implicit-euler", "Implicit Euler")]
