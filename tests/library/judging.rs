@@ -538,7 +538,7 @@ fn an_undamped_spring_that_looks_right_has_the_width_of_the_truth() {
 }
 
 #[test]
-fn a_damped_spring_that_looks_right_reaches_as_far_as_the_truth() {
+fn a_damped_spring_that_looks_right_has_the_reach_of_the_truth() {
     let scene = scene(
         20.0,
         "[[spring]]\nmass_kg = 1.606\nstiffness_n_per_m = 3464\ndamping_n_s_per_m = 1.86\n\

@@ -73,7 +73,7 @@ fn a_pendulum_swings_at_the_period_of_its_amplitude() {
 }
 
 #[test]
-fn the_long_run_reaches_as_far_as_its_reference() {
+fn the_long_run_has_the_reach_of_its_reference() {
     for name in ["helm", "quarter-car"] {
         let scene = Scene::built_in(name).unwrap();
         let truth = of_first_body(&scene, 2.0);

@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drift_is_no_growth_and_an_adaptive_method_has_no_radius() {
+    fn a_drift_is_no_growth_and_a_self_substepping_method_has_no_radius() {
         let ship = (kind("ship").unwrap().build)(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0], Solver::Truth);
         let tick = Tick { t: 0.0, h: 0.1, substeps: 1 };
         let of = |id| spectral_radius(&*ship, id, tick);

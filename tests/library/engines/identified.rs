@@ -294,7 +294,7 @@ fn noise_above_the_start_of_a_runaway_identifies_no_other_engine() {
 }
 
 #[test]
-fn a_correlated_residual_is_no_fit_however_small() {
+fn a_small_correlated_residual_is_no_fit() {
     let mut log = log_of("box2d__spring_1hz_z0_60hz.csv");
     (log.substeps, log.body.spring) = (32, [0.4, 0.0]);
     log.tick_s = 1.0 / 60.0;

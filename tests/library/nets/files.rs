@@ -67,7 +67,7 @@ fn holds(name: &str, id: &str, tick_hz: u32) -> bool {
 }
 
 #[test]
-fn the_scenes_show_what_their_hints_promise() {
+fn the_scenes_keep_the_promises_of_their_hints() {
     for (name, id, tick_hz, wanted) in [
         ("rope", "explicit-euler", 120, false),
         ("rope", "semi-implicit-euler", 120, true),

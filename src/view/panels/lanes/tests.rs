@@ -58,7 +58,7 @@ fn every_column_sorts_both_ways_with_missing_values_last() {
 }
 
 #[test]
-fn in_solo_the_rows_of_each_method_stay_together_under_every_order() {
+fn in_solo_the_bodies_of_the_lane_stay_together_under_every_order() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.apply(StageCommand::Pick(1));
     studio.tick();
