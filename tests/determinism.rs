@@ -267,7 +267,7 @@ fn a_script_acts_at_its_ticks(name: &str) {
 }
 
 #[test]
-fn a_persons_commands_act_as_the_same_script_does() {
+fn a_persons_commands_act_like_the_same_script() {
     for (kind, field) in fields() {
         let mut by_script = field.open(&scripted("harbour", script()));
         let mut by_hand = field.open(&scripted("harbour", Vec::new()));
@@ -285,7 +285,7 @@ fn a_persons_commands_act_as_the_same_script_does() {
 }
 
 #[test]
-fn ragged_frames_lose_ticks_to_the_cap_and_the_loss_is_counted() {
+fn ragged_frames_lose_ticks_to_the_cap_and_count_them() {
     let mut frames = ragged(0x5eed_0003);
     let mut studio = Studio::new(built_in("spring"));
     let (mut real_ns, mut ticks, mut dropped) = (0, 0, 0);
@@ -305,7 +305,7 @@ fn ragged_frames_lose_ticks_to_the_cap_and_the_loss_is_counted() {
 }
 
 #[test]
-fn the_hash_sees_the_last_bit_of_every_value() {
+fn the_hash_depends_on_the_last_bit_of_every_value() {
     let scene = built_in("harbour");
     let hash = |scene: &Scene| Field::Everyone.open(scene).race().state_hash();
     let plain = hash(&scene);
@@ -324,7 +324,7 @@ fn the_hash_sees_the_last_bit_of_every_value() {
 }
 
 #[test]
-fn each_lane_has_the_hash_of_a_race_of_its_own() {
+fn each_lane_has_the_hash_it_has_alone() {
     let scene = built_in("harbour");
     let mut race = Field::Everyone.open(&scene);
     let mut solos: Vec<Studio> =
@@ -338,7 +338,7 @@ fn each_lane_has_the_hash_of_a_race_of_its_own() {
 }
 
 #[test]
-fn the_hash_sees_which_body_halted_and_when() {
+fn the_hash_depends_on_which_body_halted_and_when() {
     // Two springs at rest, alike but for their kicks, of which a large one breaks a body before tick `when`.
     let hash = |kicks: [&str; 2], when: u64| {
         let spring = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\nx0_m = 0\nkick_n_s =";
@@ -365,7 +365,7 @@ fn the_hash_sees_which_body_halted_and_when() {
 }
 
 #[test]
-fn a_race_of_a_scene_is_the_race_that_the_program_runs() {
+fn the_race_of_the_library_is_the_race_of_the_program() {
     let plain = quick_scenes().map(|scene| built_in(scene.name));
     let scripted = quick_scenes().map(|scene| scripted(scene.name, script()));
     // Past the last act of the script; what has none shows it sooner.

@@ -333,7 +333,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_has_no_unit_is_a_count_and_is_written_as_a_whole_number() {
+    fn only_counts_have_no_unit() {
         let counts = metrics().filter(|metric| metric.unit == Unit::One).map(|metric| metric.id);
         assert!(counts.eq(["frames", "ticks", "evaluations"]));
     }

@@ -115,7 +115,7 @@ mod tests {
     use super::flowing;
 
     #[test]
-    fn paragraphs_flow_and_rows_that_are_too_wide_explain_below_their_term() {
+    fn paragraphs_wrap_and_wide_rows_move_the_explanation_below_the_term() {
         let long = "a word ".repeat(12);
         let text = format!(
             "One\ntwo:\n  a   b\n  cd  e\n\nThree\n\n  f   g\n  h   {long}\n      i\nfour\nfive"

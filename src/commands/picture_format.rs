@@ -137,7 +137,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_asks_for_its_format_and_contradicts_others() {
+    fn a_file_name_sets_its_format_and_must_not_contradict_it() {
         for (out, asked, expected) in [
             ("clip", None, Some("png")),
             ("clip", Some("gif"), Some("gif")),
@@ -168,7 +168,7 @@ mod tests {
         }
     }
     #[test]
-    fn every_ending_of_a_format_is_one_of_pictures() {
+    fn every_format_extension_is_a_picture_extension() {
         for ending in FORMATS.iter().flat_map(|format| format.endings) {
             assert!(is_of_pictures(ending) && !holds_no_picture(ending), "{ending}");
         }

@@ -202,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_grows_beside_the_recording_replaces_nothing_and_is_removed_at_the_end() {
+    fn the_autosave_replaces_no_file_and_is_removed_at_the_end() {
         let folder = tempfile::tempdir().unwrap();
         let [older, file] =
             ["run.unfinished.toml", "run.unfinished-2.toml"].map(|name| folder.path().join(name));
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_note_is_told_of_once_when_its_program_is_gone() {
+    fn a_note_of_a_dead_program_is_reported_once() {
         let folder = tempfile::tempdir().unwrap();
         let recording = folder.path().canonicalize().unwrap().join("run.unfinished.toml");
         fs::write(&recording, "").unwrap();
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_file_with_name_and_text_of_a_note_is_removed() {
+    fn only_a_file_with_the_name_and_text_of_a_note_is_removed() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path().canonicalize().unwrap();
         let path = |name: &str| folder.join(name).display().to_string();
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn its_name_is_that_of_the_recording() {
+    fn the_autosave_is_named_after_the_recording() {
         for (recording, name) in [
             ("a/run.toml", "a/run.unfinished.toml"),
             ("run", "run.unfinished.toml"),

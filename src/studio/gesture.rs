@@ -48,7 +48,7 @@ mod tests {
     use crate::tools::source_code::Language;
 
     #[test]
-    fn the_menu_of_a_lane_is_told_of_with_every_language() {
+    fn the_help_on_a_lanes_menu_names_every_language() {
         let menu = GESTURES.iter().find(|gesture| gesture.about.contains("Copy as")).unwrap();
         let words: Vec<&str> = menu.about.split([' ', ',', '"', ':']).collect();
         for language in Language::ALL {

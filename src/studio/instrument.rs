@@ -189,7 +189,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_group_has_its_instruments_together_and_each_says_what_it_is() {
+    fn instruments_are_contiguous_by_group_and_described() {
         let mut groups: Vec<InstrumentGroup> = INSTRUMENTS.iter().map(|card| card.group).collect();
         groups.dedup();
         assert_eq!(groups, InstrumentGroup::ALL);
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn next_and_previous_go_round() {
+    fn next_and_previous_wrap_around() {
         let mut instrument = Instrument::Motion;
         for _ in INSTRUMENTS {
             assert_eq!(instrument.beside(Step::Next).beside(Step::Previous), instrument);

@@ -99,7 +99,7 @@ mod tests {
     use regatta::scene::Scene;
 
     #[test]
-    fn the_run_is_the_same_or_parts_at_a_tick() {
+    fn a_linked_run_is_the_same_or_differs_from_a_named_tick_on() {
         let mut session = Session::racing(Scene::built_in("ship").unwrap().into());
         session.run(200);
         let mut recording = session.recording(200);

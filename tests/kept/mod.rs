@@ -43,7 +43,7 @@ pub(crate) fn hold_text(file: &str, found: &str, kept: &str, remedy: &str) {
 }
 
 #[test]
-fn only_the_rows_that_differ_are_shown() {
+fn only_differing_rows_are_shown() {
     let shown = |found: &str, kept: &str| difference(found, kept).unwrap_or_default();
     assert_eq!(shown("a\nb\n", "a\nb\n"), "");
     assert_eq!(shown("a\nB\nc\nc\n", "a\nb\nc\n"), "- b\n+ B\n+ c\n");

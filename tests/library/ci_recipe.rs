@@ -143,7 +143,7 @@ fn said(output: &Output) -> String {
 }
 
 #[test]
-fn the_dependencies_that_the_manual_prints_are_a_packages() {
+fn the_dependencies_in_the_manual_are_valid_in_a_package() {
     let package = folder("package");
     fs::write(folder("package/src").join("lib.rs"), "").unwrap();
     fs::write(package.join("Cargo.toml"), manifest()).unwrap();
@@ -157,7 +157,7 @@ fn the_dependencies_that_the_manual_prints_are_a_packages() {
 }
 
 #[test]
-fn the_manuals_test_passes_and_fails_for_every_lane_whose_method_is_another() {
+fn the_manuals_test_fails_for_every_lane_with_another_method() {
     let run = |scene: &str| {
         fs::write(folder("assets/scenes").join("stiff.toml"), scene).unwrap();
         let test = compile("physics", recipe(), &["--test"]);
@@ -185,7 +185,7 @@ impl DVec2 {
 }";
 
 #[test]
-fn what_the_manual_prints_beside_another_glam_compiles_beside_another_glam() {
+fn the_manuals_lines_for_another_glam_compile_with_another_glam() {
     let library = compile("glam", OTHER_GLAM, &["--crate-type", "rlib"]);
     let other = format!("glam={}", library.with_file_name("libglam.rlib").display());
     let printed = blocks("rust").find(|block| block.contains("use glam::"));
@@ -196,7 +196,7 @@ fn what_the_manual_prints_beside_another_glam_compiles_beside_another_glam() {
 }
 
 #[test]
-fn the_examples_run_and_need_nothing_but_the_library() {
+fn the_examples_run_with_the_library_alone() {
     let mut ran = 0;
     for example in examples() {
         let (name, text) = &example;
@@ -243,7 +243,7 @@ fn printed_by(above: &str, number: usize) -> String {
 }
 
 #[test]
-fn every_program_of_the_manual_prints_what_stands_below_it() {
+fn every_program_of_the_manual_prints_the_output_below_it() {
     let mut compared = Vec::new();
     for text in texts() {
         for block in text.blocks() {
@@ -272,7 +272,7 @@ fn with_another(id: &str) -> String {
 }
 
 #[test]
-fn another_method_shows_in_its_own_hash_and_in_no_other() {
+fn another_method_changes_only_its_own_hash() {
     let hashes = |text: &str| {
         let mut race = Race::of_scene(&Scene::parse("stiff.toml", text).unwrap());
         race.run(600);

@@ -22,7 +22,7 @@ fn apart(found: &[f64], wanted: &[f64]) -> f64 {
 }
 
 #[test]
-fn a_spring_of_swift_ui_has_the_numbers_that_are_published() {
+fn a_swift_ui_spring_has_its_published_numbers() {
     let wish = dialect("swiftui").read(&[0.5, 0.3]).unwrap();
     let told = dialect("core-animation").port(&wish, 60.0);
     assert!(apart(&told.values[..3], &[1.0, 157.913_670, 17.592_919]) < 1e-8, "{told:?}");
@@ -32,7 +32,7 @@ fn a_spring_of_swift_ui_has_the_numbers_that_are_published() {
 }
 
 #[test]
-fn every_pair_of_dialects_that_can_express_a_motion_leads_back_to_it() {
+fn conversion_between_any_two_dialects_round_trips() {
     let mut dice = Dice::new(483);
     let mut pairs = 0;
     for from in DIALECTS.iter().filter(|dialect| dialect.is_read()) {
@@ -74,7 +74,7 @@ fn stepped([stiffness, damping]: [f64; 2], step_s: f64, steps: usize) -> f64 {
 }
 
 #[test]
-fn a_spring_once_a_frame_explodes_below_the_rate_that_is_told() {
+fn a_per_frame_spring_explodes_below_the_reported_rate() {
     for (hz, ratio) in [(2.0, 0.7), (1.0, 0.05), (5.0, 3.0)] {
         let wish = swings(hz, ratio);
         let told = dialect("per-frame").port(&wish, 60.0).explodes_below_hz.unwrap();
@@ -86,7 +86,7 @@ fn a_spring_once_a_frame_explodes_below_the_rate_that_is_told() {
 }
 
 #[test]
-fn react_spring_explodes_at_no_frame_rate_or_at_all_and_its_clock_is_rounded_up() {
+fn react_spring_is_stable_at_every_frame_rate_or_none() {
     let of = dialect("react-spring");
     for (tension, friction, is_stable) in
         [(170.0, 26.0, true), (3.9e6, 0.1, true), (4.1e6, 0.1, false), (170.0, 2010.0, false)]
@@ -108,7 +108,7 @@ fn react_spring_explodes_at_no_frame_rate_or_at_all_and_its_clock_is_rounded_up(
 }
 
 #[test]
-fn the_points_of_a_style_sheet_are_off_by_what_is_said_and_start_and_end_there() {
+fn css_points_deviate_as_reported_and_hit_both_ends() {
     for (hz, ratio) in [(2.0, 0.7), (1.0, 1.0), (3.0, 2.0), (2.0, 0.2)] {
         let port = dialect("css").port(&swings(hz, ratio), 60.0);
         let [duration, points] = port.values[..] else { panic!("two") };
@@ -137,7 +137,7 @@ fn the_points_of_a_style_sheet_are_off_by_what_is_said_and_start_and_end_there()
 }
 
 #[test]
-fn each_says_whether_it_shows_the_motion() {
+fn each_dialect_reports_whether_it_can_show_the_motion() {
     let reach = |id: &str, ratio| dialect(id).port(&swings(2.0, ratio), 60.0).reach;
     for (id, ratio, wanted) in [
         ("compose", 0.0, Reach::Reached),
@@ -189,7 +189,7 @@ fn each_says_whether_it_shows_the_motion() {
 }
 
 #[test]
-fn the_line_of_slint_is_one_that_its_compiler_takes() {
+fn the_slint_line_is_valid_for_its_compiler() {
     // Compiled by slint-ui 1.18.1: a number without an exponent from -1 to 1, and whole milliseconds.
     let (slint, small) = (dialect("slint"), 2.0_f64.powi(-22));
     for (wish, line) in [
@@ -212,7 +212,7 @@ fn the_line_of_slint_is_one_that_its_compiler_takes() {
 }
 
 #[test]
-fn slint_goes_on_with_another_damping_after_its_duration() {
+fn slint_changes_its_damping_after_its_duration() {
     let departure = |ratio| dialect("slint").port(&swings(2.0, ratio), 60.0).departure;
     assert_eq!((departure(0.13), departure(0.5), departure(1.0)), (None, None, None));
     for (ratio, later) in [(0.05, 0.13), (0.0, 0.13), (1.1, 1.0), (2.0, 1.0)] {

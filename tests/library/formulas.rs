@@ -243,7 +243,7 @@ fn holds(method: &Method, formula: &[&str]) -> bool {
 }
 
 #[test]
-fn every_formula_shown_is_what_its_method_does() {
+fn every_formula_matches_the_step_of_its_method() {
     let mut wrong = Vec::new();
     for method in METHODS {
         let steps: Vec<Step> = judged(method, method.formula).collect();

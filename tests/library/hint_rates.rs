@@ -25,7 +25,7 @@ fn rates(hint: &str) -> impl Iterator<Item = (&str, u32)> {
 }
 
 #[test]
-fn at_every_rate_each_rate_that_a_hint_names_is_the_present_one_or_where_its_keys_lead() {
+fn a_rate_named_by_a_hint_is_the_present_one_or_reached_by_its_keys() {
     let mut named = 0;
     for scene in SCENES {
         let own = Scene::built_in(scene.name).unwrap();
@@ -69,7 +69,7 @@ fn at_every_rate_each_rate_that_a_hint_names_is_the_present_one_or_where_its_key
 }
 
 #[test]
-fn the_second_method_of_the_cloth_needs_the_rate_that_its_hint_names() {
+fn the_second_method_of_the_cloth_needs_the_rate_in_its_hint() {
     let scene = Scene::built_in("cloth").unwrap();
     let hint = scene.hint.clone().unwrap();
     let (_, wanted) = rates(&hint).find(|(before, _)| before.ends_with("needs ")).unwrap();

@@ -70,7 +70,7 @@ fn every_scene_names_the_lane_that_it_opens_with() {
 }
 
 #[test]
-fn a_scene_opens_with_a_lane_of_its_own_and_never_with_another_method() {
+fn a_scene_opens_only_with_one_of_its_own_lanes() {
     for method in GENERAL_METHODS {
         let text = |opening: &str| {
             format!(
@@ -92,7 +92,7 @@ fn a_scene_opens_with_a_lane_of_its_own_and_never_with_another_method() {
 }
 
 #[test]
-fn the_next_scene_opens_with_its_own_method_whatever_was_flown_before() {
+fn the_next_scene_opens_with_its_own_method() {
     let mut studio = open("harbour");
     press(&mut studio, &[Key::Digit(4)]);
     for _ in SCENES {
@@ -113,7 +113,7 @@ fn the_springs_gain_energy_until_2_is_pressed() {
 }
 
 #[test]
-fn the_stiff_spring_blows_up_two_presses_lower_and_holds_again_two_higher_after_a_restart() {
+fn the_stiff_spring_blows_up_two_presses_lower_and_recovers_two_higher() {
     let mut studio = open("stiff");
     let seconds = studio.scene().seconds;
     assert!(largest(&mut studio, 0, seconds) < 2.0, "it holds at first");
@@ -145,7 +145,7 @@ fn the_pendulum_goes_over_the_top_and_after_2_and_a_restart_never_does() {
 }
 
 #[test]
-fn ship_and_ellipses_are_truer_at_a_higher_tick_rate() {
+fn ship_and_ellipses_are_more_accurate_at_a_higher_tick_rate() {
     for (scene, seconds) in [("ship", 20.0), ("orbit", 6.0)] {
         let mut studio = open(scene);
         press(&mut studio, &[C]);
@@ -178,7 +178,7 @@ fn explicit_euler_is_calm_on_all_three_ships_one_press_higher() {
 }
 
 #[test]
-fn the_ship_under_explicit_euler_is_faster_than_the_ghost_and_behind_it_all_the_way() {
+fn explicit_eulers_ship_is_faster_than_its_ghost_yet_always_behind() {
     let mut studio = open("ship");
     while studio.race().t() < studio.scene().seconds {
         studio.tick();
@@ -189,7 +189,7 @@ fn the_ship_under_explicit_euler_is_faster_than_the_ghost_and_behind_it_all_the_
 }
 
 #[test]
-fn after_home_the_next_step_of_the_tour_is_shown_and_what_brings_back_the_run_after_the_last() {
+fn a_restart_shows_the_next_hint_or_after_the_last_how_to_undo_it() {
     let mut studio = open("spring");
     let restart_later = |studio: &mut Studio| {
         press(studio, &[Key::Digit(2)]);
@@ -251,7 +251,7 @@ fn controls(studio: &Studio) -> (&'static str, u32, f64, f64) {
 }
 
 #[test]
-fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_so_once() {
+fn the_script_leaves_a_persons_control_alone_until_a_restart() {
     for (command, name, expected) in [
         (Command::Run(RunCommand::Act(Action::Rudder(0.3))), "rudder", ("rk4", 10, 0.5, 0.3)),
         (Command::Run(RunCommand::RudderLeft), "rudder", ("rk4", 10, 0.5, 0.1)),
@@ -282,7 +282,7 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
 }
 
 #[test]
-fn taking_the_same_control_again_is_not_told_again() {
+fn taking_the_same_control_again_gives_no_second_notice() {
     let mut studio = scripted();
     studio.apply(RunCommand::Act(Action::Rudder(0.3)));
     studio.viewer.set_notice("something else");
@@ -296,7 +296,7 @@ fn taking_the_same_control_again_is_not_told_again() {
 }
 
 #[test]
-fn where_no_script_is_to_come_there_is_nothing_to_tell() {
+fn taking_a_control_gives_no_notice_without_a_remaining_script() {
     let mut studio = open("spring");
     for command in [
         Command::Stage(StageCommand::Pick(3)),
@@ -313,7 +313,7 @@ fn where_no_script_is_to_come_there_is_nothing_to_tell() {
 }
 
 #[test]
-fn a_throttle_by_hand_changes_the_analysis_request_and_one_of_the_script_does_not() {
+fn only_a_throttle_by_hand_changes_the_analysis_request() {
     let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
     let script = "[[command]]\nat_s = 1.5\nthrottle = 0.5\n";
     let mut studio = Studio::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap());
@@ -455,7 +455,7 @@ fn names_the_selected_method(studio: &Studio, hint: &str) -> bool {
 }
 
 #[test]
-fn in_every_scene_mode_and_pause_under_every_method_each_key_of_each_hint_does_what_is_told() {
+fn every_key_in_every_hint_does_as_promised() {
     let mut held = 0;
     for scene in SCENES {
         let parsed = Scene::built_in(scene.name).unwrap();
@@ -515,7 +515,7 @@ fn in_every_scene_mode_and_pause_under_every_method_each_key_of_each_hint_does_w
 }
 
 #[test]
-fn in_a_race_that_has_gone_on_into_the_next_scene_nobody_is_asked_to_race() {
+fn no_hint_asks_for_a_race_during_a_race() {
     let mut studio = open("spring");
     studio.apply(StageCommand::ToggleRace);
     studio.viewer.begin_hints();

@@ -26,7 +26,7 @@ fn words(scene: &str) -> String {
 }
 
 #[test]
-fn the_verdicts_of_eight_scenes_have_the_words_that_are_kept() {
+fn the_verdicts_of_eight_scenes_have_the_stored_words() {
     let found: String = thread::scope(|threads| {
         let scenes = SCENES.map(|scene| threads.spawn(move || words(scene)));
         scenes.map(|words| words.join().unwrap()).concat()

@@ -243,7 +243,7 @@ fn same(card: &'static PolicyCard, rates: Rates, trace: &[i64], found: &[Answer]
 }
 
 #[test]
-fn every_file_is_a_snippet_and_every_card_has_one_in_rust() {
+fn every_snippet_file_is_used_and_every_card_has_one_in_rust() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/loops");
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let files: BTreeSet<_> = files
@@ -272,7 +272,7 @@ fn every_file_is_a_snippet_and_every_card_has_one_in_rust() {
 }
 
 #[test]
-fn the_rust_snippets_do_what_the_table_does() {
+fn the_rust_snippets_match_the_table() {
     for rates in RATES {
         for trace in traces(rates) {
             for card in POLICIES {
@@ -326,7 +326,7 @@ fn answer(line: &str) -> Answer {
 }
 
 #[test]
-fn the_cpp_snippets_do_what_the_table_does() {
+fn the_cpp_snippets_match_the_table() {
     let folder = build_folder("loops-cpp");
     let program = folder.join("driver");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -334,13 +334,13 @@ fn the_cpp_snippets_do_what_the_table_does() {
     compiler.args(["-std=c++14", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]);
     compiler.arg("-I").arg(root.join("assets/loops")).arg("-o").arg(&program);
     compiler.arg(root.join("tests/loop_snippets/driver.cpp"));
-    if compiled_or_skip("the_cpp_snippets_do_what_the_table_does", &mut compiler) {
+    if compiled_or_skip("the_cpp_snippets_match_the_table", &mut compiler) {
         driven("c++", &[&program]);
     }
 }
 
 #[test]
-fn the_c_sharp_snippets_do_what_the_table_does() {
+fn the_c_sharp_snippets_match_the_table() {
     let folder = build_folder("loops-cs");
     let program = folder.join("driver.exe");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -357,7 +357,7 @@ fn the_c_sharp_snippets_do_what_the_table_does() {
             compiler.arg(path);
         }
     }
-    if compiled_or_skip("the_c_sharp_snippets_do_what_the_table_does", &mut compiler) {
+    if compiled_or_skip("the_c_sharp_snippets_match_the_table", &mut compiler) {
         driven("c#", &[Path::new("mono"), &program]);
     }
 }

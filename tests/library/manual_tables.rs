@@ -94,7 +94,7 @@ fn hold_rows(chapter: &str, head: &str, rows: &[String]) {
 }
 
 #[test]
-fn the_manual_says_of_every_method_and_engine_what_its_card_does() {
+fn the_manual_agrees_with_every_card_of_methods_and_engines() {
     let (engines, methods): (Vec<&Method>, Vec<&Method>) =
         METHODS.iter().partition(|method| method.is_engine());
     let rows: Vec<String> = methods.into_iter().map(method_row).collect();
@@ -104,7 +104,7 @@ fn the_manual_says_of_every_method_and_engine_what_its_card_does() {
 }
 
 #[test]
-fn the_manual_lists_every_scene_and_times_every_general_method_in_the_order_of_the_table() {
+fn the_manual_lists_scenes_and_method_times_in_table_order() {
     let (head, measured) = ("| method | ship, ns |", manual_table("| method | ship, ns |"));
     let timed = |method: &Method| {
         let begin = format!("| `{}` | ", method.id);

@@ -154,7 +154,7 @@ fn the_vectors_of_glam_keep_their_bits() {
 }
 
 #[test]
-fn a_game_may_have_both_newer_and_the_manual_says_for_which_the_bits_are_promised() {
+fn the_manual_names_the_glam_and_libm_versions_with_promised_bits() {
     let manifest = include_str!("../../Cargo.toml");
     let lock = include_str!("../../Cargo.lock");
     let chapter = regatta::manual::chapter("stable").expect("a chapter").text;
@@ -168,7 +168,7 @@ fn a_game_may_have_both_newer_and_the_manual_says_for_which_the_bits_are_promise
 }
 
 #[test]
-fn what_a_game_s_own_test_prints_is_what_the_manual_says() {
+fn the_hashes_in_the_manual_are_right() {
     let chapter = regatta::manual::chapter("stable").expect("a chapter").text;
     for scene in ["pendulum", "orbit", "helm"] {
         let mut race = Race::of_scene(&Scene::built_in(scene).expect("a built-in scene"));

@@ -128,7 +128,7 @@ fn the_1_hz_spring_doubles_and_halves_as_tabled() {
 }
 
 #[test]
-fn symplectic_methods_are_bounded_and_swing_too_fast_or_too_slowly_as_tabled() {
+fn symplectic_methods_are_bounded_with_the_tabled_frequency_errors() {
     // In percent, and half a unit of the last digit that the table gives.
     let table = [
         (240, 5e-4, 0.003, -0.006),
@@ -182,7 +182,7 @@ fn implicit_methods_are_bounded_at_every_step_and_damping() {
 }
 
 #[test]
-fn several_substeps_in_a_tick_are_as_many_ticks() {
+fn substeps_count_like_ticks_in_the_stability_map() {
     for omega in [HZ_1, 60.0] {
         let body = spring(omega, 0.1);
         for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
@@ -195,7 +195,7 @@ fn several_substeps_in_a_tick_are_as_many_ticks() {
 }
 
 #[test]
-fn the_ship_stands_neutral_and_its_speed_is_held_up_to_a_step_of_twice_its_time() {
+fn the_ship_is_neutral_and_stable_up_to_twice_its_time_constant() {
     let body = ship(1_000.0);
     for (h, bounded) in [(0.5, true), (15.0, true), (19.9, true), (20.1, false), (21.0, false)] {
         let found = of(&*body, "explicit-euler", h);
@@ -214,7 +214,7 @@ fn the_ship_stands_neutral_and_its_speed_is_held_up_to_a_step_of_twice_its_time(
 }
 
 #[test]
-fn a_kick_or_a_way_run_changes_nothing_but_the_state() {
+fn a_kick_or_a_past_run_changes_only_the_state() {
     let mut body = spring(HZ_1, 0.0).with_solver(Solver::Method(&GENERAL_METHODS[0]), 0.0);
     let before = of(&*body, "rk4", 0.1);
     for tick in 0..7 {
@@ -227,7 +227,7 @@ fn a_kick_or_a_way_run_changes_nothing_but_the_state() {
 }
 
 #[test]
-fn the_slowest_stable_rate_is_where_the_limit_says() {
+fn the_slowest_stable_rate_follows_from_the_limit() {
     let rate = |body: &dyn Stepper, id: &str| {
         RateSearch::run(|hz| of(body, id, 1.0 / f64::from(hz)).is_bounded())
     };
@@ -262,7 +262,7 @@ fn adams_bashforth_2([re, im]: [f64; 2]) -> f64 {
 }
 
 #[test]
-fn a_method_with_memory_shows_the_map_of_state_and_memory_together() {
+fn the_map_of_a_multistep_method_includes_its_memory() {
     for damping_ratio in [0.0, 0.05, 0.5] {
         let body = spring(1.0, damping_ratio);
         for z in [0.01, 0.1, 0.3, 0.7, 1.0, 1.5] {

@@ -58,7 +58,7 @@ fn a_switch_carries_the_state_to_the_bit() {
 }
 
 #[test]
-fn there_and_back_in_one_tick_changes_nothing_that_follows() {
+fn switching_there_and_back_in_one_tick_changes_nothing() {
     // A method that carries something forgets it, as it must: it starts anew.
     for method in GENERAL_METHODS.iter().filter(|method| method.restart.is_none()) {
         let mut straight = solo(&scene("harbour"), method.id);
@@ -104,7 +104,7 @@ fn goes_on_as_if_started_there(from: &'static Method, to: &'static Method, chang
 }
 
 #[test]
-fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
+fn after_a_switch_the_new_method_acts_as_if_started_there() {
     for to in GENERAL_METHODS {
         let from = method(if to.id == "rk4" { "improved-euler" } else { "rk4" }).unwrap();
         goes_on_as_if_started_there(from, to, |_| ());
@@ -112,14 +112,14 @@ fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
 }
 
 #[test]
-fn after_a_kick_every_method_goes_on_as_if_started_there() {
+fn after_a_kick_every_method_acts_as_if_started_there() {
     for method in GENERAL_METHODS {
         goes_on_as_if_started_there(method, method, |race| act(race, Action::Kick(1.0)));
     }
 }
 
 #[test]
-fn after_a_change_of_tick_rate_every_method_goes_on_as_if_started_there() {
+fn after_a_change_of_tick_rate_every_method_acts_as_if_started_there() {
     for method in GENERAL_METHODS {
         goes_on_as_if_started_there(method, method, |race| act(race, Action::TickHz(100.into())));
         goes_on_as_if_started_there(method, method, |race| act(race, Action::TickHz(49.into())));
@@ -136,7 +136,7 @@ fn mixed() -> Scene {
 }
 
 #[test]
-fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
+fn setting_a_value_to_itself_changes_no_bit_of_lanes_or_truth() {
     let set_again: [fn(&mut Race); 5] = [
         |race| act(race, Action::Throttle(0.5)),
         |race| act(race, Action::Rudder(-0.25)),
@@ -171,7 +171,7 @@ fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
 }
 
 #[test]
-fn a_persons_action_that_changes_nothing_changes_no_bit() {
+fn an_action_without_effect_changes_no_bit() {
     for method in GENERAL_METHODS {
         let begun = || {
             let mut studio = Studio::new(mixed());
@@ -201,7 +201,7 @@ fn a_persons_action_that_changes_nothing_changes_no_bit() {
 }
 
 #[test]
-fn evaluations_go_on_counting_across_a_switch() {
+fn evaluations_keep_counting_across_a_switch() {
     let mut race = solo(&scene("spring"), "rk4");
     run(&mut race, 10);
     switch(&mut race, LaneSpec::plain(method("explicit-euler").unwrap()));
@@ -220,7 +220,7 @@ fn close(found: f64, wanted: f64) -> bool {
 }
 
 #[test]
-fn a_throttle_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
+fn a_throttle_acts_on_truth_and_lanes_from_its_tick_on() {
     let scene = scene("ship");
     let mut race = solo(&scene, "rk4");
     run(&mut race, 10);
@@ -241,7 +241,7 @@ fn a_throttle_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
 }
 
 #[test]
-fn a_kick_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
+fn a_kick_acts_on_truth_and_lanes_from_its_tick_on() {
     let scene = scene("spring");
     let mut race = solo(&scene, "rk4");
     run(&mut race, 31);
@@ -351,7 +351,7 @@ fn a_body_that_blew_up_resumes_from_the_truth_and_the_others_continue() {
 }
 
 #[test]
-fn where_the_truth_has_failed_too_a_body_is_taken_up_from_its_last_good_state() {
+fn a_body_resumes_from_its_last_good_state_if_the_truth_failed_too() {
     let mut race = solo(&scene("spring"), "semi-implicit-euler");
     run(&mut race, 100);
     let last = bits(&race.entrants()[0].lane);
@@ -367,7 +367,7 @@ fn where_the_truth_has_failed_too_a_body_is_taken_up_from_its_last_good_state() 
 }
 
 #[test]
-fn a_throttle_set_while_a_ship_had_halted_holds_when_it_goes_on() {
+fn a_throttle_set_during_a_halt_holds_after_resuming() {
     // The ship at 21 s swings ever wider.
     let mut scene = scene("surge");
     scene.bodies = vec![scene.bodies[2].clone()];
@@ -385,7 +385,7 @@ fn a_throttle_set_while_a_ship_had_halted_holds_when_it_goes_on() {
 }
 
 #[test]
-fn a_method_is_not_blamed_for_a_state_that_it_inherits_and_the_notice_says_where_it_begins() {
+fn a_new_method_is_not_blamed_for_an_inherited_blow_up() {
     let mut studio = Studio::new(scene("stiff"));
     for command in [
         Command::Stage(StageCommand::Pick(1)),

@@ -114,7 +114,7 @@ fn repeats(studio: &mut Studio) -> Result<(), String> {
 }
 
 #[test]
-fn after_whatever_walk_a_run_is_what_its_recording_repeats_to_the_bit() {
+fn the_recording_repeats_a_run_to_the_bit_after_any_walk() {
     let mut dice = Dice::new(0x3a);
     let mut ticks = 0;
     for walk in 0..walks() {

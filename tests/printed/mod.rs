@@ -158,7 +158,7 @@ fn blessed(said: &str, printed: &str) -> String {
 }
 
 #[test]
-fn a_line_that_is_not_said_or_not_printed_is_found() {
+fn a_missing_or_extra_line_is_detected() {
     assert!(has_lines("a\nb\nc 1\n", "a\n…\nc…\n").is_ok());
     assert!(has_lines("a\nb\nc 1\n", "a\nc…\n").is_err());
     assert!(has_lines("a\n", "a\nb\n").is_err());
@@ -166,7 +166,7 @@ fn a_line_that_is_not_said_or_not_printed_is_found() {
 }
 
 #[test]
-fn what_has_changed_is_written_into_its_place_and_nothing_else_is() {
+fn blessing_rewrites_only_the_changed_lines() {
     let said = "one 1\ntwo two\n\n  three 3 4 5\nfour\n";
     let whole = "  one 1\n  two two\n\n    three 3 4 5\n  four\n";
     assert_eq!(blessed(said, "  one 2\n  two\n"), whole);

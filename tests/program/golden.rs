@@ -79,7 +79,7 @@ fn write_small(picture: &RgbaImage, path: &Path) {
 }
 
 #[test]
-fn the_comparison_sees_one_pixel_and_one_level() {
+fn the_comparison_detects_one_level_in_one_pixel() {
     let black = RgbaImage::new(20, 10);
     let mut other = black.clone();
     assert_eq!(difference(&black, &other), (0, 0));
@@ -127,8 +127,10 @@ fn wrong(name: &str, drawn: &RgbaImage) -> Option<String> {
 }
 
 #[test]
-fn every_scene_looks_as_it_did_solo_and_racing() {
-    let Some(gpu) = gpu_or_skip("every_scene_looks_as_it_did_solo_and_racing") else { return };
+fn every_scene_matches_its_golden_picture_solo_and_racing() {
+    let Some(gpu) = gpu_or_skip("every_scene_matches_its_golden_picture_solo_and_racing") else {
+        return;
+    };
     let mut renderer = OffscreenRenderer::new(gpu, SIZE_PX, SCALE).unwrap();
     let mut all_wrong = Vec::new();
     for scene in SCENES {
@@ -142,8 +144,8 @@ fn every_scene_looks_as_it_did_solo_and_racing() {
 }
 
 #[test]
-fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
-    let test = "the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did";
+fn the_inspector_beside_a_rewound_run_matches_its_golden_picture() {
+    let test = "the_inspector_beside_a_rewound_run_matches_its_golden_picture";
     let Some(gpu) = gpu_or_skip(test) else { return };
     // 1280 × 720 points.
     let size_px = [512, 288];
@@ -158,8 +160,8 @@ fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
 }
 
 #[test]
-fn the_loop_lab_looks_as_it_did() {
-    let Some(gpu) = gpu_or_skip("the_loop_lab_looks_as_it_did") else { return };
+fn the_loop_lab_matches_its_golden_picture() {
+    let Some(gpu) = gpu_or_skip("the_loop_lab_matches_its_golden_picture") else { return };
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     open_loop_lab_on(&mut studio, "steady-144");
     run_loops(&mut studio);

@@ -98,9 +98,8 @@ fn at_rest(desk: &Desk, scene: &Path) -> f64 {
 }
 
 #[test]
-fn a_thousand_random_events_leave_the_program_running_in_silence_and_within_its_memory() {
-    let test =
-        "a_thousand_random_events_leave_the_program_running_in_silence_and_within_its_memory";
+fn random_events_leave_the_program_running_quietly_within_its_memory() {
+    let test = "random_events_leave_the_program_running_quietly_within_its_memory";
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("rest.toml");
     std::fs::write(&scene, include_str!("../../assets/scenes/spring.toml")).unwrap();

@@ -20,8 +20,8 @@ fn paused(test: &str) -> Option<(Desk, u64)> {
 }
 
 #[test]
-fn a_paused_window_goes_ticks_and_seconds_back_and_forth() {
-    let test = "a_paused_window_goes_ticks_and_seconds_back_and_forth";
+fn a_paused_window_steps_ticks_and_seconds_back_and_forth() {
+    let test = "a_paused_window_steps_ticks_and_seconds_back_and_forth";
     let Some((desk, tick)) = paused(test) else { return };
     for (key, to) in [
         ("period", tick + 1),
@@ -43,8 +43,8 @@ fn a_paused_window_goes_ticks_and_seconds_back_and_forth() {
 }
 
 #[test]
-fn control_z_brings_back_the_future_that_an_action_in_the_past_discarded() {
-    let test = "control_z_brings_back_the_future_that_an_action_in_the_past_discarded";
+fn control_z_restores_the_future_discarded_by_an_action_in_the_past() {
+    let test = "control_z_restores_the_future_discarded_by_an_action_in_the_past";
     let Some((desk, tick)) = paused(test) else { return };
     desk.press("shift+comma");
     desk.at_tick(tick - 60);
@@ -94,8 +94,8 @@ fn changed(before: &RgbaImage, after: &RgbaImage, x: u32) -> usize {
 }
 
 #[test]
-fn a_drag_along_the_timeline_goes_to_the_tick_under_the_mouse() {
-    let test = "a_drag_along_the_timeline_goes_to_the_tick_under_the_mouse";
+fn a_drag_along_the_timeline_seeks_to_the_tick_under_the_mouse() {
+    let test = "a_drag_along_the_timeline_seeks_to_the_tick_under_the_mouse";
     let Some((desk, tick)) = paused(test) else { return };
     let at = |x: u32| desk.xdotool(&format!("mousemove --window WINDOW {x} {TRACK_Y}"));
     at(32);

@@ -79,8 +79,8 @@ fn drag(desk: &Desk, [x, y]: [u32; 2], to: [u32; 2]) {
 }
 
 #[test]
-fn a_mass_is_dragged_and_put_down_with_shift_and_escape_puts_it_back() {
-    let test = "a_mass_is_dragged_and_put_down_with_shift_and_escape_puts_it_back";
+fn a_dragged_mass_is_placed_with_shift_and_escape_cancels() {
+    let test = "a_dragged_mass_is_placed_with_shift_and_escape_cancels";
     let Some((desk, [x, y])) = paused(test) else { return };
     let title = desk.title();
     let to = [if x > 400 { x - 90 } else { x + 90 }, y];
@@ -106,8 +106,8 @@ fn a_mass_is_dragged_and_put_down_with_shift_and_escape_puts_it_back() {
 }
 
 #[test]
-fn a_mass_that_is_let_go_keeps_the_velocity_of_the_drag_but_with_shift() {
-    let test = "a_mass_that_is_let_go_keeps_the_velocity_of_the_drag_but_with_shift";
+fn a_released_mass_keeps_the_velocity_of_the_drag_except_with_shift() {
+    let test = "a_released_mass_keeps_the_velocity_of_the_drag_except_with_shift";
     let Some((desk, [x, y])) = paused(test) else { return };
     let away = if x > 400 { -1 } else { 1 };
     let to = [x.strict_add_signed(90 * away), y];
@@ -138,8 +138,8 @@ fn a_mass_that_is_let_go_keeps_the_velocity_of_the_drag_but_with_shift() {
 }
 
 #[test]
-fn time_stands_still_while_a_body_is_held() {
-    let test = "time_stands_still_while_a_body_is_held";
+fn time_stops_while_a_body_is_held() {
+    let test = "time_stops_while_a_body_is_held";
     let Some(desk) = Desk::open(test, "--scene ship --method rk4 --tick-hz 60") else { return };
     // The camera follows it: it stays in its place.
     let at = until("a ship", || ship(&desk.sight()));

@@ -40,8 +40,8 @@ impl Drop for Compositor {
 }
 
 #[test]
-fn a_window_that_wayland_asks_no_frames_of_drops_no_ticks() {
-    let test = "a_window_that_wayland_asks_no_frames_of_drops_no_ticks";
+fn a_wayland_window_without_frame_requests_drops_no_ticks() {
+    let test = "a_wayland_window_without_frame_requests_drops_no_ticks";
     let Some(compositor) = Compositor::open(test) else { return };
     let variables = [("WAYLAND_DISPLAY", "sea"), ("RUST_LOG", "regatta=info")];
     let folder = compositor.folder.path();

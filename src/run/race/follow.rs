@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn a_follow_that_is_stopped_after_each_tick_does_what_one_that_is_not_does() {
+    fn stopping_after_each_tick_does_not_change_a_follow() {
         let script = script();
         let follow = || Follow::new(Log::default(), 4).from_time(10.0).with_script(&script);
         let mut whole = follow();
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn a_follow_makes_the_tick_that_exceeds_its_work_and_none_after_it_unless_that_is_the_last() {
+    fn a_follow_stops_after_the_tick_that_exceeds_its_work() {
         let follow = || Follow::new(Log::default(), 4).within(1);
         let mut stopped = follow();
         assert_eq!(stopped.run(3, |_, _| ControlFlow::Continue(())), StopReason::TooMuchWork);

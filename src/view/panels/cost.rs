@@ -187,7 +187,7 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     #[test]
-    fn solo_the_costs_of_all_offered_methods_are_compared_after_the_prediction() {
+    fn solo_compares_the_costs_of_offered_methods_after_the_prediction() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let stop = STOPS.iter().position(|stop| stop.instrument == Instrument::Cost).unwrap();
         studio.apply(ViewCommand::GoToStop(stop));

@@ -152,7 +152,7 @@ mod tests {
     use crate::view::testing::{TestWindow, button};
 
     #[test]
-    fn what_is_wrong_with_a_number_is_said_and_moves_no_field() {
+    fn an_error_message_moves_no_field_of_the_dialog() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(ViewCommand::AskForSpring);
         let mut window = TestWindow::new([1280.0, 800.0]);

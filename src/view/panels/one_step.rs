@@ -481,7 +481,7 @@ mod tests {
     use crate::prelude::METHODS;
 
     #[test]
-    fn a_line_of_the_formula_stands_beside_the_evaluation_that_it_tells_of() {
+    fn each_formula_line_is_beside_its_evaluation() {
         let of = |id, evaluations| {
             let method = METHODS.iter().find(|method| method.id == id).unwrap();
             beside(method.formula, evaluations)

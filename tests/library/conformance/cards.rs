@@ -54,7 +54,7 @@ fn families_agree_with_the_other_fields() {
 }
 
 #[test]
-fn the_table_runs_family_by_family_with_the_listings_the_followers_and_the_engines_last() {
+fn the_method_table_is_grouped_by_family_with_engines_last() {
     let mut families: Vec<Family> = METHODS.iter().map(|card| card.family).collect();
     families.dedup();
     let distinct: HashSet<_> = families.iter().map(|family| family.id()).collect();

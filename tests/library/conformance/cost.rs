@@ -77,7 +77,7 @@ fn forces_are_evaluated_within_the_step_and_at_the_right_time() {
 }
 
 #[test]
-fn a_method_of_order_p_integrates_a_force_of_degree_p_minus_1_in_time_exactly() {
+fn order_p_integrates_polynomials_in_time_of_degree_p_minus_1_exactly() {
     for method in GENERAL_METHODS.iter().filter(|method| method.order > 0) {
         let power = method.order as i32;
         for (t, substeps) in [(0.0, 1), (5.0, 1), (5.0, 4)] {

@@ -57,7 +57,7 @@ fn energy_error(method: &Method, n: usize, h: f64, steps: u32) -> f64 {
 }
 
 #[test]
-fn reversible_methods_and_no_others_conserve_quadratic_energy() {
+fn only_reversible_methods_conserve_quadratic_energy() {
     for method in implicit() {
         let keeps = method.reversible;
         // Slow and stiff: h ω is 0.4, and about 6 for the fastest mode of the row.
@@ -126,7 +126,7 @@ fn one_step_multiplies_the_amplitude_by_its_formula() {
 }
 
 #[test]
-fn bdf2_takes_less_energy_than_implicit_euler_for_the_same_work() {
+fn bdf2_loses_less_energy_than_implicit_euler_for_the_same_work() {
     let left = |id| {
         let system = problem(spring(1.0, 0.0));
         let mut state = State { q: 1.0, v: 0.7 };

@@ -44,7 +44,7 @@ fn drift(method: &Method, h: f64, steps: u32) -> Option<Drift> {
 }
 
 #[test]
-fn symplectic_methods_and_no_others_bound_energy_without_a_trend_over_a_million_steps() {
+fn only_symplectic_methods_keep_energy_without_a_trend() {
     for method in GENERAL_METHODS {
         // A trend is seen sooner than that there is none.
         let drift = drift(method, 0.3, if method.symplectic { 1_000_000 } else { 200_000 });
@@ -83,7 +83,7 @@ fn out_and_back(method: &Method, system: impl System<Vector = f64> + 'static) ->
 }
 
 #[test]
-fn reversible_methods_and_no_others_return_after_a_hundred_thousand_steps() {
+fn only_reversible_methods_return_after_a_hundred_thousand_steps() {
     // Backwards by steps of -h: on forces without drag the same as turning the velocity round.
     for method in GENERAL_METHODS {
         // What is rounded on a spring adds up; on a pendulum, whose frequency it changes, it also grows.

@@ -72,7 +72,7 @@ fn change_of_momentum(map: SpinMap) -> f64 {
 }
 
 #[test]
-fn scaling_keeps_the_momentum_to_rounding_and_no_other_map_that_turns_the_axis_does() {
+fn only_scaling_keeps_the_momentum_to_rounding_while_the_axis_turns() {
     for (_, map) in SpinMap::ALL {
         let change = change_of_momentum(map);
         match map {
@@ -97,7 +97,7 @@ fn error(map: SpinMap, steps: u32) -> f64 {
 }
 
 #[test]
-fn runge_kutta_is_of_order_4_the_constant_map_of_order_0_and_the_others_of_order_1() {
+fn runge_kutta_has_order_4_the_constant_map_order_0_and_others_order_1() {
     for (_, map) in SpinMap::ALL {
         let order = match map {
             SpinMap::Constant => 0.0,

@@ -27,7 +27,7 @@ fn drawn(scene: &str, q: &[f64]) -> (Outline, Framing, Vec<DVec2>) {
 }
 
 #[test]
-fn a_law_keeps_its_picture_when_it_is_written_and_read_again() {
+fn the_picture_of_a_law_survives_writing_and_reading() {
     for draw in ["beads", "vertical", "carriage", "follower"] {
         let scene = read(&format!("draw = '{draw}'\n"), TWO).unwrap();
         let written = scene.to_toml();
@@ -38,7 +38,7 @@ fn a_law_keeps_its_picture_when_it_is_written_and_read_again() {
 }
 
 #[test]
-fn a_picture_that_cannot_be_is_refused_with_its_place_and_a_remedy() {
+fn an_invalid_picture_is_refused_with_its_place_and_a_remedy() {
     let one = "[law.coordinates.z]\nacceleration = '-z'\n";
     let newton = "[law.coordinates.f]\nunit = 'N'\nacceleration = '-f'\n";
     for (keys, coordinates, wanted) in [
@@ -107,7 +107,7 @@ const RODS: &str = "constants = { l = 2 }\n\
     [law.coordinates.f]\nunit = 'N'\nstart = 7\nacceleration = '-f'\n";
 
 #[test]
-fn a_law_is_drawn_where_its_scene_says_and_a_hand_takes_it_there() {
+fn a_law_is_drawn_and_grabbed_at_the_positions_of_its_scene() {
     let scene = read("", RODS).unwrap();
     let again = Scene::parse("mine.toml", &scene.to_toml()).unwrap();
     assert!(again.bodies[0].kind == scene.bodies[0].kind, "{}", scene.to_toml());
@@ -142,7 +142,7 @@ fn a_law_is_drawn_where_its_scene_says_and_a_hand_takes_it_there() {
 }
 
 #[test]
-fn places_that_cannot_be_are_refused_with_their_place_and_a_remedy() {
+fn invalid_positions_are_refused_with_their_place_and_a_remedy() {
     let with = |keys: &str, at: &str| {
         let one = format!("[law.coordinates.z]\nacceleration = '-z'\nat = {at}\n");
         read(keys, &one).map(|_| ()).unwrap_err()
@@ -164,7 +164,7 @@ fn places_that_cannot_be_are_refused_with_their_place_and_a_remedy() {
 }
 
 #[test]
-fn the_course_of_an_orbit_goes_through_its_body_and_through_where_it_will_be() {
+fn the_drawn_orbit_passes_through_present_and_future_positions() {
     let mut lane = truth(&Scene::built_in("orbit").unwrap());
     let body = &lane.bodies()[0];
     let course = Look::of(body).course(body.stepper.q(), body.stepper.v());

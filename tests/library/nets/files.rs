@@ -20,7 +20,7 @@ const LISTS: &str = "nodes = [[0, 0], [1, 0.5], [2, -1e-3]]\nfixed = [2]\nmass_k
                      damping_n_s_per_m = 0.5, rest_m = 0.0 }]";
 
 #[test]
-fn a_net_is_written_and_read_back_as_the_same_net() {
+fn a_net_survives_writing_and_reading() {
     for net in [GRID, LISTS] {
         let scene = parse(net);
         let again = Scene::parse("t", &scene.to_toml()).unwrap();
@@ -32,7 +32,7 @@ fn a_net_is_written_and_read_back_as_the_same_net() {
 }
 
 #[test]
-fn a_grid_has_the_nodes_springs_and_pins_that_it_says() {
+fn a_grid_has_its_declared_nodes_springs_and_pins() {
     let scene = parse(GRID);
     let plan = scene.bodies[0].kind.net().unwrap();
     let lists = plan.lists();
@@ -67,7 +67,7 @@ fn holds(name: &str, id: &str, tick_hz: u32) -> bool {
 }
 
 #[test]
-fn the_scenes_show_what_their_hints_promise() {
+fn the_scenes_keep_the_promises_of_their_hints() {
     for (name, id, tick_hz, wanted) in [
         ("rope", "explicit-euler", 120, false),
         ("rope", "semi-implicit-euler", 120, true),

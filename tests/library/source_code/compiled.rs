@@ -126,7 +126,7 @@ const PRECISIONS: [(Precision, &str); 2] =
     [(Precision::Double, "double"), (Precision::Single, "single")];
 
 #[test]
-fn the_rust_functions_do_what_the_methods_do() {
+fn generated_rust_matches_the_methods() {
     for (precision, name) in PRECISIONS {
         let folder = build_folder(&format!("methods-rust-{name}"));
         let (source, program) = (folder.join("driver.rs"), folder.join("driver"));
@@ -136,7 +136,7 @@ fn the_rust_functions_do_what_the_methods_do() {
             .args(["--edition=2024", "-Dwarnings", "-Copt-level=1", "-o"])
             .arg(&program)
             .arg(&source);
-        if compiled_or_skip("the_rust_functions_do_what_the_methods_do", &mut compiler) {
+        if compiled_or_skip("generated_rust_matches_the_methods", &mut compiler) {
             same(Language::Rust, precision, &printed(&mut Command::new(&program)));
         }
     }
@@ -158,18 +158,18 @@ fn compare_c(test: &str, compiler: &str, file: &str, more: &[&str]) {
 }
 
 #[test]
-fn the_c_functions_do_what_the_methods_do() {
+fn generated_c_matches_the_methods() {
     let more = ["-std=c99", "-Wconversion", "-Wdouble-promotion"];
-    compare_c("the_c_functions_do_what_the_methods_do", "cc", "driver.c", &more);
+    compare_c("generated_c_matches_the_methods", "cc", "driver.c", &more);
 }
 
 #[test]
-fn the_c_functions_are_cpp_too() {
-    compare_c("the_c_functions_are_cpp_too", "c++", "driver.cpp", &["-std=c++14"]);
+fn generated_c_is_valid_cpp() {
+    compare_c("generated_c_is_valid_cpp", "c++", "driver.cpp", &["-std=c++14"]);
 }
 
 #[test]
-fn the_c_sharp_functions_do_what_the_methods_do() {
+fn generated_c_sharp_matches_the_methods() {
     for (precision, name) in PRECISIONS {
         let folder = build_folder(&format!("methods-cs-{name}"));
         let (source, program) = (folder.join("driver.cs"), folder.join("driver.exe"));
@@ -177,7 +177,7 @@ fn the_c_sharp_functions_do_what_the_methods_do() {
         let mut compiler = Command::new("mcs");
         compiler.args(["-langversion:3", "-warnaserror", &format!("-out:{}", program.display())]);
         compiler.arg(&source);
-        if compiled_or_skip("the_c_sharp_functions_do_what_the_methods_do", &mut compiler) {
+        if compiled_or_skip("generated_c_sharp_matches_the_methods", &mut compiler) {
             same(Language::CSharp, precision, &printed(Command::new("mono").arg(&program)));
         }
     }

@@ -92,7 +92,7 @@ fn every_function_in_gdscript_is_grammatical() {
 }
 
 #[test]
-fn bad_gdscript_is_seen() {
+fn bad_gdscript_is_detected() {
     let good = "static func f(x: float) -> Array:\n\tif x < 0.0 \\\n\t\tor x > 1.0:\n\t\tx = -x\n\treturn [x]\n";
     assert_eq!(complaint(good), None);
     for (part, bad) in [

@@ -43,7 +43,7 @@ fn position(method: &Method, steps: u32, part: f64) -> f64 {
 }
 
 #[test]
-fn a_force_that_is_held_where_the_header_says_has_the_order_that_it_says() {
+fn a_held_force_has_the_order_stated_in_the_header() {
     // Half the difference of halved steps is the error of the midpoint rule: this is exact to 1e-12.
     let exact = {
         let rk4 = method("rk4").unwrap();

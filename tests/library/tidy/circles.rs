@@ -124,7 +124,7 @@ fn no_file_depends_on_itself() {
 }
 
 #[test]
-fn a_part_may_name_its_whole_and_whoever_names_a_part_depends_on_the_whole() {
+fn naming_a_part_counts_as_depending_on_its_whole() {
     let file = |path: &str, text: &str| Source { path: path.into(), text: text.into() };
     let root = file("src/a/mod.rs", "mod b;\nmod c;");
     let part = file("src/a/c/d.rs", "use super::C;\npub struct D;");
@@ -139,7 +139,7 @@ fn a_part_may_name_its_whole_and_whoever_names_a_part_depends_on_the_whole() {
 }
 
 #[test]
-fn circles_are_seen_through_names_that_are_handed_on() {
+fn circles_through_reexported_names_are_detected() {
     let file = |path: &str, text: &str| Source { path: path.into(), text: text.into() };
     let root = file("src/a/mod.rs", "mod b;\nmod c;\nuse b::go;\npub use c::{C, D};");
     let b = file("src/a/b.rs", "use super::C; fn go() {}");

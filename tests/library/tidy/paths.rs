@@ -83,7 +83,7 @@ fn spread(tree: &str, before: &[String], named: &mut Vec<Vec<String>>) {
 }
 
 #[test]
-fn groups_are_spread_out() {
+fn grouped_paths_are_expanded() {
     let found = named("use a::{self, b as x, c::{d, e}};\npub use f::g;\nlet x = h::i(j);");
     let found: Vec<String> = found.into_iter().map(|path| path.join("::")).collect();
     for path in ["a::self", "a::b", "a::c::d", "a::c::e", "f::g", "h::i"] {
@@ -92,7 +92,7 @@ fn groups_are_spread_out() {
 }
 
 #[test]
-fn comments_and_texts_name_nothing() {
+fn comments_and_strings_name_no_paths() {
     let text = r##"
         // std::fs::read, use std::fs;
         /* std::fs */ /// [`std::fs`]

@@ -75,7 +75,7 @@ fn every_folder_of_the_source_is_a_room_or_a_text() {
 }
 
 #[test]
-fn a_name_from_a_room_above_is_seen() {
+fn a_name_from_a_room_above_is_detected() {
     let (rooms, text) =
         (rooms(), "use crate::{studio::Studio, sim::State};\nfn f(a: crate::view::A) {}");
     let source = Source { path: "src/run/race.rs".into(), text: text.into() };

@@ -121,7 +121,7 @@ fn every_example_with_an_answer_prints_that_answer() {
 }
 
 #[test]
-fn every_block_of_the_manual_is_of_a_kind_that_a_test_holds() {
+fn every_block_of_the_manual_is_of_a_tested_kind() {
     let mut found: Vec<(&str, String, usize)> = Vec::new();
     for text in texts() {
         let mut languages: Vec<&str> = text.blocks().iter().map(|block| block.language).collect();
@@ -142,7 +142,7 @@ fn options(text: &str) -> impl Iterator<Item = &str> {
 }
 
 #[test]
-fn every_option_of_the_manual_is_one_of_its_command() {
+fn every_option_in_the_manual_exists_for_its_command() {
     let mut helps: HashMap<String, String> = HashMap::new();
     let mut checked = 0;
     for text in texts() {

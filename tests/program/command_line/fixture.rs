@@ -97,7 +97,7 @@ fn passes(folder: &Path, language: &str, text: &str) -> Option<(bool, String)> {
 }
 
 #[test]
-fn a_good_engine_passes_in_every_language_and_a_bad_one_is_told_its_first_state_that_is_off() {
+fn a_good_engine_passes_and_a_bad_one_fails_at_its_first_wrong_state() {
     let folder = tempfile::tempdir().unwrap();
     for (language, open) in OPEN {
         for precision in ["", " --float"] {
@@ -141,7 +141,7 @@ fn a_fixture_has_the_states_of_a_trace_and_the_least_tolerance_of_its_truth() {
 }
 
 #[test]
-fn a_name_is_written_as_it_is_and_a_fixture_of_the_start_alone_is_refused() {
+fn names_are_escaped_and_a_fixture_without_later_states_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let name = "re\u{301}sort \\ \"2\"";
     let scene = "title = 'A'\nabout = 'a'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\

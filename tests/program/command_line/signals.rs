@@ -68,8 +68,8 @@ fn until_begun(folder: &Path, child: &mut Child) {
 }
 
 #[test]
-fn a_signal_as_soon_as_a_file_is_begun_leaves_nothing_of_it() {
-    let test = "a_signal_as_soon_as_a_file_is_begun_leaves_nothing_of_it";
+fn a_signal_right_after_a_file_is_created_leaves_no_file() {
+    let test = "a_signal_right_after_a_file_is_created_leaves_no_file";
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let probe = "capture --scene spring --frames 1 --size 32x18 --out probe";
@@ -136,8 +136,8 @@ fn a_cloud_of_any_size_ends_within_a_second_of_a_signal() {
 }
 
 #[test]
-fn a_limit_of_a_files_size_ends_in_a_sentence_and_leaves_nothing() {
-    let test = "a_limit_of_a_files_size_ends_in_a_sentence_and_leaves_nothing";
+fn a_file_size_limit_ends_in_a_sentence_without_a_file() {
+    let test = "a_file_size_limit_ends_in_a_sentence_without_a_file";
     let folder = tempfile::tempdir().unwrap();
     for arguments in [
         "sweep --scene spring --method rk4 --out rows.csv",

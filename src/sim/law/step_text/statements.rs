@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn statements_end_at_semicolons_braces_and_lines_that_do_not_go_on() {
+    fn statements_end_at_semicolons_braces_and_complete_lines() {
         let text = "let k: f32 = 3; v = (v + (1 - x)\n * 0.2) * k\n  - 1\nx += v;\n";
         assert_eq!(read(text), ["let k = 3", "v = (v + (1 - x)\n * 0.2) * k\n  - 1", "x += v"]);
         let text = "memory old = 0\nif (x > 1) { x = 1; v = 0 } else if x < 0\n{\nx = 0 } else { old = x }";
@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_statement_is_refused_at_its_place() {
+    fn a_malformed_statement_is_refused_at_its_place() {
         for (text, at) in [
             ("x", 0..1),
             ("x == 1", 0..6),

@@ -193,7 +193,7 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     #[test]
-    fn where_there_is_no_truth_the_stage_says_so_once_and_no_cell_repeats_it() {
+    fn a_missing_truth_is_reported_once_on_the_stage_and_in_no_cell() {
         let mut studio = Studio::new(Scene::built_in("cloth").unwrap());
         studio.apply(StageCommand::ToggleRace);
         studio.tick();
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn before_a_prediction_of_the_guide_the_table_has_no_numbers_and_no_signs() {
+    fn the_table_hides_numbers_and_signs_before_a_prediction_in_the_guide() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let names = |studio: &Studio| {
             let table = lanes::table(studio);
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_stage_shows_too_has_a_column_only_where_there_is_room_for_it() {
+    fn values_already_on_the_stage_have_a_column_only_if_there_is_room() {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.apply(StageCommand::ToggleRace);
         let table = lanes::table(&studio);

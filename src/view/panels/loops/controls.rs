@@ -119,13 +119,13 @@ mod tests {
     }
 
     #[test]
-    fn a_long_name_of_a_trace_takes_no_more_room_than_a_short_one() {
+    fn a_long_trace_name_takes_no_extra_room() {
         assert!(TRACES.iter().all(|card| short(card.id) == card.id));
         assert_eq!(short("log.csv:PresentBench.exe-24892"), "log.csv:PresentBe…");
     }
 
     #[test]
-    fn every_trace_says_what_happens_in_it() {
+    fn every_trace_has_a_description() {
         let display = RefreshRate::new(60, 1);
         assert!(TRACES.iter().all(|card| about_trace(&card.trace(display)) == card.about));
         let list = trace_file::read("times.txt", "16.7\n16.6\n").unwrap();

@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn values_have_three_digits_or_decimals_and_nothing_is_told_from_almost_nothing() {
+    fn values_have_three_digits_and_zero_differs_from_almost_zero() {
         let texts = [(8.2247, MS), (0.0, MS), (1e-7, MS), (0.1234, Unit::Amplitudes)];
         let texts = texts.map(|(value, unit)| shown(value, unit));
         assert_eq!(texts, ["8.22 ms", "0 ms", "<0.001 ms", "12.3 %"]);
