@@ -39,12 +39,7 @@ pub(super) static FORMATS: [PictureFormat; 4] = [
     PictureFormat {
         // Players show a frame for at least two hundredths of a second.
         max_fps: Some(50),
-        ..format(
-            "gif",
-            "One GIF, each frame with its own palette",
-            &["gif"],
-            Movie(movie::gif),
-        )
+        ..format("gif", "One GIF, each frame with its own palette", &["gif"], Movie(movie::gif))
     },
     format("y4m", "YUV4MPEG2, for a video encoder", &["y4m"], Movie(movie::y4m)),
     format("sheet", "One picture, time across, lanes down", &["png"], Sheet),

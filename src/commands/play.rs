@@ -170,9 +170,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         }
         if studio.scene().name != played {
             let scene = studio.deck.scene_name();
-            print_status(&format!(
-                "the recording is of {scene}, which was opened after {played}"
-            ));
+            print_status(&format!("the recording is of {scene}, which was opened after {played}"));
         }
         print_status(&format!("recorded {} in {name}", ticks(&studio)));
     }

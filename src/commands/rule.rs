@@ -178,7 +178,8 @@ fn words(rule: &Rule, written: &str, language: Language) -> String {
     said += &text(COLUMNS, &rule.seen(), "  ");
     said += "\n";
     if !rule.takes_step() {
-        said += "without dt: every frame moves it alike, so it is twice as fast at twice the rate\n";
+        said +=
+            "without dt: every frame moves it alike, so it is twice as fast at twice the rate\n";
     }
     let explodes_below = rule.explodes_below_fps();
     for (verb, below) in [("rings", rule.rings_below_fps()), ("grows", explodes_below)] {

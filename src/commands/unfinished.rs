@@ -169,9 +169,8 @@ impl Notes {
         File::open(path).ok()?.try_lock().ok()?;
         fs::remove_file(path).ok()?;
         let name = recording.display();
-        let message = format!(
-            "a recording was not finished when its window ended; {name} has it so far"
-        );
+        let message =
+            format!("a recording was not finished when its window ended; {name} has it so far");
         recording.is_file().then_some(message)
     }
 

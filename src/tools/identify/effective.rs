@@ -122,7 +122,8 @@ impl Effective {
     fn of_states(states: &[(u64, [f64; 2])], body: &LoggedBody, tick_s: f64) -> Option<Self> {
         let recurrence = Self::of_recurrence(states, body, tick_s);
         let is_number = |seen: &Self| seen.omega.is_finite() && seen.decay.is_finite();
-        let found = recurrence.filter(is_number).or_else(|| Self::of_slopes(states, body, tick_s))?;
+        let found =
+            recurrence.filter(is_number).or_else(|| Self::of_slopes(states, body, tick_s))?;
         let coasts = found.omega * found.omega < NO_SPRING * found.decay * found.decay;
         Some(if coasts && found.omega > 0.0 { found.coasting() } else { found })
     }
