@@ -1,10 +1,10 @@
-//! The logs of each tool, their units, and what stands beside their times.
+//! The logs of each tool, their units, and the columns next to their times.
 
 use regatta::loops::trace_file::read;
 
 use super::{frames, traces};
 
-/// What is read, in a line, and the beginnings of its frames in ms.
+/// The one-line summary of a log, and the starts of its frames in ms.
 fn summed(text: &str) -> (String, Vec<f64>) {
     let [trace] = &traces("log", text)[..] else { panic!("one trace") };
     let began = frames(trace).iter().map(|frame| frame.began_ns as f64 / 1e6).collect();
@@ -71,7 +71,7 @@ fn an_afterburner_log_is_refused_by_name() {
     assert!(error.contains("a log of MSI Afterburner has a sample a second"), "{error}");
 }
 
-/// Small logs of ten frames as each tool writes them, one of which was never displayed in two.
+/// Small logs of ten frames as each tool writes them. In two logs, one frame was never displayed.
 const OF_TOOLS: [(&str, &str, &str); 11] = [
     (
         "presentmon-1.csv",

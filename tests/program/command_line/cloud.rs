@@ -1,4 +1,4 @@
-//! `cloud`: a table of what methods do to an area.
+//! `cloud`: a table of the effect of methods on an area.
 
 use std::fs;
 
