@@ -183,7 +183,7 @@ fn judged<'a>(method: &'a Method, formula: &'a [&str]) -> impl Iterator<Item = S
     let is_adaptive = method.family == Family::Adaptive;
     let is_for = move |case: &&Case| match method.only {
         _ if is_adaptive => false,
-        // Starts too far for a pendulum, and very far ones for methods that do not notice.
+        // Only engines get far starts: a pendulum cannot reach them, and other methods do not notice.
         _ if !method.is_engine() || method.holds_force() => !is_far(case),
         Some(_) if case.start[0].abs() > 1e9 => formula.concat().contains("10¹⁰"),
         _ => method.engine.is_some_and(|e| e.damping_ratio.is_some()) || case.told[0] == 0.0,

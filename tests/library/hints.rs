@@ -445,7 +445,7 @@ fn hold(studio: &mut Studio, hint: &str, command: &Command, told: &Told<'_>) {
     }
 }
 
-/// Whether a hint only names the selected method; in solo it must name another one.
+/// Whether a hint starts with a method only if some lane flies it.
 fn names_the_selected_method(studio: &Studio, hint: &str) -> bool {
     let before = hint.split('`').next().unwrap_or_default();
     first_named(before).is_none_or(|(at, id)| {
@@ -462,7 +462,7 @@ fn every_key_in_every_hint_does_as_promised() {
         let count = if is_net { 1 } else { parsed.lanes.len().min(5) };
         let seconds = if is_net { 0 } else { 1 };
         for (race, paused, entry) in (0..4 * count).map(|i| (i & 1 > 0, i & 2 > 0, i / 4)) {
-            // A pause changes the hints about the run, not those about its method.
+            // The hints of a race or a pause do not depend on the method.
             if entry > 0 && (race || paused) {
                 continue;
             }
@@ -499,7 +499,7 @@ fn every_key_in_every_hint_does_as_promised() {
                 assert!(!keys.is_empty(), "{hint} asks for no key");
                 for (index, (command, told)) in keys.iter().enumerate() {
                     let mut studio = again(&done);
-                    // Promises about the continuing run, or about a lost body, follow the keys before.
+                    // A pause in a hint follows the keys before it.
                     if matches!(command, Command::View(ViewCommand::TogglePause)) {
                         keys[..index].iter().for_each(|(key, _)| _ = studio.apply(key.clone()));
                     }

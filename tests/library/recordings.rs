@@ -471,7 +471,7 @@ fn an_action_no_file_could_hold_is_refused_at_once() {
         place(1e39),
         place(f64::NAN),
     ] {
-        // The script takes over the effect of the action.
+        // The script controls everything that the refused action would take over.
         let more = "[[command]]\nat_s = 0.5\ntick_hz = 30\n[[command]]\nat_s = 0.5\nthrottle = 0.5\n\
                     [[command]]\nat_s = 0.5\nlane = 1\nmethod = 'midpoint'\n\
                     [[command]]\nat_s = 0.5\nset = { body = 'port buoy', key = 'stiffness_n_per_m', value = 9.0 }\n";
@@ -559,7 +559,7 @@ fn a_link_to_a_solo_run_keeps_its_menu_of_methods() {
     assert!(!scene.checks.is_empty());
     assert_eq!(wrong_lanes(&scene), []);
 
-    // A lane whose method alone distinguishes it from no other is alone, as in a file.
+    // Of two lanes with one method, the link of the plain one needs no other lane.
     let plain = LaneSpec::plain(method("rk4").unwrap());
     let lanes = vec![LaneSpec { substeps: 4, ..plain }, plain];
     let mut studio = Studio::new(edited(&built_in("spring"), |scene| scene.lanes = lanes));

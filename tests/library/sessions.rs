@@ -309,7 +309,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
 
 #[test]
 fn snapshots_of_ten_hours_stay_within_their_memory_limit() {
-    // For a million ticks, more than ten hours at the scene's rate.
+    // At 30 Hz, ten hours are a million ticks.
     let scene = edited(&Scene::built_in("spring").unwrap(), |scene| scene.tick_hz = 30.into());
     let limit = 1 << 20;
     let mut timeline = Run::with_limit(Session::racing(scene.into()), limit);

@@ -104,7 +104,7 @@ fn repeats(studio: &mut Studio) -> Result<(), String> {
             return Err(format!("the recording is not repeated: {check:?}"));
         }
     }
-    // In solo the menu's methods follow the lane.
+    // A solo recording replays the lanes of its menu too, so only its own lane is compared.
     let are_same = match (race.mode(), scene.checks.last()) {
         (Mode::Solo, Some(end)) => again.race().lane_hash(end.lane) == lanes.first().copied(),
         _ => again.race().lane_hashes().eq(lanes) && again.race().mode() == race.mode(),

@@ -173,7 +173,7 @@ fn without_all_the_answer_and_the_eight_best_rows_are_printed() {
         let method = answer.split(' ').nth(4).unwrap();
         assert!(rows[..3].iter().any(|row| of_table(row) == method), "{answer}: {text}");
     }
-    // Another method in the row costs no less, and the advice says so.
+    // Each row shows the substeps and the cost of its method.
     let advice = advice("--scene stiff");
     for row in rows {
         let met = &self::row(&advice, &of_table(row))["criteria"]["bounded"];

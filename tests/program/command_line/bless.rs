@@ -31,8 +31,7 @@ fn restore(folder: &Path, content: &Content) {
     }
 }
 
-/// A clip whose settings name another run, next to a foreign file; the clip after blessing; and the duration of
-/// blessing.
+/// A clip to bless, next to a foreign file: its folder, its content before and after blessing, and the duration.
 fn clip_or_skip(test: &str) -> Option<(TempDir, Content, Content, Duration)> {
     let folder = tempfile::tempdir().unwrap();
     let capture = "capture --scene spring --race --frames 12 --size 64x36 --scale 0.5 --out clip";

@@ -273,7 +273,7 @@ fn a_juddering_or_variable_loop_is_never_advised() {
     let varies =
         "take none of these: without a fixed tick the physics varies with the rate; try --all";
     assert!(variable.contains(varies), "{variable}");
-    // Requirements on all advice, in every scene and at odd rates.
+    // Advice is a loop with a fixed tick or none, in every scene and at odd rates.
     for (scene, tick_hz) in [("spring", 7), ("stiff", 120), ("pendulum", 30), ("orbit", 10)] {
         let told = told(&format!("--all --scene {scene} --tick-hz {tick_hz} --seconds 10"));
         for line in told.lines().filter_map(|line| line.split_once("): take ")) {
