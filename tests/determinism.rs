@@ -1,8 +1,8 @@
 //! The same inputs give the same bits: in debug and release, on every machine, at every frame rate.
 //!
-//! `tests/hashes.txt` holds the state hash of every built-in scene under every method, and
-//! `tests/early_hashes.txt` that of a twentieth of the way, where a debug build stops. If a change of the
-//! physics is meant, write both anew: `BLESS=1 cargo test --release --test determinism`.
+//! `tests/hashes.txt` holds the state hash of every built-in scene under every method. `tests/early_hashes.txt` holds
+//! the hash after a twentieth of the way, where a debug build stops. After an intended change of the physics, rewrite
+//! both: `BLESS=1 cargo test --release --test determinism`.
 
 #![cfg(feature = "lab")]
 
@@ -124,8 +124,8 @@ fn ragged(seed: u64) -> impl FnMut() -> i64 {
     }
 }
 
-/// Ticks a studio one by one to the last of `ticks`, compares it on the way with what pacings have marked, and returns
-/// the hashes at `ticks`.
+/// Ticks a studio one by one up to the last of `ticks`, compares it on the way with the marks of the pacings, and
+/// returns the hashes at `ticks`.
 fn compare(
     mut studio: Studio,
     ticks: &[u64],
@@ -170,7 +170,7 @@ fn lines(name: &str) -> Vec<String> {
     hashes.into_iter().map(|at| scene.fitting_methods().zip(at).map(line).collect()).collect()
 }
 
-/// Compares what was found with a file that is kept, or writes it.
+/// Compares `found` with a stored file, or rewrites the file.
 fn hold(file: &str, found: &str) {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests").join(file);
     if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
@@ -231,7 +231,7 @@ fn scripted(name: &str, script: Vec<(u64, Action)>) -> Scene {
     scene
 }
 
-/// The built-in scenes but the cloth, of which thousands of ticks take minutes in a debug build.
+/// The built-in scenes without the cloth, which needs minutes for thousands of ticks in a debug build.
 fn quick_scenes() -> impl Iterator<Item = &'static BuiltIn> {
     SCENES.iter().filter(|scene| scene.name != "cloth")
 }
@@ -251,7 +251,7 @@ fn a_script_acts_at_its_ticks(name: &str) {
         let what = format!("scripted {name} {kind}");
         let mut pacings =
             vec![("ragged", paced(field.open(&with), SCRIPTED_TICKS, ragged(0x5eed_0002)))];
-        // What acts on one lane acts on all, at the tick that the pacing brings.
+        // An action on one lane acts on all, at the tick of the pacing.
         if matches!(field, Field::Solo(_)) {
             pacings.extend([
                 ("steady", paced(field.open(&with), SCRIPTED_TICKS, steady())),
@@ -339,7 +339,7 @@ fn each_lane_has_the_hash_it_has_alone() {
 
 #[test]
 fn the_hash_depends_on_which_body_halted_and_when() {
-    // Two springs at rest, alike but for their kicks, of which a large one breaks a body before tick `when`.
+    // Two equal springs at rest with different kicks. A large kick breaks a body before tick `when`.
     let hash = |kicks: [&str; 2], when: u64| {
         let spring = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\nx0_m = 0\nkick_n_s =";
         let [one, other] = kicks;
@@ -368,7 +368,7 @@ fn the_hash_depends_on_which_body_halted_and_when() {
 fn the_race_of_the_library_is_the_race_of_the_program() {
     let plain = quick_scenes().map(|scene| built_in(scene.name));
     let scripted = quick_scenes().map(|scene| scripted(scene.name, script()));
-    // Past the last act of the script; what has none shows it sooner.
+    // Past the last action of the script; a scene without a script differs sooner.
     let scenes = plain.map(|scene| (scene, 5)).chain(scripted.map(|scene| (scene, 16)));
     for (scene, hundreds) in scenes {
         let mut race = Race::of_scene(&scene);

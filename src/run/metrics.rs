@@ -378,7 +378,7 @@ mod tests {
             }
             drifts
         };
-        // The whole energy of a ship that starts from rest is zero but for rounding.
+        // The whole energy of a ship that starts from rest is zero up to rounding.
         let ship = "[[ship]]\nthrust_n = 1234.5\ndrag_n_s_per_m = 0\nmass_kg = 777\n";
         assert_eq!(drifts(ship, 7), [0.0; 0]);
         let stops = drifts(&format!("{ship}v0_m_per_s = -30\n"), 7);

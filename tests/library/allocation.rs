@@ -51,7 +51,7 @@ fn allocations_in(work: impl FnOnce()) -> u64 {
     ALLOCATIONS.get() - before
 }
 
-/// What `work` makes, with the bytes that it allocates for it.
+/// The result of `work`, with the bytes that it allocates.
 fn bytes_in<T>(work: impl FnOnce() -> T) -> (T, usize) {
     let before = BYTES.get();
     let made = work();
@@ -174,7 +174,7 @@ fn a_race_does_not_allocate_while_its_histories_fill_and_wrap() {
     for scene in scenes(false) {
         let mut race = Race::new(&scene, scene.lanes.iter().copied());
         let mut seen = Observations::new(&race, scene.seconds);
-        // Histories turn over alike whatever moves: that takes thousands of ticks.
+        // Histories wrap alike for every body, and that takes thousands of ticks.
         let ticks =
             if ["harbour", "helm", "orbit"].contains(&scene.name.as_str()) { 5000 } else { 1500 };
         for tick in 0..ticks {
@@ -229,12 +229,12 @@ fn stepper_memory_matches_its_report_within_a_factor_of_three() {
     }
 }
 
-/// A grid of so many nodes under Runge-Kutta 4.
+/// A grid of `columns` × `rows` nodes under Runge-Kutta 4.
 fn large_net(columns: usize, rows: usize) -> Box<dyn Stepper> {
     net_under(Solver::Method(method("rk4").expect("a method")), columns, rows)
 }
 
-/// A grid of so many nodes.
+/// A grid of `columns` × `rows` nodes.
 fn net_under(solver: Solver, columns: usize, rows: usize) -> Box<dyn Stepper> {
     let grid = Grid { columns, rows, spacing: 0.1, shear: true, pin: Some(Pin::Corners) };
     let kind = net_kind(NetPlan { form: Form::Grid(grid), kicked: None }).expect("a net");

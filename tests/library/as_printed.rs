@@ -1,4 +1,4 @@
-//! The chapter's listings as they are printed, faults and all, held to the figures of those faults.
+//! The chapter's listings as printed, errors included, tested against the figures of those errors.
 //!
 //! Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
 
@@ -30,7 +30,7 @@ fn sail(id: &str, h: f64, n: u32) -> Vec<State<f64>> {
     states.collect()
 }
 
-/// The three listings, and what the chapter calls Euler.
+/// The three listings, and the chapter's Euler.
 fn printed() -> impl Iterator<Item = &'static Method> {
     GENERAL_METHODS
         .iter()

@@ -1,4 +1,4 @@
-//! What a scene file can have wrong, with the reviewed messages: `tests/bad_scenes.md` has a case for each.
+//! Mistakes in scene files, with the reviewed messages: `tests/bad_scenes.md` has a case for each.
 //!
 //! `BLESS=1 cargo test --test library bad_scenes` writes the messages again; without it, one that is missing or
 //! different fails.
@@ -10,7 +10,7 @@ use regatta::scene::{MAX_BODIES, MAX_FILE_BYTES, MAX_SHOWN, Scene, SceneErrors};
 
 use crate::kept::hold_text;
 
-/// A bad scene and what is said of it.
+/// A bad scene and its error message.
 #[derive(Clone, Debug, PartialEq)]
 struct Case {
     name: String,
@@ -67,7 +67,7 @@ fn case(section: &str) -> Option<Case> {
     })
 }
 
-/// The bytes that escapes stand for; line breaks stand for nothing.
+/// The bytes of an escaped text. Line breaks are ignored.
 fn unescaped(written: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut rest = written.bytes().filter(|byte| *byte != b'\n');
@@ -193,7 +193,7 @@ fn a_tolerance_is_accepted_for_any_lane_that_may_be_adaptive() {
         command(&format!("at_s = 3\nlane = 2\n{adaptive}")),
         command("at_s = 3\nsolo = 2") + &command(&format!("at_s = 4\n{adaptive}")),
     ] {
-        // Whatever the order in the file: the times decide.
+        // The times decide, not the order in the file.
         for text in [before.clone() + &tolerance, tolerance.clone() + &before] {
             Scene::parse("good.toml", &(head.to_owned() + &text)).unwrap();
         }

@@ -1,4 +1,4 @@
-//! A copy in a batch has the bits of its body alone, whatever the instruction set and the number of threads.
+//! A copy in a batch has the bits of its body alone, for any instruction set and any number of threads.
 
 use rayon::ThreadPoolBuilder;
 use regatta::scene::Scene;
@@ -39,7 +39,7 @@ fn starts(count: u32) -> Vec<State<f64>> {
 }
 
 fn bits([q, v]: [f64; 2]) -> [Option<u64>; 2] {
-    // What blows up has no bits to keep.
+    // A state that blew up has no bits to compare.
     [q, v].map(|number| number.is_finite().then(|| number.to_bits()))
 }
 

@@ -1,5 +1,5 @@
-//! What the manual prints for a stranger's package: its test passes, and fails as soon as any lane's method is another; its
-//! body and the examples compile with this library and nothing else, and its dependencies are a package's.
+//! The manual's recipe for another package. Its test passes, and fails as soon as any lane has another method. Its
+//! body and the examples compile with this library alone, and its dependencies are valid in a package.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -16,7 +16,7 @@ const SCENE: &str = include_str!("../../assets/scenes/stiff.toml");
 /// No lane of the scene.
 const OTHER: &str = "midpoint";
 
-/// What the manual prints in a language.
+/// The manual's code blocks in one language.
 fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
     let fence = format!("```{language}\n");
     let blocks = |text: &'static str| {
@@ -32,7 +32,7 @@ fn recipe() -> &'static str {
     tests.next().expect("the manual prints a test")
 }
 
-/// The body of one's own as the manual prints it, as a program. It is judged for a shorter time, since it is not optimised.
+/// The manual's custom body as a program, judged over a shorter time because it is not optimised.
 fn custom_body() -> String {
     let mut bodies = blocks("rust").filter(|block| block.contains("impl System for"));
     let printed = bodies.next().expect("the manual prints a body");
@@ -54,7 +54,7 @@ fn manifest() -> String {
     )
 }
 
-/// What Cargo made for these tests, of the same features: the library, and the programs of the examples by their names.
+/// The products of Cargo with the features of these tests: the library, and the example programs by name.
 static MADE: LazyLock<(PathBuf, Vec<(String, PathBuf)>)> = LazyLock::new(|| {
     let mut made = Command::new(env!("CARGO"));
     made.args(["build", "--examples", "--offline", "--quiet", "--message-format", "json"]);
@@ -176,7 +176,7 @@ fn the_manuals_test_fails_for_every_lane_with_another_method() {
     }
 }
 
-/// Another glam, as far as the manual names it.
+/// Another glam, with the parts that the manual uses.
 const OTHER_GLAM: &str = "#[derive(Clone, Copy)]
 pub struct DVec2 { x: f64, y: f64 }
 impl DVec2 {
@@ -221,7 +221,7 @@ fn the_examples_run_with_the_library_alone() {
     );
 }
 
-/// What a program prints that is named above a block of output, as `examples/NAME.rs`, or stands there.
+/// The output of the program above an output block, which is named there as `examples/NAME.rs` or printed in full.
 fn printed_by(above: &str, number: usize) -> String {
     let paragraph = above.trim_end().rsplit("\n\n").next().unwrap_or_default();
     let named = paragraph.rsplit_once("`examples/").and_then(|(_, rest)| rest.split_once(".rs`"));

@@ -1,4 +1,4 @@
-//! What a method does to an area, and what a cloud says of it.
+//! The effect of a method on an area, and the words of a cloud about it.
 
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -337,7 +337,7 @@ fn clouds_restart_after_a_change_and_show_nothing_until_then() {
     assert!(cloud_request(&studio).is_none() && shown_cloud(&studio).is_none());
 }
 
-/// The clouds of a law of one coordinate `x`, 1 at the start, under Runge-Kutta after so many ticks.
+/// The clouds of a law of one coordinate `x`, starting at 1, under Runge-Kutta after `ticks` ticks.
 fn of_law(acceleration: &str, ticks: u64) -> CloudPicture {
     let text = format!(
         "title = \"it\"\nabout = \"it\"\ntick_hz = 100\nseconds = 10\nmethods = [\"rk4\"]\n\
@@ -419,7 +419,7 @@ fn the_exact_cloud_follows_the_exact_body_through_kicks_and_edits() {
         assert_eq!(now.tick, tick - started, "at tick {tick}");
         let body = &studio.race().truth().bodies()[0].stepper;
         let [line] = &now.border[..] else { panic!("a disc has one border") };
-        // What is around the body turns once about it.
+        // The border turns once about the body.
         let angle = |[q, v]: &[f64; 2]| (v - body.v()[0]).atan2(q - body.q()[0]);
         let ends = line.windows(2).map(|ends| angle(&ends[1]) - angle(&ends[0]));
         let turns = ends.map(|by| by.sin().atan2(by.cos())).sum::<f64>() / TAU;
@@ -447,7 +447,7 @@ fn a_body_of_several_coordinates_has_no_cloud_with_the_reason() {
     let studio = race_of("orbit", &["rk4"], CloudKind::default());
     assert!(cloud_request(&studio).is_none());
     let why = cloud_refusal(&studio.deck, &studio.viewer).unwrap().to_string();
-    assert!(why.contains("has 2 coordinates"), "{why}");
+    assert!(why.contains("satellite has 2"), "{why}");
     let studio = race_of("spring", &["rk4"], CloudKind::default());
     assert!(cloud_refusal(&studio.deck, &studio.viewer).is_none());
 }

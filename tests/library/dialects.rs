@@ -1,4 +1,4 @@
-//! Springs of user interfaces: what each is told leads back to the motion, and each is stepped as its library steps it.
+//! Springs of user interfaces: their settings lead back to the motion, and each is stepped like its library does.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ fn swings(frequency_hz: f64, damping_ratio: f64) -> Wish {
     Wish { frequency_hz, damping_ratio, mass_kg: 1.0 }
 }
 
-/// How far the largest of these is apart from what it is to be, as a part of it.
+/// The largest relative difference between found and wanted values.
 fn apart(found: &[f64], wanted: &[f64]) -> f64 {
     assert!(found.len() == wanted.len() && found.iter().all(|x| x.is_finite()), "{found:?}");
     let parts = found.iter().zip(wanted).map(|(x, y)| (x - y).abs() / y.abs().max(1e-3));
@@ -60,7 +60,7 @@ fn conversion_between_any_two_dialects_round_trips() {
     assert!(pairs > 2000, "{pairs}");
 }
 
-/// What is left of the way after steps by semi-implicit Euler, or something large.
+/// The distance left after steps by semi-implicit Euler, or a large number.
 fn stepped([stiffness, damping]: [f64; 2], step_s: f64, steps: usize) -> f64 {
     let (mut x, mut v) = (1.0_f64, 0.0);
     for _ in 0..steps {
@@ -162,7 +162,7 @@ fn each_dialect_reports_whether_it_can_show_the_motion() {
     ] {
         assert_eq!(reach(id, ratio), wanted, "{id} {ratio}");
     }
-    // What never explodes and what is the same at every frame rate.
+    // Dialects that never explode, and dialects that are the same at every frame rate.
     for fps in [0.01, 1.0, 24.0, 60.0, 1000.0] {
         let [smooth, exact] = ["unity-smooth-damp", "compose"].map(|id| {
             let port = dialect(id).port(&swings(2.0, 1.0), fps);

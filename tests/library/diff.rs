@@ -38,7 +38,7 @@ fn log(scene: &str, ticks: u64) -> Vec<String> {
     lines
 }
 
-/// The number so many doubles above.
+/// The number `ulps` doubles above `x`.
 fn above(x: f64, ulps: u64) -> f64 {
     (0..ulps).fold(x, |x, _| x.next_up())
 }
@@ -234,7 +234,7 @@ fn a_clock_column_of_any_name_is_no_motion() {
         }
     }
     assert!(!compared(&log("wall_ms", &uneven), &log("wall_ms", &uneven)).is_comparable());
-    // What is called like a coordinate may go evenly, and what goes unevenly is no clock.
+    // A column named like a coordinate may grow evenly, and an uneven column is no clock.
     for (name, text) in [("x", log("pos_x", &even)), ("energy", log("energy", &uneven))] {
         assert!(compared(&text, &text).is_same(), "{name}");
     }

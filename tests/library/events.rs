@@ -1,4 +1,4 @@
-//! What happens in a scene happens at its time, whatever the tick rate and whoever changes it.
+//! An event happens at its time, at any tick rate and after any change of the rate.
 
 use regatta::measure::Judge;
 use regatta::run::Journal;

@@ -101,7 +101,7 @@ fn an_input_bends_the_curve_from_its_tick_on_and_not_the_tick_before_it() {
     assert!(studio.past().truth_between(studio.race(), 0, 0.5).1 < v, "the engine runs backwards");
 }
 
-/// Where a hand can take hold of the ghost.
+/// The grips by which a hand can grab the ghost.
 fn ghost(studio: &Studio, picture: &Picture) -> Vec<Grip> {
     picture.cells[0].grips(studio).filter(|grip| grip.whose == Whose::Truth).collect()
 }

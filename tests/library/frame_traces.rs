@@ -65,8 +65,8 @@ fn animation_errors(shown_and_displayed: &[(f64, f64)]) -> Vec<f64> {
     shown_and_displayed.windows(2).map(change).collect()
 }
 
-/// What a game with interpolated ticks shows and when, from the columns alone: each frame a tick before it began, less the
-/// ticks beyond 250 ms that it gave up.
+/// The shown and the displayed times of a game with interpolated ticks, from the columns alone. Each frame shows one
+/// tick before its start, less the ticks dropped beyond 250 ms.
 fn by_the_columns(rows: &[Row]) -> Vec<(f64, f64)> {
     let tick = 1000.0 / f64::from(TICK_HZ);
     let (mut began, mut displayed, mut owed, mut given_up) = (0.0, 0.0, 0.0, 0.0);
@@ -401,12 +401,12 @@ fn a_mangohud_log_is_read_below_its_machine_description() {
         let text = format!("{before}fps,frametime,cpu_load\n{rows}");
         let [trace] = &traces("hud", &text)[..] else { panic!("one trace") };
         let ms = 1_000_000;
-        // What is not known of the display is taken to be as it is of the frames.
+        // Missing display times are replaced by the times of the frames.
         let expected = [0, 17_250 * ms / 1000, 33_250 * ms / 1000];
         let expected = expected.map(|ns| Frame { began_ns: ns, displayed_ns: Some(ns) });
         assert_eq!(frames(trace), expected, "{text}");
     }
-    // PresentMon 2 has no times of display where it is told to track none.
+    // PresentMon 2 has no display times when it is set to track none.
     let [trace] = &traces("log", "FrameTime,CPUBusy\n16,3\n17,3\n")[..] else { panic!("one") };
     assert!(trace.summary().unwrap().ends_with("(PresentMon 2)") && trace.has_one_clock());
     let far = format!("{}fps,frametime\n60,16\n", "a remark\n".repeat(17));

@@ -1,4 +1,4 @@
-//! The guide: every stop is done by its keys and by nothing less, and what it claims is so.
+//! The guide: exactly its keys complete every stop, and its claims are true.
 
 use regatta::loops::loop_lab::{LoopCommand, LoopLab};
 use regatta::measure::cloud::{CloudChoice, CloudKind, CloudWorker};
@@ -127,7 +127,7 @@ fn the_text_of_a_stop_closes_with_its_scene_and_mode() {
         assert_eq!(studio.scene().name, STOPS[index].scene);
         assert!(studio.loop_lab().is_none());
     }
-    // The loop lab is what this stop is about; another scene in it is not.
+    // This stop is about the loop lab, and another scene in the loop lab does not leave it.
     let mut studio = lab_at(place_of(Goal::LoopLab));
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     assert!(is_done(&studio));
@@ -384,7 +384,7 @@ fn only_engines_with_ported_settings_swing_alike() {
     }
     for (spec, off) in scene.lanes.iter().zip(off) {
         let Some(told) = spec.joint else {
-            // MuJoCo damps by as much as it is told; its swing is a little fast.
+            // MuJoCo has the requested damping, but its swing is a little fast.
             let most = if spec.method.id == "engine-mujoco" { 0.02..0.08 } else { 0.08..0.4 };
             assert!(most.contains(&off), "{} is off by {off}", spec.method.id);
             continue;

@@ -1,4 +1,4 @@
-//! The tick rates that hints name, at whatever rate a scene runs.
+//! The tick rates that hints name, for any tick rate of a scene.
 
 use regatta::scene::{SCENES, Scene};
 use regatta::studio::{Command, StageCommand, Step, Studio, TICK_LADDER};
@@ -15,7 +15,7 @@ fn beside(step: Step, hz: u32) -> u32 {
     found.unwrap_or(hz)
 }
 
-/// Each rate (Hz) that a hint names, with what stands before it.
+/// Each rate (Hz) in a hint, with the text before it.
 fn rates(hint: &str) -> impl Iterator<Item = (&str, u32)> {
     hint.match_indices(" Hz").map(move |(end, _)| {
         let before = hint[..end].rsplit(' ').next().unwrap_or_default();

@@ -1,5 +1,5 @@
-//! The built-in scenes open on the method that makes their point, and what their hints promise comes about
-//! when the keys are pressed as they say.
+//! The built-in scenes open with the method that makes their point, and pressing the keys in their hints keeps the
+//! promises.
 
 use regatta::run::race::Mode;
 use regatta::scene::{Action, SCENES, Scene};
@@ -24,8 +24,8 @@ fn press(studio: &mut Studio, keys: &[Key]) {
     }
 }
 
-/// Ticks through so many simulated seconds, and returns the largest |q| of the first coordinate of a body in the
-/// first lane on the way.
+/// Runs for `seconds` of simulated time, and returns the largest |q| of the first coordinate of a body in the first
+/// lane.
 fn largest(studio: &mut Studio, body: usize, seconds: f64) -> f64 {
     let end = studio.race().t() + seconds;
     let mut largest = 0.0_f64;
@@ -36,8 +36,7 @@ fn largest(studio: &mut Studio, body: usize, seconds: f64) -> f64 {
     largest
 }
 
-/// Ticks through so many simulated seconds, and returns the largest distance of each lane's first body from the
-/// truth on the way.
+/// Runs for `seconds` of simulated time, and returns the largest distance of each lane's first body from the truth.
 fn largest_errors(studio: &mut Studio, seconds: f64) -> Vec<f64> {
     let end = studio.race().t() + seconds;
     let mut errors = vec![0.0_f64; studio.race().entrants().len()];
@@ -51,7 +50,7 @@ fn largest_errors(studio: &mut Studio, seconds: f64) -> Vec<f64> {
     errors
 }
 
-/// Whether the swing of a body, over its next ten seconds, stays what it is.
+/// Whether the swing of a body keeps its width over the next ten seconds.
 fn holds(studio: &mut Studio, body: usize) -> bool {
     let before = largest(studio, body, 2.0);
     (0..5).all(|_| largest(studio, body, 2.0) < 1.1 * before)
@@ -338,13 +337,13 @@ fn a_jump_is_higher_at_a_higher_rate() {
     assert!((low - 1.1445).abs() < 1e-9 && high > low + 0.01, "{low} {high}");
 }
 
-/// What is told of a key: what stands before it and behind it in the hint, up to the next digit.
+/// The text around a key in a hint: before it, and after it up to the next digit.
 pub(crate) struct Told<'a> {
     before: &'a str,
     pub(crate) after: &'a str,
 }
 
-/// The keys that a hint names, in order, with what it does.
+/// The keys in a hint, in order, with the text around each.
 pub(crate) fn told_keys(hint: &str) -> Vec<(Command, Told<'_>)> {
     let parts: Vec<&str> = hint.split('`').collect();
     let named = (1..parts.len()).step_by(2).map(|at| {
@@ -371,7 +370,7 @@ fn first_named(words: &str) -> Option<(usize, &'static str)> {
     found.min().map(|(at, _, id)| (at, id))
 }
 
-/// How often a key is to be pressed, in words that follow it, and the rate that it then leads to.
+/// The number of key presses in the words after a key, and the resulting tick rate.
 pub(crate) fn presses(after: &str) -> (usize, Option<u32>) {
     let times = [("twice", 2), ("three times", 3), ("four times", 4)];
     let word = after.trim_start();
@@ -381,7 +380,7 @@ pub(crate) fn presses(after: &str) -> (usize, Option<u32>) {
     (count, rate)
 }
 
-/// Presses what a hint asks for and holds what happens against the hint.
+/// Presses the keys of a hint and compares the outcome with the hint.
 fn hold(studio: &mut Studio, hint: &str, command: &Command, told: &Told<'_>) {
     let (tick, hz, mode) = (studio.race().tick(), studio.clock().tick_hz(), studio.mode());
     let scene = studio.deck.scene_name();
@@ -446,7 +445,7 @@ fn hold(studio: &mut Studio, hint: &str, command: &Command, told: &Told<'_>) {
     }
 }
 
-/// What nobody needs to be told: in solo, that a method other than the selected one does something.
+/// Whether a hint starts with a method only if some lane flies it.
 fn names_the_selected_method(studio: &Studio, hint: &str) -> bool {
     let before = hint.split('`').next().unwrap_or_default();
     first_named(before).is_none_or(|(at, id)| {
@@ -463,7 +462,7 @@ fn every_key_in_every_hint_does_as_promised() {
         let count = if is_net { 1 } else { parsed.lanes.len().min(5) };
         let seconds = if is_net { 0 } else { 1 };
         for (race, paused, entry) in (0..4 * count).map(|i| (i & 1 > 0, i & 2 > 0, i / 4)) {
-            // A pause changes what is told of the run, whatever its method.
+            // The hints of a race or a pause do not depend on the method.
             if entry > 0 && (race || paused) {
                 continue;
             }
@@ -500,7 +499,7 @@ fn every_key_in_every_hint_does_as_promised() {
                 assert!(!keys.is_empty(), "{hint} asks for no key");
                 for (index, (command, told)) in keys.iter().enumerate() {
                     let mut studio = again(&done);
-                    // What goes on from there, and what is lost as well, come after the keys before.
+                    // A pause in a hint follows the keys before it.
                     if matches!(command, Command::View(ViewCommand::TogglePause)) {
                         keys[..index].iter().for_each(|(key, _)| _ = studio.apply(key.clone()));
                     }

@@ -1,5 +1,5 @@
-//! What trails and plots are drawn from: every sample knows the method that it was flown under, a switch leaves a
-//! mark, and the newest sample is the present.
+//! The samples behind trails and plots: every sample knows its method, a switch leaves a mark, and the newest sample
+//! is the present.
 
 use regatta::run::past::History;
 use regatta::scene::{LaneId, Scene};

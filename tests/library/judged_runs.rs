@@ -184,7 +184,7 @@ fn a_run_judged_from_a_placement_keeps_throttle_and_remaining_script() {
     let rest = scripted(&[(0.0, 0.5), (7.0, -0.25)]);
     let rest = with(rest, &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
     assert_eq!(verdicts(&mut studio), verdicts_on(&rest));
-    // A throttle by hand holds from there on, and what the script had to come for it is gone.
+    // A throttle by hand stays, and cancels the script's later throttles.
     studio.apply(RunCommand::Act(Action::Throttle(0.8)));
     let by_hand = with(scripted(&[(0.0, 0.8)]), &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
     assert_eq!(verdicts(&mut studio), verdicts_on(&by_hand));

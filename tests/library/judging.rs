@@ -29,7 +29,7 @@ fn body(scene: &Scene, solver: Solver) -> Box<dyn Stepper> {
     (scene.bodies[0].kind.build)(&scene.bodies[0].values, solver)
 }
 
-/// What `see` makes of the first body after each tick of a plain run.
+/// Applies `see` to the first body after each tick of a plain run.
 pub(super) fn run<T>(
     scene: &Scene,
     solver: Solver,
@@ -189,7 +189,7 @@ fn a_damped_motion_that_dies_away_is_not_judged_as_losing_energy() {
 
 #[test]
 fn a_motion_with_too_vague_a_truth_is_not_judged() {
-    // Let go so near the top that each return there multiplies what the truth may be off.
+    // Released so near the top that each return there multiplies the error of the truth.
     let top = |seconds| scene(seconds, "[[pendulum]]\nlength_m = 0.4\ntheta0_rad = 3.14159");
     let found = verdict(&top(15.0), "rk4", 60);
     assert!(found.outcome() != Outcome::NoTruth, "{found}");
@@ -414,7 +414,7 @@ fn a_damped_swing_looks_right_wherever_its_extremes_fall() {
         let meets = Adviser::new(&scene, 60).meets(spec, CRITERIA[LOOKS_RIGHT]);
         let met = meets.met().unwrap().clone();
         assert_eq!(met.substeps, 1, "{stiffness}: {met:?}");
-        // What is told of stiffer springs is what is told of each of them.
+        // Advice for a factor of stiffness is true of every stiffer spring up to it.
         let factor = met.stiffness_factor.unwrap();
         for part in [0.25, 0.5, 0.75, 1.0] {
             let stiffer = damped(stiffness * (1.0 + part * (factor - 1.0)));
@@ -422,7 +422,7 @@ fn a_damped_swing_looks_right_wherever_its_extremes_fall() {
             assert_eq!(meets.met().map(|met| met.substeps), Some(1), "{stiffness}: {factor}");
         }
     }
-    // What comes to rest too soon, or too late, does not look right.
+    // A motion that comes to rest too soon or too late does not look right.
     for (id, looks_right) in [("implicit-euler", false), ("rk4", true)] {
         let meets = Adviser::new(&damped(150.0), 60).meets(self::spec(id), CRITERIA[LOOKS_RIGHT]);
         assert_eq!(meets.met().is_some_and(|met| met.substeps == 1), looks_right, "{id}");

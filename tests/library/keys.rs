@@ -1,9 +1,9 @@
-//! What keys do to a run, as the title tells. That the window knows every key is tested with one.
+//! The effect of keys on a run, read from the title. A separate test covers the keys in a real window.
 
 use regatta::scene::{SCENES, Scene};
 use regatta::studio::{Instrument, KEYS, Key, StageCommand, Studio, TICK_LADDER};
 
-/// Does what the table says of a key.
+/// Performs the command of a key.
 fn press(studio: &mut Studio, key: Key) {
     let mut all = KEYS.iter().flat_map(|binding| binding.keys);
     let (_, command) = all.find(|(other, _)| *other == key).expect("a key of the table");

@@ -1,4 +1,4 @@
-//! Solo and race: which lanes there are, what they are under, and what a restart keeps of it.
+//! Solo and race: the lanes, their methods, and the settings that a restart keeps.
 
 use regatta::run::race::{Lane, Mode};
 use regatta::scene::{Action, LaneSpec, Scene};
@@ -113,7 +113,7 @@ fn a_lane_adopts_advised_substeps_in_flight_and_keeps_them() {
     assert_eq!(studio.entries()[studio.active()], spec(8));
     studio.apply(StageCommand::Restart);
     assert_eq!(studio.race().entrants()[0].lane.substeps(), 8);
-    // In a race the method's own lane takes them, and the others go on.
+    // In a race the method's own lane takes them, and the others continue.
     studio.apply(StageCommand::ToggleRace);
     (0..10).for_each(|_| studio.tick());
     studio.apply(RunCommand::SetLane(spec(4)));

@@ -1,5 +1,4 @@
-//! What advice has of *looks right* and of reserves, against peaks and errors that another program found or that are counted
-//! out here.
+//! Advice on *looks right* and on reserves, against peaks and errors found by another program or derived here.
 
 use regatta::measure::{Adviser, CRITERIA};
 use regatta::scene::Scene;

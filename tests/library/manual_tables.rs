@@ -1,4 +1,4 @@
-//! The tables of the manual and of the README say what the tables of the program do.
+//! The tables of the manual and of the README agree with the tables of the program.
 
 use regatta::manual::CHAPTERS;
 use regatta::scene::{SCENES, SceneGroup};

@@ -1,4 +1,4 @@
-//! What a game is told that misuses the lowest layer: never a state that is silently not a number.
+//! Errors on misuse of the lowest layer. A state never silently becomes not a number.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe, UnwindSafe, catch_unwind};

@@ -1,4 +1,4 @@
-//! Methods by lines of a person's own: their motion, their cards, and what is said of them.
+//! Methods written as lines by a user: their motion, cards and messages.
 
 use glam::DVec2;
 use regatta::conformance::check;
@@ -37,7 +37,7 @@ fn own(method: &Method) -> &'static Method {
 fn run<V: Vector>(method: &Method, system: &Problem<V>, start: &State<V>) -> Vec<State<V>> {
     let (mut state, mut stepper) = (start.clone(), integrator(method, &start.q));
     let step = |i: u32| {
-        // Of another length in the midst.
+        // A step of another length in the middle.
         let h = if i < 60 { 0.02 } else { 0.013 };
         stepper.step(system, 0.02 * f64::from(i), h, &mut state).unwrap();
         state.clone()

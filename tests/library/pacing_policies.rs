@@ -1,4 +1,5 @@
-//! What every game loop of the table does to time: over a day, with odd frames, and to the motion on an even display.
+//! The effect of every game loop in the table on time: over a day, with odd frames, and on the motion of an even
+//! display.
 
 use regatta::loops::{POLICIES, Pacer, RefreshRate, TimeBase, policy};
 
@@ -23,7 +24,7 @@ impl Noise {
     }
 }
 
-/// What a loop does with time, at 60 ticks and frames per second. Times are in ticks.
+/// The expected effect of a loop on time, at 60 ticks and frames per second. Times are in ticks.
 struct Expected {
     id: &'static str,
     /// The time of frames that is neither simulated nor given up, at the least and most in a day of frames; `None` for a
@@ -103,7 +104,7 @@ fn every_card_is_complete_and_its_id_easy_to_type() {
     }
 }
 
-/// Runs a loop for this many hours of frames on a display, each begun within 0.09 ms of a refresh, and checks what it owes.
+/// Runs a loop for `hours` of frames on a display, each starting within 0.09 ms of a refresh, and checks its debt.
 fn no_drift(expected: &Expected, refresh: RefreshRate, hours: f64) {
     let Some([least, most]) = expected.owed else { return };
     let mut pacer = pacer(expected.id, refresh);
@@ -240,7 +241,7 @@ fn all_time_is_simulated_dropped_or_owed_for_any_frames() {
     }
 }
 
-/// What motion looks like, from the moments shown alone.
+/// The look of the motion, from the shown moments alone.
 struct Motion {
     /// The part of the frames that show the same moment as the one before.
     repeated: f64,

@@ -1,4 +1,4 @@
-//! What reaches the stage: finite, within reach of an f32, and where the bodies are.
+//! Everything on the stage is finite, within the range of an f32, and at the position of its body.
 
 use regatta::look::palette::Theme;
 use regatta::loops::loop_lab::LoopCommand;
@@ -40,7 +40,7 @@ fn no_vertex_comes_from_a_value_that_blew_up() {
         studio.apply(StageCommand::ToggleRace);
         for frame in 0..400 {
             studio.advance(16_666_667);
-            // What doubles in a frame is seen before it is eight times as large.
+            // A motion that doubles per frame is seen before it is eight times as large.
             if frame % 3 == 0 {
                 studio.apply(RunCommand::NextInterpolation);
                 let what = format!("{} at frame {frame}", scene.name);
@@ -221,7 +221,7 @@ fn bodies_and_words_stay_in_their_cells_however_low() {
     }
 }
 
-/// The words of badges that tell of bodies beyond the stage.
+/// The texts of badges for bodies beyond the stage.
 fn badges(picture: &Picture) -> Vec<&str> {
     let texts = picture.labels.iter().map(|label| &*label.text);
     let is_told = |text: &&str| text.starts_with("swings ±") || text.starts_with("out to ");

@@ -1,4 +1,4 @@
-//! The bits of what physics is made of and others have written: `libm` and `glam`.
+//! The bits of the foreign code behind the physics: `libm` and `glam`.
 //!
 //! The bits are promised for the versions in `Cargo.lock`. A game may have later patches, with bits of their own.
 //! If one of these hashes changes, so do states, and hashes that users have committed.
@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use regatta::run::Race;
 use regatta::scene::Scene;
 
-/// 64-bit FNV-1a over little-endian words. NaNs, of which there are many, are one.
+/// 64-bit FNV-1a over little-endian words. All NaNs count as one.
 struct Fnv(u64);
 
 impl Fnv {
@@ -51,7 +51,7 @@ fn hash_of(function: impl Fn(f64) -> f64) -> u64 {
     hash.0
 }
 
-/// Of neighbours in the list of inputs.
+/// The hash over neighbours in the list of inputs.
 fn hash_of_two(function: impl Fn(f64, f64) -> f64) -> u64 {
     let mut hash = Fnv::new();
     inputs().windows(2).for_each(|pair| hash.value(function(pair[0], pair[1])));

@@ -1,4 +1,4 @@
-//! Settings that are ported from engine to engine: each is set, stepped, and what is seen is fitted to the run anew.
+//! Settings ported from engine to engine: each is set and stepped, and a fit measures the visible motion of the run.
 
 use std::f64::consts::TAU;
 
@@ -40,7 +40,7 @@ fn draw(dice: &mut Dice) -> (Wish, f64, u32) {
 pub(crate) fn run(setup: &Setup, joint: [f64; 2], start: [f64; 2], ticks: u32) -> Vec<[f64; 2]> {
     let body = Body { spring: joint, drag: 0.0, push: 0.0, is_held: false }.problem();
     let mut state = State { q: start[0], v: start[1] };
-    // A force that is read anew in every substep is the right side of an equation under semi-implicit Euler.
+    // A force recomputed in every substep is the right-hand side of an equation under semi-implicit Euler.
     let stepped = match setup.mode.is_explicit {
         true => method("semi-implicit-euler").unwrap(),
         false => setup.method,
@@ -79,7 +79,7 @@ fn fitted(setup: &Setup, joint: [f64; 2]) -> Option<[f64; 2]> {
     let (half, product) = match found[..] {
         [a, b] => (a / 2.0, -b),
         [a, b, c] => {
-            // What the memory adds decays the fastest: its root is the nearest to 0, and it is divided out.
+            // The term of the memory decays fastest: its root is the nearest to 0, and it is divided out.
             let mut root = 0.0;
             for _ in 0..30 {
                 let value = ((root - a) * root - b) * root - c;
@@ -105,7 +105,7 @@ fn fitted(setup: &Setup, joint: [f64; 2]) -> Option<[f64; 2]> {
     Some([omega / TAU, rates / 2.0 / omega])
 }
 
-/// What is missed, as the program says how near settings are.
+/// The distance from the target, measured as the program does.
 fn missed(wish: &Wish, setup: &Setup, joint: [f64; 2]) -> f64 {
     let Some(seen) = setup.sees(joint) else { return f64::INFINITY };
     let ratio = seen.decay / seen.omega - wish.damping_ratio;

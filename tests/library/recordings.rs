@@ -109,7 +109,7 @@ fn a_saved_scene_keeps_its_authors_comments_and_order() {
     let line = "stiffness_n_per_m = 4e1 # soft";
     assert_eq!(saved, BY_HAND.replace(line, "stiffness_n_per_m = 55.5 # soft"));
 
-    // What the author leaves out stands in the body's table, once it is needed.
+    // A key that the author omitted is added to the body's table once it is needed.
     let mut damped = scene.clone();
     damped.bodies[2].values[2] = 0.25;
     let saved = damped.to_saved_toml();
@@ -286,7 +286,7 @@ fn a_restart_keeps_a_persons_settings_but_not_a_scripts() {
     studio.apply(StageCommand::Restart);
     assert_eq!((studio.race().values(0)[2], studio.race().values(0)[0]), (mass, 123.0));
     assert_eq!(studio.scene().bodies[0].values[0], 123.0);
-    // A person who has set what the script sets keeps it.
+    // A person's value survives the script's setting of the same parameter.
     studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 2, value: 7.0 }));
     (0..10).for_each(|_| studio.tick());
     assert_eq!(studio.race().values(0)[2], 7.0);
@@ -471,7 +471,7 @@ fn an_action_no_file_could_hold_is_refused_at_once() {
         place(1e39),
         place(f64::NAN),
     ] {
-        // The script has what the action would take from it.
+        // The script controls everything that the refused action would take over.
         let more = "[[command]]\nat_s = 0.5\ntick_hz = 30\n[[command]]\nat_s = 0.5\nthrottle = 0.5\n\
                     [[command]]\nat_s = 0.5\nlane = 1\nmethod = 'midpoint'\n\
                     [[command]]\nat_s = 0.5\nset = { body = 'port buoy', key = 'stiffness_n_per_m', value = 9.0 }\n";
@@ -559,7 +559,7 @@ fn a_link_to_a_solo_run_keeps_its_menu_of_methods() {
     assert!(!scene.checks.is_empty());
     assert_eq!(wrong_lanes(&scene), []);
 
-    // One that is told from none by its method is alone, as in a file.
+    // Of two lanes with one method, the link of the plain one needs no other lane.
     let plain = LaneSpec::plain(method("rk4").unwrap());
     let lanes = vec![LaneSpec { substeps: 4, ..plain }, plain];
     let mut studio = Studio::new(edited(&built_in("spring"), |scene| scene.lanes = lanes));

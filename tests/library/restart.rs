@@ -1,4 +1,4 @@
-//! A restart goes back to the start line, and keeps what a person chose and nothing of what the script did.
+//! A restart returns to the start line; it keeps a person's settings and undoes the script's.
 
 use regatta::scene::{Action, SCENES, Scene};
 use regatta::studio::{RunCommand, StageCommand, Studio};

@@ -1,4 +1,4 @@
-//! Files that a person could have broken: each is read or refused, at a place, and what is read runs.
+//! Randomly broken files: each is read, or refused at a place, and every file that is read also runs.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -105,7 +105,7 @@ fn read_scene(bytes: &[u8], round: usize) -> bool {
     }
 }
 
-/// What is put in: parts of files, and what is hard on a parser.
+/// Inserted pieces: parts of files, and text that is hard on a parser.
 const MORSELS: [&str; 29] = [
     "[[ship]]\n",
     "[[spring]]\n",

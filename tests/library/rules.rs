@@ -1,4 +1,4 @@
-//! The code of rules at any frame rate, compiled and run, beside the rules at their own.
+//! The generated code of rules, compiled and run at any frame rate, against the rules at their own rate.
 
 use std::fmt::Write as _;
 use std::process::Command;
@@ -67,10 +67,10 @@ fn code(rule: &str, language: Language) -> RuleCode {
     Rule::read(rule, FPS).unwrap().code(rule, language).unwrap()
 }
 
-/// What the driver steps by, as parts of a frame.
+/// The steps of the driver, in frames.
 const PARTS: [f64; 3] = [1.0, 0.5, 2.0];
 
-/// The driver's call of the function of rule `n` and its memory, with what the language wants around them.
+/// The driver's call of the function of rule `n` with its memory, and the lines around them in the language.
 fn rust() -> String {
     let (mut text, mut calls) = (String::new(), String::new());
     for (n, rule) in LINEAR.iter().chain(&STEPPED).enumerate() {
@@ -158,7 +158,7 @@ fn c_sharp() -> String {
     )
 }
 
-/// Holds what a driver printed against the rules: at every frame, at every second half frame, and at every other frame.
+/// Compares the output of a driver with the rules: at every frame, every second half frame and every other frame.
 fn hold(driver: &mut Command) {
     let output = driver.output().unwrap();
     assert!(output.status.success(), "{:?}", output.status);
@@ -179,7 +179,7 @@ fn hold(driver: &mut Command) {
                     continue;
                 }
                 let found = rows[steps as usize - 1];
-                // Of a chase the velocity is not a part of the motion.
+                // The velocity of a chase is not part of its motion.
                 for place in (0..2).filter(|place| n < LINEAR.len() || *place == 0) {
                     let off = (found[place] - known[place]).abs();
                     assert!(
@@ -264,7 +264,7 @@ fn the_visible_motion_of_a_spring_follows_from_its_eigenvalues() {
     let wish = rule.spring().unwrap();
     assert!(is_near(Some(wish.frequency_hz), 4.130) && is_near(Some(wish.damping_ratio), 0.1879));
     assert_eq!((rule.rings_below_fps(), rule.explodes_below_fps()), (None, None));
-    // Its frames pass the target first by as much as is seen, but for where between two the peak is.
+    // The frames overshoot as predicted, up to the position of the peak between two frames.
     let overshoot = rule.seen_at(FPS).overshoot.unwrap();
     let text = StepText::read(spring).unwrap();
     let mut registers = text.registers();

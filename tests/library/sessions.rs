@@ -272,7 +272,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
         let end = shown(studio.run());
         studio.apply(RunCommand::Seek(400));
         assert_eq!((studio.run().end(), studio.run().is_in_past()), (1000, true));
-        // What changes nothing leaves the future as it is.
+        // An action without effect keeps the future.
         let throttle = studio.race().throttle();
         studio.apply(RunCommand::Act(Action::Throttle(throttle)));
         assert_eq!(
@@ -309,7 +309,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
 
 #[test]
 fn snapshots_of_ten_hours_stay_within_their_memory_limit() {
-    // Of a million ticks, more than of ten hours at the scene's rate.
+    // At 30 Hz, ten hours are a million ticks.
     let scene = edited(&Scene::built_in("spring").unwrap(), |scene| scene.tick_hz = 30.into());
     let limit = 1 << 20;
     let mut timeline = Run::with_limit(Session::racing(scene.into()), limit);

@@ -58,14 +58,14 @@ fn limit(id: &str, damping_ratio: f64) -> f64 {
 
 #[test]
 fn the_limits_of_the_chapter_come_out_to_three_digits() {
-    // Undamped, ζ = 0.05, 0.2 and 1. Where the table says 0 no step is small enough, and what is found
-    // is where a growth of z⁴/8 or z⁴/4 a step drowns in rounding.
+    // Undamped, ζ = 0.05, 0.2 and 1. A 0 in the table means that no step is small enough; the measured limit is the
+    // step at which a growth of z⁴/8 or z⁴/4 disappears in rounding.
     let table = [
         ("explicit-euler", [0.0, 0.100, 0.400, 2.000]),
         ("semi-implicit-euler", [2.0, 1.902, 1.640, 0.828]),
         ("position-verlet", [2.0, 1.902, 1.640, 0.828]),
-        // In the long run, where the chapter's table has the first step: these go on with a force that
-        // was taken at a predicted velocity, and that with a slope from before.
+        // In the long run, while the chapter's table has the first step. The Verlets continue with a force from a
+        // predicted velocity, and Adams-Bashforth with an earlier slope.
         ("velocity-verlet", [2.0, 1.810, 1.354, 0.472]),
         ("stormer-verlet", [2.0, 1.810, 1.354, 0.472]),
         ("adams-bashforth-2", [0.0, 0.539, 0.765, 1.000]),

@@ -1,4 +1,4 @@
-//! What `regatta help stable` promises to a program that uses the library.
+//! The promises of `regatta help stable` to a program that uses the library.
 
 use std::collections::BTreeSet;
 
@@ -71,7 +71,7 @@ fn a_state_is_a_plain_value() {
     assert_eq!(Options::<Sprung>::default().clone().name, "body");
 }
 
-/// A state in a save game goes on with the same bits.
+/// A state from a save game continues with the same bits.
 #[cfg(feature = "cli")]
 #[test]
 fn a_state_survives_writing_and_reading_to_the_bit() {

@@ -1,4 +1,4 @@
-//! What a stepper says of its body besides its state: energies, inputs taken and refused, errors, lost time.
+//! A stepper's other answers about its body: energies, inputs taken and refused, errors, lost time.
 
 use regatta::sim::bodies::{BODIES, ClaimHorizon, Extras, Input, Ship, Spring, custom_kind, kind};
 use regatta::sim::integrators::{GENERAL_METHODS, Override, method};
@@ -168,7 +168,7 @@ fn lost_time_stays_lost_under_the_next_method() {
     }
 }
 
-/// What is said of a ship and a spring at a time, both in units so many times smaller: lengths, times and masses.
+/// A ship and a spring at a time, in units that are smaller by these factors of length, time and mass.
 fn in_units(length: f64, time: f64, mass: f64, drag: f64, t: f64) -> [Box<dyn Stepper>; 2] {
     let (speed, force) = (length / time, mass * length / time / time);
     let ship = Ship {

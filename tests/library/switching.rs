@@ -1,5 +1,4 @@
-//! Switching in flight: the state is carried to the bit, and the truth goes on from where an input
-//! left it.
+//! Switching in flight: the state is carried to the bit, and the truth continues from the state after an input.
 
 use regatta::run::Observations;
 use regatta::run::race::{Lane, LaneBody, Observer, Race, Resumed, ResumedFrom};
@@ -59,7 +58,7 @@ fn a_switch_carries_the_state_to_the_bit() {
 
 #[test]
 fn switching_there_and_back_in_one_tick_changes_nothing() {
-    // A method that carries something forgets it, as it must: it starts anew.
+    // A method with memory must forget it: it restarts.
     for method in GENERAL_METHODS.iter().filter(|method| method.restart.is_none()) {
         let mut straight = solo(&scene("harbour"), method.id);
         let mut detour = solo(&scene("harbour"), method.id);
@@ -73,15 +72,15 @@ fn switching_there_and_back_in_one_tick_changes_nothing() {
     }
 }
 
-/// A spring with drag, at whose ticks every method carries what it can.
+/// A spring with drag, so that every method carries memory between its ticks.
 fn damped_spring() -> Scene {
     let mut scene = scene("spring");
     scene.bodies[0].values[2] = 0.8;
     scene
 }
 
-/// Runs a race for 77 ticks under one method, lets `change` interrupt it, and compares what follows with
-/// a race that starts under the second method where the first then is.
+/// Runs a race for 77 ticks under one method, interrupts it with `change`, and compares the rest with a race that
+/// starts there under the second method.
 fn goes_on_as_if_started_there(from: &'static Method, to: &'static Method, change: fn(&mut Race)) {
     let scene = damped_spring();
     let mut race = solo(&scene, from.id);
@@ -280,8 +279,8 @@ fn a_change_of_tick_rate_keeps_the_time_and_the_truth() {
     assert!(close(truth.q, there.q) && close(truth.v, there.v), "{truth:?}, {there:?}");
 }
 
-/// A ship beside a damped spring that explicit Euler loses and Runge-Kutta brings to rest: `h ω` is 2,
-/// the limits at this damping are 0.4 and 2.9.
+/// A ship and a damped spring that explicit Euler loses and Runge-Kutta brings to rest: `h ω` is 2, the limits at
+/// this damping are 0.4 and 2.9.
 fn ship_and_lively_spring() -> Scene {
     let mut scene = scene("harbour");
     scene.tick_hz = 10.into();

@@ -1,4 +1,4 @@
-//! Whatever a person changes can be undone and done again, in one order.
+//! Every change by a person can be undone and redone, in one order.
 
 use regatta::scene::{Action, Scene};
 use regatta::sim::TickRate;
@@ -14,7 +14,7 @@ fn method(studio: &Studio) -> &'static str {
     studio.race().entrants()[0].lane.solver().method().unwrap().id
 }
 
-/// A run as far as it was reached, wherever it is now, and the scene of its next start.
+/// The state of a run up to its end, from any present tick, and the scene of its next start.
 #[derive(Debug, PartialEq)]
 struct Whole {
     rows: usize,
@@ -86,7 +86,7 @@ fn every_kind_of_change_is_undone_and_redone_one_by_one() {
         studio.apply(RunCommand::Undo);
         let now = whole(&mut studio);
         match before.state == after.state {
-            // The change was one of the next start: the run goes on.
+            // The change was one of the next start: the run continues.
             true => assert_eq!(now.scene, before.scene),
             false => assert_eq!(now, *before),
         }

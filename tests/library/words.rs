@@ -1,4 +1,4 @@
-//! Verdicts beside the manual and in other tests.
+//! The words of verdicts in the manual and in other tests.
 
 use regatta::manual::chapter;
 use regatta::measure::{CRITERIA, Outcome, Severity, Sign, Verdict};

@@ -84,8 +84,8 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter(|line| !line.trim().is_empty())
 }
 
-/// Whether output has the printed lines, in this order, and no others. An ellipsis stands for any lines, or for
-/// the end of one. Indentation and empty lines do not count.
+/// Whether output has exactly the printed lines, in this order. An ellipsis matches any lines, or the end of one.
+/// Indentation and empty lines do not count.
 pub(crate) fn has_lines(said: &str, printed: &str) -> Result<(), String> {
     let mut said = lines(said);
     let mut may_skip = false;
@@ -144,7 +144,7 @@ fn blessed(said: &str, printed: &str) -> String {
             let count = line.split_whitespace().filter(|word| words.contains(word)).count();
             (is_line(all[*index], line), count)
         };
-        // Of equal ones the first.
+        // The first among equals.
         let nearest = (at..all.len()).rev().max_by_key(common).filter(|index| common(index).1 > 0);
         let found = if may_skip { nearest } else { Some(at) };
         let found = found.filter(|index| *index < all.len());

@@ -1,6 +1,6 @@
 //! Frames of every scene against committed pictures, drawn by a software adapter.
 //!
-//! `BLESS=1 cargo test --test program golden` writes the pictures anew; look at them before committing.
+//! `BLESS=1 cargo test --test program golden` rewrites the pictures; look at them before committing.
 #![cfg(feature = "desktop")]
 
 use std::io::{self, Write};
@@ -17,8 +17,8 @@ use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels};
 const SIZE_PX: [u32; 2] = [400, 225];
 /// As in a window of 800 × 450 points, where all panels show.
 const SCALE: f32 = 0.5;
-/// What the frames of one driver differ by from another's, and a little more: a channel by at most 2,
-/// and at most one pixel in ten thousand by more than 1.
+/// Slightly more than the differences between two drivers' frames: a channel by at most 2, and at most one pixel in
+/// ten thousand by more than 1.
 const MAX_DIFFERENCE: u8 = 2;
 const PIXELS_OFF: f64 = 1e-4;
 /// A golden picture that is larger holds more than a frame of ours should.
@@ -90,14 +90,14 @@ fn the_comparison_detects_one_level_in_one_pixel() {
     assert_eq!(difference(&black, &other), (200, 2));
 }
 
-/// What a renderer for pictures of `size_px` makes of a studio.
+/// The picture of a studio from a renderer for `size_px`.
 fn drawn(renderer: &mut OffscreenRenderer, size_px: [u32; 2], studio: &Studio) -> RgbaImage {
     let mut rgba = Vec::new();
     renderer.draw(studio, &mut rgba).unwrap();
     RgbaImage::from_raw(size_px[0], size_px[1], rgba).unwrap()
 }
 
-/// What is wrong with a picture beside the golden one of this name, or of that one; with `BLESS=1` it becomes that one.
+/// The difference of a picture from the golden one of this name, or a fault of the golden one; `BLESS=1` replaces it.
 fn wrong(name: &str, drawn: &RgbaImage) -> Option<String> {
     let path = PathBuf::from("tests/golden").join(name);
     if std::env::var_os("BLESS").is_some_and(|value| value == "1") {

@@ -1,4 +1,4 @@
-//! What a package installs beside the program is what the program says of itself.
+//! The files that a package installs with the program agree with the program.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -35,8 +35,8 @@ fn control_c_on_a_lane_and_its_menu_copy_the_method() {
     desk.quit();
 }
 
-/// A text pasted so often, of which no field takes more than it can mean, and how much more memory the program may use by
-/// it, in MB. Without a bound the fields took 1700 and 900 MB more.
+/// The number of pastes of a long text, which every field truncates, and the allowed growth of the program's memory,
+/// in MB. Without a bound the fields took 1700 and 900 MB more.
 const PASTES: usize = 30;
 const LONG: usize = 20_000;
 const MAX_GROWTH_MB: [f64; 2] = [20.0, 160.0];

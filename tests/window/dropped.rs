@@ -35,7 +35,7 @@ impl Source<'_> {
         sent.unwrap().check().unwrap();
     }
 
-    /// Answers who asks what is dragged.
+    /// Answers a request for the dragged files.
     fn hand_over(&self, request: &SelectionRequestEvent, uris: &str) {
         let SelectionRequestEvent { requestor, property, target, selection, time, .. } = *request;
         let bytes = uris.as_bytes();

@@ -1,4 +1,4 @@
-//! Editing in the inspector, as the title tells.
+//! Editing in the inspector, checked by the title.
 
 use std::thread;
 use std::time::Duration;
@@ -49,7 +49,7 @@ fn time_advances_while_a_parameter_is_swept() {
     desk.press_and_see("e");
     desk.still();
     let from = desk.tick_of(paused);
-    // The button beside the stiffness, which then changes with each frame for eight seconds.
+    // The button next to the stiffness, which then changes with each frame for eight seconds.
     desk.click(965, 392);
     desk.press("space");
     thread::sleep(Duration::from_secs(3));

@@ -1,4 +1,4 @@
-//! What keys do, read from the title; the studio, given the same commands, says what it should be.
+//! The effect of keys, read from the title and compared with a studio under the same commands.
 
 use std::time::{Duration, Instant};
 
@@ -78,7 +78,7 @@ fn every_key_performs_its_command_from_the_table() {
         } else if !others.contains(command) {
             desk.press(&x_name(*key));
             assert_eq!(studio.apply(command.clone()), None);
-            // A race selects what its verdicts put first, once they are known.
+            // A race selects the lane with the best verdict, once the verdicts are known.
             studio.analyse();
             desk.titled(&studio.title());
         }

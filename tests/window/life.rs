@@ -1,4 +1,4 @@
-//! Starting, ending, and what happens while nobody looks.
+//! Starting, ending, and running while nobody looks.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -113,7 +113,7 @@ fn a_covered_window_runs_on_in_real_time_and_draws_nothing() {
     let Some(desk) = Desk::open(test, "--scene spring --tick-hz 2") else { return };
     desk.press(TO_LOOP);
     let cover = desk.cover();
-    // What was dropped so far, on a busy machine, is forgotten.
+    // Forget the ticks dropped so far on a busy machine.
     let start = Instant::now();
     desk.press("Home 1");
     desk.titled("Regatta - spring - Explicit Euler - 2 Hz");
@@ -226,12 +226,12 @@ fn a_killed_program_leaves_its_recording_for_the_next_start_to_report() {
     desk.press("space");
     let file = desk.folder().join("run.unfinished.toml");
     let is_kept = || std::fs::read_to_string(&file).is_ok_and(|text| text.contains("[[command]]"));
-    // Paused, too, what was done last is kept.
+    // The last action is saved even while paused.
     until("the recording", || is_kept().then_some(()));
     let settings = desk.folder().join("config/regatta");
     let notes = || settings.join(".unfinished-notes").read_dir().unwrap().count();
     assert_eq!(notes(), 1);
-    // A person keeps recordings beside the settings.
+    // A person's recordings in the folder of the settings.
     let kept = [("run.toml", "mine"), (".tmpaB3dE6", "/home/me/recordings/run.toml")];
     std::fs::create_dir(settings.join("recordings")).unwrap();
     for (name, text) in kept {

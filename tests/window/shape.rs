@@ -1,4 +1,4 @@
-//! The window's size, and what is on it.
+//! The window's size, and its content.
 
 use std::collections::HashSet;
 

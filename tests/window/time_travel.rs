@@ -1,4 +1,4 @@
-//! Going back and forth in a run, as the title tells.
+//! Going back and forth in a run, checked by the title.
 
 use image::RgbaImage;
 
@@ -9,7 +9,7 @@ const TRACK_Y: u32 = 576;
 
 const PAUSED: &str = "Regatta - spring - Explicit Euler - 60 Hz (paused)";
 
-/// The spring of `test`, paused at least two seconds after its start, and the tick it stands at.
+/// The spring of `test`, paused at least two seconds after its start, and its tick.
 fn paused(test: &str) -> Option<(Desk, u64)> {
     let desk = Desk::open(test, "--scene spring")?;
     desk.press("space");
@@ -71,7 +71,7 @@ fn a_mark_on_the_timeline_has_a_tooltip_with_a_line_for_each_action() {
     desk.press("bracketleft");
     desk.press("shift+period");
     until("a second", || (!desk.title().contains("tick 0)")).then_some(()));
-    // Pixels beside the pointer that a tooltip changes, on the stage and the track.
+    // Pixels near the pointer that a tooltip changes, on the stage and the track.
     let told_at = |x: u32| {
         desk.xdotool("mousemove --window WINDOW 600 300");
         desk.still();

@@ -1,4 +1,4 @@
-//! Wayland, as far as it can be seen without keys: a compositor that asks for no more frames.
+//! Wayland without keys: a compositor that asks for no more frames.
 
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};

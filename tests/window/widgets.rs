@@ -13,7 +13,7 @@ pub(crate) fn paused(test: &str, scene: &str) -> Option<(Desk, Twin)> {
     paused_with(test, scene, &[], true)
 }
 
-/// The same with environment variables set, where instruments stand round the stage or do not.
+/// The same with environment variables set, with or without instruments round the stage.
 pub(crate) fn paused_with(
     test: &str,
     scene: &str,
@@ -34,8 +34,8 @@ pub(crate) fn paused_with(
     Some((desk, twin))
 }
 
-/// Waits for window and twin to look alike, and compares what their recordings end with: the last command and the state.
-/// What a drag passes over in one frame is in no recording, and frames differ.
+/// Waits for window and twin to look alike, and compares the ends of their recordings: the last command and the
+/// state. Positions between the frames of a drag are not recorded, and frames differ.
 #[track_caller]
 fn same(desk: &Desk, twin: &mut Twin) {
     twin.looks_alike(desk);
@@ -194,7 +194,7 @@ fn a_typed_spring_is_advised_on_and_remembered() {
     ] {
         assert!(told.contains(&line), "no {line} in {told}");
     }
-    // By keys alone: the first number has the focus, and Enter after the last goes on.
+    // By keys alone: the first number has the focus, and Enter after the last accepts.
     desk.press("space");
     for key in ["s", "3", "Return", "Return"] {
         desk.still();

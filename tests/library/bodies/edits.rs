@@ -1,5 +1,4 @@
-//! Setting a parameter of a body that moves: it goes on from its state as a body would that had the value from
-//! the start.
+//! Setting a parameter of a moving body: it continues from its state as if it had been built with the value.
 
 use regatta::scene::Scene;
 use regatta::sim::bodies::{Acts, BODIES, Input, Kind, MAX_VALUE, Range, kind};
@@ -124,7 +123,7 @@ fn values_at_the_ends_of_their_ranges_never_panic() {
                     run(&mut *body, 0, 4);
                     body.set_parameter(4.0 / HZ, place, value);
                     body.input(4.0 / HZ, Input::Kick(1.0));
-                    // What becomes of it is for the lane to judge.
+                    // The lane judges the outcome.
                     let _ =
                         (4..8).try_for_each(|tick| body.advance(f64::from(tick) / HZ, 1.0 / HZ, 1));
                 }

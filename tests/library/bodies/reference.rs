@@ -125,17 +125,17 @@ fn every_scenes_reference_agrees_with_runge_kutta_at_a_fine_step() {
             };
             let has_corners = body.kind.law().is_some_and(|law| law.switches() > 0);
             let is_hard = has_corners || body.kind.net().is_some();
-            // At 4 kHz its error is some 1e-12, but that of the rotor, which is fast; at 8 kHz what is rounded is more
-            // in a motion that spreads. A law with corners wants ten times that, and so does a net, whose stiff
-            // springs whip.
+            // At 4 kHz its error is some 1e-12, except for the fast rotor; at 8 kHz rounding is larger for a motion
+            // that spreads. A law with corners needs ten times that rate, and so does a net, whose stiff springs
+            // whip.
             let rates: &[u32] = if is_hard { &[40_000] } else { &[4000, 8000] };
             let worst = rates.iter().map(|&hz| gap(&truth, &rk4(hz))).fold(f64::INFINITY, f64::min);
             println!("{} in {}: {worst:.1e}", body.name, scene.name);
             // Where a force jumps, as under the feet of who lands, it is of first order only.
             let own = if has_corners { gap(&rk4(rates[0]), &rk4(rates[0] / 2)) } else { 0.0 };
             assert!(own < 1e-8, "{own:e} of {} in {}", body.name, scene.name);
-            // Runge-Kutta meets a corner within a step, which costs it digits at any rate.
-            // A rope whips, and what is rounded in either solution grows with it.
+            // Runge-Kutta meets a corner within a step, which costs it digits at any rate. A rope whips, which
+            // amplifies the rounding in either solution.
             let whips = if body.kind.net().is_some() { 10.0 } else { 1.0 };
             let most = if is_hard { whips * REFERENCE_ACCURACY } else { MEASURED };
             assert!(worst < most.max(2.0 * own), "{worst:e} of {} in {}", body.name, scene.name);

@@ -1,4 +1,4 @@
-//! What the cards say of one method beside another.
+//! Claims on the cards that compare one method with another.
 
 use regatta::sim::State;
 use regatta::sim::bodies::Spring;

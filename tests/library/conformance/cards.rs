@@ -1,4 +1,4 @@
-//! What can be read off a card without running its method.
+//! Tests of the cards that run no method.
 
 use std::collections::HashSet;
 
@@ -23,7 +23,7 @@ fn every_card_has_a_description_and_a_source() {
     for card in METHODS {
         assert!(card.about.len() > 20, "{}", card.id);
         if card.is_engine() {
-            // The version is what dates an engine.
+            // A version dates an engine.
             assert!(card.source.contains(|c: char| c.is_ascii_digit()), "{}", card.id);
             continue;
         }

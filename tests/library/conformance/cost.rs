@@ -22,8 +22,7 @@ fn adaptive_euler_costs_two_evaluations_a_substep_and_one_a_rejection() {
     assert_eq!(counted.evaluations(), 2 * accepted + rejected);
 }
 
-/// Runs three ticks of 0.1 s from `t`, and returns what they added to the state and the times at which
-/// the force was asked for.
+/// Runs three ticks of 0.1 s from `t`, and returns the change of the state and the times of the force evaluations.
 fn run(method: &Method, power: i32, t: f64, substeps: u32) -> (State<f64>, Vec<f64>) {
     run_by(integrator(method, &DVec2::ZERO), power, t, substeps)
 }

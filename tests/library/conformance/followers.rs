@@ -1,4 +1,4 @@
-//! Followers: what their cards claim, measured on bodies that follow a target.
+//! The claims on the cards of followers, measured on bodies that follow a target.
 
 use std::cell::RefCell;
 use std::rc::Rc;

@@ -1,4 +1,4 @@
-//! What is special to each method that takes the derivative of the acceleration, and to Jakobsen's Verlet.
+//! Properties of the methods that use the derivative of the acceleration, and of Jakobsen's Verlet.
 
 use regatta::conformance::problems::{Air, SHIP, course_in_air};
 use regatta::sim::bodies::{Body, Ship};
@@ -49,7 +49,7 @@ fn the_exponential_method_is_exact_on_springs_and_the_ship() {
     }
     let off = error(id, &SHIP, 0.5);
     assert!(off < 1e-13, "{off:e}");
-    // Far beyond what any explicit method bears: by squaring, whose rounding is that of the phase.
+    // Far beyond the limit of every explicit method. Squaring limits the accuracy to the rounding of the phase.
     let off = error(id, &spring(1000.0, 0.01), 0.1);
     assert!(off < 1e-10, "{off:e}");
 }

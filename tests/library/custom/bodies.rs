@@ -1,4 +1,4 @@
-//! Custom bodies beside the built-in ones that move by the same equation.
+//! Custom bodies against built-in ones with the same equation.
 
 use glam::DVec2;
 use regatta::measure::Judge;
@@ -78,7 +78,7 @@ fn custom_bodies_have_the_verdicts_of_built_in_ones() {
                 let spec = LaneSpec::plain(method);
                 let [a, b] =
                     judges.each_ref().map(|judge| everything(&judge.verdict(spec, tick_hz)));
-                // What a method without an error is off by is the rounding of the truth, and that differs.
+                // The error of an exact method is the rounding of the truth, which differs.
                 let rounding = "accurate · within 10⁻";
                 if method.exact_if_linear && a.starts_with(rounding) {
                     assert!(b.starts_with(rounding), "{b}");

@@ -178,7 +178,7 @@ fn area(map: [[f64; 2]; 2]) -> f64 {
 
 #[test]
 fn an_engine_keeps_area_as_its_card_states_and_none_is_reversible() {
-    // What a motor adds to the velocity comes a tick later.
+    // The velocity added by a motor appears a tick later.
     for method in engines().filter(|method| method.restart.is_none()) {
         let body = spring_of(method, [4.0, 0.0]);
         let change = (area(map(method, &body, 0.1)) - 1.0).abs();

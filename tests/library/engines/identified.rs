@@ -9,7 +9,7 @@ use super::log::{Log, Row};
 use crate::dice::Dice;
 use crate::port::run;
 
-/// What is read of a log as a person would write it.
+/// The identification of a log written as text.
 fn identified(log: &Log, rows: &[Row], has_velocity: bool) -> Identification {
     let mut text = String::from(if has_velocity { "tick,x,v\n" } else { "tick,x\n" });
     for Row { tick, x, v } in rows {

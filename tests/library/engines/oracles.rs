@@ -1,4 +1,4 @@
-//! What the engines are known for, in figures taken from their logs.
+//! Known figures of the engines, taken from their logs.
 
 use regatta::conformance::problems::fresh;
 use regatta::sim::State;

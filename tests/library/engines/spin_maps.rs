@@ -1,4 +1,4 @@
-//! The maps of a free spin, by what mechanics says of them.
+//! The maps of a free spin against rigid-body mechanics.
 
 use glam::{DMat3, DVec3};
 use regatta::sim::integrators::SpinMap;
@@ -144,7 +144,7 @@ fn a_spin_about_a_principal_axis_stays_there_under_every_map() {
 
 #[test]
 fn the_newton_step_leaves_the_quadratic_part_of_implicit_euler() {
-    // Newton's method on a quadratic equation leaves what the step itself gives in the quadratic term.
+    // Newton's method on a quadratic equation leaves the quadratic term of its own step.
     let (start, h) = (DVec3::new(3.0, 0.5, -1.5), 0.1);
     let found = after(SpinMap::NewtonStep, INERTIA, start, h, 1);
     let residual = INERTIA * (found - start) + h * found.cross(INERTIA * found);

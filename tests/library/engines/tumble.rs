@@ -30,7 +30,7 @@ fn off(found: DVec3, wanted: DVec3) -> f64 {
     (found - wanted).abs().to_array().into_iter().fold(0.0, larger)
 }
 
-/// What an engine is known to do to a free spin.
+/// The free spin on an engine's card.
 fn free_spin(id: &str) -> FreeSpin {
     let engine = method(id).and_then(|method| method.engine).expect("an engine");
     engine.free_spin.unwrap_or_else(|| panic!("{id} claims nothing"))
@@ -215,9 +215,9 @@ fn twenty_ticks_of_a_tumble_match_the_digits_of_the_log() {
     near("f32", worst[1], 4e-6, 10.0);
 }
 
-/// What the energy may be off by over a whole log, relative to it: of engines in double precision, of those near the
-/// middle axis, where errors grow e-fold in 0.35 s, of explicit Euler where it magnifies them, of engines in single
-/// precision, and of those among them that lose energy near the middle axis.
+/// The allowed relative error of the energy over a whole log: for double precision, near the middle axis (where
+/// errors grow e-fold in 0.35 s), for explicit Euler where it magnifies them, for single precision, and for single
+/// precision with energy loss near the middle axis.
 const ENERGY_TOLERANCES: [f64; 5] = [5e-12, 1e-10, 2e-5, 2e-3, 5e-2];
 
 /// Which of the tolerances is the log's.
@@ -252,8 +252,8 @@ fn the_energy_of_a_tumble_stays_with_the_log_for_a_minute() {
     assert_eq!(lost, ["mujoco-Euler__tumble_b_60hz.csv"]);
 }
 
-/// A card, its map, the substeps, E/E₀ after a minute at 60 Hz from each of the starts (infinite where it diverges), and
-/// what a figure may be off by.
+/// A card, its map, the substeps, E/E₀ after a minute at 60 Hz from each of the starts (infinite where it diverges),
+/// and the allowed error of a figure.
 type Minute = (&'static str, SpinMap, u32, [f64; 3], f64);
 
 /// Half of the last digit of a figure, and rounding.

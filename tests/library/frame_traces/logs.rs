@@ -1,10 +1,10 @@
-//! The logs of each tool, their units, and what stands beside their times.
+//! The logs of each tool, their units, and the columns next to their times.
 
 use regatta::loops::trace_file::read;
 
 use super::{frames, traces};
 
-/// What is read, in a line, and the beginnings of its frames in ms.
+/// The one-line summary of a log, and the starts of its frames in ms.
 fn summed(text: &str) -> (String, Vec<f64>) {
     let [trace] = &traces("log", text)[..] else { panic!("one trace") };
     let began = frames(trace).iter().map(|frame| frame.began_ns as f64 / 1e6).collect();
@@ -47,7 +47,7 @@ fn mangohuds_unit_follows_from_its_fps_and_sampled_logs_are_refused() {
         summed("n,Frame Time (s),cpu\n1,0.008,3\n2,0.008,4\n").0.ends_with("(a list, in seconds)")
     );
     let error = read("log", &elapsed(100.0)).err().unwrap().to_string();
-    assert!(error.contains("a sample every 100 ms (log_interval)"), "{error}");
+    assert!(error.contains("samples every 100 ms (log_interval)"), "{error}");
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn an_afterburner_log_is_refused_by_name() {
     assert!(error.contains("a log of MSI Afterburner has a sample a second"), "{error}");
 }
 
-/// Small logs of ten frames as each tool writes them, one of which was never displayed in two.
+/// Small logs of ten frames as each tool writes them. In two logs, one frame was never displayed.
 const OF_TOOLS: [(&str, &str, &str); 11] = [
     (
         "presentmon-1.csv",
@@ -178,7 +178,7 @@ fn the_first_mangohud_logged_no_frame_times() {
     );
     assert_eq!(began[..3], [0.0, 8.0, 16.0]);
     let error = read("log", &log(100_000_000)).err().unwrap().to_string();
-    assert!(error.contains("a sample every 100 ms (log_interval)"), "{error}");
+    assert!(error.contains("samples every 100 ms (log_interval)"), "{error}");
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn truth(scene: &Scene) -> Lane {
     Lane::new(scene, Solver::Truth, 1)
 }
 
-/// The body of a built-in scene, with what shows it at these coordinates.
+/// The body of a built-in scene, with its picture at these coordinates.
 fn drawn(scene: &str, q: &[f64]) -> (Outline, Framing, Vec<DVec2>) {
     let lane = truth(&Scene::built_in(scene).unwrap());
     let look = Look::of(&lane.bodies()[0]);

@@ -1,4 +1,4 @@
-//! What each function and operator of an expression is: its value, its derivatives, and its corners and jumps.
+//! The functions and operators of expressions: values, derivatives, corners and jumps.
 
 use regatta::sim::Solver;
 use regatta::sim::bodies::Input;
@@ -177,7 +177,7 @@ fn kicks_and_constants_act_at_once_and_starts_do_not() {
     let law = body(text);
     let mut it = stepper(&law, Solver::Truth);
     it.input(0.0, Input::Kick(2.0));
-    // Of itself only the first coordinate is kicked.
+    // Without further settings a kick acts on the first coordinate only.
     assert_eq!(it.v(), [3.0, 0.0]);
     let place = |key: &str| law.kind.parameter(key).unwrap().0;
     let mut a = [0.0; 2];

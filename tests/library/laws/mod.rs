@@ -62,7 +62,7 @@ fn twins() -> impl Iterator<Item = (SceneBody, SceneBody)> {
 #[test]
 fn the_built_in_bodies_as_laws_have_the_same_bits_under_every_method() {
     for (built_in, law) in twins() {
-        // An engine is told the stiffness of a spring, and of a law only the force.
+        // An engine knows the stiffness of a spring but only the force of a law.
         for method in METHODS.iter().filter(|method| !method.is_engine()) {
             let [mut a, mut b] = [&built_in, &law].map(|it| stepper(it, Solver::Method(method)));
             for tick in 0..600 {
@@ -124,7 +124,7 @@ fn a_law_survives_writing_and_reading_to_the_bit() {
     assert_eq!(scene.script, again.script);
 }
 
-/// What is said of a law `x` with this acceleration, and of the whole file.
+/// The error message for a law `x` with this acceleration, and for the whole file.
 fn refusal(acceleration: &str) -> String {
     let text = format!(
         "[[law]]\nconstants = {{ k = 2, zero = 0 }}\n[law.coordinates.x]\nacceleration = \"{acceleration}\""

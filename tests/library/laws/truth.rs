@@ -1,4 +1,4 @@
-//! What a law claims of its motion, and the truth that methods are compared with.
+//! The claims of a law about its motion, and the truth for comparing methods.
 
 use regatta::measure::Judge;
 use regatta::scene::{LaneSpec, Scene, SceneBody};
@@ -39,7 +39,8 @@ fn only_a_false_claim_is_refused() {
     assert!(moving.contains("`vx` begins at 2, and `start_velocity` is 0"), "{moving}");
 }
 
-/// What is said of a spring of 4 rad/s² in a scene of 10 s at 60 Hz, with more of its acceleration and with its claims.
+/// The error message for a spring of 4 rad/s² in a scene of 10 s at 60 Hz, with additional acceleration and its
+/// claims.
 fn said(more: &str, energy: &str, exact: &str) -> Option<String> {
     let text = format!(
         "[[law]]\nconstants = {{ k = 4 }}\n{energy}\n[law.coordinates.x]\nstart = 1\n\
@@ -132,7 +133,7 @@ fn an_exact_solution_is_the_truth_until_an_intervention() {
     assert_eq!(truth.q()[0], exact);
     let before = truth.truth_error().unwrap();
     assert!(before[0] > 0.0 && before[0] < 1e-13);
-    // After a kick the reference goes on from the same state.
+    // After a kick the reference continues from the same state.
     truth.input(10.0, Input::Kick(1.0));
     let (q, v) = (truth.q()[0], truth.v()[0]);
     truth.advance(10.0, 1.0, 1).unwrap();

@@ -38,8 +38,8 @@ fn a_grid_has_its_declared_nodes_springs_and_pins() {
     let lists = plan.lists();
     assert_eq!((lists.nodes.len(), &lists.fixed[..]), (15, &[0, 1, 2, 3, 4][..]));
     assert_eq!((lists.nodes[0], lists.nodes[14]), ([0.0, 0.0], [1.0, -0.5]));
-    // Twelve along the rows, ten down the columns, and two across each of eight squares, of which those of
-    // the top row would join fixed nodes.
+    // Twelve along the rows, ten down the columns, and two across each of eight squares; those of the top row would
+    // join fixed nodes.
     assert_eq!(lists.springs.len(), 12 + 10 + 16 - 4);
     assert_eq!(plan.kicked, Some(9));
 }

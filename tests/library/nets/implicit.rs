@@ -102,7 +102,7 @@ fn the_slope_of_the_force_matches_its_finite_differences() {
 
 #[test]
 fn unsolvable_equations_fail_within_bounded_work() {
-    // Far beyond what the two stages of Gauss and Legendre converge at.
+    // Far beyond the convergence of Gauss and Legendre's two stages.
     let values = Values { stiffness: 2e9, gravity: 9.81, ..PLAIN };
     let mut net = build(&grid(16, 12, Some(Pin::Corners)), values, with("gauss-legendre-4"));
     net.input(0.0, Input::Kick(1.0));

@@ -1,4 +1,4 @@
-//! What the motion of a net keeps, and whose motion it is.
+//! The motion of a net: its conserved quantities, and its agreement with other bodies.
 
 use regatta::sim::bodies::{Body, Chain, Input, PlannedSpring, net_kind};
 use regatta::sim::integrators::{Family, GENERAL_METHODS, StepFailure};

@@ -1,4 +1,4 @@
-//! What is said of a net that has no reference solution.
+//! Verdicts on a net without a reference solution.
 
 use regatta::measure::{Adviser, Criterion, CriterionResult, Judge, Outcome, Severity, Verdict};
 use regatta::run::Race;

@@ -1,4 +1,4 @@
-//! The built-in scenes do what they say.
+//! The built-in scenes behave as their texts describe.
 
 use std::f64::consts::PI;
 use std::fs;
@@ -36,7 +36,7 @@ fn every_built_in_scene_parses_and_has_methods_and_a_hint() {
         assert_eq!(parsed.name, scene.name);
         let has_texts = !parsed.about.is_empty() && parsed.hint.is_some();
         assert!(has_texts, "{}: write an `about` and a `hint`", scene.name);
-        // Few enough to tell apart, and each with a digit key.
+        // Few enough to distinguish, and each with a digit key.
         assert!((2..=9).contains(&parsed.lanes.len()), "{}", scene.name);
         // By name, so that a new method changes no scene.
         let is_named =

@@ -1,4 +1,4 @@
-//! What a scene file may say, and what it then means.
+//! The syntax of scene files and its meaning.
 
 use regatta::run::Race;
 use regatta::scene::{
@@ -201,7 +201,7 @@ fn a_scene_without_lanes_races_the_methods_that_step_all_its_bodies() {
     for mixed in [format!("{}{}", camera(1), camera(2)), format!("{SPRING}{}", camera(2))] {
         assert!(others(&parse_body(&mixed)).is_empty());
     }
-    // What is not raced is still on the list of methods, if it fits.
+    // A method that does not race is still on the list of methods if it fits.
     let listed = parse_body(&format!("methods = ['rk4']\n{}", camera(2))).method_list();
     assert_eq!(listed.len(), GENERAL_METHODS.len() + followers.len());
     assert!(!listed.iter().any(|spec| spec.method.id == "lerp-dt"));

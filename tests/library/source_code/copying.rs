@@ -1,4 +1,4 @@
-//! What the studio asks of its driver when something is to be copied.
+//! The studio's requests to its driver for copying.
 
 use regatta::scene::Scene;
 use regatta::studio::{Command, DriverRequest, Studio, ViewCommand};

@@ -14,7 +14,7 @@ const KNOWN: [&str; 25] = [
     "exp", "ceil",
 ];
 
-/// What is wrong with a file, if anything.
+/// The first fault of a file.
 fn complaint(text: &str) -> Option<String> {
     let mut depths = vec![0];
     let mut opens = false;

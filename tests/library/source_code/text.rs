@@ -52,7 +52,7 @@ fn a_header_agrees_with_the_card() {
         let header: Vec<&str> = text.lines().map_while(|line| line.strip_prefix('#')).collect();
         let header = header.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
         assert!(header.contains(method.about) && header.contains(method.source), "{header}");
-        // Of an engine a claim may be in the source's own words.
+        // An engine's source may word a claim itself.
         let own = |claim: &str| source.claim(claim).map(|words| words.to_owned());
         let order = format!("Order: {}", method.order);
         assert!(header.contains(&order), "{header}");
@@ -86,7 +86,7 @@ fn a_header_agrees_with_the_card() {
     }
 }
 
-/// What the header of a method says, on one line.
+/// The header of a method, on one line.
 fn header(id: &str) -> String {
     let method = regatta::sim::integrators::method(id).unwrap();
     let text = source_code(method, Language::C, Precision::Double).unwrap();

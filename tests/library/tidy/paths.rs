@@ -1,6 +1,6 @@
 //! The paths that a Rust source names, `use` groups spread out, comments and texts left out.
 
-/// The source without comments and without what stands in quotation marks.
+/// The source without comments and string literals.
 pub(crate) fn code(text: &str) -> String {
     let mut code = String::with_capacity(text.len());
     let mut rest = text;
@@ -43,7 +43,7 @@ pub(crate) fn named(text: &str) -> Vec<Vec<String>> {
     let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
     for piece in code.split_inclusive(|c| !is_part(c)) {
         let path = piece.trim_end_matches(|c| !is_part(c));
-        // What stands before a brace is spread out above and names nothing alone.
+        // The prefix before a brace is expanded above and names nothing alone.
         if path.contains("::") && !piece.ends_with("::{") {
             named.push(parts(path));
         }

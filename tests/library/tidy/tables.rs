@@ -26,7 +26,7 @@ fn unlisted(files: &[Source], mark: &str, table: &str) -> Vec<String> {
     holding.symmetric_difference(&listed).map(complain).collect()
 }
 
-/// What stands between `open` and the next `close` in a file.
+/// The text between `open` and the next `close` in a file.
 fn between(path: &str, open: &str, close: char) -> String {
     let text = std::fs::read_to_string(root().join(path)).expect("the table's file");
     let (_, after) = text.split_once(open).expect("the table");

@@ -1,4 +1,4 @@
-//! `advise`: what meets each criterion at the given rate, at what cost and with what headroom, and what to take.
+//! `advise`: the methods that meet each criterion at the given rate, their cost and headroom, and the recommendation.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -62,7 +62,7 @@ fn every_method_has_a_verdict_and_substeps_for_each_criterion() {
     let semi_implicit = row(advice, "semi-implicit-euler");
     let bounded = &semi_implicit["criteria"]["bounded"];
     assert_eq!((&bounded["substeps"], &bounded["evaluations_per_s"]), (&1.into(), &60.0.into()));
-    // h ω < 2 from 3.15 Hz on, or up to (2 / 0.1047)² = 364.8 times the stiffness, of which ten are tried.
+    // h ω < 2 from 3.15 Hz on, or up to (2 / 0.1047)² = 364.8 times the stiffness; factors up to ten are tried.
     assert_eq!((&bounded["slowest_hz"], &bounded["stiffness_factor"]), (&4.into(), &10.0.into()));
     assert_eq!(bounded["met"], true);
     assert_eq!(bounded["limited_by"], "stiffness");
@@ -80,7 +80,7 @@ fn every_method_has_a_verdict_and_substeps_for_each_criterion() {
     assert_eq!(row(advice, "velocity-verlet")["criteria"]["accurate"]["substeps"], 3);
 }
 
-/// Holds what the command recommends against the answers of the library and of the window.
+/// Compares the command's recommendation with those of the library and of the window.
 fn is_said_by_library_and_window(recommended: &Value, name: &str) {
     let scene = Scene::built_in(name).unwrap();
     let report = Report::of_scene(&scene);
@@ -173,7 +173,7 @@ fn without_all_the_answer_and_the_eight_best_rows_are_printed() {
         let method = answer.split(' ').nth(4).unwrap();
         assert!(rows[..3].iter().any(|row| of_table(row) == method), "{answer}: {text}");
     }
-    // Where another method stands, it costs no less, and is told so.
+    // Each row shows the substeps and the cost of its method.
     let advice = advice("--scene stiff");
     for row in rows {
         let met = &self::row(&advice, &of_table(row))["criteria"]["bounded"];

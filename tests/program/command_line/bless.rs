@@ -1,4 +1,4 @@
-//! `verify --bless`: whatever happens to it, there is a whole clip, the old one or the new one.
+//! `verify --bless`: after any interruption there is a whole clip, the old one or the new one.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,7 +15,7 @@ use super::{regatta, run_in, stderr};
 
 type Content = BTreeMap<String, Vec<u8>>;
 
-/// Files of the clip by name; what else a directory holds is named too.
+/// Files of the clip by name, and the names of all other files in the directory.
 fn content(folder: &Path) -> Content {
     let entries = fs::read_dir(folder.join("clip")).unwrap().map(|entry| entry.unwrap());
     let read = |path: &Path| if path.is_dir() { Vec::new() } else { fs::read(path).unwrap() };
@@ -31,8 +31,7 @@ fn restore(folder: &Path, content: &Content) {
     }
 }
 
-/// A clip of another run than its settings say, beside a file of somebody else's; what blessing makes of
-/// it; and how long that takes.
+/// A clip to bless, next to a foreign file: its folder, its content before and after blessing, and the duration.
 fn clip_or_skip(test: &str) -> Option<(TempDir, Content, Content, Duration)> {
     let folder = tempfile::tempdir().unwrap();
     let capture = "capture --scene spring --race --frames 12 --size 64x36 --scale 0.5 --out clip";

@@ -1,4 +1,4 @@
-//! `capture`, and `play` where there is no display: what is in the directory, whatever happens.
+//! `capture`, and `play` without a display: the content of the directory in every case.
 
 use std::fs;
 use std::io::{self, Write};
@@ -251,7 +251,7 @@ fn commands_without_a_window_never_mention_wayland() {
     }
 }
 
-/// What lets a command write where it has written before.
+/// The option that lets a command overwrite its output.
 #[cfg(target_os = "linux")]
 fn forced(arguments: &str) -> Option<&'static str> {
     let is_forced = ["capture", "sweep", "chapter"].iter().any(|it| arguments.starts_with(it));

@@ -19,7 +19,7 @@ fn every_printed_number_has_its_tick() {
     assert!(!text.contains("printed: "), "{text}");
     assert!(text.lines().all(|line| line.trim_end() == line), "{text}");
 
-    // What the chapter does not print, from our own oracles.
+    // Values that the chapter does not print, from our own oracles.
     for cells in [
         ["Explicit Euler", "53.624067", "−1.859"],
         ["Semi-implicit Euler", "59.442864", "3.960"],

@@ -1,4 +1,4 @@
-//! `cloud`: a table of what methods do to an area.
+//! `cloud`: a table of the effect of methods on an area.
 
 use std::fs;
 
@@ -52,10 +52,7 @@ fn names_of_rows_with_one_method_show_the_difference() {
 #[test]
 fn an_impossible_cloud_is_refused_in_one_line() {
     for (options, why) in [
-        (
-            "--scene orbit",
-            "satellite has 2 coordinates; give a scene with a body of one coordinate",
-        ),
+        ("--scene orbit", "satellite has 2; give a scene with a body of one coordinate"),
         ("--scene spring --points 1000000000", "1000000000 points do not fit into memory"),
         ("--out cat.png", "`regatta capture --instrument cloud` draws cat.png"),
         ("--out cat.gif", "`regatta capture --instrument cloud` draws cat.gif"),

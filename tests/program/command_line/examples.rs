@@ -1,5 +1,4 @@
-//! What README and the chapters of the manual print below a command is what the command prints, and each block of theirs is
-//! held by a test.
+//! The output below each command in the README and the manual is the command's output, and a test covers each block.
 #![cfg(unix)]
 
 use std::collections::HashMap;
@@ -67,7 +66,7 @@ fn make_own_files(test: &str, folder: &Path) -> Vec<&'static str> {
     }
 }
 
-/// What a shell command prints, data first, in a folder where `regatta` is the program.
+/// The output of a shell command, data first, in a folder with `regatta` as the program.
 fn said_by(command: &str, folder: &Path) -> String {
     let program = Path::new(env!("CARGO_BIN_EXE_regatta")).parent().unwrap();
     let path = format!("{}:{}", program.display(), env::var("PATH").unwrap());
@@ -76,7 +75,7 @@ fn said_by(command: &str, folder: &Path) -> String {
     let output = shell.output().unwrap();
     let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
     assert_eq!(output.status.code(), Some(0), "{command}: {err}");
-    // How far a long run is, is said by the way.
+    // The progress of a long run is not part of its output.
     let wrote = err.lines().filter(|line| line.starts_with("wrote "));
     out + &wrote.collect::<Vec<_>>().join("\n")
 }

@@ -1,4 +1,4 @@
-//! Other people's files, other writers, links and devices: what is not ours stays as it is.
+//! Other people's files, other writers, links and devices: foreign files stay unchanged.
 
 use std::fs::{self, File};
 use std::io::{Read, Write};
@@ -263,7 +263,7 @@ fn an_output_never_replaces_an_input() {
             }
         }
     }
-    // A built-in scene is read whatever file has its name.
+    // A file with the name of a built-in scene does not replace the scene.
     fs::write(path("spring"), "mine").unwrap();
     let output = run_in(folder.path(), &format!("{cloud} spring --out spring --force"));
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

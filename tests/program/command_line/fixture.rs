@@ -12,7 +12,7 @@ use super::{refusal, run_in, stdout_of};
 /// A spring of 2 kg on 40 N/m with 0.5 N s/m.
 const SPRING: &str = "fixture --k 40 --c 0.5 --mass 2 --seconds 5";
 
-/// What stands in the file of a language for an engine's step.
+/// The placeholder for an engine's step in the file of each language.
 const OPEN: [(&str, &str); 3] = [
     ("pytest", "    raise NotImplementedError(\"put your engine's step here\")"),
     ("gtest", "    throw std::logic_error(\"put your engine's step here\");"),
@@ -59,7 +59,7 @@ template <class T> const Failure& operator<<(const Failure& it, const T& what) {
 #define TEST(suite, name) int main()
 ";
 
-/// Whether the test in this file passes, with what it said; `None` if its language is not installed.
+/// Whether the test in this file passes, with its output; `None` if its language is not installed.
 fn passes(folder: &Path, language: &str, text: &str) -> Option<(bool, String)> {
     let program = folder.join("program");
     let (name, text) = match language {

@@ -35,7 +35,7 @@ fn written(folder: &Path, format: &str) -> Vec<u8> {
     fs::read(folder.join(format!("run.{format}"))).unwrap()
 }
 
-/// What a program says of a file. Where it is not installed, says that `test` is skipped.
+/// A program's output about a file. If it is not installed, reports `test` as skipped.
 fn asked_or_skip(test: &str, program: &str, arguments: &[&str], file: &Path) -> Option<String> {
     match Command::new(program).args(arguments).arg(file).output() {
         Ok(output) => {

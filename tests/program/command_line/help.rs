@@ -76,7 +76,7 @@ fn a_scene_may_be_given_without_its_option_in_every_command() {
             assert_eq!(read(&format!("{command} {rest} {scene}")), wanted);
         }
     }
-    // Of a command that takes other words, a scene's name is one of them.
+    // A command with other arguments treats a scene's name as one of them.
     for line in ["show spring", "diff spring ship", "identify run.toml"] {
         assert!(read(line).map_or(true, |cli| !cli.contains("scene: Some")), "{line}");
     }

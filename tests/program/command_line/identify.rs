@@ -1,4 +1,4 @@
-//! `identify`: a log in; the engine that made it, what a player sees and what to use out.
+//! `identify`: reads a log, and names the engine, the visible motion and the settings to use.
 
 use std::fs;
 
@@ -170,7 +170,7 @@ fn a_log_is_read_the_same_with_tabs_semicolons_and_decimal_commas() {
     assert_eq!(told(&text.replace(',', ";").replace('.', ",")), said);
 }
 
-/// A log in a folder of its own, with what `identify` says of it and the JSON.
+/// A log in a folder of its own, with the text and the JSON of `identify`.
 fn identified(log: &str, options: &str) -> (String, Value) {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("log.csv"), log).unwrap();

@@ -1,4 +1,4 @@
-//! `link`: a run as an address, which every command takes in the place of a scene.
+//! `link`: a run as an address, which every command accepts as a scene.
 
 use std::fs;
 

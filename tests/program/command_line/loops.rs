@@ -24,7 +24,7 @@ fn number(row: &Value, column: &str) -> f64 {
     row[column].as_f64().unwrap_or_else(|| panic!("{column} of {row}"))
 }
 
-/// What is not within 2 % of what was derived by hand is wrong, and of 0 more than a millionth is.
+/// Asserts that a value is within 2 % of one derived by hand, or within a millionth of 0.
 fn near(row: &Value, column: &str, expected: f64) {
     let value = number(row, column);
     let is_near = value.is_finite() && (value - expected).abs() <= 0.02 * expected.abs() + 1e-6;
@@ -139,7 +139,7 @@ fn the_manuals_table_matches_its_command() {
             let printed = cell.split(' ').next().unwrap();
             let decimals = printed.split_once('.').map_or(0, |(_, after)| after.len());
             let half = 0.5 * 0.1_f64.powi(decimals as i32);
-            // What is less than a microsecond is the rounding of traces.
+            // Less than a microsecond is the rounding of traces.
             let half = if printed == "0" { 1e-3 } else { half };
             let found = value(policy, trace, column);
             assert!(
@@ -171,7 +171,7 @@ fn a_render_tick_has_no_latency_and_the_accuracy_of_its_method() {
     assert!(1e-5 < stepped && stepped < 3e-5, "{stepped} with drag");
     let [extrapolated, stepped] = ahead("--scene spring --method rk4 --tick-hz 4");
     assert!(0.4 < stepped && stepped < extrapolated && extrapolated < 0.6, "{stepped}");
-    // A step of explicit Euler moves a position by its velocity, which is what extrapolation does.
+    // A step of explicit Euler moves a position by its velocity, exactly like extrapolation.
     let [extrapolated, stepped] = ahead("--scene spring --method explicit-euler");
     assert!(stepped.is_finite() && (stepped - extrapolated).abs() < 1e-12, "{stepped}");
     // The copies' evaluations are paid for: 480 ticks and a copy in each frame that is not at a tick.
@@ -273,7 +273,7 @@ fn a_juddering_or_variable_loop_is_never_advised() {
     let varies =
         "take none of these: without a fixed tick the physics varies with the rate; try --all";
     assert!(variable.contains(varies), "{variable}");
-    // What is asked of all, in every scene and at odd rates.
+    // Advice is a loop with a fixed tick or none, in every scene and at odd rates.
     for (scene, tick_hz) in [("spring", 7), ("stiff", 120), ("pendulum", 30), ("orbit", 10)] {
         let told = told(&format!("--all --scene {scene} --tick-hz {tick_hz} --seconds 10"));
         for line in told.lines().filter_map(|line| line.split_once("): take ")) {

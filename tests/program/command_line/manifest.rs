@@ -1,4 +1,4 @@
-//! The manifest beside the frames: what is in it, and that its description says so.
+//! The manifest of the frames: its content, and its description.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -52,7 +52,7 @@ fn every_key_is_described_and_the_manifest_reads_back() {
     assert!(manifest.to_text() == text, "what is read is written again to the byte");
 }
 
-/// Captures this scene, and what `verify` says of that.
+/// Captures this scene, with the output of `verify`.
 fn captured_or_skip(test: &str, scene: &str, arguments: &str) -> Option<(Manifest, Output)> {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("my.toml"), scene).unwrap();

@@ -1,5 +1,5 @@
-//! Whatever happens to a capture: no frame is lost, half, or out of order, and what was stopped can be
-//! drawn again in the same place.
+//! Accidents during a capture: no frame is lost, partial or out of order, and an interrupted capture can be repeated
+//! in the same place.
 
 use std::fs;
 use std::io::{self, Write};

@@ -19,7 +19,7 @@ fn recorded() -> TempDir {
     folder
 }
 
-/// What `regatta verify run.toml` and more words make of it: code, data and messages.
+/// The result of `regatta verify run.toml` with more arguments: code, data and messages.
 fn verify(folder: &TempDir, arguments: &str) -> (Option<i32>, String, String) {
     let output = run_in(folder.path(), &format!("verify run.toml {arguments}"));
     let (data, messages) = (String::from_utf8(output.stdout.clone()).unwrap(), stderr(&output));

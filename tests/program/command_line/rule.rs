@@ -1,4 +1,4 @@
-//! `rule`: lines of a game in; what a player sees at every frame rate, and code out.
+//! `rule`: reads lines of a game, and prints the visible motion at every frame rate, and code.
 
 use std::fs;
 use std::io::Write as _;

@@ -1,4 +1,4 @@
-//! Signals and limits of the system: whatever ends a command, no temporary file stays.
+//! Signals and limits of the system: no temporary file survives the end of a command.
 #![cfg(unix)]
 
 use std::fs;
@@ -34,7 +34,7 @@ fn start(folder: &Path, arguments: &str) -> Child {
     command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// Sends a signal, and returns what the program leaves and how long it took.
+/// Sends a signal, and returns the program's output and the time until its end.
 fn ended_by(signal: &str, child: Child) -> (Output, Duration) {
     let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
     assert!(sent.unwrap().success());
@@ -45,7 +45,7 @@ fn ended_by(signal: &str, child: Child) -> (Output, Duration) {
 /// The temporary files in a folder and in those that it holds.
 fn parts(folder: &Path) -> Vec<String> {
     let mut found = Vec::new();
-    // What is renamed or removed meanwhile is no part any more.
+    // A renamed or removed file is no part any more.
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().into_string().unwrap();
         if entry.path().is_dir() {

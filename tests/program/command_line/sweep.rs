@@ -1,4 +1,4 @@
-//! `sweep`: a row for every run, in one order, whatever the threads; and the picture of it.
+//! `sweep`: a row for every run, in one order for any number of threads, and the picture of the rows.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -137,7 +137,7 @@ fn json_and_csv_have_the_same_rows() {
     for (line, object) in csv.lines().skip(1).zip(objects) {
         assert_eq!(object.keys().cloned().collect::<Vec<_>>().join(","), HEADER);
         let mut cells = cells(line);
-        // What was measured differs from run to run.
+        // A measured value differs from run to run.
         assert!(cells.remove(8).parse::<f64>().unwrap() > 0.0, "{line}");
         let others = object.iter().filter(|(key, _)| *key != "ns_per_s");
         let same = others.map(|(_, value)| match value {

@@ -1,4 +1,4 @@
-//! `verify`: what is the same, what is another, and what cannot be judged.
+//! `verify`: the same runs, changed runs, and clips that cannot be judged.
 
 use std::fs;
 use std::io::{self, Write};
@@ -30,7 +30,7 @@ fn manifest_of(folder: &Path) -> PathBuf {
     folder.join("clip/manifest.json")
 }
 
-/// Changes the manifest, whatever its hashes say.
+/// Changes the manifest without regard to its hashes.
 fn edit(folder: &Path, change: impl FnOnce(&mut Manifest)) {
     let mut manifest = read(folder);
     change(&mut manifest);

@@ -1,4 +1,4 @@
-//! `verify --report`: what is written for programs and for a CI's list of tests, and what it never replaces.
+//! `verify --report`: reports for programs and for a CI's list of tests, and the files that they never replace.
 
 use std::fs;
 use std::path::Path;

@@ -321,7 +321,7 @@ fn the_cloud_reports_its_area_or_why_there_is_no_cloud() {
     let table = csv(&studio).unwrap().concat();
     assert!(table.contains(",area / start,,implicit-euler,1,0.") && table.contains(",exact,1,"));
     assert!(svg(&studio).unwrap().contains("<polyline"));
-    assert!(said(&lab_of("orbit"), "has 2 coordinates"));
+    assert!(said(&lab_of("orbit"), "satellite has 2"));
 }
 
 #[test]
