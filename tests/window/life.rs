@@ -247,7 +247,7 @@ fn a_killed_program_leaves_its_recording_for_the_next_start_to_report() {
     let said = again.said();
     let told = said.lines().next().unwrap_or_default();
     assert!(told.starts_with("a recording was not finished when its window ended"), "{said}");
-    assert!(told.ends_with("/run.unfinished.toml"), "{said}");
+    assert!(told.ends_with("/run.unfinished.toml has it so far"), "{said}");
     assert!(said.contains("recorded 6 ticks in run.toml"), "{said}");
     let mut once = display.start("--scene spring --seconds 0.1", &[]);
     until("the end", || once.ended());
