@@ -63,20 +63,12 @@ pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFau
 /// ```
 pub fn own_rule(id: &str, text: &str, fps: TickRate) -> Result<&'static Method, ExpressionFault> {
     known_or(id, text, Some(fps), || {
-        let read = StepText::read(text)?;
-        let fault = |span, [what, remedy]: [String; 2]| ExpressionFault {
-            span,
+        let read = StepText::read_rule(text, "leave `fps` out: these lines are a method")?;
+        let rule = LinearRule::new(read, fps).map_err(|[what, remedy]| ExpressionFault {
+            span: 0..text.len(),
             what,
             remedy: Remedy::Words(remedy),
-        };
-        if let Some(span) = read.acceleration_at() {
-            let what = "a rule is the whole motion, and calls no acceleration";
-            return Err(fault(
-                span,
-                [what, "leave `fps` out: these lines are a method"].map(str::to_owned),
-            ));
-        }
-        let rule = LinearRule::new(read, fps).map_err(|why| fault(0..text.len(), why))?;
+        })?;
         let only = match rule.body() {
             RuleBody::Follower { .. } => Only {
                 needs: Needs::Law { order: 1 },

@@ -10,7 +10,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::port::seen::{seen, spectral_radius};
 use super::port::{Approach, Wish};
-use crate::sim::law::{ExpressionFault, Frame, Powers, Remedy, StepText, remembers_place};
+use crate::sim::law::{ExpressionFault, Frame, Powers, StepText, remembers_place};
 use crate::sim::numerics::bisect;
 use crate::tools::identify::Effective;
 
@@ -93,16 +93,8 @@ impl Rule {
     /// # Errors
     /// The first fault of the text.
     pub fn read(text: &str, fps: f64) -> Result<Self, ExpressionFault> {
-        let text = StepText::read(text)?;
-        if let Some(span) = text.acceleration_at() {
-            return Err(ExpressionFault {
-                span,
-                what: "a rule is the whole motion, and calls no acceleration".into(),
-                remedy: Remedy::Words(
-                    "give lines that call one in a file, as a method: `--method my.step`, `regatta show my.step`".into(),
-                ),
-            });
-        }
+        let remedy = "give lines that call one in a file, as a method: `--method my.step`, `regatta show my.step`";
+        let text = StepText::read_rule(text, remedy)?;
         // The visible number is the place or, if the rule changes no place, the velocity.
         let seen = usize::from(text.keeps(0));
         Ok(Self::with_state(Arc::new(text), fps, vec![seen]))

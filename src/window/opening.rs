@@ -91,21 +91,10 @@ impl Asked {
             })
         } else if is_trace(&self.path) {
             traces_in(&self.path).map(Held::Traces)
+        } else if has_ending(&self.path, "step") {
+            lines_in(&self.path, read)
         } else {
-            let lines = has_ending(&self.path, "step").then(|| lines_in(&self.path));
-            match lines {
-                Some(Err(mistakes)) => Err(mistakes),
-                Some(Ok((name, lines))) if !is_rule(&lines) => {
-                    LaneSpec::from_step(&name, &lines).map(Held::Lane).map_err(Vec::from)
-                }
-                lines => read(&self.path).map(|(scene, text)| {
-                    SceneList::prepare_scene(&scene);
-                    let lines = lines.and_then(Result::ok);
-                    // The text of the file, which is watched.
-                    let lines = lines.and_then(|(_, lines)| String::from_utf8(lines).ok());
-                    Held::Scene { scene: Box::new(scene), text: lines.unwrap_or(text) }
-                }),
-            }
+            scene_in(&self.path, read)
         };
         ReadFile { asked: self, held }
     }
@@ -172,11 +161,27 @@ fn has_ending(path: &Path, known: &str) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known))
 }
 
-/// The name and the bytes of a file of lines.
-fn lines_in(path: &Path) -> Result<(String, Vec<u8>), Vec<Mistake>> {
-    let bytes = regular_file::read(path, MAX_FILE_BYTES)
+/// Reads a scene, and prepares anything that its first frame would wait for.
+fn scene_in(path: &Path, read: &ReadScene) -> Result<Held, Vec<Mistake>> {
+    let (scene, text) = read(path)?;
+    SceneList::prepare_scene(&scene);
+    Ok(Held::Scene { scene: Box::new(scene), text })
+}
+
+/// Reads a file of lines: a method is a lane of the open scene, a rule a scene of its own.
+fn lines_in(path: &Path, read: &ReadScene) -> Result<Held, Vec<Mistake>> {
+    let lines = regular_file::read(path, MAX_FILE_BYTES)
         .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
-    Ok((path.file_name().unwrap_or_default().to_string_lossy().into_owned(), bytes))
+    if !is_rule(&lines) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        return LaneSpec::from_step(&name, &lines).map(Held::Lane).map_err(Vec::from);
+    }
+    let held = scene_in(path, read)?;
+    // The watch compares with the file, which holds the lines instead of the scene.
+    Ok(match (held, String::from_utf8(lines)) {
+        (Held::Scene { scene, .. }, Ok(text)) => Held::Scene { scene, text },
+        (held, _) => held,
+    })
 }
 
 fn traces_in(path: &Path) -> Result<Vec<FrameTrace>, Vec<Mistake>> {

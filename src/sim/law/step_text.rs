@@ -12,7 +12,7 @@ use super::form::is_linear;
 use super::jet::Jet;
 use super::tape::Tape;
 pub use code::StepCode;
-pub(crate) use linear::{Frame, NO_RETURN, remembers_place};
+pub(crate) use linear::{AT_TARGET, Frame, NO_RETURN, remembers_place};
 pub use linear::{LinearRule, RuleBody};
 pub use method::StepCall;
 use plain::plain;
@@ -126,6 +126,15 @@ impl StepText {
             reader.take(statement)?;
         }
         Ok(Self { source: text.to_owned(), ..reader.finish()? })
+    }
+
+    /// Reads the text of a rule, which calls no acceleration. The fault of one that does has this remedy.
+    pub(crate) fn read_rule(text: &str, remedy: &str) -> Result<Self, ExpressionFault> {
+        let read = Self::read(text)?;
+        match read.acceleration_at() {
+            Some(at) => fault(at, "a rule is the whole motion, and calls no acceleration", remedy),
+            None => Ok(read),
+        }
     }
 
     /// The original text.

@@ -3,14 +3,12 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::Rule;
-use crate::sim::law::{Frame, NO_RETURN, Powers, StepCode};
+use crate::sim::law::{AT_TARGET, Frame, NO_RETURN, Powers, StepCode};
 use crate::tools::source_code::{Language, rule_code};
 
 /// If the logarithms of the eigenvalues are this far apart, the code has two exponentials. For closer ones, the
 /// difference of the exponentials would be rounding.
 const APART: f64 = 1e-3;
-/// A coefficient of the target this close to 0 or 1 counts as that number: the difference is rounding.
-const AT_TARGET: f64 = 1e-11;
 
 /// The reason why a rule has no closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -191,9 +189,8 @@ impl Rule {
         let (half, determinant) = (map.trace() / 2.0, map.determinant());
         let powers = Powers::of(map.trace(), determinant).ok_or(NoClosedForm::Flips)?;
         let Powers { log_scale, apart, swings } = powers;
-        let inverse = (Matrix2::identity() - map).try_inverse().ok_or(NoClosedForm::Drifts)?;
-        let rests = (inverse * frame.by_target, inverse * frame.offset);
-        let rest: Vec<String> = (0..2).map(|n| rest([rests.0[n], rests.1[n]])).collect();
+        let [by_target, offset] = frame.rests().ok_or(NoClosedForm::Drifts)?;
+        let rest: Vec<String> = (0..2).map(|n| rest([by_target[n], offset[n]])).collect();
         let away = |n: usize| match &*rest[n] {
             "0.0" => names[n].clone(),
             rest => format!("{} - {}", names[n], grouped(rest)),

@@ -7,22 +7,22 @@ use crate::sim::law::{ExpressionFault, OwnLines, Remedy, RuleBody};
 use crate::sim::number::significant;
 use crate::sim::{check_own_id, own_method_id, own_rule};
 
-/// How often each lane runs the lines in a tick. A tick is two frames of the author, so that the second lane is at that
-/// rate, the first at half and the last at twice of it.
+/// Frames of each lane per tick. A tick lasts two frames of the author, so the second lane runs at the author's rate, the
+/// first at half of it and the last at twice.
 const SUBSTEPS: [u32; 3] = [1, 2, 4];
-/// The times that it takes to settle, or else the swings, for which each of three starts is shown.
+/// Length of each of three starts: this many settling times, or this many swings if the rule never settles.
 const SETTLINGS: f64 = 1.5;
 const SWINGS: f64 = 6.0;
-/// The least and the most seconds of that.
+/// Shortest and longest length of a start, in seconds.
 const SHOWN_S: [f64; 2] = [2.0, 20.0];
-/// The kicks of half a metre that bring a follower back from its target to its start.
+/// Kicks of half a metre that bring a follower from its target back to its start.
 const KICK_BACK: f64 = -2.0;
 
-/// The scene of the rule in a file of this name, written for this many frames per second: the body that the rule moves like,
-/// raced by the lines themselves at half, once and twice the rate.
+/// The scene of the rule in a file of this name, written for this many frames per second. It has the body that the rule
+/// moves like, and a race of the lines at half, once and twice that rate.
 ///
 /// # Errors
-/// The first fault of the lines, or why no body of a scene moves like them.
+/// The first fault of the lines, or the reason why no body of a scene moves like them.
 pub fn rule_scene(file: &str, text: &str, fps: TickRate) -> Result<Scene, SceneErrors> {
     let of_text = |fault| SceneErrors::of_step(file, text, fault);
     let stem = file.rsplit(['/', '\\']).next().unwrap_or(file);
@@ -79,7 +79,8 @@ pub fn rule_scene(file: &str, text: &str, fps: TickRate) -> Result<Scene, SceneE
     Scene::parse(&id, &text)
 }
 
-/// The body as a table of a scene. It starts 1 m from its rest with the velocity `v0` (m/s); one that coasts starts at 1 m/s.
+/// Writes the body as a table of a scene. It starts 1 m from its rest with the velocity `v0` (m/s); a coasting body starts
+/// at 1 m/s.
 fn body_table(id: &str, body: RuleBody, v0: f64) -> String {
     match body {
         RuleBody::Follower { rate } => format!(

@@ -6,11 +6,11 @@ use super::powers::Powers;
 use super::{StepRegisters, StepText};
 use crate::sim::TickRate;
 
-/// A rule with an eigenvalue this near to 1 keeps wherever it is.
+/// An eigenvalue this close to 1 means that a rule stays wherever it is.
 pub(crate) const NO_RETURN: f64 = 1e-13;
-/// A rest this near to the target is the target, but for rounding.
-const AT_TARGET: f64 = 1e-11;
-/// A decay per frame this near to none is none, but for rounding.
+/// A rest within this share of the target is the target, up to rounding.
+pub(crate) const AT_TARGET: f64 = 1e-11;
+/// A logarithmic decay per frame below this is rounding.
 const NO_DECAY: f64 = 1e-14;
 
 /// One frame of up to two numbers: `map` of them, and what the target and constants add.
@@ -22,6 +22,12 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
+    /// The two numbers at rest, per unit of the target and without it; `None` if they have no rest.
+    pub(crate) fn rests(&self) -> Option<[Vector2<f64>; 2]> {
+        let inverse = (Matrix2::identity() - self.map).try_inverse()?;
+        Some([inverse * self.by_target, inverse * self.offset])
+    }
+
     /// Whether an eigenvalue is 1, so that the motion ends wherever it is.
     pub(crate) fn keeps_place(&self) -> bool {
         (1.0 - self.map.trace() + self.map.determinant()).abs() <= NO_RETURN
@@ -48,8 +54,8 @@ impl StepText {
         state
     }
 
-    /// The frame of `h` seconds of these one or two carried numbers, linearised about 0. `None` for more of them, and where
-    /// a coefficient is not finite.
+    /// A frame of `h` seconds as a map of up to two carried numbers, linearised about 0. `None` for more numbers, or if a
+    /// coefficient is not finite.
     pub(crate) fn frame(&self, state: &[usize], h: f64) -> Option<Frame> {
         if state.len() > 2 {
             return None;
@@ -95,10 +101,9 @@ pub enum RuleBody {
 
 /// A linear rule that steps a body.
 ///
-/// Through the places that the rule reaches at its author's frame rate there is one smooth motion that decays and swings
-/// evenly: the exact motion of its [body](LinearRule::body). The velocity of that motion is a combination of the rule's two
-/// numbers, and is the velocity of the body at any frame rate. So the rule is exact at its author's rate, and needs no memory
-/// beside the state.
+/// One smooth motion passes through the places of the rule at its author's frame rate: the exact motion of its
+/// [body](LinearRule::body). Its velocity is a linear combination of the rule's two numbers, and serves as the velocity of
+/// the body at any frame rate. So the rule is exact at its author's rate, and needs no memory besides the state.
 #[derive(Debug)]
 pub struct LinearRule {
     text: StepText,
@@ -117,7 +122,7 @@ impl LinearRule {
     /// The rule of these lines, written for this many frames per second.
     ///
     /// # Errors
-    /// Why no body moves like it, and the remedy.
+    /// The reason why no body moves like it, and the remedy.
     pub fn new(text: StepText, fps: TickRate) -> Result<Self, [String; 2]> {
         let refused = |why: &str, remedy: &str| Err([why.to_owned(), remedy.to_owned()]);
         let ask = "`regatta rule` says what it does, and prints code for any frame rate";
@@ -166,12 +171,8 @@ impl LinearRule {
         if state.len() == 2 && (!gains[1].is_finite() || gains[1] == 0.0) {
             return refused("the second number of the rule does not move the first", ask);
         }
-        let inverse = match (state.len(), coasts) {
-            (_, true) => Matrix2::zeros(),
-            (1, _) => Matrix2::new(1.0 / (1.0 - map.m11), 0.0, 0.0, 0.0),
-            _ => (Matrix2::identity() - map).try_inverse().unwrap_or_default(),
-        };
-        let (by_target, offset) = (inverse * frame.by_target, inverse * frame.offset);
+        let no_rest = [Vector2::zeros(); 2];
+        let [by_target, offset] = if coasts { no_rest } else { frame.rests().unwrap_or(no_rest) };
         let at_target = |part: f64| if (part - 1.0).abs() <= AT_TARGET { 0.0 } else { part - 1.0 };
         Ok(Self {
             second: state.get(1).copied(),
@@ -205,8 +206,8 @@ impl LinearRule {
         self.text.takes_target()
     }
 
-    /// The velocity of a body that the lines start at `x` from its rest (m), in m/s: with their second number as they declare
-    /// it, or at `x` too if it is the place of the frame before.
+    /// Start velocity in m/s of a body at distance `x` (m) from its rest. The second number starts at its declared value,
+    /// or at `x` if it remembers the place of the previous frame.
     pub fn start_velocity(&self, x: f64) -> f64 {
         let second = match self.second {
             Some(_) if self.remembers_place => x,
@@ -216,7 +217,7 @@ impl LinearRule {
         self.gains[0] * x + self.gains[1] * second
     }
 
-    /// Steps a body by a frame of `h` seconds. `target` is where it rests. Never allocates.
+    /// Steps a body by a frame of `h` seconds; the body rests at `target`. Never allocates.
     pub fn step(&self, registers: &mut StepRegisters, h: f64, target: f64, [q, v]: [&mut f64; 2]) {
         let [shift, rest] = self.rest.map(|[part, constant]| part * target + constant);
         let [by_place, by_second] = self.gains;
@@ -235,7 +236,7 @@ impl LinearRule {
 }
 
 impl Powers {
-    /// The spring whose motion at this many steps per second these are.
+    /// The spring whose motion has these powers at `hz` steps per second.
     fn spring(&self, hz: f64) -> RuleBody {
         let Self { log_scale, apart, swings } = *self;
         let decay = if log_scale.abs() <= NO_DECAY { 0.0 } else { log_scale };
