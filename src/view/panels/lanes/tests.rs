@@ -71,8 +71,8 @@ fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
     }
 }
 
-fn said(studio: &Studio) -> Vec<String> {
-    sorted(studio, None).iter().map(|row| row.said().whole().to_owned()).collect()
+fn verdict_texts(studio: &Studio) -> Vec<String> {
+    sorted(studio, None).iter().map(|row| row.verdict_text().whole().to_owned()).collect()
 }
 
 #[test]
@@ -94,9 +94,17 @@ fn the_tooltip_of_an_engine_tells_the_version_and_the_day_that_it_is_held_agains
 #[test]
 fn a_method_is_being_judged_until_it_is() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
-    assert!(said(&studio).iter().all(|said| said == "judging…"), "{:?}", said(&studio));
+    assert!(
+        verdict_texts(&studio).iter().all(|said| said == "judging…"),
+        "{:?}",
+        verdict_texts(&studio)
+    );
     studio.analyse();
-    assert!(said(&studio).iter().all(|said| said != "judging…"), "{:?}", said(&studio));
+    assert!(
+        verdict_texts(&studio).iter().all(|said| said != "judging…"),
+        "{:?}",
+        verdict_texts(&studio)
+    );
 }
 
 #[test]
@@ -107,7 +115,7 @@ fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
     studio.analyse();
     let euler = studio.entries().iter().position(|spec| spec.method.id == "semi-implicit-euler");
     let euler = euler.unwrap();
-    assert_eq!(said(&studio)[euler], "blows up · at 4.14 s");
+    assert_eq!(verdict_texts(&studio)[euler], "blows up · at 4.14 s");
     let details = sorted(&studio, None)[euler].details();
     assert_eq!(details[0], "if run from the start");
     while !studio
@@ -118,7 +126,11 @@ fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
     {
         studio.tick();
     }
-    assert!(said(&studio)[euler].contains(" blew up at 4.1"), "{:?}", said(&studio));
+    assert!(
+        verdict_texts(&studio)[euler].contains(" blew up at 4.1"),
+        "{:?}",
+        verdict_texts(&studio)
+    );
 }
 
 #[test]
@@ -127,19 +139,19 @@ fn the_body_that_every_verdict_is_about_is_named_once() {
     let flown: Vec<usize> =
         studio.race().entrants().iter().map(|lane| studio.entry(lane)).collect();
     let names = |studio: &Studio| {
-        let said = said(studio);
+        let said = verdict_texts(studio);
         flown.iter().filter(|&&entry| said[entry].contains("(spring)")).count()
     };
     assert_eq!(
         row::judged_body(&studio).map(|body| &*studio.scene().bodies[body].name),
         Some("spring")
     );
-    assert_eq!(names(&studio), 0, "{:?}", said(&studio));
+    assert_eq!(names(&studio), 0, "{:?}", verdict_texts(&studio));
     // At a low rate, another body is the stiffest of some lanes.
     studio.apply(StageCommand::TickHz(2.into()));
     studio.analyse();
-    assert_eq!(row::judged_body(&studio), None, "{:?}", said(&studio));
-    assert!(names(&studio) > 0, "{:?}", said(&studio));
+    assert_eq!(row::judged_body(&studio), None, "{:?}", verdict_texts(&studio));
+    assert!(names(&studio) > 0, "{:?}", verdict_texts(&studio));
 }
 
 #[test]
