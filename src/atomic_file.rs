@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_has_its_name_once_it_is_whole_and_not_before() {
+    fn a_file_gets_its_final_name_only_when_complete() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("run.gif");
         let mut file = AtomicFile::create(&path).unwrap();
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_given_up_leaves_nothing() {
+    fn an_abandoned_file_leaves_nothing() {
         let folder = tempfile::tempdir().unwrap();
         let mut file = AtomicFile::create(&folder.path().join("run.gif")).unwrap();
         file.write_all(b"half").unwrap();
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn two_writers_of_one_name_do_not_meet() {
+    fn two_writers_of_one_name_do_not_conflict() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("x");
         let [mut a, mut b] = [0, 1].map(|_| AtomicFile::create(&path).unwrap());
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_whose_name_is_taken_meanwhile_gets_the_next_free_one() {
+    fn a_file_whose_name_was_taken_meanwhile_gets_the_next_free_name() {
         let folder = tempfile::tempdir().unwrap();
         for (name, taken) in [("run.toml", "run-2.toml"), ("bare", "bare-2")] {
             let path = folder.path().join(name);
@@ -231,7 +231,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_new_file_has_the_permissions_that_any_new_file_has() {
+    fn a_new_file_has_the_usual_permissions() {
         use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().unwrap();
         let [ours, plain] = ["ours", "plain"].map(|name| folder.path().join(name));
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_under_way_is_told_from_others() {
+    fn only_our_temporary_names_have_a_final_name() {
         assert_eq!(final_name("frame-000001.png.regatta-aB3dE6.part"), Some("frame-000001.png"));
         for other in ["frame-000001.png.part", "x.part", "x.aB3dE6", "x.aB3d_6.part", "x.aB3.part"]
         {
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn a_directory_that_is_not_there_is_the_systems_own_error() {
+    fn a_missing_directory_gives_the_error_of_the_system() {
         let folder = tempfile::tempdir().unwrap();
         let error = AtomicFile::create(&folder.path().join("no/x")).unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::NotFound);
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn the_longest_name_that_a_file_system_takes_can_be_written() {
+    fn the_longest_valid_file_name_can_be_written() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("x".repeat(255));
         write_file(&path, b"new", IfExists::Replace).unwrap();

@@ -127,7 +127,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn of_a_file_that_tells_no_length_nothing_is_read() {
+    fn a_file_without_a_length_reads_as_empty() {
         let path = Path::new("/proc/version");
         assert!(path.is_file() && !std::fs::read(path).unwrap().is_empty());
         assert_eq!(read(path, 4).unwrap(), b"");
@@ -135,7 +135,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn what_may_never_end_is_not_read() {
+    fn pipes_and_devices_are_not_read() {
         let folder = tempfile::tempdir().unwrap();
         let pipe = folder.path().join("pipe");
         let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();

@@ -95,7 +95,7 @@ mod tests {
     use crate::sim::integrators::method;
 
     #[test]
-    fn a_run_that_the_system_interrupts_is_not_the_cost_unless_every_run_takes_that_long() {
+    fn an_interrupted_run_does_not_count_as_the_cost() {
         let effort = Duration::from_millis(5);
         for (first_ms, others_ms, least, count) in
             [(900, 1, 900.0, 1), (40, 1, 1.0, 5), (1, 1, 1.0, 5), (60, 60, 60.0, 2)]
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_of_some_ticks_has_a_cost_and_one_of_none_has_not() {
+    fn only_a_run_with_ticks_has_a_cost() {
         let scene = Scene::built_in("chain").unwrap();
         let solver = Solver::Method(method("rk4").unwrap());
         let made = || Ticker::new(Lane::new(&scene, solver, 1), 60);

@@ -1,8 +1,8 @@
 //! The same inputs give the same bits: in debug and release, on every machine, at every frame rate.
 //!
-//! `tests/hashes.txt` holds the state hash of every built-in scene under every method, and
-//! `tests/early_hashes.txt` that of a twentieth of the way, where a debug build stops. If a change of the
-//! physics is meant, write both anew: `BLESS=1 cargo test --release --test determinism`.
+//! `tests/hashes.txt` holds the state hash of every built-in scene under every method. `tests/early_hashes.txt` holds
+//! the hash after a twentieth of the way, where a debug build stops. After an intended change of the physics, rewrite
+//! both: `BLESS=1 cargo test --release --test determinism`.
 
 #![cfg(feature = "lab")]
 
@@ -124,8 +124,8 @@ fn ragged(seed: u64) -> impl FnMut() -> i64 {
     }
 }
 
-/// Ticks a studio one by one to the last of `ticks`, compares it on the way with what pacings have marked, and returns
-/// the hashes at `ticks`.
+/// Ticks a studio one by one up to the last of `ticks`, compares it on the way with the marks of the pacings, and
+/// returns the hashes at `ticks`.
 fn compare(
     mut studio: Studio,
     ticks: &[u64],
@@ -170,7 +170,7 @@ fn lines(name: &str) -> Vec<String> {
     hashes.into_iter().map(|at| scene.fitting_methods().zip(at).map(line).collect()).collect()
 }
 
-/// Compares what was found with a file that is kept, or writes it.
+/// Compares `found` with a stored file, or rewrites the file.
 fn hold(file: &str, found: &str) {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests").join(file);
     if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
@@ -231,7 +231,7 @@ fn scripted(name: &str, script: Vec<(u64, Action)>) -> Scene {
     scene
 }
 
-/// The built-in scenes but the cloth, of which thousands of ticks take minutes in a debug build.
+/// The built-in scenes without the cloth, which needs minutes for thousands of ticks in a debug build.
 fn quick_scenes() -> impl Iterator<Item = &'static BuiltIn> {
     SCENES.iter().filter(|scene| scene.name != "cloth")
 }
@@ -251,7 +251,7 @@ fn a_script_acts_at_its_ticks(name: &str) {
         let what = format!("scripted {name} {kind}");
         let mut pacings =
             vec![("ragged", paced(field.open(&with), SCRIPTED_TICKS, ragged(0x5eed_0002)))];
-        // What acts on one lane acts on all, at the tick that the pacing brings.
+        // An action on one lane acts on all, at the tick of the pacing.
         if matches!(field, Field::Solo(_)) {
             pacings.extend([
                 ("steady", paced(field.open(&with), SCRIPTED_TICKS, steady())),
@@ -267,7 +267,7 @@ fn a_script_acts_at_its_ticks(name: &str) {
 }
 
 #[test]
-fn a_persons_commands_act_as_the_same_script_does() {
+fn a_persons_commands_act_like_the_same_script() {
     for (kind, field) in fields() {
         let mut by_script = field.open(&scripted("harbour", script()));
         let mut by_hand = field.open(&scripted("harbour", Vec::new()));
@@ -285,7 +285,7 @@ fn a_persons_commands_act_as_the_same_script_does() {
 }
 
 #[test]
-fn ragged_frames_lose_ticks_to_the_cap_and_the_loss_is_counted() {
+fn ragged_frames_lose_ticks_to_the_cap_and_count_them() {
     let mut frames = ragged(0x5eed_0003);
     let mut studio = Studio::new(built_in("spring"));
     let (mut real_ns, mut ticks, mut dropped) = (0, 0, 0);
@@ -305,7 +305,7 @@ fn ragged_frames_lose_ticks_to_the_cap_and_the_loss_is_counted() {
 }
 
 #[test]
-fn the_hash_sees_the_last_bit_of_every_value() {
+fn the_hash_depends_on_the_last_bit_of_every_value() {
     let scene = built_in("harbour");
     let hash = |scene: &Scene| Field::Everyone.open(scene).race().state_hash();
     let plain = hash(&scene);
@@ -324,7 +324,7 @@ fn the_hash_sees_the_last_bit_of_every_value() {
 }
 
 #[test]
-fn each_lane_has_the_hash_of_a_race_of_its_own() {
+fn each_lane_has_the_hash_it_has_alone() {
     let scene = built_in("harbour");
     let mut race = Field::Everyone.open(&scene);
     let mut solos: Vec<Studio> =
@@ -338,8 +338,8 @@ fn each_lane_has_the_hash_of_a_race_of_its_own() {
 }
 
 #[test]
-fn the_hash_sees_which_body_halted_and_when() {
-    // Two springs at rest, alike but for their kicks, of which a large one breaks a body before tick `when`.
+fn the_hash_depends_on_which_body_halted_and_when() {
+    // Two equal springs at rest with different kicks. A large kick breaks a body before tick `when`.
     let hash = |kicks: [&str; 2], when: u64| {
         let spring = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\nx0_m = 0\nkick_n_s =";
         let [one, other] = kicks;
@@ -365,10 +365,10 @@ fn the_hash_sees_which_body_halted_and_when() {
 }
 
 #[test]
-fn a_race_of_a_scene_is_the_race_that_the_program_runs() {
+fn the_race_of_the_library_is_the_race_of_the_program() {
     let plain = quick_scenes().map(|scene| built_in(scene.name));
     let scripted = quick_scenes().map(|scene| scripted(scene.name, script()));
-    // Past the last act of the script; what has none shows it sooner.
+    // Past the last action of the script; a scene without a script differs sooner.
     let scenes = plain.map(|scene| (scene, 5)).chain(scripted.map(|scene| (scene, 16)));
     for (scene, hundreds) in scenes {
         let mut race = Race::of_scene(&scene);

@@ -24,32 +24,32 @@ mod report;
 use judged::{decide, judge_all, search_margins, warn_of_load};
 
 const ABOUT: &str = "\
-Each method is judged on the scene from its start, with its script's inputs, against the exact
-solution. For each criterion the fewest substeps per tick, 1 to 64, are sought:
+Each method runs the scene from its start, with its script's inputs, against the exact solution. For
+each criterion, advise finds the fewest substeps per tick, 1 to 64:
 
   bounded      nothing grows that should not, over the scene and in the long run: no mode of a
-               linear body doubles within a year; any other body is followed for 20 times the
-               scene's length, and one that loses its swing for up to 2000 times, until it rests
-  looks-right  over the scene each swing is as wide as the truth's, within 5 % of the widest, its
-               peak found between the steps, and the frequency within 1 %; of several modes the
-               root of all their energies and the frequency of the one with the most; what does
-               not swing stays within 5 % of its range
+               linear body doubles within a year; any other body runs for 20 times the scene's
+               length, and one that loses its swing for up to 2000 times, until it rests
+  looks-right  each swing of the scene is as wide as the truth's, within 5 % of the widest, with
+               peaks found between the steps, and the frequency is right within 1 %; with several
+               modes, the root of their total energy and the frequency of the strongest; without
+               a swing, the motion stays within 5 % of its range
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
-The recommended method has the least cost, of equal ones the largest reserve, then the fewest substeps.
-The cost is evaluations of the acceleration per simulated second, times 2 to 3 where a method is linearised,
-4 where it iterates. The reserve is the factor by which the bodies may be stiffer, 10 at most, or the square
-of that by which the ticks may be slower, if that is less: a spring of four times the stiffness needs twice
-the rate. A method with a reserve below 1.5 is not recommended where another of up to twice its cost has a
-larger one; the answer then names it, in JSON as instead_of.
+The recommended method has the lowest cost; if equal, the largest reserve, then the fewest substeps.
+The cost is evaluations of the acceleration per simulated second, times 2 to 3 for a linearised method,
+4 for one that iterates. The reserve is the factor by which the bodies may be stiffer, 10 at most, or the
+square of the factor by which the ticks may be slower, if that is less: four times the stiffness needs
+twice the rate. A reserve below 1.5 yields to a larger one at up to twice the cost; the answer then names
+the cheaper method, in JSON as instead_of.
 
 With --all, HOLDS DOWN TO is the slowest tick rate at which the criterion still holds with the same
 substeps, and HOLDS UP TO the factor by which the named parameter may grow, 10 at most; NS/S is
-measured now, and decides nothing. In JSON a criterion that is not met has only met, which is false;
-one that cannot be told is null.
+measured now, and decides nothing. In JSON, a criterion that is not met has only met, which is false;
+an unknown one is null.
 
-For a custom spring (--k or --frequency), or with --as, the method recommended for looks-right, or
-else for bounded, follows as a function.
+For a custom spring (--k or --frequency), or with --as, the answer ends with a function: the method
+recommended for looks-right, or else for bounded.
 
 Examples:
   regatta advise --scene harbour
@@ -64,22 +64,22 @@ pub(super) struct AdviseArgs {
     #[command(flatten)]
     experiment: ExperimentArgs,
 
-    /// Also search the slowest tick rates
+    /// Also find the slowest tick rates
     ///
-    /// For each method in one step a tick, those from 1 to 10000 Hz that meet the criteria.
+    /// For each method with one step a tick, the slowest from 1 to 10000 Hz that meets each criterion.
     #[arg(long)]
     rates: bool,
 
-    /// Judge the methods of this family
+    /// Judge only the methods of this family
     ///
-    /// Explicit, symplectic, adaptive, implicit, linearised, as-printed, follower or engine; as-printed and engines are judged
-    /// only so.
+    /// Explicit, symplectic, adaptive, implicit, linearised, as-printed, follower or engine; advise judges as-printed
+    /// and engines only by this option.
     #[arg(long, value_name = "FAMILY", value_parser = FAMILY, hide_possible_values = true, conflicts_with = "methods")]
     family: Option<Family>,
 
     /// Print all tables
     ///
-    /// Of every method the verdict, and for each criterion the costs and what it holds down and up to.
+    /// The verdict of every method, and for each criterion its costs and limits.
     #[arg(long)]
     all: bool,
 

@@ -25,7 +25,7 @@ use crate::studio::{Instrument, loop_lab_refusal};
 
 const EXAMPLES: &str = "\
 Frame i shows the run at i / fps seconds. The same command makes the same bytes. manifest.json,
-written last, says what was drawn; `regatta verify` judges by it.
+written last, describes the frames; `regatta verify` compares with it.
 
 Examples:
   regatta capture --scene spring --race --out clip
@@ -53,7 +53,7 @@ pub(super) struct CaptureArgs {
 
     /// The directory of the frames, or the file
     ///
-    /// In the format png a directory for frame-000000.png and so on, created if necessary; in others a file, or - for
+    /// For the format png a directory of frame-000000.png and so on, created if necessary. For others a file, or - for
     /// standard output.
     #[arg(long, value_name = "DIR|FILE")]
     out: PathBuf,
@@ -79,7 +79,7 @@ pub(super) struct CaptureArgs {
 
     /// Width and height in pixels [default: 1280x720]
     ///
-    /// From 1x1 to 8192x8192; in a sheet those of each cell, by default 320x180.
+    /// From 1x1 to 8192x8192; in a sheet the size of a cell, by default 320x180.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
 
@@ -101,7 +101,7 @@ pub(super) struct CaptureArgs {
 
     /// The instrument [default: motion]
     ///
-    /// That among the panels, such as energy, phase or cloud.
+    /// For the panels, such as energy, phase or cloud.
     #[arg(long, value_name = "NAME", value_parser = INSTRUMENT, conflicts_with = "loop_trace")]
     #[arg(hide_possible_values = true)]
     instrument: Option<Instrument>,
@@ -113,9 +113,9 @@ pub(super) struct CaptureArgs {
     #[arg(hide_possible_values = true)]
     shape: Option<CloudShape>,
 
-    /// In the instrument cloud a section after Poincaré
+    /// Show a Poincaré section in the instrument cloud
     ///
-    /// Where the starts come once in each period of a drive, or at each tick where nothing drives them.
+    /// States of many starts once per period of a drive, or at each tick without a drive.
     #[arg(long, requires = "instrument", conflicts_with = "shape")]
     section: bool,
 
@@ -128,7 +128,7 @@ pub(super) struct CaptureArgs {
 
     /// The format: png, gif, y4m or sheet
     ///
-    /// By default that of the ending of FILE, which is .png of a sheet, and png for a DIR.
+    /// By default from FILE's ending (.png is a sheet), and png for a DIR.
     #[arg(long, value_name = "FORMAT", value_parser = picture_format::by_id(), hide_possible_values = true)]
     format: Option<&'static PictureFormat>,
 
@@ -161,7 +161,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     };
     if cloud.is_some() && args.instrument != Some(Instrument::Cloud) {
         return Err(Error::mistake(
-            "--shape and --section are of the instrument cloud; give --instrument cloud, or neither",
+            "--shape and --section need the instrument cloud; give --instrument cloud, or neither",
         ));
     }
     let format = PictureFormat::of(&args.out, args.format)?;

@@ -31,7 +31,7 @@ use figures::Diagram;
 use folder::FigureFolder;
 
 const EXAMPLES: &str = "\
-A tick stands beside each number that equals the printed one to the last digit. Figures 7-5 and
+A tick marks each number that equals the printed one to the last digit. Figures 7-5 and
 7-8 show a spring whose parameters the chapter does not print; those are ours.
 
 Examples:
@@ -44,7 +44,7 @@ Examples:
 pub(super) struct ChapterArgs {
     /// The directory for the figures and their data
     ///
-    /// They are figure-7-2.png, figure-7-2.csv and so on. The directory is made where there is none.
+    /// Files figure-7-2.png, figure-7-2.csv and so on. The directory is created if necessary.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 

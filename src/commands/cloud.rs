@@ -28,16 +28,16 @@ use crate::scene::{LaneSpec, Scene, SceneBody};
 
 const ABOUT: &str = "\
 The starts fill the shape evenly about the scene's start, in the plane of the coordinate and the
-velocity of its first body of one coordinate. The scene's script is left out. One row for each
+velocity of its first body of one coordinate. The cloud ignores the scene's script. One row for each
 method:
   points            the starts that have not blown up
-  area_ratio        the area over that at the start; empty where no point is left, or the cloud is
-                    too fine, folded or torn for its points to tell
-  spread            the root mean square distance from the middle, over that at the start
+  area_ratio        the area divided by the area at the start; empty if no point is left, or if the
+                    cloud is too fine, folded or torn to measure
+  spread            the root mean square distance from the middle, divided by that at the start
   body_steps_per_s  measured here and now
   hash              of all states, to the bit: the same for any number of threads
 
-`regatta capture --instrument cloud` draws it, and with --section a section after Poincaré.
+`regatta capture --instrument cloud` draws it, and with --section a Poincaré section.
 
 Examples:
   regatta cloud --scene liouville
@@ -63,8 +63,8 @@ pub(super) struct CloudArgs {
 
     /// The reach of the shape
     ///
-    /// In the unit of the coordinate. The default is a quarter of the swing; the clouds of the window, which are seen
-    /// small, reach twice as far.
+    /// In the unit of the coordinate. The default is a quarter of the swing; clouds in the window are small, and reach
+    /// twice as far.
     #[arg(long, alias = "size", value_name = "R", value_parser = reach)]
     reach: Option<f64>,
 
@@ -77,7 +77,7 @@ pub(super) struct CloudArgs {
 
     /// Threads, 1 to 256 [default: one for each core]
     ///
-    /// Or RAYON_NUM_THREADS, where that is set.
+    /// Or RAYON_NUM_THREADS, if set.
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,

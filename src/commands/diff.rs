@@ -20,26 +20,27 @@ mod source;
 use source::Source;
 
 const ABOUT: &str = "\
-A run is a table, of `regatta trace` or with a column for each number, split by commas, semicolons or
-tabs; the run of a scene or of a recording, which is made again; the states in the manifest of a
-capture; or - for a table on standard input. Rows belong together by tick, lane, body and coordinate,
-or by those of them that the tables have. A table without tick is matched by t, and without t by the
-place of the row; --key names other columns by which rows belong together, such as frame,object, of
-which a frame or step counts ticks. All columns but these, t and method are compared, or those of
---columns, and not those of --ignore. A column is of numbers, or of text as a whole where one cell is
-no number: hashes are. A row on one side alone is counted under the side that lacks it. Lines that begin with # are notes above the header, and rows below it.
-A file must be a regular one, and a row has at most 1 MiB.
+A run is a table, a scene or recording (diff runs it again), the directory of a capture (diff reads the
+states in its manifest), or - for a table on standard input. A table comes from `regatta trace`, or has a
+column for each number; commas, semicolons or tabs separate its cells.
 
-The last bit counts, unless --ulps or --relative says what is equal. NaN is the same as NaN, and -0 as 0.
-A difference reaches 1e-12 at the first tick where it is that part of the largest value that this column of
-this coordinate had until then. The column that differs most is found by the same part. If the difference
-grows exponentially through three decades, its rate is told, by the times of a column t.
+Diff matches rows by the columns tick, lane, body and coordinate, as far as the tables have them; without
+tick by t, and without t by the number of the row. --key names other columns, such as frame,object; one
+called frame or step then counts ticks. Diff compares all columns but these, t and method; --columns and
+--ignore choose others. A column holds text if one of its cells is no number, as hashes are. A row on one
+side alone counts under the side that lacks it. Lines that begin with # are notes above the header, and
+rows below it. A file must be a regular one, and a row has at most 1 MiB.
+
+Numbers must be equal to the bit, unless --ulps or --relative allows more. NaN equals NaN, and -0 equals 0.
+A difference reaches 1e-12 at the first tick where it is that fraction of the largest value so far in this
+column of this coordinate. The column that differs most has the largest such fraction. If the difference
+grows exponentially through three decades, diff prints its rate, by the times of a column t.
 
 In JSON, columns are those that differ, with their first tick and their rows, and equal the others.
 
-Exit code 0: the same. 1: different. 2: cannot be compared, as where nothing moves: a column that is called
-like a clock and never goes back does not, nor does one of several that grows by the same amount in each row,
-unless it is called like a coordinate, such as x or position.
+Exit code 0: the same. 1: different. 2: cannot be compared, for example because nothing moves. A column
+that is called like a clock and never goes back does not count as motion. Nor does one of several that
+grows by the same amount in each row, unless it is called like a coordinate, such as x or position.
 
 Examples:
   regatta diff before.csv after.csv
@@ -61,16 +62,16 @@ pub(super) struct DiffArgs {
     #[arg(value_name = "B")]
     b: PathBuf,
 
-    /// Numbers with at most N doubles from one to the other are equal
+    /// Numbers at most N doubles apart are equal
     #[arg(long, value_name = "N", default_value_t = 0)]
     ulps: u64,
 
-    /// Numbers that differ by at most this part of the larger are equal
+    /// Numbers that differ by at most this fraction of the larger are equal
     #[arg(long, value_name = "R", default_value = "0", value_parser = part)]
     #[arg(allow_negative_numbers = true)]
     relative: f64,
 
-    /// The columns by which rows belong together [default: tick,lane,body,coordinate]
+    /// The columns that match rows [default: tick,lane,body,coordinate]
     #[arg(long, value_name = "COLUMN,…", value_delimiter = ',')]
     key: Vec<String>,
 
@@ -177,10 +178,10 @@ fn words(found: &Comparison, a: &Path, b: &Path) -> String {
         }
     }
     if found.is_by_place && !found.is_same() {
-        lines.push("rows belong together by their place; --key joins them by columns".into());
+        lines.push("rows are matched by their number; --key matches them by columns".into());
     }
     for (count, what) in [
-        (found.displaced, "rows that stand elsewhere"),
+        (found.displaced, "rows in another order"),
         (found.zeros_of_two_signs, "zeros of two signs, taken as equal"),
         (found.nans, "NaN on both sides, taken as equal"),
     ] {

@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn of_many_methods_that_race_the_best_is_selected_and_of_few_the_first_named() {
+    fn a_race_of_many_methods_selects_the_best_and_a_race_of_few_the_first_named() {
         let ids: Vec<&str> = METHODS.iter().map(|method| method.id).take(MANY_LANES).collect();
         for (count, is_best) in [(MANY_LANES, true), (MANY_LANES - 1, false)] {
             let named = ids[..count].iter().flat_map(|id| ["--method", id]);
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn a_race_of_a_scene_selects_the_lane_that_its_verdicts_put_first() {
+    fn a_scenes_race_selects_the_lane_with_the_best_verdict() {
         let line = <Line as clap::Parser>::parse_from(["", "--scene", "spring"]);
         let mut studio = line.experiment.load(Mode::Race).unwrap().studio();
         studio.analyse();

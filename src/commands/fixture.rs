@@ -15,10 +15,10 @@ use crate::studio::Studio;
 
 const ABOUT: &str = "\
 The table has ticks with coordinates and velocities, in metres or radians and per second, to the last
-digit. In pytest, gtest and rust it comes with a function `expect(step)`, which holds your engine's step
-against it, and a test that fails until you have filled that in. Where a body has no closed form its states
-are those of the reference, whose error on this run is the least tolerance. What a scene does on its way
-stands in its script, at the top of the file with every parameter.
+digit. In pytest, gtest and rust it comes with a function `expect(step)`, which compares your engine's step
+with it, and a test that fails until you fill that step in. The states of a body without a closed form are
+those of the reference; its error on this run is the least tolerance. The top of the file has the scene's
+script and every parameter.
 
 Examples:
   regatta fixture --scene spring --as pytest > test_spring.py
@@ -50,7 +50,7 @@ pub(super) struct FixtureArgs {
     #[arg(long = "as", value_name = "FORMAT", hide_possible_values = true)]
     format: Format,
 
-    /// Numbers of single precision, as Unity and Godot have them
+    /// Use single precision, as Unity and Godot do
     #[arg(long)]
     float: bool,
 }

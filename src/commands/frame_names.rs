@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_ours_by_what_is_in_it() {
+    fn a_file_is_recognised_by_its_content() {
         let folder = tempfile::tempdir().unwrap();
         let file = |name: &str, bytes: &[u8]| {
             let path = folder.path().join(name);

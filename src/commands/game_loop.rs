@@ -53,9 +53,9 @@ One row for each trace and policy, in the order asked for; times are in ms:
                       the range), of the worst body
   ticks, evaluations  steps made, and evaluations of the bodies' accelerations
 
-In --frame-rows q is the first coordinate of the scene's first body. Below the rows stands which loop
-to take: of those with a fixed tick that are smooth within --latency-ms the one with the least animation
-error, or why there is none. `regatta help loops` says more.
+In --frame-rows q is the first coordinate of the scene's first body. Below the rows, loop recommends one:
+the loop with the least animation error that has a fixed tick and is smooth within --latency-ms; or it
+says why there is none. `regatta help loops` says more.
 
 Examples:
   regatta loop > loops.csv
@@ -79,8 +79,9 @@ pub(super) struct LoopArgs {
 
     /// A trace, or several [default: all built-in ones]
     ///
-    /// `regatta list traces` has the names. What is no name is a CSV file of PresentMon, OCAT, CapFrameX, FrameView,
-    /// MangoHud, Unreal or FRAPS, or a list of frame times in milliseconds, one a line. Give the option again for each.
+    /// `regatta list traces` has the names. Anything else is read as a file: CSV of PresentMon, OCAT, CapFrameX,
+    /// FrameView, MangoHud, Unreal or FRAPS, or frame times in milliseconds, one a line. Give the option again for
+    /// each.
     #[arg(long = "trace", value_name = "ID|FILE", value_parser = PathOrName(trace_names))]
     #[arg(hide_possible_values = true)]
     traces: Vec<PathBuf>,
@@ -90,19 +91,20 @@ pub(super) struct LoopArgs {
 
     /// The refresh rate [default: the trace's]
     ///
-    /// In Hz, 1 to 1000. Without --trace there is an even display of this rate.
+    /// In Hz, 1 to 1000. Without --trace, an even display of this rate.
     #[arg(long, value_name = "N")]
     display_hz: Option<RefreshRate>,
 
     /// Frames per second of a game with even frames [default: the display's]
     ///
-    /// In Hz, 1 to 1000. Without --display-hz the display shows each frame when it begins, as one of a variable rate.
+    /// In Hz, 1 to 1000. Without --display-hz the display shows each frame when it begins, like one with a variable
+    /// rate.
     #[arg(long, value_name = "N", conflicts_with = "traces")]
     fps: Option<RefreshRate>,
 
     /// The most ticks in a frame [default: each loop's own]
     ///
-    /// As Unity's maximumDeltaTime, Godot's max steps and the like: what a frame is longer is given up.
+    /// Like Unity's maximumDeltaTime or Godot's max steps: the rest of a longer frame is dropped.
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000))]
     max_ticks: Option<u32>,
@@ -114,7 +116,7 @@ pub(super) struct LoopArgs {
 
     /// A scene or the file of one
     ///
-    /// `regatta list scenes` has the names. What is no name is the path of a file.
+    /// `regatta list scenes` has the names. Anything else is read as a file.
     #[arg(long, value_name = "NAME|FILE", default_value = "spring", value_parser = PathOrName(scene_names))]
     #[arg(hide_possible_values = true)]
     scene: PathBuf,
@@ -128,11 +130,11 @@ pub(super) struct LoopArgs {
 
     /// Seconds of real time of each run
     ///
-    /// A trace from a file may end before. The default is the scene's, but at least 10, and the whole of a file.
+    /// A trace from a file may end before. The default is the scene's, at least 10, and a whole file.
     #[arg(long, value_name = "s", value_parser = some_seconds, allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// The most mean latency of what is advised
+    /// The most mean latency that the advised loop may have
     ///
     /// On a trace from a file, above the least.
     #[arg(long, value_name = "ms", default_value_t = USUAL_LATENCY_MS, value_parser = latency)]
@@ -141,7 +143,7 @@ pub(super) struct LoopArgs {
 
     /// How to write the rows: csv or json
     ///
-    /// By default as the ending of --out says, else csv.
+    /// By default from the ending of --out, else csv.
     #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
     format: Option<RowFormat>,
 
@@ -155,9 +157,9 @@ pub(super) struct LoopArgs {
     #[arg(long, alias = "frames", value_name = "FILE")]
     frame_rows: Option<PathBuf>,
 
-    /// Draw what each loop shows as PNG into FILE
+    /// Draw the motion of each loop as PNG into FILE
     ///
-    /// The moment shown against the moment of display, and what each loop costs, on up to four traces.
+    /// The moment shown against the moment of display, and the cost of each loop, on up to four traces.
     #[cfg(feature = "view")]
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
@@ -244,7 +246,7 @@ impl LoopArgs {
         if let Some(card) = free {
             let limited = POLICIES.iter().filter(|card| card.has_max_ticks).map(|card| card.id);
             return Err(Error::mistake(format!(
-                "--max-ticks does nothing under {}, which has no most ticks in a frame; leave it out, or take {}",
+                "--max-ticks does nothing under {}, which does not limit ticks; leave it out, or take {}",
                 card.id,
                 limited.collect::<Vec<_>>().join(", ")
             )));
@@ -331,7 +333,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_has_no_unit_is_a_count_and_is_written_as_a_whole_number() {
+    fn only_counts_have_no_unit() {
         let counts = metrics().filter(|metric| metric.unit == Unit::One).map(|metric| metric.id);
         assert!(counts.eq(["frames", "ticks", "evaluations"]));
     }

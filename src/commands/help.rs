@@ -22,7 +22,7 @@ pub(super) const COLUMNS: usize = 80;
 /// Indent of a list row, in blanks.
 const ROW_INDENT: usize = 2;
 
-/// Print this help, that of a command, or a chapter of the manual
+/// Print this help, help on a command, or a chapter of the manual
 #[derive(Debug, Default, Args)]
 #[command(after_long_help = flowing(&manual()))]
 pub(super) struct HelpArgs {
@@ -115,7 +115,7 @@ mod tests {
     use super::flowing;
 
     #[test]
-    fn paragraphs_flow_and_rows_that_are_too_wide_explain_below_their_term() {
+    fn paragraphs_wrap_and_wide_rows_move_the_explanation_below_the_term() {
         let long = "a word ".repeat(12);
         let text = format!(
             "One\ntwo:\n  a   b\n  cd  e\n\nThree\n\n  f   g\n  h   {long}\n      i\nfour\nfive"

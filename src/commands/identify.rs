@@ -18,27 +18,27 @@ mod findings;
 use findings::{object, words};
 
 const ABOUT: &str = "\
-LOG.csv has a header and a row for each tick, or for some of them: t in seconds, x in metres and,
-if it was logged, v. Where rows are skipped, a column tick counts them; else the tick is read off t.
-Rows at uneven times, as of a video, show the motion but not the method. Without v, a body that could
-be anyone's is supposed to start at rest, if that tells. A line on standard error says what was read.
+LOG.csv has a header and a row for each tick, or for some of them: t in seconds, x in metres and v, if
+logged. If rows are skipped, a column tick counts them; without it, t does. Rows at uneven times, as of a
+video, show the motion but not the method. If a log without v fits several methods, identify assumes a
+start at rest where that decides. A line on standard error names the columns and the rate.
 The body is one of:
 
   a spring      --k, and --c and --mass if they are not 0 and 1
   a body that coasts or is driven    --drag, the damping setting in 1/s, and --thrust in newtons
-  neither given: a spring whose stiffness and damping are fitted too, which leaves more open
+  neither given: a spring; its stiffness and damping are fitted too, which leaves more open
 
-A spring that rests elsewhere than at 0 is found, or given with --rest.
+Identify finds where the spring rests, if not at 0, or takes it from --rest.
 
 A residual is the root mean square of the difference from the log, in units of the largest x and v.
 The word is
 
   identified    one method explains the log to its noise, with those that do the same on this body
   cannot tell   methods that differ explain it equally well, or the log is too short to tell
-  unknown       none explains it; a damped swing is fitted, with its standard errors
+  unknown       none explains it; the answer is a damped swing, with its standard errors
 
-In JSON, also are methods that do the same on this body, unusual such as would too but are rare, and
-held says that the game applies the spring's force itself.
+In JSON, also lists methods that do the same on this body, unusual lists rare ones that fit too, and held
+says that the game applies the spring's force itself.
 
 Examples:
   regatta identify spring.csv --tick-hz 60 --k 40 --c 0.5 --mass 2

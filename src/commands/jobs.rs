@@ -119,7 +119,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn results_stand_in_the_order_of_their_jobs() {
+    fn results_keep_the_order_of_their_jobs() {
         let pool = pool(3).unwrap();
         let square = |job| {
             thread::sleep(Duration::from_millis(if job % 2 == 0 { 2 } else { 0 }));
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn a_result_is_waited_for_until_an_interrupt_and_a_panic_goes_on() {
+    fn an_interrupt_ends_the_wait_for_a_result_and_a_panic_propagates() {
         let interrupted = AtomicBool::new(false);
         assert_eq!(result(&interrupted, || 7), Some(7));
         let panics = || -> Option<()> { result(&interrupted, || panic!("a bug")) };
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn an_interrupt_leaves_the_results_that_are_there() {
+    fn an_interrupt_keeps_the_finished_results() {
         let pool = pool(1).unwrap();
         let interrupted = Arc::new(AtomicBool::new(false));
         let set = Arc::clone(&interrupted);

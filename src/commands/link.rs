@@ -15,8 +15,8 @@ use crate::run::link::MAX_LETTERS;
 
 const ABOUT: &str = "\
 The link holds the scene, its lanes, its script and the hashes at its end, so that `regatta verify LINK`
-says whether the run is the same to the bit here. A built-in scene goes by its name. A link stands in the
-place of a scene, alone or after an address:
+can compare the run here to the bit. It only names a built-in scene. A link works wherever a scene does,
+alone or after an address:
 
   play, capture, trace, verify, diff … LINK
 

@@ -45,9 +45,9 @@ enum Listing {
     Scenes,
     /// The integrators, for `--method` and for scene files
     Methods,
-    /// The bodies, and the keys by which a scene file describes them
+    /// The bodies, and their keys in a scene file
     Bodies,
-    /// What `trace --metrics` writes
+    /// The metrics that `trace --metrics` writes
     Metrics,
     /// The game loops, for `loop --policy`
     Policies,

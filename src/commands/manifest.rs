@@ -324,13 +324,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_fingerprint_is_that_of_other_programs() {
+    fn the_fingerprint_matches_the_reference_vectors() {
         // From the reference implementation's own test vectors.
         assert_eq!(fingerprint(b""), "2d06800538d394c2");
     }
 
     #[test]
-    fn every_value_is_read_back_as_it_was_written() {
+    fn every_value_survives_writing_and_reading() {
         let q = [0.1, -0.0, f64::MAX, 5e-324, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
         let mark = LaneMark { hash: "0".into(), q: vec![q.to_vec(), vec![]], v: vec![] };
         let text = serde_json::to_string(&mark).unwrap();
@@ -344,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tick_rate_is_a_number_or_text_that_is_read_back_as_the_same() {
+    fn a_tick_rate_survives_writing_as_number_or_text() {
         #[derive(Debug, PartialEq, Deserialize, Serialize)]
         struct Rate(#[serde(with = "exact")] TickRate);
         for (rate, json) in [
@@ -365,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_refused_with_its_word() {
+    fn a_word_in_place_of_a_number_is_quoted_in_the_error() {
         let text = r#"{"hash":"0","q":[["many"]],"v":[]}"#;
         let error = serde_json::from_str::<LaneMark>(text).unwrap_err().to_string();
         assert!(error.contains(r#""many" is no number"#), "{error}");

@@ -111,7 +111,7 @@ In the window, H shows the keys. `regatta help COMMAND` explains a command,";
 
 /// Race numerical integrators against the exact solution
 ///
-/// Ships, springs, chains, pendulums and orbits are stepped by every method at once, at the tick rate that you choose.
+/// Every method steps the same ships, springs, chains, pendulums and orbits, at the tick rate that you choose.
 #[derive(Debug, Parser)]
 #[command(name = "regatta", version, args_conflicts_with_subcommands = true)]
 #[command(disable_help_subcommand = true)]
@@ -187,7 +187,8 @@ impl Cli {
         let long = (1..).zip(arguments.iter().skip(1)).find(|(_, one)| is_long(one));
         if let Some((place, long)) = long {
             let message = format!(
-                "argument {place} has {} bytes, and the most are {MAX_ARGUMENT_BYTES}; give a file in place of \"{}\"\n",
+                "argument {place} has {} bytes, and the limit is {MAX_ARGUMENT_BYTES}; give a file in place of \
+                 \"{}\"\n",
                 long.len(),
                 shortened(&long.to_string_lossy()),
             );

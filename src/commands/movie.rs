@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_are_those_of_bt_601() {
+    fn colours_follow_bt_601() {
         let mut planes = Vec::new();
         let rgba: Vec<u8> = [[0, 0, 0], [255, 255, 255], [255, 0, 0], [0, 255, 0], [0, 0, 255]]
             .iter()

@@ -39,12 +39,7 @@ pub(super) static FORMATS: [PictureFormat; 4] = [
     PictureFormat {
         // Players show a frame for at least two hundredths of a second.
         max_fps: Some(50),
-        ..format(
-            "gif",
-            "One GIF, each frame with a palette of its own",
-            &["gif"],
-            Movie(movie::gif),
-        )
+        ..format("gif", "One GIF, each frame with its own palette", &["gif"], Movie(movie::gif))
     },
     format("y4m", "YUV4MPEG2, for a video encoder", &["y4m"], Movie(movie::y4m)),
     format("sheet", "One picture, time across, lanes down", &["png"], Sheet),
@@ -137,7 +132,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_asks_for_its_format_and_contradicts_others() {
+    fn a_file_name_sets_its_format_and_must_not_contradict_it() {
         for (out, asked, expected) in [
             ("clip", None, Some("png")),
             ("clip", Some("gif"), Some("gif")),
@@ -168,7 +163,7 @@ mod tests {
         }
     }
     #[test]
-    fn every_ending_of_a_format_is_one_of_pictures() {
+    fn every_format_extension_is_a_picture_extension() {
         for ending in FORMATS.iter().flat_map(|format| format.endings) {
             assert!(is_of_pictures(ending) && !holds_no_picture(ending), "{ending}");
         }

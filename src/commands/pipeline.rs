@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn results_leave_the_window_in_order_whatever_order_they_come_in() {
+    fn results_leave_the_window_in_order() {
         let mut window = ReorderingWindow::default();
         let mut left = Vec::new();
         for (number, held_back) in [(2, 1), (0, 1), (3, 2), (1, 0), (4, 0)] {
@@ -287,8 +287,8 @@ mod tests {
     }
 
     #[test]
-    fn no_more_frames_are_on_their_way_than_there_are_buffers() {
-        let test = "no_more_frames_are_on_their_way_than_there_are_buffers";
+    fn frames_in_flight_never_exceed_the_buffers() {
+        let test = "frames_in_flight_never_exceed_the_buffers";
         let Some(mut renderer) = renderer_or_skip(test) else { return };
         let mut studio = race();
         let mut state_log = StateLog::new(1, studio.race());
@@ -316,8 +316,8 @@ mod tests {
     }
 
     #[test]
-    fn frames_come_in_order_with_the_same_bytes_as_one_at_a_time() {
-        let test = "frames_come_in_order_with_the_same_bytes_as_one_at_a_time";
+    fn pipelined_frames_keep_their_order_and_bytes() {
+        let test = "pipelined_frames_keep_their_order_and_bytes";
         let Some(mut renderer) = renderer_or_skip(test) else { return };
         let (mut studio, mut rgba, mut one_by_one) = (race(), Vec::new(), Vec::new());
         for frame in 0..SCHEDULE.frames {
@@ -336,8 +336,8 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_that_cannot_be_taken_ends_the_run_with_its_reason() {
-        let test = "a_frame_that_cannot_be_taken_ends_the_run_with_its_reason";
+    fn a_refused_frame_ends_the_run_with_its_reason() {
+        let test = "a_refused_frame_ends_the_run_with_its_reason";
         let Some(mut renderer) = renderer_or_skip(test) else { return };
         let mut taken = 0;
         let stopped = piped(&mut renderer, &AtomicBool::new(false), |_| {
@@ -349,8 +349,8 @@ mod tests {
     }
 
     #[test]
-    fn an_interrupt_lets_the_frames_in_hand_be_taken() {
-        let test = "an_interrupt_lets_the_frames_in_hand_be_taken";
+    fn an_interrupt_still_delivers_the_frames_in_flight() {
+        let test = "an_interrupt_still_delivers_the_frames_in_flight";
         let Some(mut renderer) = renderer_or_skip(test) else { return };
         let interrupted = AtomicBool::new(false);
         let mut taken = 0;

@@ -34,7 +34,7 @@ Examples:
   regatta play --scene my.toml
   regatta play --scene spring --record run.toml
 
-In the window, H shows the keys. Without a display the first seconds are drawn into
+In the window, H shows the keys. Without a display, play draws the first seconds into
 ./regatta-frames instead.";
 
 /// Open the window (also without `play`)
@@ -64,8 +64,7 @@ pub(super) struct PlayArgs {
 
     /// Write the run to FILE as a scene
     ///
-    /// It is written when the window is closed or Ctrl-C is pressed. Until then it grows beside it, in
-    /// FILE.unfinished.toml.
+    /// Play writes it when the window closes, or on Ctrl-C. Until then it saves the run so far as FILE.unfinished.toml.
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
 
@@ -171,9 +170,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         }
         if studio.scene().name != played {
             let scene = studio.deck.scene_name();
-            print_status(&format!(
-                "the run recorded is that of {scene}, which was opened after {played}"
-            ));
+            print_status(&format!("the recording is of {scene}, which was opened after {played}"));
         }
         print_status(&format!("recorded {} in {name}", ticks(&studio)));
     }

@@ -24,33 +24,33 @@ mod report;
 use from::From;
 
 const ABOUT: &str = "\
-For each engine, the settings are sought under which its tick shows what is wished:
+For each engine, port finds the settings with which its ticks show the wish:
 
-  --frequency F --damping-ratio R  what a player is to see
-  --from engine-X:KEY=VALUE,…      what engine X shows with its own settings; substeps, tick_hz and
-                                   mode may be given as keys too
-  --from LOG.csv                   what is seen in a log, which is read as by `regatta identify`
+  --frequency F --damping-ratio R  the motion that a player should see
+  --from engine-X:KEY=VALUE,…      the motion of engine X with its own settings; substeps, tick_hz and
+                                   mode are keys too
+  --from LOG.csv                   the motion in a log, read as by `regatta identify`
   --from lerp:0.1@60fps            a value that chases a target: also lerp-dt:20@30fps,
                                    smooth-damp:SECONDS and half-life:SECONDS
-  --from friction:0.9@60fps        a velocity of which a frame keeps that part
+  --from friction:0.9@60fps        a velocity that keeps this fraction in each frame
   --from per-frame-decay:stiffness=0.2,decay=0.85
                                    v = (v + (target - x) * stiffness) * decay; x += v in a frame
-  --from swiftui:KEY=VALUE,…       a spring of a user interface; what is left out is the library's own
+  --from swiftui:KEY=VALUE,…       a spring of a user interface; other keys have its library's defaults
 
-Springs of user interfaces, with the version that each is held against: {dialects}.
+Springs of user interfaces, with the version that tests compare each with: {dialects}.
 
-The frequency is the one at which the spring would swing without its damping; with a damping ratio d
-it swings √(1 - d²) times as fast. The word is
+The frequency is that of the spring without its damping; with a damping ratio d it swings √(1 - d²)
+times as fast. The word is
 
   reached      the engine shows the wish, to rounding
   nearest      it does not; these settings come nearest
-  unreachable  it does not, because it damps more by itself: its floor is the least damping ratio
-               that it shows at this frequency; or it explodes
+  unreachable  its own damping is too strong: its floor is the least damping ratio that it shows at
+               this frequency; or it explodes
 
-Where an engine has no substeps, as Chipmunk and Godot, N of them are N ticks of dt / N that the
-game makes; in PhysX they are position iterations. With --drive the wish is the gains of a drive, of
-the engine's own and of a force of user code that is held through --decimation ticks; those that --from
-names are judged as they are given.
+An engine without substeps, such as Chipmunk and Godot, runs N of them as N ticks of dt / N, made by the
+game; in PhysX they are position iterations. With --drive the wish gives the gains of
+a drive, as written in --from, and port finds their limits: in the engine's own drive, and in a force of
+user code held for --decimation ticks.
 
 Examples:
   regatta port --frequency 2.5Hz --damping-ratio 0.3 --mass 80
@@ -65,12 +65,12 @@ Examples:
 #[command(after_long_help = flowing(&about()))]
 #[command(group = ArgGroup::new("wish").required(true))]
 pub(super) struct PortArgs {
-    /// The frequency that a player is to see
+    /// The frequency that a player should see
     #[arg(long, alias = "want", value_name = "Hz", group = "wish", value_parser = frequency)]
     #[arg(allow_hyphen_values = true)]
     frequency: Option<f64>,
 
-    /// The damping ratio to be seen [default: 0]
+    /// The damping ratio that a player should see [default: 0]
     ///
     /// At 1 it is critically damped and no longer swings.
     #[arg(long, alias = "zeta", value_name = "RATIO", value_parser = number)]
@@ -105,7 +105,7 @@ pub(super) struct PortArgs {
 
     /// Engines and user interfaces, all engines, or all of the others: ui
     ///
-    /// [default: all, or ui for what comes from one]
+    /// [default: all, or ui if --from names one]
     #[arg(long, value_name = "ID,…|all|ui", value_delimiter = ',')]
     #[arg(value_parser = TARGET, hide_possible_values = true)]
     to: Vec<Target>,
@@ -114,7 +114,7 @@ pub(super) struct PortArgs {
     #[arg(long)]
     drive: bool,
 
-    /// The ticks through which a drive of user code holds its force
+    /// How many ticks a drive in user code holds its force
     #[arg(long, value_name = "N", default_value = "1", requires = "drive")]
     #[arg(value_parser = RangedU64ValueParser::<u32>::new().range(1..=1000))]
     decimation: u32,

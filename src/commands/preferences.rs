@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_that_is_not_there_is_nothing_to_remember_and_one_that_is_no_text_is_told() {
+    fn a_missing_file_gives_defaults_and_a_binary_file_an_error() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(FILE_NAME);
         assert_eq!(read(&path), Ok(SavedPreferences::default()));

@@ -23,16 +23,16 @@ use crate::tools::rule::{SeenRule, rule_scene};
 use crate::tools::source_code::Language;
 
 const ABOUT: &str = "\
-RULE is the lines that a game runs once a frame, or a file of them, or - for standard input. They
-assign x, what moves, and v, its velocity; they may read target, where it goes, and dt (or h), the
-length of a frame. `regatta help step` has the grammar.
+RULE is the lines that a game runs once a frame, a file of them, or - for standard input. They assign
+the position x and its velocity v; they may read target, the goal of x, and dt (or h), the length of a
+frame. `regatta help step` has the grammar.
 
-Answered are the frequency, the damping ratio, the overshoot and the time to the last hundredth of
-the way, at the author's frame rate and at others; the rates below which it rings and grows; the
-spring that it is, in the words of user interfaces; and code that moves the same at any frame rate.
+The answer has the frequency, the damping ratio, the overshoot and the time to the last hundredth of
+the way, at the author's frame rate and at others. It has the rates below which the rule rings and
+grows, the same spring in the words of user interfaces, and code that moves alike at any frame rate.
 
-In JSON, hz is the frequency that is seen, null where nothing swings, and spring.hz the one without
-damping; code has all languages.
+In JSON, hz is the visible frequency, null if nothing swings, and spring.hz the one without damping;
+code has all languages.
 
 Examples:
   regatta rule 'v = (v + (target - x) * 0.2) * 0.85; x += v'
@@ -41,7 +41,7 @@ Examples:
   regatta rule camera.step
   regatta rule camera.step --fps 50 --scene > camera.toml";
 
-/// Say what your own lines do at every frame rate
+/// Show how your own lines move at every frame rate
 ///
 /// And print code that does not depend on it.
 #[derive(Debug, Args)]
@@ -61,10 +61,10 @@ pub(super) struct RuleArgs {
     #[arg(value_parser = LANGUAGE_OR_CPP, hide_possible_values = true)]
     language: Language,
 
-    /// Print a scene of it instead: the lines raced at half, once and twice that rate
+    /// Print a scene instead, which races the lines at half, once and twice that rate
     ///
-    /// Their motion at the rate of --fps is the exact one there. `regatta RULE.step` opens that scene in the window, for 60
-    /// frames per second.
+    /// Its exact motion is theirs at --fps. `regatta RULE.step` opens that scene in the window, for 60 frames per
+    /// second.
     #[arg(long, conflicts_with_all = ["format", "language"])]
     scene: bool,
 
@@ -178,7 +178,8 @@ fn words(rule: &Rule, written: &str, language: Language) -> String {
     said += &text(COLUMNS, &rule.seen(), "  ");
     said += "\n";
     if !rule.takes_step() {
-        said += "without dt: a frame does the same at every rate, so that it is twice as fast at twice the rate\n";
+        said +=
+            "without dt: every frame moves it alike, so it is twice as fast at twice the rate\n";
     }
     let explodes_below = rule.explodes_below_fps();
     for (verb, below) in [("rings", rule.rings_below_fps()), ("grows", explodes_below)] {

@@ -45,7 +45,7 @@ fn scene_of_rule(path: &Path) -> Result<Scene, Error> {
     };
     if StepText::read(text).is_ok_and(|text| text.acceleration_at().is_some()) {
         return Err(Error::mistake(format!(
-            "{name} calls the acceleration, and is a method; give `--method {name}`, with a scene"
+            "{name} calls the acceleration, so it is a method; give `--method {name}`, with a scene"
         )));
     }
     Ok(rule_scene(&name, text, USUAL_FPS)?)

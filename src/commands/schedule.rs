@@ -76,7 +76,7 @@ mod tests {
     use crate::scene::Scene;
 
     #[test]
-    fn a_frame_shows_its_moment_whatever_tick_rates_a_script_sets() {
+    fn frames_show_their_moment_under_scripted_tick_rates() {
         let text = "title = 'x'\ntick_hz = 1\nseconds = 9\n[[spring]]\nmass_kg = 1\n\
                     stiffness_n_per_m = 1\n[[command]]\nat_s = 5\ntick_hz = 1000\n\
                     [[command]]\nat_s = 6.5\ntick_hz = 8\n";
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn seconds_make_whole_frames_and_at_least_the_start() {
+    fn durations_round_to_whole_frames_with_at_least_one() {
         assert_eq!(frames_in(20.0, 30).unwrap(), 600);
         assert_eq!(frames_in(0.0, 30).unwrap(), 1);
         assert_eq!(frames_in(0.05, 30).unwrap(), 2);
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn each_frame_has_just_the_ticks_that_are_due() {
+    fn each_frame_runs_exactly_the_due_ticks() {
         for (tick_hz, fps) in
             [(60_u32, 30_u32), (60, 60), (49, 30), (60, 24), (7, 1), (10_000, 3), (1, 1000)]
         {

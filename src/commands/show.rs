@@ -13,14 +13,13 @@ use crate::sim::integrators::{METHODS, Method};
 use crate::tools::source_code::{Language, Precision, source_code};
 
 const ABOUT: &str = "\
-A method of your own is a file of the lines of its step: see `regatta help step`. Its card, in the
-comment, is measured: its order, what it does to the energy of a spring, and the built-in method that
-is nearest.
+A method of your own is a file of the lines of its step: see `regatta help step`. The comment has its
+measured card: its order, the change of a spring's energy, and the nearest built-in method.
 
-The function makes one step of h seconds for one coordinate: of its position x, its velocity v and
+The function makes one step of h seconds for one coordinate. It takes the position x, the velocity v and
 a function a(x, v) for the acceleration. A method with memory takes its memory too, a follower the
 position of its target and a rate, and an engine the settings of its joint and its body. The comment
-above the function has what else to know.
+above the function has the details.
 
 Examples:
   regatta show rk4
@@ -41,12 +40,12 @@ pub(super) struct ShowArgs {
 
     /// The language: rust, c, cpp, csharp or gdscript
     ///
-    /// Methods are written in all, in cpp as in c. Loops are in rust, and some in cpp and csharp.
+    /// Methods have all of them, with the same code in cpp and c. Loops have rust, and some cpp and csharp.
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
     #[arg(value_parser = WRITTEN, hide_possible_values = true)]
     language: Written,
 
-    /// Numbers of single precision, as Unity and Godot have them
+    /// Use single precision, as Unity and Godot do
     #[arg(long)]
     float: bool,
 }

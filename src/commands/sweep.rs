@@ -35,18 +35,17 @@ use varied::{Varied, varied};
 
 const ABOUT: &str = "\
 One row for each scene, body, method and tick rate, in that order whatever the number of threads:
-  error                 the largest of a coordinate or a velocity on the way, as a part of its
-                        amplitude; empty where the method did not come to the end or there is no
-                        truth
-  energy_drift_percent  the largest on the way, of the energy that the exact motion exchanges; empty
-                        where the body conserves no energy
+  error                 the largest error of a coordinate or a velocity, as a fraction of its
+                        amplitude; empty if the method did not finish or there is no truth
+  energy_drift_percent  the largest drift, in percent of the energy that the exact motion exchanges;
+                        empty if the body conserves no energy
   evaluations_per_s     evaluations of the acceleration per simulated second
   ns_per_s              nanoseconds per simulated second, measured here and now
   verdict               accurate, looks-right, bounded, dies-away, grows, blows-up, gives-up,
                         no-truth or not-judged, as `regatta advise` judges
-  halted                why, if it blew up or gave up
+  halted                the reason, if it blew up or gave up
   half_life_ms, overshoot_percent  of a follower
-  parameter, value      what --vary sets
+  parameter, value      the parameter that --vary sets, and its value
 
 Octaves are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
 
@@ -60,7 +59,7 @@ Examples:
 pub(super) struct SweepArgs {
     /// A scene, or several [default: all built-in ones]
     ///
-    /// `regatta list scenes` has the names. What is no name is the path of a file. Give the option again for each.
+    /// `regatta list scenes` has the names. Anything else is read as a file. Give the option again for each.
     #[arg(id = "scene", long = "scene", value_name = "NAME|FILE", value_parser = PathOrName(scene_names))]
     #[arg(hide_possible_values = true, conflicts_with = "spring")]
     scenes: Vec<PathBuf>,
@@ -80,7 +79,7 @@ pub(super) struct SweepArgs {
 
     /// Values of a parameter: a row for each
     ///
-    /// Of every body that has it (`regatta list bodies`), or of a constant of a law.
+    /// In every body that has it (`regatta list bodies`), or as a constant of a law.
     #[arg(long, value_name = "KEY=V,V,...", value_parser = varied)]
     vary: Option<Varied>,
 
@@ -93,7 +92,7 @@ pub(super) struct SweepArgs {
 
     /// How to write it: csv or json
     ///
-    /// By default as the ending of --out says, else csv.
+    /// By default from the ending of --out, else csv.
     #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
     format: Option<RowFormat>,
 
@@ -113,7 +112,7 @@ pub(super) struct SweepArgs {
     #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     plot: Option<PathBuf>,
 
-    /// In the picture the round-off of f32 and f64 too
+    /// Also draw the round-off of f32 and f64
     ///
     /// On the chapter's ship, for --scene ship --method rk4: the step below which rounding makes the error grow again.
     #[cfg(feature = "view")]
@@ -130,7 +129,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     #[cfg(feature = "view")]
     if args.round_off && !round_off::is_swept(&swept) {
         return Err(Error::mistake(
-            "--round-off is of the chapter's ship under Runge-Kutta; give --scene ship --method rk4, or leave it out",
+            "--round-off needs the chapter's ship under Runge-Kutta; give --scene ship --method rk4, or leave it out",
         ));
     }
     let format = row_format(&args.out, args.format)?;

@@ -21,8 +21,8 @@ const EXAMPLES: &str = "\
 One row for each tick, lane, body and coordinate:
   tick,t,lane,method,body,coordinate,q,v
 
-Lane 0 is the truth: `exact`, or `reference`, whose aim is stated, for a body without a closed
-form and for a law with `exact` from its first input, edit or placing on. q is in metres or
+Lane 0 is the truth: `exact`, or `reference` for a body without a closed form, and for a law with
+`exact` after its first input, edit or placing. A line states the reference's accuracy. q is in metres or
 radians, v in the same unit per second, t in seconds. With --metrics a row for each metric follows,
 its id as coordinate, its value as q, and v empty.
 

@@ -169,9 +169,8 @@ impl Notes {
         File::open(path).ok()?.try_lock().ok()?;
         fs::remove_file(path).ok()?;
         let name = recording.display();
-        let message = format!(
-            "a recording was not finished when its window ended; what there is of it is in {name}"
-        );
+        let message =
+            format!("a recording was not finished when its window ended; {name} has it so far");
         recording.is_file().then_some(message)
     }
 
@@ -202,7 +201,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_grows_beside_the_recording_replaces_nothing_and_is_removed_at_the_end() {
+    fn the_autosave_replaces_no_file_and_is_removed_at_the_end() {
         let folder = tempfile::tempdir().unwrap();
         let [older, file] =
             ["run.unfinished.toml", "run.unfinished-2.toml"].map(|name| folder.path().join(name));
@@ -221,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn a_note_is_told_of_once_when_its_program_is_gone() {
+    fn a_note_of_a_dead_program_is_reported_once() {
         let folder = tempfile::tempdir().unwrap();
         let recording = folder.path().canonicalize().unwrap().join("run.unfinished.toml");
         fs::write(&recording, "").unwrap();
@@ -231,7 +230,7 @@ mod tests {
         assert!(path.exists());
         drop(note);
         let message = NOTES.left_behind_in(&path).unwrap();
-        assert!(message.ends_with("run.unfinished.toml"), "{message}");
+        assert!(message.contains("run.unfinished.toml has it so far"), "{message}");
         assert!(!path.exists());
         let older = folder.path().join(".tmpaB3dE6");
         fs::write(&older, recording.to_str().unwrap()).unwrap();
@@ -240,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_file_with_name_and_text_of_a_note_is_removed() {
+    fn only_a_file_with_the_name_and_text_of_a_note_is_removed() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path().canonicalize().unwrap();
         let path = |name: &str| folder.join(name).display().to_string();
@@ -283,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn its_name_is_that_of_the_recording() {
+    fn the_autosave_is_named_after_the_recording() {
         for (recording, name) in [
             ("a/run.toml", "a/run.unfinished.toml"),
             ("run", "run.unfinished.toml"),

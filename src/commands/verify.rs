@@ -29,10 +29,10 @@ mod report;
 use report::{ReportFile, ReportFormat};
 
 const EXAMPLES: &str = "\
-The race of a recording, a scene with checks, is run again without graphics: each lane is the same to
-the bit, or told with the first check that differs. The run of a capture is repeated: first the
-physics, which must be the same to the bit, then the frames, which must be the same in every pixel
-on the adapter and driver that drew them.
+A recording is a scene with checks. Verify runs its race again without graphics: each lane must be the
+same to the bit, or verify names the first check that differs. It also repeats the run of a capture:
+first the physics, which must be the same to the bit, then the frames, which must be the same in every
+pixel on the adapter and driver that drew them.
 
 Exit code 0: the same. 1: different. 2: cannot be judged; the message says why.
 
@@ -57,11 +57,11 @@ pub(super) struct VerifyArgs {
 
     /// Also write the result to FILE, as junit or json
     ///
-    /// Give the option again for both. An older report makes way, and no other file does.
+    /// Give the option again for both. Replaces an older report, and no other file.
     #[arg(long, num_args = 2, value_names = ["FORMAT", "FILE"])]
     report: Option<Vec<String>>,
 
-    /// Draw the difference of each such frame into DIR
+    /// Draw the difference of each changed frame into DIR
     #[arg(long, value_name = "DIR", conflicts_with = "physics_only")]
     diff: Option<PathBuf>,
 
@@ -79,7 +79,7 @@ pub(super) struct VerifyArgs {
 
     /// Accept the present results
     ///
-    /// All frames are replaced, or all checks of a recording. The old frames stay until all new ones are drawn.
+    /// Replaces all frames, or all checks of a recording. The old frames stay until all new ones are drawn.
     #[arg(long, conflicts_with_all = ["physics_only", "report", "diff"])]
     bless: bool,
 }

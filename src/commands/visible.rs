@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn control_characters_are_signs_and_lines_stay() {
+    fn control_characters_become_visible_and_lines_are_kept() {
         assert_eq!(visible("a\tb\r\nc\n"), "a\tb\r\nc\n");
         assert_eq!(visible("\u{1b}[31m\u{7}\0\r\u{7f}"), "␛[31m␇␀␍␡");
         assert_eq!(visible("\u{88}\u{9b}2J\u{202e}\u{2066}"), "��2J��");

@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn every_kind_has_a_look_that_shows_where_the_body_is() {
+    fn every_kind_has_a_look_that_shows_the_bodys_position() {
         assert!(LOOKS.iter().map(|look| look.kind).eq(BODIES.iter().map(|kind| kind.id)));
         for kind in BODIES.iter() {
             let mut lane = lane(kind);

@@ -49,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_spring_is_shown_as_far_as_it_swings_on_both_sides() {
+    fn the_frame_of_a_spring_is_twice_its_amplitude_on_each_side() {
         // The spring oscillates at 5 rad/s. At rest, the amplitude counts as 1 m.
         for (x0, v0, amplitude) in [
             (0.5, 0.0, 0.5),

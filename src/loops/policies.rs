@@ -288,7 +288,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_usual_or_opens_the_loop_lab_has_a_digit() {
+    fn usual_and_opening_loops_have_a_digit_key() {
         let digits = 10;
         let usual = POLICIES.iter().enumerate().filter(|(_, card)| card.is_usual);
         let count = usual.clone().filter(|(index, _)| *index < digits).count();

@@ -144,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_nanosecond_a_tick_and_a_refresh_are_whole_and_fit() {
+    fn nanoseconds_ticks_and_refreshes_are_whole_units_without_overflow() {
         for rate in ["1", "59.94", "60", "74.973", "144", "239.76", "1000"] {
             let refresh: RefreshRate = rate.parse().unwrap();
             assert_eq!(
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_ticks_are_the_seconds_of_a_race_to_the_bit() {
+    fn whole_ticks_equal_the_seconds_of_a_race_to_the_bit() {
         let base = TimeBase::new(49, RefreshRate::of_period(16_683_333));
         for n in 0..1000 {
             assert_eq!(base.seconds(n * base.tick()), n as f64 / 49.0);
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_of_centuries_is_cut_where_a_rate_leaves_no_room() {
+    fn a_time_of_centuries_is_clamped_at_fine_units() {
         let refresh = RefreshRate::of_period(16_683_333);
         let whole = TimeBase::new(10_000, refresh);
         assert_eq!(whole.nanoseconds(i64::MAX) / whole.nanoseconds(1), i64::MAX.into());

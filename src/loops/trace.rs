@@ -161,13 +161,16 @@ impl FrameTrace {
                 Some("the log has no display times; each frame counts as shown when it begins")
             }
             Clocks::Parted(Parting::Display) => Some(
-                "the log's clocks of frames and of display part by more than 1 %, so that its display times are not used; each frame counts as shown when it begins",
+                "the log's frame and display clocks part by more than 1 %, so its display times are ignored; each \
+                 frame counts as shown when it begins",
             ),
             Clocks::Parted(Parting::Time) => Some(
-                "the log's own time and the sum of its frames part by more than 1 %, so that one of them is wrong; each frame counts as shown when it begins",
+                "the log's own time and the sum of its frames part by more than 1 %, so one of them is wrong; each \
+                 frame counts as shown when it begins",
             ),
             Clocks::Parted(Parting::Rate) => Some(
-                "the log's frames a second contradict its times of frames, so that one of them is wrong; each frame counts as shown when it begins",
+                "the log's frame rates contradict its frame times, so one of them is wrong; each frame counts as \
+                 shown when it begins",
             ),
         }
     }

@@ -78,7 +78,8 @@ enum Fault {
     )]
     NotAFlag { column: String, cell: String },
     #[error(
-        "a row is a sample every {every_ms} ms (log_interval) and no frame, as elapsed says; set log_interval=0 and log again"
+        "the rows are samples every {every_ms} ms (log_interval), not frames, as elapsed shows; set log_interval=0 \
+         and log again"
     )]
     Sampled { every_ms: String },
     #[error("the frame begins before the one above it; put rows in order")]

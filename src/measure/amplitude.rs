@@ -74,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_change_goes_on_or_is_a_leap() {
+    fn a_trend_must_continue_or_be_a_leap() {
         for (first, last, change) in [
             (1.0, 1.06, Trend::Grows),
             (1.04, 1.06, Trend::None),

@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn bounded_is_what_neither_fails_nor_leaves_nor_goes_on_gaining() {
+    fn a_bounded_run_neither_fails_nor_leaves_nor_keeps_gaining() {
         let (mut truth, run) = followed();
         let cause = StepFailure::Escaped { coordinate: "x".into(), value: 1e39 };
         let failure = Some(RunFailure { t: 1.0, cause: cause.clone() });
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn what_grows_after_the_horizon_has_not_grown_within_it() {
+    fn growth_after_the_horizon_does_not_count_within_it() {
         let (mut truth, run) = followed();
         let tell =
             |run: &JudgedRun, truth: &BodyTruth| MotionChange::of_run(truth, run, 10.0).within;

@@ -38,9 +38,7 @@ pub const USUAL_POINTS: usize = 100_000;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoCloud {
     /// The body has no phase plane, or several.
-    #[error(
-        "a cloud is of one coordinate and its velocity, and {body} has {coordinates} coordinates"
-    )]
+    #[error("a cloud needs a body of one coordinate, and {body} has {coordinates}")]
     SeveralCoordinates {
         /// Name of the body.
         body: String,

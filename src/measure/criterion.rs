@@ -42,15 +42,15 @@ impl Criterion {
     pub fn about(self) -> &'static str {
         match self {
             Criterion::Bounded => {
-                "nothing grows that should not: no mode of a linear body doubles within a year; any other body, followed \
-                 for 20 times the scene, neither doubles its swing nor goes on gaining, and one that loses, followed \
-                 for up to 2000 times, comes to rest"
+                "nothing grows that should not: no mode of a linear body doubles within a year; any other body, \
+                 followed for 20 times the scene, neither doubles its swing nor keeps gaining, and one that loses \
+                 comes to rest within 2000 times"
             }
             Criterion::LooksRight => {
-                "each swing as wide as the truth's, within 5 % of the widest, its peak found between the steps, and the \
-                 frequency within 1 %; of several modes the root of all their energies within 5 %, and the frequency of the \
-                 one with the most energy; a body that swings less than three times in the scene is followed until it has; \
-                 without a swing, within 5 % of the range"
+                "each swing as wide as the truth's, within 5 % of the widest, its peak found between the steps, and \
+                 the frequency within 1 %; with several modes, the root of their total energy within 5 %, and the \
+                 frequency of the strongest; a body that swings less than three times in the scene runs on until it \
+                 has; without a swing, within 5 % of the range"
             }
             Criterion::Accurate => {
                 "no coordinate or velocity off by more than 1 % of its amplitude"
@@ -98,17 +98,17 @@ impl CriterionMet {
     /// Its margins in words, as part of a sentence, or that they are unknown.
     pub fn margins(&self) -> String {
         if !self.are_margins_searched {
-            return "how much slower or stiffer, has not been searched".into();
+            return "the reserve has not been searched".into();
         }
         match (self.slower(), self.stiffer()) {
             (Some(slower), Some(stiffer)) => format!("holds down to {slower}, or {stiffer}"),
             (Some(slower), None) => {
-                format!("holds down to {slower}; how much stiffer, is not known")
+                format!("holds down to {slower}; with stiffer bodies not known")
             }
             (None, Some(stiffer)) => {
-                format!("holds up to {stiffer}; how much slower, is not known")
+                format!("holds up to {stiffer}; with slower ticks not known")
             }
-            (None, None) => "how much slower or stiffer, is not known".into(),
+            (None, None) => "the reserve is not known".into(),
         }
     }
 

@@ -262,7 +262,7 @@ impl fmt::Display for Report {
                     writeln!(f, "none of these with up to {MAX_ADVISED_SUBSTEPS} substeps")?;
                 }
                 None => {
-                    writeln!(f, "not known of {}", self.not_known.get(criterion).join(", "))?;
+                    writeln!(f, "not known for {}", self.not_known.get(criterion).join(", "))?;
                 }
             }
         }

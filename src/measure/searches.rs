@@ -98,7 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn two_numbers_of_substeps_are_tried_per_octave_up_to_the_most_that_are_advised() {
+    fn two_substep_counts_are_tried_per_octave_up_to_the_advised_maximum() {
         let tried: Vec<u32> = (0..).map(tried_substeps).take_while(|&n| n <= 64).collect();
         assert_eq!(tried, [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64]);
     }
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn factors_rise_from_one_by_a_tenth_and_print_as_they_are() {
+    fn factors_rise_by_a_tenth_and_print_in_three_characters() {
         assert_eq!((FACTORS[0], FACTORS[FACTORS.len() - 1]), (1.0, MAX_STIFFER));
         let (small, large) = FACTORS.split_at(11);
         assert!(small.windows(2).all(|pair| (pair[1] - pair[0] - 0.1).abs() < 1e-9));

@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_is_found_once_and_again_if_its_finder_was_given_up() {
+    fn a_value_is_computed_once_unless_its_computation_was_dropped() {
         let (once, meter) = (Arc::<Once<u32>>::default(), Arc::<Meter>::default());
         let seek = |value: u32| {
             let (once, meter, counts) = (once.clone(), meter.clone(), meter.clone());

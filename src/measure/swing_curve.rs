@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn the_peaks_of_a_curve_are_those_of_small_steps_along_it() {
+    fn peaks_of_a_curve_match_small_steps_along_it() {
         for growth_per_s in [-3.0, -0.4, 0.0, 0.3] {
             for start in 0..16 {
                 let angle = (f64::from(start) + 0.3) * PI / 8.0;
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn a_misfit_is_the_largest_of_all_half_turns_wherever_it_is() {
+    fn the_misfit_is_the_maximum_over_all_half_turns() {
         let truth = SwingCurve { q: 0.6, b: 0.8, growth_per_s: -0.1, frequency: 5.0 };
         for (width, growth_per_s) in
             [(1.0, -0.15), (1.1, -0.1), (1.1, -0.12), (0.9, -0.08), (1.0, 0.0), (1.0, -0.1)]
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn a_peak_that_the_first_step_leaves_behind_counts_where_the_swing_decays() {
+    fn a_peak_before_the_first_step_counts_for_a_decaying_swing() {
         let (b, q) = libm::sincos(0.3);
         let truth = SwingCurve { q, b, growth_per_s: -0.01, frequency: 1.0 };
         let gap = 1.0 - libm::cos(0.3);

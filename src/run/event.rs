@@ -76,7 +76,7 @@ fn what_was_done(action: &Action, solo: Option<LaneId>, scene: &Scene) -> String
             }
             format!("{what} in lane {lane}")
         }
-        Action::Solo { lane } => format!("lane {lane} goes on without the others"),
+        Action::Solo { lane } => format!("lane {lane} continues alone"),
         Action::Substeps { lane, substeps } => {
             format!("{} in lane {lane}", counted(substeps, "substep"))
         }

@@ -70,7 +70,7 @@ pub enum LinkError {
         remedy: String,
     },
     /// The link names a method that cannot step its scene.
-    #[error("the link names a method in vain: {reason}; name another")]
+    #[error("the link names a method that cannot run: {reason}; name another")]
     Refused {
         /// Why the method cannot.
         reason: String,
@@ -413,7 +413,7 @@ mod tests {
     use crate::scene::Action;
 
     #[test]
-    fn a_run_comes_back_from_its_address_to_the_bit_whatever_stands_around_it() {
+    fn a_run_survives_its_link_to_the_bit_in_any_surrounding_text() {
         let mut session = Session::racing(Scene::built_in("harbour").unwrap().into());
         for i in 0..300 {
             session.run(12);
@@ -440,7 +440,7 @@ mod tests {
     }
 
     #[test]
-    fn what_leads_to_no_run_is_refused_in_a_sentence() {
+    fn a_broken_link_is_refused_in_a_sentence() {
         let link = link_to_run(&Scene::built_in("spring").unwrap()).unwrap();
         assert_eq!(text(&link.replace("#v1.", "#v2.")), Err(LinkError::Newer { version: 2 }));
         let far = text(&link.replace("#v1.", "#v99999999999."));
@@ -475,7 +475,7 @@ mod tests {
     }
 
     #[test]
-    fn the_link_that_names_a_run_opens_the_same_run_of_every_scene() {
+    fn a_short_link_opens_the_same_run_of_every_scene() {
         for built_in in SCENES {
             let scene = Scene::built_in(built_in.name).unwrap();
             let solos = (0..scene.method_list().len()).step_by(3).map(Some);
@@ -509,7 +509,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_run_that_nobody_has_changed_is_named() {
+    fn only_an_unedited_run_has_a_short_link() {
         let named = |change: &dyn Fn(&mut Session)| {
             let mut run = begun("spring", Some(0));
             change(&mut run);

@@ -98,7 +98,7 @@ mod tests {
     use crate::sim::integrators::method;
 
     #[test]
-    fn the_menu_has_what_every_lane_flies_though_several_fly_one_method() {
+    fn the_menu_has_the_method_of_every_lane_even_if_several_share_one() {
         let specs = ["rk4", "explicit-euler"].map(|id| LaneSpec::plain(method(id).unwrap()));
         let scene = Scene { lanes: specs.to_vec(), ..Scene::built_in("spring").unwrap() };
         let mut race = Race::new(&scene, specs);
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn lanes_that_are_alike_from_the_start_have_an_entry_each() {
+    fn identical_lanes_have_separate_entries_from_the_start() {
         let rk4 = LaneSpec::plain(method("rk4").unwrap());
         let scene = Scene { lanes: vec![rk4; 2], ..Scene::built_in("spring").unwrap() };
         let menu = Menu::new(&Race::of_scene(&scene));

@@ -182,7 +182,8 @@ pub const METRICS: &[Metric] = &[
         scale: Scale::Linear,
         is_comparison: true,
         is_of_energy: true,
-        about: "energy gained, in percent of what the exact motion exchanges: the range of its kinetic energy, once both its ends were seen",
+        about: "energy gained, in percent of the energy that the exact motion exchanges: the range of its kinetic \
+                energy, once it has reached both ends",
         measure: |lane, truth| {
             let [lane, exact] = unless_halted(lane, truth)?;
             let exchanged = exact.extent()?.exchanged_j(&*exact.stepper)?;
@@ -334,8 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn the_energy_gained_is_known_of_linear_bodies_at_once_and_of_no_other_before_it_is_exchanged()
-    {
+    fn energy_gained_is_known_at_once_only_for_linear_bodies() {
         let gained = |scene: &str, id: &str, ticks: u64, body: usize| {
             let scene = Scene::built_in(scene).unwrap();
             let spec = LaneSpec::plain(method(id).unwrap());
@@ -358,14 +358,14 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_is_kicked_from_rest_is_held_against_the_speed_it_then_has() {
+    fn a_body_kicked_from_rest_is_compared_with_its_new_speed() {
         let mut race = race("rk4", [0.0, 0.0]);
         race.perform(&Action::Kick(1.0), &mut ());
         assert_eq!(measured("relative_speed_error", &race), Some(0.0));
     }
 
     #[test]
-    fn energy_is_held_against_what_the_motion_exchanges_and_against_nothing_else() {
+    fn energy_drift_is_relative_to_the_energy_exchanged() {
         let drifts = |bodies: &str, tick_hz: u32| {
             let head = "seconds = 60\nmethods = ['rk4', 'semi-implicit-euler']";
             let text = format!("title = 'x'\ntick_hz = {tick_hz}\n{head}\n{bodies}");
@@ -380,7 +380,7 @@ mod tests {
             }
             drifts
         };
-        // The whole energy of a ship that starts from rest is zero but for rounding.
+        // The whole energy of a ship that starts from rest is zero up to rounding.
         let ship = "[[ship]]\nthrust_n = 1234.5\ndrag_n_s_per_m = 0\nmass_kg = 777\n";
         assert_eq!(drifts(ship, 7), [0.0; 0]);
         let stops = drifts(&format!("{ship}v0_m_per_s = -30\n"), 7);
@@ -414,7 +414,7 @@ mod tests {
     }
 
     #[test]
-    fn a_truth_or_a_lane_that_halted_is_no_yardstick() {
+    fn a_halted_truth_or_lane_has_no_error() {
         let comparing =
             ["position_error", "velocity_error", "relative_speed_error", "energy_drift"];
         let mut lost = race("explicit-euler", [1.0, 0.0]);
@@ -436,7 +436,7 @@ mod tests {
     }
 
     #[test]
-    fn a_difference_that_is_undefined_is_not_the_smallest() {
+    fn an_undefined_difference_does_not_rank_as_smallest() {
         let largest = |a: [f64; 3]| largest_difference(a.into_iter(), [0.0; 3].into_iter());
         assert_eq!(largest([1.0, 3.0, 2.0]), 3.0);
         assert!(largest([1.0, f64::NAN, 2.0]).is_nan());

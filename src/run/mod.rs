@@ -436,7 +436,7 @@ mod tests {
     use crate::scene::Scene;
 
     #[test]
-    fn a_change_holds_what_it_has_changed_and_not_the_whole_journal() {
+    fn an_undo_entry_holds_only_the_replaced_rows_of_the_journal() {
         let scene = Scene::built_in("helm").unwrap();
         let to_come = scene.script.len();
         let mut run = Run::new(Session::racing(scene.into()));

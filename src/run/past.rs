@@ -397,7 +397,7 @@ mod tests {
     }
 
     #[test]
-    fn histories_reach_over_the_scene_with_no_fewer_samples_than_they_must() {
+    fn histories_cover_the_scene_with_enough_samples() {
         // One tick less than the capacity, as many, and one more.
         for (ticks, stride) in
             [(CAPACITY as u32 - 1, 1), (CAPACITY as u32, 1), (CAPACITY as u32 + 1, 2)]
@@ -420,7 +420,7 @@ mod tests {
     }
 
     #[test]
-    fn many_histories_have_fewer_samples_each_reach_as_far_back_and_fit_into_the_memory() {
+    fn many_histories_thin_their_samples_and_fit_into_the_memory() {
         for (histories, is_full) in
             [(1, true), (32, true), (128, true), (160, false), (2048, false)]
         {

@@ -207,7 +207,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_noted_of_a_run_is_what_it_is_made_again_whatever_was_done_to_its_past() {
+    fn notes_equal_a_fresh_recording_after_any_edit_of_the_past() {
         for (scene, seed) in [("harbour", 1_u64), ("helm", 2), ("spring", 3)] {
             let session = Session::racing(Scene::built_in(scene).unwrap().into());
             let mut run = Run::new(session);
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn in_slices_it_reaches_every_check_of_its_recording_with_the_same_hash() {
+    fn a_sliced_replay_reaches_every_check_with_the_same_hash() {
         let mut session = Session::racing(Scene::built_in("harbour").unwrap().into());
         session.run(100);
         let recording = session.recording(100);

@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn where_a_body_of_a_built_in_scene_goes_is_found_once_for_all_copies() {
+    fn the_extent_of_a_built_in_scene_is_computed_once_for_all_copies() {
         for name in ["rope", "jump"] {
             let preview = || {
                 let scene = Scene::built_in(name).unwrap();

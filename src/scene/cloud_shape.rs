@@ -148,7 +148,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn points_lie_within_the_shape_and_the_border_between_within_and_without() {
+    fn points_lie_inside_the_shape_and_its_border_separates_the_outside() {
         for shape in CloudShape::ALL {
             assert_eq!(shape.points(1000).count(), 1000);
             assert!(shape.points(1000).all(|point| shape.contains(point)));

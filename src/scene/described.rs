@@ -17,7 +17,7 @@ use crate::sim::integrators::{METHODS, Method};
 
 pub(super) const NAME: Field = Field::optional(
     "name",
-    "its name, which no other body has; that of its kind if left out",
+    "its name, unique in the scene; by default that of its kind",
     Wanted::Text(MAX_NAME_CHARS),
 );
 

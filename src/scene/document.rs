@@ -39,11 +39,11 @@ const MAX_HINT_CHARS: usize = 120;
 
 pub(super) const METHOD_LIST: Field = Field::optional(
     "methods",
-    "the methods that race; all that step the bodies, but for engines, if left out",
+    "the methods that race; by default all that step the bodies, except engines",
     Wanted::Methods,
 );
 const OPENING_METHOD: Field =
-    Field::optional(OWN, "the method shown first; the first lane's if left out", Wanted::Method);
+    Field::optional(OWN, "the method shown first; by default the first lane's", Wanted::Method);
 const OPENING_BESIDE_OWN: Field = Field::optional(
     "opening_method",
     "the same, in a file with a `[[method]]` of its own",
@@ -77,7 +77,7 @@ pub(super) static TOP: [Key<Draft, Scene>; 10] = [
     Key {
         field: Field::optional(
             "hint",
-            "what to try, under the stage",
+            "a suggestion, under the stage",
             Wanted::Text(MAX_HINT_CHARS),
         ),
         read: |draft, top, field| draft.scene.hint = top.text(field),
@@ -106,7 +106,7 @@ pub(super) static TOP: [Key<Draft, Scene>; 10] = [
     Key {
         field: Field::optional(
             "seconds",
-            "how long it is; 20 if left out",
+            "its length; by default 20",
             Wanted::Number(Range::Between(MIN_SECONDS, MAX_SECONDS)),
         ),
         read: |draft, top, field| keep(&mut draft.scene.seconds, top.number(field)),
@@ -175,7 +175,7 @@ pub(super) static RACE: [Key<Scene, Scene>; 2] = [
     Key {
         field: Field::optional(
             "equal_cost",
-            "gives each lane the substeps that bring its cost nearest to the dearest lane's",
+            "gives each lane the substeps that bring its cost nearest to the highest",
             Wanted::Boolean,
         ),
         read: |scene, race, field| keep(&mut scene.equal_cost, race.boolean(field)),

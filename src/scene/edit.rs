@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn what_may_be_entered_is_within_the_range_and_of_a_size_that_stays_finite() {
+    fn an_entered_value_must_be_in_range_and_of_a_finite_size() {
         let told = |value, range| check_entered("length", value, range).err();
         let (count, between) = (Range::Count(1000), Range::Between(1e-4, 3e7));
         for (range, fine, refused) in [
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_is_taken_or_refused_in_the_words_of_the_scene_parser() {
+    fn an_edit_is_accepted_or_refused_like_a_value_in_a_scene_file() {
         let (mut taken, mut refused) = (0, 0);
         for kind in BODIES.iter() {
             let begun = parsed(&table(kind, None)).unwrap();
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_refused_is_named_with_a_remedy() {
+    fn a_refused_edit_names_its_key_and_a_remedy() {
         let refusal = |id: &str, index: usize, value: f64| {
             let kind = kind(id).unwrap();
             edited_values(kind, &parsed(&table(kind, None)).unwrap(), index, value)

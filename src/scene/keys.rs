@@ -63,22 +63,22 @@ pub(super) const SUBSTEPS: Field =
     Field::optional("substeps", "steps per tick", Wanted::Whole(1..=MAX_SUBSTEPS as u64));
 pub(super) const TOLERANCE: Field = Field::optional(
     "tolerance",
-    "of an adaptive method, in place of its own",
+    "for an adaptive method, in place of its own",
     Wanted::Number(Range::Between(TOLERANCES.0, TOLERANCES.1)),
 );
 pub(super) const JOINT_HZ: Field = Field::optional(
     "joint_hz",
-    "the frequency that an engine is told of every spring, in place of its own",
+    "the frequency to set in an engine for every spring, in place of the spring's own",
     Wanted::Number(Swing::RANGES[0]),
 );
 const JOINT_DAMPING_RATIO: Field = Field::optional(
     "joint_damping_ratio",
-    "the damping ratio that it is told beside that; 0 if left out",
+    "the damping ratio to set with that; by default 0",
     Wanted::Number(Swing::RANGES[1]),
 );
 
 pub(super) const TICK_HZ: Field =
-    Field::required("tick_hz", "ticks per second, unless `step_s` says them", Wanted::TickRate);
+    Field::required("tick_hz", "ticks per second, unless `step_s` gives them", Wanted::TickRate);
 pub(super) const STEP_S: Field = Field::optional(
     "step_s",
     "the length of a tick in seconds, in place of `tick_hz`",
@@ -173,7 +173,9 @@ fn check_joint(row: &mut Table<'_>, method: Option<&'static Method>) {
     };
     if let Some(method) = method.filter(|method| !method.has_joint()) {
         let id = method.id;
-        let what = format!("`{key}` does not apply to the method {id:?}, which is told no spring");
+        let what = format!(
+            "`{key}` does not apply to the method {id:?}, which takes no settings of a spring"
+        );
         let remedy = format!("remove it, or choose an engine: {}", methods(Method::has_joint));
         row.complain(row.span(key), what, remedy);
     } else if !row.has(JOINT_HZ.key) {

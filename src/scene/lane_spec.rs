@@ -122,7 +122,7 @@ mod tests {
     use crate::sim::integrators::method;
 
     #[test]
-    fn lanes_of_one_method_are_told_apart_by_what_differs() {
+    fn names_of_lanes_with_one_method_show_the_difference() {
         let lane = |id, substeps, tolerance| LaneSpec {
             substeps,
             tolerance,

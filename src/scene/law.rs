@@ -16,11 +16,8 @@ use crate::sim::law::{
 /// The name of the table array.
 pub(super) const LAW: &str = "law";
 
-const CONSTANTS: Field = Field::optional(
-    "constants",
-    "the numbers that its expressions know by name",
-    Wanted::Constants,
-);
+const CONSTANTS: Field =
+    Field::optional("constants", "named numbers for its expressions", Wanted::Constants);
 const COORDINATES: Field =
     Field::required("coordinates", "what moves", Wanted::Coordinates("law.coordinates"));
 const PLANE: Field =
@@ -28,7 +25,7 @@ const PLANE: Field =
 const DRAW: Field = Field::optional("draw", "how the coordinates lie in space", Wanted::Layout);
 const UNIT: Field = Field::optional("unit", "its unit; metres if left out", Wanted::Text(16));
 const AT: Field =
-    Field::optional("at", "where it is drawn in metres, of coordinates and constants", Wanted::At);
+    Field::optional("at", "its place in metres, by coordinates and constants", Wanted::At);
 
 /// The keys of `[[law]]` besides its name.
 pub(super) static LAW_KEYS: [Key<WrittenLaw, SceneBody>; 5] = [
@@ -111,7 +108,7 @@ pub(super) static COORDINATE_KEYS: [Key<WrittenCoordinate, SetCoordinate>; 7] = 
     Key {
         field: Field::optional(
             "exact",
-            "its motion, of `t`, constants and starts, if it is known",
+            "its motion by `t`, constants and starts, if known",
             Wanted::Expression,
         ),
         read: |coordinate, table, field| coordinate.exact = table.expression(field),

@@ -71,7 +71,7 @@ mod tests {
     use super::nearest;
 
     #[test]
-    fn a_slip_or_a_part_finds_its_name_and_anything_else_finds_none() {
+    fn only_a_slip_or_a_part_finds_the_nearest_name() {
         let names = [
             ("explicit-euler", "explicit-euler"),
             ("semi-implicit-euler", "semi-implicit-euler"),

@@ -29,7 +29,7 @@ const FIXED: Field = Field::optional("fixed", "which nodes stay where they are",
 const SPRINGS: Field = Field::required("springs", "which nodes are joined", Wanted::Springs);
 pub(super) const KICKED: Field = Field::optional(
     "kicked_node",
-    "the node that a kick hits, and that plots show; every free node if left out",
+    "the node that a kick hits, and that plots show; by default every free node",
     Wanted::Whole(0..=MAX_NODES as u64 - 1),
 );
 const BETWEEN: Field =

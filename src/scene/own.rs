@@ -15,11 +15,8 @@ use crate::sim::{MAX_OWN_ID_CHARS, TickRate, check_own_id, own_method, own_metho
 /// Name of the table array. The top of a file has a key of the same name, for the method shown first.
 pub(super) const OWN: &str = "method";
 
-const ID: Field = Field::required(
-    "id",
-    "the name by which lanes and commands know it",
-    Wanted::Text(MAX_OWN_ID_CHARS),
-);
+const ID: Field =
+    Field::required("id", "its name in lanes and commands", Wanted::Text(MAX_OWN_ID_CHARS));
 
 /// A partly read own method.
 #[derive(Default)]
@@ -39,7 +36,7 @@ pub(super) static OWN_KEYS: [Key<OwnDraft, Method>; 3] = [
     Key {
         field: Field::optional(
             "fps",
-            "of a rule, the frames per second for which it was written",
+            "for a rule: the frames per second for which it was written",
             Wanted::TickRate,
         ),
         read: |own, row, field| own.fps = row.tick_rate(field),

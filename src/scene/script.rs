@@ -33,12 +33,12 @@ const NAME: Wanted = Wanted::Text(MAX_NAME_CHARS);
 
 pub(super) const AT_S: Field = Field::required(
     "at_s",
-    "when it is done, in seconds: before the nearest tick, whatever the tick rate",
+    "its time in seconds: it acts before the nearest tick, at any tick rate",
     Wanted::Number(Range::Between(0.0, MAX_SECONDS)),
 );
 pub(super) const TICK: Field = Field::optional(
     "tick",
-    "of a recording, in place of `at_s`: the tick before which it is done",
+    "in a recording, in place of `at_s`: the tick before which it acts",
     Wanted::Whole(0..=LAST_TICK),
 );
 pub(super) const LANE: Field =
@@ -46,7 +46,7 @@ pub(super) const LANE: Field =
 
 const BODY: Field = Field::required("body", "the body's name", NAME);
 const KEY: Field = Field::required("key", "the parameter's key", NAME);
-const VALUE: Field = Field::required("value", "what it is set to", Wanted::ANY);
+const VALUE: Field = Field::required("value", "its new value", Wanted::ANY);
 const Q: Field = Field::required("q", "the coordinates", Wanted::Numbers(1));
 const V: Field = Field::required("v", "the velocities", Wanted::Numbers(1));
 /// The keys of `set` and of `place`.
@@ -56,11 +56,7 @@ pub(super) static OF_A_BODY: [(&str, &[Field]); 2] =
 /// The keys of `[[check]]`. The reader needs the number of lanes.
 pub(super) static CHECK: [Key<(Check, usize), Check>; 3] = [
     Key {
-        field: Field::required(
-            "tick",
-            "the tick at which it is known",
-            Wanted::Whole(0..=LAST_TICK),
-        ),
+        field: Field::required("tick", "the tick of the check", Wanted::Whole(0..=LAST_TICK)),
         read: |(check, _), row, field| keep(&mut check.tick, row.whole(field)),
         write: |check| Some(check.tick.to_string()),
     },
@@ -137,7 +133,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
     ),
     input(
         "kick",
-        "an impulse for every body, of this many times its own kick",
+        "an impulse for every body: this many times its own kick",
         Range::Within(MAX_VALUE),
         |_, row, field| row.number(field).map(Action::Kick),
         |_, action| if let Action::Kick(times) = action { Some(number(*times)) } else { None },
@@ -208,7 +204,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
         },
     ),
     command_key(
-        Field::optional("solo", "the only lane that goes on", LANE_NUMBER),
+        Field::optional("solo", "the only lane that stays", LANE_NUMBER),
         |context, row, field| {
             read_number(row, field, context.lanes.len()).map(|lane| Action::Solo { lane })
         },
@@ -332,7 +328,7 @@ fn read_when(row: &mut Table<'_>, is_mixed: bool) -> Option<When> {
     [AT_S, TICK].iter().for_each(|field| row.knows(field.key));
     if is_mixed && row.has(TICK.key) {
         let (tick, at_s) = (TICK.key, AT_S.key);
-        let what = format!("`{tick}` tells when, and other commands have `{at_s}`");
+        let what = format!("`{tick}` gives the time, and other commands have `{at_s}`");
         row.complain(row.span(tick), what, format!("write `{at_s} = …` in its place: seconds"));
         return None;
     }
@@ -346,7 +342,7 @@ fn read_when(row: &mut Table<'_>, is_mixed: bool) -> Option<When> {
 fn outdated((Scripted { at_s, .. }, command): (&Scripted, &Command)) -> SceneError {
     let (tick, at_s) = (TICK.key, format!("`{} = {}`", AT_S.key, number(*at_s)));
     let what = format!(
-        "`{tick}` in a scene is read for this release only: another tick rate would be another motion"
+        "`{tick}` in a scene is read in this release only: at another tick rate the motion would change"
     );
     let fault = SceneFault::new(what, format!("write {at_s} in its place"));
     SceneError { span: command.when_span.clone(), fault }
@@ -453,7 +449,7 @@ fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<LaneId> 
     if !row.has(LANE.key) {
         if context.lanes.len() != 1 {
             let remedy = format!("write `lane = …`: its number, from 1 to {}", context.lanes.len());
-            row.complain(row.header.clone(), "the command does not say of which lane", remedy);
+            row.complain(row.header.clone(), "the command names no lane", remedy);
             return None;
         }
         return Some(LaneId(1));

@@ -120,7 +120,7 @@ mod tests {
     use crate::studio::Studio;
 
     #[test]
-    fn time_goes_on_at_each_rate_from_where_the_rate_was_set() {
+    fn a_new_rate_continues_from_its_own_time() {
         let scale = TimeScale::new(
             (0, 0.0),
             60.into(),
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn the_actions_of_a_script_come_at_their_times_at_the_rates_that_it_sets() {
+    fn a_script_acts_at_its_times_under_the_rates_it_sets() {
         let scene = scene();
         let script = || scene.script.iter().map(|row| (row.at_s, &row.action));
         let put = |tick_hz: u32| Piece::first(tick_hz).put_on_ticks(script()).collect::<Vec<_>>();

@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn a_day_at_a_rate_that_is_not_whole_has_every_tick_and_no_other() {
+    fn a_day_at_a_fractional_rate_has_exactly_its_ticks() {
         let steps = ["0.015", "0.003", "1.7"].map(|step| TickRate::of_step(step).unwrap());
         let rates = ["59.94", "66.667", "60000/1001", "0.123456789"].map(|hz| hz.parse().unwrap());
         for rate in rates.into_iter().chain(steps) {
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_between_rates_that_are_not_whole_keeps_the_part_that_is_owed() {
+    fn a_change_between_fractional_rates_keeps_the_pending_time() {
         let mut clock = Clock::new(TickRate::of_step("0.015").unwrap());
         clock.advance(10_000_000);
         for rate in ["59.94", "0.123456789", "333.333333333", "1/0.015"] {
@@ -333,14 +333,14 @@ mod tests {
     }
 
     #[test]
-    fn a_slow_tick_still_comes_when_its_time_is_up() {
+    fn a_slow_tick_still_comes_on_time() {
         let mut clock = Clock::new(1);
         let total = run(&mut clock, std::iter::repeat_n(100_000_000, 30));
         assert_eq!(total, (3, 0));
     }
 
     #[test]
-    fn a_clock_knows_its_tick_and_is_equal_to_one_that_owes_the_same() {
+    fn a_clock_knows_its_tick_length_and_clocks_with_equal_debt_are_equal() {
         assert_eq!(
             [60, 120, 7].map(|hz| Clock::new(hz).dt_s()),
             [1.0 / 60.0, 1.0 / 120.0, 1.0 / 7.0]
@@ -376,7 +376,7 @@ mod tests {
     }
 
     #[test]
-    fn a_full_clock_makes_a_tick_with_the_next_frame_and_loses_no_time() {
+    fn a_full_clock_ticks_in_the_next_frame_without_losing_time() {
         let mut clock = Clock::new(60);
         clock.fill();
         assert!(clock.alpha() < 1.0 && clock.alpha() > 1.0 - 1e-10);
@@ -386,7 +386,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_of_rate_keeps_the_part_of_a_tick_that_is_owed() {
+    fn a_change_of_rate_keeps_the_pending_part_of_a_tick() {
         let mut clock = Clock::new(2);
         clock.advance(400_000_000);
         let alpha = clock.alpha();

@@ -48,8 +48,8 @@ pub(super) fn assert_length(found: usize, wanted: usize) {
 #[cold]
 fn other_length(found: usize, wanted: usize) -> ! {
     panic!(
-        "a vector of {found} numbers meets one of {wanted}: all vectors of a system keep the length of its first state; \
-         `acceleration` overwrites the numbers of `a`, and does not replace `a` by another `Vec`"
+        "a vector of {found} numbers meets one of {wanted}: all vectors of a system keep the length of its first \
+         state; `acceleration` must overwrite the numbers of `a`, not replace `a` by another `Vec`"
     )
 }
 

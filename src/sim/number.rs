@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn thousands_are_apart() {
+    fn thousands_are_separated() {
         let texts = [7, 1000, 10_020, 1_000_000].map(grouped);
         assert_eq!(texts, ["7", "1\u{a0}000", "10\u{a0}020", "1\u{a0}000\u{a0}000"]);
     }
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn round_numbers_lose_their_noughts() {
+    fn trailing_zeros_are_dropped() {
         for (value, digits, shown) in [
             (20.0, 4, "20"),
             (0.5, 4, "0.5"),

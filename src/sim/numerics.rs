@@ -83,7 +83,7 @@ mod tests {
     use super::least_squares;
 
     #[test]
-    fn a_line_is_found_among_points_and_numbers_that_are_none_are_refused() {
+    fn a_line_is_fitted_through_points_and_non_finite_ones_are_refused() {
         let columns = [vec![0.0, 1.0, 2.0, 3.0], vec![1.0; 4]];
         let found = least_squares(&columns, &[1.0, 3.1, 4.9, 7.0]).unwrap();
         assert!((found[0] - 1.98).abs() < 1e-12 && (found[1] - 1.03).abs() < 1e-12, "{found:?}");

@@ -301,7 +301,7 @@ mod tests {
     use super::largest;
 
     #[test]
-    fn the_largest_magnitude_is_found_wherever_it_is_and_a_component_that_is_not_a_number_too() {
+    fn the_largest_magnitude_is_found_at_any_index_and_nan_counts_as_largest() {
         for index in 0..9 {
             for found in [-7.0, f64::INFINITY, f64::NAN] {
                 let mut components = [0.5, -1.0, 2.0, 0.0, -3.0, 1.0, 0.1, -0.0, 4.0];

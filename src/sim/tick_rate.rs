@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_is_the_ratio_that_its_digits_say() {
+    fn a_rate_is_the_exact_ratio_of_its_digits() {
         for (written, ratio) in [
             ("60", [60, 1]),
             ("60.0", [60, 1]),
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_rate_or_step_is_refused_with_the_range() {
+    fn an_invalid_rate_or_step_is_refused_with_the_range() {
         for bad in [
             "",
             ".",
@@ -334,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_is_written_as_it_is_read() {
+    fn a_rate_survives_reading_and_writing() {
         for written in ["60", "66.667", "59.94", "0.01", "1/0.015", "1/0.003", "60000/1001", "0.4"]
         {
             assert_eq!(rate(written).to_string(), written);

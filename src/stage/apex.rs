@@ -72,7 +72,7 @@ mod tests {
     use crate::studio::{StageCommand, Studio};
 
     #[test]
-    fn a_jump_says_how_much_too_high_or_too_low_it_was_once_it_is_over() {
+    fn a_finished_jump_reports_its_error_in_height() {
         let mut studio = Studio::new(Scene::built_in("jump").unwrap());
         let said = |studio: &Studio| -> Vec<String> {
             let labels = compose(studio, [780.0, 440.0]).labels.into_iter();

@@ -499,7 +499,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_beside_a_name_ends_before_the_chip_and_has_digits_only_while_the_body_is_held() {
+    fn text_beside_a_name_ends_before_the_chip_even_while_a_body_is_held() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.analyse();
         (0..60).for_each(|_| studio.tick());
@@ -522,7 +522,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chip_on_a_run_that_was_changed_says_that_the_verdict_is_of_another() {
+    fn the_chip_of_an_edited_run_marks_the_verdict_as_another_runs() {
         let words = |studio: &Studio, size| -> Vec<String> {
             let labels = compose(studio, size).labels.into_iter().map(|label| label.text);
             labels.filter(|text| text.contains("blow")).collect()

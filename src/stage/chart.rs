@@ -176,7 +176,7 @@ mod tests {
     use crate::look::palette::Theme;
 
     #[test]
-    fn a_ruler_has_marks_wherever_whole_numbers_reach_and_none_beyond() {
+    fn a_ruler_has_marks_only_within_the_whole_numbers() {
         let rect = Rect { min: [0.0, 0.0], max: [800.0, RULER] };
         let marks = |x: f64| {
             let camera = Camera { centre_m: DVec2::new(x, 0.0), ..Camera::of(rect, 50.0) };

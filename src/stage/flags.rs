@@ -357,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn a_badge_says_how_far_in_a_cell_of_a_lane_of_its_own_too() {
+    fn a_badge_shows_the_distance_even_in_a_lanes_own_cell() {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.apply(StageCommand::ToggleRace);
         studio.viewer.preferences.display.arrangement = crate::studio::Arrangement::SideBySide;
@@ -370,7 +370,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_beyond_the_stage_is_told_of_by_its_place_and_one_that_returns_by_its_swing() {
+    fn the_badge_shows_the_place_of_a_lost_body_or_its_swing_if_it_returns() {
         let said = |words: &str, is_right| Some((words.to_owned(), is_right));
         assert_eq!(told_along(&[1.0, -4.9, 4.9]), None, "it stayed");
         assert_eq!(told_along(&[23.4, 6.0, 2.0]), said("23.4 m", true), "it left");
@@ -385,7 +385,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_in_the_plane_is_told_of_by_the_way_that_it_is_out_now() {
+    fn the_badge_of_a_body_in_the_plane_shows_its_present_direction() {
         let said = |words: &str, is_right| Some((words.to_owned(), is_right));
         let over_the_top = [[-37.0, 2.0], [-4.0, 2.0], [0.0, 11.0]];
         assert_eq!(badge_words(&over_the_top), said("out to −37 m", false));
@@ -394,7 +394,7 @@ mod tests {
     }
 
     #[test]
-    fn no_badge_lies_over_a_spring_of_its_row_and_no_flag_over_the_name_of_its_body() {
+    fn badges_never_cover_springs_and_flags_never_cover_names() {
         let mut studio = Studio::new(Scene::with_two_springs());
         studio.apply(StageCommand::ToggleRace);
         let (mut badges, mut beside) = (0, 0);

@@ -235,7 +235,7 @@ mod tests {
     use crate::studio::{StageCommand, Studio, ViewCommand};
 
     #[test]
-    fn an_orbit_that_leaves_the_true_one_is_followed_in_solo() {
+    fn the_view_follows_a_stray_orbit_in_solo() {
         for (is_race, is_seen) in [(false, true), (true, false)] {
             let mut studio = Studio::new(Scene::built_in("orbit").unwrap());
             studio.apply(StageCommand::Pick(0));
@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn bodies_on_one_ruler_are_zoomed_as_one_and_it_with_them() {
+    fn bodies_on_one_ruler_zoom_together_with_it() {
         for over in [0, 1] {
             let mut studio = Studio::new(Scene::with_two_springs());
             studio.advance(100_000_000);

@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn of_a_damped_spring_the_marks_hold_all_that_it_does_after_a_kick() {
+    fn the_swing_marks_of_a_damped_spring_contain_its_motion_after_a_kick() {
         let mut studio = Studio::new(Scene::built_in("damped").unwrap());
         (0..100).for_each(|_| studio.tick());
         studio.apply(RunCommand::Act(Action::Kick(3.0)));
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn a_thinned_trail_keeps_its_ends_its_corners_and_within_the_tolerance_all_else() {
+    fn thinning_keeps_a_trail_within_the_tolerance_and_its_ends_exact() {
         let zigzag = |x: f64| (x % 2.0 - 1.0).abs();
         for motion in [|x: f64| libm::sin(3.0 * x), zigzag] {
             let moment = |i: i32| {

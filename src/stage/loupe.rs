@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn lanes_that_no_eye_can_tell_apart_are_under_a_loupe_with_its_scale() {
+    fn indistinguishable_lanes_get_a_loupe_with_its_scale() {
         let alone = labels("spring", &["rk4"], 3);
         assert_eq!(alone, Vec::<String>::new(), "it stands beside no other");
         let found = labels("spring", &["rk4", "yoshida4", "pefrl"], 3);

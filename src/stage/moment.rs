@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn at_rest_everything_is_of_the_tick_of_the_title_however_bodies_are_drawn_between_ticks() {
+    fn a_paused_stage_shows_the_titles_tick_under_every_interpolation() {
         for _ in Interpolation::ALL {
             let mut studio = studio();
             studio.apply(ViewCommand::TogglePause);
@@ -143,8 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn the_speed_told_lies_between_those_of_the_two_states_though_what_is_drawn_may_move_otherwise()
-    {
+    fn the_displayed_speed_lies_between_the_speeds_at_the_two_ticks() {
         let mut studio = Studio::new(Scene::built_in("surge").unwrap());
         for _ in 0..70 {
             studio.advance(137_000_000);
@@ -161,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn when_time_runs_on_the_stage_goes_on_from_what_was_shown_at_rest() {
+    fn resuming_continues_the_stage_without_a_jump() {
         for ways in 0..Interpolation::ALL.len() {
             let mut studio = studio();
             (0..ways).for_each(|_| _ = studio.apply(RunCommand::NextInterpolation));

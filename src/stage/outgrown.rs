@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn the_stage_zooms_out_evenly_after_a_swing_that_outgrows_it_and_keeps_it_in_sight() {
+    fn the_stage_zooms_out_smoothly_to_keep_a_growing_swing_visible() {
         let mut studio = watched("harbour");
         let (_, first) = hero(&studio);
         let mut last = first;
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_recorded_keeps_its_stage() {
+    fn a_recorded_stage_does_not_zoom_out() {
         let mut studio = watched("harbour");
         studio.viewer.preferences.display.motion = Motion::Recorded;
         (0..15 * 60).for_each(|_| studio.tick());
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn with_reduced_motion_the_stage_zooms_out_as_far_but_in_few_steps_and_the_trail_is_there() {
+    fn reduced_motion_zooms_out_in_few_steps_and_keeps_the_trail() {
         for scene in ["harbour", "spring"] {
             let mut studio = watched(scene);
             studio.viewer.preferences.display.motion = Motion::Reduced;
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn what_blows_up_stays_on_the_stage_to_its_last_tick() {
+    fn a_body_that_blows_up_stays_on_the_stage_to_its_last_tick() {
         for scene in ["stiff", "orbit", "chain", "rope"] {
             let mut studio = watched(scene);
             studio.apply(StageCommand::Pick(0));

@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stage_that_zooms_out_passes_what_one_knows_and_says_how_far_the_body_has_got() {
+    fn zooming_out_passes_landmarks_and_reports_the_bodys_distance() {
         let mut studio = watched("harbour", Motion::Live);
         assert!(!texts(&studio).iter().any(|text| text.starts_with("after")));
         let mut passed = Vec::new();
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn at_the_halt_it_says_how_long_the_spring_has_become() {
+    fn the_halt_reports_the_length_of_the_spring() {
         let mut studio = watched("stiff", Motion::Live);
         studio.apply(crate::studio::StageCommand::TickHz(30.into()));
         studio.apply(crate::studio::StageCommand::Restart);
@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn on_a_narrow_stage_the_sentence_reaches_beyond_neither_side() {
+    fn the_sentence_fits_a_narrow_stage() {
         let mut studio = watched("harbour", Motion::Live);
         (0..350).for_each(|_| studio.tick());
         for width in [320.0, 390.0, 460.0, 1280.0] {
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn every_landmark_keeps_within_its_length_and_they_stand_from_small_to_large() {
+    fn landmarks_fit_their_length_and_are_sorted_by_it() {
         assert!(LANDMARKS.is_sorted_by_key(|landmark| landmark.length_m));
         for landmark in &LANDMARKS {
             let is_within = landmark.silhouette.iter().all(|part| match part {

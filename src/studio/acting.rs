@@ -175,5 +175,5 @@ pub(super) fn seek(deck: &mut Deck, viewer: &mut Viewer, tick: u64) {
 
 /// Notice for an action whose number is out of range.
 fn out_of_range(noun: &str) -> String {
-    format!("out of range, so that nothing was changed: {noun}")
+    format!("out of range, so nothing changed: {noun}")
 }

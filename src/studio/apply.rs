@@ -18,7 +18,7 @@ use super::viewer::{Dialog, Viewer};
 use crate::loops::loop_lab::LoopCommand;
 
 /// Asked before quitting with unsaved edits.
-const QUIT_QUESTION: &str = "what you did in this run is not saved: F5 saves it, Esc again quits";
+const QUIT_QUESTION: &str = "this run is not saved: F5 saves it, Esc again quits";
 
 impl Studio {
     /// Executes a command. Returns the driver's part of it, if any.

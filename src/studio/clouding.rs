@@ -83,7 +83,7 @@ mod tests {
     use crate::studio::{StageCommand, Studio};
 
     #[test]
-    fn a_cloud_that_is_alone_stays_in_its_picture_however_far_it_goes() {
+    fn a_lone_cloud_never_leaves_its_picture() {
         for (scene, pick) in [("spring", 0), ("spring", 1), ("pendulum", 0), ("duffing", 0)] {
             let mut studio = Studio::new(Scene::built_in(scene).unwrap());
             studio.apply(StageCommand::Pick(pick));

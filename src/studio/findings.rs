@@ -141,7 +141,7 @@ mod tests {
     use crate::studio::{StageCommand, Studio};
 
     #[test]
-    fn solo_the_methods_that_are_offered_are_judged_and_in_a_race_the_others_after_them() {
+    fn solo_judges_the_offered_methods_and_a_race_also_the_others() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let wanted = |studio: &Studio| {
             let request = studio.analysis_request();
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn of_a_race_the_best_lane_is_selected_unless_somebody_has_selected_one() {
+    fn a_race_selects_its_best_lane_unless_a_person_selected_one() {
         for (lanes, picks, is_best) in [(10, false, true), (10, true, false), (5, false, true)] {
             let scene = Scene { seconds: 2.0, ..Scene::built_in("spring").unwrap() };
             let all = Studio::new(scene.clone()).entries()[..lanes].to_vec();
@@ -179,8 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_race_that_is_entered_from_solo_has_a_lane_that_stays_in_front_and_one_that_a_scene_names_its_own()
-     {
+    fn race_from_solo_selects_the_best_lane_unless_the_scene_names_one() {
         let brief = |name| Scene { seconds: 2.0, ..Scene::built_in(name).unwrap() };
         let mut studio = Studio::new(brief("spring"));
         studio.analyse();

@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_parameter_that_is_swept_or_dragged_advances_time() {
+    fn time_advances_while_a_parameter_is_swept_or_dragged() {
         for is_held in [false, true] {
             let (mut frames, mut now_ns) = begun("spring");
             let kind = &frames.studio.scene().bodies[0].kind;
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn what_opening_a_scene_takes_is_not_time_in_its_run() {
+    fn loading_a_scene_adds_no_time_to_its_run() {
         let (mut frames, mut now_ns) = begun("spring");
         frame(&mut frames, now_ns, Vec::new());
         assert_eq!(frames.studio.race().tick(), 1);
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn a_goal_is_reached_before_time_passes_and_over_several_frames_if_it_is_far() {
+    fn a_distant_goal_is_reached_over_several_frames_before_time_passes() {
         let (mut frames, now_ns) = begun("spring");
         frames.go_to(100, false);
         let calls = std::cell::Cell::new(0);
@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn the_driver_is_asked_in_order_and_told_when_the_next_frame_is_due() {
+    fn requests_reach_the_driver_in_order_with_the_next_due_time() {
         let studio = Studio::new(Scene::built_in("spring").unwrap());
         let own = |command: &Command| *command == Command::Stage(StageCommand::OpenSpring);
         let mut frames = FrameLoop::new(studio, own, 0);

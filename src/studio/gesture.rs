@@ -19,7 +19,7 @@ pub static GESTURES: &[Gesture] = &[
     Gesture { shown: "Drag the water", about: "pan; in a plot too" },
     Gesture {
         shown: "Double click",
-        about: "fit what was zoomed; on a number in the inspector: type a value",
+        about: "fit the view; on a number in the inspector: type a value",
     },
     Gesture {
         shown: "Click a lane",
@@ -38,7 +38,7 @@ pub static GESTURES: &[Gesture] = &[
         shown: "Drag a boundary",
         about: "more room for stage, instruments or table; double click: default",
     },
-    Gesture { shown: "Drag the timeline", about: "go to any tick that was run" },
+    Gesture { shown: "Drag the timeline", about: "go to any tick of the run" },
     Gesture { shown: "Drop a file", about: "open a scene, or in the loop lab a frame log" },
 ];
 
@@ -48,7 +48,7 @@ mod tests {
     use crate::tools::source_code::Language;
 
     #[test]
-    fn the_menu_of_a_lane_is_told_of_with_every_language() {
+    fn the_help_on_a_lanes_menu_names_every_language() {
         let menu = GESTURES.iter().find(|gesture| gesture.about.contains("Copy as")).unwrap();
         let words: Vec<&str> = menu.about.split([' ', ',', '"', ':']).collect();
         for language in Language::ALL {

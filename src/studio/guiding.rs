@@ -171,7 +171,7 @@ mod tests {
     use crate::studio::{Key, Studio, command_for};
 
     #[test]
-    fn what_a_stop_sets_without_saying_so_is_undone_when_the_guide_is_left() {
+    fn leaving_the_guide_restores_the_settings_of_its_stops() {
         let chosen = |studio: &Studio| {
             let display = studio.display();
             (display.quantity, display.metric, display.interpolation)
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_go_through_the_stops_of_the_open_guide_both_ways_and_stay_at_its_ends() {
+    fn keys_walk_the_stops_of_the_open_guide_and_halt_at_its_ends() {
         let [next, back] = [Key::PageDown, Key::PageUp].map(|key| command_for(key).unwrap().0);
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(next.clone());

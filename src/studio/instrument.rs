@@ -93,16 +93,17 @@ pub static INSTRUMENTS: &[InstrumentCard] = &[
         instrument: Instrument::OneStep,
         group: Why,
         name: "One step",
-        about: "What the selected method does in its next tick: where it evaluates the force, what slope it finds there, \
-                where it lands, and where the exact solution lands.",
+        about: "The next tick of the selected method: where it evaluates the force, the slope it finds there, where \
+                it lands, and where the exact solution lands.",
     },
     InstrumentCard {
         instrument: Instrument::Cloud,
         group: Why,
         name: "Cloud",
-        about: "A shape of very many starts about that of the body, stepped by each method: brighter where more points are, \
-                the exact cloud outlined. A method keeps their area, grows it or shrinks it. They start again whenever you or \
-                the script act on a body; all their ticks use the present method, substeps and tick rate.",
+        about: "A shape of very many starts around the body's, stepped by each method: brighter where more points \
+                are, the exact cloud outlined. A method keeps their area, grows it or shrinks it. They start again \
+                whenever you or the script act on a body; all their ticks use the present method, substeps and tick \
+                rate.",
     },
     InstrumentCard {
         instrument: Instrument::Advice,
@@ -121,8 +122,8 @@ pub static INSTRUMENTS: &[InstrumentCard] = &[
         instrument: Instrument::Cost,
         group: Do,
         name: "Cost",
-        about: "What a tick of each lane costs: evaluations of the force, and in the window the time they take, also as \
-                a share of a frame at 60 Hz.",
+        about: "The cost of a tick of each lane: evaluations of the force, and in the window their time, also as a \
+                share of a frame at 60 Hz.",
     },
 ];
 
@@ -188,7 +189,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_group_has_its_instruments_together_and_each_says_what_it_is() {
+    fn instruments_are_contiguous_by_group_and_described() {
         let mut groups: Vec<InstrumentGroup> = INSTRUMENTS.iter().map(|card| card.group).collect();
         groups.dedup();
         assert_eq!(groups, InstrumentGroup::ALL);
@@ -199,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn next_and_previous_go_round() {
+    fn next_and_previous_wrap_around() {
         let mut instrument = Instrument::Motion;
         for _ in INSTRUMENTS {
             assert_eq!(instrument.neighbour(Step::Next).neighbour(Step::Previous), instrument);

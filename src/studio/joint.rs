@@ -71,7 +71,7 @@ mod tests {
     use crate::studio::{DriverRequest, RunCommand, StageCommand, Studio, ViewCommand};
 
     #[test]
-    fn a_setting_of_an_engine_sets_the_spring_and_control_c_on_the_engine_copies_it() {
+    fn an_engines_setting_changes_the_spring_and_control_c_copies_it() {
         let mut studio = Studio::new(Scene::built_in("engines").unwrap());
         let spring = studio.deck.spring_joint(0).unwrap();
         let setups = studio.deck.joint_setups();

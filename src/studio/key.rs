@@ -255,7 +255,7 @@ mod tests {
     use crate::sim::bodies::BODIES;
 
     #[test]
-    fn the_help_of_a_page_has_no_key_of_the_browser_and_every_other() {
+    fn the_help_of_the_page_omits_only_the_browsers_keys() {
         let shown: Vec<_> = KEYS.iter().filter_map(Binding::on_page).collect();
         for (key, _) in KEYS.iter().flat_map(|binding| binding.keys) {
             let is_word = |words: &str| words.split(", ").any(|word| word == key.to_string());
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn the_keys_of_an_input_name_the_bodies_that_take_it_and_no_others() {
+    fn the_keys_of_an_input_name_exactly_its_bodies() {
         for (input, key) in [("throttle", Key::Up), ("rudder", Key::Left)] {
             let (_, binding) = command_for(key).unwrap();
             let words: Vec<&str> = binding.about.split(|c: char| !c.is_alphabetic()).collect();

@@ -195,7 +195,7 @@ mod tests {
     use crate::measure::{CRITERIA, recommended};
 
     #[test]
-    fn a_spring_is_the_same_by_its_stiffness_and_by_its_frequency() {
+    fn stiffness_and_frequency_describe_the_same_spring() {
         let spring = MySpring::default();
         assert!((spring.frequency_hz() - 75f64.sqrt() / TAU).abs() < 1e-15);
         assert!((spring.damping_ratio() - 4.0 / (2.0 * 10_800f64.sqrt())).abs() < 1e-15);
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn its_scene_has_its_numbers_and_lasts_some_swings() {
+    fn the_scene_of_a_spring_has_its_numbers_and_lasts_some_swings() {
         let slow = MySpring::of_frequency(2.0, 0.1, 0.25);
         for (spring, seconds) in [(slow, 100.0), (MySpring::of_frequency(1e-3, 40.0, 0.0), 20.0)] {
             let scene = spring.scene(50).unwrap();
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn it_is_let_go_as_it_is_told_about_where_gravity_has_it_rest() {
+    fn the_start_of_a_hanging_spring_is_relative_to_its_rest() {
         let hung =
             MySpring { x0_m: 0.5, v0_m_per_s: -2.0, gravity_m_per_s2: 9.0, ..MySpring::default() };
         // 12 kg · 9 m/s² / 900 N/m.
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn it_opens_under_what_all_methods_judged_recommend_with_explicit_euler_one_key_away() {
+    fn my_spring_opens_with_the_best_method_and_explicit_euler_one_key_away() {
         for (spring, tick_hz) in
             [(MySpring::default(), 30), (MySpring::of_frequency(1.0, 4.0, 0.0), 60)]
         {

@@ -78,7 +78,7 @@ mod tests {
     use crate::studio::Studio;
 
     #[test]
-    fn a_notice_leaves_after_some_seconds_and_a_long_one_later_whether_time_runs_or_not() {
+    fn a_notice_leaves_after_seconds_and_a_long_one_later_even_when_paused() {
         for is_running in [true, false] {
             let shown_s = |words: &str| {
                 let mut studio = Studio::new(Scene::built_in("spring").unwrap());

@@ -45,7 +45,7 @@ fn of_halts(scene: &Scene, race: &Race) -> Vec<String> {
         let Some(entrant) = entrant else {
             let halted =
                 format!("the {truth} solution halted at tick {tick}: {} {failure}", body.name);
-            return vec![halted, "nothing is compared with it any more".into()];
+            return vec![halted, "comparisons with it have ended".into()];
         };
         let lanes: Vec<LaneSpec> = race.entrants().iter().map(|lane| lane.spec).collect();
         let name = entrant.spec.distinct_name(entrant.spec.method.name, &lanes);
@@ -97,7 +97,7 @@ mod tests {
     use crate::studio::{RunCommand, StageCommand, Studio};
 
     #[test]
-    fn what_goes_on_is_told_with_what_became_of_it_and_where_it_begins() {
+    fn a_resumed_body_is_reported_with_its_halt_and_new_start() {
         let scene = Scene::built_in("helm").unwrap();
         let failures = [
             StepFailure::NewtonFailed { limit: 9 },
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_blew_up_says_when_and_with_what_value_in_its_unit() {
+    fn a_blow_up_is_reported_with_its_time_and_its_value_in_units() {
         let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
         studio.apply(StageCommand::Method(
             crate::sim::integrators::method("explicit-euler").unwrap(),
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn what_blew_up_of_a_net_is_a_node_and_no_letters() {
+    fn a_blow_up_of_a_net_names_the_node_by_its_number() {
         let mut studio = Studio::new(Scene::built_in("bridge").unwrap());
         let method = crate::sim::integrators::method("explicit-euler").unwrap();
         studio.apply(StageCommand::Method(method));
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_constant_with_which_a_claim_fails_is_told_of_and_one_with_which_it_holds_is_not() {
+    fn a_constant_is_reported_only_if_it_breaks_a_claim() {
         let text = "title = 'x'\ntick_hz = 60\nseconds = 5\nmethods = ['rk4']\n[[law]]\nname = 'spring'\n\
             constants = { k = 9.0, c = 0.0, a = 1.0 }\nenergy = 'vx^2/2 + k*x^2/2'\n[law.coordinates.x]\nstart = 0.3\n\
             acceleration = '-k*x - c*vx'\nexact = 'a*x0*cos(sqrt(k)*t)'";

@@ -76,8 +76,10 @@ pub fn race_own_method(studio: &mut Studio, lane: LaneSpec) {
     let mut is_raced = true;
     restart(deck, viewer, Some("the method"), |next| is_raced = next.race_own(method));
     if !is_raced {
-        return viewer
-            .set_notice(format!("there is no lane left for {}: open a scene of fewer", method.id));
+        return viewer.set_notice(format!(
+            "there is no lane left for {}: open a scene with fewer",
+            method.id
+        ));
     }
     *loops = None;
     deck.openings += 1;
@@ -188,7 +190,7 @@ pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison, reco
     studio.deck.compared = None;
     let told = match &found.first {
         _ if !found.is_comparable() => {
-            vec![format!("{name} and this run have nothing to compare that moves")]
+            vec![format!("{name} and this run share nothing that moves")]
         }
         None if found.is_same() => vec![format!("{name} is the same in {} rows", found.rows)],
         None => {
@@ -213,7 +215,7 @@ pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison, reco
 pub fn file_is_gone(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
     if let Some(name) = deck.scene_list.name_of(path) {
         viewer.set_notice(format!(
-            "{name} is gone: the run goes on, and the file is read again when it is back"
+            "{name} is gone: the run continues, and reads the file again when it is back"
         ));
     }
 }

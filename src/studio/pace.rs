@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn the_pace_is_told_from_a_second_on_and_is_steady_at_any_tick_rate() {
+    fn the_pace_is_shown_after_a_second_and_steady_at_any_tick_rate() {
         for tick_hz in [1, 2, 7, 60, 1000] {
             let mut run = Run::at(tick_hz);
             assert_eq!(run.1.pace(), Pace::Unknown);
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pause_another_speed_and_a_restart_begin_the_measure_again() {
+    fn a_pause_a_new_speed_and_a_restart_reset_the_pace() {
         let mut run = Run::at(60);
         for command in [
             Command::View(ViewCommand::TogglePause),
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn time_that_is_given_up_shows_in_the_pace() {
+    fn dropped_time_shows_in_the_pace() {
         let mut run = Run::at(60);
         let Run(studio, meter, now) = &mut run;
         for _ in 0..10 {
@@ -198,7 +198,7 @@ mod tests {
         LiveFrame { duration_ns: 10_000_000, ticks: 1, dropped: 0, animation_error_ms: 0.0 };
 
     #[test]
-    fn a_moment_that_keeps_up_with_real_time_has_no_error_and_a_jump_has_none_either() {
+    fn frames_in_real_time_and_jumps_have_no_animation_error() {
         let mut live = LiveLoop::default();
         for shown_s in [0.0, 0.02, 0.04] {
             live.add(FRAME, shown_s, 2.0);
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_ten_seconds_are_kept() {
+    fn frame_times_are_kept_for_ten_seconds() {
         let mut live = LiveLoop::default();
         (0..2 * MAX_FRAMES).for_each(|_| live.add(FRAME, 0.0, 1.0));
         assert_eq!(live.frames().len(), MAX_FRAMES);

@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_is_watched_rests_at_the_length_of_its_scene_once() {
+    fn a_watched_run_rests_once_at_the_length_of_its_scene() {
         let mut studio = watched("spring");
         // Covers the scene's length: nothing is slowed.
         watch(&mut studio, 21);
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_undone_at_rest_runs_on_from_there() {
+    fn an_undo_at_rest_resumes_the_run() {
         let mut studio = watched("spring");
         watch(&mut studio, 5);
         let switched = studio.race().tick();
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_rests_at_its_end_in_every_mode_and_in_the_guide_and_what_opens_then_runs() {
+    fn a_run_rests_at_its_end_in_every_mode_and_the_next_run_starts_running() {
         let race = |studio: &mut Studio| _ = studio.apply(StageCommand::ToggleRace);
         let kick = |studio: &mut Studio| _ = studio.apply(RunCommand::Act(Action::Kick(1.0)));
         let guide = |studio: &mut Studio| {
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn escape_leaves_the_loop_lab_and_asks_before_it_quits_a_run_with_something_to_lose() {
+    fn escape_leaves_the_loop_lab_and_asks_before_losing_unsaved_edits() {
         use crate::loops::loop_lab::LoopCommand;
         use crate::studio::DriverRequest;
         let escape = |studio: &mut Studio| studio.apply(ViewCommand::Escape);
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn a_seek_into_the_future_stays_where_the_run_has_got_to_and_says_so() {
+    fn a_seek_into_the_future_stops_at_the_present_with_a_notice() {
         let mut studio = watched("spring");
         (0..120).for_each(|_| studio.tick());
         studio.apply(RunCommand::Seek(60));
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rest_is_not_the_pause_that_a_stop_of_the_guide_asks_for() {
+    fn a_rest_does_not_count_as_the_pause_a_guide_stop_asks_for() {
         use crate::studio::guide::{Goal, STOPS};
         let mut studio = watched("spring");
         let stop = STOPS.iter().position(|stop| stop.goal == Goal::Paused).unwrap();
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_rests_that_is_recorded_or_told_how_long_to_run() {
+    fn recorded_and_timed_runs_never_rest() {
         let ends = |mut studio: Studio| {
             watch(&mut studio, 21);
             studio.race().t() > studio.scene().seconds
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_blow_up_is_slow_rests_and_can_be_watched_again_with_the_same_bits() {
+    fn a_blow_up_slows_rests_and_replays_to_the_bit() {
         let text = "title = 't'\ntick_hz = 60\nseconds = 20\nmethods = ['explicit-euler']\n\
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e6\nx0_m = 1\n";
         let scene = Scene::parse("t.toml", text).unwrap();

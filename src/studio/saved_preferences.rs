@@ -138,7 +138,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_remembered_is_read_as_it_was_written() {
+    fn preferences_survive_writing_and_reading() {
         for preferences in [
             SavedPreferences::default(),
             SavedPreferences { size: Some([800, 600]), ..SavedPreferences::default() },
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_broken_file_is_refused_and_a_newer_one_is_read() {
+    fn a_broken_file_is_refused_but_a_newer_format_is_read() {
         for (text, why) in [
             ("theme = 'blue'", "its theme cannot be understood"),
             ("scene = 5", "its scene cannot be understood"),

@@ -138,7 +138,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_never_has_the_name_of_a_built_in_scene_nor_of_another_file() {
+    fn every_file_on_the_list_has_a_name_of_its_own() {
         let ship = Scene::built_in("ship").unwrap();
         let mut scene_list = SceneList::of(&ship);
         assert_eq!(scene_list.names().nth(scene_list.open().unwrap()).unwrap(), "ship");

@@ -117,7 +117,7 @@ mod tests {
     use crate::sim::bodies::kind;
 
     #[test]
-    fn a_number_of_my_spring_is_refused_in_the_words_of_the_inspector() {
+    fn my_spring_refuses_numbers_with_the_messages_of_the_inspector() {
         let parameters = &kind("spring").unwrap().parameters;
         let spring = MySpring::default();
         let fields =

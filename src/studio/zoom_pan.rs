@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_under_the_pointer_stays_there_while_zooming() {
+    fn zooming_keeps_the_point_under_the_pointer() {
         let mut zoom_pan = ZoomPan::default().panned([0.2, -0.1]);
         for (times, about) in [(1.3, [0.3, -0.4]), (5.0, [-0.5, 0.5]), (0.1, [0.1, 0.2])] {
             let place = [0, 1].map(|i| zoom_pan.centre[i] + about[i] / zoom_pan.zoom);
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pan_moves_what_is_seen_by_as_much_at_every_zoom() {
+    fn a_pan_moves_the_view_equally_at_every_zoom() {
         for times in [0.2, 1.0, 30.0] {
             let zoom_pan = ZoomPan::default().zoomed(times, [0.1, 0.3]);
             let (before, after) = (

@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn text_is_the_same_in_every_encoding_however_it_arrives() {
+    fn text_is_the_same_in_every_encoding_and_chunking() {
         let text = "a;b\n1,5;größer als 𝄞\n";
         let units: Vec<u16> = text.encode_utf16().collect();
         let little = units.iter().flat_map(|unit| unit.to_le_bytes());

@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn a_header_is_found_below_remarks_headings_and_blank_lines_whatever_separates_the_cells() {
+    fn a_header_is_found_below_remarks_and_headings_with_any_separator() {
         for separator in [",", ";", "\t"] {
             let text = "# made by x\n\n// and y\nMachine:A\nos,cpu\nt,x\n0,1.5\n# later\n1,2\n"
                 .replace(',', separator);
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn quotes_short_rows_and_lists_are_read_where_they_are_wanted() {
+    fn quotes_short_rows_and_lists_are_read_on_request() {
         let short = Reading { short_rows: true, ..Reading::default() };
         let (.., rows) = read("x,name\n1,\"a, b\"\n2\n", short, "x");
         assert_eq!(rows, [(2, "1|a, b".to_owned()), (3, "2".to_owned())]);
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_a_fault_and_a_header_that_nobody_knows_is_the_first_line() {
+    fn an_empty_file_is_a_fault_and_an_unknown_header_is_the_first_line() {
         for text in ["", "\n\n", "# only a remark\n"] {
             let begun = TableReader::begin(text.as_bytes(), Reading::default(), |_| true);
             assert!(matches!(begun.map(|_| ()).unwrap_err().fault, TableFault::Empty), "{text:?}");

@@ -26,7 +26,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_decimal_comma_counts_where_commas_separate_nothing() {
+    fn a_decimal_comma_is_read_unless_commas_separate_cells() {
         for (cell, decimal, wanted) in [
             ("1.5", Decimal::Point, Some(1.5)),
             (" 1,5 ", Decimal::PointOrComma, Some(1.5)),

@@ -180,8 +180,8 @@ mod tests {
     }
 
     #[test]
-    fn what_stays_the_same_is_drawn_once_and_grows_when_more_does() {
-        let test = "what_stays_the_same_is_drawn_once_and_grows_when_more_does";
+    fn an_unchanged_backdrop_is_drawn_once_and_grows_with_its_unchanged_part() {
+        let test = "an_unchanged_backdrop_is_drawn_once_and_grows_with_its_unchanged_part";
         let Some(gpu) = gpu_or_skip(test) else { return };
         let target = Offscreen::new(&gpu, [64; 2]).unwrap().texture;
         let mut backdrop = Backdrop::new(Offscreen::FORMAT);

@@ -82,7 +82,7 @@ mod tests {
     use crate::studio::{StageCommand, ViewCommand};
 
     #[test]
-    fn a_link_has_the_tick_that_is_looked_at_and_none_of_a_run_that_goes_on() {
+    fn a_link_has_a_tick_only_if_the_run_is_paused() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.viewer.preferences.display.measure = false;
         let link = |studio: &Studio| {
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_clipboard_a_notice_says_why_and_names_the_command_that_prints_the_method() {
+    fn without_a_clipboard_a_notice_gives_the_reason_and_a_command_instead() {
         let studio = Studio::new(Scene::built_in("spring").unwrap());
         let entry = studio.entries().iter().position(|spec| spec.method.id == "rk4").unwrap();
         let copied = clipboard_text(&studio, DriverRequest::CopyMethod(entry)).unwrap().unwrap();

@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn digits_go_by_place_and_letters_by_layout() {
+    fn digits_are_bound_by_position_and_letters_by_layout() {
         assert_eq!(pressed(Some('1'), "&", false), Some(Key::Digit(1)));
         assert_eq!(pressed(None, "a", false), Some(Key::Sign('a')));
         assert_eq!(pressed(None, "M", true), Some(Key::ShiftSign('m')));
@@ -161,7 +161,7 @@ mod tests {
         Undo Unidentified ZoomIn";
 
     #[test]
-    fn the_name_of_a_key_is_no_sign_whatever_is_held() {
+    fn a_named_key_is_no_character_under_any_modifier() {
         for name in NAMES.split_whitespace() {
             for bits in 0..4 {
                 let modifiers =
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn shift_and_control_make_other_keys_and_other_modifiers_none() {
+    fn shift_and_control_select_other_keys_and_other_modifiers_no_key() {
         assert_eq!(pressed(Some(','), "<", true), Some(Key::ShiftSign(',')));
         assert_eq!(pressed(Some('.'), ">", true), Some(Key::ShiftSign('.')));
         assert_eq!(pressed(Some(','), ",", false), Some(Key::Sign(',')));

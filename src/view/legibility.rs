@@ -177,7 +177,7 @@ fn assert_legible(studio: &Studio, what: &str) {
 }
 
 #[test]
-fn every_text_of_every_scene_can_be_read_alone_and_racing() {
+fn every_text_of_every_scene_is_legible_alone_and_racing() {
     SCENES.par_iter().for_each(|scene| {
         let mut studio = run(scene.name, true);
         assert_legible(&studio, &format!("{}, racing", scene.name));
@@ -192,7 +192,7 @@ fn every_text_of_every_scene_can_be_read_alone_and_racing() {
 /// Every instrument on every scene. Inspector, mode and size vary so that each pair of their values occurs. All
 /// combinations would take an hour.
 #[test]
-fn every_text_can_be_read_under_every_instrument_beside_the_inspector_on_every_scene() {
+fn every_text_is_legible_under_every_instrument_and_the_inspector_on_every_scene() {
     let mut all = Vec::new();
     for (s, scene) in SCENES.iter().enumerate() {
         let mut labs = [false, true].map(|race| moved(Scene::built_in(scene.name).unwrap(), race));
@@ -213,7 +213,7 @@ fn every_text_can_be_read_under_every_instrument_beside_the_inspector_on_every_s
 }
 
 #[test]
-fn every_text_can_be_read_beside_clouds_and_sections() {
+fn every_text_is_legible_beside_clouds_and_sections() {
     let scenes = [
         ("liouville", true, CloudKind::default()),
         ("spring", false, CloudKind::default()),
@@ -236,7 +236,7 @@ fn every_text_can_be_read_beside_clouds_and_sections() {
 }
 
 #[test]
-fn every_text_can_be_read_at_every_stop_of_the_guide_beside_the_inspector() {
+fn every_text_is_legible_at_every_guide_stop_beside_the_inspector() {
     let mut all = Vec::new();
     let mut studio = run("spring", false);
     studio.apply(ViewCommand::ToggleGuide);
@@ -264,7 +264,7 @@ fn every_text_can_be_read_at_every_stop_of_the_guide_beside_the_inspector() {
 }
 
 #[test]
-fn every_text_can_be_read_with_all_methods_racing_in_both_arrangements() {
+fn every_text_is_legible_with_all_methods_racing_in_both_arrangements() {
     for name in ["harbour", "orbit"] {
         let mut studio = race_of_all(name);
         assert_eq!(studio.display().arrangement, Arrangement::Overlay);
@@ -278,7 +278,7 @@ fn every_text_can_be_read_with_all_methods_racing_in_both_arrangements() {
 }
 
 #[test]
-fn every_text_can_be_read_under_every_method_from_the_start() {
+fn every_text_is_legible_under_every_method_from_the_start() {
     let mut studio = race_of_all("harbour");
     studio.apply(StageCommand::ToggleRace);
     for entry in 0..studio.entries().len() {
@@ -289,7 +289,7 @@ fn every_text_can_be_read_under_every_method_from_the_start() {
 }
 
 #[test]
-fn every_text_can_be_read_at_every_size_of_type() {
+fn every_text_is_legible_at_every_size_of_type() {
     let mut labs = [("harbour", race_of_all("harbour")), ("stiff", run("stiff", false))];
     for scale_percent in SCALE_LADDER {
         for (name, studio) in &mut labs {
@@ -300,7 +300,7 @@ fn every_text_can_be_read_at_every_size_of_type() {
 }
 
 #[test]
-fn every_text_can_be_read_in_the_light_theme_and_with_the_help_and_the_inspector_open() {
+fn every_text_is_legible_in_the_light_theme_and_beside_help_and_inspector() {
     for command in [
         Command::View(ViewCommand::ToggleTheme),
         Command::View(ViewCommand::ToggleHelp),
@@ -327,7 +327,7 @@ fn every_text_can_be_read_in_the_light_theme_and_with_the_help_and_the_inspector
 }
 
 #[test]
-fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
+fn every_text_of_the_loop_lab_is_legible_on_any_stage_display_and_theme() {
     for name in ["spring", "harbour", "orbit"] {
         for theme in [Theme::Dark, Theme::Light] {
             let mut studio = run(name, false);
@@ -343,7 +343,7 @@ fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
 }
 
 #[test]
-fn every_text_can_be_read_at_a_rate_of_many_digits() {
+fn every_text_is_legible_at_a_rate_of_many_digits() {
     let scene = Scene::built_in("spring").expect("a built-in scene");
     let mut studio = started(scene.at_tick_hz("1234.567".parse::<TickRate>().unwrap()), true);
     assert_legible(&studio, "a race at 1234.567 Hz");
@@ -359,7 +359,7 @@ fn every_text_can_be_read_at_a_rate_of_many_digits() {
 }
 
 #[test]
-fn every_text_of_the_loop_lab_can_be_read_with_every_loop_and_on_every_display() {
+fn every_text_of_the_loop_lab_is_legible_with_every_loop_and_display() {
     let mut studio = run("spring", false);
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     run_loops(&mut studio);
@@ -378,7 +378,7 @@ fn every_text_of_the_loop_lab_can_be_read_with_every_loop_and_on_every_display()
 }
 
 #[test]
-fn every_text_of_every_instrument_of_the_loop_lab_can_be_read() {
+fn every_text_of_every_instrument_of_the_loop_lab_is_legible() {
     for name in ["spring", "harbour"] {
         let mut studio = run(name, false);
         studio.apply(Command::Loop(LoopCommand::ToggleLab));
@@ -398,7 +398,7 @@ fn beside_the_stage(studio: &Studio, size: Vec2) -> Vec<Text> {
 }
 
 #[test]
-fn instruments_are_chosen_in_one_row_of_tabs_and_in_a_small_window_from_a_menu() {
+fn instruments_have_one_row_of_tabs_and_a_menu_in_a_small_window() {
     let mut studio = moved(Scene::built_in("spring").unwrap(), true);
     for instrument in Instrument::all() {
         studio.apply(StageCommand::Instrument(instrument));
@@ -434,7 +434,7 @@ fn instruments_are_chosen_in_one_row_of_tabs_and_in_a_small_window_from_a_menu()
 }
 
 #[test]
-fn what_one_step_does_to_the_swing_is_seen_whole_under_any_method() {
+fn the_effect_of_one_step_is_fully_visible_under_any_method() {
     let mut studio = race_of_all("spring");
     studio.apply(StageCommand::Instrument(Instrument::OneStep));
     for entry in [0, 3, 11] {
@@ -459,7 +459,7 @@ fn what_one_step_does_to_the_swing_is_seen_whole_under_any_method() {
 }
 
 #[test]
-fn one_step_far_out_the_stability_map_and_the_times_of_ticks_can_be_read() {
+fn the_one_step_plot_stability_map_and_tick_times_are_legible() {
     let mut studio = run("spring", true);
     studio.apply(StageCommand::Instrument(Instrument::StabilityMap));
     studio.analyse();
@@ -474,7 +474,7 @@ fn one_step_far_out_the_stability_map_and_the_times_of_ticks_can_be_read() {
 }
 
 #[test]
-fn large_energies_can_be_read_beside_their_names() {
+fn large_energies_are_legible_beside_their_names() {
     let mut studio = run("stiff", true);
     studio.apply(RunCommand::ToggleEqualCost);
     studio.apply(StageCommand::Pick(1));
@@ -499,7 +499,7 @@ fn large_energies_can_be_read_beside_their_names() {
 }
 
 #[test]
-fn every_text_of_this_windows_own_loop_can_be_read() {
+fn every_text_of_this_windows_own_loop_is_legible() {
     let mut studio = run("spring", false);
     studio.apply(StageCommand::Instrument(Instrument::Loop));
     assert_legible(&studio, "no frame yet");
@@ -530,7 +530,7 @@ fn counted(studio: &Studio, size: Vec2) -> [Vec<String>; 2] {
 }
 
 #[test]
-fn the_opening_has_few_words_and_numbers_and_no_tab_and_measuring_not_many() {
+fn the_opening_shows_few_words_and_numbers_and_no_tabs() {
     for (measure, most) in [(false, [40, 20]), (true, [90, 60])] {
         // Once the stage zooms out after the spring, a sentence on it states how far the spring is.
         let sentence = [20, 6];

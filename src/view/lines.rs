@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_cut_off_at_the_window_and_taken_up_again_where_it_returns() {
+    fn a_line_is_clipped_at_the_window_and_resumes_where_it_returns() {
         let window = Rect::from_min_max(pos2(0.0, 0.0), pos2(10.0, 10.0));
         let there_and_back =
             line([[1.0, 5.0], [2.0, 5.0], [2.0, 25.0], [4.0, 25.0], [4.0, 5.0], [20.0, 5.0]]);
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_as_wide_and_as_bright_at_the_cut_as_it_was_there() {
+    fn clipping_keeps_width_and_brightness_at_the_cut() {
         let window = Rect::from_min_max(pos2(0.0, 0.0), pos2(10.0, 10.0));
         let from = Joint { radius: 1.0, colour: Color32::from_gray(200), ..joint([5.0, 5.0]) };
         let to = Joint { radius: 3.0, colour: Color32::from_gray(100), ..joint([15.0, 5.0]) };
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_simpler_line_keeps_its_ends_its_spikes_and_within_the_tolerance_all_else() {
+    fn simplifying_keeps_a_line_within_the_tolerance_with_its_ends_and_spikes() {
         let mut wave: Vec<Joint> =
             (0..400).map(|i| i as f32 / 8.0).map(|x| joint([x, 20.0 * (x / 5.0).sin()])).collect();
         wave[200].at.y += 30.0;
@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_line_keeps_the_joints_where_it_changes_its_width_or_its_colour() {
+    fn simplifying_keeps_joints_where_width_or_colour_changes() {
         let straight: Vec<Joint> = (0..30).map(|i| joint([i as f32, 0.0])).collect();
         assert_eq!(simple(&straight).len(), 2);
         let mut wider = straight.clone();

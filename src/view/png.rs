@@ -39,7 +39,7 @@ mod tests {
     use crate::picture_note::{NOTED_WITHIN, is_encoded_here};
 
     #[test]
-    fn a_picture_survives_to_the_bit_and_says_where_it_comes_from() {
+    fn a_picture_survives_to_the_bit_with_its_origin() {
         let rgba: Vec<u8> = (0..4 * 5 * 3).map(|byte| byte * 4).collect();
         let file = encode([5, 3], &rgba);
         let picture = image::load_from_memory(&file).unwrap().into_rgba8();

@@ -233,8 +233,8 @@ mod tests {
     }
 
     #[test]
-    fn textures_come_back_in_the_order_in_which_they_were_asked_for() {
-        let test = "textures_come_back_in_the_order_in_which_they_were_asked_for";
+    fn textures_are_read_back_in_the_order_of_the_requests() {
+        let test = "textures_are_read_back_in_the_order_of_the_requests";
         let Some(gpu) = gpu_or_skip(test) else { return };
         let mut readback = Readback::default();
         let format = wgpu::TextureFormat::Rgba8Unorm;
@@ -250,8 +250,8 @@ mod tests {
     }
 
     #[test]
-    fn red_comes_first_whatever_the_texture_holds() {
-        let Some(gpu) = gpu_or_skip("red_comes_first_whatever_the_texture_holds") else { return };
+    fn pixels_are_rgba_even_from_a_bgra_texture() {
+        let Some(gpu) = gpu_or_skip("pixels_are_rgba_even_from_a_bgra_texture") else { return };
         let format = wgpu::TextureFormat::Bgra8Unorm;
         let texture = uploaded(&gpu, format, [1, 1], &[10, 20, 30, 40]);
         let mut rows = Vec::new();

@@ -73,8 +73,8 @@ mod tests {
     use crate::view::testing::{draw_picture, gpu_or_skip};
 
     #[test]
-    fn a_sea_fills_its_place_and_nothing_else_and_is_lighter_above() {
-        let test = "a_sea_fills_its_place_and_nothing_else_and_is_lighter_above";
+    fn a_sea_fills_exactly_its_rectangle_and_is_lighter_above() {
+        let test = "a_sea_fills_exactly_its_rectangle_and_is_lighter_above";
         let Some(gpu) = gpu_or_skip(test) else { return };
         let rect = Rect { min: [8.0, 8.0], max: [56.0, 56.0] };
         let sea = Sea { rect, colours: [[40, 60, 90, 255], [10, 20, 30, 255]] };

@@ -125,8 +125,8 @@ mod tests {
     }
 
     #[test]
-    fn a_path_covers_its_own_pixels_and_no_others() {
-        let Some(gpu) = gpu_or_skip("a_path_covers_its_own_pixels_and_no_others") else { return };
+    fn a_path_covers_exactly_its_own_pixels() {
+        let Some(gpu) = gpu_or_skip("a_path_covers_exactly_its_own_pixels") else { return };
         let points = [[-5.0, 20.0], [40.0, 20.0], [69.0, 20.0]].map(|at| point(at, 2.0));
         let pixels = draw(&gpu, &points, EVERYWHERE);
         for y in 0..64 {
@@ -138,8 +138,8 @@ mod tests {
     }
 
     #[test]
-    fn where_a_path_bends_nothing_is_drawn_twice() {
-        let Some(gpu) = gpu_or_skip("where_a_path_bends_nothing_is_drawn_twice") else { return };
+    fn no_pixel_is_drawn_twice_at_a_bend() {
+        let Some(gpu) = gpu_or_skip("no_pixel_is_drawn_twice_at_a_bend") else { return };
         let points = [[-5.0, 20.0], [30.0, 20.0], [69.0, 50.0]]
             .map(|at| PathPoint { colour: [255, 255, 255, 128], ..point(at, 4.0) });
         let pixels = draw(&gpu, &points, EVERYWHERE);
@@ -156,8 +156,10 @@ mod tests {
     }
 
     #[test]
-    fn width_and_colour_run_from_point_to_point() {
-        let Some(gpu) = gpu_or_skip("width_and_colour_run_from_point_to_point") else { return };
+    fn width_and_colour_are_interpolated_between_points() {
+        let Some(gpu) = gpu_or_skip("width_and_colour_are_interpolated_between_points") else {
+            return;
+        };
         let red = PathPoint { colour: [255, 0, 0, 255], ..point([0.0, 32.0], 2.0) };
         let blue = PathPoint { colour: [0, 0, 255, 255], ..point([64.0, 32.0], 18.0) };
         let pixels = draw(&gpu, &[red, blue], EVERYWHERE);

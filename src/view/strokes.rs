@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_without_gaps_has_room_for_its_round_ends_and_a_closed_one_has_none() {
+    fn a_solid_line_has_room_for_round_ends_unless_it_is_closed() {
         let straight = mesh([[0.0, 0.0], [10.0, 0.0]], SOLID);
         assert_eq!((straight.vertices.len(), straight.indices.len()), (4, 6));
         assert_eq!([0, 2].map(|i| straight.vertices[i].at), [[-2.0, -2.0], [12.0, -2.0]]);
@@ -278,8 +278,8 @@ mod tests {
     }
 
     #[test]
-    fn a_path_that_goes_nowhere_is_a_disc() {
-        let Some(gpu) = gpu_or_skip("a_path_that_goes_nowhere_is_a_disc") else { return };
+    fn a_path_of_zero_length_is_a_disc() {
+        let Some(gpu) = gpu_or_skip("a_path_of_zero_length_is_a_disc") else { return };
         let pixels = draw(&gpu, 1.0, [dot([32.0; 2], 10.0, [255; 4])]);
         let area = std::f32::consts::PI * 100.0;
         assert!((pixels.sum(0) - area).abs() < 0.01 * area, "{} of {area}", pixels.sum(0));
@@ -307,8 +307,8 @@ mod tests {
     }
 
     #[test]
-    fn dashes_are_as_long_as_they_should_be_and_round() {
-        let Some(gpu) = gpu_or_skip("dashes_are_as_long_as_they_should_be_and_round") else {
+    fn dashes_are_round_and_of_the_right_length() {
+        let Some(gpu) = gpu_or_skip("dashes_are_round_and_of_the_right_length") else {
             return;
         };
         let solid = path(&[([0.0, 32.0], 4.0), ([64.0, 32.0], 4.0)], [255; 4]);
@@ -320,8 +320,8 @@ mod tests {
     }
 
     #[test]
-    fn a_translucent_path_covers_each_pixel_once_where_it_closes() {
-        let test = "a_translucent_path_covers_each_pixel_once_where_it_closes";
+    fn a_closed_translucent_path_covers_each_pixel_once() {
+        let test = "a_closed_translucent_path_covers_each_pixel_once";
         let Some(gpu) = gpu_or_skip(test) else { return };
         let corners =
             [[32.0, 8.0], [56.0, 24.0], [48.0, 52.0], [16.0, 52.0], [8.0, 24.0], [32.0, 8.0]];
@@ -344,8 +344,8 @@ mod tests {
     }
 
     #[test]
-    fn a_point_is_as_many_pixels_as_the_scale_says() {
-        let test = "a_point_is_as_many_pixels_as_the_scale_says";
+    fn the_scale_sets_the_pixels_per_point() {
+        let test = "the_scale_sets_the_pixels_per_point";
         let Some(gpu) = gpu_or_skip(test) else { return };
         let across = path(&[([-9.0, 8.0], 2.0), ([80.0, 8.0], 2.0)], [255; 4]);
         let clip = Rect { min: [4.0, 0.0], max: [12.0, 64.0] };

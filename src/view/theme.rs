@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chosen_size_of_type_holds_as_far_as_the_window_has_room() {
+    fn a_chosen_type_size_is_limited_by_the_window() {
         for (size, percent, expected) in [
             ([1280.0, 720.0], 100, 1.0),
             ([1280.0, 720.0], 75, 0.75),
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn every_sign_of_the_project_and_of_european_names_is_in_a_font() {
+    fn fonts_have_every_character_of_the_project_and_of_european_names() {
         let context = Context::default();
         apply_style(&context);
         context.run_ui(RawInput::default(), |_| {}).textures_delta.clear();
@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sign_that_no_font_has_is_drawn_as_a_box_and_a_blank_as_nothing() {
+    fn a_missing_character_is_drawn_as_a_box_and_a_blank_as_nothing() {
         let context = Context::default();
         apply_style(&context);
         context.run_ui(RawInput::default(), |_| {}).textures_delta.clear();

@@ -111,7 +111,7 @@ mod tests {
     use regatta::run::link;
 
     #[test]
-    fn a_link_is_opened_with_the_settings_behind_it() {
+    fn a_link_opens_with_the_settings_after_it() {
         let link = link::link_to_run(&Scene::built_in("spring").unwrap()).unwrap();
         let address = Address::of(&format!("{link}&panels=off&theme=light&tick=90")).unwrap();
         assert_eq!(address.run.as_ref().unwrap().title, "A spring at 1 Hz");
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn an_address_opens_a_scene_as_the_options_of_the_program_do() {
+    fn an_address_opens_a_scene_like_the_options_of_the_program() {
         let opened = |written: &str| Address::of(written).unwrap().studio().unwrap();
         let studio = opened("#scene=spring&method=rk4&tick-hz=30");
         assert_eq!((studio.scene().name.as_str(), studio.race().tick_hz()), ("spring", 30.into()));
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn what_an_address_asks_for_in_vain_is_refused_in_a_sentence_that_names_it() {
+    fn an_invalid_setting_of_an_address_is_refused_by_name() {
         for (written, word) in [
             ("#scene=tub", "\"tub\""),
             ("#method=rk5", "\"rk5\""),

@@ -42,7 +42,7 @@ fn themes(sheet: &str) -> Vec<Vec<(&str, &str)>> {
 }
 
 #[test]
-fn every_text_of_the_pages_has_a_contrast_with_which_it_is_read() {
+fn every_text_of_the_pages_has_a_legible_contrast() {
     assert!((contrast("000000", "ffffff") - 21.0).abs() < 1e-9);
     assert!((contrast("b35c00", "e9f0f4") - 4.10).abs() < 0.01);
     for sheet in SHEETS {

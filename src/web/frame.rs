@@ -52,7 +52,7 @@ impl Driver {
             match to_do {
                 ToDo::Own(Command::View(ViewCommand::AskForPath)) => files::pick_file(),
                 ToDo::Own(_) => {
-                    let notice = "a page compares no recordings; `regatta diff` does";
+                    let notice = "a page cannot compare recordings; `regatta diff` can";
                     self.frames.studio.viewer.set_notice(notice);
                 }
                 ToDo::Request(DriverRequest::Screenshot) => self.saves_picture = true,

@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn a_key_is_the_programs_unless_it_is_the_browsers() {
+    fn keys_of_the_browser_are_left_to_the_browser() {
         assert_eq!(bound("&", "Digit1", false), Some(Key::Digit(1)));
         assert_eq!(bound("End", "Numpad1", false), Some(Key::Digit(1)));
         assert_eq!(bound("c", "KeyC", false), Some(Key::Sign('c')));

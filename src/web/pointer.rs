@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn one_finger_presses_and_two_only_zoom() {
+    fn one_finger_presses_and_two_fingers_only_zoom() {
         let mut fingers = Fingers::default();
         let mut did = |finger, action| fingers.events(finger, action, egui::pos2(1.0, 2.0));
         assert_eq!(presses(&did(7, PointerAction::Down)), [true]);

@@ -155,7 +155,7 @@ mod tests {
     use regatta::studio::RunCommand;
 
     #[test]
-    fn a_page_computes_the_numbers_that_its_section_has() {
+    fn a_page_computes_the_numbers_of_its_section() {
         let manual = chapter("questions").unwrap().text.replace('\n', " ");
         let sections: Vec<&str> = manual.split(" ## ").collect();
         let (mut section, mut claims) = ("", Vec::new());
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stage_leads_to_the_page_that_shows_it_and_every_page_is_led_to() {
+    fn every_stage_links_to_its_page_and_every_page_is_linked() {
         let page = |address: &str| {
             page_of(&crate::address::Address::of(address).unwrap().studio().unwrap())
         };

@@ -86,7 +86,7 @@ pub(crate) fn replay_notice(replay: &mut Replay) -> Option<String> {
     if let Some(reached) = reached {
         let Check { tick, hash, .. } = replay.scene().checks[reached.row];
         if reached.hash != Some(hash) {
-            return Some(format!("not the run that was made: they differ from tick {tick} on"));
+            return Some(format!("not the run of the link: they differ from tick {tick} on"));
         }
     }
     replay.is_over().then(|| format!("the same to the bit as where it was made, to tick {last}"))
@@ -99,7 +99,7 @@ mod tests {
     use regatta::scene::Scene;
 
     #[test]
-    fn the_run_is_the_same_or_parts_at_a_tick() {
+    fn a_linked_run_is_the_same_or_differs_from_a_named_tick_on() {
         let mut session = Session::racing(Scene::built_in("ship").unwrap().into());
         session.run(200);
         let mut recording = session.recording(200);

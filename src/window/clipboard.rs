@@ -31,7 +31,7 @@ impl Clipboard {
             if let egui::OutputCommand::CopyText(text) = command
                 && let Err(reason) = self.set_text(text.clone())
             {
-                log::warn!("what was copied can be pasted in this window only: {reason}");
+                log::warn!("copies can be pasted in this window only: {reason}");
             }
         }
     }
@@ -43,7 +43,7 @@ impl Clipboard {
             Ok(text) => Some(text.chars().take(MAX_LETTERS).collect()),
             Err(arboard::Error::ContentNotAvailable) => Some(String::new()),
             Err(error) => {
-                log::warn!("nothing is pasted from other programs: {}", reason(&error));
+                log::warn!("cannot paste from other programs: {}", reason(&error));
                 None
             }
         }

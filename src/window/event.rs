@@ -84,7 +84,7 @@ impl App {
                 self.frames
                     .studio
                     .viewer
-                    .set_notice(format!("The recording is not kept as it grows: {reason}"));
+                    .set_notice(format!("The recording cannot be saved as it grows: {reason}"));
                 self.request_redraw();
             }
             Event::TicksTimed(times) => {

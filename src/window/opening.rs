@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn a_recording_that_is_typed_is_compared_with_the_run_to_its_first_other_tick() {
+    fn a_typed_recording_is_compared_up_to_its_first_differing_tick() {
         let folder = tempfile::tempdir().unwrap();
         let recording = folder.path().join("clip.toml");
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn a_link_that_is_typed_opens_its_run_and_is_no_file() {
+    fn a_typed_link_opens_its_run_and_not_a_file() {
         let mut studio = Studio::new(Scene::built_in("ship").unwrap());
         (0..90).for_each(|_| studio.tick());
         studio.apply(RunCommand::ThrottleDown);
@@ -292,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn a_method_that_is_dropped_races_in_the_open_scene_and_a_changed_one_takes_its_place() {
+    fn a_dropped_method_joins_the_race_and_a_changed_one_replaces_it() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mine.step");
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rule_that_is_dropped_is_a_scene_of_its_own_and_is_watched_as_its_lines() {
+    fn a_dropped_rule_opens_as_a_watched_scene() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mine.step");
         let lines = "x += (target - x) * 20 * dt";
@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_dropped_is_opened_and_one_with_mistakes_leaves_the_run_alone() {
+    fn a_dropped_file_is_opened_unless_it_has_mistakes() {
         let folder = tempfile::tempdir().unwrap();
         let [good, bad] = ["ship.toml", "bad.toml"].map(|name| folder.path().join(name));
         let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
@@ -381,7 +381,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_is_completed_as_far_as_it_is_sure() {
+    fn a_path_is_completed_up_to_the_first_ambiguity() {
         let folder = tempfile::tempdir().unwrap();
         let root = format!("{}{MAIN_SEPARATOR}", folder.path().display());
         for name in ["ship-a.toml", "ship-b.toml", "ship.png", "other.toml", ".hidden.toml"] {
@@ -406,7 +406,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_known_by_whatever_path_it_is_opened() {
+    fn a_file_is_recognised_by_any_of_its_paths() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.toml");
         std::fs::write(&path, "").unwrap();

@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_window_is_no_larger_than_its_screen_at_the_scale_of_that() {
+    fn a_window_fits_its_screen_at_the_scale_of_that_screen() {
         for (screen_px, scale, fitted) in [
             ([1280, 800], 1.5, [853, 453]),
             ([800, 600], 1.0, [800, 520]),

@@ -86,7 +86,7 @@ mod tests {
     use crate::studio::StageCommand;
 
     #[test]
-    fn a_lane_that_halts_meanwhile_has_no_cost() {
+    fn a_lane_that_halts_while_timed_has_no_cost() {
         let scene = Scene::built_in("stiff").unwrap();
         let spec = LaneSpec::plain(method("explicit-euler").unwrap());
         let mut run = Ticker::new(Lane::new(&scene, spec.solver(), spec.substeps), scene.tick_hz);
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn every_lane_of_a_race_takes_some_time() {
+    fn every_lane_of_a_race_has_a_time() {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.apply(StageCommand::ToggleRace);
         let lanes = studio.race().entrants().iter();

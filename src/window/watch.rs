@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_written_or_replaced_has_changed_once() {
+    fn a_written_or_replaced_file_is_reported_once() {
         let (folder, mut watched) = watched();
         assert_eq!(watched.check(), FileCheck::Same);
         std::fs::write(&watched.path, "two").unwrap();
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_deleted_is_gone_once_and_back_once() {
+    fn a_deletion_and_a_return_of_a_file_are_reported_once_each() {
         let (_folder, mut watched) = watched();
         std::fs::remove_file(&watched.path).unwrap();
         // An editor may be about to replace it.
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_stays_is_not_read_again_until_it_changes() {
+    fn an_unchanged_file_is_not_read_again() {
         let (_folder, mut watched) = watched();
         let reads = |watched: &mut WatchedFile| {
             looks(watched, 20);

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-/// The rows of two texts that differ: those found and not kept with `+`, those kept and not found with `-`, in their order.
-/// Rows that stand elsewhere alone are named by the first of them.
+/// The differing rows of two texts, in their order: new rows with `+`, missing rows with `-`. If rows only moved, the
+/// first of them is named.
 fn difference(found: &str, kept: &str) -> Option<String> {
     if found == kept {
         return None;
@@ -34,7 +34,7 @@ fn difference(found: &str, kept: &str) -> Option<String> {
     )
 }
 
-/// Asserts that `file` keeps what was found. A failure shows the rows that differ, and the remedy.
+/// Asserts that `file` holds `found`. A failure shows the differing rows and the remedy.
 #[track_caller]
 pub(crate) fn hold_text(file: &str, found: &str, kept: &str, remedy: &str) {
     if let Some(rows) = difference(found, kept) {
@@ -43,7 +43,7 @@ pub(crate) fn hold_text(file: &str, found: &str, kept: &str, remedy: &str) {
 }
 
 #[test]
-fn only_the_rows_that_differ_are_shown() {
+fn only_differing_rows_are_shown() {
     let shown = |found: &str, kept: &str| difference(found, kept).unwrap_or_default();
     assert_eq!(shown("a\nb\n", "a\nb\n"), "");
     assert_eq!(shown("a\nB\nc\nc\n", "a\nb\nc\n"), "- b\n+ B\n+ c\n");

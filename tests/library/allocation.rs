@@ -51,7 +51,7 @@ fn allocations_in(work: impl FnOnce()) -> u64 {
     ALLOCATIONS.get() - before
 }
 
-/// What `work` makes, with the bytes that it allocates for it.
+/// The result of `work`, with the bytes that it allocates.
 fn bytes_in<T>(work: impl FnOnce() -> T) -> (T, usize) {
     let before = BYTES.get();
     let made = work();
@@ -59,7 +59,7 @@ fn bytes_in<T>(work: impl FnOnce() -> T) -> (T, usize) {
 }
 
 #[test]
-fn the_counter_counts() {
+fn the_counter_counts_allocations() {
     let mut kept = Vec::new();
     let count = allocations_in(|| kept = vec![1.0; 100]);
     let grown = allocations_in(|| kept.reserve(1000));
@@ -106,7 +106,7 @@ fn no_method_allocates_in_hundreds_of_steps_on_any_vector() {
 }
 
 #[test]
-fn neither_a_method_nor_a_body_of_ones_own_allocates() {
+fn custom_methods_and_bodies_do_not_allocate() {
     let card = |own| Method { id: "mine", custom: Some(own), ..*method("rk4").expect("a method") };
     let mine = [
         card(custom_integrator::<Rk4<Vec<f64>>>),
@@ -170,11 +170,11 @@ fn no_net_allocates_under_the_methods_of_its_scene() {
 }
 
 #[test]
-fn a_race_does_not_allocate_while_its_histories_fill_and_turn_over() {
+fn a_race_does_not_allocate_while_its_histories_fill_and_wrap() {
     for scene in scenes(false) {
         let mut race = Race::new(&scene, scene.lanes.iter().copied());
         let mut seen = Observations::new(&race, scene.seconds);
-        // Histories turn over alike whatever moves: that takes thousands of ticks.
+        // Histories wrap alike for every body, and that takes thousands of ticks.
         let ticks =
             if ["harbour", "helm", "orbit"].contains(&scene.name.as_str()) { 5000 } else { 1500 };
         for tick in 0..ticks {
@@ -189,7 +189,7 @@ fn a_race_does_not_allocate_while_its_histories_fill_and_turn_over() {
 }
 
 #[test]
-fn a_lab_allocates_in_no_tick_but_those_at_which_it_takes_a_snapshot_or_a_second_is_over() {
+fn the_studio_allocates_only_at_snapshots_and_once_a_second() {
     for scene in scenes(false) {
         let mut studio = Studio::new(scene);
         studio.apply(StageCommand::ToggleRace);
@@ -214,7 +214,7 @@ fn a_lab_allocates_in_no_tick_but_those_at_which_it_takes_a_snapshot_or_a_second
 }
 
 #[test]
-fn a_stepper_takes_no_more_memory_than_it_says_and_not_less_than_a_third() {
+fn stepper_memory_matches_its_report_within_a_factor_of_three() {
     let solvers = GENERAL_METHODS.iter().map(Solver::Method).chain([Solver::Truth]);
     for solver in solvers {
         for name in ["harbour", "chain", "helm", "orbit", "pendulum"] {
@@ -229,12 +229,12 @@ fn a_stepper_takes_no_more_memory_than_it_says_and_not_less_than_a_third() {
     }
 }
 
-/// A grid of so many nodes under Runge-Kutta 4.
+/// A grid of `columns` × `rows` nodes under Runge-Kutta 4.
 fn large_net(columns: usize, rows: usize) -> Box<dyn Stepper> {
     net_under(Solver::Method(method("rk4").expect("a method")), columns, rows)
 }
 
-/// A grid of so many nodes.
+/// A grid of `columns` × `rows` nodes.
 fn net_under(solver: Solver, columns: usize, rows: usize) -> Box<dyn Stepper> {
     let grid = Grid { columns, rows, spacing: 0.1, shear: true, pin: Some(Pin::Corners) };
     let kind = net_kind(NetPlan { form: Form::Grid(grid), kicked: None }).expect("a net");
@@ -257,7 +257,7 @@ fn a_large_net_is_stepped_on_all_cores_without_allocating() {
 }
 
 #[test]
-fn a_large_net_takes_two_hundred_bytes_a_node() {
+fn a_large_net_uses_two_hundred_bytes_per_node() {
     let (net, bytes) = bytes_in(|| large_net(200, 100));
     let per_node = bytes as f64 / (net.q().len() / 2) as f64;
     // The state, eight vectors of the method, and for a moment two numbers of each node: all else is by row.
@@ -265,7 +265,7 @@ fn a_large_net_takes_two_hundred_bytes_a_node() {
 }
 
 #[test]
-fn a_truth_that_is_refused_takes_the_memory_of_a_state_and_one_that_is_solved_that_which_it_says() {
+fn truth_memory_matches_its_report() {
     let (mut refused, bytes) = bytes_in(|| net_under(Solver::Truth, 200, 100));
     let nodes = refused.q().len() / 2;
     assert!(bytes / nodes < 150, "{} bytes a node", bytes / nodes);

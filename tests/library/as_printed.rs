@@ -1,4 +1,4 @@
-//! The chapter's listings as they are printed, faults and all, held to the figures of those faults.
+//! The chapter's listings as printed, errors included, tested against the figures of those errors.
 //!
 //! Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
 
@@ -30,7 +30,7 @@ fn sail(id: &str, h: f64, n: u32) -> Vec<State<f64>> {
     states.collect()
 }
 
-/// The three listings, and what the chapter calls Euler.
+/// The three listings, and the chapter's Euler.
 fn printed() -> impl Iterator<Item = &'static Method> {
     GENERAL_METHODS
         .iter()
@@ -38,7 +38,7 @@ fn printed() -> impl Iterator<Item = &'static Method> {
 }
 
 #[test]
-fn the_distances_of_the_printed_listings_agree_and_fall_with_the_first_order() {
+fn printed_listings_reproduce_their_distances_at_order_1() {
     let table = [
         ("semi-implicit-euler", 59.442864, 3.960, 1.00),
         ("improved-euler-as-printed", 58.303177, 2.820, 0.99),
@@ -56,7 +56,7 @@ fn the_distances_of_the_printed_listings_agree_and_fall_with_the_first_order() {
 }
 
 #[test]
-fn the_speeds_of_the_printed_listings_are_those_of_the_methods_they_are_meant_to_be() {
+fn printed_listings_have_the_speeds_of_the_intended_methods() {
     for (printed, meant) in
         [("improved-euler-as-printed", "improved-euler"), ("rk4-as-printed", "rk4")]
     {
@@ -68,7 +68,7 @@ fn the_speeds_of_the_printed_listings_are_those_of_the_methods_they_are_meant_to
 }
 
 #[test]
-fn on_a_force_that_depends_on_position_only_all_printed_listings_are_one_method() {
+fn all_printed_listings_agree_on_a_force_of_position_alone() {
     assert_eq!(printed().count(), 4);
     let run = |method: &Method, damping: f64| {
         let spring = Spring { mass: 2.0, stiffness: 300.0, damping, x0: 1.0, v0: -0.4, kick: 1.0 };
@@ -139,7 +139,7 @@ fn adaptive_euler_as_printed_sees_a_force_change_within_the_step() {
 }
 
 #[test]
-fn the_card_of_adaptive_euler_as_printed_holds_the_tolerance_of_the_chapters_2_55_s() {
+fn the_card_of_adaptive_euler_has_the_tolerance_that_loses_2_55_s() {
     let card = method("adaptive-euler-as-printed").expect("a method");
     let ship = problem(SHIP);
     let mut integrator = fresh(card);

@@ -1,4 +1,4 @@
-//! What a scene file can have wrong, with the reviewed messages: `tests/bad_scenes.md` has a case for each.
+//! Mistakes in scene files, with the reviewed messages: `tests/bad_scenes.md` has a case for each.
 //!
 //! `BLESS=1 cargo test --test library bad_scenes` writes the messages again; without it, one that is missing or
 //! different fails.
@@ -10,7 +10,7 @@ use regatta::scene::{MAX_BODIES, MAX_FILE_BYTES, MAX_SHOWN, Scene, SceneErrors};
 
 use crate::kept::hold_text;
 
-/// A bad scene and what is said of it.
+/// A bad scene and its error message.
 #[derive(Clone, Debug, PartialEq)]
 struct Case {
     name: String,
@@ -67,7 +67,7 @@ fn case(section: &str) -> Option<Case> {
     })
 }
 
-/// The bytes that escapes stand for; line breaks stand for nothing.
+/// The bytes of an escaped text. Line breaks are ignored.
 fn unescaped(written: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut rest = written.bytes().filter(|byte| *byte != b'\n');
@@ -127,7 +127,7 @@ fn every_bad_scene_gives_its_reviewed_message() {
 }
 
 #[test]
-fn malformed_cases_are_seen() {
+fn malformed_cases_are_detected() {
     let good = "# Head\n\n## a\n\n```toml\nx\n```\n\n```text\nbad\n```\n\n## b\n\n```toml escaped\n\
                 \\xe9\\r\\n\n\\\\\n```\n\n```text\n```\n";
     let (preface, found) = cases(good).unwrap();
@@ -181,7 +181,7 @@ fn every_bad_scene_is_reported_with_its_lines() {
 }
 
 #[test]
-fn a_tolerance_is_accepted_wherever_the_lane_may_have_an_adaptive_method() {
+fn a_tolerance_is_accepted_for_any_lane_that_may_be_adaptive() {
     let head = "title = 'x'\ntick_hz = 60\nseconds = 10\nmethods = ['rk4', 'midpoint']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
     let command = |words: &str| format!("[[command]]\n{words}\n");
@@ -193,7 +193,7 @@ fn a_tolerance_is_accepted_wherever_the_lane_may_have_an_adaptive_method() {
         command(&format!("at_s = 3\nlane = 2\n{adaptive}")),
         command("at_s = 3\nsolo = 2") + &command(&format!("at_s = 4\n{adaptive}")),
     ] {
-        // Whatever the order in the file: the times decide.
+        // The times decide, not the order in the file.
         for text in [before.clone() + &tolerance, tolerance.clone() + &before] {
             Scene::parse("good.toml", &(head.to_owned() + &text)).unwrap();
         }
@@ -204,14 +204,14 @@ fn a_tolerance_is_accepted_wherever_the_lane_may_have_an_adaptive_method() {
 }
 
 #[test]
-fn a_million_bodies_are_refused_for_the_size_of_their_file() {
+fn a_file_of_a_million_bodies_is_refused_for_its_size() {
     let errors = refused(&"[[ship]]\n".repeat(1_000_000));
     let message = "bad.toml:1:1: the file holds more than 1048576 bytes; give a scene file, with a shorter script";
     assert_eq!(errors.to_string(), message);
 }
 
 #[test]
-fn as_many_bodies_as_a_file_can_hold_are_refused_by_their_number() {
+fn the_most_bodies_a_file_can_hold_are_refused_for_their_number() {
     let head = "title = 'many'\ntick_hz = 60\nseconds = 1\n";
     let body = "[[ship]]\n";
     let count = (MAX_FILE_BYTES - head.len()) / body.len();
@@ -228,7 +228,7 @@ fn as_many_bodies_as_a_file_can_hold_are_refused_by_their_number() {
 }
 
 #[test]
-fn a_file_of_nothing_but_mistakes_is_refused_without_a_word_too_many() {
+fn a_file_full_of_mistakes_is_refused_briefly() {
     for mistake in ["=\n", "a=\n", "a=1\n", "\0", "\0\n", "[", "\"", "a=1 1\n", "[[x]]\n", "é\r"] {
         let errors = refused(&mistake.repeat(MAX_FILE_BYTES / mistake.len()));
         assert!(errors.to_string().lines().count() <= MAX_SHOWN + 1);
@@ -237,7 +237,7 @@ fn a_file_of_nothing_but_mistakes_is_refused_without_a_word_too_many() {
 }
 
 #[test]
-fn nesting_as_deep_as_a_file_can_hold_does_not_overflow_the_stack() {
+fn the_deepest_possible_nesting_does_not_overflow_the_stack() {
     for opening in ["[", "{a=", "a.", "[[", "[{a="] {
         for start in ["", "a=", "methods=", "[a."] {
             let text = start.to_owned() + &opening.repeat((MAX_FILE_BYTES - 8) / opening.len());

@@ -1,4 +1,4 @@
-//! A copy in a batch has the bits of its body alone, whatever the instruction set and the number of threads.
+//! A copy in a batch has the bits of its body alone, for any instruction set and any number of threads.
 
 use rayon::ThreadPoolBuilder;
 use regatta::scene::Scene;
@@ -39,7 +39,7 @@ fn starts(count: u32) -> Vec<State<f64>> {
 }
 
 fn bits([q, v]: [f64; 2]) -> [Option<u64>; 2] {
-    // What blows up has no bits to keep.
+    // A state that blew up has no bits to compare.
     [q, v].map(|number| number.is_finite().then(|| number.to_bits()))
 }
 
@@ -72,7 +72,7 @@ fn available() -> impl Iterator<Item = InstructionSet> {
 }
 
 #[test]
-fn every_copy_has_the_bits_of_its_body_alone_at_every_tick_on_every_instruction_set() {
+fn a_batch_matches_lone_bodies_to_the_bit_on_every_instruction_set() {
     // Two blocks of the widest, and a part.
     let starts = starts(67);
     for text in BODIES {
@@ -94,7 +94,7 @@ fn every_copy_has_the_bits_of_its_body_alone_at_every_tick_on_every_instruction_
 }
 
 #[test]
-fn the_number_of_threads_and_of_ticks_in_a_run_changes_nothing() {
+fn neither_thread_count_nor_ticks_per_run_change_a_batch() {
     let starts = starts(9000);
     for text in [BODIES[0], BODIES[4]] {
         for id in ["rk4", "velocity-verlet", "dormand-prince-54"] {
@@ -127,7 +127,7 @@ impl System for Oscillator {
 }
 
 #[test]
-fn copies_that_do_not_fit_into_memory_are_refused_before_they_are_made() {
+fn copies_exceeding_the_memory_are_refused_before_allocation() {
     struct Endless;
     impl Iterator for Endless {
         type Item = State<f64>;

@@ -93,7 +93,7 @@ macro_rules! with_each {
 }
 
 #[test]
-fn bodies_stepped_together_have_the_bits_that_they_have_alone() {
+fn bodies_stepped_together_match_lone_bodies_to_the_bit() {
     macro_rules! check {
         ($Type:ident) => {
             has_the_bits_of_one::<$Type<Block>, $Type<f64>>(stringify!($Type));
@@ -124,7 +124,7 @@ trait OneByOne {
 impl<I> OneByOne for Steps<I> {}
 
 #[test]
-fn a_method_that_looks_across_components_steps_no_bodies_together() {
+fn a_method_that_couples_components_steps_no_bodies_together() {
     macro_rules! check {
         ($Type:ident) => {
             assert!(!Steps::<$Type<Block>>::together(), stringify!($Type));

@@ -37,7 +37,7 @@ fn states(race: &Race, without: &str) -> Vec<(&'static str, Vec<u64>)> {
 }
 
 #[test]
-fn explicit_euler_on_the_stiff_spring_halts_once_and_the_others_go_on() {
+fn explicit_euler_on_the_stiff_spring_halts_once_and_alone() {
     let blown = "explicit-euler";
     let mut with = Race::new(&stiff(), lanes(""));
     let mut without = Race::new(&stiff(), lanes(blown));
@@ -124,7 +124,7 @@ fn harbour_and(body: usize) -> [Race; 2] {
 }
 
 #[test]
-fn only_the_body_that_blew_up_halts_and_the_others_go_on_to_the_bit() {
+fn a_blow_up_halts_one_body_and_changes_no_bit_of_the_others() {
     // The springs are lost within half an hour, the ship never.
     let (ship, ticks) = (2, 150_000);
     let [mut harbour, mut alone] = harbour_and(ship);
@@ -150,7 +150,7 @@ fn only_the_body_that_blew_up_halts_and_the_others_go_on_to_the_bit() {
 }
 
 #[test]
-fn a_halted_body_keeps_its_last_good_state_beside_others_that_go_on() {
+fn a_halted_body_keeps_its_last_good_state_while_others_run() {
     let spring = 0;
     let [mut harbour, mut alone] = harbour_and(spring);
     while alone.entrants()[0].lane.halted().is_none() {
@@ -205,7 +205,7 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
 }
 
 #[test]
-fn the_halt_of_a_lane_is_not_told_once_that_lane_is_gone() {
+fn the_notice_of_a_halt_leaves_with_its_lane() {
     let mut studio = Studio::new(Scene::built_in("stiff").expect("a built-in scene"));
     studio.apply(StageCommand::ToggleRace);
     while studio.viewer.notice.as_deref().is_none() {
@@ -217,7 +217,7 @@ fn the_halt_of_a_lane_is_not_told_once_that_lane_is_gone() {
 }
 
 #[test]
-fn a_kick_past_all_bounds_is_no_state_but_a_halt_with_its_reason() {
+fn an_unbounded_kick_halts_the_body_with_its_reason() {
     for (mass, times, reason) in
         [(1e-300, 1.0, "blew up: v became infinite"), (1e-10, 1e15, "blew up: v reached ")]
     {

@@ -1,5 +1,5 @@
-//! What the manual prints for a stranger's package: its test passes, and fails as soon as any lane's method is another; its
-//! body and the examples compile with this library and nothing else, and its dependencies are a package's.
+//! The manual's recipe for another package. Its test passes, and fails as soon as any lane has another method. Its
+//! body and the examples compile with this library alone, and its dependencies are valid in a package.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -16,7 +16,7 @@ const SCENE: &str = include_str!("../../assets/scenes/stiff.toml");
 /// No lane of the scene.
 const OTHER: &str = "midpoint";
 
-/// What the manual prints in a language.
+/// The manual's code blocks in one language.
 fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
     let fence = format!("```{language}\n");
     let blocks = |text: &'static str| {
@@ -32,7 +32,7 @@ fn recipe() -> &'static str {
     tests.next().expect("the manual prints a test")
 }
 
-/// The body of one's own as the manual prints it, as a program. It is judged for a shorter time, since it is not optimised.
+/// The manual's custom body as a program, judged over a shorter time because it is not optimised.
 fn custom_body() -> String {
     let mut bodies = blocks("rust").filter(|block| block.contains("impl System for"));
     let printed = bodies.next().expect("the manual prints a body");
@@ -54,7 +54,7 @@ fn manifest() -> String {
     )
 }
 
-/// What Cargo made for these tests, of the same features: the library, and the programs of the examples by their names.
+/// The products of Cargo with the features of these tests: the library, and the example programs by name.
 static MADE: LazyLock<(PathBuf, Vec<(String, PathBuf)>)> = LazyLock::new(|| {
     let mut made = Command::new(env!("CARGO"));
     made.args(["build", "--examples", "--offline", "--quiet", "--message-format", "json"]);
@@ -143,7 +143,7 @@ fn said(output: &Output) -> String {
 }
 
 #[test]
-fn the_dependencies_that_the_manual_prints_are_a_packages() {
+fn the_dependencies_in_the_manual_are_valid_in_a_package() {
     let package = folder("package");
     fs::write(folder("package/src").join("lib.rs"), "").unwrap();
     fs::write(package.join("Cargo.toml"), manifest()).unwrap();
@@ -157,7 +157,7 @@ fn the_dependencies_that_the_manual_prints_are_a_packages() {
 }
 
 #[test]
-fn the_manuals_test_passes_and_fails_for_every_lane_whose_method_is_another() {
+fn the_manuals_test_fails_for_every_lane_with_another_method() {
     let run = |scene: &str| {
         fs::write(folder("assets/scenes").join("stiff.toml"), scene).unwrap();
         let test = compile("physics", recipe(), &["--test"]);
@@ -176,7 +176,7 @@ fn the_manuals_test_passes_and_fails_for_every_lane_whose_method_is_another() {
     }
 }
 
-/// Another glam, as far as the manual names it.
+/// Another glam, with the parts that the manual uses.
 const OTHER_GLAM: &str = "#[derive(Clone, Copy)]
 pub struct DVec2 { x: f64, y: f64 }
 impl DVec2 {
@@ -185,7 +185,7 @@ impl DVec2 {
 }";
 
 #[test]
-fn what_the_manual_prints_beside_another_glam_compiles_beside_another_glam() {
+fn the_manuals_lines_for_another_glam_compile_with_another_glam() {
     let library = compile("glam", OTHER_GLAM, &["--crate-type", "rlib"]);
     let other = format!("glam={}", library.with_file_name("libglam.rlib").display());
     let printed = blocks("rust").find(|block| block.contains("use glam::"));
@@ -196,7 +196,7 @@ fn what_the_manual_prints_beside_another_glam_compiles_beside_another_glam() {
 }
 
 #[test]
-fn the_examples_run_and_need_nothing_but_the_library() {
+fn the_examples_run_with_the_library_alone() {
     let mut ran = 0;
     for example in examples() {
         let (name, text) = &example;
@@ -221,7 +221,7 @@ fn the_examples_run_and_need_nothing_but_the_library() {
     );
 }
 
-/// What a program prints that is named above a block of output, as `examples/NAME.rs`, or stands there.
+/// The output of the program above an output block, which is named there as `examples/NAME.rs` or printed in full.
 fn printed_by(above: &str, number: usize) -> String {
     let paragraph = above.trim_end().rsplit("\n\n").next().unwrap_or_default();
     let named = paragraph.rsplit_once("`examples/").and_then(|(_, rest)| rest.split_once(".rs`"));
@@ -243,7 +243,7 @@ fn printed_by(above: &str, number: usize) -> String {
 }
 
 #[test]
-fn every_program_of_the_manual_prints_what_stands_below_it() {
+fn every_program_of_the_manual_prints_the_output_below_it() {
     let mut compared = Vec::new();
     for text in texts() {
         for block in text.blocks() {
@@ -272,7 +272,7 @@ fn with_another(id: &str) -> String {
 }
 
 #[test]
-fn another_method_shows_in_its_own_hash_and_in_no_other() {
+fn another_method_changes_only_its_own_hash() {
     let hashes = |text: &str| {
         let mut race = Race::of_scene(&Scene::parse("stiff.toml", text).unwrap());
         race.run(600);

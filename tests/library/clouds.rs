@@ -1,4 +1,4 @@
-//! What a method does to an area, and what a cloud says of it.
+//! The effect of a method on an area, and the words of a cloud about it.
 
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -50,7 +50,7 @@ fn cloud(scene: &str, id: &str, shape: CloudShape, points: usize, hz: u32) -> Cl
 }
 
 #[test]
-fn explicit_euler_grows_the_area_of_a_spring_by_its_determinant_and_a_symplectic_method_keeps_it() {
+fn area_grows_by_the_determinant_and_a_symplectic_method_keeps_it() {
     // (1 + h² ω²) in each tick, of a spring of 1 Hz.
     let mut grown = cloud("spring", "explicit-euler", CloudShape::Disc, 100, 60);
     grown.advance(60);
@@ -65,7 +65,7 @@ fn explicit_euler_grows_the_area_of_a_spring_by_its_determinant_and_a_symplectic
 }
 
 #[test]
-fn the_area_of_a_spring_is_its_determinant_however_far_its_points_are_thrown() {
+fn area_on_a_spring_follows_the_determinant_even_for_distant_points() {
     // 16 swings a second at 60 Hz.
     let mut thrown = cloud("stiff", "explicit-euler", CloudShape::Disc, 100, 60);
     thrown.advance(60);
@@ -82,7 +82,7 @@ fn the_area_of_a_spring_is_its_determinant_however_far_its_points_are_thrown() {
 }
 
 #[test]
-fn a_body_that_is_not_linear_is_measured_about_many_points() {
+fn a_nonlinear_body_is_measured_about_many_points() {
     let ratio = |id: &str| {
         let mut cloud = cloud("liouville", id, CloudShape::Cat, 8000, 12);
         assert!(cloud.measured_in_words().ends_with("around 256 points"));
@@ -95,7 +95,7 @@ fn a_body_that_is_not_linear_is_measured_about_many_points() {
 }
 
 #[test]
-fn a_cloud_that_is_wound_up_keeps_its_area_under_a_symplectic_method_alone() {
+fn only_a_symplectic_method_keeps_the_area_of_a_wound_cloud() {
     let wound = |id: &str| {
         let mut cloud = cloud("pendulum", id, CloudShape::Cat, 2000, 60);
         cloud.advance(600);
@@ -108,7 +108,7 @@ fn a_cloud_that_is_wound_up_keeps_its_area_under_a_symplectic_method_alone() {
 }
 
 #[test]
-fn the_area_is_that_of_the_map_also_where_it_draws_points_far_apart() {
+fn area_is_exact_even_where_the_map_separates_neighbours() {
     let ratio = |scene: &str, id: &str, [hz, ticks]: [u32; 2]| {
         let mut cloud = cloud(scene, id, CloudShape::Cat, 4000, hz);
         cloud.advance(u64::from(ticks));
@@ -128,7 +128,7 @@ fn the_area_is_that_of_the_map_also_where_it_draws_points_far_apart() {
 }
 
 #[test]
-fn an_adaptive_method_keeps_area_also_where_the_force_has_kinks_and_near_points_step_apart() {
+fn adaptive_area_is_exact_even_across_kinks_of_the_force() {
     for id in ["dormand-prince-54", "bogacki-shampine-32", "adaptive-euler"] {
         for (scene, ticks) in [("bouncing-bungee", 300), ("duffing", 300), ("pendulum", 60)] {
             let body = body(scene);
@@ -144,7 +144,7 @@ fn an_adaptive_method_keeps_area_also_where_the_force_has_kinks_and_near_points_
 }
 
 #[test]
-fn an_area_is_the_same_whichever_way_a_tick_was_come_to() {
+fn an_area_does_not_depend_on_the_path_to_its_tick() {
     for id in ["rk4", "velocity-verlet", "adams-bashforth-2", "dormand-prince-54"] {
         let new = || cloud("pendulum", id, CloudShape::Disc, 400, 60).rewindable();
         let (mut straight, mut back) = (new(), new());
@@ -157,7 +157,7 @@ fn an_area_is_the_same_whichever_way_a_tick_was_come_to() {
 }
 
 #[test]
-fn a_view_of_points_that_are_all_lost_is_finite() {
+fn a_view_of_only_lost_points_is_finite() {
     let lost = [[f64::NAN, 1.0], [f64::INFINITY, f64::NAN]];
     let views = [
         PlaneView::around(&[], &[], 0.5, false),
@@ -172,7 +172,7 @@ fn a_view_of_points_that_are_all_lost_is_finite() {
 }
 
 #[test]
-fn a_start_that_blows_up_drops_out_of_the_count() {
+fn a_start_that_blows_up_is_not_counted() {
     let mut cloud = cloud("stiff", "explicit-euler", CloudShape::Disc, 50, 60);
     cloud.advance(300);
     assert_eq!(cloud.measure().points, 0);
@@ -188,7 +188,7 @@ fn a_body_of_two_coordinates_has_no_cloud() {
 }
 
 #[test]
-fn an_accurate_method_fills_the_exact_border_and_a_picture_shows_every_point() {
+fn an_accurate_cloud_fills_the_exact_border_and_shows_every_point() {
     let body = body("pendulum");
     let start = CloudStart::about(body.of(), CloudShape::Disc, Some(0.2)).unwrap();
     let mut border = CloudBorder::exact(body.of(), start, 60).unwrap();
@@ -248,7 +248,7 @@ fn shown(picture: &CloudPicture) -> String {
 }
 
 #[test]
-fn a_cloud_is_the_same_whichever_way_a_tick_was_come_to() {
+fn a_cloud_does_not_depend_on_the_path_to_its_tick() {
     // The second has a memory; the third has one too and steps its points one by one.
     let methods = ["rk4", "adams-bashforth-2", "dormand-prince-54", "implicit-euler"];
     let new = || race_of("liouville", &methods, CloudKind::default());
@@ -274,7 +274,7 @@ fn a_cloud_is_the_same_whichever_way_a_tick_was_come_to() {
 }
 
 #[test]
-fn clouds_that_fall_behind_go_on_with_fewer_points_and_have_all_again_once_time_stands_still() {
+fn late_clouds_drop_points_and_regain_them_when_paused() {
     let mut studio = race_of("liouville", &["rk4", "midpoint"], CloudKind::default());
     studio.apply(RunCommand::Cloud(CloudChoice { points: 10_000, ..CloudChoice::default() }));
     let mut worker = CloudWorker::default();
@@ -301,7 +301,7 @@ fn clouds_that_fall_behind_go_on_with_fewer_points_and_have_all_again_once_time_
 }
 
 #[test]
-fn the_axes_of_a_picture_fit_the_clouds_that_are_there() {
+fn the_axes_of_a_picture_fit_its_clouds() {
     let mut studio = race_of("liouville", &["rk4"], CloudKind::default());
     let picture = picture(&mut studio, &mut CloudWorker::default());
     let border = picture.border.concat();
@@ -315,7 +315,7 @@ fn the_axes_of_a_picture_fit_the_clouds_that_are_there() {
 }
 
 #[test]
-fn clouds_start_anew_under_another_rate_method_or_parameter_and_tell_until_then_nothing() {
+fn clouds_restart_after_a_change_and_show_nothing_until_then() {
     let mut studio = race_of("liouville", &["rk4", "explicit-euler"], CloudKind::default());
     studio.apply(StageCommand::ToggleRace);
     let mut worker = CloudWorker::default();
@@ -337,7 +337,7 @@ fn clouds_start_anew_under_another_rate_method_or_parameter_and_tell_until_then_
     assert!(cloud_request(&studio).is_none() && shown_cloud(&studio).is_none());
 }
 
-/// The clouds of a law of one coordinate `x`, 1 at the start, under Runge-Kutta after so many ticks.
+/// The clouds of a law of one coordinate `x`, starting at 1, under Runge-Kutta after `ticks` ticks.
 fn of_law(acceleration: &str, ticks: u64) -> CloudPicture {
     let text = format!(
         "title = \"it\"\nabout = \"it\"\ntick_hz = 100\nseconds = 10\nmethods = [\"rk4\"]\n\
@@ -351,7 +351,7 @@ fn of_law(acceleration: &str, ticks: u64) -> CloudPicture {
 }
 
 #[test]
-fn an_area_that_comes_back_neither_grows_nor_is_kept() {
+fn a_recovering_area_is_neither_growing_nor_kept() {
     // The area is exp(-sin t) of that at the start: the least of it a quarter of a turn after the start.
     let [turning, back] = [150, 314].map(|ticks| of_law("-x - cos(t)*vx", ticks));
     assert!(turning.lanes[0].words.starts_with("shrinks"), "{}", turning.lanes[0].words);
@@ -360,7 +360,7 @@ fn an_area_that_comes_back_neither_grows_nor_is_kept() {
 }
 
 #[test]
-fn points_that_fly_off_are_counted_and_do_not_rule_the_area() {
+fn escaping_points_are_counted_and_do_not_dominate_the_area() {
     let points = |picture: &CloudPicture| {
         let [lane] = &picture.lanes[..] else { panic!("one lane") };
         let shown: u32 = lane.density.counts().iter().sum();
@@ -378,7 +378,7 @@ fn points_that_fly_off_are_counted_and_do_not_rule_the_area() {
 }
 
 #[test]
-fn clouds_that_blow_up_right_after_they_start_anew_are_drawn_without_them() {
+fn a_cloud_is_drawn_without_its_points_that_blow_up_after_a_restart() {
     let law = "title = \"it\"\nabout = \"it\"\ntick_hz = 60\nseconds = 9\nmethods = [\"explicit-euler\"]\n\
          [[law]]\ncoordinates = { x = { start = 1.0, acceleration = \"-x*x*x\" } }\n";
     let place = Action::Place { body: 0, q: [1e9].into(), v: [0.0].into() };
@@ -397,7 +397,7 @@ fn clouds_that_blow_up_right_after_they_start_anew_are_drawn_without_them() {
 }
 
 #[test]
-fn the_exact_cloud_goes_with_the_exact_body_through_kicks_and_other_parameters() {
+fn the_exact_cloud_follows_the_exact_body_through_kicks_and_edits() {
     let scene = Scene::built_in("pendulum").unwrap();
     let length =
         scene.bodies[0].kind.parameters.iter().position(|it| it.key == "length_m").unwrap();
@@ -419,7 +419,7 @@ fn the_exact_cloud_goes_with_the_exact_body_through_kicks_and_other_parameters()
         assert_eq!(now.tick, tick - started, "at tick {tick}");
         let body = &studio.race().truth().bodies()[0].stepper;
         let [line] = &now.border[..] else { panic!("a disc has one border") };
-        // What is around the body turns once about it.
+        // The border turns once about the body.
         let angle = |[q, v]: &[f64; 2]| (v - body.v()[0]).atan2(q - body.q()[0]);
         let ends = line.windows(2).map(|ends| angle(&ends[1]) - angle(&ends[0]));
         let turns = ends.map(|by| by.sin().atan2(by.cos())).sum::<f64>() / TAU;
@@ -428,7 +428,7 @@ fn the_exact_cloud_goes_with_the_exact_body_through_kicks_and_other_parameters()
 }
 
 #[test]
-fn every_lane_has_a_cloud_on_the_same_axes_and_what_blew_up_is_counted() {
+fn lanes_share_the_axes_of_their_clouds_and_lost_points_are_counted() {
     let methods = ["explicit-euler", "semi-implicit-euler", "velocity-verlet"];
     let mut studio = race_of("stiff", &methods, CloudKind::default());
     (0..240).for_each(|_| studio.tick());
@@ -443,17 +443,17 @@ fn every_lane_has_a_cloud_on_the_same_axes_and_what_blew_up_is_counted() {
 }
 
 #[test]
-fn a_body_that_has_several_coordinates_has_no_clouds_in_a_lab_which_says_why() {
+fn a_body_of_several_coordinates_has_no_cloud_with_the_reason() {
     let studio = race_of("orbit", &["rk4"], CloudKind::default());
     assert!(cloud_request(&studio).is_none());
     let why = cloud_refusal(&studio.deck, &studio.viewer).unwrap().to_string();
-    assert!(why.contains("has 2 coordinates"), "{why}");
+    assert!(why.contains("satellite has 2"), "{why}");
     let studio = race_of("spring", &["rk4"], CloudKind::default());
     assert!(cloud_refusal(&studio.deck, &studio.viewer).is_none());
 }
 
 #[test]
-fn a_section_has_every_start_at_every_crossing_and_does_not_depend_on_the_tick() {
+fn a_section_has_every_start_at_every_crossing_at_any_tick() {
     let mut studio = race_of("kicked-rotor", &["semi-implicit-euler"], CloudKind::Section);
     let mut worker = CloudWorker::default();
     let first = picture(&mut studio, &mut worker);
@@ -469,7 +469,7 @@ fn a_section_has_every_start_at_every_crossing_and_does_not_depend_on_the_tick()
 }
 
 #[test]
-fn an_area_keeps_within_a_millionth_and_loses_a_told_part_beyond() {
+fn an_area_is_kept_within_a_millionth_and_larger_losses_are_reported() {
     for id in ["semi-implicit-euler", "velocity-verlet"] {
         let mut kept = cloud("liouville", id, CloudShape::default(), 4000, 12);
         kept.advance(720);
@@ -495,7 +495,7 @@ impl System for Hertz {
 }
 
 #[test]
-fn a_custom_body_of_one_coordinate_is_a_cloud_with_the_bits_of_its_system() {
+fn a_custom_body_of_one_coordinate_has_a_bit_exact_cloud() {
     let start = State { q: 0.8, v: 0.1 };
     let scene = Scene::of(&Hertz, start, Options::default()).unwrap();
     let body = built(&scene);

@@ -1,4 +1,4 @@
-//! Springs of user interfaces: what each is told leads back to the motion, and each is stepped as its library steps it.
+//! Springs of user interfaces: their settings lead back to the motion, and each is stepped like its library does.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ fn swings(frequency_hz: f64, damping_ratio: f64) -> Wish {
     Wish { frequency_hz, damping_ratio, mass_kg: 1.0 }
 }
 
-/// How far the largest of these is apart from what it is to be, as a part of it.
+/// The largest relative difference between found and wanted values.
 fn apart(found: &[f64], wanted: &[f64]) -> f64 {
     assert!(found.len() == wanted.len() && found.iter().all(|x| x.is_finite()), "{found:?}");
     let parts = found.iter().zip(wanted).map(|(x, y)| (x - y).abs() / y.abs().max(1e-3));
@@ -22,7 +22,7 @@ fn apart(found: &[f64], wanted: &[f64]) -> f64 {
 }
 
 #[test]
-fn a_spring_of_swift_ui_has_the_numbers_that_are_published() {
+fn a_swift_ui_spring_has_its_published_numbers() {
     let wish = dialect("swiftui").read(&[0.5, 0.3]).unwrap();
     let told = dialect("core-animation").port(&wish, 60.0);
     assert!(apart(&told.values[..3], &[1.0, 157.913_670, 17.592_919]) < 1e-8, "{told:?}");
@@ -32,7 +32,7 @@ fn a_spring_of_swift_ui_has_the_numbers_that_are_published() {
 }
 
 #[test]
-fn every_pair_of_dialects_that_can_express_a_motion_leads_back_to_it() {
+fn conversion_between_any_two_dialects_round_trips() {
     let mut dice = Dice::new(483);
     let mut pairs = 0;
     for from in DIALECTS.iter().filter(|dialect| dialect.is_read()) {
@@ -60,7 +60,7 @@ fn every_pair_of_dialects_that_can_express_a_motion_leads_back_to_it() {
     assert!(pairs > 2000, "{pairs}");
 }
 
-/// What is left of the way after steps by semi-implicit Euler, or something large.
+/// The distance left after steps by semi-implicit Euler, or a large number.
 fn stepped([stiffness, damping]: [f64; 2], step_s: f64, steps: usize) -> f64 {
     let (mut x, mut v) = (1.0_f64, 0.0);
     for _ in 0..steps {
@@ -74,7 +74,7 @@ fn stepped([stiffness, damping]: [f64; 2], step_s: f64, steps: usize) -> f64 {
 }
 
 #[test]
-fn a_spring_once_a_frame_explodes_below_the_rate_that_is_told() {
+fn a_per_frame_spring_explodes_below_the_reported_rate() {
     for (hz, ratio) in [(2.0, 0.7), (1.0, 0.05), (5.0, 3.0)] {
         let wish = swings(hz, ratio);
         let told = dialect("per-frame").port(&wish, 60.0).explodes_below_hz.unwrap();
@@ -86,7 +86,7 @@ fn a_spring_once_a_frame_explodes_below_the_rate_that_is_told() {
 }
 
 #[test]
-fn react_spring_explodes_at_no_frame_rate_or_at_all_and_its_clock_is_rounded_up() {
+fn react_spring_is_stable_at_every_frame_rate_or_none() {
     let of = dialect("react-spring");
     for (tension, friction, is_stable) in
         [(170.0, 26.0, true), (3.9e6, 0.1, true), (4.1e6, 0.1, false), (170.0, 2010.0, false)]
@@ -108,7 +108,7 @@ fn react_spring_explodes_at_no_frame_rate_or_at_all_and_its_clock_is_rounded_up(
 }
 
 #[test]
-fn the_points_of_a_style_sheet_are_off_by_what_is_said_and_start_and_end_there() {
+fn css_points_deviate_as_reported_and_hit_both_ends() {
     for (hz, ratio) in [(2.0, 0.7), (1.0, 1.0), (3.0, 2.0), (2.0, 0.2)] {
         let port = dialect("css").port(&swings(hz, ratio), 60.0);
         let [duration, points] = port.values[..] else { panic!("two") };
@@ -137,7 +137,7 @@ fn the_points_of_a_style_sheet_are_off_by_what_is_said_and_start_and_end_there()
 }
 
 #[test]
-fn each_says_whether_it_shows_the_motion() {
+fn each_dialect_reports_whether_it_can_show_the_motion() {
     let reach = |id: &str, ratio| dialect(id).port(&swings(2.0, ratio), 60.0).reach;
     for (id, ratio, wanted) in [
         ("compose", 0.0, Reach::Reached),
@@ -162,7 +162,7 @@ fn each_says_whether_it_shows_the_motion() {
     ] {
         assert_eq!(reach(id, ratio), wanted, "{id} {ratio}");
     }
-    // What never explodes and what is the same at every frame rate.
+    // Dialects that never explode, and dialects that are the same at every frame rate.
     for fps in [0.01, 1.0, 24.0, 60.0, 1000.0] {
         let [smooth, exact] = ["unity-smooth-damp", "compose"].map(|id| {
             let port = dialect(id).port(&swings(2.0, 1.0), fps);
@@ -189,7 +189,7 @@ fn each_says_whether_it_shows_the_motion() {
 }
 
 #[test]
-fn the_line_of_slint_is_one_that_its_compiler_takes() {
+fn the_slint_line_is_valid_for_its_compiler() {
     // Compiled by slint-ui 1.18.1: a number without an exponent from -1 to 1, and whole milliseconds.
     let (slint, small) = (dialect("slint"), 2.0_f64.powi(-22));
     for (wish, line) in [
@@ -212,7 +212,7 @@ fn the_line_of_slint_is_one_that_its_compiler_takes() {
 }
 
 #[test]
-fn slint_goes_on_with_another_damping_after_its_duration() {
+fn slint_changes_its_damping_after_its_duration() {
     let departure = |ratio| dialect("slint").port(&swings(2.0, ratio), 60.0).departure;
     assert_eq!((departure(0.13), departure(0.5), departure(1.0)), (None, None, None));
     for (ratio, later) in [(0.05, 0.13), (0.0, 0.13), (1.1, 1.0), (2.0, 1.0)] {

@@ -38,13 +38,13 @@ fn log(scene: &str, ticks: u64) -> Vec<String> {
     lines
 }
 
-/// The number so many doubles above.
+/// The number `ulps` doubles above `x`.
 fn above(x: f64, ulps: u64) -> f64 {
     (0..ulps).fold(x, |x, _| x.next_up())
 }
 
 #[test]
-fn each_of_ten_thousand_changes_of_a_log_is_named() {
+fn every_change_of_a_log_is_named() {
     let mut dice = Dice::new(48);
     let logs = ["spring", "orbit", "harbour"].map(|scene| log(scene, 12));
     for n in 0..10_000 {
@@ -110,7 +110,7 @@ fn each_of_ten_thousand_changes_of_a_log_is_named() {
 }
 
 #[test]
-fn nothing_is_called_the_same_where_nothing_moves_or_no_two_rows_are_common() {
+fn motionless_or_disjoint_logs_are_never_called_the_same() {
     let still: String = (0..5400).map(|tick| format!("{tick},1.5,0\n")).collect();
     let still = format!("tick,x,v\n{still}");
     let found = compared(&still, &still);
@@ -122,7 +122,7 @@ fn nothing_is_called_the_same_where_nothing_moves_or_no_two_rows_are_common() {
 }
 
 #[test]
-fn nan_is_the_same_as_nan_and_zero_as_minus_zero_and_both_are_counted() {
+fn nan_equals_nan_and_zero_equals_minus_zero_with_a_count() {
     let found = compared("t,x,v\n0,0,NaN\n1,5,nan\n2,1,1", "t,x,v\n0,-0.0,-nan\n1,5,NaN\n2,1,1");
     assert!(found.is_same(), "{found:?}");
     assert_eq!((found.nans, found.zeros_of_two_signs), (2, 1));
@@ -135,7 +135,7 @@ fn nan_is_the_same_as_nan_and_zero_as_minus_zero_and_both_are_counted() {
 }
 
 #[test]
-fn numbers_count_and_not_how_they_are_written() {
+fn numbers_are_compared_by_value_and_not_by_spelling() {
     let found = compared("t,x\n0,1\n1,2.50\n", "x, t\n1.0,0\n25e-1,1\n");
     assert!(found.is_same() && found.rows == 2, "{found:?}");
 }
@@ -156,7 +156,7 @@ fn tables_with_other_rows_or_without_a_common_column_are_refused() {
 }
 
 #[test]
-fn an_exponential_growth_has_its_rate_and_another_has_none() {
+fn only_an_exponential_growth_has_a_rate() {
     let log = |off: &dyn Fn(f64) -> f64| -> String {
         let rows = (0..3000).map(|tick| {
             let t = f64::from(tick) / 60.0;
@@ -177,7 +177,7 @@ fn an_exponential_growth_has_its_rate_and_another_has_none() {
 }
 
 #[test]
-fn rows_that_one_side_lacks_for_ever_take_no_memory() {
+fn rows_missing_on_one_side_use_no_memory() {
     let all: String = (0..200_000).map(|tick| format!("{tick},{}\n", tick % 7)).collect();
     let some: String =
         (0..200_000).step_by(7).map(|tick| format!("{tick},{}\n", tick % 7)).collect();
@@ -209,7 +209,7 @@ fn a_run_and_its_copy_are_the_same_and_a_kick_is_found_in_its_tick() {
 }
 
 #[test]
-fn a_column_that_begins_with_nan_moves_from_its_first_number_on() {
+fn a_column_starting_with_nan_moves_from_its_first_number_on() {
     let log = |last: u32| format!("tick,x,y\n0,NaN,0\n1,1,0\n2,{last},0\n");
     let found = compared(&log(2), &log(7));
     assert_eq!((found.moved, found.first.unwrap().tick), (6.0, 2));
@@ -220,7 +220,7 @@ fn a_column_that_begins_with_nan_moves_from_its_first_number_on() {
 }
 
 #[test]
-fn a_clock_alone_is_no_motion_whatever_it_is_called() {
+fn a_clock_column_of_any_name_is_no_motion() {
     let log = |column: &str, cell: &dyn Fn(u32) -> String| -> String {
         let rows = (0..40).map(|row| format!("{row},{},5\n", cell(row)));
         format!("tick,{column},hp\n{}", rows.collect::<String>())
@@ -234,7 +234,7 @@ fn a_clock_alone_is_no_motion_whatever_it_is_called() {
         }
     }
     assert!(!compared(&log("wall_ms", &uneven), &log("wall_ms", &uneven)).is_comparable());
-    // What is called like a coordinate may go evenly, and what goes unevenly is no clock.
+    // A column named like a coordinate may grow evenly, and an uneven column is no clock.
     for (name, text) in [("x", log("pos_x", &even)), ("energy", log("energy", &uneven))] {
         assert!(compared(&text, &text).is_same(), "{name}");
     }
@@ -251,7 +251,7 @@ fn a_clock_alone_is_no_motion_whatever_it_is_called() {
 }
 
 #[test]
-fn more_names_of_rows_than_memory_has_room_for_are_refused() {
+fn too_many_row_names_for_the_memory_are_refused() {
     let rows: String = (0..1_500_000).map(|i| format!("0,{i},1\n")).collect();
     let text = format!("tick,body,q\n{rows}");
     let told = within(&text, &text, Tolerance::default()).unwrap_err().to_string();
@@ -273,7 +273,7 @@ fn names(list: &str) -> Vec<String> {
 }
 
 #[test]
-fn rows_belong_together_by_a_key_in_whatever_order_and_a_frame_counts_ticks() {
+fn rows_are_matched_by_key_in_any_order_and_frames_count_as_ticks() {
     let a = "frame,object,crc\n1,10,A1\n1,11,00\n2,10,A2\n2,11,01\n3,10,1234\n3,11,02\n";
     let b = "frame,object,crc\n1,10,A1\n1,11,00\n2,11,01\n2,10,A2\n3,11,02\n3,10,1235\n";
     let chosen = Chosen { key: names("frame,object"), ..Chosen::default() };
@@ -294,7 +294,7 @@ fn rows_belong_together_by_a_key_in_whatever_order_and_a_frame_counts_ticks() {
 }
 
 #[test]
-fn a_column_is_text_as_a_whole_from_its_first_row_on() {
+fn a_column_is_text_or_numbers_from_its_first_row_on() {
     // Both begin with cells that are the same number, 0.
     let [a, b] = ["0000E012", "0000E013"].map(|hash| format!("tick,h\n0,{hash}\n1,FF\n2,AB\n"));
     assert_eq!(compared(&a, &b).first.unwrap().tick, 0);
@@ -314,7 +314,7 @@ fn a_column_is_text_as_a_whole_from_its_first_row_on() {
 }
 
 #[test]
-fn each_column_says_where_it_differs_and_some_can_be_left_out() {
+fn each_column_reports_its_first_difference_and_can_be_excluded() {
     let a = "tick,x,v,wall_ms,src_ms\n0,1,0,2362,8300\n1,0.9,-0.6,2378,8316\n2,0.7,-1,2395,8333\n";
     let b = "tick,x,v,wall_ms,src_ms\n0,1,0,2380,8290\n1,0.9,-0.6,2397,8316\n2,0.7,-1,2414,8333\n";
     let found = compared(a, b);

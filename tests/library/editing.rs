@@ -78,7 +78,7 @@ fn a_race_restarts_with_the_methods_that_a_person_gave_its_lanes() {
 }
 
 #[test]
-fn a_new_scene_length_applies_to_plots_and_verdicts_and_stays_after_a_restart() {
+fn a_new_scene_length_survives_a_restart_and_nonsense_is_ignored() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     let seconds = studio.scene().seconds;
     for nonsense in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e12] {

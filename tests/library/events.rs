@@ -1,4 +1,4 @@
-//! What happens in a scene happens at its time, whatever the tick rate and whoever changes it.
+//! An event happens at its time, at any tick rate and after any change of the rate.
 
 use regatta::measure::Judge;
 use regatta::run::Journal;
@@ -26,7 +26,7 @@ fn truth(scene: &Scene, times: u32, ticks: u64) -> Vec<Vec<f64>> {
 }
 
 #[test]
-fn at_four_tick_rates_the_truth_of_every_scene_is_one_curve() {
+fn the_truth_of_every_scene_is_one_curve_at_four_tick_rates() {
     for built_in in SCENES {
         let scene = Scene::built_in(built_in.name).unwrap();
         let seconds = scene.script.last().map_or(1.0, |last| last.at_s + 1.0);
@@ -62,7 +62,7 @@ fn run_to(studio: &mut Studio, seconds: f64) {
 }
 
 #[test]
-fn a_change_of_the_rate_in_flight_leaves_what_is_to_come_at_its_time() {
+fn a_change_of_rate_in_flight_keeps_the_times_of_later_events() {
     let mut studio = Studio::new(Scene::built_in("lerp").unwrap());
     run_to(&mut studio, 1.0);
     studio.apply(StageCommand::TickHz(240.into()));
@@ -88,7 +88,7 @@ fn a_change_of_the_rate_in_flight_leaves_what_is_to_come_at_its_time() {
 }
 
 #[test]
-fn a_run_judged_from_a_hand_has_the_rest_of_the_script_at_its_times() {
+fn a_run_judged_from_an_edit_keeps_the_times_of_its_script() {
     // At 30 Hz, after 1.5 s, 2 s are half a second on, however the rate was before.
     let mut studio = Studio::new(Scene::built_in("lerp").unwrap());
     run_to(&mut studio, 1.5);
@@ -107,7 +107,7 @@ fn a_run_judged_from_a_hand_has_the_rest_of_the_script_at_its_times() {
 }
 
 #[test]
-fn a_verdict_puts_an_event_between_ticks_on_the_tick_on_which_a_run_puts_it() {
+fn verdict_and_run_put_an_event_on_the_same_tick() {
     let spec = LaneSpec::plain(method("lerp-per-frame").unwrap());
     let mut scene = Scene::built_in("lerp").unwrap();
     for (at_s, tick_hz) in [(2.03, 7), (1.96, 7), (2.49, 2), (2.497, 240)] {
@@ -132,7 +132,7 @@ const IN_TICKS: &str = "title = 'x'\ntick_hz = 60\nseconds = 9\nmethods = ['rk4'
     [[command]]\ntick = 125\nkick = 1\n";
 
 #[test]
-fn ticks_of_a_scene_are_read_with_a_warning_and_saved_as_seconds() {
+fn the_tick_key_is_read_with_a_warning_and_saved_as_seconds() {
     let scene = Scene::parse("old.toml", IN_TICKS).unwrap();
     let at_s = |scene: &Scene| scene.script.iter().map(|row| row.at_s).collect::<Vec<_>>();
     assert_eq!(at_s(&scene), [1.5, 2.0, 2.5]);
@@ -141,8 +141,8 @@ fn ticks_of_a_scene_are_read_with_a_warning_and_saved_as_seconds() {
     assert_eq!(said.len(), 3);
     assert_eq!(
         said[2],
-        "old.toml:16:8: `tick` in a scene is read for this release only: another tick rate would be \
-         another motion; write `at_s = 2.5` in its place"
+        "old.toml:16:8: `tick` in a scene is read in this release only: at another tick \
+         rate the motion would change; write `at_s = 2.5` in its place"
     );
     // At another rate, at the same times.
     let journal = Journal::of_script(&scene.script, 20);
@@ -156,7 +156,7 @@ fn ticks_of_a_scene_are_read_with_a_warning_and_saved_as_seconds() {
 }
 
 #[test]
-fn a_recording_speaks_of_ticks_and_is_read_without_a_warning() {
+fn a_recording_uses_ticks_and_is_read_without_a_warning() {
     let mut studio = Studio::new(Scene::built_in("helm").unwrap());
     (0..12).for_each(|_| studio.tick());
     studio.apply(StageCommand::TickHz(60.into()));

@@ -38,7 +38,7 @@ fn a_spring_at_5_hz_reaches_both_ends_of_its_swing() {
 }
 
 #[test]
-fn a_stiff_spring_at_49_hz_swings_as_far_at_every_swing() {
+fn a_stiff_spring_at_49_hz_keeps_the_width_of_its_exact_curve() {
     let mut studio = open("stiff", 49);
     (0..600).for_each(|_| studio.tick());
     let samples = samples(&studio);
@@ -55,7 +55,7 @@ fn a_stiff_spring_at_49_hz_swings_as_far_at_every_swing() {
 }
 
 #[test]
-fn the_grid_reaches_back_as_long_as_the_scene_lasts_and_does_not_depend_on_the_tick_rate() {
+fn the_grid_covers_the_scene_length_at_any_tick_rate() {
     for scene in ["spring", "pendulum", "helm", "orbit"] {
         let seconds = Scene::built_in(scene).unwrap().seconds;
         let [coarse, fine] = [5, 240].map(|hz| {
@@ -101,13 +101,13 @@ fn an_input_bends_the_curve_from_its_tick_on_and_not_the_tick_before_it() {
     assert!(studio.past().truth_between(studio.race(), 0, 0.5).1 < v, "the engine runs backwards");
 }
 
-/// Where a hand can take hold of the ghost.
+/// The grips by which a hand can grab the ghost.
 fn ghost(studio: &Studio, picture: &Picture) -> Vec<Grip> {
     picture.cells[0].grips(studio).filter(|grip| grip.whose == Whose::Truth).collect()
 }
 
 #[test]
-fn the_ghost_is_the_exact_motion_at_the_moment_of_the_lanes_however_they_are_drawn() {
+fn the_ghost_is_the_exact_motion_at_the_moment_of_the_lanes() {
     let mut studio = open("spring", 5);
     let size = [780.0, 500.0];
     let mut reach = (0.0_f64, 0.0_f64);
@@ -160,7 +160,7 @@ fn recording_the_curve_moves_no_bit_of_the_truth() {
 }
 
 #[test]
-fn a_scene_shorter_than_a_tick_has_a_curve_no_finer_than_a_tick_needs() {
+fn a_scene_shorter_than_a_tick_has_no_needlessly_fine_curve() {
     let text = "title = \"short\"\ntick_hz = 1\nseconds = 0.01\n\
         [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\nx0_m = 1\n";
     let mut studio = Studio::new(Scene::parse("short.toml", text).unwrap());

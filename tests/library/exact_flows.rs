@@ -76,7 +76,7 @@ fn ships() -> impl Iterator<Item = Case<Ship>> {
     })
 }
 
-/// Strides in units of the fastest time scale, backwards as far as round-off allows.
+/// Strides in units of the fastest time scale; backwards only as far as rounding allows.
 const STRIDES: [f64; 15] =
     [-2.0, -0.3, -0.01, -1e-6, 0.0, 1e-9, 1e-3, 0.03, 0.0316228, 0.1, 0.7, 3.0, 20.0, 500.0, 4e4];
 

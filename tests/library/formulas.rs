@@ -1,10 +1,10 @@
-//! Every formula that a method's card shows, evaluated beside the method.
+//! Evaluates the formula on every method's card, and compares it with the method.
 //!
 //! | written | meaning |
 //! |---|---|
 //! | `h k₁ / 2`, `½h`, `√3`, `z²`, `e^(−C h)`, `\|v\|` | as in print; a space or nothing multiplies, and `f(…)` without a space calls |
-//! | `q′`, `v′`, `y′` | what the method has at the end of the step: each equation with one must hold |
-//! | `q₋₁`, `y₋₁`; `S₋₁` | the state a step before; what `S` was at the end of the step before |
+//! | `q′`, `v′`, `y′` | the method's result at the end of the step: each equation with one must hold |
+//! | `q₋₁`, `y₋₁`; `S₋₁` | the state a step before; the value of `S` at the end of the step before |
 //! | `a` | `a(t, q, v)`, or `a′` of the step before if the formula has one |
 //! | `k = …`, `v = …` | gives a value, also to itself, and before or after it is used |
 //! | `φ₁(z) = …` | a function |
@@ -26,11 +26,11 @@ use value::Value;
 mod evaluation;
 mod value;
 
-/// The largest difference of what rounding and Newton's iteration leave, relative to the value or to 1.
+/// The largest difference left by rounding and Newton's iteration, relative to the value or to 1.
 const ROUNDING: f64 = 1e-9;
 /// The same where a method takes slopes by differences.
 const BY_DIFFERENCES: f64 = 3e-5;
-/// What a method reads of the body that it steps.
+/// The properties of a body that a method reads.
 #[derive(Clone, Copy)]
 struct Told {
     settings: EngineSettings,
@@ -78,7 +78,7 @@ fn tableau<P: Pair<N>, const N: usize>(_: PhantomData<EmbeddedPair<f64, P, N>>) 
     values
 }
 
-/// What a body is like, from where it starts, and how long steps are.
+/// The properties of a body, its start, and the length of the steps.
 struct Case {
     told: [f64; 4],
     rate: f64,
@@ -109,7 +109,7 @@ const CASES: [Case; 12] = [
 /// Steps of a run.
 const STEPS: u32 = 4;
 
-/// The steps of the method in a case, each with what its formula may name.
+/// The steps of the method in a case, each with the values that its formula may name.
 fn steps(method: &Method, formula: &[&str], case: &Case) -> Vec<Step> {
     let [stiffness, damping, drag, force] = case.told;
     let settings = EngineSettings { stiffness, damping, drag };
@@ -156,7 +156,7 @@ fn steps(method: &Method, formula: &[&str], case: &Case) -> Vec<Step> {
             _ => {}
         }
         let step = Step { substeps, known, end: [state.q, state.v], before };
-        // Of what a formula carries; that of a long formula takes long to evaluate.
+        // Only for a formula that carries a value, since a long formula takes long to evaluate.
         before = match formula.iter().any(|line| line.contains("a′ =") || line.contains("S₋₁"))
         {
             true => Evaluation::of(formula, &step).values,
@@ -177,13 +177,13 @@ fn tolerance(method: &Method) -> f64 {
     if method.formula.iter().any(|line| line.contains('∂')) { BY_DIFFERENCES } else { ROUNDING }
 }
 
-/// The steps beside which a formula of a method is evaluated.
+/// The steps on which a method's formula is tested.
 fn judged<'a>(method: &'a Method, formula: &'a [&str]) -> impl Iterator<Item = Step> + 'a {
     let is_far = |case: &&Case| case.start[0].abs() > 1e3 || case.start[1].abs() > 1e2;
     let is_adaptive = method.family == Family::Adaptive;
     let is_for = move |case: &&Case| match method.only {
         _ if is_adaptive => false,
-        // Beyond what a pendulum takes, and far beyond for those that do not notice.
+        // Only engines get far starts: a pendulum cannot reach them, and other methods do not notice.
         _ if !method.is_engine() || method.holds_force() => !is_far(case),
         Some(_) if case.start[0].abs() > 1e9 => formula.concat().contains("10¹⁰"),
         _ => method.engine.is_some_and(|e| e.damping_ratio.is_some()) || case.told[0] == 0.0,
@@ -234,7 +234,7 @@ fn error_where_divided(method: &Method, formula: &[&str]) -> f64 {
     (error[0] / allowed(q, tolerance.absolute_q)).max(of_v)
 }
 
-/// Whether a formula is what the method does.
+/// Whether the formula agrees with the method.
 fn holds(method: &Method, formula: &[&str]) -> bool {
     let is_followed = |step: Step| residual(formula, &step) <= tolerance(method);
     judged(method, formula).all(is_followed)
@@ -243,7 +243,7 @@ fn holds(method: &Method, formula: &[&str]) -> bool {
 }
 
 #[test]
-fn every_formula_shown_is_what_its_method_does() {
+fn every_formula_matches_the_step_of_its_method() {
     let mut wrong = Vec::new();
     for method in METHODS {
         let steps: Vec<Step> = judged(method, method.formula).collect();

@@ -65,8 +65,8 @@ fn animation_errors(shown_and_displayed: &[(f64, f64)]) -> Vec<f64> {
     shown_and_displayed.windows(2).map(change).collect()
 }
 
-/// What a game with interpolated ticks shows and when, from the columns alone: each frame a tick before it began, less the
-/// ticks beyond 250 ms that it gave up.
+/// The shown and the displayed times of a game with interpolated ticks, from the columns alone. Each frame shows one
+/// tick before its start, less the ticks dropped beyond 250 ms.
 fn by_the_columns(rows: &[Row]) -> Vec<(f64, f64)> {
     let tick = 1000.0 / f64::from(TICK_HZ);
     let (mut began, mut displayed, mut owed, mut given_up) = (0.0, 0.0, 0.0, 0.0);
@@ -106,7 +106,7 @@ fn rms(values: &[f64]) -> f64 {
 }
 
 #[test]
-fn real_logs_have_the_rows_streams_and_lost_frames_that_they_are_known_to_have() {
+fn real_logs_have_the_known_rows_streams_and_lost_frames() {
     let known = [
         (357, 10, 9, 450.37),
         (50, 4, 4, 483.77),
@@ -132,7 +132,7 @@ fn real_logs_have_the_rows_streams_and_lost_frames_that_they_are_known_to_have()
 }
 
 #[test]
-fn streams_are_named_by_their_programs_and_where_needed_by_processes_and_numbers() {
+fn streams_are_named_by_program_then_process_then_number() {
     let traces = traces("log", FILES[5]);
     let names: Vec<&str> = traces.iter().map(FrameTrace::name).collect();
     assert_eq!(
@@ -160,7 +160,7 @@ fn streams_are_named_by_their_programs_and_where_needed_by_processes_and_numbers
 }
 
 #[test]
-fn the_lab_makes_the_same_animation_error_of_every_real_frame_as_the_columns_do() {
+fn the_animation_error_of_real_frames_matches_the_logged_columns() {
     let mut compared = 0;
     for (n, text) in FILES.iter().enumerate() {
         let (rows, traces) = (streams(text), traces("log", text));
@@ -183,7 +183,7 @@ fn the_lab_makes_the_same_animation_error_of_every_real_frame_as_the_columns_do(
 }
 
 #[test]
-fn presentmons_animation_error_is_what_we_call_so_in_all_rows_but_a_known_one() {
+fn presentmons_animation_error_equals_ours_except_in_a_known_row() {
     let (mut checked, mut odd) = (0, Vec::new());
     for (n, text) in FILES.iter().enumerate() {
         for rows in streams(text) {
@@ -229,7 +229,7 @@ a.exe,1,0x1,15.5,16.7
 ";
 
 #[test]
-fn presentmon_1_is_read_with_its_zeros_for_what_was_dropped() {
+fn presentmon_1_is_read_with_zeros_for_dropped_frames() {
     assert_reads_as_expected(
         "\
 Application,ProcessID,SwapChainAddress,Runtime,Dropped,TimeInSeconds,msInPresentAPI,msBetweenPresents,msBetweenDisplayChange
@@ -248,7 +248,7 @@ fn presentmon_2_is_read_with_and_without_ms() {
 }
 
 #[test]
-fn times_that_a_row_says_of_its_own_frame_count_from_that_frame_on() {
+fn times_relative_to_a_frame_count_from_that_frame() {
     let text = "\
 Application,ProcessID,SwapChainAddress,FrameType,CPUStartTime,FrameTime,CPUBusy,DisplayLatency,DisplayedTime
 a.exe,1,0x1,Application,100,10,1,20,33.4
@@ -283,7 +283,7 @@ a.exe,G,C,1x1,DX12,1,0x1,0,1.0,15.5,16.7
 }
 
 #[test]
-fn what_spreadsheets_make_of_a_log_is_read() {
+fn a_log_resaved_by_a_spreadsheet_is_read() {
     assert_reads_as_expected(&format!("\u{feff}{}", PLAIN.replace('\n', "\r\n")));
     assert_reads_as_expected(&PLAIN.replace(',', ";").replace('.', ","));
     assert_reads_as_expected(&PLAIN.replace(',', "\t"));
@@ -300,7 +300,7 @@ fn a_log_without_programs_is_one_stream_and_zero_means_not_displayed() {
 }
 
 #[test]
-fn a_stream_whose_first_frames_were_lost_is_displayed_from_its_first_picture_on() {
+fn a_stream_with_lost_first_frames_starts_at_its_first_displayed_frame() {
     let text = "MsBetweenPresents,MsBetweenDisplayChange\n5,NA\n10,16\n10,16\n";
     let displayed: Vec<_> =
         frames(&traces("log", text)[0]).iter().map(|f| f.displayed_ns).collect();
@@ -360,7 +360,7 @@ fn every_fault_is_named_with_its_line_and_a_remedy() {
 }
 
 #[test]
-fn a_list_of_frame_times_and_presents_alone_take_the_times_of_frames_for_those_of_the_display() {
+fn without_display_times_frame_times_are_taken_as_display_times() {
     let list = "16.7\n10\n20,25\n\n15.5\n";
     let presents = "Application,Dropped,MsBetweenPresents\na,0,16.7\na,0,10\na,0,20.25\na,0,15.5\n";
     for text in [list, &format!("\u{feff}// mine\r\n{list}"), presents] {
@@ -392,7 +392,7 @@ fn a_million_rows_of_a_thousand_streams_are_read() {
 }
 
 #[test]
-fn a_log_of_mangohud_is_read_below_its_lines_about_the_machine() {
+fn a_mangohud_log_is_read_below_its_machine_description() {
     let rows = "60,16.5,3\n59.9,17.25,3\n60,16,4\n";
     let machine =
         "os,cpu,gpu,ram,kernel,driver,cpuscheduler\nLinux,A CPU,\"A GPU, big\",32,6.1,1,none\n";
@@ -401,12 +401,12 @@ fn a_log_of_mangohud_is_read_below_its_lines_about_the_machine() {
         let text = format!("{before}fps,frametime,cpu_load\n{rows}");
         let [trace] = &traces("hud", &text)[..] else { panic!("one trace") };
         let ms = 1_000_000;
-        // What is not known of the display is taken to be as it is of the frames.
+        // Missing display times are replaced by the times of the frames.
         let expected = [0, 17_250 * ms / 1000, 33_250 * ms / 1000];
         let expected = expected.map(|ns| Frame { began_ns: ns, displayed_ns: Some(ns) });
         assert_eq!(frames(trace), expected, "{text}");
     }
-    // PresentMon 2 has no times of display where it is told to track none.
+    // PresentMon 2 has no display times when it is set to track none.
     let [trace] = &traces("log", "FrameTime,CPUBusy\n16,3\n17,3\n")[..] else { panic!("one") };
     assert!(trace.summary().unwrap().ends_with("(PresentMon 2)") && trace.has_one_clock());
     let far = format!("{}fps,frametime\n60,16\n", "a remark\n".repeat(17));
@@ -414,7 +414,7 @@ fn a_log_of_mangohud_is_read_below_its_lines_about_the_machine() {
 }
 
 #[test]
-fn generated_frames_let_time_pass_and_are_no_frames_of_the_program() {
+fn generated_frames_pass_time_but_do_not_count_as_frames() {
     let ms = |ms: i64| ms * 1_000_000;
     let at = |began, shown| Frame { began_ns: ms(began), displayed_ns: Some(ms(shown)) };
     let before = "Application,MsBetweenPresents,MsBetweenDisplayChange,FrameType\n\

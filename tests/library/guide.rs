@@ -1,4 +1,4 @@
-//! The guide: every stop is done by its keys and by nothing less, and what it claims is so.
+//! The guide: exactly its keys complete every stop, and its claims are true.
 
 use regatta::loops::loop_lab::{LoopCommand, LoopLab};
 use regatta::measure::cloud::{CloudChoice, CloudKind, CloudWorker};
@@ -33,7 +33,7 @@ pub(crate) fn is_done(studio: &Studio) -> bool {
 }
 
 #[test]
-fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
+fn every_stop_opens_as_described_and_its_keys_complete_it() {
     for (index, stop) in STOPS.iter().enumerate() {
         let mut studio = lab_at(index);
         let tour = studio.viewer.tour().unwrap();
@@ -70,7 +70,7 @@ fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
 }
 
 #[test]
-fn stops_name_scenes_and_methods_that_there_are_and_keys_between_pairs_of_backticks() {
+fn stops_name_existing_scenes_methods_and_keys() {
     for stop in STOPS {
         assert!(SCENES.iter().any(|scene| scene.name == stop.scene), "{}", stop.scene);
         assert!(method(stop.method).is_some(), "{}", stop.method);
@@ -93,7 +93,7 @@ fn stops_name_scenes_and_methods_that_there_are_and_keys_between_pairs_of_backti
 }
 
 #[test]
-fn the_guide_closes_with_escape_and_opens_where_it_was_left() {
+fn the_guide_closes_with_escape_and_reopens_at_the_same_stop() {
     let mut studio = lab_at(3);
     assert_eq!(studio.apply(ViewCommand::Escape), None);
     assert!(studio.viewer.tour().is_none());
@@ -109,7 +109,7 @@ pub(crate) fn place_of(goal: Goal) -> usize {
 }
 
 #[test]
-fn what_a_stop_says_never_stays_over_another_scene_or_mode() {
+fn the_text_of_a_stop_closes_with_its_scene_and_mode() {
     let index = place_of(Goal::Race);
     for elsewhere in [
         Command::Stage(StageCommand::SceneBeside(Step::Next)),
@@ -127,7 +127,7 @@ fn what_a_stop_says_never_stays_over_another_scene_or_mode() {
         assert_eq!(studio.scene().name, STOPS[index].scene);
         assert!(studio.loop_lab().is_none());
     }
-    // The loop lab is what this stop is about; another scene in it is not.
+    // This stop is about the loop lab, and another scene in the loop lab does not leave it.
     let mut studio = lab_at(place_of(Goal::LoopLab));
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     assert!(is_done(&studio));
@@ -136,7 +136,7 @@ fn what_a_stop_says_never_stays_over_another_scene_or_mode() {
 }
 
 #[test]
-fn the_guide_visits_the_instruments_that_explain_and_the_loop_lab() {
+fn the_guide_visits_the_explaining_instruments_and_the_loop_lab() {
     let visits = |instrument: Instrument| {
         let mut stops = STOPS.iter();
         stops.any(|stop| stop.instrument == instrument || stop.goal == Goal::Instrument(instrument))
@@ -156,7 +156,7 @@ fn the_guide_visits_the_instruments_that_explain_and_the_loop_lab() {
 }
 
 #[test]
-fn the_area_of_a_cloud_of_pendulums_becomes_what_the_guide_says() {
+fn the_area_of_the_pendulum_cloud_matches_the_guide() {
     let mut studio =
         lab_after_prediction(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
     studio.apply(StageCommand::ToggleRace);
@@ -204,7 +204,7 @@ fn the_ship_reaches_20_m_per_s() {
 }
 
 #[test]
-fn the_errors_on_the_ship_are_those_that_the_guide_names() {
+fn the_errors_on_the_ship_match_the_guide() {
     let (speed, exact, _) = ship("explicit-euler", 2);
     assert_eq!((format!("{speed:.2}"), format!("{exact:.2}")), ("11.64".into(), "11.45".into()));
     let euler = error_percent("explicit-euler", 2);
@@ -226,7 +226,7 @@ fn the_errors_on_the_ship_are_those_that_the_guide_names() {
 }
 
 #[test]
-fn adaptive_euler_costs_more_on_the_ship_and_is_truer() {
+fn adaptive_euler_costs_more_on_the_ship_and_is_more_accurate() {
     let (plain, adaptive) = (ship("explicit-euler", 2), ship("adaptive-euler", 2));
     assert!(adaptive.2 > 2 * plain.2, "{} {}", adaptive.2, plain.2);
     assert!((adaptive.0 - adaptive.1).abs() < 0.1 * (plain.0 - plain.1).abs());
@@ -244,7 +244,7 @@ fn improved_euler_is_the_cheapest_within_a_hundredth_on_the_ship() {
 }
 
 #[test]
-fn the_ships_settle_at_half_the_step_only() {
+fn the_ships_settle_only_at_half_the_step() {
     let run = |tick_hz: u32, seconds: u64| -> Vec<f64> {
         let mut scene = Scene::built_in("surge").unwrap();
         scene.tick_hz = tick_hz.into();
@@ -259,7 +259,7 @@ fn the_ships_settle_at_half_the_step_only() {
 }
 
 #[test]
-fn the_verdicts_on_the_springs_are_those_that_the_guide_names() {
+fn the_verdicts_on_the_springs_match_the_guide() {
     let outcome = |scene: &str, id: &str, hz: u32| verdict(scene, id, hz).outcome();
     for hz in [60, 100, 1000] {
         assert_eq!(outcome("spring", "explicit-euler", hz), Outcome::Grows, "{hz}");
@@ -292,7 +292,7 @@ fn the_verdicts_on_the_springs_are_those_that_the_guide_names() {
 }
 
 #[test]
-fn runge_kutta_on_the_ship_comes_within_rounding_and_then_more_ticks_take_no_error_away() {
+fn runge_kutta_reaches_rounding_on_the_ship_where_more_ticks_stop_helping() {
     assert_eq!(verdict("ship", "rk4", 2).outcome(), Outcome::Accurate);
     assert_eq!(verdict("ship", "rk4", 30).outcome(), Outcome::Rounding);
     let [fine, finest] = [240, 10_000].map(|hz| error_percent("rk4", hz).abs());
@@ -315,7 +315,7 @@ fn each_step_of_explicit_euler_makes_the_swing_18_percent_wider_at_10_hz() {
 }
 
 #[test]
-fn semi_implicit_euler_keeps_the_energy_to_5_percent_and_explicit_euler_does_not() {
+fn only_semi_implicit_euler_keeps_the_energy_to_5_percent() {
     let drifts = |id: &str, seconds: u64| {
         let scene = Scene::built_in("spring").unwrap();
         let mut race = Race::new(&scene, [LaneSpec::plain(method(id).unwrap())]);
@@ -350,7 +350,7 @@ fn a_spring_4_times_as_stiff_needs_2_times_the_tick_rate() {
 }
 
 #[test]
-fn the_fixed_loop_judders_by_12_ms_and_the_one_that_counts_refreshes_does_not() {
+fn the_fixed_loop_judders_by_12_ms_and_whole_refreshes_do_not() {
     let mut studio = lab_at(place_of(Goal::LoopLab));
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     run_loops(&mut studio);
@@ -367,7 +367,7 @@ fn the_fixed_loop_judders_by_12_ms_and_the_one_that_counts_refreshes_does_not() 
 }
 
 #[test]
-fn engines_that_are_told_the_numbers_of_port_swing_alike_and_others_do_not() {
+fn only_engines_with_ported_settings_swing_alike() {
     let scene = Scene::built_in("alike").unwrap();
     let [mass_kg, stiffness, damping, ..] = scene.bodies[0].values[..] else { panic!() };
     let omega = (stiffness / mass_kg).sqrt();
@@ -384,7 +384,7 @@ fn engines_that_are_told_the_numbers_of_port_swing_alike_and_others_do_not() {
     }
     for (spec, off) in scene.lanes.iter().zip(off) {
         let Some(told) = spec.joint else {
-            // MuJoCo damps by as much as it is told; its swing is a little fast.
+            // MuJoCo has the requested damping, but its swing is a little fast.
             let most = if spec.method.id == "engine-mujoco" { 0.02..0.08 } else { 0.08..0.4 };
             assert!(most.contains(&off), "{} is off by {off}", spec.method.id);
             continue;
@@ -401,7 +401,7 @@ fn engines_that_are_told_the_numbers_of_port_swing_alike_and_others_do_not() {
 }
 
 #[test]
-fn engines_do_to_a_spring_what_the_guide_says() {
+fn engines_damp_a_spring_as_the_guide_says() {
     let kept = |id: &str, substeps: u32, seconds: u64, scene: &str| {
         let mut scene = Scene::built_in(scene).unwrap();
         scene.bodies.truncate(1);
@@ -442,7 +442,7 @@ fn after_its_keys(title: &str) -> Studio {
 }
 
 #[test]
-fn what_a_stop_answers_is_what_the_verdict_beside_it_says() {
+fn the_answer_of_a_stop_matches_its_verdict() {
     use Outcome::{Accurate, BlewUp, Bounded, DiesAway, Grows, LooksRight, Rounding};
     for (title, outcome) in [
         ("The spring that Euler blows up", Grows),
@@ -463,7 +463,7 @@ fn what_a_stop_answers_is_what_the_verdict_beside_it_says() {
 }
 
 #[test]
-fn a_stop_that_asks_for_home_is_done_by_a_run_from_its_start_and_not_before() {
+fn a_stop_asking_for_home_is_done_only_by_a_restarted_run() {
     let asks = |stop: &&regatta::studio::guide::Stop| stop.keys.last() == Some(&Key::Home);
     let count = STOPS.iter().filter(asks).count();
     assert!(count >= 9, "{count}");
@@ -481,8 +481,7 @@ fn a_stop_that_asks_for_home_is_done_by_a_run_from_its_start_and_not_before() {
 }
 
 #[test]
-fn the_pendulum_of_the_phase_portrait_winds_out_for_three_half_swings_and_goes_over_in_the_fourth()
-{
+fn the_pendulum_of_the_guide_goes_over_the_top_in_its_fourth_half_swing() {
     let mut studio = lab_at(STOPS.iter().position(|s| s.instrument == Instrument::Phase).unwrap());
     let state = |studio: &Studio| {
         let stepper = &studio.race().entrants()[0].lane.bodies()[0].stepper;
@@ -509,7 +508,7 @@ fn the_pendulum_of_the_phase_portrait_winds_out_for_three_half_swings_and_goes_o
 }
 
 #[test]
-fn the_lanes_that_port_has_told_stay_within_8_percent_of_the_ghost_all_the_way() {
+fn lanes_with_ported_settings_stay_within_8_percent_of_the_ghost() {
     let scene = Scene::built_in("alike").unwrap();
     let mut race = Race::of_scene(&scene);
     let mut most = 0.0_f64;
@@ -524,7 +523,7 @@ fn the_lanes_that_port_has_told_stay_within_8_percent_of_the_ghost_all_the_way()
 }
 
 #[test]
-fn the_area_of_the_cloud_is_never_less_than_at_its_start_under_explicit_euler() {
+fn explicit_euler_never_shrinks_the_cloud_of_the_guide_below_its_start() {
     let mut studio =
         lab_after_prediction(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
     studio.apply(RunCommand::Cloud(CloudChoice { kind: CloudKind::default(), points: 10_000 }));

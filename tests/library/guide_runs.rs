@@ -20,7 +20,7 @@ fn said_on_stage(studio: &Studio) -> Vec<String> {
 }
 
 #[test]
-fn no_stop_is_answered_on_the_screen_before_the_prediction() {
+fn no_stop_shows_its_answer_before_the_prediction() {
     let (mut promises, mut landings) = (0, 0);
     for (index, stop) in STOPS.iter().enumerate() {
         let mut studio = lab_at(index);
@@ -56,7 +56,7 @@ fn no_stop_is_answered_on_the_screen_before_the_prediction() {
 }
 
 #[test]
-fn a_task_done_without_a_prediction_begins_the_run_too() {
+fn doing_the_task_without_a_prediction_also_starts_the_run() {
     let at = STOPS.iter().position(|stop| stop.goal == Goal::Race).unwrap();
     let mut studio = lab_at(at);
     for key in STOPS[at].keys {
@@ -97,7 +97,7 @@ fn identity(studio: &Studio) -> impl PartialEq + std::fmt::Debug + use<> {
 }
 
 #[test]
-fn escape_from_the_guide_leads_back_to_the_run_that_was_left_for_it() {
+fn leaving_the_guide_returns_to_the_earlier_run() {
     let escape = || Command::View(ViewCommand::Escape);
     let lab = || Command::Loop(LoopCommand::ToggleLab);
     let last = STOPS.len() - 1;
@@ -136,7 +136,7 @@ fn escape_from_the_guide_leads_back_to_the_run_that_was_left_for_it() {
 }
 
 #[test]
-fn scenes_open_solo_or_as_a_race_as_they_say_unless_a_person_has_chosen() {
+fn scenes_open_in_their_own_mode_unless_a_person_chose_one() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     let round = |studio: &mut Studio, chosen: Option<Mode>| {
         let (mut solo, mut races) = (0, 0);
@@ -167,7 +167,7 @@ fn scenes_open_solo_or_as_a_race_as_they_say_unless_a_person_has_chosen() {
 }
 
 #[test]
-fn a_body_alone_bears_a_number_only_where_a_key_picks_its_method() {
+fn a_lone_body_has_a_number_only_if_a_key_picks_its_method() {
     let bears = |studio: &Studio| {
         let number = (studio.active() + 1).to_string();
         said_on_stage(studio).contains(&number)

@@ -1,4 +1,4 @@
-//! The tick rates that hints name, at whatever rate a scene runs.
+//! The tick rates that hints name, for any tick rate of a scene.
 
 use regatta::scene::{SCENES, Scene};
 use regatta::studio::{Command, StageCommand, Step, Studio, TICK_LADDER};
@@ -15,7 +15,7 @@ fn beside(step: Step, hz: u32) -> u32 {
     found.unwrap_or(hz)
 }
 
-/// Each rate (Hz) that a hint names, with what stands before it.
+/// Each rate (Hz) in a hint, with the text before it.
 fn rates(hint: &str) -> impl Iterator<Item = (&str, u32)> {
     hint.match_indices(" Hz").map(move |(end, _)| {
         let before = hint[..end].rsplit(' ').next().unwrap_or_default();
@@ -25,7 +25,7 @@ fn rates(hint: &str) -> impl Iterator<Item = (&str, u32)> {
 }
 
 #[test]
-fn at_every_rate_each_rate_that_a_hint_names_is_the_present_one_or_where_its_keys_lead() {
+fn a_rate_named_by_a_hint_is_the_present_one_or_reached_by_its_keys() {
     let mut named = 0;
     for scene in SCENES {
         let own = Scene::built_in(scene.name).unwrap();
@@ -69,7 +69,7 @@ fn at_every_rate_each_rate_that_a_hint_names_is_the_present_one_or_where_its_key
 }
 
 #[test]
-fn the_second_method_of_the_cloth_needs_the_rate_that_its_hint_names() {
+fn the_second_method_of_the_cloth_needs_the_rate_in_its_hint() {
     let scene = Scene::built_in("cloth").unwrap();
     let hint = scene.hint.clone().unwrap();
     let (_, wanted) = rates(&hint).find(|(before, _)| before.ends_with("needs ")).unwrap();

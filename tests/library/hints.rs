@@ -1,5 +1,5 @@
-//! The built-in scenes open on the method that makes their point, and what their hints promise comes about
-//! when the keys are pressed as they say.
+//! The built-in scenes open with the method that makes their point, and pressing the keys in their hints keeps the
+//! promises.
 
 use regatta::run::race::Mode;
 use regatta::scene::{Action, SCENES, Scene};
@@ -24,8 +24,8 @@ fn press(studio: &mut Studio, keys: &[Key]) {
     }
 }
 
-/// Ticks through so many simulated seconds, and returns the largest |q| of the first coordinate of a body in the
-/// first lane on the way.
+/// Runs for `seconds` of simulated time, and returns the largest |q| of the first coordinate of a body in the first
+/// lane.
 fn largest(studio: &mut Studio, body: usize, seconds: f64) -> f64 {
     let end = studio.race().t() + seconds;
     let mut largest = 0.0_f64;
@@ -36,8 +36,7 @@ fn largest(studio: &mut Studio, body: usize, seconds: f64) -> f64 {
     largest
 }
 
-/// Ticks through so many simulated seconds, and returns the largest distance of each lane's first body from the
-/// truth on the way.
+/// Runs for `seconds` of simulated time, and returns the largest distance of each lane's first body from the truth.
 fn largest_errors(studio: &mut Studio, seconds: f64) -> Vec<f64> {
     let end = studio.race().t() + seconds;
     let mut errors = vec![0.0_f64; studio.race().entrants().len()];
@@ -51,7 +50,7 @@ fn largest_errors(studio: &mut Studio, seconds: f64) -> Vec<f64> {
     errors
 }
 
-/// Whether the swing of a body, over its next ten seconds, stays what it is.
+/// Whether the swing of a body keeps its width over the next ten seconds.
 fn holds(studio: &mut Studio, body: usize) -> bool {
     let before = largest(studio, body, 2.0);
     (0..5).all(|_| largest(studio, body, 2.0) < 1.1 * before)
@@ -70,7 +69,7 @@ fn every_scene_names_the_lane_that_it_opens_with() {
 }
 
 #[test]
-fn a_scene_opens_with_a_lane_of_its_own_and_never_with_another_method() {
+fn a_scene_opens_only_with_one_of_its_own_lanes() {
     for method in GENERAL_METHODS {
         let text = |opening: &str| {
             format!(
@@ -92,7 +91,7 @@ fn a_scene_opens_with_a_lane_of_its_own_and_never_with_another_method() {
 }
 
 #[test]
-fn the_next_scene_opens_with_its_own_method_whatever_was_flown_before() {
+fn the_next_scene_opens_with_its_own_method() {
     let mut studio = open("harbour");
     press(&mut studio, &[Key::Digit(4)]);
     for _ in SCENES {
@@ -113,7 +112,7 @@ fn the_springs_gain_energy_until_2_is_pressed() {
 }
 
 #[test]
-fn the_stiff_spring_blows_up_two_presses_lower_and_holds_again_two_higher_after_a_restart() {
+fn the_stiff_spring_blows_up_two_presses_lower_and_recovers_two_higher() {
     let mut studio = open("stiff");
     let seconds = studio.scene().seconds;
     assert!(largest(&mut studio, 0, seconds) < 2.0, "it holds at first");
@@ -145,7 +144,7 @@ fn the_pendulum_goes_over_the_top_and_after_2_and_a_restart_never_does() {
 }
 
 #[test]
-fn ship_and_ellipses_are_truer_at_a_higher_tick_rate() {
+fn ship_and_ellipses_are_more_accurate_at_a_higher_tick_rate() {
     for (scene, seconds) in [("ship", 20.0), ("orbit", 6.0)] {
         let mut studio = open(scene);
         press(&mut studio, &[C]);
@@ -178,7 +177,7 @@ fn explicit_euler_is_calm_on_all_three_ships_one_press_higher() {
 }
 
 #[test]
-fn the_ship_under_explicit_euler_is_faster_than_the_ghost_and_behind_it_all_the_way() {
+fn explicit_eulers_ship_is_faster_than_its_ghost_yet_always_behind() {
     let mut studio = open("ship");
     while studio.race().t() < studio.scene().seconds {
         studio.tick();
@@ -189,7 +188,7 @@ fn the_ship_under_explicit_euler_is_faster_than_the_ghost_and_behind_it_all_the_
 }
 
 #[test]
-fn after_home_the_next_step_of_the_tour_is_shown_and_what_brings_back_the_run_after_the_last() {
+fn a_restart_shows_the_next_hint_or_after_the_last_how_to_undo_it() {
     let mut studio = open("spring");
     let restart_later = |studio: &mut Studio| {
         press(studio, &[Key::Digit(2)]);
@@ -251,7 +250,7 @@ fn controls(studio: &Studio) -> (&'static str, u32, f64, f64) {
 }
 
 #[test]
-fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_so_once() {
+fn the_script_leaves_a_persons_control_alone_until_a_restart() {
     for (command, name, expected) in [
         (Command::Run(RunCommand::Act(Action::Rudder(0.3))), "rudder", ("rk4", 10, 0.5, 0.3)),
         (Command::Run(RunCommand::RudderLeft), "rudder", ("rk4", 10, 0.5, 0.1)),
@@ -282,7 +281,7 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
 }
 
 #[test]
-fn taking_the_same_control_again_is_not_told_again() {
+fn taking_the_same_control_again_gives_no_second_notice() {
     let mut studio = scripted();
     studio.apply(RunCommand::Act(Action::Rudder(0.3)));
     studio.viewer.set_notice("something else");
@@ -296,7 +295,7 @@ fn taking_the_same_control_again_is_not_told_again() {
 }
 
 #[test]
-fn where_no_script_is_to_come_there_is_nothing_to_tell() {
+fn taking_a_control_gives_no_notice_without_a_remaining_script() {
     let mut studio = open("spring");
     for command in [
         Command::Stage(StageCommand::Pick(3)),
@@ -313,7 +312,7 @@ fn where_no_script_is_to_come_there_is_nothing_to_tell() {
 }
 
 #[test]
-fn a_throttle_by_hand_changes_the_analysis_request_and_one_of_the_script_does_not() {
+fn only_a_throttle_by_hand_changes_the_analysis_request() {
     let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
     let script = "[[command]]\nat_s = 1.5\nthrottle = 0.5\n";
     let mut studio = Studio::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap());
@@ -338,13 +337,13 @@ fn a_jump_is_higher_at_a_higher_rate() {
     assert!((low - 1.1445).abs() < 1e-9 && high > low + 0.01, "{low} {high}");
 }
 
-/// What is told of a key: what stands before it and behind it in the hint, up to the next digit.
+/// The text around a key in a hint: before it, and after it up to the next digit.
 pub(crate) struct Told<'a> {
     before: &'a str,
     pub(crate) after: &'a str,
 }
 
-/// The keys that a hint names, in order, with what it does.
+/// The keys in a hint, in order, with the text around each.
 pub(crate) fn told_keys(hint: &str) -> Vec<(Command, Told<'_>)> {
     let parts: Vec<&str> = hint.split('`').collect();
     let named = (1..parts.len()).step_by(2).map(|at| {
@@ -371,7 +370,7 @@ fn first_named(words: &str) -> Option<(usize, &'static str)> {
     found.min().map(|(at, _, id)| (at, id))
 }
 
-/// How often a key is to be pressed, in words that follow it, and the rate that it then leads to.
+/// The number of key presses in the words after a key, and the resulting tick rate.
 pub(crate) fn presses(after: &str) -> (usize, Option<u32>) {
     let times = [("twice", 2), ("three times", 3), ("four times", 4)];
     let word = after.trim_start();
@@ -381,7 +380,7 @@ pub(crate) fn presses(after: &str) -> (usize, Option<u32>) {
     (count, rate)
 }
 
-/// Presses what a hint asks for and holds what happens against the hint.
+/// Presses the keys of a hint and compares the outcome with the hint.
 fn hold(studio: &mut Studio, hint: &str, command: &Command, told: &Told<'_>) {
     let (tick, hz, mode) = (studio.race().tick(), studio.clock().tick_hz(), studio.mode());
     let scene = studio.deck.scene_name();
@@ -446,7 +445,7 @@ fn hold(studio: &mut Studio, hint: &str, command: &Command, told: &Told<'_>) {
     }
 }
 
-/// What nobody needs to be told: in solo, that a method other than the selected one does something.
+/// Whether a hint starts with a method only if some lane flies it.
 fn names_the_selected_method(studio: &Studio, hint: &str) -> bool {
     let before = hint.split('`').next().unwrap_or_default();
     first_named(before).is_none_or(|(at, id)| {
@@ -455,7 +454,7 @@ fn names_the_selected_method(studio: &Studio, hint: &str) -> bool {
 }
 
 #[test]
-fn in_every_scene_mode_and_pause_under_every_method_each_key_of_each_hint_does_what_is_told() {
+fn every_key_in_every_hint_does_as_promised() {
     let mut held = 0;
     for scene in SCENES {
         let parsed = Scene::built_in(scene.name).unwrap();
@@ -463,7 +462,7 @@ fn in_every_scene_mode_and_pause_under_every_method_each_key_of_each_hint_does_w
         let count = if is_net { 1 } else { parsed.lanes.len().min(5) };
         let seconds = if is_net { 0 } else { 1 };
         for (race, paused, entry) in (0..4 * count).map(|i| (i & 1 > 0, i & 2 > 0, i / 4)) {
-            // A pause changes what is told of the run, whatever its method.
+            // The hints of a race or a pause do not depend on the method.
             if entry > 0 && (race || paused) {
                 continue;
             }
@@ -500,7 +499,7 @@ fn in_every_scene_mode_and_pause_under_every_method_each_key_of_each_hint_does_w
                 assert!(!keys.is_empty(), "{hint} asks for no key");
                 for (index, (command, told)) in keys.iter().enumerate() {
                     let mut studio = again(&done);
-                    // What goes on from there, and what is lost as well, come after the keys before.
+                    // A pause in a hint follows the keys before it.
                     if matches!(command, Command::View(ViewCommand::TogglePause)) {
                         keys[..index].iter().for_each(|(key, _)| _ = studio.apply(key.clone()));
                     }
@@ -515,7 +514,7 @@ fn in_every_scene_mode_and_pause_under_every_method_each_key_of_each_hint_does_w
 }
 
 #[test]
-fn in_a_race_that_has_gone_on_into_the_next_scene_nobody_is_asked_to_race() {
+fn no_hint_asks_for_a_race_during_a_race() {
     let mut studio = open("spring");
     studio.apply(StageCommand::ToggleRace);
     studio.viewer.begin_hints();

@@ -1,5 +1,5 @@
-//! What trails and plots are drawn from: every sample knows the method that it was flown under, a switch leaves a
-//! mark, and the newest sample is the present.
+//! The samples behind trails and plots: every sample knows its method, a switch leaves a mark, and the newest sample
+//! is the present.
 
 use regatta::run::past::History;
 use regatta::scene::{LaneId, Scene};
@@ -21,7 +21,7 @@ fn history(studio: &Studio) -> &History {
 const FRAME_NS: i64 = 16_666_667;
 
 #[test]
-fn the_newest_sample_is_the_present_after_every_frame_however_rare_samples_are() {
+fn after_every_frame_the_newest_sample_is_the_present() {
     // A sample at every 49th tick.
     let mut studio = studio(100.0, 1000);
     for frame in 0..300 {
@@ -38,7 +38,7 @@ fn the_newest_sample_is_the_present_after_every_frame_however_rare_samples_are()
 }
 
 #[test]
-fn a_swing_as_fast_as_the_samples_shows_in_what_they_swept_over() {
+fn a_swing_faster_than_the_samples_shows_in_their_swept_range() {
     // 158 swings per second, and a sample at every 30th tick: at nearly the same place of every fifth swing.
     let text = "title = 'fast'\ntick_hz = 1000\nseconds = 60\nmethods = ['velocity-verlet']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e6\nx0_m = 1\n";

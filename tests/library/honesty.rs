@@ -130,7 +130,7 @@ fn amplitudes(scene: &Scene) -> Vec<f64> {
 struct Plain {
     /// The largest error over the scene, in amplitudes; infinite where the lane failed.
     error: f64,
-    /// Each component at every tick of ten scenes, as far as the lane came.
+    /// Each component at every tick of ten scenes, up to the lane's failure.
     failed_at: Option<f64>,
     q: Vec<f64>,
     reach: Vec<f64>,
@@ -263,7 +263,7 @@ fn lies(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> Vec<S
         // The energy of a swing under a dissipative method comes down in steps, two for each turn.
         let turn =
             std::f64::consts::PI / (scene.bodies[0].values[1] / scene.bodies[0].values[0]).sqrt();
-        // What dies within a turn or two has no time of halving to speak of.
+        // A motion that dies within a turn or two has no meaningful halving time.
         check(
             halves < 4.0 * turn || near(halves, at, 0.05) || (halves - at).abs() <= turn,
             format!("½ in {halves} s, not {at}"),
@@ -347,7 +347,7 @@ fn grows(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> bool
         return true;
     };
     let is_wider = lane.iter().zip(&truth).any(|(lane, truth)| *lane >= 1.8 * truth);
-    // The swing of a linear body goes on growing as it grows here.
+    // The swing of a linear body keeps growing at the rate seen here.
     is_wider || late > early + if is_linear { 1e-6 } else { 3e-3 } * kinetic
 }
 

@@ -110,7 +110,7 @@ fn a_parameter_set_by_the_script_is_judged_like_one_set_by_hand() {
 }
 
 #[test]
-fn growth_is_that_of_the_parameters_that_the_script_leaves_in_force() {
+fn growth_uses_the_parameters_left_by_the_script() {
     let damped = with(damped_by_script(), &[("damping_n_s_per_m", 60.0)]);
     let edited = edited(&damped, |scene| scene.script.clear());
     let grows = |scene: &Scene| {
@@ -171,7 +171,7 @@ fn a_kicked_body_is_judged_from_its_true_state_after_the_kick() {
 }
 
 #[test]
-fn a_run_judged_from_a_placement_keeps_its_throttle_and_the_rest_of_the_script() {
+fn a_run_judged_from_a_placement_keeps_throttle_and_remaining_script() {
     let scripted = |times: &[(f64, f64)]| {
         let row = |&(at_s, part)| Scripted { at_s, action: Action::Throttle(part) };
         let script = times.iter().map(row).collect();
@@ -184,7 +184,7 @@ fn a_run_judged_from_a_placement_keeps_its_throttle_and_the_rest_of_the_script()
     let rest = scripted(&[(0.0, 0.5), (7.0, -0.25)]);
     let rest = with(rest, &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
     assert_eq!(verdicts(&mut studio), verdicts_on(&rest));
-    // A throttle by hand holds from there on, and what the script had to come for it is gone.
+    // A throttle by hand stays, and cancels the script's later throttles.
     studio.apply(RunCommand::Act(Action::Throttle(0.8)));
     let by_hand = with(scripted(&[(0.0, 0.8)]), &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
     assert_eq!(verdicts(&mut studio), verdicts_on(&by_hand));

@@ -10,11 +10,11 @@ use regatta::scene::{LaneSpec, Scene};
 
 use crate::kept::hold_text;
 
-/// Of each kind that a verdict has words for, at least one.
+/// At least one scene of each kind that a verdict has words for.
 const SCENES: [&str; 8] =
     ["spring", "ship", "stiff", "jump", "lerp", "follow", "alike", "pendulum"];
 
-/// A line for each method: the scene, the method, and what is found of it.
+/// A line for each method: the scene, the method, and its verdict.
 fn words(scene: &str) -> String {
     let scene = Scene::built_in(scene).unwrap();
     let judge = Judge::new(&scene);
@@ -26,7 +26,7 @@ fn words(scene: &str) -> String {
 }
 
 #[test]
-fn the_verdicts_of_eight_scenes_have_the_words_that_are_kept() {
+fn the_verdicts_of_eight_scenes_have_the_stored_words() {
     let found: String = thread::scope(|threads| {
         let scenes = SCENES.map(|scene| threads.spawn(move || words(scene)));
         scenes.map(|words| words.join().unwrap()).concat()

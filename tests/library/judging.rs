@@ -29,7 +29,7 @@ fn body(scene: &Scene, solver: Solver) -> Box<dyn Stepper> {
     (scene.bodies[0].kind.build)(&scene.bodies[0].values, solver)
 }
 
-/// What `see` makes of the first body after each tick of a plain run.
+/// Applies `see` to the first body after each tick of a plain run.
 pub(super) fn run<T>(
     scene: &Scene,
     solver: Solver,
@@ -69,7 +69,7 @@ fn pendulum() -> Scene {
 }
 
 #[test]
-fn a_springs_energy_and_the_times_of_its_swing_are_those_of_the_run() {
+fn verdicts_on_a_spring_match_energy_and_swing_of_the_run() {
     let scene = spring();
     for (id, tick_hz, word) in [
         ("explicit-euler", 60, Outcome::Grows),
@@ -163,7 +163,7 @@ fn a_pendulum_has_doubled_and_halved_when_its_angle_has() {
 }
 
 #[test]
-fn what_is_to_die_away_does_not_lose_energy_when_it_does() {
+fn a_damped_motion_that_dies_away_is_not_judged_as_losing_energy() {
     let damped = "[[spring]]\nmass_kg = 2\nstiffness_n_per_m = 80\ndamping_n_s_per_m = 0.3";
     let free = "[[ship]]\nthrust_n = 2000\ndrag_n_s_per_m = 0\nmass_kg = 1000\nv0_m_per_s = 3";
     for (body, id, word) in [
@@ -188,8 +188,8 @@ fn what_is_to_die_away_does_not_lose_energy_when_it_does() {
 }
 
 #[test]
-fn what_nobody_can_know_is_not_judged() {
-    // Let go so near the top that each return there multiplies what the truth may be off.
+fn a_motion_with_too_vague_a_truth_is_not_judged() {
+    // Released so near the top that each return there multiplies the error of the truth.
     let top = |seconds| scene(seconds, "[[pendulum]]\nlength_m = 0.4\ntheta0_rad = 3.14159");
     let found = verdict(&top(15.0), "rk4", 60);
     assert!(found.outcome() != Outcome::NoTruth, "{found}");
@@ -201,7 +201,7 @@ fn what_nobody_can_know_is_not_judged() {
 }
 
 #[test]
-fn nothing_is_held_against_its_truth_beyond_the_end_of_its_scene() {
+fn no_run_is_judged_beyond_the_end_of_its_scene() {
     // 1.6 ticks: the second one ends after the scene.
     let scene = scene(0.8, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 36");
     let found = verdict(&scene, "explicit-euler", 2);
@@ -221,7 +221,7 @@ fn nothing_is_held_against_its_truth_beyond_the_end_of_its_scene() {
 }
 
 #[test]
-fn what_looks_right_is_as_wide_and_as_fast_as_the_truth() {
+fn looks_right_requires_the_width_and_frequency_of_the_truth() {
     let slowest = |scene: &Scene, id: &str| {
         Adviser::new(scene, 60).slowest(spec(id), CRITERIA[LOOKS_RIGHT]).unwrap()
     };
@@ -237,7 +237,7 @@ fn what_looks_right_is_as_wide_and_as_fast_as_the_truth() {
 }
 
 #[test]
-fn what_does_not_swing_looks_right_within_a_twentieth_of_its_range() {
+fn a_motion_without_swing_looks_right_within_a_twentieth_of_its_range() {
     let scene = scene(
         20.0,
         "[[ship]]\nthrust_n = 2000\ndrag_n_s_per_m = 1000\nmass_kg = 100\nv0_m_per_s = 90",
@@ -259,7 +259,7 @@ fn what_does_not_swing_looks_right_within_a_twentieth_of_its_range() {
 }
 
 #[test]
-fn advice_is_of_the_fewest_substeps_the_slowest_rate_and_the_stiffest_spring() {
+fn advice_names_fewest_substeps_slowest_rate_and_stiffest_spring() {
     // Semi-implicit Euler looks right from 12.41 Hz on: up to z = 0.4833, as above, and no more than ten times the
     // stiffness is tried.
     for (tick_hz, substeps, slowest_hz, stiffness_factor) in [
@@ -288,7 +288,7 @@ fn advice_is_of_the_fewest_substeps_the_slowest_rate_and_the_stiffest_spring() {
 }
 
 #[test]
-fn a_frequency_error_is_told_where_it_stays_the_same() {
+fn only_a_constant_frequency_error_is_reported() {
     let scene = pendulum();
     for (id, tick_hz) in
         [("semi-implicit-euler", 60), ("semi-implicit-euler", 30), ("velocity-verlet", 30)]
@@ -312,7 +312,7 @@ fn a_frequency_error_is_told_where_it_stays_the_same() {
 }
 
 #[test]
-fn what_a_late_kick_starts_has_grown_since_the_kick_only() {
+fn growth_after_a_late_kick_counts_from_the_kick() {
     let at_rest = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 36\nx0_m = 0";
     let kicked = scene(20.0, &format!("{at_rest}\n[[command]]\nat_s = 15\nkick = 1.0"));
     let found = verdict(&kicked, "improved-euler", 30).comparison().unwrap().energy_change.unwrap();
@@ -322,7 +322,7 @@ fn what_a_late_kick_starts_has_grown_since_the_kick_only() {
 }
 
 #[test]
-fn a_frequency_error_is_that_of_a_step_however_often_the_body_turns_in_a_tick() {
+fn the_frequency_error_is_right_for_several_turns_in_a_tick() {
     // 100 rad/s: a turn and a half in a tick, a fortieth of one in a step.
     let scene = scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 10000");
     let spec = LaneSpec { substeps: 64, ..spec("velocity-verlet") };
@@ -350,7 +350,7 @@ fn advice_counts_the_evaluations_of_all_bodies_in_a_second() {
 }
 
 #[test]
-fn the_body_that_fares_worst_speaks_and_all_are_counted() {
+fn the_worst_body_decides_and_every_body_counts() {
     let free = "[[spring]]\nname = \"free\"\nmass_kg = 1\nstiffness_n_per_m = 39.4784";
     let stiff = "[[spring]]\nname = \"stiff\"\nmass_kg = 1\nstiffness_n_per_m = 1e6";
     let ship = "[[ship]]\nname = \"ship\"\nthrust_n = 2000\ndrag_n_s_per_m = 100\nmass_kg = 1000";
@@ -377,7 +377,7 @@ fn the_body_that_fares_worst_speaks_and_all_are_counted() {
 }
 
 #[test]
-fn a_scene_is_judged_under_its_throttle_and_over_a_minute_of_it() {
+fn a_scene_is_judged_under_its_throttle_and_for_at_most_a_minute() {
     let long = scene(600.0, "[[ship]]\nthrust_n = 2000\ndrag_n_s_per_m = 100\nmass_kg = 1000");
     let judge = Judge::at_throttle(&long, 0.3);
     assert_eq!((judge.throttle(), judge.horizon_s()), (0.3, MAX_HORIZON_S));
@@ -414,7 +414,7 @@ fn a_damped_swing_looks_right_wherever_its_extremes_fall() {
         let meets = Adviser::new(&scene, 60).meets(spec, CRITERIA[LOOKS_RIGHT]);
         let met = meets.met().unwrap().clone();
         assert_eq!(met.substeps, 1, "{stiffness}: {met:?}");
-        // What is told of stiffer springs is what is told of each of them.
+        // Advice for a factor of stiffness is true of every stiffer spring up to it.
         let factor = met.stiffness_factor.unwrap();
         for part in [0.25, 0.5, 0.75, 1.0] {
             let stiffer = damped(stiffness * (1.0 + part * (factor - 1.0)));
@@ -422,7 +422,7 @@ fn a_damped_swing_looks_right_wherever_its_extremes_fall() {
             assert_eq!(meets.met().map(|met| met.substeps), Some(1), "{stiffness}: {factor}");
         }
     }
-    // What comes to rest too soon, or too late, does not look right.
+    // A motion that comes to rest too soon or too late does not look right.
     for (id, looks_right) in [("implicit-euler", false), ("rk4", true)] {
         let meets = Adviser::new(&damped(150.0), 60).meets(self::spec(id), CRITERIA[LOOKS_RIGHT]);
         assert_eq!(meets.met().is_some_and(|met| met.substeps == 1), looks_right, "{id}");
@@ -443,7 +443,7 @@ fn a_chain_of_many_modes_looks_right_by_the_amplitude_of_its_modes() {
 }
 
 #[test]
-fn no_factor_up_to_the_one_that_is_told_fails() {
+fn every_stiffness_up_to_the_advised_factor_is_bounded() {
     let scaled = |factor: f64| {
         let text = format!(
             "[[pendulum]]\nlength_m = 0.4\ntheta0_rad = 2.2\ngravity_m_per_s2 = {}",
@@ -465,7 +465,7 @@ fn no_factor_up_to_the_one_that_is_told_fails() {
 }
 
 #[test]
-fn an_adaptive_method_on_an_oscillator_is_judged_by_how_it_goes_on() {
+fn an_adaptive_method_on_an_oscillator_is_judged_by_its_long_run() {
     let spring = "[[spring]]\nmass_kg = 7.019\nstiffness_n_per_m = 157.057\nx0_m = 1.578\nv0_m_per_s = -1.839";
     let scene = scene(20.0, spring);
     let year_s = 365.0 * 86_400.0;
@@ -511,7 +511,7 @@ fn an_adaptive_method_on_an_oscillator_is_judged_by_how_it_goes_on() {
 }
 
 #[test]
-fn an_undamped_spring_that_looks_right_swings_as_wide_as_the_truth_from_any_start() {
+fn an_undamped_spring_that_looks_right_has_the_width_of_the_truth() {
     let (mut dice, mut refused) = (Dice::new(44_02), 0);
     for _ in 0..60 {
         let omega = 2.0 + 18.0 * dice.part();
@@ -538,7 +538,7 @@ fn an_undamped_spring_that_looks_right_swings_as_wide_as_the_truth_from_any_star
 }
 
 #[test]
-fn a_damped_spring_that_looks_right_reaches_as_far_as_the_truth() {
+fn a_damped_spring_that_looks_right_has_the_reach_of_the_truth() {
     let scene = scene(
         20.0,
         "[[spring]]\nmass_kg = 1.606\nstiffness_n_per_m = 3464\ndamping_n_s_per_m = 1.86\n\
@@ -583,7 +583,7 @@ fn a_body_that_swings_less_than_three_times_is_judged_by_its_first_swings() {
 }
 
 #[test]
-fn what_is_accurate_by_a_hair_has_no_margin() {
+fn a_barely_accurate_motion_has_no_margin() {
     for (id, tick_hz, body) in [
         ("midpoint", 10, "[[orbit]]\nmu_m3_per_s2 = 2.562\nx0_m = 0.4876\nvy0_m_per_s = 3.028"),
         (

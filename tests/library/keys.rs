@@ -1,9 +1,9 @@
-//! What keys do to a run, as the title tells. That the window knows every key is tested with one.
+//! The effect of keys on a run, read from the title. A separate test covers the keys in a real window.
 
 use regatta::scene::{SCENES, Scene};
 use regatta::studio::{Instrument, KEYS, Key, StageCommand, Studio, TICK_LADDER};
 
-/// Does what the table says of a key.
+/// Performs the command of a key.
 fn press(studio: &mut Studio, key: Key) {
     let mut all = KEYS.iter().flat_map(|binding| binding.keys);
     let (_, command) = all.find(|(other, _)| *other == key).expect("a key of the table");
@@ -57,7 +57,7 @@ fn brackets_walk_the_tick_rates_and_n_and_b_the_scenes() {
 }
 
 #[test]
-fn the_first_press_of_t_or_of_what_the_instruments_show_puts_them_round_the_stage() {
+fn the_first_press_of_an_instrument_key_opens_the_instruments() {
     let alone = || {
         let mut studio = studio("harbour");
         studio.viewer.preferences.display.measure = false;
@@ -97,7 +97,7 @@ fn the_first_press_of_t_or_of_what_the_instruments_show_puts_them_round_the_stag
 }
 
 #[test]
-fn the_loop_lab_is_not_without_its_instruments() {
+fn the_loop_lab_always_shows_its_instruments() {
     let mut studio = studio("spring");
     studio.viewer.preferences.display.measure = false;
     press(&mut studio, Key::Sign('l'));

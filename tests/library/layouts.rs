@@ -1,4 +1,4 @@
-//! Solo and race: which lanes there are, what they are under, and what a restart keeps of it.
+//! Solo and race: the lanes, their methods, and the settings that a restart keeps.
 
 use regatta::run::race::{Lane, Mode};
 use regatta::scene::{Action, LaneSpec, Scene};
@@ -17,7 +17,7 @@ fn bits(lane: &Lane) -> Vec<u64> {
 }
 
 #[test]
-fn solo_to_race_and_back_flies_the_method_that_was_selected() {
+fn entering_and_leaving_a_race_keeps_the_selected_method() {
     let mut studio = Studio::new(scene("spring"));
     for method in GENERAL_METHODS {
         studio.apply(StageCommand::Method(method));
@@ -41,7 +41,7 @@ fn solo_to_race_and_back_flies_the_method_that_was_selected() {
 }
 
 #[test]
-fn a_race_is_of_the_scenes_lanes_and_of_the_method_last_flown_and_takes_no_others() {
+fn a_race_has_the_scenes_lanes_and_the_last_method_only() {
     let text = "title = \"pair\"\ntick_hz = 60\nseconds = 5\nmethods = [\"rk4\", \"improved-euler\"]\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
     let racing = |studio: &Studio| {
@@ -70,7 +70,7 @@ fn a_race_is_of_the_scenes_lanes_and_of_the_method_last_flown_and_takes_no_other
 }
 
 #[test]
-fn throttle_and_rudder_go_in_tenths_stop_at_their_ends_and_are_back_amidships_after_a_restart() {
+fn throttle_and_rudder_move_in_tenths_within_limits_until_a_restart() {
     let mut studio = Studio::new(scene("helm"));
     assert!(
         studio.race().takes_input("rudder")
@@ -101,7 +101,7 @@ fn throttle_and_rudder_go_in_tenths_stop_at_their_ends_and_are_back_amidships_af
 }
 
 #[test]
-fn a_lane_takes_the_substeps_that_are_advised_in_flight_and_keeps_them() {
+fn a_lane_adopts_advised_substeps_in_flight_and_keeps_them() {
     let spec = |substeps| LaneSpec { substeps, ..LaneSpec::plain(method("rk4").unwrap()) };
     let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
     (0..10).for_each(|_| studio.tick());
@@ -113,7 +113,7 @@ fn a_lane_takes_the_substeps_that_are_advised_in_flight_and_keeps_them() {
     assert_eq!(studio.entries()[studio.active()], spec(8));
     studio.apply(StageCommand::Restart);
     assert_eq!(studio.race().entrants()[0].lane.substeps(), 8);
-    // In a race the method's own lane takes them, and the others go on.
+    // In a race the method's own lane takes them, and the others continue.
     studio.apply(StageCommand::ToggleRace);
     (0..10).for_each(|_| studio.tick());
     studio.apply(RunCommand::SetLane(spec(4)));

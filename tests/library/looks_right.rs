@@ -1,5 +1,4 @@
-//! What advice has of *looks right* and of reserves, against peaks and errors that another program found or that are counted
-//! out here.
+//! Advice on *looks right* and on reserves, against peaks and errors found by another program or derived here.
 
 use regatta::measure::{Adviser, CRITERIA};
 use regatta::scene::Scene;
@@ -92,7 +91,7 @@ fn a_random_damped_spring_that_looks_right_turns_back_where_the_truth_does() {
 }
 
 #[test]
-fn an_orbit_that_is_accurate_by_a_hair_has_the_reserve_that_its_errors_leave() {
+fn the_reserve_of_a_barely_accurate_orbit_follows_from_its_errors() {
     // By its own steps against a reference of order 8 at 1, 1.05, 1.1, 1.2, 1.3 and 1.5 times mu, in percent: 0.94, 0.70,
     // 0.66, 0.55, 0.54, 0.59 for velocity Verlet, and 0.92, 0.65, 0.52, 0.23, 0.38, 1.03 for the midpoint method.
     let orbit = Scene::built_in("orbit").unwrap();

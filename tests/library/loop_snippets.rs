@@ -1,4 +1,4 @@
-//! The loops that the cards give away do what the loops of the table do, frame by frame, in each language.
+//! The code snippets of the loops match the loops of the table, frame by frame, in each language.
 #![expect(unreachable_pub, reason = "the sources are compiled as they are given away")]
 
 use std::collections::BTreeSet;
@@ -69,7 +69,7 @@ impl Rates {
     }
 }
 
-/// What a loop does in a frame.
+/// The result of a loop in a frame.
 #[derive(Clone, Copy, Debug)]
 struct Answer {
     steps: u32,
@@ -112,7 +112,7 @@ fn traces(rates: Rates) -> [Vec<i64>; 3] {
     [steady, hitches, (0..3000).map(any).collect()]
 }
 
-/// What the loop of the table does.
+/// The results of the loop in the table.
 fn known(card: &'static PolicyCard, rates: Rates, trace: &[i64]) -> Vec<Answer> {
     let base = rates.base();
     let mut pacer = Pacer::new(card, base);
@@ -124,7 +124,7 @@ fn known(card: &'static PolicyCard, rates: Rates, trace: &[i64]) -> Vec<Answer> 
     trace.iter().map(each).collect()
 }
 
-/// What a snippet with ticks does. `shown` draws what moves one a second, from the time of the last tick.
+/// The results of a snippet with ticks. `shown` draws a motion of one per second from the time of the last tick.
 fn whole_ticks<L>(
     rates: Rates,
     trace: &[i64],
@@ -143,7 +143,7 @@ fn whole_ticks<L>(
     trace.iter().map(each).collect()
 }
 
-/// What a snippet with steps of any length does; `frame` gives their number and the length of each.
+/// The results of a snippet with steps of any length; `frame` gives their number and the length of each.
 fn any_steps(trace: &[i64], mut frame: impl FnMut(i64) -> (i64, f64)) -> Vec<Answer> {
     let mut shown_s = 0.0;
     let each = |&duration_ns: &i64| {
@@ -161,7 +161,7 @@ fn one_step(trace: &[i64], mut frame: impl FnMut(i64) -> f64) -> Vec<Answer> {
     })
 }
 
-/// What the Rust snippet with this id does.
+/// The results of the Rust snippet with this id.
 fn in_rust(id: &str, rates: Rates, trace: &[i64]) -> Vec<Answer> {
     let Rates { tick_hz, refresh_hz } = rates;
     let tick_s = rates.tick_s();
@@ -226,7 +226,8 @@ fn in_rust(id: &str, rates: Rates, trace: &[i64]) -> Vec<Answer> {
 
 /// Checks a snippet's answers against the table's loop.
 fn same(card: &'static PolicyCard, rates: Rates, trace: &[i64], found: &[Answer]) {
-    // Seconds round, and where a step is divided, nanoseconds do: they add up, but for the debt that `median` pays back.
+    // Seconds are rounded, and nanoseconds too where a step is divided. The errors add up, except for the debt that
+    // `median` repays.
     let (step_s, total_s) = match card.id {
         "median" => (2e-8, 2e-7),
         "clamped-variable" => (1e-9, 1e-9 * trace.len() as f64),
@@ -243,7 +244,7 @@ fn same(card: &'static PolicyCard, rates: Rates, trace: &[i64], found: &[Answer]
 }
 
 #[test]
-fn every_file_is_a_snippet_and_every_card_has_one_in_rust() {
+fn every_snippet_file_is_used_and_every_card_has_one_in_rust() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/loops");
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let files: BTreeSet<_> = files
@@ -272,7 +273,7 @@ fn every_file_is_a_snippet_and_every_card_has_one_in_rust() {
 }
 
 #[test]
-fn the_rust_snippets_do_what_the_table_does() {
+fn the_rust_snippets_match_the_table() {
     for rates in RATES {
         for trace in traces(rates) {
             for card in POLICIES {
@@ -326,7 +327,7 @@ fn answer(line: &str) -> Answer {
 }
 
 #[test]
-fn the_cpp_snippets_do_what_the_table_does() {
+fn the_cpp_snippets_match_the_table() {
     let folder = build_folder("loops-cpp");
     let program = folder.join("driver");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -334,13 +335,13 @@ fn the_cpp_snippets_do_what_the_table_does() {
     compiler.args(["-std=c++14", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]);
     compiler.arg("-I").arg(root.join("assets/loops")).arg("-o").arg(&program);
     compiler.arg(root.join("tests/loop_snippets/driver.cpp"));
-    if compiled_or_skip("the_cpp_snippets_do_what_the_table_does", &mut compiler) {
+    if compiled_or_skip("the_cpp_snippets_match_the_table", &mut compiler) {
         driven("c++", &[&program]);
     }
 }
 
 #[test]
-fn the_c_sharp_snippets_do_what_the_table_does() {
+fn the_c_sharp_snippets_match_the_table() {
     let folder = build_folder("loops-cs");
     let program = folder.join("driver.exe");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -357,7 +358,7 @@ fn the_c_sharp_snippets_do_what_the_table_does() {
             compiler.arg(path);
         }
     }
-    if compiled_or_skip("the_c_sharp_snippets_do_what_the_table_does", &mut compiler) {
+    if compiled_or_skip("the_c_sharp_snippets_match_the_table", &mut compiler) {
         driven("c#", &[Path::new("mono"), &program]);
     }
 }

@@ -1,4 +1,4 @@
-//! What a game that uses the library relies on: the mathematics, the experiment, and the words of both.
+//! Tests of the library as a game uses it: the mathematics, the experiment, and the words of both.
 #![cfg(feature = "lab")]
 
 mod allocation;

@@ -1,4 +1,4 @@
-//! What a game is told that misuses the lowest layer: never a state that is silently not a number.
+//! Errors on misuse of the lowest layer. A state never silently becomes not a number.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe, UnwindSafe, catch_unwind};
@@ -56,7 +56,7 @@ fn a_panic_names_the_line_of_the_game() {
 }
 
 #[test]
-fn a_clock_is_made_and_changed_by_one_rule() {
+fn a_clock_is_constructed_and_changed_by_one_rule() {
     for tick_hz in [0, 10_001, u32::MAX] {
         let told = Clock::try_new(tick_hz).expect_err("no such rate").to_string();
         assert_eq!(told, format!("a clock runs at 0.01 to 10000 Hz; {tick_hz} Hz is outside"));
@@ -79,7 +79,7 @@ impl System for Spring {
 }
 
 #[test]
-fn ticks_that_take_no_time_are_refused_where_they_are_made_and_where_they_are_run() {
+fn ticks_of_zero_length_are_refused_on_construction_and_run() {
     for (hz, substeps) in [(0_u32, 1), (60, 0)] {
         let told = panic_of(|| Ticks::from_start(hz, substeps, 10));
         assert!(told.contains("give at least 1 of each"), "{told}");
@@ -93,7 +93,7 @@ fn ticks_that_take_no_time_are_refused_where_they_are_made_and_where_they_are_ru
 }
 
 #[test]
-fn a_step_of_no_countable_time_is_refused_by_every_method_and_leaves_the_state() {
+fn every_method_refuses_a_non_finite_step_and_keeps_the_state() {
     let steps = [(0.0, f64::NAN, 1), (0.0, f64::INFINITY, 1), (f64::NAN, 0.1, 1), (0.0, 0.1, 0)];
     for card in GENERAL_METHODS {
         for (t, h, substeps) in steps {
@@ -130,7 +130,7 @@ impl System for Replaced {
 }
 
 #[test]
-fn a_vec_of_another_length_is_told_to_whoever_wrote_the_acceleration() {
+fn an_acceleration_that_resizes_its_vec_is_reported() {
     let start = || State { q: vec![1.0, 2.0], v: vec![0.0, 0.0] };
     for given in [1, 3] {
         for card in GENERAL_METHODS {
@@ -140,7 +140,7 @@ fn a_vec_of_another_length_is_told_to_whoever_wrote_the_acceleration() {
                 (0..3).try_for_each(|_| built.step(&Replaced(given), 0.0, 0.01, &mut state))
             });
             assert!(
-                told.contains("`acceleration` overwrites the numbers of `a`"),
+                told.contains("`acceleration` must overwrite the numbers of `a`"),
                 "{}: {told}",
                 card.id
             );

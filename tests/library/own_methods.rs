@@ -1,4 +1,4 @@
-//! Methods by lines of a person's own: their motion, their cards, and what is said of them.
+//! Methods written as lines by a user: their motion, cards and messages.
 
 use glam::DVec2;
 use regatta::conformance::check;
@@ -37,7 +37,7 @@ fn own(method: &Method) -> &'static Method {
 fn run<V: Vector>(method: &Method, system: &Problem<V>, start: &State<V>) -> Vec<State<V>> {
     let (mut state, mut stepper) = (start.clone(), integrator(method, &start.q));
     let step = |i: u32| {
-        // Of another length in the midst.
+        // A step of another length in the middle.
         let h = if i < 60 { 0.02 } else { 0.013 };
         stepper.step(system, 0.02 * f64::from(i), h, &mut state).unwrap();
         state.clone()
@@ -46,7 +46,7 @@ fn run<V: Vector>(method: &Method, system: &Problem<V>, start: &State<V>) -> Vec
 }
 
 #[test]
-fn the_sources_that_are_lines_of_one_step_are_read_and_all_others_refused_with_a_reason() {
+fn every_method_source_is_read_or_refused_with_a_reason() {
     for method in METHODS {
         let read = StepText::read(method.code);
         match read {
@@ -63,7 +63,7 @@ fn the_sources_that_are_lines_of_one_step_are_read_and_all_others_refused_with_a
 }
 
 #[test]
-fn a_source_read_as_own_lines_moves_as_the_method_does() {
+fn a_source_read_as_own_lines_moves_like_its_method() {
     for method in GENERAL_METHODS.iter().filter(|method| TAKEN.contains(&method.id)) {
         let own = own(method);
         let swing = State { q: 1.0, v: 0.5 };
@@ -83,7 +83,7 @@ fn a_source_read_as_own_lines_moves_as_the_method_does() {
 }
 
 #[test]
-fn the_card_of_own_lines_is_measured_and_holds() {
+fn the_measured_card_of_own_lines_is_right() {
     for method in GENERAL_METHODS
         .iter()
         .filter(|method| TAKEN.contains(&method.id) && method.tolerance.is_none())
@@ -117,7 +117,7 @@ fn slipped(right: &str, wrong: &str) -> &'static Method {
 }
 
 #[test]
-fn a_slip_in_rk4_is_told_with_its_order_and_the_coefficient_that_differs() {
+fn a_slip_in_rk4_is_reported_with_its_order_and_wrong_coefficient() {
     let sign = slipped("let k2_x = v +", "let k2_x = v -").about;
     assert!(sign.starts_with("order 1.00; a spring of 1 Hz at 60 Hz gains "), "{sign}");
     // By hand: a third of the second stage goes to x, with half a step of the first the wrong way round.
@@ -144,7 +144,7 @@ fn a_slip_in_rk4_is_told_with_its_order_and_the_coefficient_that_differs() {
 }
 
 #[test]
-fn a_call_is_made_at_the_part_of_the_step_that_its_place_tells() {
+fn the_time_of_a_call_follows_from_its_place_in_the_step() {
     let parts = |text: &str| -> Vec<f64> {
         StepText::read(text).unwrap().calls().iter().map(|call| call.part).collect()
     };
@@ -171,7 +171,7 @@ fn a_call_is_made_at_the_part_of_the_step_that_its_place_tells() {
 }
 
 #[test]
-fn a_call_in_a_block_is_made_only_where_the_block_is_run() {
+fn a_call_in_a_block_is_made_only_if_the_block_runs() {
     let text = "memory n = 0\nlet k = a(x, v)\nif n < 2 {\n  v += h * a(x, v)\n} else {\n  v += h * k\n}\nx += h * v\nn = n + 1";
     let method = own_method("sometimes", text).unwrap();
     let system = problem(spring(2.0, 0.0));
@@ -190,7 +190,7 @@ fn a_call_in_a_block_is_made_only_where_the_block_is_run() {
 }
 
 #[test]
-fn ids_are_those_of_files_and_none_of_a_built_in_method() {
+fn ids_come_from_file_names_and_never_shadow_built_in_methods() {
     for (stem, id) in
         [("my_RK4", "my-rk4"), ("Game.Verlet", "game-verlet"), ("é", ""), ("-a--b-", "a-b")]
     {
@@ -209,7 +209,7 @@ fn ids_are_those_of_files_and_none_of_a_built_in_method() {
 }
 
 #[test]
-fn a_scene_its_recording_and_its_link_carry_the_lines() {
+fn scene_recording_and_link_carry_the_lines() {
     let lines = "// \"mine\" \\ é\r\nv += h * a(x, v)\n\tx += h * v\n";
     let lane = LaneSpec::from_step("dir/My_Euler.step", lines.as_bytes()).unwrap();
     assert_eq!(lane.method.id, "my-euler");
@@ -254,7 +254,7 @@ const RULES: [(&str, &str, &str); 7] = [
 ];
 
 #[test]
-fn a_rule_is_exact_at_its_authors_rate_and_parts_from_itself_at_others() {
+fn a_rule_is_exact_only_at_its_authors_rate() {
     use regatta::run::race::Race;
     use regatta::tools::rule::rule_scene;
 

@@ -1,4 +1,5 @@
-//! What every game loop of the table does to time: over a day, with odd frames, and to the motion on an even display.
+//! The effect of every game loop in the table on time: over a day, with odd frames, and on the motion of an even
+//! display.
 
 use regatta::loops::{POLICIES, Pacer, RefreshRate, TimeBase, policy};
 
@@ -23,7 +24,7 @@ impl Noise {
     }
 }
 
-/// What a loop does with time, at 60 ticks and frames per second. Times are in ticks.
+/// The expected effect of a loop on time, at 60 ticks and frames per second. Times are in ticks.
 struct Expected {
     id: &'static str,
     /// The time of frames that is neither simulated nor given up, at the least and most in a day of frames; `None` for a
@@ -85,14 +86,14 @@ fn after_a_second(id: &str) -> Pacer {
 }
 
 #[test]
-fn every_loop_of_the_table_is_looked_at_here() {
+fn every_loop_of_the_table_is_tested_here() {
     let here: Vec<_> = EXPECTED.iter().map(|expected| expected.id).collect();
     let table: Vec<_> = POLICIES.iter().map(|card| card.id).collect();
     assert_eq!(here, table);
 }
 
 #[test]
-fn every_card_is_filled_in_and_typed_easily() {
+fn every_card_is_complete_and_its_id_easy_to_type() {
     for card in POLICIES {
         let kebab = |c: char| c.is_ascii_lowercase() || c == '-';
         assert!(card.id.chars().all(kebab), "{}", card.id);
@@ -103,7 +104,7 @@ fn every_card_is_filled_in_and_typed_easily() {
     }
 }
 
-/// Runs a loop for this many hours of frames on a display, each begun within 0.09 ms of a refresh, and checks what it owes.
+/// Runs a loop for `hours` of frames on a display, each starting within 0.09 ms of a refresh, and checks its debt.
 fn no_drift(expected: &Expected, refresh: RefreshRate, hours: f64) {
     let Some([least, most]) = expected.owed else { return };
     let mut pacer = pacer(expected.id, refresh);
@@ -136,7 +137,7 @@ fn no_loop_drifts_in_a_day_of_timer_noise() {
 }
 
 #[test]
-fn a_loop_that_does_not_look_at_the_time_drifts_as_the_display_does() {
+fn a_loop_that_ignores_time_drifts_with_the_display() {
     let refresh = rate(2997, 50);
     let mut lockstep = pacer("lockstep", refresh);
     let frames = 24 * 2997 * 72;
@@ -156,7 +157,7 @@ fn a_loop_that_does_not_look_at_the_time_drifts_as_the_display_does() {
 }
 
 #[test]
-fn slow_down_loses_what_a_slower_display_lacks_and_nothing_to_timer_noise() {
+fn slow_down_loses_time_to_a_slow_display_but_not_to_timer_noise() {
     let lost = |refresh: RefreshRate, noise_ns| {
         let mut slow = pacer("slow-down", refresh);
         let (mut noise, mut before) = (Noise::new(), 0);
@@ -175,7 +176,7 @@ fn slow_down_loses_what_a_slower_display_lacks_and_nothing_to_timer_noise() {
 }
 
 #[test]
-fn frames_of_no_time_and_of_ten_seconds_do_as_the_cards_say() {
+fn frames_of_zero_and_of_ten_seconds_behave_as_on_the_cards() {
     for expected in EXPECTED {
         for nothing in [0, -1, i64::MIN] {
             let mut pacer = after_a_second(expected.id);
@@ -203,7 +204,7 @@ fn frames_of_no_time_and_of_ten_seconds_do_as_the_cards_say() {
 }
 
 #[test]
-fn time_is_simulated_given_up_or_owed_whatever_the_frames_are() {
+fn all_time_is_simulated_dropped_or_owed_for_any_frames() {
     for card in POLICIES {
         let mut pacer = pacer(card.id, rate(2997, 50));
         let mut noise = Noise::new();
@@ -240,7 +241,7 @@ fn time_is_simulated_given_up_or_owed_whatever_the_frames_are() {
     }
 }
 
-/// What motion looks like, from the moments shown alone.
+/// The look of the motion, from the shown moments alone.
 struct Motion {
     /// The part of the frames that show the same moment as the one before.
     repeated: f64,
@@ -294,7 +295,7 @@ fn near(what: &str, found: f64, known: f64, tolerance: f64) {
 }
 
 #[test]
-fn whole_ticks_judder_on_every_display_but_their_own_and_a_line_does_not() {
+fn whole_ticks_judder_on_other_displays_and_interpolation_does_not() {
     // The errors in milliseconds follow from the numbers of ticks: with p of the frames repeated, √(p (1 − p)) ticks.
     let known = [
         (rate(2997, 50), 0.0, 0.001, 0.527),
@@ -348,7 +349,7 @@ fn interpolation_shows_the_noise_and_whole_refreshes_heal_it() {
 }
 
 #[test]
-fn whole_ticks_are_half_a_tick_late_a_line_one_and_what_is_drawn_ahead_none() {
+fn latency_is_half_a_tick_raw_one_interpolated_and_none_extrapolated() {
     // No ratio of small numbers to the ticks, so that a frame begins anywhere in a tick.
     let refresh = RefreshRate::of_period(6_945_347);
     let late = |id| motion(id, refresh, || 0).latency;

@@ -1,4 +1,4 @@
-//! What reaches the stage: finite, within reach of an f32, and where the bodies are.
+//! Everything on the stage is finite, within the range of an f32, and at the position of its body.
 
 use regatta::look::palette::Theme;
 use regatta::loops::loop_lab::LoopCommand;
@@ -34,13 +34,13 @@ fn assert_drawable(picture: &Picture, what: &str) {
 }
 
 #[test]
-fn nothing_that_blows_up_reaches_a_vertex() {
+fn no_vertex_comes_from_a_value_that_blew_up() {
     for scene in SCENES {
         let mut studio = Studio::new(Scene::built_in(scene.name).unwrap());
         studio.apply(StageCommand::ToggleRace);
         for frame in 0..400 {
             studio.advance(16_666_667);
-            // What doubles in a frame is seen before it is eight times as large.
+            // A motion that doubles per frame is seen before it is eight times as large.
             if frame % 3 == 0 {
                 studio.apply(RunCommand::NextInterpolation);
                 let what = format!("{} at frame {frame}", scene.name);
@@ -51,7 +51,7 @@ fn nothing_that_blows_up_reaches_a_vertex() {
 }
 
 #[test]
-fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
+fn bodies_at_the_edge_of_the_valid_range_are_drawn() {
     let text = "title = \"far\"\ntick_hz = 10000\nseconds = 1\n\
          [[ship]]\nthrust_n = 0\ndrag_n_s_per_m = 0\nmass_kg = 1e-3\ns0_m = 1e15\nv0_m_per_s = 1e15\n\
          [[spring]]\nmass_kg = 1e15\nstiffness_n_per_m = 1e-3\nx0_m = -1e15\nv0_m_per_s = -1e15\n\
@@ -81,7 +81,7 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
 }
 
 #[test]
-fn a_body_of_two_coordinates_alone_has_a_cell_for_each_lane_that_fits_its_shape() {
+fn a_lone_planar_body_has_a_fitting_cell_for_each_lane() {
     for name in ["chain", "pendulum", "orbit", "helm"] {
         let mut studio = Studio::new(Scene::built_in(name).unwrap());
         studio.apply(StageCommand::ToggleRace);
@@ -107,7 +107,7 @@ fn a_body_of_two_coordinates_alone_has_a_cell_for_each_lane_that_fits_its_shape(
 }
 
 #[test]
-fn an_orbits_trail_lies_on_its_ellipse() {
+fn the_trail_of_an_orbit_lies_on_its_ellipse() {
     let mut studio = Studio::new(Scene::built_in("orbit").unwrap());
     for _ in 0..400 {
         studio.advance(16_666_667);
@@ -140,7 +140,7 @@ fn a_trail_leads_from_the_body_back_in_time_and_fades() {
 }
 
 #[test]
-fn stages_of_no_size_are_composed() {
+fn a_stage_of_zero_size_is_composed() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     for mode in [Mode::Solo, Mode::Race] {
         assert_eq!(studio.mode(), mode);
@@ -152,7 +152,7 @@ fn stages_of_no_size_are_composed() {
 }
 
 #[test]
-fn every_body_has_a_cell_inside_the_stage_and_side_by_side_every_body_of_every_lane() {
+fn cells_lie_inside_the_stage_for_every_body_in_both_arrangements() {
     let size = [780.0, 500.0];
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     let assert_apart = |studio: &Studio, count: usize| {
@@ -181,7 +181,7 @@ fn every_body_has_a_cell_inside_the_stage_and_side_by_side_every_body_of_every_l
 }
 
 #[test]
-fn over_each_other_every_lane_has_a_number_and_the_selected_one_its_own_body() {
+fn overlaid_lanes_are_numbered_and_the_selected_one_has_the_body() {
     let mut studio = Studio::new(Scene::built_in("orbit").unwrap());
     studio.apply(StageCommand::ToggleRace);
     (0..60).for_each(|_| studio.tick());
@@ -200,7 +200,7 @@ fn over_each_other_every_lane_has_a_number_and_the_selected_one_its_own_body() {
 }
 
 #[test]
-fn side_by_side_bodies_and_words_stay_in_their_cells_however_low_those_are() {
+fn bodies_and_words_stay_in_their_cells_however_low() {
     let mut scene = Scene::built_in("harbour").unwrap();
     scene.lanes = Studio::new(scene.clone()).entries().to_vec();
     let mut studio = Studio::new(scene);
@@ -221,7 +221,7 @@ fn side_by_side_bodies_and_words_stay_in_their_cells_however_low_those_are() {
     }
 }
 
-/// The words of badges that tell of bodies beyond the stage.
+/// The texts of badges for bodies beyond the stage.
 fn badges(picture: &Picture) -> Vec<&str> {
     let texts = picture.labels.iter().map(|label| &*label.text);
     let is_told = |text: &&str| text.starts_with("swings ±") || text.starts_with("out to ");
@@ -229,7 +229,7 @@ fn badges(picture: &Picture) -> Vec<&str> {
 }
 
 #[test]
-fn a_body_that_comes_and_goes_is_drawn_while_it_is_inside_and_told_of_by_how_far_it_swings() {
+fn a_body_swinging_past_the_stage_is_drawn_inside_and_labelled_outside() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     let euler = studio.entries().iter().position(|spec| spec.method.id == "explicit-euler");
     studio.apply(StageCommand::Pick(euler.unwrap()));
@@ -259,7 +259,7 @@ fn a_body_that_comes_and_goes_is_drawn_while_it_is_inside_and_told_of_by_how_far
 }
 
 #[test]
-fn a_lane_that_left_the_stage_has_a_badge_with_its_place_and_is_drawn_across_nothing() {
+fn a_lane_beyond_the_stage_has_a_badge_and_leaves_no_strokes() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.apply(StageCommand::ToggleRace);
     (0..600).for_each(|_| studio.tick());
@@ -281,7 +281,7 @@ fn a_lane_that_left_the_stage_has_a_badge_with_its_place_and_is_drawn_across_not
 }
 
 #[test]
-fn the_ghost_shows_only_when_it_is_asked_for() {
+fn the_ghost_shows_only_on_request() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.advance(100_000_000);
     let drawn = |studio: &Studio| {
@@ -299,7 +299,7 @@ fn the_ghost_shows_only_when_it_is_asked_for() {
 }
 
 #[test]
-fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
+fn the_stage_marks_halted_bodies_and_missing_truths() {
     let text = "title = 'x'\ntick_hz = 10\nseconds = 60\nmethods = ['explicit-euler', 'rk4']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 400\nkick_n_s = 0\n\
                 [[ship]]\nthrust_n = 20000\ndrag_n_s_per_m = 1000\nmass_kg = 10000\nkick_n_s = 1e15\n";
@@ -336,7 +336,7 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
 }
 
 #[test]
-fn loops_over_each_other_are_named_below_and_numbered_above_their_bodies() {
+fn overlaid_loops_are_named_below_and_numbered_above_their_bodies() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     run_loops(&mut studio);

@@ -1,4 +1,4 @@
-//! The bits of what physics is made of and others have written: `libm` and `glam`.
+//! The bits of the foreign code behind the physics: `libm` and `glam`.
 //!
 //! The bits are promised for the versions in `Cargo.lock`. A game may have later patches, with bits of their own.
 //! If one of these hashes changes, so do states, and hashes that users have committed.
@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use regatta::run::Race;
 use regatta::scene::Scene;
 
-/// 64-bit FNV-1a over little-endian words. NaNs, of which there are many, are one.
+/// 64-bit FNV-1a over little-endian words. All NaNs count as one.
 struct Fnv(u64);
 
 impl Fnv {
@@ -51,7 +51,7 @@ fn hash_of(function: impl Fn(f64) -> f64) -> u64 {
     hash.0
 }
 
-/// Of neighbours in the list of inputs.
+/// The hash over neighbours in the list of inputs.
 fn hash_of_two(function: impl Fn(f64, f64) -> f64) -> u64 {
     let mut hash = Fnv::new();
     inputs().windows(2).for_each(|pair| hash.value(function(pair[0], pair[1])));
@@ -154,7 +154,7 @@ fn the_vectors_of_glam_keep_their_bits() {
 }
 
 #[test]
-fn a_game_may_have_both_newer_and_the_manual_says_for_which_the_bits_are_promised() {
+fn the_manual_names_the_glam_and_libm_versions_with_promised_bits() {
     let manifest = include_str!("../../Cargo.toml");
     let lock = include_str!("../../Cargo.lock");
     let chapter = regatta::manual::chapter("stable").expect("a chapter").text;
@@ -168,7 +168,7 @@ fn a_game_may_have_both_newer_and_the_manual_says_for_which_the_bits_are_promise
 }
 
 #[test]
-fn what_a_game_s_own_test_prints_is_what_the_manual_says() {
+fn the_hashes_in_the_manual_are_right() {
     let chapter = regatta::manual::chapter("stable").expect("a chapter").text;
     for scene in ["pendulum", "orbit", "helm"] {
         let mut race = Race::of_scene(&Scene::built_in(scene).expect("a built-in scene"));

@@ -1,4 +1,4 @@
-//! Settings that are ported from engine to engine: each is set, stepped, and what is seen is fitted to the run anew.
+//! Settings ported from engine to engine: each is set and stepped, and a fit measures the visible motion of the run.
 
 use std::f64::consts::TAU;
 
@@ -40,7 +40,7 @@ fn draw(dice: &mut Dice) -> (Wish, f64, u32) {
 pub(crate) fn run(setup: &Setup, joint: [f64; 2], start: [f64; 2], ticks: u32) -> Vec<[f64; 2]> {
     let body = Body { spring: joint, drag: 0.0, push: 0.0, is_held: false }.problem();
     let mut state = State { q: start[0], v: start[1] };
-    // A force that is read anew in every substep is the right side of an equation under semi-implicit Euler.
+    // A force recomputed in every substep is the right-hand side of an equation under semi-implicit Euler.
     let stepped = match setup.mode.is_explicit {
         true => method("semi-implicit-euler").unwrap(),
         false => setup.method,
@@ -79,7 +79,7 @@ fn fitted(setup: &Setup, joint: [f64; 2]) -> Option<[f64; 2]> {
     let (half, product) = match found[..] {
         [a, b] => (a / 2.0, -b),
         [a, b, c] => {
-            // What the memory adds decays the fastest: its root is the nearest to 0, and it is divided out.
+            // The term of the memory decays fastest: its root is the nearest to 0, and it is divided out.
             let mut root = 0.0;
             for _ in 0..30 {
                 let value = ((root - a) * root - b) * root - c;
@@ -105,7 +105,7 @@ fn fitted(setup: &Setup, joint: [f64; 2]) -> Option<[f64; 2]> {
     Some([omega / TAU, rates / 2.0 / omega])
 }
 
-/// What is missed, as the program says how near settings are.
+/// The distance from the target, measured as the program does.
 fn missed(wish: &Wish, setup: &Setup, joint: [f64; 2]) -> f64 {
     let Some(seen) = setup.sees(joint) else { return f64::INFINITY };
     let ratio = seen.decay / seen.omega - wish.damping_ratio;
@@ -127,7 +127,7 @@ fn best_of_search(wish: &Wish, setup: &Setup, around: [f64; 2]) -> f64 {
 }
 
 #[test]
-fn a_wish_that_is_reached_is_seen_in_the_run_and_nothing_is_nearer_where_it_is_not() {
+fn a_reached_target_shows_in_the_run_and_a_missed_one_has_no_nearer_setting() {
     let mut dice = Dice::new(281);
     let mut counts = [0_u32; 3];
     let mut worst = [0.0_f64; 2];
@@ -162,7 +162,7 @@ fn a_wish_that_is_reached_is_seen_in_the_run_and_nothing_is_nearer_where_it_is_n
 }
 
 #[test]
-fn settings_go_to_another_engine_and_come_back() {
+fn settings_round_trip_through_another_engine() {
     let mut dice = Dice::new(282);
     let (mut there_and_back, mut worst) = (0, 0.0_f64);
     for _ in 0..wishes() {
@@ -200,7 +200,7 @@ fn settings_go_to_another_engine_and_come_back() {
 }
 
 #[test]
-fn the_floor_of_box2d_is_that_of_its_card_and_more_substeps_lower_it() {
+fn the_damping_floor_of_box2d_matches_its_card_and_drops_with_substeps() {
     let wish = Wish { frequency_hz: 1.0, damping_ratio: 0.0, mass_kg: 1.0 };
     let box2d = method("engine-box2d").unwrap();
     let [setup] = setups(Some(&[box2d]), 60.0, None)[..] else { panic!("one mode") };
@@ -218,7 +218,7 @@ fn the_floor_of_box2d_is_that_of_its_card_and_more_substeps_lower_it() {
 }
 
 #[test]
-fn a_wish_that_no_engine_can_show_says_why() {
+fn a_target_beyond_every_engine_is_refused_with_the_reason() {
     let wish = Wish { frequency_hz: 2.0, damping_ratio: 0.1, mass_kg: 1.0 };
     assert_eq!(wish.check(60.0), Ok(()));
     let out =
@@ -235,7 +235,7 @@ fn a_wish_that_no_engine_can_show_says_why() {
 }
 
 #[test]
-fn a_drive_is_stable_up_to_its_limits_and_not_beyond() {
+fn a_drive_is_stable_exactly_up_to_its_limits() {
     let euler = |m: &Setup| m.mode.is_explicit;
     let mujoco = setups(Some(&[method("engine-mujoco").unwrap()]), 500.0, None);
     let setup = *mujoco.iter().find(|setup| euler(setup)).unwrap();
@@ -270,7 +270,7 @@ fn a_drive_is_stable_up_to_its_limits_and_not_beyond() {
 }
 
 #[test]
-fn every_follower_halves_the_distance_in_the_same_time_at_every_rate_of_frames() {
+fn every_ported_follower_has_the_same_half_life_at_every_frame_rate() {
     let mut dice = Dice::new(51_126);
     let exact = Approach::of_lerp(0.1, 60.0);
     assert!((exact.rate() - 6.3216).abs() < 1e-4);

@@ -30,7 +30,7 @@ fn wrong_lanes(scene: &Scene) -> Vec<LaneId> {
 }
 
 #[test]
-fn every_built_in_scene_is_unchanged_by_writing_and_reading() {
+fn every_built_in_scene_survives_writing_and_reading() {
     for built_in in SCENES {
         let scene = Scene::built_in(built_in.name).unwrap();
         let mut again = parsed(&scene.to_toml());
@@ -40,7 +40,7 @@ fn every_built_in_scene_is_unchanged_by_writing_and_reading() {
 }
 
 #[test]
-fn difficult_texts_and_numbers_are_unchanged_by_writing_and_reading() {
+fn difficult_texts_and_numbers_survive_writing_and_reading() {
     let mut scene = built_in("helm");
     scene.title = r#"a "quoted" \ title"#.into();
     scene.bodies[0].name = r"c:\helm".into();
@@ -98,7 +98,7 @@ fn other_lines<'t>(text: &'t str, than: &str) -> Vec<&'t str> {
 }
 
 #[test]
-fn a_saved_scene_has_the_comments_and_the_order_of_its_author() {
+fn a_saved_scene_keeps_its_authors_comments_and_order() {
     let scene = parsed(BY_HAND);
     assert_eq!(scene.to_saved_toml(), BY_HAND, "what has not changed");
     assert_eq!(parsed(&BY_HAND.replace('\n', "\r\n")).to_saved_toml(), BY_HAND);
@@ -109,7 +109,7 @@ fn a_saved_scene_has_the_comments_and_the_order_of_its_author() {
     let line = "stiffness_n_per_m = 4e1 # soft";
     assert_eq!(saved, BY_HAND.replace(line, "stiffness_n_per_m = 55.5 # soft"));
 
-    // What the author leaves out stands in the body's table, once it is needed.
+    // A key that the author omitted is added to the body's table once it is needed.
     let mut damped = scene.clone();
     damped.bodies[2].values[2] = 0.25;
     let saved = damped.to_saved_toml();
@@ -149,7 +149,7 @@ fn a_recording_of_a_scene_with_comments_keeps_them_and_repeats_its_run() {
 }
 
 #[test]
-fn a_scene_is_saved_plainly_where_its_authors_way_of_writing_is_not_known() {
+fn a_scene_without_source_text_is_saved_plainly() {
     let text = "title = 'T'\ntick_hz = 60\nlane = [{ method = 'rk4' }]\n\
         ship = [{ thrust_n = 1, drag_n_s_per_m = 1, mass_kg = 1 }] # one\n\
         [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\n";
@@ -273,7 +273,7 @@ fn a_recorded_race_opens_as_a_race_and_a_recorded_solo_run_does_not() {
 }
 
 #[test]
-fn a_restart_keeps_the_settings_of_a_person_and_not_those_of_a_script() {
+fn a_restart_keeps_a_persons_settings_but_not_a_scripts() {
     let text = format!(
         "{}\n[[command]]\nat_s = 2.5\nset = {{ body = \"ship\", key = \"mass_kg\", value = 5.0 }}\n",
         built_in("ship").to_toml()
@@ -286,7 +286,7 @@ fn a_restart_keeps_the_settings_of_a_person_and_not_those_of_a_script() {
     studio.apply(StageCommand::Restart);
     assert_eq!((studio.race().values(0)[2], studio.race().values(0)[0]), (mass, 123.0));
     assert_eq!(studio.scene().bodies[0].values[0], 123.0);
-    // A person who has set what the script sets keeps it.
+    // A person's value survives the script's setting of the same parameter.
     studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 2, value: 7.0 }));
     (0..10).for_each(|_| studio.tick());
     assert_eq!(studio.race().values(0)[2], 7.0);
@@ -314,7 +314,7 @@ fn an_action_that_is_out_of_range_or_does_not_fit_is_ignored() {
 }
 
 #[test]
-fn equal_cost_brings_each_lane_as_near_as_possible_to_the_dearest() {
+fn equal_cost_brings_each_lane_as_close_as_possible_to_the_most_expensive() {
     let scene = built_in("harbour");
     let cost = |spec: &LaneSpec| {
         let mut lane = regatta::run::Lane::new(&scene, spec.solver(), spec.substeps);
@@ -396,7 +396,7 @@ fn lanes_of_one_method_get_their_own_substeps_back_after_equal_cost() {
 }
 
 #[test]
-fn a_recording_with_too_many_actions_is_refused_and_one_that_is_only_long_is_not() {
+fn a_recording_is_refused_for_too_many_actions_but_not_for_its_length() {
     let mut session = Session::racing(built_in("spring").into());
     (0..40_000).for_each(|n| _ = session.act(Action::Kick(1e-9 * f64::from(n + 1))));
     let error = session.recording_text(10).unwrap_err();
@@ -445,7 +445,7 @@ fn a_recording_keeps_the_hint_and_one_without_a_tick_keeps_the_length() {
 }
 
 #[test]
-fn what_no_file_could_say_is_refused_where_it_enters() {
+fn an_action_no_file_could_hold_is_refused_at_once() {
     let lane = LaneId(1);
     let [rk4, adaptive] =
         ["rk4", "dormand-prince-54"].map(|id| LaneSpec::plain(method(id).unwrap()));
@@ -471,7 +471,7 @@ fn what_no_file_could_say_is_refused_where_it_enters() {
         place(1e39),
         place(f64::NAN),
     ] {
-        // The script has what the action would take from it.
+        // The script controls everything that the refused action would take over.
         let more = "[[command]]\nat_s = 0.5\ntick_hz = 30\n[[command]]\nat_s = 0.5\nthrottle = 0.5\n\
                     [[command]]\nat_s = 0.5\nlane = 1\nmethod = 'midpoint'\n\
                     [[command]]\nat_s = 0.5\nset = { body = 'port buoy', key = 'stiffness_n_per_m', value = 9.0 }\n";
@@ -502,7 +502,7 @@ fn what_no_file_could_say_is_refused_where_it_enters() {
 }
 
 #[test]
-fn a_method_that_is_not_on_the_list_is_told_of_and_changes_nothing() {
+fn a_method_not_on_the_list_is_refused_with_a_notice() {
     for (scene, id, why) in [
         ("spring", "engine-box2d", "is not on this scene's list"),
         ("spring", "lerp-dt", "does not step the body"),
@@ -536,7 +536,7 @@ fn a_method_that_is_not_on_the_list_is_told_of_and_changes_nothing() {
 }
 
 #[test]
-fn a_link_to_a_solo_run_opens_with_the_methods_that_stood_beside_it() {
+fn a_link_to_a_solo_run_keeps_its_menu_of_methods() {
     let mut studio = Studio::new(built_in("harbour"));
     let ids = |studio: &Studio| -> Vec<&str> {
         studio.scene().lanes.iter().map(|lane| lane.method.id).collect()
@@ -559,7 +559,7 @@ fn a_link_to_a_solo_run_opens_with_the_methods_that_stood_beside_it() {
     assert!(!scene.checks.is_empty());
     assert_eq!(wrong_lanes(&scene), []);
 
-    // One that is told from none by its method is alone, as in a file.
+    // Of two lanes with one method, the link of the plain one needs no other lane.
     let plain = LaneSpec::plain(method("rk4").unwrap());
     let lanes = vec![LaneSpec { substeps: 4, ..plain }, plain];
     let mut studio = Studio::new(edited(&built_in("spring"), |scene| scene.lanes = lanes));
@@ -572,7 +572,7 @@ fn a_link_to_a_solo_run_opens_with_the_methods_that_stood_beside_it() {
 }
 
 #[test]
-fn a_recording_has_the_digits_and_lanes_of_the_screen_and_its_verdict_is_not_of_another_run() {
+fn a_recording_keeps_the_digit_keys_lanes_and_verdict_of_its_run() {
     for (scene, entry) in [("spring", 1), ("harbour", 1), ("harbour", 11), ("orbit", 3)] {
         let mut studio = Studio::new(built_in(scene));
         let ids = |studio: &Studio| -> Vec<&str> {

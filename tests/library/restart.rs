@@ -1,4 +1,4 @@
-//! A restart goes back to the start line, and keeps what a person chose and nothing of what the script did.
+//! A restart returns to the start line; it keeps a person's settings and undoes the script's.
 
 use regatta::scene::{Action, SCENES, Scene};
 use regatta::studio::{RunCommand, StageCommand, Studio};
@@ -17,7 +17,7 @@ fn settings(studio: &Studio) -> (f64, f64, &'static str) {
 }
 
 #[test]
-fn a_restart_takes_back_what_the_script_did() {
+fn a_restart_undoes_the_actions_of_the_script() {
     let mut studio = scripted();
     (0..10).for_each(|_| studio.tick());
     assert_eq!(settings(&studio), (100.0, 100.0, "rk4"));
@@ -29,7 +29,7 @@ fn a_restart_takes_back_what_the_script_did() {
 }
 
 #[test]
-fn a_restart_keeps_the_rate_and_the_method_that_a_person_chose() {
+fn a_restart_keeps_the_chosen_rate_and_method() {
     let mut studio = scripted();
     (0..10).for_each(|_| studio.tick());
     studio.apply(StageCommand::TickHz(7.into()));
@@ -39,7 +39,7 @@ fn a_restart_keeps_the_rate_and_the_method_that_a_person_chose() {
 }
 
 #[test]
-fn a_restart_owes_no_part_of_a_tick_and_keeps_the_speed() {
+fn a_restart_clears_the_pending_time_and_keeps_the_speed() {
     let mut studio = scripted();
     studio.apply(RunCommand::SpeedPercent(50));
     studio.advance(200_000_000);
@@ -58,7 +58,7 @@ fn a_restart_owes_no_part_of_a_tick_and_keeps_the_speed() {
 }
 
 #[test]
-fn a_frame_goes_no_further_than_it_may() {
+fn a_frame_runs_no_further_than_its_limit() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.advance_in_time(7, 100_000_000, &mut || true, &mut ());
     assert_eq!(studio.race().tick(), 6);
@@ -69,7 +69,7 @@ fn a_frame_goes_no_further_than_it_may() {
 }
 
 #[test]
-fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
+fn undo_brings_back_an_edited_run_after_a_restart() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..40).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Kick(1.0)));
@@ -95,7 +95,7 @@ fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
 }
 
 #[test]
-fn a_frame_whose_time_is_up_drops_the_ticks_that_are_left() {
+fn a_frame_out_of_time_drops_its_remaining_ticks() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     let mut made = 0;
     let due = studio.advance_in_time(
@@ -116,7 +116,7 @@ fn a_frame_whose_time_is_up_drops_the_ticks_that_are_left() {
 }
 
 #[test]
-fn what_a_hand_still_did_to_a_body_of_the_scene_before_changes_nothing() {
+fn an_action_on_a_body_of_the_previous_scene_changes_nothing() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.tick();
     let before = studio.race().state_hash();

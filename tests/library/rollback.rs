@@ -77,7 +77,7 @@ impl System for Many {
 }
 
 #[test]
-fn a_state_and_a_clone_of_its_integrator_repeat_every_bit_under_every_method() {
+fn a_cloned_state_and_integrator_repeat_every_bit_under_every_method() {
     let spring = Spring { mass: 1.0, stiffness: 90.0, damping: 0.5, x0: 1.0, v0: 2.0, kick: 1.0 };
     let target = Follow {
         order: 1,

@@ -1,4 +1,4 @@
-//! The code of rules at any frame rate, compiled and run, beside the rules at their own.
+//! The generated code of rules, compiled and run at any frame rate, against the rules at their own rate.
 
 use std::fmt::Write as _;
 use std::process::Command;
@@ -67,10 +67,10 @@ fn code(rule: &str, language: Language) -> RuleCode {
     Rule::read(rule, FPS).unwrap().code(rule, language).unwrap()
 }
 
-/// What the driver steps by, as parts of a frame.
+/// The steps of the driver, in frames.
 const PARTS: [f64; 3] = [1.0, 0.5, 2.0];
 
-/// The driver's call of the function of rule `n` and its memory, with what the language wants around them.
+/// The driver's call of the function of rule `n` with its memory, and the lines around them in the language.
 fn rust() -> String {
     let (mut text, mut calls) = (String::new(), String::new());
     for (n, rule) in LINEAR.iter().chain(&STEPPED).enumerate() {
@@ -158,7 +158,7 @@ fn c_sharp() -> String {
     )
 }
 
-/// Holds what a driver printed against the rules: at every frame, at every second half frame, and at every other frame.
+/// Compares the output of a driver with the rules: at every frame, every second half frame and every other frame.
 fn hold(driver: &mut Command) {
     let output = driver.output().unwrap();
     assert!(output.status.success(), "{:?}", output.status);
@@ -179,7 +179,7 @@ fn hold(driver: &mut Command) {
                     continue;
                 }
                 let found = rows[steps as usize - 1];
-                // Of a chase the velocity is not a part of the motion.
+                // The velocity of a chase is not part of its motion.
                 for place in (0..2).filter(|place| n < LINEAR.len() || *place == 0) {
                     let off = (found[place] - known[place]).abs();
                     assert!(
@@ -194,7 +194,7 @@ fn hold(driver: &mut Command) {
 }
 
 #[test]
-fn every_linear_rule_has_a_closed_form_and_no_other_has() {
+fn exactly_the_linear_rules_have_a_closed_form() {
     for (rule, is_closed) in
         LINEAR.iter().map(|rule| (rule, true)).chain(STEPPED.iter().map(|rule| (rule, false)))
     {
@@ -204,19 +204,19 @@ fn every_linear_rule_has_a_closed_form_and_no_other_has() {
 }
 
 #[test]
-fn the_rust_of_rules_moves_as_they_do_at_every_frame_rate() {
+fn generated_rust_matches_its_rule_at_every_frame_rate() {
     let folder = build_folder("rules-rust");
     let (source, program) = (folder.join("driver.rs"), folder.join("driver"));
     fs::write(&source, rust()).unwrap();
     let mut compiler = Command::new(env::var_os("RUSTC").unwrap_or("rustc".into()));
     compiler.args(["--edition=2024", "-Dwarnings", "-o"]).arg(&program).arg(&source);
-    if compiled_or_skip("the_rust_of_rules_moves_as_they_do_at_every_frame_rate", &mut compiler) {
+    if compiled_or_skip("generated_rust_matches_its_rule_at_every_frame_rate", &mut compiler) {
         hold(&mut Command::new(&program));
     }
 }
 
 #[test]
-fn the_c_of_rules_moves_as_they_do_and_is_cpp_too() {
+fn generated_c_matches_its_rule_and_is_valid_cpp() {
     for (compiler, file, standard) in
         [("cc", "driver.c", "-std=c99"), ("c++", "driver.cpp", "-std=c++14")]
     {
@@ -226,20 +226,20 @@ fn the_c_of_rules_moves_as_they_do_and_is_cpp_too() {
         let mut compiler = Command::new(compiler);
         compiler.args(["-Wall", "-Wextra", "-pedantic", "-Werror", standard, "-o"]);
         compiler.arg(&program).arg(&source).arg("-lm");
-        if compiled_or_skip("the_c_of_rules_moves_as_they_do_and_is_cpp_too", &mut compiler) {
+        if compiled_or_skip("generated_c_matches_its_rule_and_is_valid_cpp", &mut compiler) {
             hold(&mut Command::new(&program));
         }
     }
 }
 
 #[test]
-fn the_c_sharp_of_rules_moves_as_they_do() {
+fn generated_c_sharp_matches_its_rule() {
     let folder = build_folder("rules-cs");
     let (source, program) = (folder.join("driver.cs"), folder.join("driver.exe"));
     fs::write(&source, c_sharp()).unwrap();
     let mut compiler = Command::new("mcs");
     compiler.args(["-langversion:3", &format!("-out:{}", program.display())]).arg(&source);
-    if compiled_or_skip("the_c_sharp_of_rules_moves_as_they_do", &mut compiler) {
+    if compiled_or_skip("generated_c_sharp_matches_its_rule", &mut compiler) {
         hold(Command::new("mono").arg(&program));
     }
 }
@@ -255,7 +255,7 @@ fn is_near(found: Option<f64>, expected: f64) -> bool {
 }
 
 #[test]
-fn what_a_player_sees_of_a_spring_is_that_of_its_eigenvalues() {
+fn the_visible_motion_of_a_spring_follows_from_its_eigenvalues() {
     let spring = LINEAR[0];
     let [hz, ratio, settles] = seen(spring, 60.0);
     assert!(is_near(hz, 4.057) && is_near(ratio, 0.1879) && is_near(settles, 0.8893));
@@ -264,7 +264,7 @@ fn what_a_player_sees_of_a_spring_is_that_of_its_eigenvalues() {
     let wish = rule.spring().unwrap();
     assert!(is_near(Some(wish.frequency_hz), 4.130) && is_near(Some(wish.damping_ratio), 0.1879));
     assert_eq!((rule.rings_below_fps(), rule.explodes_below_fps()), (None, None));
-    // Its frames pass the target first by as much as is seen, but for where between two the peak is.
+    // The frames overshoot as predicted, up to the position of the peak between two frames.
     let overshoot = rule.seen_at(FPS).overshoot.unwrap();
     let text = StepText::read(spring).unwrap();
     let mut registers = text.registers();
@@ -280,7 +280,7 @@ fn what_a_player_sees_of_a_spring_is_that_of_its_eigenvalues() {
 }
 
 #[test]
-fn chases_and_frictions_are_no_springs() {
+fn chases_and_frictions_are_not_read_as_springs() {
     let chase = Rule::read("x += (target - x) * 20 * dt", 30.0).unwrap();
     let at_30 = chase.seen_at(30.0);
     assert!(is_near(at_30.halves_s, 0.02103) && at_30.hz.is_none() && !at_30.grows);
@@ -301,7 +301,7 @@ fn chases_and_frictions_are_no_springs() {
 }
 
 #[test]
-fn a_rule_that_is_not_linear_is_told_by_its_small_motions_or_not_at_all() {
+fn a_nonlinear_rule_is_described_by_its_small_motions_or_not_at_all() {
     let rule = |text: &str| Rule::read(text, FPS).unwrap();
     let limited = rule("v += ((target - x) * 40 - v * 2) * dt; v = clamp(v, -3, 3); x += v * dt");
     let free = rule("v += ((target - x) * 40 - v * 2) * dt; x += v * dt");
@@ -314,7 +314,7 @@ fn a_rule_that_is_not_linear_is_told_by_its_small_motions_or_not_at_all() {
 }
 
 #[test]
-fn growth_begins_at_a_rate_or_is_there_at_every_one() {
+fn growth_starts_below_a_rate_or_occurs_at_every_rate() {
     let of = |lines: &str| {
         let rule = Rule::read(lines, FPS).unwrap();
         (rule.explodes_below_fps(), rule.grows())
@@ -334,7 +334,7 @@ fn growth_begins_at_a_rate_or_is_there_at_every_one() {
 }
 
 #[test]
-fn what_games_call_the_numbers_and_where_they_start_is_read() {
+fn common_names_and_start_values_of_games_are_read() {
     let plain = frames("v += (target - x) * 0.1; x += v");
     for same in [
         "velocity += (goal - position) * 0.1; position += velocity",

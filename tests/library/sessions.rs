@@ -177,12 +177,12 @@ fn written_and_read(n: usize, whole: &Session) {
 }
 
 #[test]
-fn random_journals_repeat_to_the_bit_whole_from_copies_and_from_recordings() {
+fn random_journals_replay_to_the_bit_from_copies_and_recordings() {
     journals(0);
 }
 
 #[test]
-fn more_random_journals_repeat_to_the_bit_whole_from_copies_and_from_recordings() {
+fn more_random_journals_replay_to_the_bit_from_copies_and_recordings() {
     journals(1);
 }
 
@@ -213,7 +213,7 @@ fn shown(timeline: &Run) -> Shown {
 }
 
 #[test]
-fn a_seek_from_any_tick_gives_the_state_of_a_run_to_that_tick() {
+fn a_seek_reaches_the_state_of_a_plain_run_from_any_tick() {
     let mut dice = Dice::new(2);
     for n in 0..16 {
         let mut timeline = Run::new(start(&mut dice, n));
@@ -272,7 +272,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
         let end = shown(studio.run());
         studio.apply(RunCommand::Seek(400));
         assert_eq!((studio.run().end(), studio.run().is_in_past()), (1000, true));
-        // What changes nothing leaves the future as it is.
+        // An action without effect keeps the future.
         let throttle = studio.race().throttle();
         studio.apply(RunCommand::Act(Action::Throttle(throttle)));
         assert_eq!(
@@ -309,7 +309,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
 
 #[test]
 fn snapshots_of_ten_hours_stay_within_their_memory_limit() {
-    // Of a million ticks, more than of ten hours at the scene's rate.
+    // At 30 Hz, ten hours are a million ticks.
     let scene = edited(&Scene::built_in("spring").unwrap(), |scene| scene.tick_hz = 30.into());
     let limit = 1 << 20;
     let mut timeline = Run::with_limit(Session::racing(scene.into()), limit);
@@ -341,7 +341,7 @@ fn every_kind_of_body_is_among_the_random_scenes() {
 }
 
 #[test]
-fn events_are_ordered_by_tick_and_are_discarded_and_restored_with_their_future() {
+fn events_are_sorted_by_tick_and_come_and_go_with_their_future() {
     let scene = Scene::built_in("stiff").unwrap();
     let mut timeline = Run::new(Session::racing(scene.into()));
     (0..50).for_each(|_| timeline.tick(&mut ()));

@@ -58,14 +58,14 @@ fn limit(id: &str, damping_ratio: f64) -> f64 {
 
 #[test]
 fn the_limits_of_the_chapter_come_out_to_three_digits() {
-    // Undamped, ζ = 0.05, 0.2 and 1. Where the table says 0 no step is small enough, and what is found
-    // is where a growth of z⁴/8 or z⁴/4 a step drowns in rounding.
+    // Undamped, ζ = 0.05, 0.2 and 1. A 0 in the table means that no step is small enough; the measured limit is the
+    // step at which a growth of z⁴/8 or z⁴/4 disappears in rounding.
     let table = [
         ("explicit-euler", [0.0, 0.100, 0.400, 2.000]),
         ("semi-implicit-euler", [2.0, 1.902, 1.640, 0.828]),
         ("position-verlet", [2.0, 1.902, 1.640, 0.828]),
-        // In the long run, where the chapter's table has the first step: these go on with a force that
-        // was taken at a predicted velocity, and that with a slope from before.
+        // In the long run, while the chapter's table has the first step. The Verlets continue with a force from a
+        // predicted velocity, and Adams-Bashforth with an earlier slope.
         ("velocity-verlet", [2.0, 1.810, 1.354, 0.472]),
         ("stormer-verlet", [2.0, 1.810, 1.354, 0.472]),
         ("adams-bashforth-2", [0.0, 0.539, 0.765, 1.000]),
@@ -128,7 +128,7 @@ fn the_1_hz_spring_doubles_and_halves_as_tabled() {
 }
 
 #[test]
-fn symplectic_methods_are_bounded_and_swing_too_fast_or_too_slowly_as_tabled() {
+fn symplectic_methods_are_bounded_with_the_tabled_frequency_errors() {
     // In percent, and half a unit of the last digit that the table gives.
     let table = [
         (240, 5e-4, 0.003, -0.006),
@@ -182,7 +182,7 @@ fn implicit_methods_are_bounded_at_every_step_and_damping() {
 }
 
 #[test]
-fn several_substeps_in_a_tick_are_as_many_ticks() {
+fn substeps_count_like_ticks_in_the_stability_map() {
     for omega in [HZ_1, 60.0] {
         let body = spring(omega, 0.1);
         for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
@@ -195,7 +195,7 @@ fn several_substeps_in_a_tick_are_as_many_ticks() {
 }
 
 #[test]
-fn the_ship_stands_neutral_and_its_speed_is_held_up_to_a_step_of_twice_its_time() {
+fn the_ship_is_neutral_and_stable_up_to_twice_its_time_constant() {
     let body = ship(1_000.0);
     for (h, bounded) in [(0.5, true), (15.0, true), (19.9, true), (20.1, false), (21.0, false)] {
         let found = of(&*body, "explicit-euler", h);
@@ -214,7 +214,7 @@ fn the_ship_stands_neutral_and_its_speed_is_held_up_to_a_step_of_twice_its_time(
 }
 
 #[test]
-fn a_kick_or_a_way_run_changes_nothing_but_the_state() {
+fn a_kick_or_a_past_run_changes_only_the_state() {
     let mut body = spring(HZ_1, 0.0).with_solver(Solver::Method(&GENERAL_METHODS[0]), 0.0);
     let before = of(&*body, "rk4", 0.1);
     for tick in 0..7 {
@@ -227,7 +227,7 @@ fn a_kick_or_a_way_run_changes_nothing_but_the_state() {
 }
 
 #[test]
-fn the_slowest_stable_rate_is_where_the_limit_says() {
+fn the_slowest_stable_rate_follows_from_the_limit() {
     let rate = |body: &dyn Stepper, id: &str| {
         RateSearch::run(|hz| of(body, id, 1.0 / f64::from(hz)).is_bounded())
     };
@@ -262,7 +262,7 @@ fn adams_bashforth_2([re, im]: [f64; 2]) -> f64 {
 }
 
 #[test]
-fn a_method_with_memory_shows_the_map_of_state_and_memory_together() {
+fn the_map_of_a_multistep_method_includes_its_memory() {
     for damping_ratio in [0.0, 0.05, 0.5] {
         let body = spring(1.0, damping_ratio);
         for z in [0.01, 0.1, 0.3, 0.7, 1.0, 1.5] {

@@ -1,4 +1,4 @@
-//! What `regatta help stable` promises to a program that uses the library.
+//! The promises of `regatta help stable` to a program that uses the library.
 
 use std::collections::BTreeSet;
 
@@ -57,7 +57,7 @@ fn exported(text: &str) -> BTreeSet<&str> {
 }
 
 #[test]
-fn the_prelude_brings_what_is_promised_and_nothing_else() {
+fn the_prelude_exports_exactly_the_promised_names() {
     let names = exported(include_str!("../../src/prelude.rs"));
     assert_eq!(names, BTreeSet::from(PRELUDE), "a change for everybody who imports the prelude");
 }
@@ -71,10 +71,10 @@ fn a_state_is_a_plain_value() {
     assert_eq!(Options::<Sprung>::default().clone().name, "body");
 }
 
-/// A state in a save game goes on with the same bits.
+/// A state from a save game continues with the same bits.
 #[cfg(feature = "cli")]
 #[test]
-fn a_state_is_written_and_read_to_the_bit() {
+fn a_state_survives_writing_and_reading_to_the_bit() {
     use regatta::glam::DVec2;
     let state = State { q: DVec2::new(0.1, 1e-310), v: DVec2::new(-0.0, 1.0 / 3.0) };
     let text = serde_json::to_string(&state).expect("it is written");
@@ -98,7 +98,7 @@ impl System for Sprung {
 
 /// Compiles only while a game that names the former paths does.
 #[test]
-fn the_former_paths_lead_to_the_same_items() {
+fn deprecated_paths_lead_to_the_same_items() {
     use regatta::lab::{analysis, cloud, loop_lab, pacing, palette, past, picture, race, session};
     let _: Option<(past::Past, session::Replay, race::Entrant, cloud::Density, analysis::Unit)> =
         None;
@@ -108,7 +108,7 @@ fn the_former_paths_lead_to_the_same_items() {
 
 /// A field that is renamed or taken away does not compile here.
 #[test]
-fn a_report_has_the_fields_that_are_promised() {
+fn a_report_has_the_promised_fields() {
     let Options { name, tick_hz, seconds: _, methods: _, max_work, extras, draw } =
         Options::default();
     let two = ["semi-implicit-euler", "rk4"];

@@ -35,8 +35,8 @@ fn step_doubling_changes_its_step_by_a_fifth_to_fivefold() {
         assert!(found.iter().zip(wanted).all(close), "{found:?}, wanted {wanted:?}");
         assert!(found.len() >= wanted.len());
     };
-    // The error at rest is h²/4: a step of 1 s is tried, of a fifth, and again; then comes what the
-    // error asks for, 0.9 √(1e-6 · 4) s, in the middle of which the second slope is taken.
+    // The error at rest is h²/4. A step of 1 s is tried, then a fifth of it, and again a fifth. Then comes the step
+    // from the error, 0.9 √(1e-6 · 4) s, with the second slope taken in its middle.
     let first = trials(1e-6, 1.0, &[1.0]);
     begins(&first, &[0.0, 0.5, 0.1, 0.02, 0.004, 0.0009]);
     // Where any error is allowed from then on, each substep is five times the one before, up to the end of the tick.

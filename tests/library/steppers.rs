@@ -1,4 +1,4 @@
-//! What a stepper says of its body besides its state: energies, inputs taken and refused, errors, lost time.
+//! A stepper's other answers about its body: energies, inputs taken and refused, errors, lost time.
 
 use regatta::sim::bodies::{BODIES, ClaimHorizon, Extras, Input, Ship, Spring, custom_kind, kind};
 use regatta::sim::integrators::{GENERAL_METHODS, Override, method};
@@ -42,7 +42,7 @@ fn near(found: f64, wanted: f64) -> bool {
 }
 
 #[test]
-fn a_body_says_that_it_is_linear_just_where_its_forces_add_up() {
+fn a_body_is_declared_linear_exactly_if_its_forces_add_up() {
     let mut linear = Vec::new();
     for (id, body) in bodies(Solver::Truth, 0.9) {
         let some = |from: f64, by: f64| (0..body.q().len()).map(|i| from + by * i as f64).collect();
@@ -59,7 +59,7 @@ fn a_body_says_that_it_is_linear_just_where_its_forces_add_up() {
 }
 
 #[test]
-fn only_what_conserves_its_energy_says_that_it_has_one() {
+fn only_conservative_bodies_have_an_energy() {
     for (damping, conserving) in
         [(0.0, &["ship", "spring", "chain", "pendulum", "orbit"][..]), (1e-6, &["orbit"])]
     {
@@ -71,7 +71,7 @@ fn only_what_conserves_its_energy_says_that_it_has_one() {
 }
 
 #[test]
-fn energy_stays_along_the_true_motion_and_the_motions_part_is_what_is_missing_at_rest() {
+fn energy_is_constant_along_the_truth_and_splits_off_kinetic_energy() {
     for (id, mut body) in
         bodies(Solver::Truth, 0.0).filter(|(id, _)| !matches!(*id, "helm" | "follow"))
     {
@@ -92,7 +92,7 @@ fn energy_stays_along_the_true_motion_and_the_motions_part_is_what_is_missing_at
 }
 
 #[test]
-fn energies_are_those_of_the_school_book() {
+fn energies_match_the_textbook_formulas() {
     let ship =
         Ship { thrust: 30.0, throttle: 0.5, drag: 0.0, mass: 4.0, s0: 7.0, v0: 3.0, kick: 1.0 };
     let ship = stepper(ship, Solver::Truth);
@@ -107,7 +107,7 @@ fn energies_are_those_of_the_school_book() {
 }
 
 #[test]
-fn a_kick_is_an_impulse_whatever_is_hit() {
+fn a_kick_is_an_impulse_for_every_body() {
     // Speed gained by 1.5 kicks: of 500 N s on 700 kg, of 3 N s on 2.5 kg.
     for (id, gained) in [("ship", 750.0 / 700.0), ("spring", 4.5 / 2.5)] {
         let (_, mut body) = bodies(by("rk4"), 0.9).find(|(found, _)| *found == id).unwrap();
@@ -119,7 +119,7 @@ fn a_kick_is_an_impulse_whatever_is_hit() {
 }
 
 #[test]
-fn the_inputs_on_its_card_are_taken_and_any_other_is_refused_and_changes_no_bit() {
+fn a_body_takes_the_inputs_on_its_card_and_ignores_others_to_the_bit() {
     let inputs = [
         ("throttle", Input::Throttle(0.3)),
         ("rudder", Input::Rudder(0.3)),
@@ -148,7 +148,7 @@ fn the_inputs_on_its_card_are_taken_and_any_other_is_refused_and_changes_no_bit(
 }
 
 #[test]
-fn what_a_method_lost_stays_lost_under_the_next() {
+fn lost_time_stays_lost_under_the_next_method() {
     let printed = GENERAL_METHODS.iter().find(|m| m.tolerance.is_some() && !m.keeps_time).unwrap();
     let (_, mut body) = bodies(Solver::Method(printed), 0.9).nth(1).unwrap();
     assert_eq!(body.lost_time(), 0.0);
@@ -168,7 +168,7 @@ fn what_a_method_lost_stays_lost_under_the_next() {
     }
 }
 
-/// What is said of a ship and a spring at a time, both in units so many times smaller: lengths, times and masses.
+/// A ship and a spring at a time, in units that are smaller by these factors of length, time and mass.
 fn in_units(length: f64, time: f64, mass: f64, drag: f64, t: f64) -> [Box<dyn Stepper>; 2] {
     let (speed, force) = (length / time, mass * length / time / time);
     let ship = Ship {
@@ -195,7 +195,7 @@ fn in_units(length: f64, time: f64, mass: f64, drag: f64, t: f64) -> [Box<dyn St
 }
 
 #[test]
-fn units_of_length_time_and_mass_change_nothing_but_the_numbers() {
+fn a_change_of_units_only_scales_the_numbers() {
     // The spring swings, nearly creeps, and creeps.
     for (drag, t) in [(0.0, 1.7), (1.0, 1.7), (20.0, 0.1), (20.0, 3.0), (60.0, 3.0)] {
         let plain = in_units(1.0, 1.0, 1.0, drag, t);
@@ -214,7 +214,7 @@ fn units_of_length_time_and_mass_change_nothing_but_the_numbers() {
 }
 
 #[test]
-fn the_error_of_a_motion_that_has_come_to_rest_grows_no_more() {
+fn the_error_of_a_motion_at_rest_stops_growing() {
     // After a million time constants, a metre from the start.
     let ship =
         Ship { thrust: 0.0, throttle: 1.0, drag: 2.0, mass: 2.0, s0: 0.0, v0: 1.0, kick: 1.0 };
@@ -242,7 +242,7 @@ fn account(body: &dyn Stepper) -> Vec<u64> {
 }
 
 #[test]
-fn a_copy_of_a_stepper_goes_on_alike_to_the_bit() {
+fn a_copied_stepper_continues_to_the_bit() {
     const H: f64 = 1.0 / 60.0;
     let fly = |body: &mut dyn Stepper, ticks: std::ops::Range<u32>| {
         for tick in ticks {
@@ -291,7 +291,7 @@ impl System for Row {
 }
 
 #[test]
-fn a_custom_row_of_256_masses_costs_a_band_of_its_jacobian_where_it_says_so() {
+fn a_custom_chain_of_256_masses_needs_only_its_declared_jacobian_band() {
     let start = State { q: (0..256).map(|i| f64::from(i % 7)).collect(), v: vec![0.0; 256] };
     let horizon = ClaimHorizon { tick_hz: 60.into(), ticks: 1 };
     let of = |coupling| {
@@ -311,7 +311,7 @@ fn a_custom_row_of_256_masses_costs_a_band_of_its_jacobian_where_it_says_so() {
 }
 
 #[test]
-fn a_tick_that_is_recorded_lands_where_the_body_lands_and_evaluates_as_often() {
+fn a_recorded_tick_has_the_landing_and_evaluations_of_the_body() {
     for method in GENERAL_METHODS {
         for (id, mut body) in bodies(Solver::Method(method), 0.9) {
             let context = format!("{} of the {id}", method.id);

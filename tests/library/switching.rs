@@ -1,5 +1,4 @@
-//! Switching in flight: the state is carried to the bit, and the truth goes on from where an input
-//! left it.
+//! Switching in flight: the state is carried to the bit, and the truth continues from the state after an input.
 
 use regatta::run::Observations;
 use regatta::run::race::{Lane, LaneBody, Observer, Race, Resumed, ResumedFrom};
@@ -58,8 +57,8 @@ fn a_switch_carries_the_state_to_the_bit() {
 }
 
 #[test]
-fn there_and_back_in_one_tick_changes_nothing_that_follows() {
-    // A method that carries something forgets it, as it must: it starts anew.
+fn switching_there_and_back_in_one_tick_changes_nothing() {
+    // A method with memory must forget it: it restarts.
     for method in GENERAL_METHODS.iter().filter(|method| method.restart.is_none()) {
         let mut straight = solo(&scene("harbour"), method.id);
         let mut detour = solo(&scene("harbour"), method.id);
@@ -73,15 +72,15 @@ fn there_and_back_in_one_tick_changes_nothing_that_follows() {
     }
 }
 
-/// A spring with drag, at whose ticks every method carries what it can.
+/// A spring with drag, so that every method carries memory between its ticks.
 fn damped_spring() -> Scene {
     let mut scene = scene("spring");
     scene.bodies[0].values[2] = 0.8;
     scene
 }
 
-/// Runs a race for 77 ticks under one method, lets `change` interrupt it, and compares what follows with
-/// a race that starts under the second method where the first then is.
+/// Runs a race for 77 ticks under one method, interrupts it with `change`, and compares the rest with a race that
+/// starts there under the second method.
 fn goes_on_as_if_started_there(from: &'static Method, to: &'static Method, change: fn(&mut Race)) {
     let scene = damped_spring();
     let mut race = solo(&scene, from.id);
@@ -104,7 +103,7 @@ fn goes_on_as_if_started_there(from: &'static Method, to: &'static Method, chang
 }
 
 #[test]
-fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
+fn after_a_switch_the_new_method_acts_as_if_started_there() {
     for to in GENERAL_METHODS {
         let from = method(if to.id == "rk4" { "improved-euler" } else { "rk4" }).unwrap();
         goes_on_as_if_started_there(from, to, |_| ());
@@ -112,14 +111,14 @@ fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
 }
 
 #[test]
-fn after_a_kick_every_method_goes_on_as_if_started_there() {
+fn after_a_kick_every_method_acts_as_if_started_there() {
     for method in GENERAL_METHODS {
         goes_on_as_if_started_there(method, method, |race| act(race, Action::Kick(1.0)));
     }
 }
 
 #[test]
-fn after_a_change_of_tick_rate_every_method_goes_on_as_if_started_there() {
+fn after_a_change_of_tick_rate_every_method_acts_as_if_started_there() {
     for method in GENERAL_METHODS {
         goes_on_as_if_started_there(method, method, |race| act(race, Action::TickHz(100.into())));
         goes_on_as_if_started_there(method, method, |race| act(race, Action::TickHz(49.into())));
@@ -136,7 +135,7 @@ fn mixed() -> Scene {
 }
 
 #[test]
-fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
+fn setting_a_value_to_itself_changes_no_bit_of_lanes_or_truth() {
     let set_again: [fn(&mut Race); 5] = [
         |race| act(race, Action::Throttle(0.5)),
         |race| act(race, Action::Rudder(-0.25)),
@@ -171,7 +170,7 @@ fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
 }
 
 #[test]
-fn a_persons_action_that_changes_nothing_changes_no_bit() {
+fn an_action_without_effect_changes_no_bit() {
     for method in GENERAL_METHODS {
         let begun = || {
             let mut studio = Studio::new(mixed());
@@ -201,7 +200,7 @@ fn a_persons_action_that_changes_nothing_changes_no_bit() {
 }
 
 #[test]
-fn evaluations_go_on_counting_across_a_switch() {
+fn evaluations_keep_counting_across_a_switch() {
     let mut race = solo(&scene("spring"), "rk4");
     run(&mut race, 10);
     switch(&mut race, LaneSpec::plain(method("explicit-euler").unwrap()));
@@ -220,7 +219,7 @@ fn close(found: f64, wanted: f64) -> bool {
 }
 
 #[test]
-fn a_throttle_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
+fn a_throttle_acts_on_truth_and_lanes_from_its_tick_on() {
     let scene = scene("ship");
     let mut race = solo(&scene, "rk4");
     run(&mut race, 10);
@@ -241,7 +240,7 @@ fn a_throttle_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
 }
 
 #[test]
-fn a_kick_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
+fn a_kick_acts_on_truth_and_lanes_from_its_tick_on() {
     let scene = scene("spring");
     let mut race = solo(&scene, "rk4");
     run(&mut race, 31);
@@ -280,8 +279,8 @@ fn a_change_of_tick_rate_keeps_the_time_and_the_truth() {
     assert!(close(truth.q, there.q) && close(truth.v, there.v), "{truth:?}, {there:?}");
 }
 
-/// A ship beside a damped spring that explicit Euler loses and Runge-Kutta brings to rest: `h ω` is 2,
-/// the limits at this damping are 0.4 and 2.9.
+/// A ship and a damped spring that explicit Euler loses and Runge-Kutta brings to rest: `h ω` is 2, the limits at
+/// this damping are 0.4 and 2.9.
 fn ship_and_lively_spring() -> Scene {
     let mut scene = scene("harbour");
     scene.tick_hz = 10.into();
@@ -351,7 +350,7 @@ fn a_body_that_blew_up_resumes_from_the_truth_and_the_others_continue() {
 }
 
 #[test]
-fn where_the_truth_has_failed_too_a_body_is_taken_up_from_its_last_good_state() {
+fn a_body_resumes_from_its_last_good_state_if_the_truth_failed_too() {
     let mut race = solo(&scene("spring"), "semi-implicit-euler");
     run(&mut race, 100);
     let last = bits(&race.entrants()[0].lane);
@@ -367,7 +366,7 @@ fn where_the_truth_has_failed_too_a_body_is_taken_up_from_its_last_good_state() 
 }
 
 #[test]
-fn a_throttle_set_while_a_ship_had_halted_holds_when_it_goes_on() {
+fn a_throttle_set_during_a_halt_holds_after_resuming() {
     // The ship at 21 s swings ever wider.
     let mut scene = scene("surge");
     scene.bodies = vec![scene.bodies[2].clone()];
@@ -385,7 +384,7 @@ fn a_throttle_set_while_a_ship_had_halted_holds_when_it_goes_on() {
 }
 
 #[test]
-fn a_method_is_not_blamed_for_a_state_that_it_inherits_and_the_notice_says_where_it_begins() {
+fn a_new_method_is_not_blamed_for_an_inherited_blow_up() {
     let mut studio = Studio::new(scene("stiff"));
     for command in [
         Command::Stage(StageCommand::Pick(1)),

@@ -1,4 +1,4 @@
-//! Whatever a person changes can be undone and done again, in one order.
+//! Every change by a person can be undone and redone, in one order.
 
 use regatta::scene::{Action, Scene};
 use regatta::sim::TickRate;
@@ -14,7 +14,7 @@ fn method(studio: &Studio) -> &'static str {
     studio.race().entrants()[0].lane.solver().method().unwrap().id
 }
 
-/// A run as far as it was reached, wherever it is now, and the scene of its next start.
+/// The state of a run up to its end, from any present tick, and the scene of its next start.
 #[derive(Debug, PartialEq)]
 struct Whole {
     rows: usize,
@@ -45,7 +45,7 @@ fn whole(studio: &mut Studio) -> Whole {
 }
 
 #[test]
-fn a_switch_in_the_past_that_was_undone_is_not_in_the_next_start() {
+fn an_undone_switch_in_the_past_is_not_in_the_next_start() {
     let mut studio = studio("spring");
     (0..200).for_each(|_| studio.tick());
     studio.apply(RunCommand::Seek(100));
@@ -58,7 +58,7 @@ fn a_switch_in_the_past_that_was_undone_is_not_in_the_next_start() {
 }
 
 #[test]
-fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one() {
+fn every_kind_of_change_is_undone_and_redone_one_by_one() {
     let mut studio = studio("harbour");
     let place = Action::Place { body: 0, q: [0.5].into(), v: [0.0].into() };
     let mut sides = Vec::new();
@@ -86,7 +86,7 @@ fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one
         studio.apply(RunCommand::Undo);
         let now = whole(&mut studio);
         match before.state == after.state {
-            // The change was one of the next start: the run goes on.
+            // The change was one of the next start: the run continues.
             true => assert_eq!(now.scene, before.scene),
             false => assert_eq!(now, *before),
         }
@@ -104,7 +104,7 @@ fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one
 }
 
 #[test]
-fn a_drag_of_a_slider_is_one_change_and_the_next_drag_another() {
+fn each_drag_of_a_slider_is_one_change() {
     let mut studio = studio("spring");
     let stiffness = |studio: &Studio| studio.race().values(0)[1];
     let drag = |studio: &mut Studio, to: f64| {
@@ -142,7 +142,7 @@ fn a_drag_of_a_slider_is_one_change_and_the_next_drag_another() {
 }
 
 #[test]
-fn random_changes_are_undone_and_done_again_to_the_bit() {
+fn random_changes_are_undone_and_redone_to_the_bit() {
     let mut dice = Dice::new(7);
     for _ in 0..8 {
         let mut studio = studio("harbour");
@@ -192,7 +192,7 @@ fn random_changes_are_undone_and_done_again_to_the_bit() {
 }
 
 #[test]
-fn the_changes_that_can_be_undone_stay_within_the_memory_for_rewinding() {
+fn undo_entries_stay_within_the_rewind_memory() {
     let mut studio = studio("harbour");
     studio.deck.set_rewind_bytes(1 << 20);
     for n in 0..60_u32 {

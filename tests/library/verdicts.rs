@@ -26,7 +26,7 @@ fn built_in(name: &str) -> Scene {
 const BOUNDED: usize = 0;
 
 #[test]
-fn a_truth_that_fails_is_no_agreement() {
+fn agreeing_with_a_failed_truth_does_not_count() {
     for body in [
         "[[pendulum]]\nlength_m = 1e-11",
         "[[pendulum]]\nlength_m = 1e-9",
@@ -50,7 +50,7 @@ fn a_truth_that_fails_is_no_agreement() {
 }
 
 #[test]
-fn words_are_of_the_motion_and_not_of_its_faintest_mode() {
+fn a_verdict_describes_the_motion_and_not_its_faintest_mode() {
     // Runge-Kutta takes the fastest of the chain's modes within seconds, and a seventh of its energy in ten minutes.
     let found = verdict(&built_in("chain"), "rk4", 60);
     assert_eq!(found.outcome(), Outcome::LooksRight, "{found}");
@@ -62,7 +62,7 @@ fn words_are_of_the_motion_and_not_of_its_faintest_mode() {
 }
 
 #[test]
-fn what_settles_is_said_to_have_settled() {
+fn a_motion_that_settles_is_reported_as_settled() {
     let scene =
         scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 900\ndamping_n_s_per_m = 2");
     let found = verdict(&scene, "semi-implicit-euler", 20);
@@ -75,7 +75,7 @@ fn what_settles_is_said_to_have_settled() {
 }
 
 #[test]
-fn an_orbit_that_is_flung_out_is_not_one_that_does_not_grow() {
+fn an_orbit_flung_out_is_not_judged_as_bounded() {
     let radial = scene(20.0, "[[orbit]]\nmu_m3_per_s2 = 1000\nx0_m = 10\nvy0_m_per_s = 0.01");
     for id in ["explicit-euler", "rk4", "semi-implicit-euler", "velocity-verlet"] {
         let found = verdict(&radial, id, 60);
@@ -91,7 +91,7 @@ fn an_orbit_that_is_flung_out_is_not_one_that_does_not_grow() {
 }
 
 #[test]
-fn a_scene_of_512_periods_is_judged_as_one_of_511() {
+fn a_scene_of_512_periods_is_judged_like_one_of_511() {
     for (seconds, body) in [
         (511.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 39.47841760435743"),
         (512.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 39.47841760435743"),
@@ -119,7 +119,7 @@ fn a_pendulum_is_not_judged_by_the_map_about_one_of_its_states() {
 }
 
 #[test]
-fn an_orbit_is_bounded_only_where_it_stays() {
+fn an_orbit_is_bounded_only_if_it_stays() {
     let own = built_in("orbit");
     for hz in [5, 6, 8] {
         assert_eq!(verdict(&own, "rk4", hz).long_term.is_bounded, Some(false), "{hz} Hz");
@@ -133,7 +133,7 @@ fn an_orbit_is_bounded_only_where_it_stays() {
 }
 
 #[test]
-fn adams_bashforth_is_bounded_from_the_rate_at_which_it_takes_a_year_to_double() {
+fn adams_bashforth_is_bounded_if_it_takes_a_year_to_double() {
     let adviser = Adviser::new(&built_in("spring"), 60);
     let slowest = adviser.slowest(spec("adams-bashforth-2"), CRITERIA[BOUNDED]).unwrap();
     // |λ| = 1 + z⁴/4 a tick, and ln 2 in a year.
@@ -155,7 +155,7 @@ fn energy_drifts_relative_to_the_energy_in_motion() {
 }
 
 #[test]
-fn what_cannot_be_said_is_not_said() {
+fn an_undeterminable_growth_is_left_unknown() {
     let damped = scene(20.0, "[[pendulum]]\nlength_m = 1\ndamping_n_m_s = 0.2\ntheta0_rad = 2");
     for id in ["dormand-prince-54", "rk4", "gauss-legendre-4"] {
         let found = verdict(&damped, id, 60);
@@ -184,7 +184,7 @@ fn what_cannot_be_said_is_not_said() {
 }
 
 #[test]
-fn nothing_but_rounding_is_within_rounding() {
+fn only_rounding_errors_count_as_rounding() {
     assert_eq!(verdict(&built_in("ship"), "explicit-euler", 2).outcome(), Outcome::LooksRight);
     // A fast fly-by is nearly straight, and explicit Euler nearly right on it.
     let fast = scene(
@@ -196,7 +196,7 @@ fn nothing_but_rounding_is_within_rounding() {
 }
 
 #[test]
-fn what_takes_too_much_work_is_not_judged() {
+fn a_motion_needing_too_much_work_is_not_judged() {
     let stiff = scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e12");
     let found = verdict(&stiff, "dormand-prince-54", 1000);
     assert_eq!(found.outcome(), Outcome::NotJudged, "{found}");
@@ -262,7 +262,7 @@ fn a_scene_is_judged_with_the_inputs_of_its_script() {
 }
 
 #[test]
-fn a_map_past_all_numbers_is_unbounded_and_no_panic() {
+fn an_overflowing_map_is_unbounded_without_a_panic() {
     for body in [
         "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 4e9",
         "[[spring]]\nmass_kg = 1e-15\nstiffness_n_per_m = 40",
@@ -282,7 +282,7 @@ fn a_map_past_all_numbers_is_unbounded_and_no_panic() {
 }
 
 #[test]
-fn what_is_accurate_looks_right_and_what_rushes_does_not() {
+fn accurate_motions_look_right_and_fast_ones_do_not() {
     let looks_right = 1;
     for (hz, body, id) in [
         (60, "[[pendulum]]\nlength_m = 12", "rk4"),
@@ -305,7 +305,7 @@ fn what_is_accurate_looks_right_and_what_rushes_does_not() {
 }
 
 #[test]
-fn what_does_not_come_back_has_no_swing_to_double() {
+fn a_motion_without_return_has_no_doubling_time() {
     let ship = scene(20.0, "[[ship]]\nthrust_n = 1234.5\ndrag_n_s_per_m = 0\nmass_kg = 777");
     assert_eq!(verdict(&ship, "adaptive-euler-as-printed", 7).long_term.doubles_in_s, None);
     let hyperbola = scene(

@@ -1,5 +1,5 @@
-//! Whatever a person does in a studio, its run is what its recording repeats. The seed is printed; `REGATTA_SEED` sets another,
-//! and `REGATTA_WALKS` the number of walks.
+//! The recording of a studio's run repeats it after any sequence of commands. The seed is printed; `REGATTA_SEED`
+//! sets another, and `REGATTA_WALKS` the number of walks.
 
 use regatta::run::Session;
 use regatta::run::race::Mode;
@@ -10,9 +10,9 @@ use regatta::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand, op
 use crate::dice::Dice;
 
 const STEPS: usize = 300;
-/// The run is held against its recording each time that so many more are done.
+/// The number of steps between two comparisons of the run with its recording.
 const HELD: usize = 50;
-/// One new run in this many is begun: each forgets what went before.
+/// One in `BEGUN` steps starts a new run, which forgets the steps before.
 const BEGUN: usize = 8;
 /// Those that are stepped in no time.
 const LIGHT: [&str; 7] = ["harbour", "spring", "ship", "helm", "stiff", "orbit", "follow"];
@@ -104,7 +104,7 @@ fn repeats(studio: &mut Studio) -> Result<(), String> {
             return Err(format!("the recording is not repeated: {check:?}"));
         }
     }
-    // Beside a lane alone stand those of the menu.
+    // A solo recording replays the lanes of its menu too, so only its own lane is compared.
     let are_same = match (race.mode(), scene.checks.last()) {
         (Mode::Solo, Some(end)) => again.race().lane_hash(end.lane) == lanes.first().copied(),
         _ => again.race().lane_hashes().eq(lanes) && again.race().mode() == race.mode(),
@@ -114,7 +114,7 @@ fn repeats(studio: &mut Studio) -> Result<(), String> {
 }
 
 #[test]
-fn after_whatever_walk_a_run_is_what_its_recording_repeats_to_the_bit() {
+fn the_recording_repeats_a_run_to_the_bit_after_any_walk() {
     let mut dice = Dice::new(0x3a);
     let mut ticks = 0;
     for walk in 0..walks() {
@@ -123,7 +123,7 @@ fn after_whatever_walk_a_run_is_what_its_recording_repeats_to_the_bit() {
         let mut steps = Vec::new();
         for _ in 0..STEPS / HELD {
             steps.extend((0..HELD).map(|_| step(&mut dice, &mut studio)));
-            // So that it has an end to which it can be sought, before what is done there.
+            // This gives the run an end to seek to, before it is edited there.
             studio.apply(RunCommand::Seek(u64::MAX));
             studio.tick();
             if let Err(why) = repeats(&mut studio) {

@@ -1,4 +1,4 @@
-//! Verdicts beside the manual and in other tests.
+//! The words of verdicts in the manual and in other tests.
 
 use regatta::manual::chapter;
 use regatta::measure::{CRITERIA, Outcome, Severity, Sign, Verdict};
@@ -10,7 +10,7 @@ pub(crate) fn everything(verdict: &Verdict) -> String {
 }
 
 #[test]
-fn each_outcome_has_the_sign_and_the_colour_of_the_criterion_that_it_meets() {
+fn each_outcome_has_the_sign_and_colour_of_its_criterion() {
     use Severity::{Bad, Doubtful, Fair, Fine, Unknown};
     use Sign::{Cross, Diamond, Disc, Falling, Ring, Rising};
     let wanted = [
@@ -39,7 +39,7 @@ fn each_outcome_has_the_sign_and_the_colour_of_the_criterion_that_it_meets() {
 }
 
 #[test]
-fn the_manual_has_the_table_of_the_verdicts() {
+fn the_manual_has_the_table_of_verdicts() {
     let commands = chapter("commands").unwrap().text;
     for outcome in Outcome::ALL.into_iter().skip(1) {
         let row =
@@ -49,14 +49,14 @@ fn the_manual_has_the_table_of_the_verdicts() {
 }
 
 #[test]
-fn the_manual_says_of_escape_what_the_list_of_keys_says() {
+fn the_manual_and_the_list_of_keys_agree_on_escape() {
     let escape = KEYS.iter().find(|binding| binding.shown == "Esc").unwrap();
     let row = format!("| `Esc` | {} |", escape.about);
     assert!(chapter("keys").unwrap().text.contains(&row), "{row}");
 }
 
 #[test]
-fn the_manual_has_every_letter_that_is_a_key() {
+fn the_manual_mentions_every_letter_key() {
     let keys = chapter("keys").unwrap().text;
     let letters = KEYS.iter().flat_map(|binding| binding.keys).filter_map(|(key, _)| match key {
         Key::Sign(sign) if sign.is_alphabetic() => Some(sign.to_ascii_uppercase()),

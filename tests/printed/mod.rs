@@ -62,7 +62,7 @@ impl Text {
         let Err(wrong) = has_lines(said, printed) else { return };
         let is_blessed = env::var_os("BLESS").is_some_and(|value| value == "1");
         let name = self.name;
-        assert!(is_blessed, "{name}: {wrong}\n{said}\nBLESS=1 replaces it");
+        assert!(is_blessed, "{name}: {wrong}\n{said}\nBLESS=1 with this test replaces the block");
         let written = blessed(said, printed);
         has_lines(said, &written).unwrap_or_else(|wrong| panic!("{name}: {wrong}"));
         // An earlier block of this text may have been replaced.
@@ -84,8 +84,8 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter(|line| !line.trim().is_empty())
 }
 
-/// Whether output has the printed lines, in this order, and no others. An ellipsis stands for any lines, or for
-/// the end of one. Indentation and empty lines do not count.
+/// Whether output has exactly the printed lines, in this order. An ellipsis matches any lines, or the end of one.
+/// Indentation and empty lines do not count.
 pub(crate) fn has_lines(said: &str, printed: &str) -> Result<(), String> {
     let mut said = lines(said);
     let mut may_skip = false;
@@ -99,12 +99,12 @@ pub(crate) fn has_lines(said: &str, printed: &str) -> Result<(), String> {
             false => said.next().is_some_and(|said| is_line(said, line)),
         };
         if !found {
-            return Err(format!("not said: {line}"));
+            return Err(format!("the output lacks the line: {line}"));
         }
         may_skip = false;
     }
     match said.next().filter(|_| !may_skip) {
-        Some(more) => Err(format!("not printed: {more}")),
+        Some(more) => Err(format!("the text lacks the line: {more}")),
         None => Ok(()),
     }
 }
@@ -144,11 +144,13 @@ fn blessed(said: &str, printed: &str) -> String {
             let count = line.split_whitespace().filter(|word| words.contains(word)).count();
             (is_line(all[*index], line), count)
         };
-        // Of equal ones the first.
+        // The first among equals.
         let nearest = (at..all.len()).rev().max_by_key(common).filter(|index| common(index).1 > 0);
         let found = if may_skip { nearest } else { Some(at) };
         let found = found.filter(|index| *index < all.len());
-        let found = found.unwrap_or_else(|| panic!("nothing like this is said any more: {line}"));
+        let found = found.unwrap_or_else(|| {
+            panic!("no line of the output resembles {line}; edit the block by hand")
+        });
         written += &line_of(all[found], Some(line));
         (at, may_skip) = (found + 1, false);
     }
@@ -156,7 +158,7 @@ fn blessed(said: &str, printed: &str) -> String {
 }
 
 #[test]
-fn a_line_that_is_not_said_or_not_printed_is_found() {
+fn a_missing_or_extra_line_is_detected() {
     assert!(has_lines("a\nb\nc 1\n", "a\n…\nc…\n").is_ok());
     assert!(has_lines("a\nb\nc 1\n", "a\nc…\n").is_err());
     assert!(has_lines("a\n", "a\nb\n").is_err());
@@ -164,7 +166,7 @@ fn a_line_that_is_not_said_or_not_printed_is_found() {
 }
 
 #[test]
-fn what_has_changed_is_written_into_its_place_and_nothing_else_is() {
+fn blessing_rewrites_only_the_changed_lines() {
     let said = "one 1\ntwo two\n\n  three 3 4 5\nfour\n";
     let whole = "  one 1\n  two two\n\n    three 3 4 5\n  four\n";
     assert_eq!(blessed(said, "  one 2\n  two\n"), whole);

@@ -1,6 +1,6 @@
 //! Frames of every scene against committed pictures, drawn by a software adapter.
 //!
-//! `BLESS=1 cargo test --test program golden` writes the pictures anew; look at them before committing.
+//! `BLESS=1 cargo test --test program golden` rewrites the pictures; look at them before committing.
 #![cfg(feature = "desktop")]
 
 use std::io::{self, Write};
@@ -17,8 +17,8 @@ use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels};
 const SIZE_PX: [u32; 2] = [400, 225];
 /// As in a window of 800 × 450 points, where all panels show.
 const SCALE: f32 = 0.5;
-/// What the frames of one driver differ by from another's, and a little more: a channel by at most 2,
-/// and at most one pixel in ten thousand by more than 1.
+/// Slightly more than the differences between two drivers' frames: a channel by at most 2, and at most one pixel in
+/// ten thousand by more than 1.
 const MAX_DIFFERENCE: u8 = 2;
 const PIXELS_OFF: f64 = 1e-4;
 /// A golden picture that is larger holds more than a frame of ours should.
@@ -79,7 +79,7 @@ fn write_small(picture: &RgbaImage, path: &Path) {
 }
 
 #[test]
-fn the_comparison_sees_one_pixel_and_one_level() {
+fn the_comparison_detects_one_level_in_one_pixel() {
     let black = RgbaImage::new(20, 10);
     let mut other = black.clone();
     assert_eq!(difference(&black, &other), (0, 0));
@@ -90,14 +90,14 @@ fn the_comparison_sees_one_pixel_and_one_level() {
     assert_eq!(difference(&black, &other), (200, 2));
 }
 
-/// What a renderer for pictures of `size_px` makes of a studio.
+/// The picture of a studio from a renderer for `size_px`.
 fn drawn(renderer: &mut OffscreenRenderer, size_px: [u32; 2], studio: &Studio) -> RgbaImage {
     let mut rgba = Vec::new();
     renderer.draw(studio, &mut rgba).unwrap();
     RgbaImage::from_raw(size_px[0], size_px[1], rgba).unwrap()
 }
 
-/// What is wrong with a picture beside the golden one of this name, or of that one; with `BLESS=1` it becomes that one.
+/// The difference of a picture from the golden one of this name, or a fault of the golden one; `BLESS=1` replaces it.
 fn wrong(name: &str, drawn: &RgbaImage) -> Option<String> {
     let path = PathBuf::from("tests/golden").join(name);
     if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
@@ -105,7 +105,11 @@ fn wrong(name: &str, drawn: &RgbaImage) -> Option<String> {
     }
     let golden = match image::open(&path) {
         Ok(golden) => golden.into_rgba8(),
-        Err(error) => return Some(format!("{name}: {error}; BLESS=1 writes it")),
+        Err(error) => {
+            return Some(format!(
+                "{name}: {error}; BLESS=1 cargo test --test program golden writes it"
+            ));
+        }
     };
     let bytes = std::fs::metadata(&path).unwrap().len() as usize;
     let (most, off) = difference(&golden, drawn);
@@ -116,14 +120,17 @@ fn wrong(name: &str, drawn: &RgbaImage) -> Option<String> {
     let kept = std::env::temp_dir().join(format!("regatta-{name}"));
     write_small(drawn, &kept);
     Some(format!(
-        "{name}: {off} pixels off by more than 1, the worst by {most}, {bytes} bytes; drawn now: {}",
+        "{name}: {off} pixels off by more than 1, the worst by {most}, {bytes} bytes; drawn now: {}; if intended, \
+         BLESS=1 cargo test --test program golden",
         kept.display()
     ))
 }
 
 #[test]
-fn every_scene_looks_as_it_did_solo_and_racing() {
-    let Some(gpu) = gpu_or_skip("every_scene_looks_as_it_did_solo_and_racing") else { return };
+fn every_scene_matches_its_golden_picture_solo_and_racing() {
+    let Some(gpu) = gpu_or_skip("every_scene_matches_its_golden_picture_solo_and_racing") else {
+        return;
+    };
     let mut renderer = OffscreenRenderer::new(gpu, SIZE_PX, SCALE).unwrap();
     let mut all_wrong = Vec::new();
     for scene in SCENES {
@@ -137,8 +144,8 @@ fn every_scene_looks_as_it_did_solo_and_racing() {
 }
 
 #[test]
-fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
-    let test = "the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did";
+fn the_inspector_beside_a_rewound_run_matches_its_golden_picture() {
+    let test = "the_inspector_beside_a_rewound_run_matches_its_golden_picture";
     let Some(gpu) = gpu_or_skip(test) else { return };
     // 1280 × 720 points.
     let size_px = [512, 288];
@@ -153,8 +160,8 @@ fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
 }
 
 #[test]
-fn the_loop_lab_looks_as_it_did() {
-    let Some(gpu) = gpu_or_skip("the_loop_lab_looks_as_it_did") else { return };
+fn the_loop_lab_matches_its_golden_picture() {
+    let Some(gpu) = gpu_or_skip("the_loop_lab_matches_its_golden_picture") else { return };
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     open_loop_lab_on(&mut studio, "steady-144");
     run_loops(&mut studio);

@@ -1,4 +1,4 @@
-//! The program without its window: what its commands print and write, and what its frames show.
+//! The program without its window: the output of its commands, and the content of its frames.
 #![cfg(feature = "desktop")]
 
 mod command_line;

@@ -1,4 +1,4 @@
-//! What a package installs beside the program is what the program says of itself.
+//! The files that a package installs with the program agree with the program.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ fn files() -> Vec<(String, Vec<u8>)> {
 }
 
 #[test]
-fn the_pages_and_completions_of_a_package_are_those_of_the_command_line() {
+fn packaged_manual_pages_and_completions_match_the_command_line() {
     let bless = env::var_os("BLESS").is_some_and(|value| value == "1");
     for (name, made) in files() {
         let path = folder().join(&name);
@@ -47,7 +47,7 @@ fn the_pages_and_completions_of_a_package_are_those_of_the_command_line() {
         let kept = fs::read(&path).unwrap_or_default();
         assert!(
             kept == made,
-            "{name} is another; write it with BLESS=1 cargo test --test program packaging"
+            "assets/linux/{name} is out of date; write it with BLESS=1 cargo test --test program packaging"
         );
     }
     let listed = |part: &str| fs::read_dir(folder().join(part)).unwrap().count();
@@ -55,7 +55,7 @@ fn the_pages_and_completions_of_a_package_are_those_of_the_command_line() {
 }
 
 #[test]
-fn the_icon_is_square_and_the_version_that_of_the_package() {
+fn the_icon_is_square_and_the_metadata_has_the_package_version() {
     let icon = image::open(folder().join("regatta.png")).unwrap();
     assert_eq!((icon.width(), icon.height()), (256, 256));
     let about = fs::read_to_string(folder().join("org.example.regatta.metainfo.xml")).unwrap();

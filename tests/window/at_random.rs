@@ -1,4 +1,4 @@
-//! Thousands of random keys, clicks, drags and wheel turns: the program goes on, in silence, and keeps to its memory.
+//! Thousands of random keys, clicks, drags and wheel turns: the program keeps running, quietly, within its memory.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use crate::desk::{Desk, until};
 use crate::dice::Dice;
 use crate::dropped::drop_file;
 
-/// Keys of the table, but for those that write files or leave the window, and some that are bound to nothing.
+/// Keys of the table except those that write files or leave the window, and some unbound ones.
 const KEYS: [&str; 46] = [
     "1",
     "2",
@@ -61,9 +61,9 @@ const RESTS: usize = 6;
 const EVENTS: usize = 200;
 /// Events that one call of xdotool makes.
 const BATCH: usize = 25;
-/// How much more memory the program may use at rest after the second half of the events than after the first, in MB.
-/// What the program holds does not grow, as `tests/program/memory.rs` counts; its process grows by up to 7, and no more after some
-/// 4000 events, since what is freed comes back in pieces. A leak of 20 KB an event adds 30.
+/// The allowed growth of the program's memory at rest from the first half of the events to the second, in MB.
+/// `tests/program/memory.rs` shows that the program itself holds no more. Its process grows by up to 7, until some
+/// 4000 events, since freed memory returns in pieces. A leak of 20 KB per event adds 30.
 const MAX_GROWTH_MB: f64 = 20.0;
 /// How long the program's memory is read at a rest.
 const REST: Duration = Duration::from_secs(1);
@@ -83,8 +83,8 @@ fn event(dice: &mut Dice) -> String {
     }
 }
 
-/// Drops a scene of one body on the window, so that nothing of the runs before is needed any more, and returns the memory
-/// that the program then uses, in MB. What was open or shown before, and how fast the events came, matters little to it.
+/// Drops a scene of one body on the window, so that everything from earlier runs can be freed, and returns the
+/// program's memory, in MB. Earlier scenes and the speed of the events hardly affect it.
 fn at_rest(desk: &Desk, scene: &Path) -> f64 {
     drop_file(desk, scene);
     until("the scene", || desk.title().contains(" - rest.toml - ").then_some(()));
@@ -98,13 +98,12 @@ fn at_rest(desk: &Desk, scene: &Path) -> f64 {
 }
 
 #[test]
-fn a_thousand_random_events_leave_the_program_running_in_silence_and_within_its_memory() {
-    let test =
-        "a_thousand_random_events_leave_the_program_running_in_silence_and_within_its_memory";
+fn random_events_leave_the_program_running_quietly_within_its_memory() {
+    let test = "random_events_leave_the_program_running_quietly_within_its_memory";
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("rest.toml");
     std::fs::write(&scene, include_str!("../../assets/scenes/spring.toml")).unwrap();
-    // What is freed goes back to the system, rather than to a reserve that depends on the order of events.
+    // Freed memory returns to the system at once, rather than to a reserve that depends on the order of events.
     let variables = [("MALLOC_MMAP_THRESHOLD_", "65536"), ("MALLOC_TRIM_THRESHOLD_", "65536")];
     let Some(desk) = Desk::open_with(test, "--scene harbour", &variables) else {
         return;

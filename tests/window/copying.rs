@@ -7,8 +7,8 @@ use crate::desk::{Desk, until};
 use crate::widgets::paused;
 
 #[test]
-fn control_c_on_a_lane_copies_its_method_and_the_menu_of_the_lane_has_the_languages() {
-    let test = "control_c_on_a_lane_copies_its_method_and_the_menu_of_the_lane_has_the_languages";
+fn control_c_on_a_lane_and_its_menu_copy_the_method() {
+    let test = "control_c_on_a_lane_and_its_menu_copy_the_method";
     let Some((desk, mut twin)) = paused(test, "spring") else { return };
     let holds = |id: &str, language: Language| {
         let code = source_code(method(id).unwrap(), language, Precision::Double).unwrap();
@@ -35,15 +35,15 @@ fn control_c_on_a_lane_copies_its_method_and_the_menu_of_the_lane_has_the_langua
     desk.quit();
 }
 
-/// A text pasted so often, of which no field takes more than it can mean, and how much more memory the program may use by
-/// it, in MB. Without a bound the fields took 1700 and 900 MB more.
+/// The number of pastes of a long text, which every field truncates, and the allowed growth of the program's memory,
+/// in MB. Without a bound the fields took 1700 and 900 MB more.
 const PASTES: usize = 30;
 const LONG: usize = 20_000;
 const MAX_GROWTH_MB: [f64; 2] = [20.0, 160.0];
 
 #[test]
-fn a_long_text_that_is_pasted_again_and_again_takes_no_memory() {
-    let test = "a_long_text_that_is_pasted_again_and_again_takes_no_memory";
+fn pasting_a_long_text_repeatedly_uses_no_memory() {
+    let test = "pasting_a_long_text_repeatedly_uses_no_memory";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.copy_elsewhere(&"60,1.0,-0.25\n".repeat(LONG));
     desk.press("space");
@@ -67,8 +67,8 @@ fn a_long_text_that_is_pasted_again_and_again_takes_no_memory() {
 }
 
 #[test]
-fn a_text_of_another_program_is_pasted_into_a_field_and_a_text_of_a_field_into_another_program() {
-    let test = "a_text_of_another_program_is_pasted_into_a_field_and_a_text_of_a_field_into_another_program";
+fn text_is_copied_and_pasted_between_fields_and_other_programs() {
+    let test = "text_is_copied_and_pasted_between_fields_and_other_programs";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.copy_elsewhere("ship");
     // The path is pasted before a frame has shown its field.
@@ -92,8 +92,8 @@ fn a_text_of_another_program_is_pasted_into_a_field_and_a_text_of_a_field_into_a
 }
 
 #[test]
-fn a_link_that_names_a_scene_opens_it_at_its_tick_and_stands_still() {
-    let test = "a_link_that_names_a_scene_opens_it_at_its_tick_and_stands_still";
+fn a_short_link_opens_its_scene_paused_at_its_tick() {
+    let test = "a_short_link_opens_its_scene_paused_at_its_tick";
     let link = "#scene=spring&method=rk4&tick-hz=30&tick=45";
     let Some(desk) = Desk::open(test, &format!("--scene {link}")) else { return };
     desk.titled("Regatta - spring - Runge-Kutta 4 - 30 Hz (paused)");

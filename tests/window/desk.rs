@@ -83,7 +83,7 @@ impl Desk {
         });
     }
 
-    /// Has xdotool do something; `WINDOW` stands for the window.
+    /// Runs xdotool. `WINDOW` is replaced by the window's number.
     #[track_caller]
     pub(crate) fn xdotool(&self, words: &str) -> String {
         self.display.xdotool(&words.replace("WINDOW", &self.window)).unwrap()
@@ -106,7 +106,7 @@ impl Desk {
         self.xdotool("getwindowname WINDOW").trim_end().to_owned()
     }
 
-    /// Waits for the title to be this, but for the tick that a paused window names: no test can know it.
+    /// Waits for this title, up to the tick that a paused window names and no test can know.
     #[track_caller]
     pub(crate) fn titled(&self, expected: &str) {
         let expected = without_tick(expected);
@@ -139,7 +139,7 @@ impl Desk {
         until(&what, || tick(&self.title()).filter(|tick| expected.contains(tick)))
     }
 
-    /// Has the program take a screenshot. Returns the tick it shows, and what it shows.
+    /// Takes a screenshot. Returns its tick and its picture.
     #[track_caller]
     pub(crate) fn screenshot(&self) -> (u64, RgbaImage) {
         self.press("p");
@@ -174,7 +174,7 @@ impl Desk {
         })
     }
 
-    /// What the window shows.
+    /// The picture in the window.
     #[track_caller]
     pub(crate) fn sight(&self) -> RgbaImage {
         let (connection, window) = self.connect();
@@ -193,7 +193,7 @@ impl Desk {
     /// Waits for the window to show this screenshot of it, paused, `scale` pixels to a point.
     #[track_caller]
     pub(crate) fn shows(&self, picture: &RgbaImage, scale: u32) {
-        // The bar above tells of the frame rate, and the footer, now, of the screenshot.
+        // The bar above shows the frame rate, and the footer the notice of the screenshot.
         let between = |y: u32| (40 * scale..picture.height() - 32 * scale).contains(&y);
         let differ = |a: &Rgba<u8>, b: &Rgba<u8>| (0..4).any(|i| a[i].abs_diff(b[i]) > 1);
         until("the screenshot in the window", || {

@@ -35,7 +35,7 @@ impl Source<'_> {
         sent.unwrap().check().unwrap();
     }
 
-    /// Answers who asks what is dragged.
+    /// Answers a request for the dragged files.
     fn hand_over(&self, request: &SelectionRequestEvent, uris: &str) {
         let SelectionRequestEvent { requestor, property, target, selection, time, .. } = *request;
         let bytes = uris.as_bytes();
@@ -89,8 +89,8 @@ pub(crate) fn drop_file(desk: &Desk, path: &Path) {
 }
 
 #[test]
-fn a_scene_file_dropped_on_the_window_is_opened_and_one_with_mistakes_is_not() {
-    let test = "a_scene_file_dropped_on_the_window_is_opened_and_one_with_mistakes_is_not";
+fn a_dropped_scene_file_is_opened_unless_it_has_mistakes() {
+    let test = "a_dropped_scene_file_is_opened_unless_it_has_mistakes";
     let folder = tempfile::tempdir().unwrap();
     let [good, bad] = ["mine.toml", "bad.toml"].map(|name| folder.path().join(name));
     std::fs::write(&good, include_str!("../../assets/scenes/ship.toml")).unwrap();
@@ -111,9 +111,8 @@ fn a_scene_file_dropped_on_the_window_is_opened_and_one_with_mistakes_is_not() {
 }
 
 #[test]
-fn a_log_of_frames_dropped_on_the_window_opens_the_loop_lab_and_one_with_mistakes_is_told() {
-    let test =
-        "a_log_of_frames_dropped_on_the_window_opens_the_loop_lab_and_one_with_mistakes_is_told";
+fn a_dropped_frame_log_opens_the_loop_lab_or_shows_its_mistakes() {
+    let test = "a_dropped_frame_log_opens_the_loop_lab_or_shows_its_mistakes";
     let folder = tempfile::tempdir().unwrap();
     let [good, bad] = ["log.csv", "bad.csv"].map(|name| folder.path().join(name));
     let rows = "16.7,16.7\n".repeat(100);

@@ -1,4 +1,4 @@
-//! Editing in the inspector, as the title tells.
+//! Editing in the inspector, checked by the title.
 
 use std::thread;
 use std::time::Duration;
@@ -6,8 +6,8 @@ use std::time::Duration;
 use crate::desk::Desk;
 
 #[test]
-fn what_is_typed_into_the_inspector_is_an_edit_and_works_no_other_key() {
-    let test = "what_is_typed_into_the_inspector_is_an_edit_and_works_no_other_key";
+fn typing_into_the_inspector_edits_and_triggers_no_other_key() {
+    let test = "typing_into_the_inspector_edits_and_triggers_no_other_key";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("space");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
@@ -39,8 +39,8 @@ fn what_is_typed_into_the_inspector_is_an_edit_and_works_no_other_key() {
 }
 
 #[test]
-fn a_parameter_that_is_swept_advances_time() {
-    let test = "a_parameter_that_is_swept_advances_time";
+fn time_advances_while_a_parameter_is_swept() {
+    let test = "time_advances_while_a_parameter_is_swept";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     let paused = "Regatta - spring - Explicit Euler - 60 Hz (paused)";
     desk.press("space");
@@ -49,7 +49,7 @@ fn a_parameter_that_is_swept_advances_time() {
     desk.press_and_see("e");
     desk.still();
     let from = desk.tick_of(paused);
-    // The button beside the stiffness, which then changes with each frame for eight seconds.
+    // The button next to the stiffness, which then changes with each frame for eight seconds.
     desk.click(965, 392);
     desk.press("space");
     thread::sleep(Duration::from_secs(3));

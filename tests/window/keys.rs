@@ -1,4 +1,4 @@
-//! What keys do, read from the title; the studio, given the same commands, says what it should be.
+//! The effect of keys, read from the title and compared with a studio under the same commands.
 
 use std::time::{Duration, Instant};
 
@@ -47,8 +47,8 @@ fn x_name(key: Key) -> String {
 }
 
 #[test]
-fn every_key_of_the_table_does_what_the_table_says() {
-    let test = "every_key_of_the_table_does_what_the_table_says";
+fn every_key_performs_its_command_from_the_table() {
+    let test = "every_key_performs_its_command_from_the_table";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     let mut studio = studio("spring");
@@ -78,7 +78,7 @@ fn every_key_of_the_table_does_what_the_table_says() {
         } else if !others.contains(command) {
             desk.press(&x_name(*key));
             assert_eq!(studio.apply(command.clone()), None);
-            // A race selects what its verdicts put first, once they are known.
+            // A race selects the lane with the best verdict, once the verdicts are known.
             studio.analyse();
             desk.titled(&studio.title());
         }
@@ -96,8 +96,8 @@ fn every_key_of_the_table_does_what_the_table_says() {
 }
 
 #[test]
-fn in_the_loop_lab_keys_choose_loops_displays_rates_and_methods_and_leave_as_it_was() {
-    let test = "in_the_loop_lab_keys_choose_loops_displays_rates_and_methods_and_leave_as_it_was";
+fn keys_work_in_the_loop_lab_and_leaving_it_restores_the_run() {
+    let test = "keys_work_in_the_loop_lab_and_leaving_it_restores_the_run";
     let Some(desk) = Desk::open(test, "--scene spring --loop") else { return };
     let mut studio = studio("spring");
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
@@ -146,8 +146,8 @@ fn a_tick_forward_is_one_tick() {
 }
 
 #[test]
-fn a_held_key_repeats_where_that_helps_and_never_a_toggle() {
-    let test = "a_held_key_repeats_where_that_helps_and_never_a_toggle";
+fn a_held_key_repeats_where_useful_but_never_a_toggle() {
+    let test = "a_held_key_repeats_where_useful_but_never_a_toggle";
     let Some(desk) = Desk::open(test, "--scene spring --tick-hz 1000") else { return };
     desk.xdotool("keydown bracketleft");
     desk.titled("Regatta - spring - Explicit Euler - 2 Hz");
@@ -164,8 +164,8 @@ fn a_held_key_repeats_where_that_helps_and_never_a_toggle() {
 }
 
 #[test]
-fn a_chord_with_control_or_alt_is_not_ours() {
-    let test = "a_chord_with_control_or_alt_is_not_ours";
+fn unbound_chords_with_control_or_alt_are_ignored() {
+    let test = "unbound_chords_with_control_or_alt_are_ignored";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("ctrl+n alt+1 ctrl+space super+c Caps_Lock m");
     // With capitals locked, M is still the next method.
@@ -174,8 +174,8 @@ fn a_chord_with_control_or_alt_is_not_ours() {
 }
 
 #[test]
-fn the_guide_opens_a_stop_that_waits_and_escape_leads_back_to_ones_own_run() {
-    let test = "the_guide_opens_a_stop_that_waits_and_escape_leads_back_to_ones_own_run";
+fn the_guide_opens_a_waiting_stop_and_escape_returns_to_the_run() {
+    let test = "the_guide_opens_a_waiting_stop_and_escape_returns_to_the_run";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("F2");
     // Time waits for the prediction.
@@ -186,10 +186,10 @@ fn the_guide_opens_a_stop_that_waits_and_escape_leads_back_to_ones_own_run() {
 }
 
 #[test]
-fn loops_that_take_long_to_run_do_not_hold_up_the_window() {
+fn slow_loops_do_not_block_the_window() {
     /// Long for a title, and far shorter than these loops take: millions of steps of a chain.
     const SOON: Duration = Duration::from_secs(3);
-    let test = "loops_that_take_long_to_run_do_not_hold_up_the_window";
+    let test = "slow_loops_do_not_block_the_window";
     let folder = tempfile::TempDir::new().unwrap();
     let scene = folder.path().join("long.toml");
     let chain = std::fs::read_to_string("assets/scenes/chain.toml").unwrap();

@@ -1,4 +1,4 @@
-//! Starting, ending, and what happens while nobody looks.
+//! Starting, ending, and running while nobody looks.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -30,8 +30,8 @@ fn a_window_opens_under_vulkan_and_under_gl() {
 }
 
 #[test]
-fn it_ends_when_its_seconds_are_over_or_its_window_is_closed() {
-    let test = "it_ends_when_its_seconds_are_over_or_its_window_is_closed";
+fn the_program_ends_after_its_seconds_or_with_its_window() {
+    let test = "the_program_ends_after_its_seconds_or_with_its_window";
     let Some(desk) = Desk::open(test, "--scene spring --seconds 1") else { return };
     desk.ends();
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
@@ -44,8 +44,8 @@ fn it_ends_when_its_seconds_are_over_or_its_window_is_closed() {
 }
 
 #[test]
-fn a_request_to_end_is_heeded_while_nothing_reads_the_recording_of_a_closed_window() {
-    let test = "a_request_to_end_is_heeded_while_nothing_reads_the_recording_of_a_closed_window";
+fn a_signal_ends_the_program_while_nothing_reads_its_recording() {
+    let test = "a_signal_ends_the_program_while_nothing_reads_its_recording";
     let folder = tempfile::tempdir().unwrap();
     let pipe = folder.path().join("pipe");
     if !Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()) {
@@ -70,8 +70,8 @@ fn a_request_to_end_is_heeded_while_nothing_reads_the_recording_of_a_closed_wind
 }
 
 #[test]
-fn without_an_adapter_it_says_so_and_ends_within_two_seconds() {
-    let test = "without_an_adapter_it_says_so_and_ends_within_two_seconds";
+fn without_an_adapter_the_program_ends_quickly_with_a_message() {
+    let test = "without_an_adapter_the_program_ends_quickly_with_a_message";
     let Some(display) = Display::open(test) else { return };
     let start = Instant::now();
     let mut program = display.start("", &[("WGPU_BACKEND", "metal")]);
@@ -85,8 +85,8 @@ fn without_an_adapter_it_says_so_and_ends_within_two_seconds() {
 }
 
 #[test]
-fn a_window_that_is_not_mapped_goes_on_in_real_time() {
-    let test = "a_window_that_is_not_mapped_goes_on_in_real_time";
+fn an_unmapped_window_runs_on_in_real_time() {
+    let test = "an_unmapped_window_runs_on_in_real_time";
     let Some(desk) = Desk::open(test, "--tick-hz 2 --seconds 3") else { return };
     let start = Instant::now();
     desk.xdotool("windowunmap WINDOW");
@@ -108,12 +108,12 @@ fn tells_of_dropped_ticks(picture: &RgbaImage) -> bool {
 }
 
 #[test]
-fn a_covered_window_goes_on_in_real_time_and_draws_nothing() {
-    let test = "a_covered_window_goes_on_in_real_time_and_draws_nothing";
+fn a_covered_window_runs_on_in_real_time_and_draws_nothing() {
+    let test = "a_covered_window_runs_on_in_real_time_and_draws_nothing";
     let Some(desk) = Desk::open(test, "--scene spring --tick-hz 2") else { return };
     desk.press(TO_LOOP);
     let cover = desk.cover();
-    // What was dropped so far, on a busy machine, is forgotten.
+    // Forget the ticks dropped so far on a busy machine.
     let start = Instant::now();
     desk.press("Home 1");
     desk.titled("Regatta - spring - Explicit Euler - 2 Hz");
@@ -131,8 +131,8 @@ fn a_covered_window_goes_on_in_real_time_and_draws_nothing() {
 }
 
 #[test]
-fn a_hitch_drops_ticks_and_says_so_and_a_pause_is_none() {
-    let test = "a_hitch_drops_ticks_and_says_so_and_a_pause_is_none";
+fn a_hitch_drops_ticks_with_a_notice_and_a_pause_does_not() {
+    let test = "a_hitch_drops_ticks_with_a_notice_and_a_pause_does_not";
     // Ticks so long that a busy machine's own hitches hide in one of them.
     let Some(desk) = Desk::open(test, "--scene spring --tick-hz 2") else { return };
     desk.press(TO_LOOP);
@@ -162,8 +162,8 @@ fn a_paused_window_leaves_the_machine_alone() {
 }
 
 #[test]
-fn the_scene_that_was_open_last_opens_again_unless_another_is_asked_for() {
-    let test = "the_scene_that_was_open_last_opens_again_unless_another_is_asked_for";
+fn the_last_open_scene_reopens_unless_another_is_given() {
+    let test = "the_last_open_scene_reopens_unless_another_is_given";
     let config = tempfile::tempdir().unwrap();
     let variables = [("XDG_CONFIG_HOME", config.path().to_str().unwrap())];
     let Some(desk) = Desk::open_with(test, "", &variables) else { return };
@@ -195,8 +195,8 @@ fn the_scene_that_was_open_last_opens_again_unless_another_is_asked_for() {
 }
 
 #[test]
-fn a_first_start_shows_the_stage_alone_and_the_window_remembers_whether_instruments_are_round_it() {
-    let test = "a_first_start_shows_the_stage_alone_and_the_window_remembers_whether_instruments_are_round_it";
+fn the_window_first_shows_the_stage_alone_and_remembers_the_instruments() {
+    let test = "the_window_first_shows_the_stage_alone_and_remembers_the_instruments";
     let config = tempfile::tempdir().unwrap();
     let variables = [("XDG_CONFIG_HOME", config.path().to_str().unwrap())];
     for (measures, is_by_key) in [(false, true), (true, true), (false, false)] {
@@ -219,19 +219,19 @@ fn a_first_start_shows_the_stage_alone_and_the_window_remembers_whether_instrume
 }
 
 #[test]
-fn a_killed_program_leaves_its_recording_and_the_next_start_says_where() {
-    let test = "a_killed_program_leaves_its_recording_and_the_next_start_says_where";
+fn a_killed_program_leaves_its_recording_for_the_next_start_to_report() {
+    let test = "a_killed_program_leaves_its_recording_for_the_next_start_to_report";
     let Some(desk) = Desk::open(test, "--scene spring --record run.toml") else { return };
     desk.press("2");
     desk.press("space");
     let file = desk.folder().join("run.unfinished.toml");
     let is_kept = || std::fs::read_to_string(&file).is_ok_and(|text| text.contains("[[command]]"));
-    // Paused, too, what was done last is kept.
+    // The last action is saved even while paused.
     until("the recording", || is_kept().then_some(()));
     let settings = desk.folder().join("config/regatta");
     let notes = || settings.join(".unfinished-notes").read_dir().unwrap().count();
     assert_eq!(notes(), 1);
-    // A person keeps recordings beside the settings.
+    // A person's recordings in the folder of the settings.
     let kept = [("run.toml", "mine"), (".tmpaB3dE6", "/home/me/recordings/run.toml")];
     std::fs::create_dir(settings.join("recordings")).unwrap();
     for (name, text) in kept {
@@ -247,7 +247,7 @@ fn a_killed_program_leaves_its_recording_and_the_next_start_says_where() {
     let said = again.said();
     let told = said.lines().next().unwrap_or_default();
     assert!(told.starts_with("a recording was not finished when its window ended"), "{said}");
-    assert!(told.ends_with("/run.unfinished.toml"), "{said}");
+    assert!(told.ends_with("/run.unfinished.toml has it so far"), "{said}");
     assert!(said.contains("recorded 6 ticks in run.toml"), "{said}");
     let mut once = display.start("--scene spring --seconds 0.1", &[]);
     until("the end", || once.ended());

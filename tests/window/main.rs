@@ -2,7 +2,7 @@
 //! and exit code out.
 #![cfg(all(feature = "desktop", target_os = "linux"))]
 
-// By its name the first to run: it takes longest, and the others run beside it.
+// Its name sorts first: it takes longest, and the others run at the same time.
 mod at_random;
 mod clipboard;
 mod copying;

@@ -13,8 +13,8 @@ fn open_scene_menu(desk: &Desk, scale: u32) {
 }
 
 #[test]
-fn panels_are_worked_by_the_mouse_at_every_scale() {
-    let test = "panels_are_worked_by_the_mouse_at_every_scale";
+fn the_mouse_works_the_panels_at_every_scale() {
+    let test = "the_mouse_works_the_panels_at_every_scale";
     // In points. Small, since a press that lasts long in slow frames makes no click.
     let (width, height) = (640, 360);
     // The second of the methods above the footer, where there is room for the name of the chosen one alone.
@@ -36,8 +36,8 @@ fn panels_are_worked_by_the_mouse_at_every_scale() {
         desk.press("space");
         desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz (paused)");
         open_scene_menu(&desk, scale);
-        // The third scene, below one's own spring, the comparison and the name of its group: so long a list begins at the top of
-        // so low a window.
+        // The third scene, below the own spring, the comparison and the name of its group: so long a list starts at the
+        // top of so low a window.
         click(50, 137);
         desk.titled("Regatta - ship - Explicit Euler - 2 Hz (paused)");
         desk.quit();
@@ -57,8 +57,8 @@ fn escape_closes_an_open_menu_before_it_ends_the_program() {
 }
 
 #[test]
-fn a_widget_with_the_focus_takes_space_and_escape_gives_it_back() {
-    let test = "a_widget_with_the_focus_takes_space_and_escape_gives_it_back";
+fn a_focused_widget_takes_space_until_escape_releases_it() {
+    let test = "a_focused_widget_takes_space_until_escape_releases_it";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("space");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");

@@ -25,8 +25,8 @@ fn type_path(desk: &Desk, path: &Path) {
 }
 
 #[test]
-fn a_path_is_typed_and_its_scene_stays_on_the_list() {
-    let test = "a_path_is_typed_and_its_scene_stays_on_the_list";
+fn a_typed_path_opens_its_scene_and_keeps_it_on_the_list() {
+    let test = "a_typed_path_opens_its_scene_and_keeps_it_on_the_list";
     let (_folder, path) = file("ship.toml", text("ship"));
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     type_path(&desk, &path);
@@ -55,8 +55,8 @@ fn a_path_is_completed_by_tab() {
 }
 
 #[test]
-fn a_path_without_a_scene_is_told_and_the_run_goes_on() {
-    let test = "a_path_without_a_scene_is_told_and_the_run_goes_on";
+fn a_path_without_a_scene_is_reported_and_the_run_continues() {
+    let test = "a_path_without_a_scene_is_reported_and_the_run_continues";
     let (folder, _) = file("other.toml", text("ship"));
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("space");
@@ -86,8 +86,8 @@ fn a_path_without_a_scene_is_told_and_the_run_goes_on() {
 }
 
 #[test]
-fn a_file_that_is_deleted_is_told_and_one_that_is_back_is_read_again() {
-    let test = "a_file_that_is_deleted_is_told_and_one_that_is_back_is_read_again";
+fn a_deleted_file_is_reported_and_a_restored_one_is_reread() {
+    let test = "a_deleted_file_is_reported_and_a_restored_one_is_reread";
     let before = text("spring");
     let (_folder, path) = file("mine.toml", before);
     let Some(desk) = Desk::open(test, &format!("--scene {}", path.display())) else { return };
@@ -117,8 +117,8 @@ fn a_file_that_is_deleted_is_told_and_one_that_is_back_is_read_again() {
 }
 
 #[test]
-fn a_file_that_changes_on_disk_is_run_again_and_one_that_breaks_is_not() {
-    let test = "a_file_that_changes_on_disk_is_run_again_and_one_that_breaks_is_not";
+fn a_file_changed_on_disk_is_rerun_unless_it_is_broken() {
+    let test = "a_file_changed_on_disk_is_rerun_unless_it_is_broken";
     let before = text("spring");
     let (folder, path) = file("mine.toml", before);
     let Some(desk) = Desk::open(test, &format!("--scene {}", path.display())) else { return };

@@ -27,7 +27,7 @@ impl Program {
             .current_dir(folder)
             // Where it is unset, libwayland says so on standard error.
             .env("XDG_RUNTIME_DIR", folder)
-            // What the window remembers is not the user's.
+            // The window remembers its own settings here, not the user's.
             .env("XDG_CONFIG_HOME", folder.join("config"))
             .envs(variables.iter().copied())
             .stdin(Stdio::null())
@@ -35,7 +35,7 @@ impl Program {
         Self(command.spawn().unwrap())
     }
 
-    /// Waits for a line with this text on standard error; without one, returns all that it said.
+    /// Waits for a line with this text on standard error. Without one, returns everything that it read.
     pub(crate) fn says(&mut self, text: &str) -> Result<(), String> {
         let mut said = String::new();
         let mut stderr = BufReader::new(self.0.stderr.as_mut().expect("it is piped"));
@@ -52,7 +52,7 @@ impl Program {
         self.0.try_wait().unwrap()
     }
 
-    /// What it said on standard error until its end.
+    /// Everything on standard error until the end of the program.
     pub(crate) fn said(&mut self) -> String {
         let mut said = String::new();
         self.0.stderr.take().unwrap().read_to_string(&mut said).unwrap();
@@ -64,7 +64,7 @@ impl Program {
         // The name, in brackets, may hold spaces.
         let (_, fields) = stat.rsplit_once(") ").unwrap();
         let ticks = fields.split(' ').skip(11).take(2).map(|field| field.parse::<u64>().unwrap());
-        // Linux shows a hundred of them a second, whatever the kernel counts in.
+        // Linux reports a hundred of them per second, independent of the kernel's own rate.
         Duration::from_millis(10 * ticks.sum::<u64>())
     }
 
@@ -84,7 +84,7 @@ impl Program {
         })
     }
 
-    /// Has it stand still for so long, as on a busy machine.
+    /// Stops the program for `span`, like a busy machine does.
     pub(crate) fn stop_for(&self, span: Duration) {
         stop_for(&self.0, span);
     }

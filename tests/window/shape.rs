@@ -1,12 +1,12 @@
-//! The window's size, and what is on it.
+//! The window's size, and its content.
 
 use std::collections::HashSet;
 
 use crate::desk::Desk;
 
 #[test]
-fn the_window_shows_what_a_screenshot_saves_at_every_scale() {
-    let test = "the_window_shows_what_a_screenshot_saves_at_every_scale";
+fn window_and_screenshot_agree_at_every_scale() {
+    let test = "window_and_screenshot_agree_at_every_scale";
     // The screen of 1500 pixels has no room for 1440 and the bars of a desktop.
     for (scale, height) in [(1, 720), (2, 1340)] {
         let factor = scale.to_string();
@@ -24,8 +24,8 @@ fn the_window_shows_what_a_screenshot_saves_at_every_scale() {
 }
 
 #[test]
-fn a_window_of_one_pixel_and_back_goes_on() {
-    let test = "a_window_of_one_pixel_and_back_goes_on";
+fn the_window_survives_shrinking_to_one_pixel_and_back() {
+    let test = "the_window_survives_shrinking_to_one_pixel_and_back";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     for (key, [width, height], method) in [
         ("1", [1, 1], "Explicit Euler"),
@@ -44,8 +44,8 @@ fn a_window_of_one_pixel_and_back_goes_on() {
 }
 
 #[test]
-fn full_screen_and_back_goes_on() {
-    let test = "full_screen_and_back_goes_on";
+fn the_window_survives_full_screen_and_back() {
+    let test = "the_window_survives_full_screen_and_back";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("F11 1 F11 space");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");

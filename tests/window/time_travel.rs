@@ -1,4 +1,4 @@
-//! Going back and forth in a run, as the title tells.
+//! Going back and forth in a run, checked by the title.
 
 use image::RgbaImage;
 
@@ -9,7 +9,7 @@ const TRACK_Y: u32 = 576;
 
 const PAUSED: &str = "Regatta - spring - Explicit Euler - 60 Hz (paused)";
 
-/// The spring of `test`, paused at least two seconds after its start, and the tick it stands at.
+/// The spring of `test`, paused at least two seconds after its start, and its tick.
 fn paused(test: &str) -> Option<(Desk, u64)> {
     let desk = Desk::open(test, "--scene spring")?;
     desk.press("space");
@@ -20,8 +20,8 @@ fn paused(test: &str) -> Option<(Desk, u64)> {
 }
 
 #[test]
-fn a_paused_window_goes_ticks_and_seconds_back_and_forth() {
-    let test = "a_paused_window_goes_ticks_and_seconds_back_and_forth";
+fn a_paused_window_steps_ticks_and_seconds_back_and_forth() {
+    let test = "a_paused_window_steps_ticks_and_seconds_back_and_forth";
     let Some((desk, tick)) = paused(test) else { return };
     for (key, to) in [
         ("period", tick + 1),
@@ -43,8 +43,8 @@ fn a_paused_window_goes_ticks_and_seconds_back_and_forth() {
 }
 
 #[test]
-fn control_z_brings_back_the_future_that_an_action_in_the_past_discarded() {
-    let test = "control_z_brings_back_the_future_that_an_action_in_the_past_discarded";
+fn control_z_restores_the_future_discarded_by_an_action_in_the_past() {
+    let test = "control_z_restores_the_future_discarded_by_an_action_in_the_past";
     let Some((desk, tick)) = paused(test) else { return };
     desk.press("shift+comma");
     desk.at_tick(tick - 60);
@@ -71,7 +71,7 @@ fn a_mark_on_the_timeline_has_a_tooltip_with_a_line_for_each_action() {
     desk.press("bracketleft");
     desk.press("shift+period");
     until("a second", || (!desk.title().contains("tick 0)")).then_some(()));
-    // Pixels beside the pointer that a tooltip changes, on the stage and the track.
+    // Pixels near the pointer that a tooltip changes, on the stage and the track.
     let told_at = |x: u32| {
         desk.xdotool("mousemove --window WINDOW 600 300");
         desk.still();
@@ -94,8 +94,8 @@ fn changed(before: &RgbaImage, after: &RgbaImage, x: u32) -> usize {
 }
 
 #[test]
-fn a_drag_along_the_timeline_goes_to_the_tick_under_the_mouse() {
-    let test = "a_drag_along_the_timeline_goes_to_the_tick_under_the_mouse";
+fn a_drag_along_the_timeline_seeks_to_the_tick_under_the_mouse() {
+    let test = "a_drag_along_the_timeline_seeks_to_the_tick_under_the_mouse";
     let Some((desk, tick)) = paused(test) else { return };
     let at = |x: u32| desk.xdotool(&format!("mousemove --window WINDOW {x} {TRACK_Y}"));
     at(32);

@@ -23,7 +23,7 @@ fn ship(sight: &RgbaImage) -> Option<[u32; 2]> {
     Some(patch(sight, HATCH.0, HATCH.1)?.0)
 }
 
-/// The middle of what has this colour in a square of this half side, and how many pixels are in the middle of one.
+/// The middle of the pixels of this colour in a square of this half side, and the number of such pixels.
 fn patch(sight: &RgbaImage, colour: [u8; 4], half: u32) -> Option<([u32; 2], usize)> {
     let is_own = |x, y| {
         let pixel = sight.get_pixel(x, y);
@@ -49,7 +49,7 @@ fn patch(sight: &RgbaImage, colour: [u8; 4], half: u32) -> Option<([u32; 2], usi
     Some(([middle(|at| at.0)?, middle(|at| at.1)?], inside.len()))
 }
 
-/// Waits for the body to be here, but for the line that joins it to the hand.
+/// Waits for the body to be here, apart from the line that joins it to the hand.
 #[track_caller]
 fn body_at(desk: &Desk, [x, y]: [u32; 2]) {
     until("the body", || {
@@ -79,8 +79,8 @@ fn drag(desk: &Desk, [x, y]: [u32; 2], to: [u32; 2]) {
 }
 
 #[test]
-fn a_mass_is_dragged_and_put_down_with_shift_and_escape_puts_it_back() {
-    let test = "a_mass_is_dragged_and_put_down_with_shift_and_escape_puts_it_back";
+fn a_dragged_mass_is_placed_with_shift_and_escape_cancels() {
+    let test = "a_dragged_mass_is_placed_with_shift_and_escape_cancels";
     let Some((desk, [x, y])) = paused(test) else { return };
     let title = desk.title();
     let to = [if x > 400 { x - 90 } else { x + 90 }, y];
@@ -95,7 +95,8 @@ fn a_mass_is_dragged_and_put_down_with_shift_and_escape_puts_it_back() {
     desk.xdotool("keydown shift mouseup 1 keyup shift");
     body_at(&desk, to);
     assert_eq!(desk.title(), title, "no time went by");
-    // It is done at this tick: gone back to, the tick shows what it came to, and goes on from where the mass was put.
+    // The placement belongs to this tick: after going back, the tick shows its outcome and continues from the placed
+    // mass.
     desk.press("comma period");
     body_at(&desk, [x, y]);
     desk.press("period");
@@ -106,8 +107,8 @@ fn a_mass_is_dragged_and_put_down_with_shift_and_escape_puts_it_back() {
 }
 
 #[test]
-fn a_mass_that_is_let_go_keeps_the_velocity_of_the_drag_but_with_shift() {
-    let test = "a_mass_that_is_let_go_keeps_the_velocity_of_the_drag_but_with_shift";
+fn a_released_mass_keeps_the_velocity_of_the_drag_except_with_shift() {
+    let test = "a_released_mass_keeps_the_velocity_of_the_drag_except_with_shift";
     let Some((desk, [x, y])) = paused(test) else { return };
     let away = if x > 400 { -1 } else { 1 };
     let to = [x.strict_add_signed(90 * away), y];
@@ -138,8 +139,8 @@ fn a_mass_that_is_let_go_keeps_the_velocity_of_the_drag_but_with_shift() {
 }
 
 #[test]
-fn time_stands_still_while_a_body_is_held() {
-    let test = "time_stands_still_while_a_body_is_held";
+fn time_stops_while_a_body_is_held() {
+    let test = "time_stops_while_a_body_is_held";
     let Some(desk) = Desk::open(test, "--scene ship --method rk4 --tick-hz 60") else { return };
     // The camera follows it: it stays in its place.
     let at = until("a ship", || ship(&desk.sight()));

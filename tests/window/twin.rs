@@ -1,4 +1,4 @@
-//! The same panels beside the window's: they tell where a widget is, and what the mouse on it asks for.
+//! A copy of the window's panels that knows the position of each widget and the commands of the mouse on it.
 
 use egui::accesskit::{Action, Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect};
@@ -10,10 +10,10 @@ use crate::desk::Desk;
 
 /// The size at which a window opens.
 const SIZE_PX: [u32; 2] = [1280, 720];
-/// On the stage, beside all bodies: what is under the pointer is lit.
+/// On the stage, away from all bodies: a widget under the pointer lights up.
 const ASIDE: Pos2 = Pos2::new(40.0, 300.0);
 
-/// A studio and its panels, which are given what the window is given.
+/// A studio and its panels with the window's inputs.
 pub(crate) struct Twin {
     pub(crate) studio: Studio,
     gpu: Gpu,
@@ -25,7 +25,7 @@ pub(crate) struct Twin {
 
 impl Twin {
     pub(crate) fn new(mut studio: Studio) -> Self {
-        // As in a window: it tells of the memory for rewinding.
+        // As in a window, which shows the memory for rewinding.
         studio.viewer.pace = Some(Pace::Unknown);
         let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
             .expect("the window has an adapter too");
@@ -35,7 +35,7 @@ impl Twin {
         Self { studio, gpu, target, renderer, nodes: Vec::new() }
     }
 
-    /// Shows a frame with this event, and applies what it asks for.
+    /// Shows a frame with this event, and applies its commands.
     fn frame(&mut self, event: Option<Event>) -> FrameOutput {
         let events = event.into_iter().collect();
         let input = RawInput { events, focused: true, ..RawInput::default() };
@@ -63,7 +63,7 @@ impl Twin {
         (0..3).for_each(|_| drop(self.frame(None)));
     }
 
-    /// Where the widget is whose name, or value, begins so, of those that `is_meant`.
+    /// The rectangle of the widget whose name or value starts with `name`, among those that `is_meant` accepts.
     #[track_caller]
     fn find(&mut self, name: &str, is_meant: impl Fn(&Node) -> bool) -> Rect {
         self.settle();
@@ -178,7 +178,7 @@ impl Twin {
         self.show([Event::PointerMoved(ASIDE)]);
     }
 
-    /// Waits for the window to show what is shown here, without notices, which leave.
+    /// Waits for the window to match this twin, apart from notices, which disappear.
     #[track_caller]
     pub(crate) fn looks_alike(&mut self, desk: &Desk) {
         self.move_aside(desk);

@@ -1,4 +1,4 @@
-//! Wayland, as far as it can be seen without keys: a compositor that asks for no more frames.
+//! Wayland without keys: a compositor that asks for no more frames.
 
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -40,8 +40,8 @@ impl Drop for Compositor {
 }
 
 #[test]
-fn a_window_that_wayland_asks_no_frames_of_drops_no_ticks() {
-    let test = "a_window_that_wayland_asks_no_frames_of_drops_no_ticks";
+fn a_wayland_window_without_frame_requests_drops_no_ticks() {
+    let test = "a_wayland_window_without_frame_requests_drops_no_ticks";
     let Some(compositor) = Compositor::open(test) else { return };
     let variables = [("WAYLAND_DISPLAY", "sea"), ("RUST_LOG", "regatta=info")];
     let folder = compositor.folder.path();

@@ -13,7 +13,7 @@ pub(crate) fn paused(test: &str, scene: &str) -> Option<(Desk, Twin)> {
     paused_with(test, scene, &[], true)
 }
 
-/// The same with environment variables set, where instruments stand round the stage or do not.
+/// The same with environment variables set, with or without instruments round the stage.
 pub(crate) fn paused_with(
     test: &str,
     scene: &str,
@@ -34,8 +34,8 @@ pub(crate) fn paused_with(
     Some((desk, twin))
 }
 
-/// Waits for window and twin to look alike, and compares what their recordings end with: the last command and the state.
-/// What a drag passes over in one frame is in no recording, and frames differ.
+/// Waits for window and twin to look alike, and compares the ends of their recordings: the last command and the
+/// state. Positions between the frames of a drag are not recorded, and frames differ.
 #[track_caller]
 fn same(desk: &Desk, twin: &mut Twin) {
     twin.looks_alike(desk);
@@ -45,8 +45,8 @@ fn same(desk: &Desk, twin: &mut Twin) {
 }
 
 #[test]
-fn the_menus_and_buttons_above_and_below_and_the_table_are_worked_by_the_mouse() {
-    let test = "the_menus_and_buttons_above_and_below_and_the_table_are_worked_by_the_mouse";
+fn the_mouse_works_the_menus_buttons_and_table() {
+    let test = "the_mouse_works_the_menus_buttons_and_table";
     let Some((desk, mut twin)) = paused(test, "ship") else { return };
     for name in [
         "ship",
@@ -82,8 +82,8 @@ fn the_menus_and_buttons_above_and_below_and_the_table_are_worked_by_the_mouse()
 }
 
 #[test]
-fn the_instruments_and_the_inspector_are_worked_by_the_mouse() {
-    let test = "the_instruments_and_the_inspector_are_worked_by_the_mouse";
+fn the_mouse_works_the_instruments_and_the_inspector() {
+    let test = "the_mouse_works_the_instruments_and_the_inspector";
     let Some((desk, mut twin)) = paused(test, "spring") else { return };
     for card in INSTRUMENTS {
         // Where not all tabs fit, another group has its name alone.
@@ -112,8 +112,8 @@ fn the_instruments_and_the_inspector_are_worked_by_the_mouse() {
 }
 
 #[test]
-fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
-    let test = "the_guide_and_the_timeline_are_worked_by_the_mouse";
+fn the_mouse_works_the_guide_and_the_timeline() {
+    let test = "the_mouse_works_the_guide_and_the_timeline";
     let Some((desk, mut twin)) = paused(test, "spring") else { return };
     desk.press("shift+period shift+period");
     (0..2).for_each(|_| twin.apply(StageCommand::Second(Step::Next)));
@@ -146,8 +146,8 @@ fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
 }
 
 #[test]
-fn a_drag_of_the_cross_on_the_stability_map_sets_the_tick_rate_and_the_parameter() {
-    let test = "a_drag_of_the_cross_on_the_stability_map_sets_the_tick_rate_and_the_parameter";
+fn dragging_the_cross_of_the_stability_map_sets_rate_and_parameter() {
+    let test = "dragging_the_cross_of_the_stability_map_sets_rate_and_parameter";
     let Some((desk, mut twin)) = paused(test, "spring") else { return };
     let values = twin.studio.race().values(0).to_vec();
     twin.click(&desk, InstrumentGroup::Why.name());
@@ -169,8 +169,8 @@ fn a_drag_of_the_cross_on_the_stability_map_sets_the_tick_rate_and_the_parameter
 }
 
 #[test]
-fn a_spring_of_ones_own_is_typed_advised_on_and_kept_for_the_next_time() {
-    let test = "a_spring_of_ones_own_is_typed_advised_on_and_kept_for_the_next_time";
+fn a_typed_spring_is_advised_on_and_remembered() {
+    let test = "a_typed_spring_is_advised_on_and_remembered";
     let Some((desk, mut twin)) = paused(test, "ship") else { return };
     twin.click(&desk, "a spring of your own");
     twin.enter(&desk, "stiffness", "50");
@@ -194,7 +194,7 @@ fn a_spring_of_ones_own_is_typed_advised_on_and_kept_for_the_next_time() {
     ] {
         assert!(told.contains(&line), "no {line} in {told}");
     }
-    // By keys alone: the first number has the focus, and Enter after the last goes on.
+    // By keys alone: the first number has the focus, and Enter after the last accepts.
     desk.press("space");
     for key in ["s", "3", "Return", "Return"] {
         desk.still();

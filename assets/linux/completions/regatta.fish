@@ -128,7 +128,7 @@ complete -c regatta -n "__fish_regatta_needs_command" -f -a "cloud" -d 'Step a c
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "loop" -d 'Measure what game loops do to motion on a display'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "identify" -d 'Say which engine or method made a log of a motion'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "port" -d 'Print settings that make a spring move the same in every engine'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "rule" -d 'Say what your own lines do at every frame rate'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "rule" -d 'Show how your own lines move at every frame rate'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "show" -d 'Print a method or a game loop as code for your game'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "fixture" -d 'Write exact states as a test for your own engine'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "diff" -d 'Say where two runs first differ'
@@ -136,7 +136,7 @@ complete -c regatta -n "__fish_regatta_needs_command" -f -a "link" -d 'Print a r
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "chapter" -d 'Print the chapter\'s tables, and draw its Figures 7-2 to 7-8'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "list" -d 'List scenes, methods, bodies, metrics, policies, traces or keys'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "completions" -d 'Print a completion script for a shell'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "help" -d 'Print this help, that of a command, or a chapter of the manual'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "help" -d 'Print this help, help on a command, or a chapter of the manual'
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
 spring\t''
 ship\t''
@@ -340,15 +340,15 @@ disc\t''
 ring\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l mark-every -d 'Ticks between two states in the manifest' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l format -d 'The format: png, gif, y4m or sheet' -r -f -a "png\t'Numbered pictures and a manifest in a directory'
-gif\t'One GIF, each frame with a palette of its own'
+gif\t'One GIF, each frame with its own palette'
 y4m\t'YUV4MPEG2, for a video encoder'
 sheet\t'One picture, time across, lanes down'"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l race -d 'Race all methods of the scene at once'
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l section -d 'In the instrument cloud a section after Poincaré'
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l section -d 'Show a Poincaré section in the instrument cloud'
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l force -d 'Replace the frames in DIR, or FILE'
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l report -d 'Also write the result to FILE, as junit or json' -r
-complete -c regatta -n "__fish_regatta_using_subcommand verify" -l diff -d 'Draw the difference of each such frame into DIR' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand verify" -l diff -d 'Draw the difference of each changed frame into DIR' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l max-channel -d 'The largest allowed difference of a channel, 0 to 255' -r
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l max-pixels -d 'The largest allowed percentage of pixels off by more than 1' -r
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l physics-only -d 'Judge only the physics; needs no graphics'
@@ -528,7 +528,7 @@ engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l step -d 'The length of a tick, in place of --tick-hz' -r
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge the methods of this family' -r -f -a "explicit\t''
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge only the methods of this family' -r -f -a "explicit\t''
 symplectic\t''
 adaptive\t''
 implicit\t''
@@ -542,7 +542,7 @@ csharp\t''
 gdscript\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l rates -d 'Also search the slowest tick rates'
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l rates -d 'Also find the slowest tick rates'
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l all -d 'Print all tables'
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l scene -d 'A scene, or several [default: all built-in ones]' -r -f -a "harbour\t''
@@ -636,7 +636,7 @@ json\t'An array of objects with the same names'"
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l threads -d 'Threads, 1 to 256 [default: one for each core]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l out -d 'The file of the rows, or - for standard output' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l plot -d 'Draw work-precision diagrams as PNG into FILE' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l round-off -d 'In the picture the round-off of f32 and f64 too'
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l round-off -d 'Also draw the round-off of f32 and f64'
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l force -d 'Replace the files that are there'
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
@@ -844,12 +844,12 @@ engine-godot\t''
 engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l seconds -d 'Seconds of real time of each run' -r
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l latency-ms -d 'The most mean latency of what is advised' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l latency-ms -d 'The most mean latency that the advised loop may have' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l format -d 'How to write the rows: csv or json' -r -f -a "csv\t'Comma-separated values under a header'
 json\t'An array of objects with the same names'"
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l out -d 'The file of the rows, or - for standard output' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l frame-rows -d 'Write a line of CSV for each frame into FILE' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l plot -d 'Draw what each loop shows as PNG into FILE' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l plot -d 'Draw the motion of each loop as PNG into FILE' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l all -d 'Compare all policies'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l force -d 'Replace the files that are there'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -s h -l help -d 'Print help (see more with \'--help\')'
@@ -869,8 +869,8 @@ complete -c regatta -n "__fish_regatta_using_subcommand identify" -l v-column -d
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l frequency -d 'The frequency that a player is to see' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l damping-ratio -d 'The damping ratio to be seen [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l frequency -d 'The frequency that a player should see' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l damping-ratio -d 'The damping ratio that a player should see [default: 0]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l from -d 'The settings of an engine or a user interface, a log, or a chase' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l mass -d 'The mass on the spring in kg' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-hz -d 'Ticks per second of the engines and of a log, frames per second of user interfaces' -r
@@ -909,7 +909,7 @@ slint-duration\t''
 gpui\t''
 unity-smooth-damp\t''
 per-frame\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l decimation -d 'The ticks through which a drive of user code holds its force' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l decimation -d 'How many ticks a drive in user code holds its force' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l k -d 'The stiffness of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l c -d 'The damping of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l drag -d 'The damping setting of the body' -r
@@ -932,13 +932,14 @@ gdscript\t''
 cpp\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
+complete -c regatta -n "__fish_regatta_using_subcommand rule" -l scene -d 'Print a scene instead, which races the lines at half, once and twice that rate'
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand show" -l as -d 'The language: rust, c, cpp, csharp or gdscript' -r -f -a "rust\t''
 c\t''
 csharp\t''
 gdscript\t''
 cpp\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand show" -l float -d 'Numbers of single precision, as Unity and Godot have them'
+complete -c regatta -n "__fish_regatta_using_subcommand show" -l float -d 'Use single precision, as Unity and Godot do'
 complete -c regatta -n "__fish_regatta_using_subcommand show" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
 spring\t''
@@ -1030,11 +1031,11 @@ complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l as -d 'What 
 gtest\t''
 rust\t''
 json\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l float -d 'Numbers of single precision, as Unity and Godot have them'
+complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l float -d 'Use single precision, as Unity and Godot do'
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c regatta -n "__fish_regatta_using_subcommand diff" -l ulps -d 'Numbers with at most N doubles from one to the other are equal' -r
-complete -c regatta -n "__fish_regatta_using_subcommand diff" -l relative -d 'Numbers that differ by at most this part of the larger are equal' -r
-complete -c regatta -n "__fish_regatta_using_subcommand diff" -l key -d 'The columns by which rows belong together [default: tick,lane,body,coordinate]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l ulps -d 'Numbers at most N doubles apart are equal' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l relative -d 'Numbers that differ by at most this fraction of the larger are equal' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l key -d 'The columns that match rows [default: tick,lane,body,coordinate]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l tick-column -d 'The column that counts ticks [default: tick]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l columns -d 'Compare these columns only' -r
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l ignore -d 'Do not compare these columns' -r

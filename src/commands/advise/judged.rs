@@ -148,7 +148,7 @@ pub(super) fn warn_of_load(rows: &[Row]) {
         && middle > NOISE
     {
         print_status(&format!(
-            "warning: the machine is busy: costs in ns vary by {} % from run to run; what is recommended does not",
+            "warning: the machine is busy: costs in ns vary by {} % from run to run; the recommendation does not",
             significant(100.0 * middle, 2)
         ));
     }

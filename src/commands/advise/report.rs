@@ -41,7 +41,7 @@ pub(super) fn best(rows: &[Row]) -> String {
         false => String::new(),
     };
     let mut text = format!(
-        "\n{}\n{which}Below a criterion stand the substeps, and the cost per simulated second. --all has more.\n",
+        "\n{}\n{which}Under each criterion: substeps, and cost per simulated second. --all shows more.\n",
         table::text(BEST, best.iter().copied(), "")
     );
     if best.iter().any(|row| row.rates.is_some()) {
@@ -119,7 +119,7 @@ fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
 /// Why no method is recommended for a criterion.
 fn why_none(scene: &Scene, rows: &[Row], criterion: usize) -> String {
     if rows.iter().any(|row| row.advised.met[criterion] != CriterionResult::No) {
-        return "unknown for those that might: there is no exact motion to compare with, or it takes too much work".into();
+        return "not known: no exact motion to compare with, or too much work".into();
     }
     let bodies = match &scene.bodies[..] {
         [body] => body.name.clone(),

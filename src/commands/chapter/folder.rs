@@ -108,7 +108,7 @@ mod tests {
     use crate::view::png;
 
     #[test]
-    fn what_a_killed_run_left_makes_way_and_what_only_looks_like_it_does_not() {
+    fn only_leftovers_of_a_killed_run_are_removed() {
         let folder = tempfile::tempdir().unwrap();
         let picture = png::encode([1, 1], &[0; 4]);
         let csv = figures::csv(&figures::all()[0].figure).unwrap();

@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn what_differs_shows_both() {
+    fn a_differing_number_shows_the_printed_one_too() {
         assert_eq!(marked("9.5", "9.5"), "9.5 ✓");
         assert_eq!(marked("9.5", "9.6"), "9.5 (printed: 9.6)");
     }

@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_blessing_given_up_leaves_the_clip_as_it_was() {
+    fn an_abandoned_blessing_keeps_the_old_clip() {
         let clip = tempfile::tempdir().unwrap();
         write(clip.path(), &FRAMES, "old");
         let before = content(clip.path());
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_swap_stopped_after_any_step_is_carried_to_the_same_end() {
+    fn a_swap_interrupted_at_any_step_can_be_completed() {
         for moved in 0..=FRAMES.len() + 1 {
             let clip = tempfile::tempdir().unwrap();
             write(clip.path(), &FRAMES, "old");

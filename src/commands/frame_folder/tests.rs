@@ -20,7 +20,7 @@ fn names(folder: &Path) -> Vec<OsString> {
 }
 
 #[test]
-fn a_folder_in_use_is_refused_and_left_as_it_is() {
+fn a_folder_in_use_is_refused_untouched() {
     let parent = tempfile::tempdir().unwrap();
     let path = parent.path().join("clip");
     fs::create_dir(&path).unwrap();
@@ -32,7 +32,7 @@ fn a_folder_in_use_is_refused_and_left_as_it_is() {
 }
 
 #[test]
-fn frames_replace_frames_and_nothing_else() {
+fn frames_replace_only_frames() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name);
     for name in ["frame-000000.png", "frame-000001.png", "frame-000001.png.regatta-a1B2c3.part"] {
@@ -56,7 +56,7 @@ fn frames_replace_frames_and_nothing_else() {
 }
 
 #[test]
-fn what_a_killed_capture_left_makes_way_and_what_only_looks_like_it_does_not() {
+fn only_leftovers_of_a_killed_capture_are_removed() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| {
         let path = folder.path().join(name);
@@ -97,7 +97,7 @@ fn what_a_killed_capture_left_makes_way_and_what_only_looks_like_it_does_not() {
 }
 
 #[test]
-fn what_only_has_the_name_of_ours_is_never_touched() {
+fn foreign_files_with_our_names_are_never_touched() {
     for existing in [FolderPolicy::Replace, FolderPolicy::Bless] {
         for (name, bytes) in [
             ("manifest.json", &br#"{"name":"my web app","version":"1"}"#[..]),
@@ -136,7 +136,7 @@ fn a_folder_has_one_writer_at_a_time() {
 }
 
 #[test]
-fn a_folder_filled_while_it_was_waited_for_is_refused() {
+fn a_folder_filled_during_the_wait_is_refused() {
     let parent = tempfile::tempdir().unwrap();
     let path = parent.path().join("clip");
     let [mut first, mut second] = [0, 1].map(|_| inspect(&path, FolderPolicy::Refuse).unwrap());
@@ -172,7 +172,7 @@ fn a_file_in_the_way_is_no_folder() {
 }
 
 #[test]
-fn a_free_folder_is_found_beside_those_in_use() {
+fn a_name_in_use_gets_the_next_free_number() {
     let parent = tempfile::tempdir().unwrap();
     let name = parent.path().join("frames").display().to_string();
     assert_eq!(FrameFolder::beside(&name).unwrap().path(), Path::new(&name));

@@ -47,8 +47,8 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64, limits: FrameLimits) {
     }
     if !first.has_one_clock {
         print_status(
-            "  the log's two clocks have no common origin: latencies here are counted from the least, and in the rows \
-             they are off by a constant",
+            "  the log's two clocks have no common origin: latencies count from the least here, and are off by a \
+             constant in the rows",
         );
     }
     let depends = rows.iter().filter_map(|row| {

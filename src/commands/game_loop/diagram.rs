@@ -29,7 +29,7 @@ pub(super) fn figure(scene: &Scene, rows: &[Measured]) -> Figure {
         rows.chunk_by(|one, other| one.trace == other.trace).collect();
     let left_out = by_trace.len().saturating_sub(MAX_TRACES);
     by_trace.truncate(MAX_TRACES);
-    let what = format!("{:.3} Hz ticks: what each loop shows, and what it costs", scene.tick_hz);
+    let what = format!("{:.3} Hz ticks: each loop's motion and cost", scene.tick_hz);
     let (title, note) = match by_trace[..] {
         [rows] => (format!("{}, {what}", rows[0].trace), note(rows)),
         _ => (what, note_on_several(&by_trace, left_out)),

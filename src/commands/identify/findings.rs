@@ -290,7 +290,7 @@ mod tests {
     use crate::sim::integrators::METHODS;
 
     #[test]
-    fn the_first_line_names_a_joint_before_a_held_force_and_all_whose_map_is_the_same() {
+    fn the_first_line_puts_joints_before_held_forces_and_names_equal_maps() {
         let candidate = |id: &str, substeps, is_held| {
             let method = METHODS.iter().find(|method| method.id == id).expect("a method");
             let spring = if is_held { SpringAs::HeldForce } else { SpringAs::Acceleration };

@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_hold_the_same_in_csv_and_json() {
+    fn csv_and_json_have_the_same_rows() {
         let rows = |format| String::from_utf8(written(vec![], format, COLUMNS, ROWS).unwrap());
         let csv = "name,limit,half\nα,2.0,1.0\nbeta,,\nc,0.12345,0.061725\n";
         assert_eq!(rows(RowFormat::Csv).unwrap(), csv);

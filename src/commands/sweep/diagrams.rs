@@ -124,8 +124,8 @@ fn note(rounded: &[ErrorCurve]) -> String {
         ),
     };
     format!(
-        "Error: the largest of a coordinate or a velocity on the way, as a part of its amplitude, of \
-         the worst body. A point for each tick rate; none where a method is lost.{rounded}"
+        "Error: the largest of a coordinate or a velocity of the worst body, as a fraction of its amplitude. A point \
+         for each tick rate; none if a method is lost.{rounded}"
     )
 }
 
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn the_worst_body_rules_and_all_bodies_cost() {
+    fn the_worst_body_sets_the_error_and_every_body_the_cost() {
         let (swept, rows) = swept("harbour", "rk4", &[30, 60]);
         let figure = figure(&swept, &rows, Vec::new());
         assert_eq!(figure.charts.len(), 1);
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn there_are_about_as_many_rows_of_charts_as_columns() {
+    fn charts_form_a_nearly_square_grid() {
         for (charts, wide) in [(1, 1), (2, 2), (4, 2), (6, 2), (7, 3), (10, 3), (12, 3), (13, 4)] {
             assert_eq!(columns(charts), wide, "{charts} charts");
         }

@@ -219,7 +219,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn of_many_runs_each_is_timed_for_less_time() {
+    fn many_runs_are_timed_more_briefly_each() {
         let micros = [1, 500, 1000, 5000, 1_000_000].map(|runs| effort(runs).as_micros());
         assert_eq!(micros, [1000, 1000, 500, 100, 100]);
     }

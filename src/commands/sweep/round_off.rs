@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn in_f64_these_are_the_methods_themselves_to_the_bit() {
+    fn the_f64_versions_match_the_methods_to_the_bit() {
         let ship = chapters_ship();
         for (id, formula) in FORMULAS {
             for h_log2 in [1, -1, -6] {
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn the_least_error_is_where_theory_says() {
+    fn the_error_is_smallest_where_theory_predicts() {
         for (id, width) in
             [("explicit-euler", Width::Single), ("rk4", Width::Single), ("rk4", Width::Double)]
         {
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn in_f32_finer_steps_are_worse_beyond_the_bottom_and_in_f64_euler_has_none() {
+    fn f32_errors_rise_again_at_fine_steps_but_f64_euler_errors_do_not() {
         for id in ["explicit-euler", "rk4"] {
             let single = curve(id, Width::Single);
             // Between h^-½ for random roundings, and h^-2. The latter comes from roundings that go one way in ever

@@ -60,7 +60,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     if scene_file::text_now(Path::new(&scene.name)).is_some_and(|now| now != scene.text) {
         let name = &scene.name;
         print_status(&format!(
-            "{name} has changed since the capture; the scene as captured is run"
+            "{name} has changed since the capture; verify runs the captured scene"
         ));
     }
     #[cfg(feature = "view")]
@@ -212,7 +212,7 @@ fn read(path: &Path) -> Result<Manifest, String> {
         None => return Err("it does not name its schema; capture again".into()),
     }
     let manifest: Manifest = serde_json::from_slice(&bytes)
-        .map_err(|error| format!("it is not as schema {SCHEMA} has it: {error}; capture again"))?;
+        .map_err(|error| format!("it does not follow schema {SCHEMA}: {error}; capture again"))?;
     settings::check(&manifest)?;
     Ok(manifest)
 }

@@ -205,7 +205,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_pixel_and_one_level_are_seen() {
+    fn a_difference_of_one_level_in_one_pixel_is_detected() {
         let black = vec![0; 4 * 200];
         let mut other = black.clone();
         assert_eq!(

@@ -130,7 +130,9 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
         _ => format!("{count} lanes of {shown} differ"),
     };
     let remedy = match lanes.iter().find_map(|lane| Some((lane.number, lane.left_at?))) {
-        None if scene_file::is_link(path) => "the run is another than where it was made".to_owned(),
+        None if scene_file::is_link(path) => {
+            "the run differs from the one where it was made".to_owned()
+        }
         None => "if that is meant, --bless".to_owned(),
         Some((lane, tick)) => of_no_lane(path, lane, tick),
     };
@@ -197,7 +199,7 @@ fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
 pub(super) fn bless(path: &Path) -> Result<(), Error> {
     if scene_file::is_link(path) {
         return Err(Error::mistake(
-            "a link is not blessed; bless its recording, and print the link anew",
+            "a link is not blessed; bless its recording, and print the link again",
         ));
     }
     let (scene, text) = scene_file::load(path)?;

@@ -117,7 +117,7 @@ mod tests {
     use crate::studio::Studio;
 
     #[test]
-    fn the_kerb_comes_along_the_road_and_the_wheel_stands_on_it_at_the_end() {
+    fn the_wheel_ends_up_on_the_approaching_kerb() {
         let mut studio = Studio::new(Scene::built_in("quarter-car").unwrap());
         let road = |studio: &Studio, t: f64| -> Vec<[DVec2; 2]> {
             let body = &studio.race().truth().bodies()[0];

@@ -15,7 +15,7 @@ fn contrast(a: Rgba, b: Rgba) -> f64 {
 }
 
 #[test]
-fn text_stands_out_from_what_it_is_written_on_in_both_themes() {
+fn text_contrasts_with_its_background_in_both_themes() {
     for theme in [Theme::Dark, Theme::Light] {
         let palette = theme.palette();
         let surfaces = [
@@ -78,7 +78,7 @@ fn seen_by(colour: Rgba, eyes: [[f64; 3]; 3]) -> [f64; 3] {
 }
 
 #[test]
-fn a_deuteranope_tells_the_first_nine_lanes_apart_by_hue_or_by_dash() {
+fn a_deuteranope_can_distinguish_the_first_nine_lanes_by_hue_or_dash() {
     /// Below this distance, a person who looks from curve to legend confuses two colours.
     const ALIKE: f64 = 25.5;
     let distance = |a: Rgba, b: Rgba| distance_seen(a, b, DEUTERANOPE);
@@ -108,7 +108,7 @@ fn a_deuteranope_tells_the_first_nine_lanes_apart_by_hue_or_by_dash() {
 }
 
 #[test]
-fn lanes_of_one_method_differ_in_colour_and_the_first_has_the_methods() {
+fn lanes_of_one_method_differ_in_colour_and_the_first_has_the_methods_own() {
     let lane = |id, substeps| {
         let method = crate::sim::integrators::method(id).unwrap();
         LaneSpec { substeps, ..LaneSpec::plain(method) }
@@ -172,7 +172,7 @@ fn methods_differ_in_colour_or_dash_and_neighbours_in_colour() {
 }
 
 #[test]
-fn the_wire_of_a_spring_stands_out_from_the_sea_in_both_themes() {
+fn the_wire_of_a_spring_contrasts_with_the_sea_in_both_themes() {
     for theme in [Theme::Dark, Theme::Light] {
         let palette = theme.palette();
         let [edge, _, light, _] = palette.wire;
@@ -185,7 +185,7 @@ fn the_wire_of_a_spring_stands_out_from_the_sea_in_both_themes() {
 }
 
 #[test]
-fn no_lane_is_in_the_colour_of_explicit_euler_but_explicit_euler() {
+fn only_explicit_euler_has_the_colour_of_explicit_euler() {
     let (euler, is_euler) = (EULER, |method: &Method| method.id == "explicit-euler");
     for method in METHODS {
         assert_eq!(indices(method).0 == euler, is_euler(method), "{}", method.id);
@@ -205,7 +205,7 @@ fn no_lane_is_in_the_colour_of_explicit_euler_but_explicit_euler() {
 }
 
 #[test]
-fn a_recommended_method_has_a_colour_of_its_own_among_the_lanes_of_my_spring() {
+fn a_recommended_method_shares_no_colour_with_the_lanes_of_my_spring() {
     let scene = crate::studio::MySpring::default().scene(60).unwrap();
     for best in scene.methods_for_games() {
         let mut lanes = scene.lanes.clone();
@@ -221,7 +221,7 @@ fn a_recommended_method_has_a_colour_of_its_own_among_the_lanes_of_my_spring() {
 }
 
 #[test]
-fn euler_and_adaptive_euler_are_far_apart_in_both_themes() {
+fn euler_and_adaptive_euler_have_distant_colours_in_both_themes() {
     for (theme, least) in [(Theme::Dark, 30.0), (Theme::Light, 40.0)] {
         let [euler, adaptive] = ["explicit-euler", "adaptive-euler"]
             .map(|id| theme.style(crate::sim::integrators::method(id).unwrap()).0);

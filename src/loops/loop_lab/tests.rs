@@ -28,7 +28,7 @@ fn run(studio: &mut LoopLab) {
 }
 
 #[test]
-fn it_opens_where_raw_ticks_judder_and_whole_refreshes_do_not() {
+fn the_loop_lab_opens_where_raw_ticks_judder_and_whole_refreshes_do_not() {
     let studio = studio();
     assert_eq!(studio.traces()[studio.trace()].name(), "edge");
     let error = |id: &str| {
@@ -42,7 +42,7 @@ fn it_opens_where_raw_ticks_judder_and_whole_refreshes_do_not() {
 }
 
 #[test]
-fn the_list_begins_with_the_loop_to_take_and_a_step_of_the_frame_says_that_its_physics_changes() {
+fn the_advised_loop_leads_the_list_and_variable_steps_are_never_green() {
     let mut studio = studio();
     assert_eq!(studio.lanes()[studio.listed()[0]].card().id, "whole-refresh");
     let trace = studio.traces().iter().position(|trace| trace.name() == "steady-144").unwrap();
@@ -67,7 +67,7 @@ fn the_list_begins_with_the_loop_to_take_and_a_step_of_the_frame_says_that_its_p
 }
 
 #[test]
-fn what_is_recommended_is_green_with_a_fixed_tick_and_compared_on_the_stage() {
+fn a_recommended_loop_has_a_fixed_tick_and_is_green() {
     let mut reasons = Vec::new();
     for (name, tick_hz) in
         [("spring", 60), ("spring", 30), ("stiff", 30), ("ship", 2), ("orbit", 7)]
@@ -124,7 +124,7 @@ fn what_is_recommended_is_green_with_a_fixed_tick_and_compared_on_the_stage() {
 }
 
 #[test]
-fn a_motion_that_is_lost_is_never_green() {
+fn a_lost_motion_is_never_green() {
     let scene = Scene { tick_hz: 30.into(), ..Scene::built_in("stiff").unwrap() };
     let studio = lab_of(&scene);
     let linear = index_of("fixed-linear");
@@ -138,7 +138,7 @@ fn on_stage(studio: &LoopLab) -> Vec<&'static str> {
 }
 
 #[test]
-fn the_opening_goes_on_to_a_fast_display_unless_a_person_does_something() {
+fn the_opening_moves_to_a_fast_display_unless_a_person_acts() {
     let past_the_first = 8 * (OPENING_NS + 1_000_000);
     let mut studio = studio();
     studio.advance(past_the_first);
@@ -186,7 +186,7 @@ fn a_display_holds_a_frame_until_the_next() {
 }
 
 #[test]
-fn a_frame_that_stands_still_is_further_and_further_behind() {
+fn a_held_frame_falls_further_and_further_behind() {
     let mut studio = studio();
     let index = studio.traces().iter().position(|trace| trace.name() == "alt-tab-5s").unwrap();
     studio.choose_trace(index);
@@ -201,7 +201,7 @@ fn a_frame_that_stands_still_is_further_and_further_behind() {
 }
 
 #[test]
-fn it_plays_slowly_and_begins_again_at_its_end() {
+fn playback_is_slow_and_wraps_at_its_end() {
     let mut studio = studio();
     studio.advance(80_000_000);
     assert_eq!(studio.now_ns(), 10_000_000);
@@ -228,7 +228,7 @@ fn the_stage_holds_one_to_four_lanes_in_the_order_of_the_table() {
 }
 
 #[test]
-fn a_net_is_not_taken_and_the_reason_is_told() {
+fn the_loop_lab_refuses_a_net_with_the_reason() {
     let mut studio = Studio::new(Scene::built_in("rope").unwrap());
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     assert!(studio.loop_lab().is_none());
@@ -236,7 +236,7 @@ fn a_net_is_not_taken_and_the_reason_is_told() {
 }
 
 #[test]
-fn a_net_that_is_opened_in_it_leaves_it_with_the_reason() {
+fn opening_a_net_leaves_the_loop_lab_with_the_reason() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     assert!(studio.loop_lab().is_some());
@@ -249,7 +249,7 @@ fn a_net_that_is_opened_in_it_leaves_it_with_the_reason() {
 }
 
 #[test]
-fn opening_it_and_choosing_run_nothing_and_loops_are_shown_as_they_come() {
+fn opening_and_choosing_run_nothing_and_loops_appear_when_finished() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     let shown =
@@ -273,7 +273,7 @@ fn opening_it_and_choosing_run_nothing_and_loops_are_shown_as_they_come() {
 }
 
 #[test]
-fn a_loop_that_is_stopped_is_run_again() {
+fn a_stopped_loop_runs_again() {
     let studio = studio();
     let mut worker = LoopWorker::default();
     worker.set_request(Some(studio.request().clone()));
@@ -283,7 +283,7 @@ fn a_loop_that_is_stopped_is_run_again() {
 }
 
 #[test]
-fn the_loop_lab_keeps_every_command_on_the_run_from_the_run_behind_it() {
+fn the_loop_lab_shields_the_run_behind_it_from_every_command() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..40).for_each(|_| studio.tick());
     studio.apply(Command::Loop(LoopCommand::ToggleLab));

@@ -33,7 +33,7 @@ fn ids_are_unique_and_fit_to_be_typed() {
 }
 
 #[test]
-fn every_trace_begins_at_the_start_and_goes_on_at_every_rate() {
+fn every_trace_starts_at_zero_and_advances_at_every_rate() {
     for card in TRACES {
         for rate in [RefreshRate::new(1, 1), HZ_60, RefreshRate::new(1000, 1)] {
             for steps in [0, 1, 40] {
@@ -49,7 +49,7 @@ fn every_trace_begins_at_the_start_and_goes_on_at_every_rate() {
 }
 
 #[test]
-fn only_edge_and_heartbeat_display_a_frame_before_it_began() {
+fn only_edge_and_heartbeat_display_a_frame_before_its_start() {
     for card in TRACES {
         let frames = first(card.id, HZ_60, 2000, 1);
         let early = frames.iter().any(|f| f.displayed_ns.is_some_and(|at| at < f.began_ns));
@@ -77,7 +77,7 @@ fn the_edge_is_half_a_millisecond_wide_on_both_sides() {
 }
 
 #[test]
-fn a_missed_refresh_shows_the_picture_late_and_then_begins_late() {
+fn a_missed_refresh_delays_its_picture_and_the_next_frame() {
     let frames = first("missed-vsync", HZ_60, 100, 0);
     let late: Vec<usize> =
         (0..100).filter(|&n| frames[n].displayed_ns != Some(frames[n].began_ns)).collect();
@@ -91,7 +91,7 @@ fn a_missed_refresh_shows_the_picture_late_and_then_begins_late() {
 }
 
 #[test]
-fn long_frames_last_as_their_names_say() {
+fn long_frames_last_as_long_as_named() {
     assert_eq!(
         odd_durations(&first("hitch-100ms", HZ_60, 300, 0)),
         [(120, 100_000_000), (241, 100_000_000)]
@@ -103,7 +103,7 @@ fn long_frames_last_as_their_names_say() {
 }
 
 #[test]
-fn a_heartbeat_is_long_and_short_by_turns_and_displayed_evenly() {
+fn a_heartbeat_alternates_long_and_short_frames_displayed_evenly() {
     let frames = first("heartbeat", HZ_60, 100, 0);
     for (n, ns) in durations(&frames).into_iter().enumerate() {
         let quarters = if n % 2 == 0 { 5 } else { 3 };
@@ -122,7 +122,7 @@ fn a_spiral_frame_lasts_as_long_as_the_steps_before_it() {
 }
 
 #[test]
-fn jitter_misses_some_refreshes_and_never_runs_ahead_by_more_than_one_picture() {
+fn jitter_misses_some_refreshes_and_runs_ahead_by_at_most_one_frame() {
     let frames = first("jitter", HZ_60, 10_000, 0);
     let waits = frames.iter().map(|f| f.displayed_ns.unwrap() - f.began_ns);
     assert!(waits.clone().all(|ns| ns > REFRESH_NS / 2 && ns < 4 * REFRESH_NS + 2));

@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tick_of_drift_is_made_up_for_in_one_frame() {
+    fn a_tick_of_drift_is_corrected_in_one_frame() {
         let counts = ticks([99; 1000]);
         assert_eq!(counts.iter().filter(|&&count| count == 0).count(), 10);
         let counts = ticks([101; 1000]);
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hitch_is_made_up_for_up_to_eight_ticks() {
+    fn a_hitch_is_caught_up_by_at_most_eight_ticks() {
         for (hundredths, hitch) in [(700, [6, 2]), (60_000, [8, 2])] {
             let counts = ticks([100; 20].into_iter().chain([hundredths]).chain([100; 20]));
             assert_eq!(counts[20..22], hitch);

@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hitch_is_paid_back_and_another_rate_taken_up() {
+    fn a_hitch_is_paid_back_and_a_new_rate_is_adopted() {
         let (mut policy, unit) = policy();
         let refresh = policy.eased;
         let before: i128 = policy.frame(1100 * unit).span;

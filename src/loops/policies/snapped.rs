@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn a_duration_is_made_whole_near_one_to_eight_refreshes() {
+    fn a_duration_near_one_to_eight_refreshes_is_rounded() {
         let base = TimeBase::new(60, RefreshRate::new(100, 1));
         let snapped = |milliseconds| {
             Snapped::new(base, FrameLimits::default()).snapped(ms(base, milliseconds))
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn more_than_eight_ticks_owed_are_dropped_with_all_that_is_owed() {
+    fn a_debt_over_eight_ticks_is_dropped_entirely() {
         let base = TimeBase::new(60, RefreshRate::new(60, 1));
         let mut policy = Snapped::new(base, FrameLimits::default());
         let mut total = Steps::default();

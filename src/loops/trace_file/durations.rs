@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_time_is_refused() {
+    fn an_invalid_duration_is_refused() {
         for cell in
             ["nan", "inf", "-inf", ".", "-", "1.2.3", "1,234.5", "16 ms", "0x10", "1e", "1e999"]
         {

@@ -17,16 +17,16 @@ fn met(slowest_hz: Option<u32>, stiffness_factor: Option<f64>) -> CriterionMet {
 }
 
 #[test]
-fn margins_are_told_as_far_as_they_are_known() {
+fn margins_name_each_known_limit_and_each_unknown_one() {
     for (slowest_hz, stiffness_factor, told) in [
         (Some(50), Some(1.4), "holds down to 50 Hz, or 1.4 × stiffness"),
         (Some(50), Some(1e4), "holds down to 50 Hz, or more than 10000 × stiffness"),
         (Some(59), Some(1.0), "holds down to 59 Hz, or 1 × stiffness (no reserve)"),
         (Some(60), Some(1.1), "holds down to 60 Hz (no reserve), or 1.1 × stiffness"),
-        (Some(60), None, "holds down to 60 Hz (no reserve); how much stiffer, is not known"),
-        (Some(50), None, "holds down to 50 Hz; how much stiffer, is not known"),
-        (None, Some(1.4), "holds up to 1.4 × stiffness; how much slower, is not known"),
-        (None, None, "how much slower or stiffer, is not known"),
+        (Some(60), None, "holds down to 60 Hz (no reserve); with stiffer bodies not known"),
+        (Some(50), None, "holds down to 50 Hz; with stiffer bodies not known"),
+        (None, Some(1.4), "holds up to 1.4 × stiffness; with slower ticks not known"),
+        (None, None, "the reserve is not known"),
     ] {
         let met = met(slowest_hz, stiffness_factor);
         assert_eq!(met.margins(), told);
@@ -35,7 +35,7 @@ fn margins_are_told_as_far_as_they_are_known() {
 }
 
 #[test]
-fn the_least_cost_decides_then_the_fewest_substeps_then_the_place_in_the_table() {
+fn cost_ranks_before_substeps_and_substeps_before_table_order() {
     let judge = Judge::new(&Scene::built_in("ship").unwrap());
     let advised = |(id, substeps, evaluations_per_s): (&str, u32, f64)| {
         let spec = LaneSpec::plain(method(id).unwrap());
@@ -64,7 +64,7 @@ fn the_least_cost_decides_then_the_fewest_substeps_then_the_place_in_the_table()
 }
 
 #[test]
-fn a_scene_is_made_no_stiffer_than_a_scene_may_be() {
+fn the_stiffness_search_stays_within_the_limits_of_a_scene() {
     let text = |stiffness: f64| {
         let head = "title = 't'\ntick_hz = 60\nseconds = 1\n[[spring]]\nmass_kg = 1";
         format!("{head}\nstiffness_n_per_m = {stiffness}\n")
@@ -114,7 +114,7 @@ const MILLIONS: [(&str, f64); 26] = [
 const MAX_MILLIONS: f64 = if cfg!(debug_assertions) { 12.0 } else { f64::INFINITY };
 
 #[test]
-fn the_work_of_advice_on_each_built_in_scene_is_what_it_was() {
+fn advice_on_each_built_in_scene_takes_the_recorded_work() {
     for scene in SCENES {
         let known = MILLIONS.iter().find(|(name, _)| *name == scene.name);
         let (name, wanted) = *known.unwrap_or_else(|| panic!("{} has no bound", scene.name));

@@ -33,7 +33,7 @@ fn first(costs: &[(f64, f64)]) -> Option<usize> {
 }
 
 #[test]
-fn of_equal_costs_the_larger_reserve_is_first_and_then_the_place_in_the_table() {
+fn equal_costs_rank_by_reserve_and_then_by_table_order() {
     assert_eq!(first(&[(60.0, 1.6), (60.0, 10.0)]), Some(1));
     assert_eq!(first(&[(60.0, 10.0), (60.0, 10.0)]), Some(0));
     assert_eq!(first(&[(60.0, 1.6), (61.0, 10.0)]), Some(0), "the cost comes before the reserve");
@@ -58,7 +58,7 @@ fn little_reserve_yields_to_more_at_up_to_twice_the_cost() {
 }
 
 #[test]
-fn margins_are_searched_until_the_first_is_known_and_no_further() {
+fn margins_are_searched_only_until_the_first_place_is_known() {
     // Costs and reserves to be found, the recommended method, and the methods whose margins are searched.
     for (all, wanted, searched) in [
         (&[(60.0, 2.0), (60.0, 3.0), (61.0, 10.0)][..], 1, &[0, 1][..]),

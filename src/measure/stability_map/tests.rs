@@ -105,7 +105,7 @@ fn is_end_of_window(method: &'static Method, z: f64) -> bool {
 }
 
 #[test]
-fn explicit_euler_needs_damping_and_no_more_than_it_can_follow() {
+fn explicit_euler_is_stable_only_between_two_dampings() {
     for damping in [1.0, 40.0] {
         let map = spring(damping, &["explicit-euler"]);
         // Jury's conditions on the step [[1, h], [-k h, 1 - c h]].
@@ -150,7 +150,7 @@ fn substeps_move_the_boundary() {
 }
 
 #[test]
-fn what_a_method_does_at_the_present_point_is_known() {
+fn each_method_reports_its_behaviour_at_the_present_point() {
     let map = spring(1.0, &["explicit-euler", "rk4", "adaptive-euler"]);
     // Each step of explicit Euler multiplies the amplitude by √(1 - c h + k h²).
     let h = 1.0 / 20.0;
@@ -185,7 +185,7 @@ fn the_present_point_changes_no_region() {
 }
 
 #[test]
-fn a_map_found_in_slices_is_that_of_one_go_and_a_moved_point_keeps_what_is_found_of_a_region() {
+fn slicing_and_moving_the_point_leave_the_map_unchanged() {
     const SLICE: u64 = 50_000;
     let scene = quarter_car();
     let body = &scene.bodies[0];
@@ -274,7 +274,7 @@ fn growth(scene: &Scene, key: &str, value: f64, hz: f64, id: &str) -> f64 {
 }
 
 #[test]
-fn the_boundary_of_a_law_whose_damping_couples_its_modes_is_where_its_swing_begins_to_grow() {
+fn the_boundary_of_a_law_with_coupled_modes_is_where_its_swing_starts_to_grow() {
     let scene = quarter_car();
     let ids = ["explicit-euler", "semi-implicit-euler", "rk4", "implicit-midpoint", "bdf2"];
     for key in ["kt", "c", "w"] {
@@ -311,7 +311,7 @@ fn the_boundary_of_a_law_whose_damping_couples_its_modes_is_where_its_swing_begi
 }
 
 #[test]
-fn masses_that_drift_freely_are_stable_under_methods_that_damp_their_swing() {
+fn freely_drifting_masses_are_stable_under_damping_methods() {
     // Two cars with a spring and a damper between them: their common drift has no force.
     let scene = law("constants = { k = 30.0, c = 2.0, m = 3.0 }\n\
         [law.coordinates.x]\nstart = 0.3\nacceleration = 'k*(y-x) + c*(vy-vx)'\n\
@@ -326,7 +326,7 @@ fn masses_that_drift_freely_are_stable_under_methods_that_damp_their_swing() {
 }
 
 #[test]
-fn a_law_that_cannot_be_linearised_says_why_and_true_growth_is_not_counted() {
+fn a_nonlinearisable_law_has_a_reason_and_true_growth_does_not_count() {
     let single = |acceleration: &str| {
         law(&format!(
             "constants = {{ k = 9.0, b = 1.0 }}\n[law.coordinates.x]\nstart = 0.3\nacceleration = '{acceleration}'"
@@ -357,7 +357,7 @@ fn a_law_that_cannot_be_linearised_says_why_and_true_growth_is_not_counted() {
 }
 
 #[test]
-fn a_law_is_mapped_about_the_place_where_it_rests() {
+fn a_law_is_mapped_about_its_rest() {
     // A controlled drone hovers at a nonzero force.
     let map =
         map_of(&Scene::built_in("lift").unwrap(), "rotor", 30, &["semi-implicit-euler", "rk4"]);
@@ -368,7 +368,7 @@ fn a_law_is_mapped_about_the_place_where_it_rests() {
 }
 
 #[test]
-fn a_body_without_rest_has_no_map_and_a_pendulum_has_that_of_its_small_swings() {
+fn a_body_without_rest_has_no_map_and_a_pendulum_is_mapped_by_small_swings() {
     for (name, is_possible) in [("orbit", false), ("pendulum", true), ("chain", true)] {
         let scene = Scene::built_in(name).unwrap();
         let body = &scene.bodies[0];
@@ -407,7 +407,7 @@ fn a_follower_is_mapped_on_a_body_of_its_rate() {
 }
 
 #[test]
-fn along_a_line_of_an_engine_a_player_sees_the_same_damping() {
+fn visible_damping_is_constant_along_an_engines_line() {
     let map = spring(0.0, &["engine-rapier", "engine-mujoco", "implicit-euler"]);
     let [rapier, mujoco, own] = &map.regions[..] else { panic!() };
     assert!(mujoco.seen.is_empty() && own.seen.is_empty(), "{mujoco:?}");

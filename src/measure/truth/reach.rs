@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn components_of_one_unit_share_the_largest_and_velocities_are_apart() {
+    fn components_of_one_unit_share_the_largest_amplitude_apart_from_velocities() {
         let coordinate = |name: &'static str, unit| Coordinate {
             name: name.into(),
             velocity: name.into(),

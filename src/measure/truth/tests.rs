@@ -73,7 +73,7 @@ fn a_pendulum_swings_at_the_period_of_its_amplitude() {
 }
 
 #[test]
-fn the_long_run_is_as_far_as_by_a_reference() {
+fn the_long_run_has_the_reach_of_its_reference() {
     for name in ["helm", "quarter-car"] {
         let scene = Scene::built_in(name).unwrap();
         let truth = of_first_body(&scene, 2.0);
@@ -93,7 +93,7 @@ fn the_long_run_is_as_far_as_by_a_reference() {
 }
 
 #[test]
-fn half_turns_are_compared_one_by_one_and_what_is_left_over_is_at_rest() {
+fn half_turns_are_compared_one_by_one_and_missing_ones_count_as_rest() {
     let turns = 50;
     let decaying = |rate: f64, count: usize| -> Vec<f64> {
         (0..count).map(|i| libm::exp(-rate * i as f64)).collect()

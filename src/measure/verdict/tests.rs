@@ -58,7 +58,7 @@ fn failed(cause: &StepFailure) -> Finding {
 }
 
 #[test]
-fn a_swing_that_is_too_wide_or_too_narrow_says_how_wide_it_is() {
+fn a_wrong_width_of_the_swing_is_named_in_the_verdict() {
     let off = "off by up to 281 % at 3 s, by 20 % after 20 s";
     for (width, shown) in [
         (1.8, "bounded · swings 1.8 × too wide"),
@@ -80,7 +80,7 @@ fn a_swing_that_is_too_wide_or_too_narrow_says_how_wide_it_is() {
 }
 
 #[test]
-fn beside_a_run_that_was_changed_each_wording_tells_of_which_run_it_is() {
+fn every_wording_names_its_run_beside_an_edited_run() {
     let found = compared(Comparison { early_s: Some(0.02), ..COMPARED });
     for (starts_at_s, from) in [(0.0, "if run from the start: "), (3.0, "if run from 3 s: ")] {
         let verdict = Verdict { starts_at_s, ..found.clone() };
@@ -91,7 +91,7 @@ fn beside_a_run_that_was_changed_each_wording_tells_of_which_run_it_is() {
 }
 
 #[test]
-fn a_verdict_says_the_number_that_its_outcome_is_about_and_its_details_the_rest() {
+fn a_verdict_shows_the_number_of_its_outcome_and_details_show_the_rest() {
     let is = |verdict: Verdict, shown: &str, details: &[&str]| {
         assert_eq!(verdict.to_string(), shown);
         assert_eq!(verdict.details(), details, "{shown}");

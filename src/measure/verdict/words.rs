@@ -351,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn a_verdict_shows_as_its_outcome_and_the_number_behind_it() {
+    fn a_verdict_is_displayed_as_outcome_and_number() {
         for (scene, id, tick_hz, shown) in [
             ("spring", "explicit-euler", 60, "grows · swing ×2 in 2.1 s"),
             ("spring", "semi-implicit-euler", 60, "looks right · 17 ms early after 20 s"),
@@ -370,7 +370,7 @@ mod tests {
     }
 
     #[test]
-    fn a_verdict_is_said_in_fewer_and_fewer_words() {
+    fn wordings_of_a_verdict_get_shorter_and_shorter() {
         let found = verdict("harbour", "improved-euler", 60);
         assert_eq!(
             found.wordings(true),
@@ -426,7 +426,7 @@ mod tests {
     }
 
     #[test]
-    fn moments_are_times_of_the_run_and_lengths_count_from_where_it_is_judged() {
+    fn moments_are_run_times_and_durations_count_from_the_judged_start() {
         for (scene, id, tick_hz, shown) in [
             ("spring", "explicit-euler", 60, "grows · swing ×2 in 2.1 s"),
             ("stiff", "semi-implicit-euler", 49, "blows up · at 104 s"),
@@ -438,7 +438,7 @@ mod tests {
     }
 
     #[test]
-    fn the_details_of_a_failure_say_where_the_run_begins_and_why_it_ends() {
+    fn the_details_of_a_failure_name_the_start_of_the_run_and_its_cause() {
         let blows_up = verdict("stiff", "semi-implicit-euler", 49);
         let why = StepFailure::LinearSolveFailed;
         let finding = Finding::Failed {

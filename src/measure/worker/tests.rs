@@ -40,7 +40,7 @@ fn answer(worker: &mut AnalysisWorker, request: &AnalysisRequest) -> (usize, Vec
 }
 
 #[test]
-fn each_verdict_is_found_once_until_the_rate_the_run_or_the_scene_changes() {
+fn each_verdict_is_computed_once_until_rate_run_or_scene_changes() {
     let first = request("harbour");
     let mut worker = AnalysisWorker::new(first.clone());
     let (count, fine) = answer(&mut worker, &first);
@@ -64,7 +64,7 @@ fn each_verdict_is_found_once_until_the_rate_the_run_or_the_scene_changes() {
 }
 
 #[test]
-fn a_verdict_is_on_the_substeps_of_its_lane() {
+fn a_verdict_uses_the_substeps_of_its_lane() {
     let plain = request("stiff");
     let mut worker = AnalysisWorker::new(plain.clone());
     let (_, once) = answer(&mut worker, &plain);
@@ -80,7 +80,7 @@ fn a_verdict_is_on_the_substeps_of_its_lane() {
 }
 
 #[test]
-fn a_verdict_at_another_rate_stands_until_it_is_computed_again() {
+fn an_old_verdict_stays_until_its_replacement_is_computed() {
     let first = request("spring");
     let mut worker = AnalysisWorker::new(first.clone());
     answer(&mut worker, &first);
@@ -127,7 +127,7 @@ fn advice_is_computed_in_small_steps_and_only_on_request() {
 }
 
 #[test]
-fn a_body_can_be_asked_about_alone() {
+fn one_body_can_be_advised_on_alone() {
     let harbour = request("harbour");
     let advised = |bodies: AdvisedBodies| {
         let advice = Some(bodies);
@@ -245,7 +245,7 @@ async fn all_of(scene: Scene, spec: LaneSpec, tick_hz: u32, meter: Arc<Meter>) -
 const SLICE: u64 = WORK_OF_STEP / 20;
 
 #[test]
-fn what_is_found_in_slices_and_the_work_of_it_are_those_of_one_go_and_no_slice_exceeds_its_work() {
+fn slicing_changes_neither_result_nor_work() {
     for (name, id, tick_hz) in [
         ("spring", "velocity-verlet", 60),
         ("spring", "implicit-midpoint", 60),

@@ -180,7 +180,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_column_is_called_like_a_clock_or_like_a_coordinate_by_its_words() {
+    fn the_words_of_a_column_name_mark_a_clock_or_a_coordinate() {
         for name in ["time", "sim_time", "gameTimeMs", "time_ms", "elapsed", "sim_frame", "ts"] {
             assert_eq!(Moves::of_name(name, false), Moves::Back, "{name}");
         }

@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn the_part_of_a_difference_is_at_most_two() {
+    fn a_relative_difference_is_at_most_two() {
         assert_eq!(relative(1.0, 3.0), Some(2.0 / 3.0));
         assert_eq!(relative(-f64::MAX, f64::MAX), Some(2.0));
         assert_eq!(relative(0.0, -0.0), Some(0.0));

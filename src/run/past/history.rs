@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn a_method_that_flew_no_tick_leaves_no_run() {
+    fn a_method_without_a_tick_leaves_no_segment() {
         let mut history = flown(0);
         switch(&mut history, 2.0, 0, 1);
         switch(&mut history, 2.0, 1, 2);
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sample_has_what_was_passed_over_since_the_one_before() {
+    fn a_sample_has_the_range_swept_since_its_predecessor() {
         let swept = |history: &History| -> Vec<[f64; 2]> {
             history.samples().map(|sample| sample.swept.ends()).collect()
         };
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_since_a_placement_begins_where_the_body_was_put() {
+    fn samples_since_a_placement_begin_at_the_placed_position() {
         let mut history = flown(0);
         history.end_run(Sample { q: 5.0, ..sample(2.5, 0) });
         history.jump(Sample { q: 1.0, ..sample(2.5, 0) }, Peaks::default());
@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn a_summary_stands_for_four_samples_of_one_motion_and_for_all_that_they_sweep() {
+    fn a_summary_covers_four_samples_of_one_motion_with_their_swept_range() {
         let at = |t: u32, q: f64| Sample { q, swept: SweptRange::at(q), ..sample(f64::from(t), 0) };
         let mut history = History::new(CAPACITY);
         (0..6).for_each(|t| history.push_present(at(t, f64::from(t))));
@@ -351,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn summaries_of_a_full_history_are_as_many_as_asked_for_and_stay_as_it_grows() {
+    fn summaries_of_a_full_history_have_the_requested_count_and_stay_stable() {
         let mut history = History::new(CAPACITY);
         let record = |history: &mut History, t: usize| history.push_present(sample(t as f64, 0));
         (0..3 * CAPACITY).for_each(|t| record(&mut history, t));

@@ -412,7 +412,7 @@ mod tests {
     }
 
     #[test]
-    fn the_reach_is_that_of_all_samples_wherever_a_run_has_gone_back_to() {
+    fn the_reach_covers_all_samples_after_any_rewind() {
         let mut race = Race::of_scene(&Scene::built_in("damped").unwrap());
         let mut curve = TruthCurve::new(&race.truth().bodies()[0], 0, 5.0);
         let check = |curve: &TruthCurve, t: f64| {
@@ -438,7 +438,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tick_of_many_masses_has_as_many_points_as_are_affordable() {
+    fn a_tick_of_many_masses_has_fewer_points() {
         let points = |masses: u32| {
             let text = format!(
                 "title = 't'\ntick_hz = 60\nseconds = 1\n[[chain]]\nmasses = {masses}\nmass_kg = 1\n\

@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn the_newest_records_are_shown_and_older_ones_are_kept_for_going_back() {
+    fn the_newest_records_are_visible_and_older_ones_return_on_rewind() {
         let mut log = filled(9);
         assert_eq!((shown(&log), log.mark(), log.newest()), (vec![6, 7, 8], 9, Some(&8)));
         assert!(
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn a_record_that_differs_from_the_recorded_one_begins_another_future() {
+    fn a_differing_record_discards_the_recorded_future() {
         let mut log = filled(9);
         log.rewind(7);
         log.push(70);
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_window_that_is_not_kept_is_filled_again_from_far_enough_back() {
+    fn a_lost_window_is_refilled_from_far_enough_back() {
         let mut log = filled(100);
         assert!(
             !log.keeps_window(50) && log.fills(47, 50) && !log.fills(48, 50) && !log.fills(0, 2)
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_popped_is_replaced() {
+    fn a_popped_record_is_replaced() {
         let mut log = filled(2);
         log.pop();
         log.push(10);

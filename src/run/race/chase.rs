@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn half_lives_at_30_60_and_144_hz_are_those_of_the_formulas() {
+    fn half_lives_at_30_60_and_144_hz_match_the_formulas() {
         let table = [
             ("lerp-per-frame", [219.3, 109.6, 45.7]),
             ("lerp-dt", [57.0, 63.4, 66.9]),
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn what_goes_beyond_its_target_has_overshot_by_that_part() {
+    fn overshoot_is_the_distance_beyond_the_target() {
         // At k dt = 1.5, half of the distance is left on the other side.
         let overshoot = chase(1, "lerp-dt", 10.0 / 1.5).overshoot_percent();
         assert!((overshoot - 50.0).abs() < 1e-9, "{overshoot}");
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn there_is_no_chase_without_a_target_that_stays_and_none_of_what_is_there() {
+    fn only_a_follower_away_from_a_fixed_target_is_a_chase() {
         for (body, is_chase) in [
             ("[[follow]]\nrate_per_s = 1\n", true),
             ("[[follow]]\nrate_per_s = 1\nx0_m = 1\n", false),

@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn what_never_rests_exchanges_its_energy_once_both_ends_were_seen() {
+    fn a_restless_motion_has_an_energy_range_once_both_turns_were_seen() {
         let swing = |from: usize, to: usize| {
             (from..=to).map(|i| 3.0 + libm::sin(i as f64 * std::f64::consts::PI / 100.0).powi(2))
         };
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn where_nothing_is_exchanged_there_is_no_energy_to_hold_a_drift_against() {
+    fn without_exchange_there_is_no_energy_scale_for_a_drift() {
         assert_eq!(Extent::default().range_j(), None);
         assert_eq!(covered([0.0; 9]).range_j(), None);
         let rounding = [3.0, 3.0 + 4e-16, 3.0 - 9e-16, 3.0, 3.0 - 4e-16];
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_speed_stays() {
+    fn the_largest_speed_is_remembered() {
         let mut extent = Extent::default();
         [1.0, 4.0, 2.0].into_iter().for_each(|speed| extent.add_moment(speed, None));
         assert_eq!(extent.largest_speed(), 4.0);

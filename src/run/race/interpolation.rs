@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_hermite_cubic_passes_its_ends_with_their_slopes_and_keeps_a_parabola() {
+    fn a_hermite_cubic_matches_ends_and_slopes_and_reproduces_parabolas() {
         let (q, v) = (|t: f64| 3.0 + 2.0 * t - t * t, |t: f64| 2.0 - 2.0 * t);
         for alpha in [0.0, 0.25, 0.5, 0.75, 1.0] {
             let h = 0.5;
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn a_monotone_cubic_goes_one_way_between_ticks_that_do_and_keeps_turns_and_parabolas() {
+    fn a_monotone_cubic_never_overshoots_and_keeps_turns_and_parabolas() {
         let path = |h: f64, q: [f64; 2], v: [f64; 2]| -> Vec<f64> {
             let v = monotone(h, q, v);
             (0..=100).map(|part| hermite(f64::from(part) / 100.0, h, q, v)).collect()
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ways_are_gone_through_in_a_circle() {
+    fn the_interpolations_cycle() {
         let mut way = Interpolation::Raw;
         for expected in Interpolation::ALL.iter().skip(1).chain([&Interpolation::Raw]) {
             way = way.next();

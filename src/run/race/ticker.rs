@@ -171,15 +171,15 @@ mod tests {
     }
 
     #[test]
-    fn a_follow_that_is_stopped_after_each_tick_does_what_one_that_is_not_does() {
+    fn stopping_after_each_tick_does_not_change_a_ticker() {
         let script = script();
-        let follow = || Ticker::new(Log::default(), 4).from_time(10.0).with_script(&script);
-        let mut whole = follow();
+        let ticker = || Ticker::new(Log::default(), 4).from_time(10.0).with_script(&script);
+        let mut whole = ticker();
         let failed = whole.run(9, |_, _| ControlFlow::Continue(()));
         assert!(
             matches!(failed, StopReason::Failed(_)) && whole.ticks() == 3 && whole.t() == 10.75
         );
-        let mut sliced = follow();
+        let mut sliced = ticker();
         for ticks in 1..=3 {
             let stop = match ticks {
                 2 => sliced.run(ticks, |_, _| ControlFlow::Continue(())),
@@ -204,12 +204,12 @@ mod tests {
     }
 
     #[test]
-    fn a_follow_makes_the_tick_that_exceeds_its_work_and_none_after_it_unless_that_is_the_last() {
-        let follow = || Ticker::new(Log::default(), 4).with_max_work(1);
-        let mut stopped = follow();
+    fn a_ticker_stops_after_the_tick_that_exceeds_its_work() {
+        let ticker = || Ticker::new(Log::default(), 4).with_max_work(1);
+        let mut stopped = ticker();
         assert_eq!(stopped.run(3, |_, _| ControlFlow::Continue(())), StopReason::TooMuchWork);
         assert_eq!(stopped.ticks(), 2);
-        let mut whole = follow();
+        let mut whole = ticker();
         assert_eq!(whole.run(2, |_, _| ControlFlow::Continue(())), StopReason::End);
     }
 }

@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn of_a_large_grid_every_nth_thread_is_drawn_and_the_border() {
+    fn a_large_grid_is_thinned_but_keeps_its_border() {
         for (columns, rows) in [(400, 250), (100_000, 1), (1000, 100), (129, 130)] {
             let lines = of_grid(Grid { columns, rows, spacing: 1.0, shear: true, pin: None });
             let points: usize = lines.iter().map(|line| line.nodes.len()).sum();

@@ -40,7 +40,7 @@ type Of = ParameterOf<Chain>;
 const PARAMETERS: [Of; 7] = [
     Of::count("masses", MAX_MASSES, |chain| &mut chain.masses)
         .or(8.0)
-        .about("how many masses there are"),
+        .about("the number of masses"),
     Of::number("mass_kg", Range::POSITIVE, |chain| &mut chain.mass).symbol("m").about("each mass"),
     Of::number("stiffness_n_per_m", Range::POSITIVE, |chain| &mut chain.stiffness)
         .symbol("k")
@@ -143,7 +143,7 @@ impl System for Chain {
 
 impl Body for Chain {
     const CLASS: BodyClass = BodyClass::NoEngine(
-        "an engine solves a chain joint by joint in sweeps, and its formula here is of one joint alone",
+        "an engine solves a chain joint by joint in sweeps, and its formula here models one joint alone",
     );
     const HAS_EXACT: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;

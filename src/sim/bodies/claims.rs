@@ -209,7 +209,7 @@ fn find_unsolved<B: Claimant>(body: &B) -> Option<ClaimFault> {
                 if !is_near(found, start, B::TOLERANCE * scale) {
                     let (v, key) = (PREFIXES[d], B::START_KEYS[d]);
                     let what = format!("`{v}{name}` begins at {found}, and `{key}` is {start}");
-                    let remedy = "let the two agree; `t` is 0 at the start";
+                    let remedy = "make the two agree; `t` is 0 at the start";
                     return Some(ClaimFault { remedy, ..ClaimFault::exact(coordinate, what) });
                 }
             }
@@ -280,7 +280,7 @@ fn find_energy_defect<B: Claimant>(body: &B) -> Option<ClaimFault> {
     let is_first = |state| body.claimed_energy(&state) == Some(first);
     if states_around(&start, STATES).all(is_first) {
         let what =
-            format!("the energy is {first} in every state, which says nothing of the motion");
+            format!("the energy is {first} in every state, which says nothing about the motion");
         let remedy = "write the kinetic and the potential energy, or remove `energy`";
         return Some(ClaimFault { remedy, ..ClaimFault::energy(what) });
     }

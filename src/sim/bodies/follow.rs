@@ -31,7 +31,7 @@ const PARAMETERS: [Of; 9] = [
         .about("k: it halves the distance in 0.693 / k by the law of order 1, in 1.678 / k by that of order 2"),
     Of::start("step_m", 1.0, |follow| &mut follow.step)
         .symbol("s")
-        .about("where the target is from the start on"),
+        .about("the place of the target from the start on"),
     Of::start("ramp_m_per_s", 0.0, |follow| &mut follow.ramp)
         .symbol("r")
         .about("how fast the target moves away"),
@@ -48,7 +48,7 @@ const PARAMETERS: [Of; 9] = [
         .about("where it starts"),
     Of::start("v0_m_per_s", 0.0, |follow| &mut follow.v0)
         .named("velocity at start")
-        .about("its velocity at the start; of order 1 the law gives it"),
+        .about("its velocity at the start; with order 1 the law gives it"),
     Of::number("kick_m", Range::ANY, |follow| &mut follow.kick)
         .or(0.5)
         .about("how far one kick displaces it"),

@@ -270,7 +270,7 @@ impl System for Net {
 
 impl Body for Net {
     const CLASS: BodyClass = BodyClass::NoEngine(
-        "an engine solves a net joint by joint in sweeps, and its formula here is of one joint alone",
+        "an engine solves a net joint by joint in sweeps, and its formula here models one joint alone",
     );
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 

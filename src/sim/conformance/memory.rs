@@ -47,7 +47,7 @@ pub(super) fn restart(method: &Method) -> Claim {
 
 pub(super) fn has_memory(method: &Method) -> Measured {
     let carries = carries(method)?;
-    let words = if carries { "its steps depend on those before" } else { "it has no memory" };
+    let words = if carries { "its steps depend on earlier ones" } else { "it has no memory" };
     if !forgets(method)? {
         return Err("a reset leaves some of its memory".into());
     }

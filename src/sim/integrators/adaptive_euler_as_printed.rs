@@ -5,7 +5,8 @@ use super::prelude::*;
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler-as-printed",
     name: "Adaptive Euler (as printed)",
-    about: "the chapter's listing: under drag it runs in slow motion, for it never makes up what it cuts off a step; without drag it is semi-implicit Euler",
+    about: "the chapter's listing: under drag it runs in slow motion, for it never makes up the time that it cuts \
+            off a step; without drag it is semi-implicit Euler",
     order: 1,
     order_with_drag: 1,
     tolerance: Some(TOLERANCE),

@@ -72,7 +72,7 @@ mod tests {
     use super::substep;
 
     #[test]
-    fn ticks_and_substeps_are_whole_nanoseconds_and_halves_go_down() {
+    fn ticks_and_substeps_are_whole_nanoseconds_with_halves_rounded_down() {
         assert_eq!(substep(1.0 / 60.0, 1), 16_666_667e-9);
         assert_eq!(substep(1.0 / 60.0, 6), 2_777_778e-9);
         assert_eq!(substep(1.0 / 64.0, 6), 2_604_167e-9);

@@ -457,7 +457,8 @@ pub(super) const FIRST_ORDER_FOLLOWER: Method = Method {
     evaluations: Some(1),
     only: Some(Only {
         needs: Needs::Law { order: 1 },
-        reason: "it moves straight towards a target, so that it steps only a `follow` of order 1",
+        reason: "it moves straight towards a target, so it steps only a body of order 1 with a target, such as \
+                 `follow`",
     }),
     ..PLAIN
 };
@@ -466,7 +467,8 @@ pub(super) const FIRST_ORDER_FOLLOWER: Method = Method {
 pub(super) const SECOND_ORDER_FOLLOWER: Method = Method {
     only: Some(Only {
         needs: Needs::Law { order: 2 },
-        reason: "it moves towards a target with a velocity of its own, so that it steps only a `follow` of order 2",
+        reason: "it moves towards a target with its own velocity, so it steps only a body of order 2 with a target, \
+                 such as `follow`",
     }),
     ..FIRST_ORDER_FOLLOWER
 };

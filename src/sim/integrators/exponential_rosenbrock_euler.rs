@@ -7,7 +7,8 @@ use super::shared::linear_flow::{LinearFlow, response};
 pub(super) const CARD: Method = Method {
     id: "exponential-rosenbrock-euler",
     name: "Exponential Rosenbrock-Euler",
-    about: "exact at any step on springs, drag and all that is linear, without damping of its own; second order elsewhere",
+    about: "exact at any step on springs, drag and other linear forces, with no damping added; second order \
+            elsewhere",
     order: 2,
     order_with_drag: 2,
     matrices: 14,

@@ -142,7 +142,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_joint_is_the_same_by_the_values_of_any_pair_of_settings() {
+    fn any_pair_of_settings_gives_the_same_joint() {
         let joint = [39.5, 0.7];
         for stiffness in [Stiffness, StiffnessPerMass, Compliance, Frequency] {
             for damping in [Damping, DampingPerMass, DampingRatio] {

@@ -74,15 +74,13 @@ impl Scope for PartScope<'_> {
                 format!("`{name}` is the start of a coordinate, which only `exact` knows")
             }
             Part::Energy => {
-                format!("an energy that is conserved does not depend on `{name}`")
+                format!("a conserved energy does not depend on `{name}`")
             }
             Part::Place(..) => {
-                format!("a place is drawn by coordinates and constants alone, not by `{name}`")
+                format!("a place depends on coordinates and constants alone, not on `{name}`")
             }
             _ if self.text.slots_of_motion().contains(&slot) => {
-                format!(
-                    "`{name}` is what `exact` finds, of `t`, constants and starts such as `{name}0`"
-                )
+                format!("`exact` gives `{name}`, by `t`, constants and starts such as `{name}0`")
             }
             _ => format!("an exact solution does not depend on `{name}`"),
         })

@@ -257,8 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn every_function_has_the_value_of_the_standard_library_and_the_derivatives_of_its_differences()
-    {
+    fn every_function_matches_the_standard_library_and_its_finite_differences() {
         for function in &FUNCTIONS {
             let is_call = |(call, _): &&(&str, _)| call.starts_with(&format!("{}(", function.name));
             let (call, reference) =

@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn a_block_changes_numbers_only_where_its_condition_holds() {
+    fn a_block_acts_only_if_its_condition_holds() {
         let text = "x += v\nif x > 1 {\n  let over = x - 1\n  x = 1 - over; v = -v\n} else if x < 0.5 { v *= 2 } else { v *= 3 }";
         assert_eq!(run(text, 1), [0.75, 1.5]);
         assert_eq!(run(text, 2), [2.0 - 2.25, -1.5]);
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_read_before_it_is_assigned_is_carried() {
+    fn a_name_read_before_its_assignment_is_carried() {
         let text = read(
             "memory prev = 2*3; temp = x; x += (x - prev) * 0.5; prev = temp; count = count + 1",
         );
@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn linearity_is_read_off_the_form() {
+    fn linearity_is_recognised_from_the_text() {
         for (text, is_linear) in [
             ("v = (v + (target - x) * 0.2) * 0.85; x += v", true),
             ("let k = 1 - exp(-20 * dt); x = lerp(x, target, min(k, 1))", true),
@@ -314,13 +314,13 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_names_its_bytes() {
+    fn a_fault_has_its_byte_range() {
         for (text, at, what) in [
             ("x += k", 5..6, "unknown name `k`"),
             ("v = 1\nx += lrep(x, 1, 2)", 11..15, "unknown function `lrep`"),
             ("x += (1", 6..7, "the text ends where `)` is missing"),
             ("let k = 2", 0..9, "no line assigns `x` or `v`"),
-            ("target = 1", 0..6, "`target` is where `x` goes, which no line changes"),
+            ("target = 1", 0..6, "`target` is the goal of `x`, and no line may change it"),
             ("let step = 1; x = step", 4..8, "`step` has a meaning of its own in expressions"),
             ("x = k; let k = 1", 4..5, "unknown name `k`"),
             ("let k += 1; x = k", 4..5, "`k` has no value yet"),

@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn growth_counts_in_excess_of_true_growth_and_from_a_tenth_of_it() {
+    fn growth_counts_in_excess_of_true_growth_beyond_a_tenth() {
         for h in [0.1, 4.0] {
             for (own, grows, counted) in [
                 (2.0, 2.15, 0.0),

@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn a_deviation_from_rest_moves_as_a_linear_body_does() {
+    fn a_deviation_from_rest_moves_like_a_linear_body() {
         let spring = kind("spring").unwrap();
         let values = [2.0, 180.0, 3.0, 1.0, 0.0, 1.0];
         for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {

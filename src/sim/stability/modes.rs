@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mode_of_a_chain_has_the_stability_of_a_spring_with_its_frequency_and_damping() {
+    fn a_chain_mode_is_as_stable_as_a_spring_of_its_frequency_and_damping() {
         for damping in [0.0, 0.3] {
             let chain = unforced(&*chain(damping));
             for mode in normal_modes(&*chain).unwrap() {
@@ -325,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frequency_error_is_known_up_to_half_a_turn_per_tick_and_not_beyond() {
+    fn a_frequency_error_is_known_up_to_half_a_turn_per_tick() {
         let midpoint = Solver::Method(method("implicit-midpoint").unwrap());
         for (turned, told) in
             [(3.1, true), (3.2, false), (8.0, false), (13.0, false), (30.0, false)]
@@ -342,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn a_small_motion_has_the_map_of_a_large_one_and_no_limit_of_speed() {
+    fn a_small_motion_has_the_map_of_a_large_one_without_speed_limit() {
         let spring = body("spring", &[1.0, 9e6, 600.0, 1.0, 0.0, 1.0]);
         let of = |id: &str, h: f64| {
             let (mode, solver) = (mode(9e6, 600.0), Solver::Method(method(id).unwrap()));
@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn a_small_loss_of_a_method_with_memory_is_found_over_many_ticks() {
+    fn a_small_loss_of_a_multistep_method_is_found_over_many_ticks() {
         let h = 0.001;
         let spring = body("spring", &[1.0, 25.0, 0.0, 1.0, 0.0, 1.0]);
         let tick = Tick { t: 0.0, h, substeps: 1 };

@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn the_radius_is_that_of_the_fastest_mode() {
+    fn the_fastest_mode_determines_the_spectral_radius() {
         for h in [0.01, 0.03, 0.1] {
             let z = h * fastest();
             let wanted = (1.0 + z * z).sqrt();
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn the_radius_of_a_method_with_memory_is_that_of_state_and_memory() {
+    fn the_spectral_radius_of_a_multistep_method_includes_its_memory() {
         // ω² = 3200 sin²(5π/22) and a damping ratio of 0.2 in the fastest mode.
         let c = 0.4 * fastest() * 800.0 / (fastest() * fastest());
         let values = [10.0, 1.0, 800.0, c, 3.0, 1.0, 1.0];
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drift_is_no_growth_and_a_method_of_its_own_substeps_has_no_radius() {
+    fn a_drift_is_no_growth_and_a_self_substepping_method_has_no_radius() {
         let ship = (kind("ship").unwrap().build)(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0], Solver::Truth);
         let tick = Tick { t: 0.0, h: 0.1, substeps: 1 };
         let of = |id| spectral_radius(&*ship, id, tick);

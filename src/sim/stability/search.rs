@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_slowest_rate_is_found_wherever_it_lies() {
+    fn the_slowest_rate_is_found_anywhere() {
         for limit in (1..300).chain([4096, 8191, 8192, 8193, 9999, 10_000]) {
             let mut tried = 0;
             let found = RateSearch::run(|hz| {
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_that_passes_alone_is_rejected() {
+    fn an_isolated_passing_rate_is_rejected() {
         assert_eq!(RateSearch::run(|hz| hz == 3 || hz >= 100), Some(100));
     }
 }

@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pendulum_at_rest_swings_as_a_spring_and_an_orbit_has_no_rest() {
+    fn a_pendulum_at_rest_swings_like_a_spring_and_an_orbit_has_no_rest() {
         let pendulum = body("pendulum", &[2.0, 3.0, 9.81, 0.6, 1.2, 0.5, 1.0]);
         let modes = SmallMotion::of(&*pendulum).unwrap().normal_modes().unwrap();
         assert_eq!(modes.len(), 1);
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn the_coordinates_of_a_chain_together_are_as_stable_as_its_modes() {
+    fn a_whole_chain_is_as_stable_as_its_modes() {
         for damping in [0.0, 0.3] {
             let chain = unforced(&*body("chain", &[4.0, 0.5, 200.0, damping, 2.0, 0.7, 2.0]));
             let small = SmallMotion::of(&*chain).unwrap();

@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn memory_is_told_from_rounding_at_any_scale() {
+    fn memory_is_distinguished_from_rounding_at_any_scale() {
         for size in [1.0, 1e5] {
             let map = DMatrix::from_row_slice(2, 2, &[0.8, 0.3 * size, -0.5 / size, 0.9]);
             for (off, wanted) in [(0.0, false), (1e-8, true), (1e-12, false)] {

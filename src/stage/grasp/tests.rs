@@ -40,7 +40,7 @@ fn every_handle_of_every_kind_can_be_grabbed_and_is_at_least_12_points_wide() {
 }
 
 #[test]
-fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
+fn a_held_body_is_drawn_under_the_pointer() {
     for kind in BODIES.iter() {
         let mut studio = studio(kind.id);
         // The same while zoomed and panned.
@@ -76,7 +76,7 @@ fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
 }
 
 #[test]
-fn a_body_is_flung_in_simulated_metres_per_second_and_up_is_up() {
+fn a_body_is_thrown_in_simulated_metres_per_second_with_y_up() {
     for (kind, velocity) in
         [("spring", [120.0, 50.0]), ("orbit", [30.0, -60.0]), ("helm", [9.0, 4.0])]
     {
@@ -95,7 +95,7 @@ fn a_body_is_flung_in_simulated_metres_per_second_and_up_is_up() {
 }
 
 #[test]
-fn a_bob_that_is_led_round_counts_its_turns_and_is_flung_along_its_circle() {
+fn a_bob_dragged_round_counts_its_turns_and_flies_along_its_circle() {
     let studio = studio("pendulum");
     let picture = picture(&studio);
     let cell = &picture.cells[0];
@@ -122,7 +122,7 @@ fn a_bob_that_is_led_round_counts_its_turns_and_is_flung_along_its_circle() {
 }
 
 #[test]
-fn of_a_chain_only_the_bead_in_hand_moves() {
+fn dragging_a_bead_moves_no_other_bead_of_the_chain() {
     let studio = studio("chain");
     let picture = picture(&studio);
     let cell = &picture.cells[0];
@@ -162,7 +162,7 @@ fn a_ghost_is_grabbed_where_its_lane_is_out_of_reach() {
 }
 
 #[test]
-fn a_point_of_the_stage_and_its_metres_are_each_others_inverse() {
+fn stage_points_convert_to_metres_and_back() {
     let mut studio = studio("harbour");
     for body in 0..studio.scene().bodies.len() {
         let zoom_pan = studio.view().zoom_pan(body).zoomed(3.0, [0.3, -0.2]);
@@ -177,7 +177,7 @@ fn a_point_of_the_stage_and_its_metres_are_each_others_inverse() {
 }
 
 #[test]
-fn no_trail_leads_to_where_a_body_was_put() {
+fn no_trail_leads_to_a_placement() {
     for kind in ["spring", "orbit", "pendulum"] {
         let mut studio = studio(kind);
         (0..20).for_each(|_| studio.tick());

@@ -34,7 +34,7 @@ fn near(found: [f64; 2], wanted: [f64; 2]) -> bool {
 }
 
 #[test]
-fn runge_kutta_4_evaluates_at_the_places_of_the_textbook() {
+fn rk4_evaluates_at_the_textbook_points() {
     let step = step_of(&studio("spring", "rk4", 7)).unwrap();
     let h = 1.0 / 60.0;
     let omega_squared = std::f64::consts::TAU * std::f64::consts::TAU;
@@ -59,7 +59,7 @@ fn runge_kutta_4_evaluates_at_the_places_of_the_textbook() {
 }
 
 #[test]
-fn every_method_lands_where_the_run_goes_to_the_bit_and_does_not_disturb_it() {
+fn every_predicted_landing_matches_the_run_to_the_bit() {
     for scene in ["spring", "chain", "pendulum", "orbit"] {
         for method in GENERAL_METHODS {
             let mut studio = studio(scene, method.id, 5);
@@ -102,7 +102,7 @@ fn a_halted_body_has_no_next_step() {
 }
 
 #[test]
-fn runge_kutta_4_loses_the_same_part_of_the_swing_in_every_tick_and_a_32nd_of_it_in_half_ticks() {
+fn rk4_loses_a_fixed_part_per_tick_and_a_32nd_of_it_in_half_ticks() {
     for ticks in [0, 1, 5] {
         let mut studio = studio("spring", "rk4", 0);
         studio.apply(StageCommand::TickHz(5.into()));
@@ -120,7 +120,7 @@ fn runge_kutta_4_loses_the_same_part_of_the_swing_in_every_tick_and_a_32nd_of_it
 }
 
 #[test]
-fn an_orbit_has_the_energy_of_its_state_and_turns_where_it_has_no_speed() {
+fn an_undamped_orbit_has_the_energy_of_its_state_and_turns_at_zero_speed() {
     let studio = studio("spring", "rk4", 7);
     let tau = std::f64::consts::TAU;
     let size = |[q, v]: [f64; 2]| libm::hypot(q, v / tau);
@@ -138,7 +138,7 @@ fn an_orbit_has_the_energy_of_its_state_and_turns_where_it_has_no_speed() {
 }
 
 #[test]
-fn each_future_is_what_the_run_comes_to_under_its_method() {
+fn each_predicted_future_matches_the_run_under_its_method() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..7).for_each(|_| studio.tick());
     studio.apply(StageCommand::TickHz(12.into()));
@@ -170,7 +170,7 @@ fn each_future_is_what_the_run_comes_to_under_its_method() {
 }
 
 #[test]
-fn futures_are_shown_at_rest_if_asked_for_and_while_the_rate_is_dragged() {
+fn futures_are_shown_on_request_at_rest_and_while_the_rate_is_dragged() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     assert!(!shows_futures(&studio));
     studio.apply(ViewCommand::PointerDown(true));

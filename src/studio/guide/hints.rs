@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_is_asked_to_start_again_what_has_only_just_begun() {
+    fn no_hint_asks_to_restart_a_fresh_run() {
         use crate::studio::Studio;
         let text = "title = 'mine'\ntick_hz = 60\nseconds = 9\nmethods = ['rk4', 'implicit-euler']\n\
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 9\nx0_m = 1\n";
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn hints_lead_on_when_they_are_followed_and_in_any_order() {
+    fn following_hints_in_any_order_leads_to_the_next() {
         use crate::studio::Studio;
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let text = |studio: &Studio| studio.hint().unwrap_or_default();

@@ -25,7 +25,7 @@ fn studio(text: &str) -> Studio {
 }
 
 #[test]
-fn a_file_stays_on_the_list_and_does_not_pass_for_a_built_in_scene() {
+fn an_opened_file_stays_on_the_list_apart_from_built_in_scenes() {
     let mut studio = studio(text("ship"));
     assert!(studio.title().starts_with("Regatta - ship.toml - "), "{}", studio.title());
     assert_eq!(studio.deck.scene_list().open(), Some(SCENES.len()));
@@ -42,7 +42,7 @@ fn a_file_stays_on_the_list_and_does_not_pass_for_a_built_in_scene() {
 }
 
 #[test]
-fn a_file_that_tells_ticks_is_told_of_where_it_opens() {
+fn opening_a_file_with_the_tick_key_warns() {
     for (when, told) in [("at_s = 1", false), ("tick = 1", true)] {
         let text = format!("{}\n[[command]]\n{when}\nthrottle = 0", text("ship"));
         let opened = studio(&text);
@@ -55,7 +55,7 @@ fn a_file_that_tells_ticks_is_told_of_where_it_opens() {
 }
 
 #[test]
-fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
+fn a_changed_file_with_the_same_lanes_and_bodies_reruns_to_the_same_tick() {
     let before = text("spring");
     let after = before.replacen("mass_kg = ", "mass_kg = 1", 1);
     assert_ne!(before, after);
@@ -88,7 +88,7 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
 }
 
 #[test]
-fn a_file_that_changes_in_comments_only_leaves_the_run_and_its_journal_alone() {
+fn a_change_of_comments_alone_keeps_the_run_and_its_journal() {
     let mut studio = studio(text("spring"));
     (0..50).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Kick(1.0)));
@@ -101,7 +101,7 @@ fn a_file_that_changes_in_comments_only_leaves_the_run_and_its_journal_alone() {
 }
 
 #[test]
-fn a_changed_file_with_other_bodies_or_lanes_begins_again() {
+fn a_changed_file_with_other_bodies_or_lanes_restarts() {
     let before = text("spring");
     for after in
         [text("harbour").to_owned(), before.replacen("\"rk4\", ", "", 1), text("ship").to_owned()]
@@ -116,7 +116,7 @@ fn a_changed_file_with_other_bodies_or_lanes_begins_again() {
 }
 
 #[test]
-fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
+fn a_changed_file_sets_the_rate_unless_a_person_chose_one() {
     let before = text("spring");
     let after = before.replacen("tick_hz = 60", "tick_hz = 50", 1);
     assert_ne!(before, after);
@@ -131,7 +131,7 @@ fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
 }
 
 #[test]
-fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited() {
+fn a_refused_path_stays_in_its_field_with_the_reason_until_edited() {
     let mut studio = studio(text("spring"));
     let refused = |studio: &Studio| match studio.viewer.dialog() {
         Some(Dialog::Path { refused, .. }) => refused.clone(),
@@ -157,7 +157,7 @@ fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited(
 }
 
 #[test]
-fn a_file_that_goes_and_comes_back_is_told_by_its_name() {
+fn a_deleted_or_restored_file_is_reported_by_name() {
     let mut studio = studio(text("spring"));
     file_is_gone(&mut studio.deck, &mut studio.viewer, Path::new(PATH));
     assert!(studio.viewer.notice.as_deref().unwrap().starts_with("ship.toml is gone: "));
@@ -166,7 +166,7 @@ fn a_file_that_goes_and_comes_back_is_told_by_its_name() {
 }
 
 #[test]
-fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
+fn a_broken_file_shows_its_mistakes_and_keeps_the_run() {
     let mut studio = studio(text("spring"));
     (0..50).for_each(|_| studio.tick());
     let hash = studio.race().state_hash();
@@ -199,7 +199,7 @@ fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
 }
 
 #[test]
-fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
+fn the_rewind_limit_stays_the_same_for_every_opened_scene() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.deck.set_rewind_bytes(1 << 20);
     studio.apply(StageCommand::SceneBeside(Step::Next));
@@ -213,7 +213,7 @@ fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
 }
 
 #[test]
-fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
+fn preferences_survive_a_change_of_scene_and_the_view_does_not() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     let chosen = studio.viewer.preferences.clone();
     for command in [
@@ -236,7 +236,7 @@ fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
 }
 
 #[test]
-fn a_comparison_that_ends_in_the_loop_lab_marks_the_run_and_leaves_it_where_it_is() {
+fn a_comparison_ending_in_the_loop_lab_marks_the_run_without_moving_it() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..200).for_each(|_| studio.tick());
     studio.apply(LoopCommand::ToggleLab);
@@ -260,7 +260,7 @@ fn a_comparison_that_ends_in_the_loop_lab_marks_the_run_and_leaves_it_where_it_i
 }
 
 #[test]
-fn a_recording_that_differs_runs_beside_the_run_as_a_ghost_at_every_tick() {
+fn a_differing_recording_runs_along_as_a_ghost_at_every_tick() {
     use crate::run::diff::{Tolerance, diff};
     use crate::run::trace::Made;
     use crate::stage::compose;
@@ -321,7 +321,7 @@ fn a_recording_that_differs_runs_beside_the_run_as_a_ghost_at_every_tick() {
 }
 
 #[test]
-fn my_spring_runs_at_the_tick_rate_of_its_dialog_with_the_advice_beside_it() {
+fn my_spring_runs_at_the_tick_rate_of_its_dialog_and_opens_the_advice() {
     let mut studio = Studio::new(Scene::built_in("ship").unwrap());
     studio.viewer.preferences.display.measure = false;
     studio.apply(ViewCommand::AskForSpring);

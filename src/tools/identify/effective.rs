@@ -25,6 +25,8 @@ pub(crate) const SLOW: f64 = 1e-6;
 const FAST: f64 = 1e-2;
 /// Below this share of the squared angular frequency, a swing is invisible.
 const NO_SWING: f64 = 1e-9;
+/// Below this share of the squared decay, the pull of a spring is rounding: the body coasts to a stop.
+const NO_SPRING: f64 = 1e-8;
 
 impl Effective {
     /// Visible frequency in hertz; `None` if the motion does not swing.
@@ -120,7 +122,15 @@ impl Effective {
     fn of_states(states: &[(u64, [f64; 2])], body: &LoggedBody, tick_s: f64) -> Option<Self> {
         let recurrence = Self::of_recurrence(states, body, tick_s);
         let is_number = |seen: &Self| seen.omega.is_finite() && seen.decay.is_finite();
-        recurrence.filter(is_number).or_else(|| Self::of_slopes(states, body, tick_s))
+        let found =
+            recurrence.filter(is_number).or_else(|| Self::of_slopes(states, body, tick_s))?;
+        let coasts = found.omega * found.omega < NO_SPRING * found.decay * found.decay;
+        Some(if coasts && found.omega > 0.0 { found.coasting() } else { found })
+    }
+
+    /// The same motion without its spring.
+    fn coasting(self) -> Self {
+        Self { omega: 0.0, decay: 2.0 * self.decay }
     }
 
     /// Fits a spring to the slopes of the velocity.

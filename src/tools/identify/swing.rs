@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn a_swing_at_uneven_times_is_found_to_rounding_and_a_noisy_one_within_its_errors() {
+    fn an_uneven_swing_is_fitted_to_rounding_and_a_noisy_one_within_its_errors() {
         let body = LoggedBody::default();
         for noise in [0.0, 1e-3, 1e-2] {
             let log = log(noise);
@@ -210,8 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn the_closed_form_has_the_slope_and_the_curve_of_the_equation_on_all_sides_of_critical_damping()
-     {
+    fn the_closed_form_satisfies_its_equation_on_both_sides_of_critical_damping() {
         let (k, h) = (4.0_f64, 1e-4);
         for c in [-0.5, 0.0, 0.5, 3.999_999_99, 4.0, 4.000_000_01, 9.0] {
             let at = |t| swung([k, c], [1.0, -0.3], t);

@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_friction_keeps_as_much_in_a_second_at_every_rate_and_coasts_as_far_as_its_frames_do() {
+    fn friction_loses_and_coasts_equally_at_every_frame_rate() {
         let friction = Friction { kept: 0.9, fps: 60.0 };
         let in_a_second = libm::pow(0.9, 60.0);
         for (fps, kept) in friction.kept_at() {

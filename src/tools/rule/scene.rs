@@ -66,7 +66,7 @@ pub fn rule_scene(file: &str, text: &str, fps: TickRate) -> Result<Scene, SceneE
     let rates = SUBSTEPS.map(|substeps| tick_hz.scaled(substeps, 1));
     let [slow, own, fast] = rates.map(|rate| format!("{rate:.3}"));
     let text = format!(
-        "title = \"{id} at {slow}, {own} and {fast} frames a second\"\n\
+        "title = \"A rule at {slow}, {own} and {fast} frames a second\"\n\
          about = \"The lines of {id}, once a frame. They were written for {own} frames a second: their motion at that rate is the exact one here, and each lane runs the same lines at another.\"\n\
          hint = \"Press `[` or `]`: at other tick rates the lanes part from the exact motion, for all run their lines more or less often.\"\n\
          {}seconds = {end}\n\n[race]\nopen = true\n{}{}{}{}",

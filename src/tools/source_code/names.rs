@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_has_the_precision_that_is_asked_for() {
+    fn a_number_has_the_requested_precision() {
         let text = "sqrt(1.5e-8|4e-4 * k) / n - 2.0 * max(k, nan)";
         let double = [
             "f64::sqrt(1.5e-8 * k) / n as f64 - 2.0 * f64::max(k, f64::NAN)",
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_call_of_a_given_function_is_written_as_each_language_has_it() {
+    fn a_call_of_the_users_function_follows_each_language() {
         let text = "k * a(x + abs(v_end), v)";
         let expected = [
             "k * a(x + f64::abs(v_end), v)",
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn a_function_that_is_handed_on_keeps_what_it_needs() {
+    fn a_forwarded_function_keeps_its_user_argument() {
         let text = "solve(a, (x), 1.5e-3)";
         let expected = [
             "my_method_solve(&a, (x), 1.5e-3)",
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn fields_conditions_and_constants_are_written_as_each_language_has_them() {
+    fn fields_conditions_and_constants_follow_each_language() {
         let text = "memory.last_h == h and is_nan(MIN_H) or x < nan";
         let expected = [
             "memory.last_h == h && f64::is_nan(MIN_H) || x < f64::NAN",

@@ -74,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_point_of_the_plane_is_found_again_from_its_place_on_the_screen() {
+    fn plane_and_screen_points_convert_back_and_forth() {
         let rect = Rect::from_min_max(pos2(100.0, 50.0), pos2(300.0, 250.0));
         let area = PlotArea { rect, bounds: [[-1.0, 3.0], [0.0, 5.0]] };
         assert_eq!(area.at([-1.0, 0.0]), rect.left_bottom());

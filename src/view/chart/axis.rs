@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn powers_of_ten_are_marked_every_few_where_they_crowd() {
+    fn crowded_powers_of_ten_are_marked_every_few() {
         assert_eq!(decades([1e-6, 1.5], 120.0, 28.0), ["10⁻⁶", "10⁻⁴", "10⁻²", "10⁰"]);
         assert_eq!(decades([1e-17, 1e3], 60.0, 28.0).len(), 3);
         assert_eq!(decades([1e-2, 1.5], 10.0, 28.0).len(), 3);
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_leads_back_to_its_value() {
+    fn a_position_converts_back_to_its_value() {
         for scale in SCALES {
             for value in [1e-6, 0.003, 1.0, 77.0, 1e9] {
                 let back = scale.value(scale.place(value));
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn every_range_has_three_different_marks_apart_from_each_other() {
+    fn every_range_has_three_distinct_marks_with_room_between() {
         for scale in SCALES {
             for range in [[-3.2, 1.2], [0.4, 0.6], [-0.01, 0.02], [-2.0, -1.0], [-9.0, 9.0]] {
                 for room in [50.0, 160.0, 500.0] {

@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_column_spans_what_the_line_covers_in_it() {
+    fn a_column_spans_the_part_of_the_line_in_it() {
         // Up and down within one column, then a slope over two more.
         let found = spans(&[[10.1, 0.0], [10.2, 4.0], [10.3, -2.0], [10.5, 0.0], [11.5, 2.0]]);
         assert_eq!(found[0], Some((-2.0, 4.0)));
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn a_column_spans_what_was_swept_on_the_way_to_a_point() {
+    fn a_column_includes_the_range_swept_before_a_point() {
         let points = [pos2(10.2, 1.0), pos2(11.2, 1.0), pos2(12.2, 1.0)];
         let found = COLUMNS.spans(&points, &[[1.0; 2], [-5.0, 7.0], [1.0; 2]]);
         assert_eq!(found[..3], [Some((-5.0, 7.0)); 3]);
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_outside_the_columns_is_cut_off() {
+    fn lines_are_clipped_to_the_columns() {
         let through = spans(&[[8.0, 0.0], [16.0, 8.0]]);
         assert_eq!((through[0], through[7]), (Some((2.0, 2.5)), Some((5.5, 6.0))));
         assert_eq!(spans(&[[2.0, 1.0], [9.9, 1.0]]), [None; 8]);
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_single_sample_is_a_span_of_no_height_and_none_is_nothing() {
+    fn a_single_sample_is_a_span_of_zero_height() {
         assert_eq!(spans(&[]), [None; 8]);
         let one = spans(&[[11.2, 5.0]]);
         assert_eq!(one[2], Some((5.0, 5.0)));
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_breaks_off_at_what_is_not_finite() {
+    fn a_line_breaks_at_non_finite_values() {
         let found = spans(&[[10.2, 1.0], [11.2, f32::NAN], [12.2, 3.0], [12.7, f32::INFINITY]]);
         assert_eq!(found[0], Some((1.0, 1.0)));
         assert_eq!(found[1..4], [None; 3]);
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn the_band_of_a_swing_is_as_wide_as_the_swing_wherever_its_samples_fall() {
+    fn the_band_of_a_swing_is_as_wide_as_the_swing_for_any_samples() {
         for turns_per_sample in [0.32, 0.41, 0.618, 4.77] {
             let swing = |i: usize| libm::sinf(std::f32::consts::TAU * turns_per_sample * i as f32);
             let points: Vec<Pos2> = (0..2000).map(|i| pos2(0.2 * i as f32, swing(i))).collect();

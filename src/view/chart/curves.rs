@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn a_swing_of_eight_points_has_half_the_turns_of_one_of_four() {
+    fn a_swing_of_eight_points_turns_half_as_often_as_one_of_four() {
         let swings = |samples: usize| -> Vec<Pos2> {
             let phase = |i: usize| std::f32::consts::TAU * (i as f32 + 0.2) / samples as f32;
             (0..40 * samples).map(|i| Pos2::new(i as f32, phase(i).sin())).collect()
@@ -305,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_hides_a_swing_that_is_as_fast_as_its_points() {
+    fn a_line_hides_a_swing_as_fast_as_its_samples() {
         let points: Vec<Pos2> = (0..100).map(|i| Pos2::new(i as f32, 50.0)).collect();
         let swept = |wide: f32, every: usize| -> Vec<[f32; 2]> {
             let reach = |i: usize| if i.is_multiple_of(every) { wide } else { 0.0 };
@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn an_arrow_is_where_the_curve_leaves_and_shows_the_way() {
+    fn an_arrow_marks_where_and_how_a_curve_leaves() {
         let frame = Rect::from_min_max(Pos2::ZERO, Pos2::new(200.0, 100.0));
         let inside = Pos2::new(60.0, 50.0);
         for (to, at, towards) in [

@@ -214,7 +214,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn charts_fill_their_rows_and_the_last_one_what_is_left() {
+    fn charts_fill_their_rows_and_the_last_one_fills_the_rest() {
         let chart = Chart {
             title: String::new(),
             legend: Legend::Own,

@@ -201,7 +201,7 @@ mod tests {
     use crate::view::chart::LineStyle;
 
     #[test]
-    fn a_crowded_curve_is_a_band_and_long_words_have_lines() {
+    fn a_crowded_curve_becomes_a_band_and_long_text_is_wrapped() {
         let plot = Rect::from_min_size(Pos2::ZERO, vec2(200.0, 100.0));
         let curve = |count: u16| {
             let x = |i: u16| 200.0 * f32::from(i) / f32::from(count);

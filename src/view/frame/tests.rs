@@ -31,8 +31,8 @@ fn draw(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
 }
 
 #[test]
-fn the_stage_fills_what_the_panels_leave() {
-    let Some(gpu) = gpu_or_skip("the_stage_fills_what_the_panels_leave") else { return };
+fn the_stage_fills_the_room_beside_the_panels() {
+    let Some(gpu) = gpu_or_skip("the_stage_fills_the_room_beside_the_panels") else { return };
     for scale in [1.0, 2.0] {
         let pixels = draw(&gpu, [200, 100], scale, &red_everywhere());
         let edge = (40.0 * scale) as u32;
@@ -77,8 +77,8 @@ fn labels_are_written_on_the_stage() {
 }
 
 #[test]
-fn a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip() {
-    let test = "a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip";
+fn a_curve_is_drawn_dashed_and_clipped() {
+    let test = "a_curve_is_drawn_dashed_and_clipped";
     let Some(gpu) = gpu_or_skip(test) else { return };
     let target = Offscreen::new(&gpu, [128, 64]).unwrap();
     let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
@@ -165,8 +165,8 @@ fn with_and_without_copies(gpu: &Gpu, size_px: [u32; 2]) -> [(FrameRenderer, Off
 }
 
 #[test]
-fn what_is_kept_of_the_panels_changes_no_pixel() {
-    let Some(gpu) = gpu_or_skip("what_is_kept_of_the_panels_changes_no_pixel") else { return };
+fn cached_panels_change_no_pixel() {
+    let Some(gpu) = gpu_or_skip("cached_panels_change_no_pixel") else { return };
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.apply(StageCommand::ToggleRace);
     let size_px = [640, 400];
@@ -194,8 +194,8 @@ fn what_is_kept_of_the_panels_changes_no_pixel() {
 }
 
 #[test]
-fn a_kept_tile_shows_nothing_of_what_it_showed_before() {
-    let Some(gpu) = gpu_or_skip("a_kept_tile_shows_nothing_of_what_it_showed_before") else {
+fn a_cached_tile_shows_no_trace_of_its_former_content() {
+    let Some(gpu) = gpu_or_skip("a_cached_tile_shows_no_trace_of_its_former_content") else {
         return;
     };
     let size_px = [100, 70];
@@ -216,8 +216,8 @@ fn a_kept_tile_shows_nothing_of_what_it_showed_before() {
 }
 
 #[test]
-fn a_texture_that_changes_under_a_quad_that_does_not_is_drawn_again() {
-    let test = "a_texture_that_changes_under_a_quad_that_does_not_is_drawn_again";
+fn an_unchanged_quad_is_redrawn_when_its_texture_changes() {
+    let test = "an_unchanged_quad_is_redrawn_when_its_texture_changes";
     let Some(gpu) = gpu_or_skip(test) else { return };
     let size_px = [100, 70];
     let mut renderers = with_and_without_copies(&gpu, size_px);

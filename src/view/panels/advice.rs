@@ -140,7 +140,7 @@ fn show_recommendations(
                 } else if all_miss {
                     format!("none with up to {MAX_ADVISED_SUBSTEPS} substeps")
                 } else {
-                    "unknown for those that might".into()
+                    "not known".into()
                 };
                 truncated_line(ui, RichText::new(none).color(palette(ui).text));
                 return;
@@ -332,9 +332,8 @@ impl Row<'_> {
                 return;
             }
             CriterionResult::Unknown => {
-                ui.label(dim("?")).on_hover_text(
-                    "unknown: there is no exact motion to compare with, or it takes too much work",
-                );
+                ui.label(dim("?"))
+                    .on_hover_text("not known: no exact motion to compare with, or too much work");
                 return;
             }
         };
@@ -434,7 +433,7 @@ mod tests {
     }
 
     #[test]
-    fn no_row_of_the_table_lies_over_the_inspector() {
+    fn no_row_of_the_table_covers_the_inspector() {
         let (mut studio, mut worker) = asked("spring", false);
         judge(&mut studio, &mut worker, 4);
         studio.apply(RunCommand::ToggleInspector);
@@ -460,7 +459,7 @@ mod tests {
     }
 
     #[test]
-    fn every_column_is_seen_whole_and_the_stage_keeps_its_room() {
+    fn every_column_is_fully_visible_and_the_stage_keeps_its_room() {
         let (mut studio, mut worker) = asked("spring", false);
         let wanted = studio.scene().methods_for_games().count();
         judge(&mut studio, &mut worker, wanted);
@@ -488,7 +487,7 @@ mod tests {
     }
 
     #[test]
-    fn the_names_of_methods_in_the_table_have_one_size_of_type() {
+    fn method_names_in_the_table_have_one_type_size() {
         let (mut studio, mut worker) = asked("spring", false);
         judge(&mut studio, &mut worker, 8);
         for size in SIZES {
@@ -514,7 +513,7 @@ mod tests {
     }
 
     #[test]
-    fn the_answer_stands_above_the_table_from_the_first_method_on_and_grows() {
+    fn the_answer_above_the_table_appears_with_the_first_method_and_grows() {
         let (mut studio, mut worker) = asked("spring", false);
         let of = |studio: &Studio, words: &str| {
             let (_, texts) = shown(studio, [1280.0, 720.0]);
@@ -534,7 +533,7 @@ mod tests {
     }
 
     #[test]
-    fn the_selected_body_can_be_asked_about_alone() {
+    fn advice_can_be_limited_to_the_selected_body() {
         let counts = |is_of_one: bool| {
             let (mut studio, mut worker) = asked("harbour", is_of_one);
             judge(&mut studio, &mut worker, 2);
@@ -553,7 +552,7 @@ mod tests {
     }
 
     #[test]
-    fn the_code_of_the_method_on_the_stage_stands_beside_it_with_a_copy_button() {
+    fn the_code_of_the_method_on_the_stage_is_shown_with_a_copy_button() {
         let (mut studio, mut worker) = asked("spring", false);
         judge(&mut studio, &mut worker, 3);
         studio.apply(RunCommand::SetLane(LaneSpec { substeps: 2, ..studio.entries()[0] }));
@@ -574,7 +573,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_reserve_is_marked_in_the_answer_and_in_its_tooltip() {
+    fn a_missing_reserve_is_marked_in_the_answer_and_its_tooltip() {
         for (slowest_hz, factor, marks) in [(20, 1.0, 1), (60, 1.4, 1), (20, 1.4, 0)] {
             let met = CriterionMet {
                 tick_hz: 60.into(),

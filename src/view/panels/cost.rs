@@ -108,7 +108,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
             time_of,
             ns,
         ));
-        let about = "the part of a frame at 60 Hz that its ticks take";
+        let about = "the share of a frame at 60 Hz that its ticks take";
         all.push(Column::number("60 Hz frame", (70.0, 2), about, share_of, ns));
     }
     all
@@ -188,7 +188,7 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     #[test]
-    fn solo_the_costs_of_all_offered_methods_are_compared_after_the_prediction() {
+    fn solo_compares_the_costs_of_offered_methods_after_the_prediction() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let stop = STOPS.iter().position(|stop| stop.instrument == Instrument::Cost).unwrap();
         studio.apply(ViewCommand::GoToStop(stop));

@@ -50,7 +50,7 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     #[test]
-    fn after_each_press_of_tab_a_ring_shows_what_has_the_focus() {
+    fn each_press_of_tab_puts_a_visible_ring_on_the_focused_widget() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(StageCommand::ToggleRace);
         let mut window = TestWindow::new([1280.0, 720.0]);

@@ -145,7 +145,7 @@ mod tests {
     use crate::scene::Scene;
 
     #[test]
-    fn the_verdict_and_the_hint_are_spoken_as_sentences_that_change_when_they_do() {
+    fn verdict_and_hint_are_spoken_and_repeated_only_when_they_change() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         assert!(!spoken(&studio).contains("judging"), "{}", spoken(&studio));
         studio.analyse();
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn the_throttle_is_told_of_a_ship_that_is_looked_at_or_whose_throttle_is_not_full() {
+    fn the_throttle_keys_show_for_a_selected_ship_or_a_reduced_throttle() {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         let is_told = |studio: &Studio| {
             key_hints(studio).iter().any(|(_, what, _)| what.starts_with("throttle"))

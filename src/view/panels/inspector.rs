@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn it_is_laid_out_in_windows_of_every_width() {
+    fn the_inspector_fits_windows_of_every_width() {
         let mut studio = Studio::new(Scene::built_in("bridge").unwrap());
         studio.apply(RunCommand::ToggleInspector);
         for width in (100..1300).step_by(40) {
@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn restoring_all_makes_a_scene_what_it_was() {
+    fn restore_all_restores_the_opened_scene() {
         let mut studio = Studio::new(Scene::built_in("chain").unwrap());
         studio.apply(StageCommand::ToggleRace);
         assert_eq!(restore_commands(&studio), []);
@@ -325,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn a_parameter_that_is_swept_goes_up_and_comes_back_to_the_last_digit() {
+    fn a_swept_parameter_rises_and_returns_to_the_last_digit() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(RunCommand::ToggleInspector);
         let mut window = TestWindow::new([1280.0, 900.0]);

@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_stand_between_backticks() {
+    fn keys_are_written_between_backticks() {
         let found: Vec<Piece<'_>> = pieces("Press `2` to switch, then `Home`.").collect();
         let expected = [
             Piece::Words("Press"),

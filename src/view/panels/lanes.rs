@@ -137,7 +137,7 @@ impl TableRow for Row<'_> {
         ui.label(RichText::new(self.method_name()).font(strong_font(TYPE)));
         ui.label(method.about);
         if !method.also.is_empty() {
-            ui.label(format!("Also asked for as {}.", method.also.join(", ")));
+            ui.label(format!("Other ids: {}.", method.also.join(", ")));
         }
         for line in method.formula {
             ui.label(formula(line, 16.0, palette(ui).text));

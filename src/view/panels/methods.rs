@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn ten_methods_without_a_scene_that_names_any_have_their_names_on_a_usual_window() {
+    fn ten_default_methods_show_their_names_in_a_usual_window() {
         let text = "title = 'mine'\ntick_hz = 60\nseconds = 9\n\
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 9\nx0_m = 1\n";
         let studio = Studio::new(Scene::parse("mine.toml", text).unwrap());
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tall_narrow_window_names_every_method_and_a_low_one_the_chosen() {
+    fn a_tall_window_names_every_method_and_a_low_one_only_the_chosen() {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.viewer.preferences.display.measure = false;
         let names: Vec<String> = (0..5).map(|entry| studio.lane_name(entry)).collect();

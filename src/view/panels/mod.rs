@@ -320,7 +320,7 @@ mod tests {
     use crate::view::testing::{TestWindow, button};
 
     #[test]
-    fn a_boundary_goes_where_it_is_dragged_and_back_by_a_double_click() {
+    fn a_panel_boundary_follows_a_drag_and_a_double_click_resets_it() {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         let mut window = TestWindow::new([1280.0, 720.0]);
         let mut drag = |studio: &mut Studio, from: Pos2, to: Pos2, clicks: u32| {
@@ -345,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stage_that_stands_alone_is_as_wide_as_the_window_and_has_a_handle_at_its_right_edge() {
+    fn a_stage_without_instruments_fills_the_window_and_has_a_handle() {
         const SIZE: Vec2 = vec2(1280.0, 720.0);
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         for is_race in [false, true] {

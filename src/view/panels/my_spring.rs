@@ -71,7 +71,7 @@ pub(super) fn show(
         });
         let [others @ .., last] = Language::ALL.map(Language::name);
         let told = format!(
-            "Under the recommended method, whose code stands beside it in {} or {last}.",
+            "Under the recommended method, with its code in {} or {last}.",
             others.join(", ")
         );
         ui.label(RichText::new(told).size(11.5).color(palette(ui).dim));
@@ -106,7 +106,7 @@ fn show_dialect(ui: &mut Ui, spring: MySpring) -> Option<(&'static Dialect, Dial
                 }
             }
         });
-        let about = format!("the library whose numbers are taken: {}", name(chosen));
+        let about = format!("the library for its numbers: {}", name(chosen));
         menu.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &about));
         let code = told.as_ref().map(|(_, port)| port.code.clone()).filter(|code| !code.is_empty());
         let copy = ui.add_enabled(code.is_some(), Button::new("Copy"));
@@ -152,7 +152,7 @@ mod tests {
     use crate::view::testing::{TestWindow, button};
 
     #[test]
-    fn what_is_wrong_with_a_number_is_said_and_moves_no_field() {
+    fn an_error_message_moves_no_field_of_the_dialog() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(ViewCommand::AskForSpring);
         let mut window = TestWindow::new([1280.0, 800.0]);

@@ -85,7 +85,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
 /// [`words`], laid out to paint.
 fn lay_out_words(ui: &Ui, studio: &Studio, step: &OneStep, width: f32) -> Arc<Galley> {
     let words = match studio.viewer.is_asked() {
-        true => "Where this tick lands is shown after your prediction.".into(),
+        true => "The end of this tick is shown after your prediction.".into(),
         false => words(step, &shown_coordinate(studio)),
     };
     ui.painter().layout(words, FontId::proportional(TYPE), palette(ui).text, width)
@@ -481,7 +481,7 @@ mod tests {
     use crate::prelude::METHODS;
 
     #[test]
-    fn a_line_of_the_formula_stands_beside_the_evaluation_that_it_tells_of() {
+    fn each_formula_line_is_beside_its_evaluation() {
         let of = |id, evaluations| {
             let method = METHODS.iter().find(|method| method.id == id).unwrap();
             formula_by_evaluation(method.formula, evaluations)

@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_paste_is_cut_where_no_link_is_longer() {
+    fn a_long_paste_is_truncated_at_the_longest_link() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(ViewCommand::AskForPath);
         let mut window = TestWindow::new([800.0, 600.0]);

@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn energy_drift_is_scaled_to_the_healthy_lanes_and_without_one_to_what_is_not_lost() {
+    fn the_energy_axis_fits_healthy_lanes_or_else_those_not_lost() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(StageCommand::ToggleRace);
         (0..600).for_each(|_| studio.tick());
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_takes_in_the_truth_and_what_is_near_and_nothing_that_is_far_beyond() {
+    fn an_axis_fits_the_truth_and_nearby_lanes_but_no_distant_ones() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(StageCommand::ToggleRace);
         (0..600).for_each(|_| studio.tick());
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn ranges_of_what_does_not_change_are_wide_enough_to_be_marked() {
+    fn ranges_of_constant_values_are_wide_enough_for_marks() {
         for value in [0.0, 1e-12, -7.0, 3e15] {
             let (low, high) = around_truth([value; 9].into_iter(), &[], 1, 1.6);
             assert!(low < value && value < high, "{low} to {high}");

@@ -66,7 +66,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     };
     if let Some(why) = map.refused {
         let why = format!(
-            "No stability map: {why}. The lanes below say how each method does on the motion itself."
+            "No stability map: {why}. The table below judges each method on the motion itself."
         );
         ui.add(Label::new(RichText::new(why).color(palette(ui).dim)).wrap());
         return;

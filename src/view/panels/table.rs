@@ -443,7 +443,7 @@ mod tests {
     }
 
     #[test]
-    fn a_second_click_reverses_and_a_third_ends_the_order() {
+    fn a_second_click_reverses_the_order_and_a_third_ends_it() {
         let by = order_after_click(None, "a");
         assert_eq!((by, arrow(by, "a"), arrow(by, "b")), (Some(("a", false)), " ↑", ""));
         let reversed = order_after_click(by, "a");
@@ -452,7 +452,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_fill_the_width_and_the_rest_is_never_squeezed_out_by_a_number() {
+    fn columns_fill_the_width_and_no_number_squeezes_out_the_others() {
         let table = table();
         let mut before = 0;
         for width in (50..400).map(|width| width as f32) {

@@ -272,7 +272,7 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     #[test]
-    fn the_menu_of_scenes_leads_to_a_comparison_too() {
+    fn the_scene_menu_also_offers_a_comparison() {
         let studio = Studio::new(Scene::built_in("spring").unwrap());
         let mut window = TestWindow::new([1280.0, 800.0]);
         let place = |window: &mut TestWindow, words: &str| {

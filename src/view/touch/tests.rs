@@ -129,7 +129,7 @@ fn a_drag_throws_the_body_with_the_pointers_velocity_in_simulated_time() {
 }
 
 #[test]
-fn a_pointer_that_stopped_throws_nothing() {
+fn a_stopped_pointer_does_not_throw() {
     let mut table = Table::new("spring");
     let at = table.body();
     let to = at + vec2(60.0, 0.0);
@@ -142,7 +142,7 @@ fn a_pointer_that_stopped_throws_nothing() {
 }
 
 #[test]
-fn a_click_on_the_verdict_brings_the_instruments_and_another_leaves_them() {
+fn a_click_on_the_verdict_opens_the_instruments_and_a_second_keeps_them() {
     let mut table = Table::new("spring");
     table.studio.analyse();
     table.studio.apply(ViewCommand::ToggleMeasure);
@@ -160,7 +160,7 @@ fn a_click_on_the_verdict_brings_the_instruments_and_another_leaves_them() {
 }
 
 #[test]
-fn escape_lets_a_body_go_on_as_if_it_had_not_been_touched() {
+fn escape_cancels_a_drag_without_a_trace() {
     let mut table = Table::new("spring");
     let (hash, at) = (table.studio.race().state_hash(), table.body());
     table.press(at);
@@ -175,7 +175,7 @@ fn escape_lets_a_body_go_on_as_if_it_had_not_been_touched() {
 }
 
 #[test]
-fn a_click_changes_nothing_but_the_lane_that_is_selected() {
+fn a_click_changes_only_the_selected_lane() {
     let mut table = Table::new("spring");
     let (hash, at) = (table.studio.race().state_hash(), table.body());
     table.press(at);
@@ -193,7 +193,7 @@ fn a_click_changes_nothing_but_the_lane_that_is_selected() {
 }
 
 #[test]
-fn in_a_race_any_lanes_body_can_be_thrown_and_all_go_on_from_there() {
+fn throwing_one_lanes_body_in_a_race_moves_all_lanes() {
     let mut table = Table::new("orbit");
     table.studio.apply(StageCommand::ToggleRace);
     table.studio.apply(StageCommand::ToggleArrangement);
@@ -213,7 +213,7 @@ fn in_a_race_any_lanes_body_can_be_thrown_and_all_go_on_from_there() {
 }
 
 #[test]
-fn over_each_other_a_click_on_a_lanes_body_brings_it_to_the_front() {
+fn a_click_on_an_overlaid_body_brings_its_lane_to_the_front() {
     let mut table = Table::new("orbit");
     table.studio.apply(StageCommand::ToggleRace);
     (0..40).for_each(|_| table.studio.tick());
@@ -240,7 +240,7 @@ fn over_each_other_a_click_on_a_lanes_body_brings_it_to_the_front() {
 }
 
 #[test]
-fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_fits() {
+fn the_wheel_zooms_a_drag_of_the_sea_pans_and_a_double_click_fits() {
     let mut table = Table::new("pendulum");
     table.studio.apply(ViewCommand::TogglePause);
     let at = STAGE.min + vec2(30.0, 400.0);

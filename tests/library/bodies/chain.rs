@@ -119,7 +119,7 @@ fn the_flow_conserves_energy_and_composes() {
 }
 
 #[test]
-fn a_damped_chain_has_no_conserved_energy_and_a_kick_hits_the_plucked_mass() {
+fn a_damped_chain_conserves_no_energy_and_a_kick_hits_the_plucked_mass() {
     assert_eq!(chain(4, 0.1).energy(&excited(4)), None);
     let mut body = chain(4, 0.0);
     let mut state = body.start();

@@ -1,5 +1,4 @@
-//! Setting a parameter of a body that moves: it goes on from its state as a body would that had the value from
-//! the start.
+//! Setting a parameter of a moving body: it continues from its state as if it had been built with the value.
 
 use regatta::scene::Scene;
 use regatta::sim::bodies::{Acts, BODIES, Input, Kind, MAX_VALUE, Range, kind};
@@ -52,7 +51,7 @@ fn bits(body: &dyn Stepper) -> Vec<u64> {
 }
 
 #[test]
-fn an_edit_keeps_the_state_and_the_body_goes_on_as_one_built_with_the_value() {
+fn an_edited_body_continues_as_if_built_with_the_value() {
     for kind in BODIES.iter() {
         let values = values(kind);
         for place in acting(kind, Acts::AtOnce) {
@@ -83,7 +82,7 @@ fn an_edit_keeps_the_state_and_the_body_goes_on_as_one_built_with_the_value() {
 }
 
 #[test]
-fn what_changes_nothing_at_once_changes_no_bit_and_no_memory() {
+fn a_refused_edit_changes_no_bit_and_no_memory() {
     for kind in BODIES.iter() {
         let values = values(kind);
         for solver in solvers() {
@@ -110,7 +109,7 @@ fn what_changes_nothing_at_once_changes_no_bit_and_no_memory() {
 }
 
 #[test]
-fn a_value_at_the_end_of_its_range_panics_nowhere() {
+fn values_at_the_ends_of_their_ranges_never_panic() {
     for kind in BODIES.iter() {
         let values = values(kind);
         for place in acting(kind, Acts::AtOnce) {
@@ -124,7 +123,7 @@ fn a_value_at_the_end_of_its_range_panics_nowhere() {
                     run(&mut *body, 0, 4);
                     body.set_parameter(4.0 / HZ, place, value);
                     body.input(4.0 / HZ, Input::Kick(1.0));
-                    // What becomes of it is for the lane to judge.
+                    // The lane judges the outcome.
                     let _ =
                         (4..8).try_for_each(|tick| body.advance(f64::from(tick) / HZ, 1.0 / HZ, 1));
                 }
@@ -147,7 +146,7 @@ fn the_errors_of_the_truth_outlast_an_edit() {
 }
 
 #[test]
-fn counts_and_curves_act_at_the_start_and_so_does_what_the_start_alone_reads() {
+fn counts_curves_and_start_values_act_only_at_the_start() {
     let at_start = |id: &str| {
         let kind = kind(id).unwrap();
         acting(kind, Acts::AtStart).map(|place| &kind.parameters[place].key).collect::<Vec<_>>()
@@ -186,7 +185,7 @@ fn unit_of_key(key: &str) -> String {
 }
 
 #[test]
-fn every_parameter_has_the_unit_that_ends_its_key_and_says_what_it_is() {
+fn every_parameter_is_described_and_has_the_unit_of_its_key() {
     assert_eq!(unit_of_key("damping_n_s_per_m"), "N·s/m");
     assert_eq!(unit_of_key("mu_m3_per_s2"), "m³/s²");
     assert_eq!(unit_of_key("plucked_mass"), "");
@@ -202,7 +201,7 @@ fn every_parameter_has_the_unit_that_ends_its_key_and_says_what_it_is() {
 }
 
 #[test]
-fn a_parameter_is_called_by_its_key_or_at_the_start_by_its_quantity() {
+fn a_parameter_is_named_by_its_key_or_its_start_quantity() {
     let called = |id: &str| {
         let parameters = kind(id).unwrap().parameters.iter();
         parameters.map(|parameter| parameter.quantity()).collect::<Vec<_>>()

@@ -97,7 +97,7 @@ fn ratios(id: &str) -> Vec<f64> {
     for row in rows().iter().filter(|row| row.kind.id == id) {
         let [found, said, size] = row.errors();
         for i in 0..2 {
-            // What has died away below all numbers is known.
+            // An error below the smallest number counts as that number.
             let least = (f64::EPSILON / 2.0 * size[i]).max(f64::MIN_POSITIVE);
             let ratio = (said[i] + f64::MIN_POSITIVE) / found[i].max(least);
             if !(1.0..1e4).contains(&ratio) {

@@ -35,8 +35,8 @@ fn derivative<B: Body>(body: &B, from: &State<B::Vector>, dt: f64, step: f64) ->
     sum
 }
 
-/// Compares the derivative of the flow `dt` after `from` with the equation. `time_s` is the time scale
-/// of the motion there; `tolerance` is relative to the motion.
+/// Compares the derivative of the flow `dt` after `from` with the equation. `time_s` is the time scale of the motion
+/// there; `tolerance` is relative to the motion.
 pub(crate) fn satisfies_its_equation<B: Body>(
     body: &B,
     from: &State<B::Vector>,

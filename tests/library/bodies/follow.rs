@@ -43,7 +43,7 @@ fn the_exact_motion_satisfies_the_equation_from_any_state() {
 }
 
 #[test]
-fn by_the_law_of_first_order_the_velocity_is_the_rate_times_the_distance() {
+fn a_first_order_velocity_is_the_rate_times_the_distance() {
     for body in bodies().iter().filter(|body| body.order == 1) {
         for t in [0.0, 0.1, 1.0, 5.0] {
             let State { q, v } = body.exact(t, &body.start()).unwrap();
@@ -54,7 +54,7 @@ fn by_the_law_of_first_order_the_velocity_is_the_rate_times_the_distance() {
 }
 
 #[test]
-fn behind_a_step_the_motion_is_the_textbook_exponential() {
+fn after_a_step_the_motion_is_the_textbook_exponential() {
     for body in bodies().iter().filter(|body| body.is_still()) {
         let z = body.rate * 0.3;
         let part =
@@ -66,7 +66,7 @@ fn behind_a_step_the_motion_is_the_textbook_exponential() {
 }
 
 #[test]
-fn two_strides_are_one_within_the_bound_on_the_error_and_the_bound_is_not_far_off() {
+fn two_strides_equal_one_within_a_tight_error_bound() {
     let mut worst: f64 = 0.0;
     for body in bodies() {
         let from = body.start();

@@ -58,7 +58,7 @@ fn the_curve_is_straight_between_its_points_and_level_beyond_them() {
 }
 
 #[test]
-fn on_a_straight_course_under_level_thrust_it_is_the_chapters_ship() {
+fn a_helm_on_a_straight_course_is_the_chapters_ship() {
     let level = helm(Curve::new([[0.0, 30_000.0], [1.0, 30_000.0]]));
     let ship = Ship {
         thrust: 30_000.0,
@@ -83,7 +83,7 @@ fn on_a_straight_course_under_level_thrust_it_is_the_chapters_ship() {
 }
 
 #[test]
-fn under_constant_rudder_it_settles_into_a_circle_in_equilibrium() {
+fn a_helm_under_constant_rudder_settles_into_a_circle() {
     for rudder in [1.0, -0.5] {
         let body = Helm { rudder, ..helm(curve()) };
         let sailed = run(body.clone(), 400);
@@ -117,7 +117,7 @@ fn the_force_rotates_with_the_ship() {
 }
 
 #[test]
-fn a_kick_is_ahead_and_throttle_and_rudder_stay_as_set() {
+fn a_kick_acts_ahead_and_keeps_throttle_and_rudder() {
     let mut body = helm(curve());
     let mut state = State { q: DVec3::new(0.0, 0.0, std::f64::consts::FRAC_PI_2), v: DVec3::ZERO };
     assert!(body.input(Input::Kick(2.0), &mut state));

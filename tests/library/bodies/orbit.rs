@@ -63,8 +63,7 @@ fn time_s(State { q, v }: &State<DVec2>) -> f64 {
 fn the_flow_satisfies_its_equation_from_any_state() {
     for (_, from) in states() {
         for dt in STRIDES.into_iter().chain([0.0]) {
-            // Short beside the time in which the motion changes, since its derivatives grow at a
-            // periapsis.
+            // Short compared to the time scale of the motion, since its derivatives grow at a periapsis.
             let time_s = time_s(&flow(&orbit(), dt, &from)) / 5.0;
             // A motion timed from far off is known to the rounding of that time.
             let late = 1e-14 * dt.abs() / time_s;
@@ -78,7 +77,7 @@ fn energy_angular_momentum_and_eccentricity_vector_are_conserved() {
     for (e, from) in states() {
         for dt in STRIDES {
             let to = flow(&orbit(), dt, &from);
-            // What is conserved is a small difference of what it is made of, far out and near in.
+            // A conserved quantity is a small difference of large terms, both far out and near in.
             let made_of = |s: &State<DVec2>| {
                 let kinetic = s.v.length_squared() * s.q.length() / MU;
                 (MU / s.q.length() * (1.0 + kinetic), s.q.length() * s.v.length(), 1.0 + kinetic)
@@ -123,7 +122,7 @@ fn the_elapsed_time_satisfies_keplers_equation() {
             } else {
                 passed - dt
             };
-            // The anomaly is badly known beside the apsides.
+            // Near the apsides the anomaly is ill-conditioned.
             assert!(off.abs() < 1e-12 * (1.0 + dt), "{off:e} s after {dt} s at e = {e}");
         }
     }
@@ -145,7 +144,7 @@ fn an_orbit_is_periodic_and_its_flow_composes() {
             let between = flow(&orbit(), a, &from);
             let (twice, once) = (flow(&orbit(), b, &between), flow(&orbit(), a + b, &from));
             let (q, v) = (apart(&twice.q, &once.q), apart(&twice.v, &once.v));
-            // By how much a place is off when what came before is off by a rounding.
+            // The error of a position after a rounding error before it.
             let swept =
                 (a.abs() + b.abs()) / time_s(&from).min(time_s(&between)).min(time_s(&once));
             // A fly-by from afar is a small difference of large times.
@@ -177,14 +176,14 @@ fn a_fall_towards_the_centre_and_an_escape_are_accurate() {
     let near = flow(&orbit(), 0.999 * fall, &from);
     assert!(near.q.x == 0.0 && near.q.y > 0.0 && near.q.y < 0.1, "{near:?}");
     assert!((energy(&near) / energy(&from) - 1.0).abs() < 1e-11);
-    // Far out on a hyperbola the speed is what is left of the energy.
+    // Far out on a hyperbola the speed is the square root of twice the energy.
     let from = state(4.0, 1.0, true, 0.0);
     let far = flow(&orbit(), 1e9, &from);
     assert!((far.v.length() / (2.0 * energy(&from)).sqrt() - 1.0).abs() < 1e-8, "{far:?}");
 }
 
 #[test]
-fn any_time_from_any_state_ends_soon() {
+fn the_flow_terminates_fast_for_any_time_and_state() {
     let mut random = 0x9e37_79b9_7f4a_7c15_u64;
     let mut next = || {
         random ^= random << 13;
@@ -215,7 +214,7 @@ fn any_time_from_any_state_ends_soon() {
 }
 
 #[test]
-fn the_smallest_time_does_not_move_a_fly_by() {
+fn a_tiny_time_does_not_move_a_fly_by() {
     let body = Orbit { mu: 1.0, q0: DVec2::new(100.0, 0.0), v0: DVec2::new(0.0, 3.0), kick: 0.0 };
     for dt in [1e-322, f64::from_bits(1), -1e-322, 1e-308] {
         let to = flow(&body, dt, &body.start());

@@ -1,4 +1,4 @@
-//! What the cards say of one method beside another.
+//! Claims on the cards that compare one method with another.
 
 use regatta::sim::State;
 use regatta::sim::bodies::Spring;
@@ -18,7 +18,7 @@ fn course(id: &str, spring: Spring, h: f64, steps: u32) -> Vec<State<f64>> {
 }
 
 #[test]
-fn midpoint_gains_as_slowly_as_improved_euler_and_adams_bashforth_2_twice_as_fast() {
+fn midpoint_gains_like_improved_euler_and_adams_bashforth_2_twice_as_fast() {
     let gain = |id| {
         let states = course(id, spring(1.0, 0.0), 0.1, 20_000);
         let amplitude = |state: &State<f64>| libm::hypot(state.q, state.v);
@@ -62,7 +62,7 @@ fn pefrl_is_more_accurate_than_yoshida_4_at_the_same_cost() {
 }
 
 #[test]
-fn stormer_verlet_takes_velocity_verlets_path_under_drag_too() {
+fn stormer_verlet_follows_velocity_verlet_even_under_drag() {
     for ratio in [0.0, 0.1] {
         let paths = ["stormer-verlet", "velocity-verlet"]
             .map(|id| course(id, spring(3.0, ratio), 0.1, 1000));

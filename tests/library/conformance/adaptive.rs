@@ -51,7 +51,7 @@ fn cost<I: Integrator<Counted<regatta::sim::bodies::Spring>>>(
 }
 
 #[test]
-fn pairs_reuse_their_last_slope_from_substep_to_substep_and_from_tick_to_tick() {
+fn pairs_reuse_their_last_slope_across_substeps_and_ticks() {
     let tight = Tolerance::uniform(1e-7);
     let pair = BogackiShampine32::with_tolerance(&0.0, tight);
     let (evaluations, accepted, rejected) = cost(pair, |pair| pair.attempts());

@@ -1,4 +1,4 @@
-//! What can be read off a card without running its method.
+//! Tests of the cards that run no method.
 
 use std::collections::HashSet;
 
@@ -23,7 +23,7 @@ fn every_card_has_a_description_and_a_source() {
     for card in METHODS {
         assert!(card.about.len() > 20, "{}", card.id);
         if card.is_engine() {
-            // The version is what dates an engine.
+            // A version dates an engine.
             assert!(card.source.contains(|c: char| c.is_ascii_digit()), "{}", card.id);
             continue;
         }
@@ -54,7 +54,7 @@ fn families_agree_with_the_other_fields() {
 }
 
 #[test]
-fn the_table_runs_family_by_family_with_the_listings_the_followers_and_the_engines_last() {
+fn the_method_table_is_grouped_by_family_with_engines_last() {
     let mut families: Vec<Family> = METHODS.iter().map(|card| card.family).collect();
     families.dedup();
     let distinct: HashSet<_> = families.iter().map(|family| family.id()).collect();

@@ -51,7 +51,7 @@ fn misprints(card: &Method) -> Vec<(&'static str, Method)> {
 }
 
 #[test]
-fn each_claim_that_is_changed_is_seen_and_no_other() {
+fn exactly_the_changed_claims_are_detected() {
     // One each that is symplectic, has a memory of a slope, is explicit, chooses its steps, solves an equation.
     let ids =
         ["velocity-verlet", "adams-bashforth-2", "rk4", "bogacki-shampine-32", "implicit-midpoint"];
@@ -72,7 +72,7 @@ fn each_claim_that_is_changed_is_seen_and_no_other() {
 }
 
 #[test]
-fn a_method_of_ones_own_is_held_to_its_card_like_those_of_the_table() {
+fn a_custom_method_is_tested_against_its_card() {
     let own = |id: &str, new_id: &'static str, own| {
         let card = method(id).expect("a method");
         Method { id: new_id, custom: Some(own), ..*card }
@@ -103,7 +103,7 @@ fn a_method_of_ones_own_is_held_to_its_card_like_those_of_the_table() {
 }
 
 #[test]
-fn a_method_that_fails_breaks_its_claims_and_nothing_else() {
+fn a_failing_method_breaks_only_its_claims() {
     /// A method that gives up at its third step.
     #[derive(Clone)]
     struct GivesUp(u32);
@@ -140,7 +140,7 @@ fn a_method_that_fails_breaks_its_claims_and_nothing_else() {
 }
 
 #[test]
-fn a_follower_is_not_said_to_hold_without_being_measured() {
+fn an_unmeasured_follower_is_reported_as_not_measured() {
     let follower = METHODS.iter().find(|card| card.only.is_some()).expect("a follower");
     let found = check(follower);
     assert!(!found.holds() && found.to_string().contains("not measured"), "{found}");

@@ -22,8 +22,7 @@ fn adaptive_euler_costs_two_evaluations_a_substep_and_one_a_rejection() {
     assert_eq!(counted.evaluations(), 2 * accepted + rejected);
 }
 
-/// Runs three ticks of 0.1 s from `t`, and returns what they added to the state and the times at which
-/// the force was asked for.
+/// Runs three ticks of 0.1 s from `t`, and returns the change of the state and the times of the force evaluations.
 fn run(method: &Method, power: i32, t: f64, substeps: u32) -> (State<f64>, Vec<f64>) {
     run_by(integrator(method, &DVec2::ZERO), power, t, substeps)
 }
@@ -77,7 +76,7 @@ fn forces_are_evaluated_within_the_step_and_at_the_right_time() {
 }
 
 #[test]
-fn a_method_of_order_p_integrates_a_force_of_degree_p_minus_1_in_time_exactly() {
+fn order_p_integrates_polynomials_in_time_of_degree_p_minus_1_exactly() {
     for method in GENERAL_METHODS.iter().filter(|method| method.order > 0) {
         let power = method.order as i32;
         for (t, substeps) in [(0.0, 1), (5.0, 1), (5.0, 4)] {

@@ -1,4 +1,4 @@
-//! Followers: what their cards claim, measured on bodies that follow a target.
+//! The claims on the cards of followers, measured on bodies that follow a target.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -39,7 +39,7 @@ fn course(method: &Method, body: &Follow, h: f64, steps: u32) -> Vec<State<f64>>
 }
 
 #[test]
-fn behind_an_even_target_each_follower_has_the_order_on_its_card() {
+fn each_follower_has_the_order_on_its_card_behind_a_steady_target() {
     let span = 1.7;
     for method in followers() {
         let body = Follow { ramp: 0.8, ..still(method, 3.0) };
@@ -63,7 +63,7 @@ fn behind_an_even_target_each_follower_has_the_order_on_its_card() {
 }
 
 #[test]
-fn a_step_costs_the_evaluations_of_the_target_on_the_card() {
+fn a_step_evaluates_the_target_as_often_as_its_card_states() {
     for method in followers() {
         let counted = problem(still(method, 3.0));
         let mut state = still(method, 3.0).start();
@@ -77,7 +77,7 @@ fn a_step_costs_the_evaluations_of_the_target_on_the_card() {
 }
 
 #[test]
-fn up_to_its_limit_a_follower_stays_near_a_still_target_and_beyond_it_leaves() {
+fn a_follower_is_stable_up_to_its_limit_and_not_beyond() {
     let furthest = |method: &Method, z: f64| {
         let states = course(method, &still(method, 1.0), z, 4000);
         let distances = states.iter().map(|state| (state.q - 1.0).abs());
@@ -97,7 +97,7 @@ fn up_to_its_limit_a_follower_stays_near_a_still_target_and_beyond_it_leaves() {
 }
 
 #[test]
-fn a_follower_loses_area_and_cannot_be_run_backwards() {
+fn a_follower_loses_area_and_is_not_reversible() {
     for method in followers() {
         let system = problem(Follow { ramp: 0.8, ..still(method, 3.0) });
         let step = |t: f64, h: f64, [q, v]: [f64; 2]| {
@@ -117,7 +117,7 @@ fn a_follower_loses_area_and_cannot_be_run_backwards() {
 }
 
 #[test]
-fn a_follower_has_no_memory_and_looks_at_the_target_at_the_end_of_its_step() {
+fn a_follower_has_no_memory_and_uses_the_target_at_the_end_of_its_step() {
     /// Remembers the times at which it is asked for its target.
     struct Watched(Follow, RefCell<Vec<f64>>);
     impl System for Watched {
@@ -151,7 +151,7 @@ fn a_follower_has_no_memory_and_looks_at_the_target_at_the_end_of_its_step() {
 }
 
 #[test]
-fn a_follower_refuses_what_follows_nothing_and_the_law_of_the_other_order() {
+fn a_follower_refuses_other_bodies_and_the_other_order() {
     let refused = |method: &Method, stepped: Result<(), StepFailure>| {
         let reason = method.only.expect("a follower is for one law").reason;
         assert_eq!(stepped, Err(StepFailure::Refused { reason }), "{}", method.id);
@@ -223,7 +223,7 @@ fn error_at_rest(id: &str, z: f64) -> f64 {
 }
 
 #[test]
-fn behind_a_still_target_the_closed_forms_are_exact_at_any_step_and_the_others_are_not() {
+fn only_closed_forms_follow_a_fixed_target_exactly_at_any_step() {
     for z in [0.03, 0.3, 1.0, 5.0] {
         for id in ["exponential-decay", "critically-damped-spring"] {
             let error = error_at_rest(id, z);
@@ -236,7 +236,7 @@ fn behind_a_still_target_the_closed_forms_are_exact_at_any_step_and_the_others_a
 }
 
 #[test]
-fn the_exponential_of_smooth_damp_is_within_0_12_percent_up_to_a_step_of_one() {
+fn smooth_damps_exponential_is_within_0_12_percent_up_to_a_step_of_one() {
     let method = method("smooth-damp").expect("a follower");
     // From rest x' - g = (x - g) (1 + z) e, so that one step shows the e that it uses.
     let off = |z: f64| {
@@ -250,7 +250,7 @@ fn the_exponential_of_smooth_damp_is_within_0_12_percent_up_to_a_step_of_one() {
 }
 
 #[test]
-fn smooth_damp_stops_dead_where_it_meets_a_moving_target_and_the_closed_form_goes_on() {
+fn only_smooth_damp_stops_dead_at_a_moving_target() {
     let stops = |id: &str| {
         let method = method(id).expect("a follower");
         let body = Follow { step: 0.0, sine: 1.0, sine_hz: 1.0, x0: 0.0, ..still(method, 8.0) };

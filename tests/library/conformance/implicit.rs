@@ -1,4 +1,4 @@
-//! Implicit methods: what they conserve, what a step costs, and equations without a solution.
+//! Implicit methods: their conserved quantities, the cost of a step, and equations without a solution.
 
 use glam::DVec2;
 use regatta::sim::bodies::{Body, Pendulum};
@@ -57,7 +57,7 @@ fn energy_error(method: &Method, n: usize, h: f64, steps: u32) -> f64 {
 }
 
 #[test]
-fn reversible_methods_and_no_others_conserve_quadratic_energy() {
+fn only_reversible_methods_conserve_quadratic_energy() {
     for method in implicit() {
         let keeps = method.reversible;
         // Slow and stiff: h ω is 0.4, and about 6 for the fastest mode of the row.
@@ -126,7 +126,7 @@ fn one_step_multiplies_the_amplitude_by_its_formula() {
 }
 
 #[test]
-fn bdf2_takes_less_energy_than_implicit_euler_for_the_same_work() {
+fn bdf2_loses_less_energy_than_implicit_euler_for_the_same_work() {
     let left = |id| {
         let system = problem(spring(1.0, 0.0));
         let mut state = State { q: 1.0, v: 0.7 };
@@ -175,10 +175,10 @@ fn implicit_midpoint_oscillates_too_slowly_as_tabulated() {
     }
 }
 
-/// Evaluations of a step with two iterations on a system of `components` coordinates. Each iteration evaluates
-/// every stage, and so does each column of the Jacobian, of which there is one per stage and component. By
-/// its order the method has the number of stages of Gauss's collocation. A formula may also contain the force at
-/// the start of the step, where there is no stage.
+/// Evaluations of a step with two iterations on a system of `components` coordinates. Each iteration evaluates every
+/// stage, and so does each column of the Jacobian; there is one column per stage and component. The order determines
+/// the number of stages of Gauss's collocation. A formula may also contain the force at the start of the step, where
+/// there is no stage.
 fn cost(method: &Method, components: u32) -> u32 {
     let stages = method.order.div_ceil(2);
     let (system, timetable) = Timetable::new(0);
@@ -361,7 +361,7 @@ fn a_pole_is_no_solution() {
 
 #[test]
 fn a_coordinate_far_away_does_not_degrade_the_others() {
-    // A free point a million metres away, beside a spring: each moves as it would alone.
+    // A free point a million metres away, together with a spring: each moves as if alone.
     struct Apart;
     impl System for Apart {
         type Vector = DVec2;

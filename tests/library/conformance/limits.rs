@@ -39,7 +39,7 @@ fn the_one_step_map_leaves_the_unit_circle_at_the_step_on_the_card() {
         assert_eq!(
             method.stability_limit.is_some(),
             method.damped_limits.is_some(),
-            "{}",
+            "{}: give both `stability_limit` and `damped_limits`, or neither",
             method.id
         );
         let (id, Some(undamped)) = (method.id, method.stability_limit) else { continue };
@@ -52,7 +52,7 @@ fn the_one_step_map_leaves_the_unit_circle_at_the_step_on_the_card() {
         if off {
             let (undamped, damped) = (card[0], &card[1..]);
             wrong += &format!(
-                "{id}: its card is to say\n    stability_limit: Some({undamped:?}),\n    damped_limits: Some({damped:?}),\n"
+                "{id}: write on its card\n    stability_limit: Some({undamped:?}),\n    damped_limits: Some({damped:?}),\n"
             );
         }
     }
@@ -73,7 +73,8 @@ fn long_runs_are_stable_up_to_the_limit_of_the_map_with_memory() {
             println!("{id:26} {ratio:4} {limit:.3} {within:.1e} {beyond:.1e}");
             if !(within < 0.5 && beyond > 5.0) {
                 wrong += &format!(
-                    "{id} at ζ = {ratio}: a swing of 1 is {within:.1} below {limit}, and {beyond:.1} beyond\n"
+                    "{id} at ζ = {ratio}: a swing of 1 becomes {within:.1} below {limit} (at most 0.5), and {beyond:.1} above it \
+                     (at least 5); correct `damped_limits`, or LONG_RUN\n"
                 );
             }
         }

@@ -1,4 +1,4 @@
-//! What is special to each method that takes the derivative of the acceleration, and to Jakobsen's Verlet.
+//! Properties of the methods that use the derivative of the acceleration, and of Jakobsen's Verlet.
 
 use regatta::conformance::problems::{Air, SHIP, course_in_air};
 use regatta::sim::bodies::{Body, Ship};
@@ -41,7 +41,7 @@ fn error<B: Body<Vector = f64> + 'static>(id: &str, body: &B, h: f64) -> f64 {
 }
 
 #[test]
-fn the_exponential_method_is_exact_on_springs_and_the_ship_over_a_hundred_steps() {
+fn the_exponential_method_is_exact_on_springs_and_the_ship() {
     let id = "exponential-rosenbrock-euler";
     for (omega, ratio) in [(1.0, 0.0), (1.0, 0.2), (6.0, 0.05), (6.0, 1.0)] {
         let off = error(id, &spring(omega, ratio), 0.1);
@@ -49,7 +49,7 @@ fn the_exponential_method_is_exact_on_springs_and_the_ship_over_a_hundred_steps(
     }
     let off = error(id, &SHIP, 0.5);
     assert!(off < 1e-13, "{off:e}");
-    // Far beyond what any explicit method bears: by squaring, whose rounding is that of the phase.
+    // Far beyond the limit of every explicit method. Squaring limits the accuracy to the rounding of the phase.
     let off = error(id, &spring(1000.0, 0.01), 0.1);
     assert!(off < 1e-10, "{off:e}");
 }
@@ -89,7 +89,7 @@ fn linearly_implicit_euler_makes_the_step_of_xpbd() {
 }
 
 #[test]
-fn drag_that_is_implicit_or_exact_is_stable_at_any_step_and_that_of_semi_implicit_euler_is_not() {
+fn only_implicit_or_exact_drag_is_stable_at_any_step() {
     let coasting = Ship { thrust: 0.0, v0: 20.0, mass: 1.0, drag: 1000.0, ..SHIP };
     let last = |id| course(id, coasting.clone(), &coasting.start(), 0.1, 50)[49].v;
     assert!(last("semi-implicit-euler").abs() > 1e50);
@@ -105,7 +105,7 @@ fn drag_that_is_implicit_or_exact_is_stable_at_any_step_and_that_of_semi_implici
 }
 
 #[test]
-fn verlet_with_exact_drag_decays_as_a_coasting_ship_does() {
+fn verlet_with_exact_drag_decays_like_a_coasting_ship() {
     let coasting = Ship { thrust: 0.0, v0: 20.0, ..SHIP };
     for h in [0.1, 3.0, 40.0] {
         let start = coasting.start();
@@ -119,7 +119,7 @@ fn verlet_with_exact_drag_decays_as_a_coasting_ship_does() {
 }
 
 #[test]
-fn both_second_orders_hold_in_air_whose_drag_is_not_linear() {
+fn both_methods_keep_order_2_under_quadratic_drag() {
     for id in ["verlet-exact-drag", "exponential-rosenbrock-euler"] {
         let error = |steps: u32| {
             let h = 2.0 / f64::from(steps);
@@ -133,7 +133,7 @@ fn both_second_orders_hold_in_air_whose_drag_is_not_linear() {
 }
 
 #[test]
-fn coordinates_that_drag_couples_are_decayed_together() {
+fn coordinates_coupled_by_drag_decay_together() {
     /// Two coordinates whose velocities turn into each other, and die away.
     struct Coupled;
     impl System for Coupled {
@@ -154,7 +154,7 @@ fn coordinates_that_drag_couples_are_decayed_together() {
 }
 
 #[test]
-fn a_sparse_system_takes_the_steps_of_others_to_rounding() {
+fn sparse_and_dense_systems_take_the_same_steps_to_rounding() {
     let run = |id: &str, sparse: bool| -> Vec<f64> {
         fn steps<S: System<Vector = Vec<f64>> + 'static>(id: &str, system: &S) -> Vec<f64> {
             let like: Vec<f64> = (0..8).map(|i| 1.0 - 0.3 * f64::from(i)).collect();
@@ -184,7 +184,7 @@ fn a_sparse_system_takes_the_steps_of_others_to_rounding() {
 }
 
 #[test]
-fn tr_bdf2_takes_less_of_an_orbit_than_bdf2() {
+fn tr_bdf2_loses_less_of_an_orbit_than_bdf2() {
     let error = |id: &str| {
         let mut state = kepler_orbit(0.3, 0.0);
         let card = method(id).expect("a method");

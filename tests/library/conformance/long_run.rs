@@ -44,7 +44,7 @@ fn drift(method: &Method, h: f64, steps: u32) -> Option<Drift> {
 }
 
 #[test]
-fn symplectic_methods_and_no_others_bound_energy_without_a_trend_over_a_million_steps() {
+fn only_symplectic_methods_keep_energy_without_a_trend() {
     for method in GENERAL_METHODS {
         // A trend is seen sooner than that there is none.
         let drift = drift(method, 0.3, if method.symplectic { 1_000_000 } else { 200_000 });
@@ -52,8 +52,8 @@ fn symplectic_methods_and_no_others_bound_energy_without_a_trend_over_a_million_
         let amplitude = drift.map_or(f64::INFINITY, |drift| drift.amplitude);
         println!("{:26} energy error {amplitude:.1e}, trend {trend:.1e} of it", method.id);
         if method.symplectic {
-            // As a power of the step, whose base is what the worst of each order has, and a half more. The
-            // best, Gauss-Legendre, still has an error of 8e-6.
+            // A power of the step, with the base of the worst method of each order, and half as much again. The best,
+            // Gauss-Legendre, still has an error of 8e-6.
             let allowed = 1.5 * f64::powi(0.13, method.order as i32);
             assert!((1e-6..allowed).contains(&amplitude), "{}: {amplitude:e}", method.id);
             assert!(trend < 1e-4, "{}: {trend:e}", method.id);
@@ -83,10 +83,10 @@ fn out_and_back(method: &Method, system: impl System<Vector = f64> + 'static) ->
 }
 
 #[test]
-fn reversible_methods_and_no_others_return_after_a_hundred_thousand_steps() {
+fn only_reversible_methods_return_after_a_hundred_thousand_steps() {
     // Backwards by steps of -h: on forces without drag the same as turning the velocity round.
     for method in GENERAL_METHODS {
-        // What is rounded on a spring adds up; on a pendulum, whose frequency it changes, it also grows.
+        // Rounding errors add up on a spring; on a pendulum they also grow, because they change its frequency.
         let on_spring = (out_and_back(method, spring(1.0, 0.0)), 1e-12, true);
         let on_pendulum = (out_and_back(method, UnitPendulum), 1e-9, false);
         for (off, rounded, is_linear) in [on_spring, on_pendulum] {

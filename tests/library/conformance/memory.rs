@@ -20,7 +20,7 @@ fn run(integrator: &mut dyn Integrator<Problem<f64>>, state: &mut State<f64>, h:
 }
 
 #[test]
-fn memory_is_dropped_for_a_state_that_was_changed() {
+fn memory_is_dropped_after_a_change_of_state() {
     assert!(methods_with_memory().count() >= 7);
     for method in methods_with_memory() {
         for kick in [State { q: 0.0, v: 0.25 }, State { q: 0.25, v: 0.0 }] {
@@ -36,7 +36,7 @@ fn memory_is_dropped_for_a_state_that_was_changed() {
 }
 
 #[test]
-fn memory_is_dropped_for_a_step_of_another_length() {
+fn memory_is_dropped_after_a_change_of_step() {
     for method in methods_with_memory() {
         for h in [0.02, 0.04, -0.03] {
             let (mut used, mut going_on) = (fresh(method), State { q: -0.3, v: 11.0 });

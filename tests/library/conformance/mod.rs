@@ -1,7 +1,7 @@
 //! Every field of every method's card, measured both ways.
 //!
-//! Each test loops over `METHODS`: a new method is held to its own card without a line here. What a
-//! result is compared with is the exact flow, which `tests/library/exact_flows.rs` has checked before.
+//! Each test loops over `METHODS`: a new method is tested against its card without a line here. Results are compared
+//! with the exact flow, which `tests/library/exact_flows.rs` has checked before.
 
 mod abouts;
 mod adaptive;

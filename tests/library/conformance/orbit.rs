@@ -18,7 +18,7 @@ fn after_ten_orbits(id: &str) -> f64 {
 }
 
 #[test]
-fn kick_drift_kick_and_drift_kick_drift_are_told_apart() {
+fn kick_drift_kick_and_drift_kick_drift_differ_on_an_orbit() {
     for (id, listed) in [
         ("velocity-verlet", 1.0321129),
         ("stormer-verlet", 1.0321129),

@@ -33,7 +33,7 @@ impl<V: Vector> System for Springs<V> {
     }
 }
 
-/// A system whose coordinates are said to act on few others each, so that methods keep no matrix of it.
+/// A system that declares a sparse Jacobian, so that methods store no matrix of it.
 pub(crate) struct Sparse<S>(pub(crate) S);
 
 impl<S: System> System for Sparse<S> {

@@ -1,4 +1,4 @@
-//! Custom bodies beside the built-in ones that move by the same equation.
+//! Custom bodies against built-in ones with the same equation.
 
 use glam::DVec2;
 use regatta::measure::Judge;
@@ -44,7 +44,7 @@ fn twins() -> [(Scene, Scene); 3] {
 }
 
 #[test]
-fn own_bodies_have_the_bits_of_the_built_in_ones_under_every_method() {
+fn custom_bodies_match_built_in_ones_to_the_bit_under_every_method() {
     for (built_in, own) in twins() {
         for method in GENERAL_METHODS {
             let [mut a, mut b] = [&built_in, &own].map(|scene| {
@@ -70,7 +70,7 @@ fn own_bodies_have_the_bits_of_the_built_in_ones_under_every_method() {
 }
 
 #[test]
-fn own_bodies_have_the_verdicts_of_the_built_in_ones() {
+fn custom_bodies_have_the_verdicts_of_built_in_ones() {
     for (built_in, own) in twins() {
         let judges = [&built_in, &own].map(Judge::new);
         for method in GENERAL_METHODS {
@@ -78,7 +78,7 @@ fn own_bodies_have_the_verdicts_of_the_built_in_ones() {
                 let spec = LaneSpec::plain(method);
                 let [a, b] =
                     judges.each_ref().map(|judge| everything(&judge.verdict(spec, tick_hz)));
-                // What a method without an error is off by is the rounding of the truth, and that differs.
+                // The error of an exact method is the rounding of the truth, which differs.
                 let rounding = "accurate · within 10⁻";
                 if method.exact_if_linear && a.starts_with(rounding) {
                     assert!(b.starts_with(rounding), "{b}");
@@ -91,7 +91,7 @@ fn own_bodies_have_the_verdicts_of_the_built_in_ones() {
 }
 
 #[test]
-fn an_own_exact_solution_is_the_truth_until_somebody_intervenes() {
+fn a_custom_exact_solution_is_the_truth_until_an_intervention() {
     let exact = |spring: &Spring, t: f64| {
         let omega = (spring.stiffness / spring.mass).sqrt();
         State { q: libm::cos(omega * t), v: -omega * libm::sin(omega * t) }
@@ -112,7 +112,7 @@ fn an_own_exact_solution_is_the_truth_until_somebody_intervenes() {
 }
 
 #[test]
-fn own_parameters_act_in_a_run_and_have_their_units() {
+fn custom_parameters_act_in_a_run_and_have_their_units() {
     let parameters = vec![
         ParameterOf::number("stiffness_n_per_m", Range::POSITIVE, |s: &mut Spring| {
             &mut s.stiffness
@@ -145,7 +145,7 @@ fn own_parameters_act_in_a_run_and_have_their_units() {
 }
 
 #[test]
-fn a_body_without_parameters_has_a_factor_of_its_force() {
+fn a_body_without_parameters_gets_a_force_factor() {
     let spring = Spring { mass: 1.0, stiffness: 40.0, damping: 0.0 };
     let scene = Scene::of(&spring, State { q: 1.0, v: 0.0 }, Options::default()).unwrap();
     let body = &scene.bodies[0];

@@ -65,7 +65,7 @@ fn a_copy_is_judged_and_advised_as_its_original() {
 }
 
 #[test]
-fn a_run_with_custom_methods_is_gone_back_in_and_copied_to_the_bit() {
+fn a_run_with_custom_methods_rewinds_and_copies_to_the_bit() {
     let scene = with_copies("surge");
     let mut timeline = Run::new(Session::racing(scene.into()));
     let mut hashes = Vec::new();
@@ -102,7 +102,7 @@ impl<S: System> Integrator<S> for Hasty<S::Vector> {
 }
 
 #[test]
-fn a_card_that_claims_too_much_is_told_where() {
+fn a_wrong_card_is_reported_with_each_broken_claim() {
     let card = Method {
         id: "hasty",
         name: "Hasty",

@@ -51,7 +51,7 @@ fn each_option_out_of_its_range_is_named() {
 }
 
 #[test]
-fn each_extra_that_is_unfit_or_untrue_is_named() {
+fn each_invalid_or_false_extra_is_named() {
     let number = |key| ParameterOf::number(key, Range::POSITIVE, |s: &mut Spring| &mut s.stiffness);
     let damping =
         || ParameterOf::number("damping", Range::POSITIVE, |s: &mut Spring| &mut s.damping);
@@ -109,7 +109,7 @@ impl System for Pushed {
 }
 
 #[test]
-fn a_claim_is_held_against_the_motion_at_every_tick() {
+fn a_claim_is_tested_at_every_tick_of_the_motion() {
     let refused = |extras: Extras<Pushed>| {
         let options = Options { extras, ..Options::default() };
         Scene::of(&Pushed, State { q: 1.0, v: 0.0 }, options).expect_err("a fault")
@@ -123,7 +123,7 @@ fn a_claim_is_held_against_the_motion_at_every_tick() {
 }
 
 #[test]
-fn a_curved_force_is_not_believed_to_be_linear() {
+fn a_false_claim_of_a_linear_force_is_refused() {
     let extras = Extras { is_linear: true, ..Extras::default() };
     let start = State { q: DVec2::new(3.0, 0.0), v: DVec2::new(0.0, 3.0) };
     let options = Options { extras, ..Options::default() };
@@ -143,7 +143,7 @@ fn a_start_without_a_finite_force_is_refused() {
 
 #[test]
 #[should_panic(expected = "`tick_hz`: 0; give a rate from 0.01 to 10000 Hz")]
-fn the_short_ways_panic_with_the_same_words() {
+fn the_panicking_shortcuts_have_the_same_messages() {
     let options = Options { tick_hz: 0.into(), ..Options::default() };
     regatta::advise(&SPRING, State { q: 1.0, v: 0.0 }, options);
 }

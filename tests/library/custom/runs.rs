@@ -23,7 +23,7 @@ fn scene() -> Scene {
 }
 
 #[test]
-fn a_report_says_what_the_adviser_finds() {
+fn a_report_has_the_findings_of_the_adviser() {
     let scene = scene();
     let report = Report::of_scene(&scene);
     let adviser = Adviser::new(&scene, 30);
@@ -47,7 +47,7 @@ fn a_report_says_what_the_adviser_finds() {
 }
 
 #[test]
-fn what_a_budget_of_work_does_not_reach_is_not_known_and_the_rest_is_as_without_it() {
+fn a_work_budget_only_turns_findings_into_unknown() {
     let whole = Report::of_scene(&scene());
     let told = |max_work: u64| {
         let report = Report::within(max_work, &scene());
@@ -90,7 +90,7 @@ fn a_report_is_written_as_json_with_the_keys_of_the_command() {
 }
 
 #[test]
-fn a_run_of_a_custom_body_is_not_recorded_and_the_reason_is_told() {
+fn recording_a_custom_body_is_refused_with_the_reason() {
     let mut session = Session::racing(scene().into());
     session.run(30);
     let error = session.recording_text(30).expect_err("no file can hold it");
@@ -99,7 +99,7 @@ fn a_run_of_a_custom_body_is_not_recorded_and_the_reason_is_told() {
 }
 
 #[test]
-fn the_lab_goes_on_with_a_run_where_it_is() {
+fn the_studio_continues_a_session_at_its_tick() {
     let mut session = Session::racing(scene().into());
     session.act(regatta::scene::Action::Kick(2.0));
     session.run(100);
@@ -113,7 +113,7 @@ fn the_lab_goes_on_with_a_run_where_it_is() {
 }
 
 #[test]
-fn a_custom_body_is_drawn_as_its_author_says_or_as_beads() {
+fn a_custom_body_has_its_authors_picture_or_beads() {
     let outline = |draw| {
         let start = State { q: DVec2::new(3.0, 0.0), v: DVec2::new(0.0, 3.0) };
         let options = Options { draw, ..Options::default() };

@@ -50,7 +50,7 @@ fn oscillator(omega: f64, alpha: f64) -> [f64; 2] {
 }
 
 #[test]
-fn the_order_of_an_engine_is_as_its_card_says_with_and_without_drag() {
+fn an_engine_has_the_order_of_its_card_with_and_without_drag() {
     for method in engines() {
         let undamped = spring_of(method, [4.0, 0.0]);
         let straight = order(method, &undamped, [1.0, 0.0], oscillator(2.0, 0.0));
@@ -79,7 +79,7 @@ fn damping_ratio(map: [[f64; 2]; 2]) -> f64 {
 }
 
 #[test]
-fn the_damping_ratio_of_an_engine_is_what_a_spring_of_1_hz_has_at_its_defaults() {
+fn an_engine_damps_a_1_hz_spring_as_its_card_states() {
     for method in engines().filter(|method| has_spring(method)) {
         let engine = method.engine.unwrap();
         let body = spring_of(method, [TAU * TAU, 0.0]);
@@ -115,7 +115,7 @@ fn is_bounded(method: &Method, z: f64) -> bool {
 }
 
 #[test]
-fn an_undamped_spring_stays_bounded_up_to_the_stability_limit_of_an_engine() {
+fn an_engine_is_stable_up_to_the_limit_on_its_card() {
     for method in engines() {
         match method.stability_limit {
             Some(limit) => {
@@ -132,7 +132,7 @@ fn an_undamped_spring_stays_bounded_up_to_the_stability_limit_of_an_engine() {
 }
 
 #[test]
-fn an_engine_has_the_day_of_its_logs_if_it_has_any() {
+fn an_engine_with_logs_has_their_date() {
     let logs = Log::all();
     for method in engines() {
         let logged = method.engine.unwrap().logged;
@@ -154,7 +154,7 @@ fn an_engine_has_the_day_of_its_logs_if_it_has_any() {
 }
 
 #[test]
-fn mujoco_puts_a_runaway_back_to_the_origin_at_rest() {
+fn mujoco_resets_a_runaway_to_the_origin_at_rest() {
     for id in ["engine-mujoco", "engine-mujoco-rk4"] {
         let method = method(id).unwrap();
         // Four substeps on a force held through all of them gain energy.
@@ -177,8 +177,8 @@ fn area(map: [[f64; 2]; 2]) -> f64 {
 }
 
 #[test]
-fn an_engine_keeps_area_on_an_undamped_spring_where_its_card_says_so_and_none_can_be_run_back() {
-    // What a motor adds to the velocity comes a tick later.
+fn an_engine_keeps_area_as_its_card_states_and_none_is_reversible() {
+    // The velocity added by a motor appears a tick later.
     for method in engines().filter(|method| method.restart.is_none()) {
         let body = spring_of(method, [4.0, 0.0]);
         let change = (area(map(method, &body, 0.1)) - 1.0).abs();
@@ -205,7 +205,7 @@ fn evaluations(method: &Method, substeps: u32) -> u64 {
 }
 
 #[test]
-fn a_tick_costs_what_its_card_says_with_and_without_substeps_of_the_engines_own() {
+fn an_engine_tick_costs_the_evaluations_on_its_card() {
     for method in engines() {
         for substeps in [1, 4, 7] {
             let claimed = method.evaluations_per_tick(substeps).unwrap();
@@ -219,7 +219,7 @@ fn a_tick_costs_what_its_card_says_with_and_without_substeps_of_the_engines_own(
 }
 
 #[test]
-fn a_spring_force_held_over_one_substep_is_bounded_up_to_2_and_over_more_at_no_step() {
+fn a_held_spring_force_is_bounded_only_with_one_substep() {
     let held = method("held-force").unwrap();
     let is_bounded = |z: f64, substeps: u32| {
         let body = spring_of(held, [z * z, 0.0]).problem();
@@ -237,7 +237,7 @@ fn a_spring_force_held_over_one_substep_is_bounded_up_to_2_and_over_more_at_no_s
 }
 
 #[test]
-fn a_body_that_no_engine_can_be_told_of_says_why_and_each_says_something_else() {
+fn each_body_unknown_to_engines_has_its_own_reason() {
     let box2d = method("engine-box2d").unwrap();
     let steps =
         |method: &Method, kind: &Kind| method.only.unwrap().incompatibility(kind.class).is_none();
@@ -268,7 +268,7 @@ fn a_body_that_no_engine_can_be_told_of_says_why_and_each_says_something_else() 
 }
 
 #[test]
-fn a_method_steps_the_bodies_that_are_not_refused_and_no_other() {
+fn a_method_steps_exactly_the_bodies_it_does_not_refuse() {
     for kind in BODIES.iter() {
         let mut values = kind.plain_values();
         if kind.parameters.iter().any(|parameter| matches!(parameter.range, Range::Curve { .. })) {

@@ -9,7 +9,7 @@ use super::log::{Log, Row};
 use crate::dice::Dice;
 use crate::port::run;
 
-/// What is read of a log as a person would write it.
+/// The identification of a log written as text.
 fn identified(log: &Log, rows: &[Row], has_velocity: bool) -> Identification {
     let mut text = String::from(if has_velocity { "tick,x,v\n" } else { "tick,x\n" });
     for Row { tick, x, v } in rows {
@@ -122,7 +122,7 @@ fn noises() -> Option<u64> {
 }
 
 #[test]
-fn noise_of_a_ten_thousandth_leaves_nearly_all_logs_identified_and_none_wrong() {
+fn slight_noise_leaves_nearly_all_logs_identified_and_none_wrong() {
     let mut dice = Dice::new(1);
     // Unless more is asked for, every fourth log has it once.
     let (noises, every) = noises().map_or((1, 4), |noises| (noises, 1));
@@ -161,7 +161,7 @@ fn noise_of_a_ten_thousandth_leaves_nearly_all_logs_identified_and_none_wrong() 
 }
 
 #[test]
-fn a_spring_that_is_not_known_is_fitted_and_the_engine_cannot_be_told() {
+fn an_unknown_spring_is_fitted_and_leaves_the_engine_open() {
     let logs = springs_and_coasting();
     let log = logs.iter().find(|log| log.file == "jolt__spring_1hz_z02_60hz.csv").unwrap();
     let mut text = String::from("tick,x,v\n");
@@ -178,7 +178,7 @@ fn a_spring_that_is_not_known_is_fitted_and_the_engine_cannot_be_told() {
 }
 
 #[test]
-fn a_motion_that_no_method_makes_is_unknown() {
+fn a_motion_of_no_known_method_is_unknown() {
     let logs = springs_and_coasting();
     let mut log =
         logs.iter().find(|log| log.file == "box2d__spring_1hz_z0_60hz.csv").unwrap().clone();
@@ -192,7 +192,7 @@ fn a_motion_that_no_method_makes_is_unknown() {
 }
 
 #[test]
-fn a_log_in_double_precision_is_not_explained_by_a_method_that_is_off_by_more_than_its_rounding() {
+fn a_double_precision_log_needs_a_match_within_its_rounding() {
     // Velocity Verlet between two halves of an implicit drag: the exponential is off by parts in a million.
     let motion = |c: f64, kept: f64| {
         let (h, mut x, mut v) = (1.0 / 60.0, 1.0_f64, 0.0_f64);
@@ -230,7 +230,7 @@ fn a_log_in_double_precision_is_not_explained_by_a_method_that_is_off_by_more_th
 }
 
 #[test]
-fn positions_alone_do_not_tell_a_kick_before_the_drift_from_one_after_it() {
+fn positions_alone_leave_the_order_of_kick_and_drift_open() {
     let logs = springs_and_coasting();
     let log = logs.iter().find(|log| log.file == "chipmunk__spring_1hz_z0_60hz.csv").unwrap();
     let with_velocities = identified(log, &log.rows, true);
@@ -283,7 +283,7 @@ fn log_of(file: &str) -> Log {
 }
 
 #[test]
-fn noise_above_the_start_of_a_runaway_does_not_name_another_engine() {
+fn noise_above_the_start_of_a_runaway_identifies_no_other_engine() {
     let log = log_of("mujoco-Euler__spring_w100_z0_30hz.csv");
     let mut dice = Dice::new(3);
     for _ in 0..30 {
@@ -294,7 +294,7 @@ fn noise_above_the_start_of_a_runaway_does_not_name_another_engine() {
 }
 
 #[test]
-fn a_leftover_that_follows_from_row_to_row_is_no_fit_however_small() {
+fn a_small_correlated_residual_is_no_fit() {
     let mut log = log_of("box2d__spring_1hz_z0_60hz.csv");
     (log.substeps, log.body.spring) = (32, [0.4, 0.0]);
     log.tick_s = 1.0 / 60.0;
@@ -307,7 +307,7 @@ fn a_leftover_that_follows_from_row_to_row_is_no_fit_however_small() {
 }
 
 #[test]
-fn what_a_player_sees_is_read_where_no_limit_of_speed_is_reached() {
+fn the_visible_motion_is_measured_below_the_speed_limit() {
     let mut log = log_of("box2d__spring_1hz_z0_60hz.csv");
     log.body.is_held = true;
     log.body.spring = [(10.0 * std::f64::consts::PI).powi(2), 0.0];
@@ -325,7 +325,7 @@ fn what_a_player_sees_is_read_where_no_limit_of_speed_is_reached() {
 }
 
 #[test]
-fn a_coasting_too_short_to_tell_methods_apart_says_nothing() {
+fn a_short_coasting_log_identifies_no_method() {
     let mut log = log_of("box2d__damp_05_60hz.csv");
     log.rows.truncate(8);
     let rows = with_noise(&log, 1e-4, &mut Dice::new(2));

@@ -143,7 +143,7 @@ impl Log {
         method(id).expect("a method of the table")
     }
 
-    /// What a row may be off by over one tick and over the run, in units of the largest coordinate or velocity.
+    /// The allowed error of a row over one tick and over the run, in units of the largest coordinate or velocity.
     pub(crate) fn tolerances(&self) -> [f64; 2] {
         match &*self.precision {
             "f32" => [4e-6, 5e-5],
@@ -177,7 +177,7 @@ impl Log {
     }
 }
 
-/// What the manifest says of a log, by key.
+/// The manifest's entry for a log, by key.
 pub(crate) type Entry = HashMap<String, String>;
 
 /// The manifest, with an entry for each log.

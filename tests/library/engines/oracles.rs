@@ -1,4 +1,4 @@
-//! What the engines are known for, in figures taken from their logs.
+//! Known figures of the engines, taken from their logs.
 
 use regatta::conformance::problems::fresh;
 use regatta::sim::State;
@@ -88,7 +88,7 @@ fn spring(omega: f64, ratio: f64) -> Body {
 }
 
 #[test]
-fn the_figures_that_engines_are_known_for_come_out_to_their_digits() {
+fn published_figures_of_engines_are_reproduced_to_their_digits() {
     for (id, is_f64, wanted) in FIGURES {
         let ship = Body { spring: [0.0; 2], drag: 0.1, push: 2.0, is_held: false };
         let sailed = after(id, &ship, 2.0, 17, [0.0; 2]);
@@ -118,7 +118,7 @@ fn the_figures_that_engines_are_known_for_come_out_to_their_digits() {
 }
 
 #[test]
-fn rapier_moves_faster_than_it_says() {
+fn rapier_moves_faster_than_its_reported_velocity() {
     // Driven for long: 20 m/s is where thrust and drag balance.
     let ship = Body { spring: [0.0; 2], drag: 0.1, push: 2.0, is_held: false };
     let [before, after] =

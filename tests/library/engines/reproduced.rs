@@ -1,4 +1,4 @@
-//! Each card does what its engine did.
+//! Each card reproduces its engine.
 
 use regatta::conformance::problems::fresh;
 use regatta::sim::State;
@@ -29,9 +29,9 @@ fn the_card_of_an_engine_reproduces_the_log_of_a_run() {
 }
 
 #[test]
-fn the_card_of_an_engine_reproduces_each_logged_tick_from_the_one_before() {
+fn the_card_of_an_engine_reproduces_each_logged_tick() {
     let (mut wrong, mut compared) = (Vec::new(), 0);
-    // What the motor of Avian adds to a velocity is in no log.
+    // The velocity added by Avian's motor is in no log.
     for log in Log::all().iter().filter(|log| log.method().restart.is_none()) {
         let (scale, [most, _]) = (log.scale(), log.tolerances());
         let mut worst = 0.0_f64;

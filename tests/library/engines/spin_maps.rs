@@ -1,4 +1,4 @@
-//! The maps of a free spin, by what mechanics says of them.
+//! The maps of a free spin against rigid-body mechanics.
 
 use glam::{DMat3, DVec3};
 use regatta::sim::integrators::SpinMap;
@@ -72,7 +72,7 @@ fn change_of_momentum(map: SpinMap) -> f64 {
 }
 
 #[test]
-fn scaling_keeps_the_momentum_to_rounding_and_no_other_map_that_turns_the_axis_does() {
+fn only_scaling_keeps_the_momentum_to_rounding_while_the_axis_turns() {
     for (_, map) in SpinMap::ALL {
         let change = change_of_momentum(map);
         match map {
@@ -97,7 +97,7 @@ fn error(map: SpinMap, steps: u32) -> f64 {
 }
 
 #[test]
-fn runge_kutta_is_of_order_4_the_constant_map_of_order_0_and_the_others_of_order_1() {
+fn runge_kutta_has_order_4_the_constant_map_order_0_and_others_order_1() {
     for (_, map) in SpinMap::ALL {
         let order = match map {
             SpinMap::Constant => 0.0,
@@ -144,7 +144,7 @@ fn a_spin_about_a_principal_axis_stays_there_under_every_map() {
 
 #[test]
 fn the_newton_step_leaves_the_quadratic_part_of_implicit_euler() {
-    // Newton's method on a quadratic equation leaves what the step itself gives in the quadratic term.
+    // Newton's method on a quadratic equation leaves the quadratic term of its own step.
     let (start, h) = (DVec3::new(3.0, 0.5, -1.5), 0.1);
     let found = after(SpinMap::NewtonStep, INERTIA, start, h, 1);
     let residual = INERTIA * (found - start) + h * found.cross(INERTIA * found);

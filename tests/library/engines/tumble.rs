@@ -30,7 +30,7 @@ fn off(found: DVec3, wanted: DVec3) -> f64 {
     (found - wanted).abs().to_array().into_iter().fold(0.0, larger)
 }
 
-/// What an engine is known to do to a free spin.
+/// The free spin on an engine's card.
 fn free_spin(id: &str) -> FreeSpin {
     let engine = method(id).and_then(|method| method.engine).expect("an engine");
     engine.free_spin.unwrap_or_else(|| panic!("{id} claims nothing"))
@@ -146,7 +146,7 @@ fn lead(figure: f64) -> i32 {
 }
 
 #[test]
-fn the_energy_in_a_log_of_a_tumble_is_that_of_its_angular_velocity() {
+fn the_logged_energy_of_a_tumble_matches_its_angular_velocity() {
     for log in Tumble::all() {
         let most = if log.is_f32 { 1e-8 } else { 2e-11 };
         for row in &log.rows {
@@ -158,7 +158,7 @@ fn the_energy_in_a_log_of_a_tumble_is_that_of_its_angular_velocity() {
 }
 
 #[test]
-fn every_map_that_a_card_names_is_seen_in_a_log_but_the_constant_one_and_that_of_physx_tgs() {
+fn every_spin_map_on_a_card_has_a_log_with_two_exceptions() {
     let seen: BTreeSet<_> = Tumble::all().iter().map(|log| (log.id, log.map.id())).collect();
     let engines = METHODS.iter().filter_map(|method| Some((method.id, method.engine?.free_spin?)));
     let named = engines
@@ -177,7 +177,7 @@ fn near(what: &str, worst: f64, most: f64, slack: f64) {
 }
 
 #[test]
-fn the_map_of_a_card_reproduces_each_logged_tick_of_a_tumble_from_the_one_before() {
+fn the_map_of_a_card_reproduces_each_logged_tick_of_a_tumble() {
     let (mut worst, mut compared) = ([0.0_f64; 2], 0);
     for log in Tumble::all() {
         let pairs = log.rows.windows(2).filter(|pair| pair[1].tick == pair[0].tick + 1);
@@ -197,7 +197,7 @@ fn the_map_of_a_card_reproduces_each_logged_tick_of_a_tumble_from_the_one_before
 }
 
 #[test]
-fn the_first_twenty_ticks_of_a_tumble_come_out_to_the_digits_of_the_log() {
+fn twenty_ticks_of_a_tumble_match_the_digits_of_the_log() {
     let mut worst = [0.0_f64; 2];
     for log in Tumble::all() {
         let scale = log.rows[0].omega.length();
@@ -215,9 +215,9 @@ fn the_first_twenty_ticks_of_a_tumble_come_out_to_the_digits_of_the_log() {
     near("f32", worst[1], 4e-6, 10.0);
 }
 
-/// What the energy may be off by over a whole log, relative to it: of engines in double precision, of those near the
-/// middle axis, where errors grow e-fold in 0.35 s, of explicit Euler where it magnifies them, of engines in single
-/// precision, and of those among them that lose energy near the middle axis.
+/// The allowed relative error of the energy over a whole log: for double precision, near the middle axis (where
+/// errors grow e-fold in 0.35 s), for explicit Euler where it magnifies them, for single precision, and for single
+/// precision with energy loss near the middle axis.
 const ENERGY_TOLERANCES: [f64; 5] = [5e-12, 1e-10, 2e-5, 2e-3, 5e-2];
 
 /// Which of the tolerances is the log's.
@@ -252,8 +252,8 @@ fn the_energy_of_a_tumble_stays_with_the_log_for_a_minute() {
     assert_eq!(lost, ["mujoco-Euler__tumble_b_60hz.csv"]);
 }
 
-/// A card, its map, the substeps, E/E₀ after a minute at 60 Hz from each of the starts (infinite where it diverges), and
-/// what a figure may be off by.
+/// A card, its map, the substeps, E/E₀ after a minute at 60 Hz from each of the starts (infinite where it diverges),
+/// and the allowed error of a figure.
 type Minute = (&'static str, SpinMap, u32, [f64; 3], f64);
 
 /// Half of the last digit of a figure, and rounding.
@@ -278,7 +278,7 @@ fn after(id: &str, map: SpinMap, substeps: u32, start: DVec3, ticks: u32) -> DVe
 }
 
 #[test]
-fn the_energy_left_after_a_minute_is_that_of_the_engine() {
+fn the_energy_after_a_minute_matches_the_engine() {
     for (id, map, substeps, kept, most) in MINUTES {
         assert!([Some(free_spin(id).default), free_spin(id).opt_in].contains(&Some(map)), "{id}");
         let mut worst = 0.0_f64;
@@ -300,7 +300,7 @@ fn the_energy_left_after_a_minute_is_that_of_the_engine() {
 const MUJOCO_LIMIT: f64 = 1e10;
 
 #[test]
-fn explicit_euler_is_lost_after_45_s_from_the_axis_of_the_largest_moment() {
+fn explicit_euler_diverges_after_45_s_about_the_axis_of_largest_moment() {
     let speed = |ticks| after("engine-mujoco", SpinMap::Explicit, 1, STARTS[1], ticks).length();
     let [logged, lost] = [2670, 2700].map(speed);
     assert!((logged - 109.4).abs() < 0.1, "{logged}");

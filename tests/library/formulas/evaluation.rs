@@ -1,4 +1,4 @@
-//! Evaluates the formula of a card beside a step of its method.
+//! Evaluates the formula of a card on a step of its method.
 
 use std::collections::BTreeMap;
 
@@ -13,19 +13,19 @@ pub(crate) fn acceleration(t: f64, q: f64, v: f64) -> f64 {
 
 pub(crate) type Values = BTreeMap<String, Value>;
 
-/// A step of a method, beside which its formula is evaluated.
+/// A step of a method, on which its formula is evaluated.
 #[derive(Clone)]
 pub(crate) struct Step {
     pub(crate) substeps: u32,
-    /// What is known before the formula: times, states, settings.
+    /// The values known before the formula: times, states, settings.
     pub(crate) known: Values,
-    /// The state after the step: what `q′` and `v′` stand for.
+    /// The state after the step: the values of `q′` and `v′`.
     pub(crate) end: [f64; 2],
-    /// What the formula's names stood for at the end of the step before.
+    /// The values of the formula's names at the end of the step before.
     pub(crate) before: Values,
 }
 
-/// An evaluation of a formula beside a step.
+/// An evaluation of a formula on a step.
 pub(crate) struct Evaluation<'a> {
     step: &'a Step,
     /// The names of this pass, and of the pass before.
@@ -277,7 +277,7 @@ impl<'a> Evaluation<'a> {
                 .strip_suffix("₋₁")
                 .map(|name| step.before.get(name).cloned().unwrap_or(Value::Number(0.0))),
         };
-        // Of a stage that a pass has not reached.
+        // A stage that a pass has not reached.
         known.unwrap_or(Value::Number(0.0))
     }
 

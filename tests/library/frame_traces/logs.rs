@@ -1,10 +1,10 @@
-//! The logs of each tool, their units, and what stands beside their times.
+//! The logs of each tool, their units, and the columns next to their times.
 
 use regatta::loops::trace_file::read;
 
 use super::{frames, traces};
 
-/// What is read, in a line, and the beginnings of its frames in ms.
+/// The one-line summary of a log, and the starts of its frames in ms.
 fn summed(text: &str) -> (String, Vec<f64>) {
     let [trace] = &traces("log", text)[..] else { panic!("one trace") };
     let began = frames(trace).iter().map(|frame| frame.began_ns as f64 / 1e6).collect();
@@ -12,7 +12,7 @@ fn summed(text: &str) -> (String, Vec<f64>) {
 }
 
 #[test]
-fn a_list_of_times_is_read_under_a_heading_and_in_whatever_unit_it_is() {
+fn a_list_of_times_is_read_with_or_without_heading_in_any_unit() {
     let expected = vec![0.0, 16.6, 50.0];
     for (text, unit) in [
         ("# level 3\nframe_ms\n16.7\n16.6\n33.4\n", ""),
@@ -33,7 +33,7 @@ fn a_list_of_times_is_read_under_a_heading_and_in_whatever_unit_it_is() {
 }
 
 #[test]
-fn the_unit_of_mangohud_is_found_by_its_frames_a_second_and_a_sample_is_no_frame() {
+fn mangohuds_unit_follows_from_its_fps_and_sampled_logs_are_refused() {
     let (said, began) =
         summed("fps,frametime,cpu_load\n190.114,5260,10\n200,5000,11\n100,10000,9\n");
     assert_eq!(began, [0.0, 5.0, 15.0]);
@@ -47,11 +47,11 @@ fn the_unit_of_mangohud_is_found_by_its_frames_a_second_and_a_sample_is_no_frame
         summed("n,Frame Time (s),cpu\n1,0.008,3\n2,0.008,4\n").0.ends_with("(a list, in seconds)")
     );
     let error = read("log", &elapsed(100.0)).err().unwrap().to_string();
-    assert!(error.contains("a sample every 100 ms (log_interval)"), "{error}");
+    assert!(error.contains("samples every 100 ms (log_interval)"), "{error}");
 }
 
 #[test]
-fn a_frame_that_says_nothing_of_its_display_was_dropped_and_the_others_have_one_clock() {
+fn a_frame_without_display_time_counts_as_dropped() {
     let text = "TimeInSeconds,MsBetweenPresents,MsBetweenDisplayChange,MsUntilDisplayed\n\
                 0.000,7,14,15\n0.007,7,7,15\n0.014,7,14,NA\n0.021,7,0,15\n";
     let [trace] = &traces("log", text)[..] else { panic!("one trace") };
@@ -63,7 +63,7 @@ fn a_frame_that_says_nothing_of_its_display_was_dropped_and_the_others_have_one_
 }
 
 #[test]
-fn a_log_of_afterburner_is_refused_by_its_name() {
+fn an_afterburner_log_is_refused_by_name() {
     let text = "00, 24-10-2025 15:41:23, Hardware monitoring log v1.6 \n\
                 02, 24-10-2025 15:41:23, Power               ,Framerate           ,Frametime           \n\
                 80, 24-10-2025 15:41:24, 143.1               ,99.691              ,10.031              \n";
@@ -71,7 +71,7 @@ fn a_log_of_afterburner_is_refused_by_its_name() {
     assert!(error.contains("a log of MSI Afterburner has a sample a second"), "{error}");
 }
 
-/// Small logs of ten frames as each tool writes them, one of which was never displayed in two.
+/// Small logs of ten frames as each tool writes them. In two logs, one frame was never displayed.
 const OF_TOOLS: [(&str, &str, &str); 11] = [
     (
         "presentmon-1.csv",
@@ -99,7 +99,7 @@ const OF_TOOLS: [(&str, &str, &str); 11] = [
 ];
 
 #[test]
-fn each_tool_that_the_manual_names_has_a_log_of_the_same_ten_frames() {
+fn every_tool_in_the_manual_has_a_log_of_the_same_ten_frames() {
     for (name, text, tool) in OF_TOOLS {
         let read = traces(name, text);
         assert_eq!(read.len(), 1, "{name}");
@@ -122,7 +122,7 @@ fn each_tool_that_the_manual_names_has_a_log_of_the_same_ten_frames() {
 }
 
 #[test]
-fn times_are_held_against_each_other_and_what_contradicts_is_said() {
+fn contradicting_times_of_a_log_are_reported() {
     let log = |header: &str, row: &dyn Fn(f64) -> String| {
         let rows: Vec<String> = (0..300).map(|n| row(f64::from(n))).collect();
         traces("log", &format!("{header}\n{}\n", rows.join("\n"))).remove(0)
@@ -143,10 +143,10 @@ fn times_are_held_against_each_other_and_what_contradicts_is_said() {
     for (header, row, told) in [
         (presentmon, (&|n| format!("{},8,8", n * 0.0084)) as &dyn Fn(f64) -> String, "own time"),
         ("CPUStartTime,FrameTime,DisplayedTime", &|n| format!("{},8,8", n * 10.0), "own time"),
-        (&late, &|n| format!("0,{},8,8", 20.0 + 0.4 * n), "clocks of frames and of display"),
+        (&late, &|n| format!("0,{},8,8", 20.0 + 0.4 * n), "frame and display clocks"),
         ("fps,frametime,elapsed", &|n| format!("125,8,{}", n * 8.4e6), "own time"),
-        ("fps,frametime", &|_| "250,8".into(), "frames a second"),
-        ("frame;fps;frametime (ms)", &|n| format!("{n};250;8,0"), "frames a second"),
+        ("fps,frametime", &|_| "250,8".into(), "frame rates contradict"),
+        ("frame;fps;frametime (ms)", &|n| format!("{n};250;8,0"), "frame rates contradict"),
     ] {
         let trace = log(header, row);
         let said = trace.missing_display().unwrap_or_default();
@@ -165,7 +165,7 @@ fn times_are_held_against_each_other_and_what_contradicts_is_said() {
 }
 
 #[test]
-fn the_first_mangohud_wrote_its_own_time_and_no_times_of_frames() {
+fn the_first_mangohud_logged_no_frame_times() {
     let header = "fps,cpu_load,gpu_load,cpu_temp,elapsed";
     let log = |step_ns: u64| {
         let row = |n: u64| format!("125,5,90,60,{}\n", 3_000_000_000 + n * step_ns);
@@ -178,11 +178,11 @@ fn the_first_mangohud_wrote_its_own_time_and_no_times_of_frames() {
     );
     assert_eq!(began[..3], [0.0, 8.0, 16.0]);
     let error = read("log", &log(100_000_000)).err().unwrap().to_string();
-    assert!(error.contains("a sample every 100 ms (log_interval)"), "{error}");
+    assert!(error.contains("samples every 100 ms (log_interval)"), "{error}");
 }
 
 #[test]
-fn what_unreal_writes_below_its_frames_is_no_frame_and_fraps_counts_from_its_start() {
+fn unreals_footer_is_no_frame_and_fraps_counts_from_its_start() {
     let rows = "EVENTS,FrameTime,GameThreadTime\n,16,9\n,17,9\n";
     let of_build = "[Platform],Windows,[Config],Test,[HasHeaderRowAtEnd],0\n";
     assert_eq!(frames(&traces("a", &format!("{rows}{of_build}"))[0]).len(), 2);

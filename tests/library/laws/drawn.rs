@@ -18,7 +18,7 @@ fn truth(scene: &Scene) -> Lane {
     Lane::new(scene, Solver::Truth, 1)
 }
 
-/// The body of a built-in scene, with what shows it at these coordinates.
+/// The body of a built-in scene, with its picture at these coordinates.
 fn drawn(scene: &str, q: &[f64]) -> (Outline, Framing, Vec<DVec2>) {
     let lane = truth(&Scene::built_in(scene).unwrap());
     let look = Look::of(&lane.bodies()[0]);
@@ -27,7 +27,7 @@ fn drawn(scene: &str, q: &[f64]) -> (Outline, Framing, Vec<DVec2>) {
 }
 
 #[test]
-fn a_law_keeps_its_picture_when_it_is_written_and_read_again() {
+fn the_picture_of_a_law_survives_writing_and_reading() {
     for draw in ["beads", "vertical", "carriage", "follower"] {
         let scene = read(&format!("draw = '{draw}'\n"), TWO).unwrap();
         let written = scene.to_toml();
@@ -38,7 +38,7 @@ fn a_law_keeps_its_picture_when_it_is_written_and_read_again() {
 }
 
 #[test]
-fn a_picture_that_cannot_be_is_refused_with_its_place_and_a_remedy() {
+fn an_invalid_picture_is_refused_with_its_place_and_a_remedy() {
     let one = "[law.coordinates.z]\nacceleration = '-z'\n";
     let newton = "[law.coordinates.f]\nunit = 'N'\nacceleration = '-f'\n";
     for (keys, coordinates, wanted) in [
@@ -107,7 +107,7 @@ const RODS: &str = "constants = { l = 2 }\n\
     [law.coordinates.f]\nunit = 'N'\nstart = 7\nacceleration = '-f'\n";
 
 #[test]
-fn a_law_is_drawn_where_its_scene_says_and_a_hand_takes_it_there() {
+fn a_law_is_drawn_and_grabbed_at_the_positions_of_its_scene() {
     let scene = read("", RODS).unwrap();
     let again = Scene::parse("mine.toml", &scene.to_toml()).unwrap();
     assert!(again.bodies[0].kind == scene.bodies[0].kind, "{}", scene.to_toml());
@@ -142,14 +142,14 @@ fn a_law_is_drawn_where_its_scene_says_and_a_hand_takes_it_there() {
 }
 
 #[test]
-fn places_that_cannot_be_are_refused_with_their_place_and_a_remedy() {
+fn invalid_positions_are_refused_with_their_place_and_a_remedy() {
     let with = |keys: &str, at: &str| {
         let one = format!("[law.coordinates.z]\nacceleration = '-z'\nat = {at}\n");
         read(keys, &one).map(|_| ()).unwrap_err()
     };
     for (keys, at, wanted) in [
         ("", "['z', 'zz']", "mine.toml:7:12: unknown name `zz`"),
-        ("", "['vz', '0']", "a place is drawn by coordinates and constants alone, not by `vz`"),
+        ("", "['vz', '0']", "a place depends on coordinates and constants alone, not on `vz`"),
         ("", "['z']", "`at` is not an x and a y; write two expressions for x and y"),
         ("", "'z'", "mine.toml:7:6: `at` is the string"),
         (
@@ -164,7 +164,7 @@ fn places_that_cannot_be_are_refused_with_their_place_and_a_remedy() {
 }
 
 #[test]
-fn the_course_of_an_orbit_goes_through_its_body_and_through_where_it_will_be() {
+fn the_drawn_orbit_passes_through_present_and_future_positions() {
     let mut lane = truth(&Scene::built_in("orbit").unwrap());
     let body = &lane.bodies()[0];
     let course = Look::of(body).course(body.stepper.q(), body.stepper.v());

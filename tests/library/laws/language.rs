@@ -1,4 +1,4 @@
-//! What each function and operator of an expression is: its value, its derivatives, and its corners and jumps.
+//! The functions and operators of expressions: values, derivatives, corners and jumps.
 
 use regatta::sim::Solver;
 use regatta::sim::bodies::Input;
@@ -17,7 +17,7 @@ fn value(expression: &str, [x, y]: [f64; 2]) -> f64 {
 }
 
 #[test]
-fn every_function_and_operator_has_its_value_on_either_side_of_a_boundary_and_on_it() {
+fn functions_and_operators_are_right_at_and_around_their_boundaries() {
     for (expression, at, wanted) in [
         ("atan2(x, y)", [1.0, -1.0], libm::atan2(1.0, -1.0)),
         ("atan2(x, y)", [-1.0, -2.0], libm::atan2(-1.0, -2.0)),
@@ -97,7 +97,7 @@ const DERIVATIVES: [(&str, &str, [f64; 2]); 24] = [
 ];
 
 #[test]
-fn an_exact_solution_of_every_function_is_held_against_its_second_derivative() {
+fn exact_solutions_are_tested_by_second_derivative_for_every_function() {
     for (exact, second, [start, slope]) in DERIVATIVES {
         let with = |acceleration: &str, start: f64, slope: f64| {
             parse(&format!(
@@ -149,7 +149,7 @@ fn the_reference_meets_the_jumps_of_floor_and_the_corners_of_tables() {
 }
 
 #[test]
-fn what_is_linear_and_what_is_an_angle_is_read_from_the_text() {
+fn linearity_and_angles_are_recognised_from_the_text() {
     for (acceleration, is_linear, is_angle) in [
         ("-k*x - vx/k + sin(k)", true, false),
         ("-k*x + cos(t)", false, false),
@@ -177,7 +177,7 @@ fn kicks_and_constants_act_at_once_and_starts_do_not() {
     let law = body(text);
     let mut it = stepper(&law, Solver::Truth);
     it.input(0.0, Input::Kick(2.0));
-    // Of itself only the first coordinate is kicked.
+    // Without further settings a kick acts on the first coordinate only.
     assert_eq!(it.v(), [3.0, 0.0]);
     let place = |key: &str| law.kind.parameter(key).unwrap().0;
     let mut a = [0.0; 2];

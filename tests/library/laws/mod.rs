@@ -62,7 +62,7 @@ fn twins() -> impl Iterator<Item = (SceneBody, SceneBody)> {
 #[test]
 fn the_built_in_bodies_as_laws_have_the_same_bits_under_every_method() {
     for (built_in, law) in twins() {
-        // An engine is told the stiffness of a spring, and of a law only the force.
+        // An engine knows the stiffness of a spring but only the force of a law.
         for method in METHODS.iter().filter(|method| !method.is_engine()) {
             let [mut a, mut b] = [&built_in, &law].map(|it| stepper(it, Solver::Method(method)));
             for tick in 0..600 {
@@ -84,7 +84,7 @@ fn the_built_in_bodies_as_laws_have_the_same_bits_under_every_method() {
 }
 
 #[test]
-fn verdicts_on_the_built_in_bodies_as_laws_are_equal_to_the_last_printed_digit() {
+fn built_in_bodies_as_laws_have_the_same_verdicts() {
     let judged = |body: &SceneBody| -> Vec<String> {
         let mut scene = parse(TWINS[0].0).unwrap();
         scene.bodies = vec![body.clone()];
@@ -103,7 +103,7 @@ fn verdicts_on_the_built_in_bodies_as_laws_are_equal_to_the_last_printed_digit()
 }
 
 #[test]
-fn a_law_is_written_and_read_again_to_the_bit() {
+fn a_law_survives_writing_and_reading_to_the_bit() {
     let text = "title = 'Mine'\ntick_hz = 60\nseconds = 10\n[[law]]\nname = 'one \"two\"'\nplane = ['y', 'x']\n\
                 energy = 'm*(vx^2 + vy^2)/2 + m*g*y'\nconstants = { m = 0.1, g = 9.81 }\n\
                 [law.coordinates.x]\nstart = 0.3\nunit = 'km'\nstart_velocity = -1e-7\nacceleration = '0*x'\n\
@@ -124,7 +124,7 @@ fn a_law_is_written_and_read_again_to_the_bit() {
     assert_eq!(scene.script, again.script);
 }
 
-/// What is said of a law `x` with this acceleration, and of the whole file.
+/// The error message for a law `x` with this acceleration, and for the whole file.
 fn refusal(acceleration: &str) -> String {
     let text = format!(
         "[[law]]\nconstants = {{ k = 2, zero = 0 }}\n[law.coordinates.x]\nacceleration = \"{acceleration}\""
@@ -215,7 +215,7 @@ fn whole_exponents_have_the_bits_of_products() {
 }
 
 #[test]
-fn a_law_of_any_text_has_one_kind_and_the_table_of_bodies_has_none() {
+fn laws_share_one_kind_outside_the_table_of_bodies() {
     assert!(kind("law").is_none());
     let [a, b] = ["1", "2"].map(|k| {
         body(&format!(
@@ -237,7 +237,7 @@ fn a_law_of_any_text_has_one_kind_and_the_table_of_bodies_has_none() {
 }
 
 #[test]
-fn the_drone_is_lost_or_hovers_as_its_hint_says() {
+fn the_drone_is_lost_or_hovers_as_its_hint_states() {
     let scene = Scene::built_in("lift").unwrap();
     let place = TICK_LADDER.iter().position(|hz| scene.tick_hz == *hz).unwrap();
     assert_eq!(scene.tick_hz, 30);

@@ -1,4 +1,4 @@
-//! What a law claims of its motion, and the truth that methods are compared with.
+//! The claims of a law about its motion, and the truth for comparing methods.
 
 use regatta::measure::Judge;
 use regatta::scene::{LaneSpec, Scene, SceneBody};
@@ -9,7 +9,7 @@ use regatta::sim::integrators::METHODS;
 use super::{body, parse, stepper};
 
 #[test]
-fn a_claim_that_is_false_is_refused_and_a_true_one_is_not() {
+fn only_a_false_claim_is_refused() {
     let with = |c: &str, energy: &str, more: &str| {
         let text = format!(
             "[[law]]\nconstants = {{ m = 2, k = 8, c = {c} }}\n{energy}\n[law.coordinates.x]\nstart = 0.5\n\
@@ -39,7 +39,8 @@ fn a_claim_that_is_false_is_refused_and_a_true_one_is_not() {
     assert!(moving.contains("`vx` begins at 2, and `start_velocity` is 0"), "{moving}");
 }
 
-/// What is said of a spring of 4 rad/s² in a scene of 10 s at 60 Hz, with more of its acceleration and with its claims.
+/// The error message for a spring of 4 rad/s² in a scene of 10 s at 60 Hz, with additional acceleration and its
+/// claims.
 fn said(more: &str, energy: &str, exact: &str) -> Option<String> {
     let text = format!(
         "[[law]]\nconstants = {{ k = 4 }}\n{energy}\n[law.coordinates.x]\nstart = 1\n\
@@ -49,7 +50,7 @@ fn said(more: &str, energy: &str, exact: &str) -> Option<String> {
 }
 
 #[test]
-fn a_claim_is_held_against_the_motion_at_every_tick_of_the_scene() {
+fn a_claim_is_tested_at_every_tick_of_the_scene() {
     let (energy, exact) = ("energy = 'vx*vx/2 + k*x*x/2'", "exact = 'cos(sqrt(k)*t)'");
     assert_eq!(said("", energy, exact), None);
     // Between 12 moments that a quick look takes, for a second, or for less than a tick.
@@ -65,7 +66,7 @@ fn a_claim_is_held_against_the_motion_at_every_tick_of_the_scene() {
 }
 
 #[test]
-fn an_exact_solution_that_a_constant_makes_false_for_a_while_is_no_truth() {
+fn an_exact_solution_is_no_truth_while_a_constant_falsifies_it() {
     let mut law = body(
         "[[law]]\nconstants = { k = 4, g = 0 }\n[law.coordinates.x]\nstart = 1\n\
          acceleration = '-k*x + if(t > 4.3 and t < 5.1, g, 0)'\nexact = 'cos(sqrt(k)*t)'",
@@ -84,12 +85,12 @@ fn an_exact_solution_that_a_constant_makes_false_for_a_while_is_no_truth() {
 fn a_constant_is_no_energy() {
     for constant in ["3", "k", "0*vx + 0*x"] {
         let said = said("", &format!("energy = '{constant}'"), "").expect("it says nothing");
-        assert!(said.contains("which says nothing of the motion"), "{said}");
+        assert!(said.contains("which says nothing about the motion"), "{said}");
     }
 }
 
 #[test]
-fn a_true_claim_is_accepted_where_nothing_is_exchanged_and_in_a_scene_of_any_length() {
+fn a_true_claim_is_accepted_even_without_exchange_or_in_a_long_scene() {
     // On a circle the potential and the kinetic energy stay, up to rounding.
     let circle = "energy = '(vx*vx + vy*vy)/2 - 1/sqrt(x*x + y*y)'\n\
                   [law.coordinates.x]\nstart = 1\nexact = 'cos(t)'\n\
@@ -105,21 +106,21 @@ fn a_true_claim_is_accepted_where_nothing_is_exchanged_and_in_a_scene_of_any_len
 }
 
 #[test]
-fn an_exact_solution_of_a_motion_that_is_pushed_for_a_second_is_one() {
+fn an_exact_solution_may_include_a_push_of_a_second() {
     let push = "[[law]]\n[law.coordinates.x]\nacceleration = 'if(t > 4 and t < 5, 8, 0)'\n";
     let exact = "exact = 'if(t < 4, 0, if(t < 5, 4*(t - 4)^2, 4 + 8*(t - 5)))'";
     assert_eq!(parse(&format!("{push}{exact}")).err(), None);
 }
 
 #[test]
-fn an_exact_solution_beside_which_the_motion_is_unstable_is_one() {
+fn an_exact_solution_may_be_an_unstable_motion() {
     let text = "[[law]]\n[law.coordinates.x]\nstart = 1\nstart_velocity = -1\n\
                 acceleration = 'x'\nexact = 'exp(-t)'";
     assert_eq!(parse(text).err(), None);
 }
 
 #[test]
-fn an_exact_solution_is_the_truth_until_somebody_intervenes() {
+fn an_exact_solution_is_the_truth_until_an_intervention() {
     let law = body(
         "[[law]]\nconstants = { w = 3 }\n[law.coordinates.x]\nstart = 0.5\nacceleration = '-w*w*x'\n\
          exact = 'x0*cos(w*t) + vx0*sin(w*t)/w'",
@@ -132,7 +133,7 @@ fn an_exact_solution_is_the_truth_until_somebody_intervenes() {
     assert_eq!(truth.q()[0], exact);
     let before = truth.truth_error().unwrap();
     assert!(before[0] > 0.0 && before[0] < 1e-13);
-    // After a kick the reference goes on from the same state.
+    // After a kick the reference continues from the same state.
     truth.input(10.0, Input::Kick(1.0));
     let (q, v) = (truth.q()[0], truth.v()[0]);
     truth.advance(10.0, 1.0, 1).unwrap();
@@ -227,7 +228,7 @@ fn a_jump_lowers_the_measured_order_and_the_verdict_claims_no_more() {
 }
 
 #[test]
-fn under_dry_friction_at_rest_there_is_no_truth_and_the_verdict_says_so() {
+fn the_verdict_reports_a_missing_truth_under_dry_friction_at_rest() {
     let scene =
         parse("[[law]]\n[law.coordinates.x]\nstart = 1\nacceleration = '-x - 0.3*sign(vx)'")
             .unwrap();

@@ -20,7 +20,7 @@ const LISTS: &str = "nodes = [[0, 0], [1, 0.5], [2, -1e-3]]\nfixed = [2]\nmass_k
                      damping_n_s_per_m = 0.5, rest_m = 0.0 }]";
 
 #[test]
-fn a_net_is_written_and_read_back_as_the_same_net() {
+fn a_net_survives_writing_and_reading() {
     for net in [GRID, LISTS] {
         let scene = parse(net);
         let again = Scene::parse("t", &scene.to_toml()).unwrap();
@@ -32,14 +32,14 @@ fn a_net_is_written_and_read_back_as_the_same_net() {
 }
 
 #[test]
-fn a_grid_has_the_nodes_springs_and_pins_that_it_says() {
+fn a_grid_has_its_declared_nodes_springs_and_pins() {
     let scene = parse(GRID);
     let plan = scene.bodies[0].kind.net().unwrap();
     let lists = plan.lists();
     assert_eq!((lists.nodes.len(), &lists.fixed[..]), (15, &[0, 1, 2, 3, 4][..]));
     assert_eq!((lists.nodes[0], lists.nodes[14]), ([0.0, 0.0], [1.0, -0.5]));
-    // Twelve along the rows, ten down the columns, and two across each of eight squares, of which those of
-    // the top row would join fixed nodes.
+    // Twelve along the rows, ten down the columns, and two across each of eight squares; those of the top row would
+    // join fixed nodes.
     assert_eq!(lists.springs.len(), 12 + 10 + 16 - 4);
     assert_eq!(plan.kicked, Some(9));
 }
@@ -67,7 +67,7 @@ fn holds(name: &str, id: &str, tick_hz: u32) -> bool {
 }
 
 #[test]
-fn the_scenes_show_what_their_hints_promise() {
+fn the_scenes_keep_the_promises_of_their_hints() {
     for (name, id, tick_hz, wanted) in [
         ("rope", "explicit-euler", 120, false),
         ("rope", "semi-implicit-euler", 120, true),

@@ -37,7 +37,7 @@ fn implicit_euler_is_stable_at_10_hz_on_the_stiff_cloth() {
 }
 
 #[test]
-fn the_implicit_midpoint_keeps_the_energy_of_a_stiff_cloth_where_implicit_euler_takes_it() {
+fn implicit_midpoint_keeps_a_cloths_energy_and_implicit_euler_does_not() {
     let exchanged = |id: &str| {
         let values = Values { stiffness: 2000.0, gravity: 9.81, ..PLAIN };
         let mut cloth = build(&grid(12, 8, Some(Pin::Corners)), values, with(id));
@@ -70,7 +70,7 @@ fn a_step_solves_the_equations_of_implicit_euler_to_rounding() {
 }
 
 #[test]
-fn the_slope_of_the_force_is_that_of_its_differences() {
+fn the_slope_of_the_force_matches_its_finite_differences() {
     let values = Values { damping: 0.3, drag: 0.02, gravity: 9.81, rest_ratio: 0.8, ..PLAIN };
     let stepper = build(&grid(4, 3, Some(Pin::Corners)), values, with("rk4"));
     let net = stepper.body().downcast_ref::<Net>().unwrap();
@@ -101,8 +101,8 @@ fn the_slope_of_the_force_is_that_of_its_differences() {
 }
 
 #[test]
-fn equations_that_are_not_solved_end_in_a_failure_within_bounded_work() {
-    // Far beyond what the two stages of Gauss and Legendre converge at.
+fn unsolvable_equations_fail_within_bounded_work() {
+    // Far beyond the convergence of Gauss and Legendre's two stages.
     let values = Values { stiffness: 2e9, gravity: 9.81, ..PLAIN };
     let mut net = build(&grid(16, 12, Some(Pin::Corners)), values, with("gauss-legendre-4"));
     net.input(0.0, Input::Kick(1.0));

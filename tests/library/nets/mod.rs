@@ -1,5 +1,4 @@
-//! Nets of masses and springs: what their motion keeps, what a scene may write, and what is said of one that
-//! has no reference solution.
+//! Nets of masses and springs: the conserved quantities, the scene syntax, and verdicts without a reference solution.
 
 use regatta::sim::bodies::{Form, Grid, Lists, NetPlan, Pin, PlannedSpring, net_kind};
 use regatta::sim::integrators::method;

@@ -1,4 +1,4 @@
-//! What the motion of a net keeps, and whose motion it is.
+//! The motion of a net: its conserved quantities, and its agreement with other bodies.
 
 use regatta::sim::bodies::{Body, Chain, Input, PlannedSpring, net_kind};
 use regatta::sim::integrators::{Family, GENERAL_METHODS, StepFailure};
@@ -7,7 +7,7 @@ use regatta::sim::{Solver, Stepper};
 use super::*;
 
 #[test]
-fn the_energy_under_velocity_verlet_stays_bounded_over_a_hundred_thousand_ticks() {
+fn velocity_verlet_bounds_a_nets_energy_over_a_hundred_thousand_ticks() {
     let values = Values { gravity: 9.81, ..PLAIN };
     let mut net = build(&grid(8, 6, Some(Pin::Corners)), values, with("velocity-verlet"));
     let start = energy(&*net);
@@ -79,7 +79,7 @@ fn chain_as_net(chain: &Chain) -> NetPlan {
 }
 
 #[test]
-fn a_chain_written_as_a_net_moves_as_the_chains_exact_solution() {
+fn a_chain_as_a_net_follows_the_chains_exact_solution() {
     for damping in [0.0, 0.4] {
         let chain = Chain::default().with_parameters(&[6.0, 0.5, 90.0, damping, 3.0, 0.4, 1.0]);
         let values = Values { mass: 0.5, stiffness: 90.0, damping, ..PLAIN };
@@ -149,7 +149,7 @@ fn a_kick_hits_one_node_or_all_and_drag_slows_them() {
 }
 
 #[test]
-fn a_spring_keeps_what_it_has_of_its_own_when_the_net_is_edited() {
+fn a_spring_keeps_its_own_values_when_the_net_is_edited() {
     let nodes = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
     let own = PlannedSpring {
         between: [0, 2],
@@ -175,7 +175,7 @@ fn a_spring_keeps_what_it_has_of_its_own_when_the_net_is_edited() {
 }
 
 #[test]
-fn a_net_has_a_reference_up_to_the_stated_work_and_none_above() {
+fn a_net_has_a_reference_only_up_to_the_stated_work() {
     let plan = grid(8, 6, Some(Pin::Top));
     let mut has_truth = Vec::new();
     for stiffness in [20.0, 200.0, 2000.0, 20_000.0] {

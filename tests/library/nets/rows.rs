@@ -52,7 +52,7 @@ fn the_number_of_threads_changes_no_bit_of_a_large_net() {
 }
 
 #[test]
-fn a_net_may_have_a_hundred_thousand_nodes_and_no_more() {
+fn a_net_has_at_most_a_hundred_thousand_nodes() {
     let net = build(&plan(400, 250), VALUES, with("semi-implicit-euler"));
     assert_eq!(net.q().len(), 2 * (MAX_NODES - 2));
     let said = grid(401, 250, None).faults().remove(0);

@@ -1,4 +1,4 @@
-//! What is said of a net that has no reference solution.
+//! Verdicts on a net without a reference solution.
 
 use regatta::measure::{Adviser, Criterion, CriterionResult, Judge, Outcome, Severity, Verdict};
 use regatta::run::Race;
@@ -22,7 +22,7 @@ fn verdict(scene: &Scene, id: &str) -> Verdict {
 }
 
 #[test]
-fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius_and_says_so() {
+fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius() {
     let scene = scene(1000.0, "");
     for (id, outcome, radius) in [
         ("explicit-euler", Outcome::BlewUp, 5.0..15.0),
@@ -53,7 +53,7 @@ fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius_and_says_so
 }
 
 #[test]
-fn velocity_verlet_on_a_damped_net_has_no_radius_of_a_net_that_stays() {
+fn velocity_verlet_on_a_damped_net_has_no_stable_radius() {
     let scene = |tick_hz: u32| {
         let net = scene(1000.0, "damping_n_s_per_m = 0.635");
         Scene::parse("t", &net.to_toml().replace("tick_hz = 60", &format!("tick_hz = {tick_hz}")))
@@ -74,7 +74,7 @@ fn velocity_verlet_on_a_damped_net_has_no_radius_of_a_net_that_stays() {
 }
 
 #[test]
-fn the_drift_of_a_conserved_energy_is_told_without_a_reference_too() {
+fn the_drift_of_a_conserved_energy_needs_no_reference() {
     let elastic = scene(1000.0, "");
     let drift = |scene: &Scene, id: &str| verdict(scene, id).energy_drift_percent();
     let lost = drift(&elastic, "implicit-euler").expect("it conserves its energy");
@@ -100,7 +100,7 @@ fn a_damped_net_may_lose_energy_and_a_kick_may_bring_it() {
 }
 
 #[test]
-fn a_soft_net_has_a_reference_with_which_methods_are_compared() {
+fn methods_on_a_soft_net_are_compared_with_a_reference() {
     let scene = scene(10.0, "");
     let verdict = verdict(&scene, "velocity-verlet");
     assert!(verdict.by_energy().is_none(), "{verdict}");
@@ -108,7 +108,7 @@ fn a_soft_net_has_a_reference_with_which_methods_are_compared() {
 }
 
 #[test]
-fn the_race_goes_on_without_a_truth() {
+fn a_race_runs_without_a_truth() {
     let scene = scene(1000.0, "");
     let mut race = Race::of_scene(&scene);
     race.run(30);
@@ -122,7 +122,7 @@ fn the_race_goes_on_without_a_truth() {
 }
 
 #[test]
-fn advice_without_a_truth_is_on_stability_only() {
+fn advice_without_a_truth_covers_stability_only() {
     let scene = edited(&scene(1000.0, ""), |scene| scene.seconds = 1.0);
     let adviser = Adviser::new(&scene, 60);
     let plain = |id: &str| LaneSpec::plain(method(id).unwrap());

@@ -1,4 +1,4 @@
-//! The built-in scenes do what they say.
+//! The built-in scenes behave as their texts describe.
 
 use std::f64::consts::PI;
 use std::fs;
@@ -30,12 +30,13 @@ fn with(id: &str) -> Solver {
 }
 
 #[test]
-fn every_built_in_scene_parses_names_its_methods_and_says_what_to_try() {
+fn every_built_in_scene_parses_and_has_methods_and_a_hint() {
     for scene in SCENES {
         let parsed = built_in(scene.name);
         assert_eq!(parsed.name, scene.name);
-        assert!(!parsed.about.is_empty() && parsed.hint.is_some(), "{}", scene.name);
-        // Few enough to tell apart, and each with a digit key.
+        let has_texts = !parsed.about.is_empty() && parsed.hint.is_some();
+        assert!(has_texts, "{}: write an `about` and a `hint`", scene.name);
+        // Few enough to distinguish, and each with a digit key.
         assert!((2..=9).contains(&parsed.lanes.len()), "{}", scene.name);
         // By name, so that a new method changes no scene.
         let is_named =
@@ -49,7 +50,7 @@ fn every_built_in_scene_parses_names_its_methods_and_says_what_to_try() {
 }
 
 #[test]
-fn the_digits_of_the_chapters_scenes_are_those_that_their_hints_name() {
+fn the_digit_keys_of_the_chapters_scenes_match_their_hints() {
     let ids = ["explicit-euler", "semi-implicit-euler", "improved-euler", "rk4", "adaptive-euler"];
     for name in ["harbour", "ship", "spring", "damped", "stiff"] {
         let lanes: Vec<_> = built_in(name).lanes.iter().map(|lane| lane.method.id).collect();
@@ -71,7 +72,7 @@ fn the_built_in_scenes_are_the_files_of_their_folder() {
 }
 
 #[test]
-fn the_ship_is_the_chapters_and_as_wrong_as_its_scene_says() {
+fn the_ship_is_the_chapters_with_the_error_its_scene_states() {
     for name in ["ship", "harbour"] {
         let bodies = built_in(name).bodies;
         let ship = bodies.iter().find(|body| body.kind.id == "ship").unwrap();
@@ -92,7 +93,7 @@ fn the_ship_is_the_chapters_and_as_wrong_as_its_scene_says() {
 }
 
 #[test]
-fn the_1_hz_spring_doubles_under_explicit_euler_as_its_scene_says() {
+fn the_1_hz_spring_doubles_under_explicit_euler_as_described() {
     let scene = built_in("spring");
     let body = &scene.bodies[0];
     assert_eq!(body.values[..5], [1.0, 4.0 * PI * PI, 0.0, 1.0, 0.0]);
@@ -105,7 +106,7 @@ fn the_1_hz_spring_doubles_under_explicit_euler_as_its_scene_says() {
 }
 
 #[test]
-fn a_free_and_a_damped_spring_grow_under_explicit_euler_and_stay_under_the_next() {
+fn free_and_damped_springs_grow_only_under_explicit_euler() {
     let scenes = ["harbour", "damped"].map(built_in);
     for scene in &scenes {
         let spring = &scene.bodies[0];
@@ -129,7 +130,7 @@ fn the_harbour_is_the_chapters_two_bodies() {
 }
 
 #[test]
-fn the_stiff_spring_is_bounded_at_60_hz_and_explodes_two_presses_lower_as_its_scene_says() {
+fn the_stiff_spring_is_bounded_at_60_hz_and_explodes_at_49() {
     let scene = built_in("stiff");
     let index = TICK_LADDER.iter().position(|hz| scene.tick_hz == *hz).unwrap();
     assert_eq!((TICK_LADDER[index], TICK_LADDER[index - 2]), (60, 49));
@@ -139,7 +140,7 @@ fn the_stiff_spring_is_bounded_at_60_hz_and_explodes_two_presses_lower_as_its_sc
 }
 
 #[test]
-fn the_chapters_ship_settles_swings_and_diverges_under_explicit_euler_as_its_scene_says() {
+fn the_chapters_ships_settle_swing_or_diverge_under_explicit_euler() {
     let scene = built_in("surge");
     assert_eq!(scene.tick_hz, 1);
     let speeds = |body: usize, solver, hz: u32| {
@@ -167,7 +168,7 @@ fn the_chapters_ship_settles_swings_and_diverges_under_explicit_euler_as_its_sce
 }
 
 #[test]
-fn the_chain_is_lost_as_its_scene_says() {
+fn the_chain_diverges_as_described() {
     let scene = built_in("chain");
     let body = &scene.bodies[0];
     let chain = Chain::default().with_parameters(&body.values);
@@ -185,7 +186,7 @@ fn the_chain_is_lost_as_its_scene_says() {
 }
 
 #[test]
-fn the_pendulum_goes_over_the_top_as_its_scene_says() {
+fn the_pendulum_goes_over_the_top_as_described() {
     let scene = built_in("pendulum");
     let body = &scene.bodies[0];
     let largest = |solver| run(body, solver, 60, 20 * 60).1;
@@ -198,7 +199,7 @@ fn the_pendulum_goes_over_the_top_as_its_scene_says() {
 }
 
 #[test]
-fn the_orbit_is_an_ellipse_of_6_s_and_strays_as_its_scene_says() {
+fn the_orbit_is_an_ellipse_of_6_s_and_strays_as_described() {
     let scene = built_in("orbit");
     let body = &scene.bodies[0];
     let after = |solver, seconds: u32| run(body, solver, 30, 30 * seconds).0;
@@ -226,7 +227,7 @@ fn the_orbit_is_an_ellipse_of_6_s_and_strays_as_its_scene_says() {
 }
 
 #[test]
-fn the_helm_turns_to_its_script_and_the_methods_part_there_as_its_scene_says() {
+fn the_helm_follows_its_script_and_methods_diverge_as_described() {
     let scene = built_in("helm");
     let rudder: Vec<_> = scene.script.iter().map(|scripted| scripted.action.clone()).collect();
     assert_eq!(rudder, [Action::Rudder(1.0), Action::Rudder(-1.0), Action::Rudder(0.0)]);
@@ -259,7 +260,7 @@ fn half_life_ms(scene: &Scene, id: &str, tick_hz: u32) -> f64 {
 }
 
 #[test]
-fn the_cameras_are_as_early_and_late_as_their_scenes_say() {
+fn the_cameras_are_as_early_and_late_as_described() {
     let scene = built_in("follow");
     let wanted = 1e3 * 1.678_347 / 5.0;
     assert!((wanted - 336.0_f64).abs() < 0.5);

@@ -1,4 +1,4 @@
-//! What a scene file may say, and what the built-in ones claim.
+//! The syntax of scene files, and the claims of the built-in scenes.
 
 use regatta::scene::Scene;
 

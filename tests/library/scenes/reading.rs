@@ -1,4 +1,4 @@
-//! What a scene file may say, and what it then means.
+//! The syntax of scene files and its meaning.
 
 use regatta::run::Race;
 use regatta::scene::{
@@ -46,7 +46,7 @@ fn for_games() -> usize {
 }
 
 #[test]
-fn a_scene_without_lanes_races_every_method_for_games_and_optional_keys_have_defaults() {
+fn a_minimal_scene_races_every_game_method_with_default_values() {
     let scene = parse_body(SPRING);
     assert_eq!((scene.name.as_str(), scene.title.as_str()), ("mine", "Mine"));
     assert_eq!((scene.about.as_str(), scene.hint), ("", None));
@@ -69,7 +69,7 @@ fn lanes_keep_their_order_and_differ_by_method_or_substeps() {
 }
 
 #[test]
-fn a_lane_sails_within_the_tolerance_that_it_is_given() {
+fn an_adaptive_lane_uses_its_own_tolerance() {
     let lane = "[[lane]]\nmethod = 'dormand-prince-54'\n";
     let lanes = format!("{lane}{lane}tolerance = 1\n{lane}tolerance = 1e-12\n{lane}substeps = 2\n");
     let mut scene = parse_body(&format!("{lanes}{SPRING}"));
@@ -97,7 +97,7 @@ fn a_lane_sails_within_the_tolerance_that_it_is_given() {
 }
 
 #[test]
-fn bodies_keep_the_order_of_the_file_and_get_names_that_are_free() {
+fn bodies_keep_the_order_of_the_file_and_get_unused_names() {
     let named = "name = 'spring-2'\n";
     let ship = "[[ship]]\nthrust_n = 1\ndrag_n_s_per_m = 0\nmass_kg = 1\n";
     let scene = parse_body(&format!("{SPRING}{ship}{SPRING}{named}{SPRING}"));
@@ -108,7 +108,7 @@ fn bodies_keep_the_order_of_the_file_and_get_names_that_are_free() {
 }
 
 #[test]
-fn a_script_is_sorted_by_time_and_keeps_the_order_of_the_file_within_one() {
+fn a_script_is_sorted_by_time_and_then_by_order_in_the_file() {
     let script = [
         "at_s = 120\nmethod = 'rk4'",
         "at_s = 0.75\nkick = -2",
@@ -177,7 +177,7 @@ fn each_limit_itself_is_allowed() {
 }
 
 #[test]
-fn other_editors_line_ends_byte_order_mark_and_inline_tables_are_the_same_scene() {
+fn line_endings_byte_order_mark_and_inline_tables_do_not_matter() {
     let text = format!("title = 'Mine'\ntick_hz = 60\nseconds = 10\n{SPRING}");
     let read = |text: &str| format!("{:?}", edited(&parse(text), |scene| scene.source = None));
     let expected = read(&text);
@@ -201,14 +201,14 @@ fn a_scene_without_lanes_races_the_methods_that_step_all_its_bodies() {
     for mixed in [format!("{}{}", camera(1), camera(2)), format!("{SPRING}{}", camera(2))] {
         assert!(others(&parse_body(&mixed)).is_empty());
     }
-    // What is not raced is still on the list of methods, if it fits.
+    // A method that does not race is still on the list of methods if it fits.
     let listed = parse_body(&format!("methods = ['rk4']\n{}", camera(2))).method_list();
     assert_eq!(listed.len(), GENERAL_METHODS.len() + followers.len());
     assert!(!listed.iter().any(|spec| spec.method.id == "lerp-dt"));
 }
 
 #[test]
-fn a_method_that_does_not_fit_is_not_taken_up_and_the_reason_is_told() {
+fn an_unsuitable_method_is_refused_with_the_reason() {
     let mut studio = Studio::new(built_in("spring"));
     let before = studio.active();
     studio.apply(StageCommand::Method(method("smooth-damp").unwrap()));

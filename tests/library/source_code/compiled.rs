@@ -1,4 +1,4 @@
-//! Each language's driver, compiled and run, and its states beside those of the table's methods.
+//! Each language's driver, compiled and run, and its states against the methods of the table.
 
 use std::process::Command;
 use std::{env, fs};
@@ -39,7 +39,7 @@ const SINGLE_ROUNDING: f64 = 2e-4;
 /// That of the methods that choose their substeps, which rounding chooses otherwise: about their tolerance.
 const OTHER_SUBSTEPS: f64 = 2e-2;
 
-/// Checks what a driver printed against the methods of the table.
+/// Compares the output of a driver with the methods of the table.
 fn same(language: Language, precision: Precision, text: &str) {
     let mut lines = text.lines();
     let mut wrong = Vec::new();
@@ -98,7 +98,7 @@ fn off_from_table(
     (worst.is_nan() || worst > allowed).then(|| format!("differs by {worst:.1e}: {bound}"))
 }
 
-/// What is wrong with a run that begins at rest, or in which no time passes in some steps.
+/// The fault of a run that starts at rest, or in which some steps take no time.
 fn off_where_paused(method: &Method, case: &Case, found: &[[f64; 2]]) -> Option<String> {
     let mut before = case.start;
     for (n, found) in (0..).zip(found) {
@@ -115,7 +115,7 @@ fn off_where_paused(method: &Method, case: &Case, found: &[[f64; 2]]) -> Option<
     None
 }
 
-/// What a compiled driver prints.
+/// The output of a compiled driver.
 fn printed(driver: &mut Command) -> String {
     let output = driver.output().unwrap();
     assert!(output.status.success(), "{:?}", output.status);
@@ -126,7 +126,7 @@ const PRECISIONS: [(Precision, &str); 2] =
     [(Precision::Double, "double"), (Precision::Single, "single")];
 
 #[test]
-fn the_rust_functions_do_what_the_methods_do() {
+fn generated_rust_matches_the_methods() {
     for (precision, name) in PRECISIONS {
         let folder = build_folder(&format!("methods-rust-{name}"));
         let (source, program) = (folder.join("driver.rs"), folder.join("driver"));
@@ -136,13 +136,13 @@ fn the_rust_functions_do_what_the_methods_do() {
             .args(["--edition=2024", "-Dwarnings", "-Copt-level=1", "-o"])
             .arg(&program)
             .arg(&source);
-        if compiled_or_skip("the_rust_functions_do_what_the_methods_do", &mut compiler) {
+        if compiled_or_skip("generated_rust_matches_the_methods", &mut compiler) {
             same(Language::Rust, precision, &printed(&mut Command::new(&program)));
         }
     }
 }
 
-/// Compiles the functions in C with these arguments beside, and compares them.
+/// Compiles the functions in C with these additional arguments, and compares them.
 fn compare_c(test: &str, compiler: &str, file: &str, more: &[&str]) {
     for (precision, name) in PRECISIONS {
         let folder = build_folder(&format!("methods-{file}-{name}"));
@@ -158,18 +158,18 @@ fn compare_c(test: &str, compiler: &str, file: &str, more: &[&str]) {
 }
 
 #[test]
-fn the_c_functions_do_what_the_methods_do() {
+fn generated_c_matches_the_methods() {
     let more = ["-std=c99", "-Wconversion", "-Wdouble-promotion"];
-    compare_c("the_c_functions_do_what_the_methods_do", "cc", "driver.c", &more);
+    compare_c("generated_c_matches_the_methods", "cc", "driver.c", &more);
 }
 
 #[test]
-fn the_c_functions_are_cpp_too() {
-    compare_c("the_c_functions_are_cpp_too", "c++", "driver.cpp", &["-std=c++14"]);
+fn generated_c_is_valid_cpp() {
+    compare_c("generated_c_is_valid_cpp", "c++", "driver.cpp", &["-std=c++14"]);
 }
 
 #[test]
-fn the_c_sharp_functions_do_what_the_methods_do() {
+fn generated_c_sharp_matches_the_methods() {
     for (precision, name) in PRECISIONS {
         let folder = build_folder(&format!("methods-cs-{name}"));
         let (source, program) = (folder.join("driver.cs"), folder.join("driver.exe"));
@@ -177,7 +177,7 @@ fn the_c_sharp_functions_do_what_the_methods_do() {
         let mut compiler = Command::new("mcs");
         compiler.args(["-langversion:3", "-warnaserror", &format!("-out:{}", program.display())]);
         compiler.arg(&source);
-        if compiled_or_skip("the_c_sharp_functions_do_what_the_methods_do", &mut compiler) {
+        if compiled_or_skip("generated_c_sharp_matches_the_methods", &mut compiler) {
             same(Language::CSharp, precision, &printed(Command::new("mono").arg(&program)));
         }
     }

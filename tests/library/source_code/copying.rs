@@ -1,11 +1,11 @@
-//! What the studio asks of its driver when something is to be copied.
+//! The studio's requests to its driver for copying.
 
 use regatta::scene::Scene;
 use regatta::studio::{Command, DriverRequest, Studio, ViewCommand};
 use regatta::tools::source_code::Language;
 
 #[test]
-fn the_method_is_copied_while_a_lane_is_pointed_at_and_else_the_instrument() {
+fn copying_takes_the_hovered_lanes_method_or_else_the_instrument() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     let instrument = Some(DriverRequest::CopyInstrument);
     assert_eq!(studio.apply(ViewCommand::Copy), instrument);
@@ -20,7 +20,7 @@ fn the_method_is_copied_while_a_lane_is_pointed_at_and_else_the_instrument() {
 }
 
 #[test]
-fn a_language_that_was_chosen_is_kept() {
+fn the_chosen_language_is_remembered() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     assert_eq!(studio.viewer.language(), Language::Rust);
     let command = Command::View(ViewCommand::CopyMethod { entry: 2, language: Language::GdScript });

@@ -7,7 +7,7 @@ use regatta::tools::source_code::{Language, MethodInput, MethodSource, Precision
 
 use super::known::{CASES, FORCE, FORCES, RATE, SETTINGS, STEPS, SUBSTEPS, TARGET, sources};
 
-/// What stands for each input of a method in a call. A number is written with `suffix`.
+/// The argument for each input of a method in a call. A number is written with `suffix`.
 fn arguments(source: &MethodSource, function: &str, suffix: &str) -> String {
     let cast = |number: String| match suffix {
         "f" => format!(", (float)({number})"),

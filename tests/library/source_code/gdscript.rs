@@ -14,7 +14,7 @@ const KNOWN: [&str; 25] = [
     "exp", "ceil",
 ];
 
-/// What is wrong with a file, if anything.
+/// The first fault of a file.
 fn complaint(text: &str) -> Option<String> {
     let mut depths = vec![0];
     let mut opens = false;
@@ -92,7 +92,7 @@ fn every_function_in_gdscript_is_grammatical() {
 }
 
 #[test]
-fn bad_gdscript_is_seen() {
+fn bad_gdscript_is_detected() {
     let good = "static func f(x: float) -> Array:\n\tif x < 0.0 \\\n\t\tor x > 1.0:\n\t\tx = -x\n\treturn [x]\n";
     assert_eq!(complaint(good), None);
     for (part, bad) in [
@@ -120,5 +120,9 @@ fn bdf2_in_gdscript_is_as_committed() {
     if env::var_os("BLESS").is_some() {
         fs::write(&path, &text).unwrap();
     }
-    assert_eq!(text, fs::read_to_string(path).unwrap(), "BLESS=1 writes it again");
+    assert_eq!(
+        text,
+        fs::read_to_string(path).unwrap(),
+        "BLESS=1 cargo test --test library gdscript writes bdf2.gd again"
+    );
 }

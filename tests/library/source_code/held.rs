@@ -1,4 +1,4 @@
-//! What the headers say of forces that depend on time, measured.
+//! Measures the claims in the headers about forces that depend on time.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -27,7 +27,7 @@ impl System for Held {
     }
 }
 
-/// The position after a second in `steps` steps, in each of which the force is held at its value after `part` of it.
+/// The position after one second in `steps` steps, each with the force held at its value after `part` of the step.
 fn position(method: &Method, steps: u32, part: f64) -> f64 {
     let h = 1.0 / f64::from(steps);
     let held = Rc::new(Held { time: Cell::new(0.0) });
@@ -43,7 +43,7 @@ fn position(method: &Method, steps: u32, part: f64) -> f64 {
 }
 
 #[test]
-fn a_force_that_is_held_where_the_header_says_has_the_order_that_it_says() {
+fn a_held_force_has_the_order_stated_in_the_header() {
     // Half the difference of halved steps is the error of the midpoint rule: this is exact to 1e-12.
     let exact = {
         let rk4 = method("rk4").unwrap();
@@ -55,7 +55,7 @@ fn a_force_that_is_held_where_the_header_says_has_the_order_that_it_says() {
         let takes_acceleration = source.inputs().iter().any(|input| input.name == "a");
         let text = source_code(method, Language::C, Precision::Double).unwrap();
         assert_eq!(text.contains("Forces that depend on time"), takes_acceleration, "{text}");
-        // The error of adaptive Euler is its tolerance, and an engine is not told of such a system.
+        // The error of adaptive Euler is its tolerance, and engines do not know such a system.
         let is_measured = takes_acceleration && !method.is_engine() && method.order > 0;
         if !is_measured || method.id.starts_with("adaptive-euler") {
             continue;

@@ -73,7 +73,7 @@ fn target(t: f64) -> f64 {
     2.0 - 0.5 * t
 }
 
-/// A body under a force of the table, or what a follower of this order follows.
+/// A body under a force of the table, or the target of a follower of this order.
 struct Run {
     force: fn(f64, f64) -> f64,
     order: u32,

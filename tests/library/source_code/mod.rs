@@ -1,4 +1,4 @@
-//! The methods as source code do what the methods do, step by step, in each language for which there is a compiler.
+//! The generated source code matches the methods, step by step, in each language with a compiler.
 
 #![cfg(feature = "lab")]
 

@@ -10,7 +10,7 @@ use regatta::tools::source_code::{Language, Precision, source_code};
 use super::known::sources;
 
 #[test]
-fn every_method_has_a_source_and_every_file_is_one() {
+fn every_method_has_a_source_file_and_every_file_a_method() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/methods");
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let files = files.filter(|path| path.is_file());
@@ -25,7 +25,7 @@ fn every_method_has_a_source_and_every_file_is_one() {
 }
 
 #[test]
-fn every_method_is_printed_in_every_language_or_says_why_not() {
+fn every_method_is_printed_or_refused_with_a_reason_in_every_language() {
     for method in METHODS {
         for language in Language::ALL {
             match source_code(method, language, Precision::Double) {
@@ -46,13 +46,13 @@ fn every_method_is_printed_in_every_language_or_says_why_not() {
 }
 
 #[test]
-fn a_header_says_what_is_on_the_card() {
+fn a_header_agrees_with_the_card() {
     for (method, source) in sources() {
         let text = source_code(method, Language::GdScript, Precision::Double).unwrap();
         let header: Vec<&str> = text.lines().map_while(|line| line.strip_prefix('#')).collect();
         let header = header.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
         assert!(header.contains(method.about) && header.contains(method.source), "{header}");
-        // Of an engine a claim may be in the source's own words.
+        // An engine's source may word a claim itself.
         let own = |claim: &str| source.claim(claim).map(|words| words.to_owned());
         let order = format!("Order: {}", method.order);
         assert!(header.contains(&order), "{header}");
@@ -86,7 +86,7 @@ fn a_header_says_what_is_on_the_card() {
     }
 }
 
-/// What the header of a method says, on one line.
+/// The header of a method, on one line.
 fn header(id: &str) -> String {
     let method = regatta::sim::integrators::method(id).unwrap();
     let text = source_code(method, Language::C, Precision::Double).unwrap();
@@ -95,7 +95,7 @@ fn header(id: &str) -> String {
 }
 
 #[test]
-fn the_header_of_an_engine_claims_what_holds_for_a_joint_and_for_all_substeps() {
+fn an_engines_header_is_right_for_joints_and_all_substeps() {
     for (method, source) in sources().filter(|(method, _)| method.is_engine()) {
         let header = header(method.id);
         let has_substeps = source.inputs().iter().any(|input| input.name == "substeps");
@@ -118,7 +118,7 @@ fn the_header_of_an_engine_claims_what_holds_for_a_joint_and_for_all_substeps() 
 }
 
 #[test]
-fn a_source_that_compares_coordinates_says_what_becomes_of_several() {
+fn a_source_that_compares_coordinates_explains_the_case_of_several() {
     for (method, source) in sources() {
         let text = method.code;
         let compares = ["if error", "abs(v1", "end > target", "abs(r1"];
@@ -130,7 +130,7 @@ fn a_source_that_compares_coordinates_says_what_becomes_of_several() {
 }
 
 #[test]
-fn no_rust_function_ends_in_a_return_and_c_sharp_has_each_brace_on_a_line_of_its_own() {
+fn generated_code_follows_the_style_of_its_language() {
     for method in METHODS {
         if let Ok(text) = source_code(method, Language::Rust, Precision::Double) {
             let lines: Vec<&str> = text.lines().collect();
@@ -148,7 +148,7 @@ fn no_rust_function_ends_in_a_return_and_c_sharp_has_each_brace_on_a_line_of_its
 }
 
 #[test]
-fn single_precision_is_refused_where_there_is_none_and_has_no_double_in_it() {
+fn single_precision_code_has_no_double_or_is_refused() {
     for method in METHODS {
         for language in Language::ALL {
             let found = source_code(method, language, Precision::Single);
@@ -166,14 +166,14 @@ fn single_precision_is_refused_where_there_is_none_and_has_no_double_in_it() {
 }
 
 #[test]
-fn smooth_damp_says_its_rate_in_unitys_words() {
+fn smooth_damp_describes_its_rate_in_unitys_terms() {
     let header = header("smooth-damp");
     assert!(header.contains("rate = 2 / smoothTime"), "{header}");
     assert!(header.contains("maxSpeed is left out"), "{header}");
 }
 
 #[test]
-fn the_headers_of_engines_say_what_is_special_about_them() {
+fn headers_of_engines_mention_their_peculiarities() {
     for (id, said) in [
         (
             "held-force",

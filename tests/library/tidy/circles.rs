@@ -1,10 +1,10 @@
 //! No file of a layer depends on one that depends on it.
 //!
-//! A file depends on the files whose items it names. A name that a module hands on from the files below it is
-//! followed to the file that has it. Tests at a file's end may look wherever they like.
+//! A file depends on the files whose items it names. A re-exported name is followed to its own file. Tests at a
+//! file's end may look wherever they like.
 //!
-//! A module and what is below it are one thing in several files: a file may name the module that it is a part of. In
-//! return, whoever names a part from outside depends on the whole.
+//! A module and the files below it are one thing in several files: a file may name the module that it is a part of.
+//! In return, whoever names a part from outside depends on the whole.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::slice;
@@ -22,7 +22,7 @@ fn module_of(path: &str) -> Module {
     inside.split('/').map(String::from).collect()
 }
 
-/// A file's modules and what they name, as paths from the crate's root, not yet followed.
+/// The modules of the files with the paths that they name, from the crate's root and not yet followed.
 fn names(sources: &[Source]) -> BTreeMap<Module, Vec<Module>> {
     let modules: BTreeSet<Module> = sources.iter().map(|source| module_of(&source.path)).collect();
     let names_in = |source: &Source| {
@@ -37,7 +37,7 @@ fn names(sources: &[Source]) -> BTreeMap<Module, Vec<Module>> {
     sources.iter().map(names_in).collect()
 }
 
-/// A path that stands in `module`, from the crate's root; `None` where it leads to another crate.
+/// A path written in `module`, from the crate's root; `None` if it leads to another crate.
 fn from_the_root(module: &Module, path: &[String], modules: &BTreeSet<Module>) -> Option<Module> {
     let ups = path.iter().take_while(|part| *part == "super").count();
     match &*path[0] {
@@ -51,7 +51,7 @@ fn from_the_root(module: &Module, path: &[String], modules: &BTreeSet<Module>) -
     }
 }
 
-/// The file that has what `path` names.
+/// The file that defines `path`.
 fn owner(path: &[String], names: &BTreeMap<Module, Vec<Module>>) -> Option<Module> {
     let module = (1..=path.len()).rev().find(|&n| names.contains_key(&path[..n]))?;
     let (module, rest) = path.split_at(module);
@@ -64,8 +64,8 @@ fn owner(path: &[String], names: &BTreeMap<Module, Vec<Module>>) -> Option<Modul
     }
 }
 
-/// What `module` depends on by naming something in `owner`: that file, and whatever `owner` is a part of and `module` is
-/// not.
+/// The modules that `module` depends on by naming an item of `owner`: `owner` itself, and every module around `owner`
+/// that is not around `module`.
 fn depended_on(module: &Module, owner: &Module) -> Vec<Module> {
     let wholes = (1..=owner.len()).map(|n| owner[..n].to_vec());
     wholes.filter(|whole| !module.starts_with(whole)).collect()
@@ -124,7 +124,7 @@ fn no_file_depends_on_itself() {
 }
 
 #[test]
-fn a_part_may_name_its_whole_and_whoever_names_a_part_depends_on_the_whole() {
+fn naming_a_part_counts_as_depending_on_its_whole() {
     let file = |path: &str, text: &str| Source { path: path.into(), text: text.into() };
     let root = file("src/a/mod.rs", "mod b;\nmod c;");
     let part = file("src/a/c/d.rs", "use super::C;\npub struct D;");
@@ -139,7 +139,7 @@ fn a_part_may_name_its_whole_and_whoever_names_a_part_depends_on_the_whole() {
 }
 
 #[test]
-fn circles_are_seen_through_names_that_are_handed_on() {
+fn circles_through_reexported_names_are_detected() {
     let file = |path: &str, text: &str| Source { path: path.into(), text: text.into() };
     let root = file("src/a/mod.rs", "mod b;\nmod c;\nuse b::go;\npub use c::{C, D};");
     let b = file("src/a/b.rs", "use super::C; fn go() {}");

@@ -1,6 +1,6 @@
-//! What is in which table, who names whom, who goes in circles and how long a file may be: read off the sources.
+//! Reads the sources for their tables, names, circles and lengths.
 //!
-//! Each rule is a function from a file's text to complaints, and is shown a bad text here too, so that it is known to see one.
+//! Each rule is a function from a file's text to complaints. A bad text proves that each rule detects its fault.
 
 mod circles;
 mod paths;

@@ -1,6 +1,6 @@
 //! The paths that a Rust source names, `use` groups spread out, comments and texts left out.
 
-/// The source without comments and without what stands in quotation marks.
+/// The source without comments and string literals.
 pub(crate) fn code(text: &str) -> String {
     let mut code = String::with_capacity(text.len());
     let mut rest = text;
@@ -43,7 +43,7 @@ pub(crate) fn named(text: &str) -> Vec<Vec<String>> {
     let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
     for piece in code.split_inclusive(|c| !is_part(c)) {
         let path = piece.trim_end_matches(|c| !is_part(c));
-        // What stands before a brace is spread out above and names nothing alone.
+        // The prefix before a brace is expanded above and names nothing alone.
         if path.contains("::") && !piece.ends_with("::{") {
             named.push(parts(path));
         }
@@ -83,7 +83,7 @@ fn spread(tree: &str, before: &[String], named: &mut Vec<Vec<String>>) {
 }
 
 #[test]
-fn groups_are_spread_out() {
+fn grouped_paths_are_expanded() {
     let found = named("use a::{self, b as x, c::{d, e}};\npub use f::g;\nlet x = h::i(j);");
     let found: Vec<String> = found.into_iter().map(|path| path.join("::")).collect();
     for path in ["a::self", "a::b", "a::c::d", "a::c::e", "f::g", "h::i"] {
@@ -92,7 +92,7 @@ fn groups_are_spread_out() {
 }
 
 #[test]
-fn comments_and_texts_name_nothing() {
+fn comments_and_strings_name_no_paths() {
     let text = r##"
         // std::fs::read, use std::fs;
         /* std::fs */ /// [`std::fs`]

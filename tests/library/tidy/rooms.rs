@@ -12,7 +12,7 @@ pub(super) struct Room {
     open_first: String,
 }
 
-/// What stands in backticks.
+/// The text in backticks.
 fn ticked(text: &str) -> &str {
     text.split('`').nth(1).unwrap_or_default()
 }
@@ -30,7 +30,7 @@ pub(super) fn rooms() -> Vec<Room> {
     rows.map(room).collect()
 }
 
-/// The files of a room: its folder, and the file beside it.
+/// The files of a room: its folder, and the file of the same name.
 pub(super) fn of_room(name: &str) -> Vec<Source> {
     let all = sources("src", &["rs"]).into_iter();
     let (file, folder) = (format!("src/{name}.rs"), format!("src/{name}/"));
@@ -75,7 +75,7 @@ fn every_folder_of_the_source_is_a_room_or_a_text() {
 }
 
 #[test]
-fn a_name_from_a_room_above_is_seen() {
+fn a_name_from_a_room_above_is_detected() {
     let (rooms, text) =
         (rooms(), "use crate::{studio::Studio, sim::State};\nfn f(a: crate::view::A) {}");
     let source = Source { path: "src/run/race.rs".into(), text: text.into() };

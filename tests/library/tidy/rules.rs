@@ -31,7 +31,7 @@ fn streams(source: &Source) -> Vec<String> {
 }
 
 #[test]
-fn what_is_printed_goes_through_one_function() {
+fn only_the_printers_write_to_the_standard_streams() {
     none(sources("src", &["rs"]).iter().flat_map(streams).collect());
     let bad = |path| streams(&source(path, "fn f() { writeln!(io::stderr(), x); }"));
     assert_eq!((bad("src/commands/trace.rs").len(), bad(PRINTERS[2]).len()), (1, 0));
@@ -57,7 +57,7 @@ fn shapes(source: &Source) -> Vec<String> {
 }
 
 #[test]
-fn files_are_short_and_named_for_what_they_hold() {
+fn files_are_short_and_named_for_their_content() {
     let folders = ["src", "tests", "benches", "shaders"];
     let sources: Vec<Source> =
         folders.iter().flat_map(|folder| sources(folder, &["rs", "wgsl"])).collect();
@@ -89,7 +89,7 @@ fn source(path: &str, text: &str) -> Source {
 }
 
 #[test]
-fn bad_shapes_are_seen() {
+fn bad_shapes_are_detected() {
     let lines = |number: usize| "\n".repeat(number);
     let bad = [
         ("tests/common/mod.rs", lines(1)),

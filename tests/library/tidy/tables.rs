@@ -26,7 +26,7 @@ fn unlisted(files: &[Source], mark: &str, table: &str) -> Vec<String> {
     holding.symmetric_difference(&listed).map(complain).collect()
 }
 
-/// What stands between `open` and the next `close` in a file.
+/// The text between `open` and the next `close` in a file.
 fn between(path: &str, open: &str, close: char) -> String {
     let text = std::fs::read_to_string(root().join(path)).expect("the table's file");
     let (_, after) = text.split_once(open).expect("the table");
@@ -45,7 +45,7 @@ fn every_method_with_a_card_is_in_methods() {
 }
 
 #[test]
-fn the_step_of_every_method_for_blocks_is_compiled_for_the_instruction_set_of_the_block() {
+fn every_step_for_blocks_is_inlined_into_its_instruction_set() {
     let folder = "src/sim/integrators";
     let table = between(&format!("{folder}/mod.rs"), "\nmethods! {", '}');
     let in_blocks = table.lines().filter(|line| line.contains(" in blocks"));
@@ -88,7 +88,7 @@ fn every_scene_file_is_built_in() {
 }
 
 #[test]
-fn what_one_more_of_a_kind_touches_is_what_contributing_says() {
+fn contributing_lists_the_files_of_each_new_thing() {
     let text = std::fs::read_to_string(root().join("CONTRIBUTING.md")).expect("a text");
     let (_, after) = text.split_once("| thing | example | files |\n|---|---|---|\n").unwrap();
     let files = sources("src", &["rs"]);
@@ -112,7 +112,7 @@ fn what_one_more_of_a_kind_touches_is_what_contributing_says() {
 }
 
 #[test]
-fn missing_files_and_lines_are_seen() {
+fn missing_files_and_lines_are_detected() {
     let file = |path: &str, text: &str| Source { path: path.into(), text: text.into() };
     let files =
         [file("a/rk4.rs", "const CARD"), file("a/mod.rs", ""), file("a/rk5.rs", "const CARD")];

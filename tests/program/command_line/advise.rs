@@ -1,4 +1,4 @@
-//! `advise`: what meets each criterion at the given rate, at what cost and with what headroom, and what to take.
+//! `advise`: the methods that meet each criterion at the given rate, their cost and headroom, and the recommendation.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -38,7 +38,7 @@ fn keys(value: &Value) -> Vec<&str> {
 pub(super) static ON_SPRING: LazyLock<Value> = LazyLock::new(|| advice("--scene spring --rates"));
 
 #[test]
-fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
+fn every_method_has_a_verdict_and_substeps_for_each_criterion() {
     let advice = &*ON_SPRING;
     let rows = advice["methods"].as_array().unwrap();
     let ids: Vec<&str> = rows.iter().map(|row| row["method"].as_str().unwrap()).collect();
@@ -62,7 +62,7 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     let semi_implicit = row(advice, "semi-implicit-euler");
     let bounded = &semi_implicit["criteria"]["bounded"];
     assert_eq!((&bounded["substeps"], &bounded["evaluations_per_s"]), (&1.into(), &60.0.into()));
-    // h ω < 2 from 3.15 Hz on, or up to (2 / 0.1047)² = 364.8 times the stiffness, of which ten are tried.
+    // h ω < 2 from 3.15 Hz on, or up to (2 / 0.1047)² = 364.8 times the stiffness; factors up to ten are tried.
     assert_eq!((&bounded["slowest_hz"], &bounded["stiffness_factor"]), (&4.into(), &10.0.into()));
     assert_eq!(bounded["met"], true);
     assert_eq!(bounded["limited_by"], "stiffness");
@@ -80,7 +80,7 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     assert_eq!(row(advice, "velocity-verlet")["criteria"]["accurate"]["substeps"], 3);
 }
 
-/// Holds what the command recommends against the answers of the library and of the window.
+/// Compares the command's recommendation with those of the library and of the window.
 fn is_said_by_library_and_window(recommended: &Value, name: &str) {
     let scene = Scene::built_in(name).unwrap();
     let report = Report::of_scene(&scene);
@@ -98,7 +98,7 @@ fn is_said_by_library_and_window(recommended: &Value, name: &str) {
 }
 
 #[test]
-fn what_is_recommended_meets_its_criterion_and_is_not_as_printed() {
+fn a_recommended_method_meets_its_criterion_and_is_no_printed_listing() {
     for scene in ["ship", "harbour"] {
         let advice = advice(&format!("--scene {scene}"));
         assert_eq!(keys(&advice["recommended"]), CRITERIA);
@@ -139,7 +139,7 @@ fn the_verdict_follows_the_tick_rate_and_the_rates_do_not() {
 }
 
 #[test]
-fn text_is_a_table_of_verdicts_one_for_each_criterion_and_a_line_for_each() {
+fn the_text_has_a_table_of_verdicts_and_a_line_for_each_criterion() {
     let text = stdout_of(
         "advise --all --scene stiff --method semi-implicit-euler --method explicit-euler",
     );
@@ -173,7 +173,7 @@ fn without_all_the_answer_and_the_eight_best_rows_are_printed() {
         let method = answer.split(' ').nth(4).unwrap();
         assert!(rows[..3].iter().any(|row| of_table(row) == method), "{answer}: {text}");
     }
-    // Where another method stands, it costs no less, and is told so.
+    // Each row shows the substeps and the cost of its method.
     let advice = advice("--scene stiff");
     for row in rows {
         let met = &self::row(&advice, &of_table(row))["criteria"]["bounded"];
@@ -213,7 +213,7 @@ fn a_spring_is_advised_on_from_three_numbers_with_the_code_to_paste() {
 }
 
 #[test]
-fn a_spring_stands_in_the_place_of_a_scene_and_has_possible_numbers() {
+fn a_spring_replaces_a_scene_and_its_numbers_are_checked() {
     for (options, said) in [
         ("--k 900 --scene spring", "cannot be used with"),
         ("--k 900 --frequency 2", "cannot be used with"),
@@ -238,7 +238,7 @@ fn reserve(met: &Value) -> f64 {
 }
 
 #[test]
-fn no_method_of_little_reserve_is_recommended_where_another_has_more_for_little() {
+fn a_method_with_more_reserve_at_little_more_cost_is_recommended() {
     for (spring, worse) in [
         ("--k 900 --c 62.3538 --mass 12", "adams-bashforth-2"),
         ("--frequency 0.5 --damping-ratio 0.5", "explicit-euler"),
@@ -266,7 +266,7 @@ fn no_method_of_little_reserve_is_recommended_where_another_has_more_for_little(
 }
 
 #[test]
-fn the_answer_says_which_cheaper_method_has_too_little_reserve() {
+fn the_answer_names_the_cheaper_method_with_too_little_reserve() {
     let two = "advise --k 900 --c 62.3538 --mass 12 --method adams-bashforth-2 --method midpoint";
     let text = stdout_of(two);
     let line = text.lines().find(|line| line.contains("looks-right")).unwrap();
@@ -284,7 +284,7 @@ fn the_answer_says_which_cheaper_method_has_too_little_reserve() {
 }
 
 #[test]
-fn of_several_bodies_the_one_that_decides_is_named() {
+fn the_deciding_body_of_several_is_named() {
     let advice = advice("--scene harbour --method explicit-euler --method semi-implicit-euler");
     assert_eq!(row(&advice, "explicit-euler")["verdict"]["body"], "spring");
     let text = row(&advice, "explicit-euler")["verdict"]["text"].as_str().unwrap();
@@ -294,7 +294,7 @@ fn of_several_bodies_the_one_that_decides_is_named() {
 }
 
 #[test]
-fn a_scene_that_nothing_holds_is_told_so() {
+fn an_unstable_scene_is_reported_as_having_no_suitable_method() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\n\
                  [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e12\n";
@@ -311,7 +311,7 @@ fn a_scene_that_nothing_holds_is_told_so() {
 }
 
 #[test]
-fn a_margin_whose_search_ends_at_too_much_work_is_not_known() {
+fn a_margin_that_takes_too_much_work_is_unknown() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 60\nseconds = 60\n[[net]]\ncolumns = 10\nrows = 8\nspacing_m = 0.1\n\
                  shear = true\npin = 'corners'\nmass_kg = 0.02\nstiffness_n_per_m = 1000\n";
@@ -329,11 +329,11 @@ fn a_margin_whose_search_ends_at_too_much_work_is_not_known() {
     let text = said("text");
     let is_unknown = |line: &str| line.contains(" Hz ") && line.ends_with(" not known");
     assert!(text.lines().any(is_unknown), "{text}");
-    assert!(text.contains(" Hz; how much stiffer, is not known)\n"), "{text}");
+    assert!(text.contains(" Hz; with stiffer bodies not known)\n"), "{text}");
 }
 
 #[test]
-fn what_is_not_known_of_an_adaptive_method_is_null_and_no_reason_to_say_no() {
+fn an_unknown_result_is_null_and_not_a_refusal() {
     let folder = tempfile::tempdir().unwrap();
     // The swing loses so slowly that it is not at rest after 2000 times the scene.
     let scene = "title = 'x'\ntick_hz = 200\nseconds = 3\n[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 300\n";
@@ -345,9 +345,9 @@ fn what_is_not_known_of_an_adaptive_method_is_null_and_no_reason_to_say_no() {
     assert_eq!(criteria["bounded"], Value::Null);
     assert_eq!([&criteria["looks-right"]["met"], &criteria["accurate"]["met"]], [true, true]);
     let why = advice["recommended"]["bounded"]["none"].as_str().unwrap();
-    assert!(why.starts_with("unknown for those that might"), "{why}");
+    assert!(why.starts_with("not known: no exact motion"), "{why}");
     let text = String::from_utf8(run_in(folder.path(), &format!("{one} text")).stdout).unwrap();
-    assert!(text.contains("bounded: unknown for those that might"), "{text}");
+    assert!(text.contains("bounded: not known: no exact motion"), "{text}");
     assert!(
         text.contains("  not known: no truth, or too much work: bogacki-shampine-32\n"),
         "{text}"
@@ -355,7 +355,7 @@ fn what_is_not_known_of_an_adaptive_method_is_null_and_no_reason_to_say_no() {
 }
 
 #[test]
-fn margins_of_many_coordinates_are_searched_near_the_least_cost_and_the_others_say_so() {
+fn margins_of_large_bodies_are_searched_only_near_the_least_cost() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 60\nseconds = 2\n[[chain]]\nmasses = 9\nmass_kg = 1\nstiffness_n_per_m = 800\n";
     fs::write(folder.path().join("chain.toml"), scene).unwrap();
@@ -391,7 +391,7 @@ fn margins_of_many_coordinates_are_searched_near_the_least_cost_and_the_others_s
 
 #[cfg(unix)]
 #[test]
-fn an_interrupt_is_heeded_while_the_true_motion_is_found() {
+fn an_interrupt_ends_the_search_for_the_truth() {
     let folder = tempfile::tempdir().unwrap();
     // Seconds of normal modes.
     let chain = "[[chain]]\nmasses = 256\nmass_kg = 1\nstiffness_n_per_m = 800\n".repeat(24);
@@ -417,13 +417,13 @@ fn an_interrupt_is_heeded_while_the_true_motion_is_found() {
 }
 
 #[test]
-fn mistakes_are_refused_as_elsewhere() {
+fn mistakes_are_refused_like_those_of_other_commands() {
     assert!(refusal("advise --scene shp", 2).contains("did you mean ship?"));
     assert!(refusal("advise --format xml", 2).contains("text, json"));
 }
 
 #[test]
-fn a_camera_is_told_its_half_life_at_30_60_and_144_hz_and_that_it_explodes_above_two() {
+fn a_camera_is_judged_by_half_life_and_by_its_limit_of_two() {
     let of = |id: &str, tick_hz: u32| {
         let advice = advice(&format!("--scene lerp --method {id} --tick-hz {tick_hz}"));
         row(&advice, id)["verdict"].clone()
@@ -464,7 +464,7 @@ fn lerp_per_frame_is_not_recommended() {
 }
 
 #[test]
-fn engines_and_listings_as_printed_are_judged_only_where_they_are_asked_for() {
+fn engines_and_printed_listings_are_judged_only_on_request() {
     let ids = |arguments: &str| -> Vec<String> {
         let advice = advice(arguments);
         let rows = advice["methods"].as_array().unwrap();
@@ -483,7 +483,7 @@ fn engines_and_listings_as_printed_are_judged_only_where_they_are_asked_for() {
 }
 
 #[test]
-fn in_a_pipe_a_line_every_ten_seconds_says_how_far_it_is() {
+fn a_pipe_gets_a_progress_line_every_ten_seconds() {
     let mut child = regatta()
         .args(["advise", "--scene", "cloth"])
         .stdout(Stdio::null())

@@ -1,4 +1,4 @@
-//! `verify --bless`: whatever happens to it, there is a whole clip, the old one or the new one.
+//! `verify --bless`: after any interruption there is a whole clip, the old one or the new one.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,7 +15,7 @@ use super::{regatta, run_in, stderr};
 
 type Content = BTreeMap<String, Vec<u8>>;
 
-/// Files of the clip by name; what else a directory holds is named too.
+/// Files of the clip by name, and the names of all other files in the directory.
 fn content(folder: &Path) -> Content {
     let entries = fs::read_dir(folder.join("clip")).unwrap().map(|entry| entry.unwrap());
     let read = |path: &Path| if path.is_dir() { Vec::new() } else { fs::read(path).unwrap() };
@@ -31,8 +31,7 @@ fn restore(folder: &Path, content: &Content) {
     }
 }
 
-/// A clip of another run than its settings say, beside a file of somebody else's; what blessing makes of
-/// it; and how long that takes.
+/// A clip to bless, next to a foreign file: its folder, its content before and after blessing, and the duration.
 fn clip_or_skip(test: &str) -> Option<(TempDir, Content, Content, Duration)> {
     let folder = tempfile::tempdir().unwrap();
     let capture = "capture --scene spring --race --frames 12 --size 64x36 --scale 0.5 --out clip";
@@ -56,8 +55,8 @@ fn clip_or_skip(test: &str) -> Option<(TempDir, Content, Content, Duration)> {
 
 #[cfg(unix)]
 #[test]
-fn killed_at_any_moment_it_leaves_the_old_clip_or_the_new_one() {
-    let test = "killed_at_any_moment_it_leaves_the_old_clip_or_the_new_one";
+fn killing_bless_leaves_the_old_clip_or_the_new_one() {
+    let test = "killing_bless_leaves_the_old_clip_or_the_new_one";
     let Some((folder, old, new, duration)) = clip_or_skip(test) else { return };
     let folder = folder.path();
     let mut random = XorShift::new(test);
@@ -90,8 +89,8 @@ fn killed_at_any_moment_it_leaves_the_old_clip_or_the_new_one() {
 
 #[cfg(unix)]
 #[test]
-fn interrupted_it_leaves_the_old_clip_as_it_was() {
-    let test = "interrupted_it_leaves_the_old_clip_as_it_was";
+fn interrupting_bless_keeps_the_old_clip() {
+    let test = "interrupting_bless_keeps_the_old_clip";
     let Some((folder, old, new, _)) = clip_or_skip(test) else { return };
     let folder = folder.path();
     let mut interrupted = 0;
@@ -123,8 +122,8 @@ fn interrupted_it_leaves_the_old_clip_as_it_was() {
 }
 
 #[test]
-fn a_swap_that_was_stopped_is_told_by_verify_and_finished_by_bless() {
-    let test = "a_swap_that_was_stopped_is_told_by_verify_and_finished_by_bless";
+fn verify_reports_an_interrupted_swap_and_bless_completes_it() {
+    let test = "verify_reports_an_interrupted_swap_and_bless_completes_it";
     let Some((folder, old, new, _)) = clip_or_skip(test) else { return };
     let folder = folder.path();
     restore(folder, &old);
@@ -179,8 +178,8 @@ fn a_file_in_the_directory_of_a_swap_never_replaces_another() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_clip_that_cannot_be_written_is_a_run_that_failed() {
-    let test = "a_clip_that_cannot_be_written_is_a_run_that_failed";
+fn an_unwritable_clip_is_a_failed_run() {
+    let test = "an_unwritable_clip_is_a_failed_run";
     let folder = tempfile::tempdir().unwrap();
     let disk = folder.path().join("clip");
     fs::create_dir(&disk).unwrap();

@@ -1,4 +1,4 @@
-//! `capture`, and `play` where there is no display: what is in the directory, whatever happens.
+//! `capture`, and `play` without a display: the content of the directory in every case.
 
 use std::fs;
 use std::io::{self, Write};
@@ -61,10 +61,10 @@ fn the_same_command_makes_the_same_bytes() {
 }
 
 #[test]
-fn force_replaces_all_frames_and_nothing_else() {
+fn force_replaces_all_frames_but_no_other_file() {
     let folder = tempfile::tempdir().unwrap();
     let clip = folder.path().join("clip");
-    let test = "force_replaces_all_frames_and_nothing_else";
+    let test = "force_replaces_all_frames_but_no_other_file";
     let older = "capture --scene spring --frames 3 --size 16x16 --out clip";
     let Some(_) = drawn_or_skip(test, folder.path(), older) else { return };
     fs::write(clip.join("notes.txt"), "old").unwrap();
@@ -97,11 +97,11 @@ fn the_smallest_the_largest_and_odd_sizes_are_drawn() {
 }
 
 #[test]
-fn a_frame_that_cannot_be_written_ends_the_capture_with_whole_files_only() {
+fn an_unwritable_frame_ends_the_capture_with_whole_files_only() {
     let folder = tempfile::tempdir().unwrap();
     let in_the_way = folder.path().join("clip/frame-000002.png");
     fs::create_dir_all(in_the_way.join("something")).unwrap();
-    let test = "a_frame_that_cannot_be_written_ends_the_capture_with_whole_files_only";
+    let test = "an_unwritable_frame_ends_the_capture_with_whole_files_only";
     let capture = "capture --frames 5 --size 16x16 --out clip --force";
     let Some(output) = drawn_or_skip(test, folder.path(), capture) else { return };
     let said = stderr(&output);
@@ -115,12 +115,12 @@ fn a_frame_that_cannot_be_written_ends_the_capture_with_whole_files_only() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupt_leaves_whole_frames_and_says_how_many() {
+fn an_interrupt_leaves_whole_frames_and_reports_their_number() {
     use std::process::{Command, Stdio};
     use std::time::Duration;
 
     let folder = tempfile::tempdir().unwrap();
-    let test = "an_interrupt_leaves_whole_frames_and_says_how_many";
+    let test = "an_interrupt_leaves_whole_frames_and_reports_their_number";
     let probe = "capture --frames 1 --size 16x16 --out probe";
     if drawn_or_skip(test, folder.path(), probe).is_none() {
         return;
@@ -168,8 +168,8 @@ fn without_a_display_the_demo_is_drawn_into_a_fresh_directory() {
 }
 
 #[test]
-fn a_capture_shows_the_cloud_if_it_is_asked_for_and_is_verified_with_it() {
-    let test = "a_capture_shows_the_cloud_if_it_is_asked_for_and_is_verified_with_it";
+fn a_capture_with_a_cloud_shows_it_and_can_be_verified() {
+    let test = "a_capture_with_a_cloud_shows_it_and_can_be_verified";
     let folder = tempfile::tempdir().unwrap();
     // Pixels of the method's blue in the panel.
     let blue = |out: &str, options: &str| {
@@ -195,8 +195,8 @@ fn a_capture_shows_the_cloud_if_it_is_asked_for_and_is_verified_with_it() {
 }
 
 #[test]
-fn a_capture_shows_the_cloud_that_is_chosen_and_refuses_a_shape_of_other_instruments() {
-    let test = "a_capture_shows_the_cloud_that_is_chosen_and_refuses_a_shape_of_other_instruments";
+fn a_capture_shows_the_chosen_cloud_and_no_shape_without_one() {
+    let test = "a_capture_shows_the_chosen_cloud_and_no_shape_without_one";
     let folder = tempfile::tempdir().unwrap();
     for (options, said) in [
         ("--instrument cloud --shape dog", "There are cat, disc, ring"),
@@ -224,8 +224,8 @@ fn a_capture_shows_the_cloud_that_is_chosen_and_refuses_a_shape_of_other_instrum
 
 #[cfg(target_os = "linux")]
 #[test]
-fn nothing_is_said_of_wayland_where_no_window_is_opened() {
-    let test = "nothing_is_said_of_wayland_where_no_window_is_opened";
+fn commands_without_a_window_never_mention_wayland() {
+    let test = "commands_without_a_window_never_mention_wayland";
     let folder = tempfile::tempdir().unwrap();
     let probe = "capture --scene spring --frames 1 --size 32x18 --out clip";
     let Some(_) = drawn_or_skip(test, folder.path(), probe) else { return };
@@ -251,7 +251,7 @@ fn nothing_is_said_of_wayland_where_no_window_is_opened() {
     }
 }
 
-/// What lets a command write where it has written before.
+/// The option that lets a command overwrite its output.
 #[cfg(target_os = "linux")]
 fn forced(arguments: &str) -> Option<&'static str> {
     let is_forced = ["capture", "sweep", "chapter"].iter().any(|it| arguments.starts_with(it));

@@ -19,7 +19,7 @@ fn every_printed_number_has_its_tick() {
     assert!(!text.contains("printed: "), "{text}");
     assert!(text.lines().all(|line| line.trim_end() == line), "{text}");
 
-    // What the chapter does not print, from our own oracles.
+    // Values that the chapter does not print, from our own oracles.
     for cells in [
         ["Explicit Euler", "53.624067", "−1.859"],
         ["Semi-implicit Euler", "59.442864", "3.960"],
@@ -77,7 +77,7 @@ fn figures_are_drawn_with_their_data() {
 }
 
 #[test]
-fn figures_replace_figures_and_nothing_else_and_only_when_forced() {
+fn figures_replace_only_figures_and_only_when_forced() {
     let folder = tempfile::tempdir().unwrap();
     let figures = folder.path().join("figures");
     fs::create_dir(&figures).unwrap();
@@ -90,7 +90,7 @@ fn figures_replace_figures_and_nothing_else_and_only_when_forced() {
     assert!(stderr(&refused).contains("--force to replace the figures in it"));
     assert_eq!(fs::read(figures.join("figure-7-3.png")).unwrap(), b"old");
 
-    let test = "figures_replace_figures_and_nothing_else_and_only_when_forced";
+    let test = "figures_replace_only_figures_and_only_when_forced";
     let forced = drawn_or_skip(test, folder.path(), "chapter --out figures --force");
     let Some(forced) = forced else { return };
     assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));

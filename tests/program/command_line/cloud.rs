@@ -1,11 +1,11 @@
-//! `cloud`: a table of what methods do to an area.
+//! `cloud`: a table of the effect of methods on an area.
 
 use std::fs;
 
 use super::{refusal, run, run_in, stderr, stdout_of};
 
 #[test]
-fn a_row_for_each_method_with_the_same_hash_for_any_number_of_threads() {
+fn each_method_has_the_same_row_for_any_number_of_threads() {
     let run = |threads: u32| {
         let options = "cloud --scene spring --method explicit-euler --method implicit-midpoint";
         let csv = stdout_of(&format!("{options} --points 5000 --seconds 0.5 --threads {threads}"));
@@ -25,7 +25,7 @@ fn a_row_for_each_method_with_the_same_hash_for_any_number_of_threads() {
 }
 
 #[test]
-fn rows_in_a_file_are_told_in_words() {
+fn rows_written_to_a_file_are_summarised_in_words() {
     let folder = tempfile::tempdir().unwrap();
     let options = "cloud --scene liouville --points 1200 --seconds 0.5 --out";
     let begins = |file: &str| {
@@ -39,7 +39,7 @@ fn rows_in_a_file_are_told_in_words() {
 }
 
 #[test]
-fn rows_of_one_method_are_told_apart_by_what_differs() {
+fn names_of_rows_with_one_method_show_the_difference() {
     let rows = stdout_of("cloud --scene held-force --points 10 --seconds 0.1");
     let methods: Vec<&str> = rows.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
     let mut different = methods.clone();
@@ -50,12 +50,9 @@ fn rows_of_one_method_are_told_apart_by_what_differs() {
 }
 
 #[test]
-fn what_is_no_cloud_is_said_in_one_line() {
+fn an_impossible_cloud_is_refused_in_one_line() {
     for (options, why) in [
-        (
-            "--scene orbit",
-            "satellite has 2 coordinates; give a scene with a body of one coordinate",
-        ),
+        ("--scene orbit", "satellite has 2; give a scene with a body of one coordinate"),
         ("--scene spring --points 1000000000", "1000000000 points do not fit into memory"),
         ("--out cat.png", "`regatta capture --instrument cloud` draws cat.png"),
         ("--out cat.gif", "`regatta capture --instrument cloud` draws cat.gif"),
@@ -78,7 +75,7 @@ fn what_is_no_cloud_is_said_in_one_line() {
 }
 
 #[test]
-fn a_start_that_blows_up_is_left_out_and_the_others_are_measured() {
+fn a_start_that_blows_up_is_excluded_from_the_measure() {
     let folder = tempfile::tempdir().unwrap();
     // Without damping or a well beyond 1: who starts there runs away.
     let law = "title = 'A hill'\ntick_hz = 60\nseconds = 9\n[[law]]\n[law.coordinates.x]\nstart = 0.9\n\

@@ -16,7 +16,7 @@ fn log(folder: &std::path::Path, name: &str, options: &str) -> String {
 }
 
 #[test]
-fn the_first_difference_of_two_logs_is_told_with_its_place_and_its_growth() {
+fn the_first_difference_is_reported_with_place_and_growth() {
     let folder = tempfile::tempdir().unwrap();
     let text = log(folder.path(), "a.csv", "--method rk4");
     log(folder.path(), "b.csv", "--method rk4 --tick-hz 60");
@@ -77,7 +77,7 @@ fn the_first_difference_of_two_logs_is_told_with_its_place_and_its_growth() {
 }
 
 #[test]
-fn a_log_a_recording_and_a_capture_of_one_run_are_the_same() {
+fn log_recording_and_capture_of_one_run_are_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let traced = run("trace --scene spring");
     fs::write(folder.path().join("log.csv"), traced.stdout).unwrap();
@@ -108,7 +108,7 @@ fn a_log_a_recording_and_a_capture_of_one_run_are_the_same() {
 }
 
 #[test]
-fn one_may_be_standard_input_and_two_may_not() {
+fn only_one_input_may_be_standard_input() {
     let folder = tempfile::tempdir().unwrap();
     let text = log(folder.path(), "a.csv", "--method rk4");
     let mut child = regatta()
@@ -125,7 +125,7 @@ fn one_may_be_standard_input_and_two_may_not() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_refused_with_its_place() {
+fn incomparable_tables_are_refused_with_the_place() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("still.csv", &format!("tick,x\n{}", "0,1\n1,1\n2,1\n"));
@@ -165,7 +165,7 @@ fn what_cannot_be_compared_is_refused_with_its_place() {
 }
 
 #[test]
-fn tables_with_semicolons_and_notes_are_read_and_numbers_beyond_a_double_are_told_apart() {
+fn semicolons_notes_and_numbers_beyond_a_double_are_compared() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("semicolons.csv", "# a note\ntick;h;x\n0;18446744073709551615;1\n1;7;2.5\n");
@@ -181,7 +181,7 @@ fn tables_with_semicolons_and_notes_are_read_and_numbers_beyond_a_double_are_tol
 }
 
 #[test]
-fn a_row_that_begins_with_a_number_sign_is_compared_and_a_note_stands_above_the_header() {
+fn notes_are_only_skipped_above_the_header() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     let rows = |q: u32| format!("body,tick,q\n#1,0,1\n#1,1,{q}\nb,0,0\nb,1,1\n");
@@ -201,7 +201,7 @@ fn a_row_that_begins_with_a_number_sign_is_compared_and_a_note_stands_above_the_
 
 #[cfg(unix)]
 #[test]
-fn what_has_no_end_is_refused_before_it_fills_the_memory() {
+fn an_endless_row_is_refused_before_it_fills_the_memory() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("a.csv", "tick,x\n0,1\n1,2\n");
@@ -234,7 +234,7 @@ fn what_has_no_end_is_refused_before_it_fills_the_memory() {
 }
 
 #[test]
-fn control_characters_of_a_table_are_signs_in_text_and_escapes_in_json() {
+fn control_characters_become_visible_in_text_and_escaped_in_json() {
     let folder = tempfile::tempdir().unwrap();
     let body = "\u{1b}[31m\u{7}\u{9b}2J\u{202e}";
     for (name, last) in [("a.csv", "2"), ("b.csv", "\"3\nthe same\"")] {
@@ -256,7 +256,7 @@ fn control_characters_of_a_table_are_signs_in_text_and_escapes_in_json() {
 }
 
 #[test]
-fn columns_can_be_chosen_and_each_says_from_where_on_it_differs() {
+fn columns_can_be_chosen_and_each_reports_its_first_difference() {
     let folder = tempfile::tempdir().unwrap();
     let a = "frame,object,x,wall_ms\n1,10,0.5,2362\n1,11,2,2363\n2,11,3,2380\n2,10,0.25,2381\n";
     let b = "frame,object,x,wall_ms\n1,10,0.5,9362\n1,11,2,9363\n2,10,0.125,9380\n2,11,3,9381\n";
@@ -279,7 +279,7 @@ fn columns_can_be_chosen_and_each_says_from_where_on_it_differs() {
     assert_eq!(found["columns"][0]["first_tick"], 2);
     let (code, text, told) = diff("");
     assert_eq!(code, Some(1));
-    assert!(text.contains("rows belong together by their place; --key"), "{text}{told}");
+    assert!(text.contains("rows are matched by their number; --key"), "{text}{told}");
     let (code, _, told) = diff("--key nothing");
     assert_eq!(code, Some(2));
     assert!(
@@ -292,7 +292,7 @@ fn columns_can_be_chosen_and_each_says_from_where_on_it_differs() {
 }
 
 #[test]
-fn headings_are_passed_and_decimal_commas_are_numbers() {
+fn headings_are_skipped_and_decimal_commas_are_numbers() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("points.csv", "tick,x,y\n0,1.5,2\n1,1.6,3\n");

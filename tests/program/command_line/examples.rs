@@ -1,5 +1,4 @@
-//! What README and the chapters of the manual print below a command is what the command prints, and each block of theirs is
-//! held by a test.
+//! The output below each command in the README and the manual is the command's output, and a test covers each block.
 #![cfg(unix)]
 
 use std::collections::HashMap;
@@ -67,7 +66,7 @@ fn make_own_files(test: &str, folder: &Path) -> Vec<&'static str> {
     }
 }
 
-/// What a shell command prints, data first, in a folder where `regatta` is the program.
+/// The output of a shell command, data first, in a folder with `regatta` as the program.
 fn said_by(command: &str, folder: &Path) -> String {
     let program = Path::new(env!("CARGO_BIN_EXE_regatta")).parent().unwrap();
     let path = format!("{}:{}", program.display(), env::var("PATH").unwrap());
@@ -76,7 +75,7 @@ fn said_by(command: &str, folder: &Path) -> String {
     let output = shell.output().unwrap();
     let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
     assert_eq!(output.status.code(), Some(0), "{command}: {err}");
-    // How far a long run is, is said by the way.
+    // The progress of a long run is not part of its output.
     let wrote = err.lines().filter(|line| line.starts_with("wrote "));
     out + &wrote.collect::<Vec<_>>().join("\n")
 }
@@ -121,7 +120,7 @@ fn every_example_with_an_answer_prints_that_answer() {
 }
 
 #[test]
-fn every_block_of_the_manual_is_of_a_kind_that_a_test_holds() {
+fn every_block_of_the_manual_is_of_a_tested_kind() {
     let mut found: Vec<(&str, String, usize)> = Vec::new();
     for text in texts() {
         let mut languages: Vec<&str> = text.blocks().iter().map(|block| block.language).collect();
@@ -142,7 +141,7 @@ fn options(text: &str) -> impl Iterator<Item = &str> {
 }
 
 #[test]
-fn every_option_of_the_manual_is_one_of_its_command() {
+fn every_option_in_the_manual_exists_for_its_command() {
     let mut helps: HashMap<String, String> = HashMap::new();
     let mut checked = 0;
     for text in texts() {

@@ -1,4 +1,4 @@
-//! Other people's files, other writers, links and devices: what is not ours stays as it is.
+//! Other people's files, other writers, links and devices: foreign files stay unchanged.
 
 use std::fs::{self, File};
 use std::io::{Read, Write};
@@ -20,9 +20,9 @@ fn start(folder: &Path, arguments: &str) -> Child {
 }
 
 #[test]
-fn the_name_of_a_file_says_its_format() {
+fn the_extension_of_a_file_sets_its_format() {
     let folder = tempfile::tempdir().unwrap();
-    let test = "the_name_of_a_file_says_its_format";
+    let test = "the_extension_of_a_file_sets_its_format";
     for (out, begin) in
         [("run.gif", &b"GIF89a"[..]), ("run.y4m", b"YUV4MPEG2 "), ("run.png", b"\x89PNG\r\n")]
     {
@@ -37,9 +37,9 @@ fn the_name_of_a_file_says_its_format() {
 
 #[cfg(unix)]
 #[test]
-fn files_that_are_called_like_unfinished_ones_are_left_alone() {
+fn files_named_like_unfinished_ones_are_left_alone() {
     let folder = tempfile::tempdir().unwrap();
-    let test = "files_that_are_called_like_unfinished_ones_are_left_alone";
+    let test = "files_named_like_unfinished_ones_are_left_alone";
     let clip = folder.path().join("clip");
     fs::create_dir(&clip).unwrap();
     fs::write(folder.path().join("elsewhere"), "mine").unwrap();
@@ -62,7 +62,7 @@ fn files_that_are_called_like_unfinished_ones_are_left_alone() {
 }
 
 #[test]
-fn a_manifest_or_a_frame_that_no_capture_made_is_never_replaced() {
+fn a_foreign_manifest_or_frame_is_never_replaced() {
     for (name, mine) in [
         ("manifest.json", r#"{ "name": "my web app", "version": "1.0", "frames": [] }"#),
         ("frame-000001.png", "a frame of another program"),
@@ -82,9 +82,9 @@ fn a_manifest_or_a_frame_that_no_capture_made_is_never_replaced() {
 
 #[cfg(unix)]
 #[test]
-fn a_directory_that_is_written_is_neither_written_nor_judged_by_others() {
+fn a_directory_being_written_is_locked_against_writers_and_judges() {
     let folder = tempfile::tempdir().unwrap();
-    let test = "a_directory_that_is_written_is_neither_written_nor_judged_by_others";
+    let test = "a_directory_being_written_is_locked_against_writers_and_judges";
     if drawn_or_skip(test, folder.path(), &format!("{GIF} --out probe")).is_none() {
         return;
     }
@@ -112,9 +112,9 @@ fn a_directory_that_is_written_is_neither_written_nor_judged_by_others() {
 }
 
 #[test]
-fn two_writers_of_one_file_leave_the_whole_of_one() {
+fn two_writers_of_one_file_leave_one_whole_result() {
     let folder = tempfile::tempdir().unwrap();
-    let test = "two_writers_of_one_file_leave_the_whole_of_one";
+    let test = "two_writers_of_one_file_leave_one_whole_result";
     let runs = [GIF.replace("spring", "ship"), GIF.replace("spring", "orbit")];
     let alone = |n: usize| format!("{} --out {n}.gif", runs[n]);
     if (0..2).any(|n| drawn_or_skip(test, folder.path(), &alone(n)).is_none()) {
@@ -137,9 +137,9 @@ fn two_writers_of_one_file_leave_the_whole_of_one() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_stays_one_and_its_target_is_written() {
+fn a_symbolic_link_stays_and_its_target_is_written() {
     let folder = tempfile::tempdir().unwrap();
-    let test = "a_link_stays_one_and_its_target_is_written";
+    let test = "a_symbolic_link_stays_and_its_target_is_written";
     let path = |name: &str| folder.path().join(name);
     fs::create_dir(path("real")).unwrap();
     fs::write(path("real/old.gif"), "old").unwrap();
@@ -164,9 +164,9 @@ fn a_link_stays_one_and_its_target_is_written() {
 
 #[cfg(unix)]
 #[test]
-fn a_pipe_with_a_name_is_written_into_and_not_replaced() {
+fn a_named_pipe_is_written_to_and_not_replaced() {
     let folder = tempfile::tempdir().unwrap();
-    let test = "a_pipe_with_a_name_is_written_into_and_not_replaced";
+    let test = "a_named_pipe_is_written_to_and_not_replaced";
     let run = GIF.to_owned() + " --format y4m --out";
     if drawn_or_skip(test, folder.path(), &format!("{run} run.y4m")).is_none() {
         return;
@@ -187,9 +187,9 @@ fn a_pipe_with_a_name_is_written_into_and_not_replaced() {
 
 #[cfg(unix)]
 #[test]
-fn a_request_to_end_is_heeded_while_nothing_reads_a_pipe() {
+fn a_signal_ends_a_command_while_nothing_reads_its_pipe() {
     let folder = tempfile::tempdir().unwrap();
-    let test = "a_request_to_end_is_heeded_while_nothing_reads_a_pipe";
+    let test = "a_signal_ends_a_command_while_nothing_reads_its_pipe";
     let pipe = folder.path().join("pipe");
     if !Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()) {
         let _ = writeln!(std::io::stderr(), "SKIPPED {test}: there is no mkfifo");
@@ -222,7 +222,7 @@ fn a_request_to_end_is_heeded_while_nothing_reads_a_pipe() {
 }
 
 #[test]
-fn an_output_never_replaces_what_is_read() {
+fn an_output_never_replaces_an_input() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     let scene = Scene::built_in("spring").unwrap().to_toml();
@@ -263,7 +263,7 @@ fn an_output_never_replaces_what_is_read() {
             }
         }
     }
-    // A built-in scene is read whatever file has its name.
+    // A file with the name of a built-in scene does not replace the scene.
     fs::write(path("spring"), "mine").unwrap();
     let output = run_in(folder.path(), &format!("{cloud} spring --out spring --force"));
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

@@ -12,7 +12,7 @@ use super::{refusal, run_in, stdout_of};
 /// A spring of 2 kg on 40 N/m with 0.5 N s/m.
 const SPRING: &str = "fixture --k 40 --c 0.5 --mass 2 --seconds 5";
 
-/// What stands in the file of a language for an engine's step.
+/// The placeholder for an engine's step in the file of each language.
 const OPEN: [(&str, &str); 3] = [
     ("pytest", "    raise NotImplementedError(\"put your engine's step here\")"),
     ("gtest", "    throw std::logic_error(\"put your engine's step here\");"),
@@ -59,7 +59,7 @@ template <class T> const Failure& operator<<(const Failure& it, const T& what) {
 #define TEST(suite, name) int main()
 ";
 
-/// Whether the test in this file passes, with what it said; `None` if its language is not installed.
+/// Whether the test in this file passes, with its output; `None` if its language is not installed.
 fn passes(folder: &Path, language: &str, text: &str) -> Option<(bool, String)> {
     let program = folder.join("program");
     let (name, text) = match language {
@@ -97,7 +97,7 @@ fn passes(folder: &Path, language: &str, text: &str) -> Option<(bool, String)> {
 }
 
 #[test]
-fn a_good_engine_passes_in_every_language_and_a_bad_one_is_told_its_first_state_that_is_off() {
+fn a_good_engine_passes_and_a_bad_one_fails_at_its_first_wrong_state() {
     let folder = tempfile::tempdir().unwrap();
     for (language, open) in OPEN {
         for precision in ["", " --float"] {
@@ -141,7 +141,7 @@ fn a_fixture_has_the_states_of_a_trace_and_the_least_tolerance_of_its_truth() {
 }
 
 #[test]
-fn a_name_is_written_as_it_is_and_a_fixture_of_the_start_alone_is_refused() {
+fn names_are_escaped_and_a_fixture_without_later_states_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let name = "re\u{301}sort \\ \"2\"";
     let scene = "title = 'A'\nabout = 'a'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\

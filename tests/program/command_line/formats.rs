@@ -35,7 +35,7 @@ fn written(folder: &Path, format: &str) -> Vec<u8> {
     fs::read(folder.join(format!("run.{format}"))).unwrap()
 }
 
-/// What a program says of a file. Where it is not installed, says that `test` is skipped.
+/// A program's output about a file. If it is not installed, reports `test` as skipped.
 fn asked_or_skip(test: &str, program: &str, arguments: &[&str], file: &Path) -> Option<String> {
     match Command::new(program).args(arguments).arg(file).output() {
         Ok(output) => {
@@ -51,8 +51,8 @@ fn asked_or_skip(test: &str, program: &str, arguments: &[&str], file: &Path) -> 
 }
 
 #[test]
-fn single_frames_are_read_by_a_decoder_that_is_not_ours() {
-    let test = "single_frames_are_read_by_a_decoder_that_is_not_ours";
+fn a_third_party_decoder_reads_single_frames() {
+    let test = "a_third_party_decoder_reads_single_frames";
     let Some((folder, _)) = clip_or_skip(test) else { return };
     for n in 0..FRAMES {
         let path = folder.path().join(format!("clip/frame-{n:06}.png"));
@@ -62,8 +62,8 @@ fn single_frames_are_read_by_a_decoder_that_is_not_ours() {
 }
 
 #[test]
-fn a_gif_keeps_time_and_looks_alike() {
-    let test = "a_gif_keeps_time_and_looks_alike";
+fn a_gif_keeps_its_timing_and_looks_alike() {
+    let test = "a_gif_keeps_its_timing_and_looks_alike";
     let Some((folder, frames)) = clip_or_skip(test) else { return };
     written(folder.path(), "gif");
     let path = folder.path().join("run.gif");
@@ -111,8 +111,8 @@ fn y4m_has_a_header_and_three_planes_a_frame() {
 }
 
 #[test]
-fn ffmpeg_reads_every_film_and_sees_the_frames_that_were_drawn() {
-    let test = "ffmpeg_reads_every_film_and_sees_the_frames_that_were_drawn";
+fn ffmpeg_reads_every_film_with_the_drawn_frames() {
+    let test = "ffmpeg_reads_every_film_with_the_drawn_frames";
     let Some((folder, frames)) = clip_or_skip(test) else { return };
     let drawn: Vec<u8> = frames.iter().flat_map(|frame| frame.as_raw().clone()).collect();
     // Chroma is rounded to a byte and luma to its range of 219; a GIF has 256 colours.

@@ -7,7 +7,7 @@ use regatta::scene::SCENES;
 use super::{run, run_in, stderr, stdout_of};
 
 #[test]
-fn every_chapter_of_the_manual_is_printed_as_it_stands() {
+fn every_chapter_of_the_manual_is_printed_unchanged() {
     for chapter in CHAPTERS.iter().filter(|chapter| chapter.id != "keys") {
         assert_eq!(stdout_of(&format!("help {}", chapter.id)), chapter.text);
     }
@@ -19,7 +19,7 @@ fn every_chapter_of_the_manual_is_printed_as_it_stands() {
 }
 
 #[test]
-fn the_chapter_of_keys_has_their_list_and_then_what_the_mouse_does() {
+fn the_chapter_of_keys_lists_them_before_the_mouse() {
     let (chapter, list) = (stdout_of("help keys"), stdout_of("list keys"));
     let mouse = chapter.strip_prefix(&format!("# Keys\n\n{list}\n")).expect("the list of keys");
     assert!(mouse.contains("Mouse: drag a body") && !mouse.contains('|'), "{mouse}");
@@ -35,7 +35,7 @@ fn help_names_the_chapters() {
 }
 
 #[test]
-fn a_list_or_a_chapter_is_printed_without_the_word_before_it() {
+fn a_list_or_chapter_is_printed_by_its_name_alone() {
     for list in ["keys", "scenes", "methods", "keys --format json"] {
         assert_eq!(stdout_of(list), stdout_of(&format!("list {list}")));
     }
@@ -48,7 +48,7 @@ fn a_list_or_a_chapter_is_printed_without_the_word_before_it() {
 }
 
 #[test]
-fn a_scene_stands_without_its_option_in_every_command_that_takes_one() {
+fn a_scene_may_be_given_without_its_option_in_every_command() {
     let read = |line: &str| {
         let words = format!("regatta {line}");
         let read = Cli::read(words.split_whitespace().map(Into::into));
@@ -76,14 +76,14 @@ fn a_scene_stands_without_its_option_in_every_command_that_takes_one() {
             assert_eq!(read(&format!("{command} {rest} {scene}")), wanted);
         }
     }
-    // Of a command that takes other words, a scene's name is one of them.
+    // A command with other arguments treats a scene's name as one of them.
     for line in ["show spring", "diff spring ship", "identify run.toml"] {
         assert!(read(line).map_or(true, |cli| !cli.contains("scene: Some")), "{line}");
     }
 }
 
 #[test]
-fn help_of_a_command_is_what_the_command_says_of_itself() {
+fn help_with_a_command_equals_its_help_option() {
     assert_eq!(stdout_of("help"), stdout_of("--help"));
     for command in ["capture", "advise", "help"] {
         assert_eq!(stdout_of(&format!("help {command}")), stdout_of(&format!("{command} --help")));
@@ -91,7 +91,7 @@ fn help_of_a_command_is_what_the_command_says_of_itself() {
 }
 
 #[test]
-fn help_of_what_there_is_not_names_what_there_is() {
+fn help_on_an_unknown_name_suggests_the_nearest() {
     let output = run("help scene");
     assert_eq!(output.status.code(), Some(2));
     let said = stderr(&output);
@@ -100,7 +100,7 @@ fn help_of_what_there_is_not_names_what_there_is() {
 }
 
 #[test]
-fn the_names_that_options_had_are_taken_for_one_release_and_not_shown() {
+fn former_option_names_work_for_one_release_but_are_not_shown() {
     let engine = "--to engine-box2d";
     assert_eq!(
         stdout_of(&format!("port --want 2Hz --zeta 0.2 {engine}")),

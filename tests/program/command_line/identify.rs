@@ -1,4 +1,4 @@
-//! `identify`: a log in; the engine that made it, what a player sees and what to use out.
+//! `identify`: reads a log, and names the engine, the visible motion and the settings to use.
 
 use std::fs;
 
@@ -11,7 +11,7 @@ const LOG: &str = "tests/data/engines/box2d__spring_1hz_z005_60hz.csv";
 const BODY: &str = "--tick-hz 60 --k 78.956835208714864 --c 1.25663706143591724 --mass 2";
 
 #[test]
-fn a_log_names_the_engine_that_made_it_and_what_a_player_sees() {
+fn a_log_identifies_its_engine_and_the_visible_motion() {
     let text = stdout_of(&format!("identify {LOG} {BODY}"));
     assert!(
         text.starts_with(
@@ -39,7 +39,7 @@ fn a_log_names_the_engine_that_made_it_and_what_a_player_sees() {
 }
 
 #[test]
-fn times_stand_for_ticks_and_columns_may_have_other_names() {
+fn a_log_may_have_times_for_ticks_and_other_column_names() {
     let rows = fs::read_to_string(LOG).unwrap();
     let mut text = String::from("time,pos.x,vel.x,other\n");
     for row in rows.lines().skip(1) {
@@ -97,7 +97,7 @@ fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
 }
 
 #[test]
-fn a_log_that_nothing_follows_is_unknown_and_what_is_not_known_is_null() {
+fn an_unexplained_log_is_unknown_with_null_fields() {
     let folder = tempdir().unwrap();
     // A spring that is not given is read off ticks that follow each other.
     let row = |tick: u32| format!("{tick},{}", (0.1 * f64::from(tick)).cos());
@@ -117,7 +117,7 @@ fn a_log_that_nothing_follows_is_unknown_and_what_is_not_known_is_null() {
 }
 
 #[test]
-fn an_overdamped_spring_that_is_not_given_is_fitted() {
+fn an_unknown_overdamped_spring_is_fitted() {
     let folder = tempdir().unwrap();
     let mut text = "t,x,v\n".to_owned();
     let rates = [-5.0 + 21.0_f64.sqrt(), -5.0 - 21.0_f64.sqrt()];
@@ -170,7 +170,7 @@ fn a_log_is_read_the_same_with_tabs_semicolons_and_decimal_commas() {
     assert_eq!(told(&text.replace(',', ";").replace('.', ",")), said);
 }
 
-/// A log in a folder of its own, with what `identify` says of it and the JSON.
+/// A log in a folder of its own, with the text and the JSON of `identify`.
 fn identified(log: &str, options: &str) -> (String, Value) {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("log.csv"), log).unwrap();
@@ -195,7 +195,7 @@ fn swinging_about(rest: f64, [k, c]: [f64; 2]) -> String {
 }
 
 #[test]
-fn a_spring_that_rests_elsewhere_is_identified_and_its_rest_is_found_or_given() {
+fn a_spring_with_another_rest_is_identified_with_or_without_the_rest() {
     let log = swinging_about(3.2, [20.0, 0.25]);
     for options in [
         "--tick-hz 60 --k 40 --c 0.5 --mass 2",
@@ -218,7 +218,7 @@ fn a_spring_that_rests_elsewhere_is_identified_and_its_rest_is_found_or_given() 
 }
 
 #[test]
-fn a_fall_from_rest_names_its_method_and_how_far_it_is_from_the_exact_one() {
+fn a_fall_from_rest_identifies_its_method_and_the_error() {
     let h = 1.0 / 60.0;
     let falling = |is_semi_implicit: bool| {
         let (mut x, mut v, mut log) = (0.0, 0.0, "tick,x\n".to_owned());
@@ -247,7 +247,7 @@ fn a_fall_from_rest_names_its_method_and_how_far_it_is_from_the_exact_one() {
 }
 
 #[test]
-fn a_log_at_uneven_times_shows_its_motion_and_goes_to_other_engines() {
+fn a_log_at_uneven_times_is_fitted_and_can_be_ported() {
     let (mut t, mut log) = (0.0_f64, "time,x\n".to_owned());
     for row in 0..240 {
         let x = (-0.125 * t).exp() * (4.470_388_10 * t).cos();
@@ -273,7 +273,7 @@ fn a_log_at_uneven_times_shows_its_motion_and_goes_to_other_engines() {
 }
 
 #[test]
-fn a_motion_that_no_method_makes_has_its_best_swing_with_errors() {
+fn a_motion_of_no_known_method_has_a_best_fit_with_errors() {
     // A spring that stiffens is none of ours, and nearly a swing.
     let (mut x, mut v, mut log) = (1.0_f64, 0.0, "tick,x\n".to_owned());
     for tick in 0..400 {

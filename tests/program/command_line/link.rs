@@ -1,11 +1,11 @@
-//! `link`: a run as an address, which every command takes in the place of a scene.
+//! `link`: a run as an address, which every command accepts as a scene.
 
 use std::fs;
 
 use super::{refusal, run_in, stderr, stdout_of};
 
 #[test]
-fn a_link_stands_for_its_run_alone_and_after_an_address_and_is_verified_to_the_bit() {
+fn a_link_with_or_without_address_replays_its_run_to_the_bit() {
     let folder = tempfile::tempdir().unwrap();
     let text = fs::read_to_string("assets/scenes/harbour.toml").unwrap();
     let run = format!("{text}\n[[command]]\nat_s = 2.0\nkick = 1.0\n");
@@ -32,7 +32,7 @@ fn a_link_stands_for_its_run_alone_and_after_an_address_and_is_verified_to_the_b
 }
 
 #[test]
-fn a_file_that_is_called_like_a_link_is_a_file_and_another_options_value_is_its_own() {
+fn a_file_named_like_a_link_is_read_as_a_file() {
     let folder = tempfile::tempdir().unwrap();
     fs::copy("assets/scenes/spring.toml", folder.path().join("a#v2.toml")).unwrap();
     let done = run_in(folder.path(), "trace --scene a#v2.toml --seconds 0.1");
@@ -50,7 +50,7 @@ fn a_file_that_is_called_like_a_link_is_a_file_and_another_options_value_is_its_
 }
 
 #[test]
-fn a_built_in_scene_is_a_link_by_its_name_which_stands_for_its_options() {
+fn a_short_link_sets_the_options_in_its_name() {
     assert_eq!(stdout_of("link spring"), "#scene=spring\n");
     let asked = "trace --scene spring --method rk4 --tick-hz 30 --seconds 1";
     let link = "#scene=spring&method=rk4&tick-hz=30&tick=7";
@@ -70,7 +70,7 @@ fn a_built_in_scene_is_a_link_by_its_name_which_stands_for_its_options() {
 }
 
 #[test]
-fn a_link_that_leads_to_no_run_is_refused_in_a_sentence() {
+fn an_invalid_link_is_refused_in_a_sentence() {
     let link = stdout_of("link #scene=spring").trim().to_owned();
     for (written, told) in [
         (link.replace("#v1.", "#v7."), "the link is of format 7, and this release reads up to 1"),
@@ -89,7 +89,7 @@ fn a_link_that_leads_to_no_run_is_refused_in_a_sentence() {
 }
 
 #[test]
-fn a_run_longer_than_verify_takes_is_refused_before_it_is_run() {
+fn a_run_too_long_for_verify_is_refused_before_it_starts() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, seconds: u32, check: &str| {
         let head = format!("title = \"t\"\ntick_hz = 10000\nseconds = {seconds}\n");

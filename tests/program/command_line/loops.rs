@@ -24,7 +24,7 @@ fn number(row: &Value, column: &str) -> f64 {
     row[column].as_f64().unwrap_or_else(|| panic!("{column} of {row}"))
 }
 
-/// What is not within 2 % of what was derived by hand is wrong, and of 0 more than a millionth is.
+/// Asserts that a value is within 2 % of one derived by hand, or within a millionth of 0.
 fn near(row: &Value, column: &str, expected: f64) {
     let value = number(row, column);
     let is_near = value.is_finite() && (value - expected).abs() <= 0.02 * expected.abs() + 1e-6;
@@ -32,7 +32,7 @@ fn near(row: &Value, column: &str, expected: f64) {
 }
 
 #[test]
-fn each_trace_and_policy_has_a_row_in_that_order_as_csv_and_as_json() {
+fn rows_are_ordered_by_trace_and_policy_in_csv_and_json() {
     let output = run("loop --all --seconds 0.5");
     let csv = String::from_utf8(output.stdout).unwrap();
     let lines: Vec<&str> = csv.lines().collect();
@@ -56,7 +56,7 @@ fn each_trace_and_policy_has_a_row_in_that_order_as_csv_and_as_json() {
 }
 
 #[test]
-fn without_a_policy_the_usual_ones_are_compared_and_advised_as_among_all_where_the_best_is_usual() {
+fn without_a_policy_the_usual_ones_are_compared_with_the_same_advice() {
     let compared = rows("--trace edge --seconds 0.5");
     let ids: Vec<&str> = compared.iter().map(|row| row["policy"].as_str().unwrap()).collect();
     assert_eq!(ids, ["variable", "fixed", "fixed-linear", "render-tick", "whole-refresh"]);
@@ -112,7 +112,7 @@ fn the_table_derived_by_hand_is_reproduced() {
 }
 
 #[test]
-fn the_manuals_table_is_what_its_command_measures() {
+fn the_manuals_table_matches_its_command() {
     let manual = chapter("loops").unwrap().text;
     let (_, command) = manual.split_once("```sh\nregatta loop ").unwrap();
     let (command, _) = command.split_once("```").unwrap();
@@ -139,7 +139,7 @@ fn the_manuals_table_is_what_its_command_measures() {
             let printed = cell.split(' ').next().unwrap();
             let decimals = printed.split_once('.').map_or(0, |(_, after)| after.len());
             let half = 0.5 * 0.1_f64.powi(decimals as i32);
-            // What is less than a microsecond is the rounding of traces.
+            // Less than a microsecond is the rounding of traces.
             let half = if printed == "0" { 1e-3 } else { half };
             let found = value(policy, trace, column);
             assert!(
@@ -153,7 +153,7 @@ fn the_manuals_table_is_what_its_command_measures() {
 }
 
 #[test]
-fn a_render_tick_is_not_late_and_as_right_as_its_method_where_ticks_are_not_coarse() {
+fn a_render_tick_has_no_latency_and_the_accuracy_of_its_method() {
     let ahead = |options: &str| {
         let both = "--policy fixed-extrapolated --policy render-tick --seconds 8";
         let rows = rows(&format!("--trace steady-144 {both} {options}"));
@@ -171,7 +171,7 @@ fn a_render_tick_is_not_late_and_as_right_as_its_method_where_ticks_are_not_coar
     assert!(1e-5 < stepped && stepped < 3e-5, "{stepped} with drag");
     let [extrapolated, stepped] = ahead("--scene spring --method rk4 --tick-hz 4");
     assert!(0.4 < stepped && stepped < extrapolated && extrapolated < 0.6, "{stepped}");
-    // A step of explicit Euler moves a position by its velocity, which is what extrapolation does.
+    // A step of explicit Euler moves a position by its velocity, exactly like extrapolation.
     let [extrapolated, stepped] = ahead("--scene spring --method explicit-euler");
     assert!(stepped.is_finite() && (stepped - extrapolated).abs() < 1e-12, "{stepped}");
     // The copies' evaluations are paid for: 480 ticks and a copy in each frame that is not at a tick.
@@ -182,7 +182,7 @@ fn a_render_tick_is_not_late_and_as_right_as_its_method_where_ticks_are_not_coar
 }
 
 #[test]
-fn every_frame_has_a_line_with_what_it_showed() {
+fn every_frame_has_a_line_with_its_shown_state() {
     let folder = tempfile::tempdir().unwrap();
     let output = run_in(
         folder.path(),
@@ -215,7 +215,7 @@ fn a_recorded_log_is_a_trace_for_each_of_its_programs() {
 }
 
 #[test]
-fn a_log_in_utf_16_is_read_and_one_line_says_what_of_it() {
+fn a_utf_16_log_is_read_and_summarised_in_one_line() {
     let folder = tempfile::tempdir().unwrap();
     let text = "\u{feff}MsBetweenPresents,MsBetweenDisplayChange\r\n16.7,16.7\r\n16.7,16.7\r\n";
     let bytes: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
@@ -252,7 +252,7 @@ fn advice_names_a_policy_within_the_latency_with_its_constants() {
 }
 
 #[test]
-fn a_loop_without_a_fixed_tick_or_that_judders_is_never_advised_and_the_reason_is_told() {
+fn a_juddering_or_variable_loop_is_never_advised() {
     let told = |options: &str| stderr(&run(&format!("loop {options}")));
     let of_all = told("--all --scene stiff --tick-hz 30");
     let lost = "take none: in every loop with a fixed tick the motion is lost; give more --tick-hz or another --method";
@@ -273,7 +273,7 @@ fn a_loop_without_a_fixed_tick_or_that_judders_is_never_advised_and_the_reason_i
     let varies =
         "take none of these: without a fixed tick the physics varies with the rate; try --all";
     assert!(variable.contains(varies), "{variable}");
-    // What is asked of all, in every scene and at odd rates.
+    // Advice is a loop with a fixed tick or none, in every scene and at odd rates.
     for (scene, tick_hz) in [("spring", 7), ("stiff", 120), ("pendulum", 30), ("orbit", 10)] {
         let told = told(&format!("--all --scene {scene} --tick-hz {tick_hz} --seconds 10"));
         for line in told.lines().filter_map(|line| line.split_once("): take ")) {
@@ -285,7 +285,7 @@ fn a_loop_without_a_fixed_tick_or_that_judders_is_never_advised_and_the_reason_i
 }
 
 #[test]
-fn a_log_in_which_no_time_passes_is_refused() {
+fn a_log_without_passing_time_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     for (name, head) in [("list.txt", ""), ("log.csv", "MsBetweenPresents\n")] {
         fs::write(folder.path().join(name), format!("{head}{}", "0\n".repeat(100))).unwrap();
@@ -300,7 +300,7 @@ fn a_log_in_which_no_time_passes_is_refused() {
 }
 
 #[test]
-fn of_loops_as_smooth_one_that_draws_between_two_ticks_is_advised_and_why() {
+fn interpolation_is_advised_among_equally_smooth_loops() {
     let why = "extrapolation or a render tick would be as smooth and no tick late, but overshoots";
     for trace in ["steady-75", "steady-144", "steady-240"] {
         let told = stderr(&run(&format!("loop --trace {trace} --seconds 5 --all")));
@@ -314,7 +314,7 @@ fn of_loops_as_smooth_one_that_draws_between_two_ticks_is_advised_and_why() {
 }
 
 #[test]
-fn a_game_of_another_speed_has_no_latency() {
+fn a_game_at_another_speed_has_no_latency() {
     let rows = rows("--trace steady-144 --policy lockstep --policy fixed --seconds 5");
     assert!(rows[0]["latency_mean_ms"].is_null() && rows[0]["latency_max_ms"].is_null());
     let latency = number(&rows[1], "latency_mean_ms");
@@ -322,7 +322,7 @@ fn a_game_of_another_speed_has_no_latency() {
 }
 
 #[test]
-fn a_list_of_frame_times_is_a_trace_and_it_is_said_that_it_knows_no_display() {
+fn a_list_of_frame_times_is_a_trace_without_display_times() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("mine.csv"), "16.7\n".repeat(300)).unwrap();
     let output =
@@ -335,7 +335,7 @@ fn a_list_of_frame_times_is_a_trace_and_it_is_said_that_it_knows_no_display() {
 }
 
 #[test]
-fn the_latency_on_a_log_is_counted_from_the_least_because_its_clocks_have_no_common_origin() {
+fn latency_on_a_log_is_relative_to_its_minimum() {
     let folder = tempfile::tempdir().unwrap();
     let log = |name: &str, first_display_ms: f64| {
         let rows: String = (0..300).map(|_| "16.7,16.7\n").collect();
@@ -354,7 +354,7 @@ fn the_latency_on_a_log_is_counted_from_the_least_because_its_clocks_have_no_com
 }
 
 #[test]
-fn what_goes_to_standard_output_is_not_told_as_a_file() {
+fn standard_output_is_not_reported_as_a_file() {
     let folder = tempfile::tempdir().unwrap();
     let frames = "loop --trace edge --policy fixed --seconds 2 --out rows.csv --frame-rows";
     let to_stdout = run_in(folder.path(), &format!("{frames} -"));
@@ -364,7 +364,7 @@ fn what_goes_to_standard_output_is_not_told_as_a_file() {
 }
 
 #[test]
-fn a_trace_is_not_overwritten_by_what_is_measured_on_it() {
+fn a_trace_is_not_overwritten_by_its_measurements() {
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("log.csv");
     let text = "MsBetweenPresents,MsBetweenDisplayChange\n16.7,16.7\n16.7,16.7\n";
@@ -386,7 +386,7 @@ fn a_picture_is_drawn_of_the_first_trace() {
 }
 
 #[test]
-fn mistakes_are_told_with_a_remedy() {
+fn mistakes_are_reported_with_a_remedy() {
     for (options, says) in [
         ("--policy fixd", "did you mean fixed?"),
         ("--trace stedy-144", "did you mean steady-144?"),
@@ -411,7 +411,7 @@ fn mistakes_are_told_with_a_remedy() {
 }
 
 #[test]
-fn the_most_ticks_and_the_longest_frame_can_be_set_and_what_is_longer_is_given_up() {
+fn the_limits_on_ticks_and_frame_time_can_be_set_and_drop_the_rest() {
     let row =
         |options: &str| rows(&format!("--fps 20 --tick-hz 60 --seconds 10 {options}")).remove(0);
     // Two of the three ticks of a frame: two thirds of the speed.
@@ -456,7 +456,7 @@ fn frames_and_the_display_may_have_two_rates() {
 }
 
 #[test]
-fn a_capture_of_capframex_in_json_is_read_as_the_same_frames_in_a_table() {
+fn capframex_json_and_table_have_the_same_frames() {
     let folder = tempfile::tempdir().unwrap();
     let runs = |count: usize| {
         let run = r#"{"CaptureData": {"MsBetweenPresents": [9.7, 12.2, 9.9, 10.1],
@@ -492,7 +492,7 @@ fn a_capture_of_capframex_in_json_is_read_as_the_same_frames_in_a_table() {
 }
 
 #[test]
-fn a_log_whose_clocks_part_is_shown_when_its_frames_begin_and_says_so() {
+fn a_log_with_diverging_clocks_uses_frame_starts_with_a_notice() {
     let folder = tempfile::tempdir().unwrap();
     let log = |change: f64| {
         let row = format!("7,{change}\n");

@@ -1,4 +1,4 @@
-//! The manifest beside the frames: what is in it, and that its description says so.
+//! The manifest of the frames: its content, and its description.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -35,8 +35,8 @@ fn keys(value: &Value, into: &mut BTreeSet<String>) {
 }
 
 #[test]
-fn every_key_is_described_and_what_is_described_reads_back() {
-    let test = "every_key_is_described_and_what_is_described_reads_back";
+fn every_key_is_described_and_the_manifest_reads_back() {
+    let test = "every_key_is_described_and_the_manifest_reads_back";
     let Some(text) = manifest_or_skip(test, "--race --frames 3") else { return };
     let source = include_str!("../../../src/commands/manifest.rs");
     let description: String = source.lines().take_while(|line| line.starts_with("//!")).collect();
@@ -52,7 +52,7 @@ fn every_key_is_described_and_what_is_described_reads_back() {
     assert!(manifest.to_text() == text, "what is read is written again to the byte");
 }
 
-/// Captures this scene, and what `verify` says of that.
+/// Captures this scene, with the output of `verify`.
 fn captured_or_skip(test: &str, scene: &str, arguments: &str) -> Option<(Manifest, Output)> {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("my.toml"), scene).unwrap();
@@ -125,8 +125,8 @@ fn a_run_of_any_values_can_be_judged() {
 }
 
 #[test]
-fn a_kick_past_all_bounds_leaves_a_manifest_that_can_be_judged() {
-    let test = "a_kick_past_all_bounds_leaves_a_manifest_that_can_be_judged";
+fn an_unbounded_kick_leaves_a_manifest_that_can_be_judged() {
+    let test = "an_unbounded_kick_leaves_a_manifest_that_can_be_judged";
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
                  [[spring]]\nname = 'light'\nmass_kg = 1e-300\nstiffness_n_per_m = 1\n\
@@ -151,8 +151,8 @@ fn a_kick_past_all_bounds_leaves_a_manifest_that_can_be_judged() {
 }
 
 #[test]
-fn frames_and_marks_are_those_of_the_run() {
-    let test = "frames_and_marks_are_those_of_the_run";
+fn frames_and_marks_match_the_run() {
+    let test = "frames_and_marks_match_the_run";
     let arguments = "--scene harbour --race --tick-hz 49 --frames 9 --fps 7 --mark-every 10";
     let Some(text) = manifest_or_skip(test, arguments) else { return };
     let manifest: Manifest = serde_json::from_str(&text).unwrap();

@@ -1,5 +1,5 @@
-//! Whatever happens to a capture: no frame is lost, half, or out of order, and what was stopped can be
-//! drawn again in the same place.
+//! Accidents during a capture: no frame is lost, partial or out of order, and an interrupted capture can be repeated
+//! in the same place.
 
 use std::fs;
 use std::io::{self, Write};
@@ -73,7 +73,7 @@ fn draw_again(folder: &Path) {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_limit_of_memory_ends_in_a_sentence() {
+fn running_out_of_memory_ends_in_a_sentence() {
     let folder = tempfile::tempdir().unwrap();
     for kib in [400_000, 600_000, 800_000] {
         let limited = format!("ulimit -v {kib}; exec \"$0\" \"$@\"");
@@ -92,8 +92,8 @@ fn a_limit_of_memory_ends_in_a_sentence() {
 
 #[cfg(unix)]
 #[test]
-fn killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_drawn_again() {
-    let test = "killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_drawn_again";
+fn killing_a_capture_leaves_whole_frames_and_it_can_be_redrawn() {
+    let test = "killing_a_capture_leaves_whole_frames_and_it_can_be_redrawn";
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let Some(whole) = whole_or_skip(test, folder) else { return };
@@ -121,8 +121,8 @@ fn killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_drawn_again()
 
 #[cfg(unix)]
 #[test]
-fn interrupted_while_verdicts_are_found_it_ends_at_once() {
-    let test = "interrupted_while_verdicts_are_found_it_ends_at_once";
+fn an_interrupt_during_verdicts_ends_the_capture_at_once() {
+    let test = "an_interrupt_during_verdicts_ends_the_capture_at_once";
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let Some(_) = whole_or_skip(test, folder) else { return };
@@ -146,8 +146,8 @@ fn interrupted_while_verdicts_are_found_it_ends_at_once() {
 
 #[cfg(unix)]
 #[test]
-fn interrupted_at_any_moment_it_leaves_a_manifest_of_what_is_there() {
-    let test = "interrupted_at_any_moment_it_leaves_a_manifest_of_what_is_there";
+fn interrupting_a_capture_leaves_a_manifest_of_its_frames() {
+    let test = "interrupting_a_capture_leaves_a_manifest_of_its_frames";
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let Some(_) = whole_or_skip(test, folder) else { return };
@@ -185,11 +185,11 @@ fn interrupted_at_any_moment_it_leaves_a_manifest_of_what_is_there() {
 }
 
 #[test]
-fn a_directory_that_cannot_be_made_ends_the_capture() {
+fn an_uncreatable_directory_ends_the_capture() {
     let folder = tempfile::tempdir().unwrap();
     // Permissions do not stop the superuser; a file in the way stops everybody.
     fs::write(folder.path().join("file"), "mine").unwrap();
-    let test = "a_directory_that_cannot_be_made_ends_the_capture";
+    let test = "an_uncreatable_directory_ends_the_capture";
     let Some(output) = drawn_or_skip(test, folder.path(), &format!("{CAPTURE} file/clip")) else {
         return;
     };
@@ -213,8 +213,8 @@ fn mounted_or_skip(test: &str, disk: &Path, size: &str) -> Option<()> {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_leaves_nothing_of_a_single_file_and_the_way_on_is_told() {
-    let test = "a_full_disk_leaves_nothing_of_a_single_file_and_the_way_on_is_told";
+fn a_full_disk_leaves_no_partial_file_and_a_remedy() {
+    let test = "a_full_disk_leaves_no_partial_file_and_a_remedy";
     let folder = tempfile::tempdir().unwrap();
     let disk = folder.path().join("disk");
     let Some(()) = mounted_or_skip(test, &disk, "64k") else { return };

@@ -15,10 +15,7 @@ fn each_mistake_is_named_with_its_remedy() {
         ("trace --scene shp", "is called \"shp\"; did you mean ship?"),
         ("trace --scene Stiff", "did you mean stiff?"),
         ("trace --scene spring --method lerp-dt", "lerp-dt does not step the body \"spring\""),
-        (
-            "capture --out x --scene follow --method lerp-dt",
-            "only a `follow` of order 1; name another",
-        ),
+        ("capture --out x --scene follow --method lerp-dt", "such as `follow`; name another"),
         (
             "advise --scene lerp --method smooth-damp",
             "smooth-damp does not step the body \"camera\"",
@@ -137,7 +134,7 @@ bad.toml:5:3: unknown table `sprong`; did you mean `[[spring]]`?
 
 #[cfg(unix)]
 #[test]
-fn a_pipe_without_a_writer_is_refused_and_not_waited_for() {
+fn a_pipe_without_a_writer_is_refused_without_waiting() {
     let folder = tempfile::tempdir().unwrap();
     let pipe = folder.path().join("pipe.csv");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
@@ -157,7 +154,7 @@ fn a_pipe_without_a_writer_is_refused_and_not_waited_for() {
 
 #[cfg(unix)]
 #[test]
-fn a_pipe_in_the_place_of_a_manifest_or_of_a_frame_is_refused_and_not_waited_for() {
+fn a_pipe_as_manifest_or_frame_is_refused_without_waiting() {
     let folder = tempfile::tempdir().unwrap();
     let make = |path: &str| {
         let path = folder.path().join(path);
@@ -182,7 +179,7 @@ fn a_pipe_in_the_place_of_a_manifest_or_of_a_frame_is_refused_and_not_waited_for
         let said = stderr(&output);
         assert!(said.contains(told), "{command}: {said}");
     }
-    let test = "a_pipe_in_the_place_of_a_manifest_or_of_a_frame_is_refused_and_not_waited_for";
+    let test = "a_pipe_as_manifest_or_frame_is_refused_without_waiting";
     if drawn_or_skip(test, folder.path(), &format!("{capture} clip")).is_some() {
         fs::remove_file(folder.path().join("clip/frame-000000.png")).unwrap();
         make("clip/frame-000000.png");
@@ -194,7 +191,7 @@ fn a_pipe_in_the_place_of_a_manifest_or_of_a_frame_is_refused_and_not_waited_for
 }
 
 #[test]
-fn a_message_quotes_a_line_of_a_file_and_no_megabytes() {
+fn a_message_quotes_at_most_a_line_of_a_file() {
     let folder = tempfile::tempdir().unwrap();
     let long = "x".repeat(1_000_000);
     for (text, command) in [
@@ -224,7 +221,7 @@ fn an_argument_longer_than_any_path_is_refused_in_a_line() {
         let output = run_in(folder.path(), &format!("{command} {long}"));
         assert_eq!(output.status.code(), Some(2), "{command}");
         let said = stderr(&output);
-        let named = format!("argument {place} has 100000 bytes, and the most are 4096");
+        let named = format!("argument {place} has 100000 bytes, and the limit is 4096");
         assert!(said.contains(&named) && said.len() < 600, "{said:.900}");
     }
     let path = format!("{}.toml", "x".repeat(200));
@@ -233,7 +230,7 @@ fn an_argument_longer_than_any_path_is_refused_in_a_line() {
 }
 
 #[test]
-fn a_link_where_none_is_taken_and_every_long_argument_is_cut() {
+fn misplaced_links_and_long_arguments_are_truncated_in_messages() {
     let folder = tempfile::tempdir().unwrap();
     let link = format!("#v1.{}", "A".repeat(87_000));
     let (path, word) = ("x/".repeat(1500), "x".repeat(3000));
@@ -269,7 +266,7 @@ fn a_link_where_none_is_taken_and_every_long_argument_is_cut() {
 }
 
 #[test]
-fn the_list_of_all_methods_stands_once_in_the_errors_of_a_scene() {
+fn the_list_of_methods_appears_once_in_the_errors_of_a_scene() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['qqq', 'rk5', 'zzz']\n\
         [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\nx0_m = 1\n\
@@ -284,7 +281,7 @@ fn the_list_of_all_methods_stands_once_in_the_errors_of_a_scene() {
 }
 
 #[test]
-fn files_that_are_no_text_or_too_large_are_refused() {
+fn binary_and_oversized_files_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     for (bytes, said) in [
         (vec![0xff, 0xfe], "bad.toml:1:1: the file is not text: byte 0 is not UTF-8"),
@@ -299,7 +296,7 @@ fn files_that_are_no_text_or_too_large_are_refused() {
 }
 
 #[test]
-fn help_and_version_are_data() {
+fn help_and_version_go_to_standard_output() {
     for arguments in ["--help", "-h", "help trace", "trace --help", "--version", "help capture"] {
         let output = run(arguments);
         assert_eq!(output.status.code(), Some(0), "{arguments}");
@@ -316,7 +313,7 @@ fn the_first_example_names_the_method_that_the_harbour_opens_with() {
 }
 
 #[test]
-fn short_help_is_options_on_a_screen_and_long_help_flows_and_has_whole_examples() {
+fn short_help_fits_a_screen_and_long_help_wraps_with_whole_examples() {
     let cli = Cli::command();
     for command in [&cli].into_iter().chain(cli.get_subcommands()) {
         let name = command.get_name();
@@ -356,7 +353,7 @@ fn short_help_is_options_on_a_screen_and_long_help_flows_and_has_whole_examples(
 }
 
 #[test]
-fn units_that_stand_for_values_keep_their_case() {
+fn units_as_value_names_keep_their_case() {
     const UNITS: [&str; 7] = ["Hz", "kg", "N/m", "N s/m", "1/s", "ms", "s"];
     let cli = Cli::command();
     let mut found = std::collections::BTreeSet::new();
@@ -375,7 +372,7 @@ fn units_that_stand_for_values_keep_their_case() {
 
 #[cfg(unix)]
 #[test]
-fn control_characters_of_names_and_of_scenes_are_signs_in_messages() {
+fn control_characters_become_visible_in_messages() {
     let folder = tempfile::tempdir().unwrap();
     let name = "a\u{1b}[31m\u{9b}2J.toml";
     let scene = "title = \"\u{88}\u{202e}t\"\r\ntick_hz = \"\u{9b}2J\"\r\n";

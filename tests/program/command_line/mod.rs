@@ -48,7 +48,7 @@ fn regatta() -> Command {
     command
 }
 
-/// What the program makes of these words.
+/// The program's output for these arguments.
 fn run(arguments: &str) -> Output {
     regatta().args(arguments.split_whitespace()).output().unwrap()
 }
@@ -57,10 +57,10 @@ fn run_in(directory: &Path, arguments: &str) -> Output {
     regatta().current_dir(directory).args(arguments.split_whitespace()).output().unwrap()
 }
 
-/// What the program writes, where it succeeds in silence.
+/// The program's data, if it succeeds without messages.
 fn stdout_of(arguments: &str) -> String {
     let output = run(arguments);
-    // A busy machine is told of, how far a long run is, and what was read; none is a fault of the program.
+    // Allowed messages: a busy machine, the progress of a long run, and the files read.
     let is_by_the_way = |line: &str| {
         let how_far = |(done, of): (&str, &str)| {
             done.parse::<u32>().is_ok() && of.starts_with(|c: char| c.is_ascii_digit())
@@ -79,7 +79,7 @@ fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-/// What the program says, where it fails with this code and writes no data.
+/// The program's error message, if it fails with this code and writes no data.
 fn refusal(arguments: &str, code: i32) -> String {
     let output = run(arguments);
     assert_eq!(output.status.code(), Some(code), "{arguments}: {}", stderr(&output));

@@ -32,7 +32,7 @@ fn an_own_method_is_shown_raced_advised_about_and_swept() {
 }
 
 #[test]
-fn mistakes_in_own_methods_are_told_with_place_and_remedy() {
+fn mistakes_in_own_methods_are_reported_with_place_and_remedy() {
     let folder = tempfile::tempdir().unwrap();
     for (name, text, told) in [
         (
@@ -66,7 +66,7 @@ fn mistakes_in_own_methods_are_told_with_place_and_remedy() {
 }
 
 #[test]
-fn a_file_of_a_rule_stands_in_the_place_of_a_scene() {
+fn a_rule_file_can_replace_a_scene() {
     let folder = tempfile::tempdir().unwrap();
     let path = file(folder.path(), "camera.step", "x += (target - x) * 20 * dt");
     let scene = stdout_of(&format!("rule {path} --fps 60 --scene"));

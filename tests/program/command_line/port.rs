@@ -13,7 +13,7 @@ fn rows(found: &Value, key: &str) -> Vec<Value> {
 }
 
 #[test]
-fn a_wish_has_the_settings_of_every_mode_of_every_engine_with_code_and_version() {
+fn a_target_has_settings_code_and_version_for_every_engine_mode() {
     let found = json("--frequency 2.5Hz --damping-ratio 0.3 --mass 80");
     assert_eq!(found["want"]["frequency_hz"], 2.5);
     assert_eq!((&found["want"]["mass_kg"], &found["tick_hz"]), (&80.0.into(), &60.0.into()));
@@ -51,7 +51,7 @@ fn a_wish_has_the_settings_of_every_mode_of_every_engine_with_code_and_version()
 }
 
 #[test]
-fn what_substeps_are_is_said_where_an_engine_has_none_of_its_own_and_so_is_the_version() {
+fn substeps_are_explained_for_engines_without_their_own() {
     let text = stdout_of(
         "port --frequency 2Hz --damping-ratio 0.2 --substeps 4 --to engine-chipmunk,engine-godot,engine-physx,engine-jolt",
     );
@@ -76,7 +76,7 @@ fn what_substeps_are_is_said_where_an_engine_has_none_of_its_own_and_so_is_the_v
 }
 
 #[test]
-fn the_tgs_of_physx_5_6_reaches_what_was_seen_in_it() {
+fn physx_5_6_tgs_reproduces_its_measured_motion() {
     // In PhysX 5.6.1 the settings of 5.1's card swing at 1.9978 Hz with a damping ratio of 0.1595.
     let from = "engine-physx-tgs-56:mode=force-drive,stiffness=158.851359,damping=3.37567442";
     let found = json(&format!("--from {from} --to engine-physx-tgs-56"));
@@ -86,7 +86,7 @@ fn the_tgs_of_physx_5_6_reaches_what_was_seen_in_it() {
 }
 
 #[test]
-fn a_floor_says_how_low_an_engine_goes_and_what_goes_lower() {
+fn a_damping_floor_is_reported_with_a_way_below_it() {
     let text = stdout_of("port --frequency 1Hz --to engine-box2d,engine-physx");
     for said in [
         "engine-box2d ×4, spring: unreachable",
@@ -104,7 +104,7 @@ fn a_floor_says_how_low_an_engine_goes_and_what_goes_lower() {
 }
 
 #[test]
-fn settings_of_an_engine_and_a_log_are_ported_and_come_back() {
+fn settings_of_an_engine_and_a_log_round_trip() {
     let found = json("--from engine-godot:stiffness=1000,damping=80 --mass 80 --to engine-godot");
     let settings = &rows(&found, "engines")[0]["settings"];
     let near = |key: &str, wanted: f64| {
@@ -128,7 +128,7 @@ fn settings_of_an_engine_and_a_log_are_ported_and_come_back() {
 }
 
 #[test]
-fn a_drive_has_its_limits_and_a_chase_its_rate_in_every_follower() {
+fn a_drive_has_its_limits_and_a_chase_has_rates_for_every_follower() {
     let found = json(
         "--frequency 5Hz --damping-ratio 1 --mass 2 --drive --decimation 4 --tick-hz 500 --to engine-mujoco",
     );
@@ -151,7 +151,7 @@ fn a_drive_has_its_limits_and_a_chase_its_rate_in_every_follower() {
 }
 
 #[test]
-fn a_spring_of_a_user_interface_is_told_to_the_others_with_what_the_frame_rate_does() {
+fn an_interface_spring_is_converted_with_the_effect_of_the_frame_rate() {
     let found = json("--from swiftui:duration=0.5,bounce=0.3");
     assert!(rows(&found, "engines").is_empty());
     let ids: Vec<String> =
@@ -177,7 +177,7 @@ fn a_spring_of_a_user_interface_is_told_to_the_others_with_what_the_frame_rate_d
 }
 
 #[test]
-fn what_cannot_be_asked_is_one_error_with_a_remedy() {
+fn an_impossible_request_is_one_error_with_a_remedy() {
     for (arguments, told) in [
         ("", "required arguments were not provided"),
         ("--frequency 2.5s", "give a frequency above 0 in Hz, such as 2.5Hz"),
@@ -234,7 +234,7 @@ fn what_cannot_be_asked_is_one_error_with_a_remedy() {
 }
 
 #[test]
-fn a_drive_is_judged_by_the_gains_that_are_given_and_both_ends_of_what_is_stable_are_named() {
+fn a_drive_is_judged_by_its_gains_with_both_stability_limits() {
     let engine = "--from engine-mujoco:mode=actuator,kp=2000,kv=100 --mass 0.002 --tick-hz 500";
     let interface = "--from core-animation:mass=0.002,stiffness=2000,damping=100 --tick-hz 500";
     for from in [engine, interface] {
@@ -270,7 +270,7 @@ fn a_drive_is_judged_by_the_gains_that_are_given_and_both_ends_of_what_is_stable
 }
 
 #[test]
-fn what_games_write_once_a_frame_is_taken_as_it_stands() {
+fn per_frame_formulas_of_games_are_accepted_as_written() {
     let chase = stdout_of("port --from lerp-dt:20@30fps");
     assert!(chase.starts_with("halves in 0.02103 s: 1 - exp(-32.96 dt)\n"), "{chase}");
     assert_eq!(chase, stdout_of("port --from lerp:0.6666666666666666@30fps"));

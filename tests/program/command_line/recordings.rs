@@ -19,7 +19,7 @@ fn recorded() -> TempDir {
     folder
 }
 
-/// What `regatta verify run.toml` and more words make of it: code, data and messages.
+/// The result of `regatta verify run.toml` with more arguments: code, data and messages.
 fn verify(folder: &TempDir, arguments: &str) -> (Option<i32>, String, String) {
     let output = run_in(folder.path(), &format!("verify run.toml {arguments}"));
     let (data, messages) = (String::from_utf8(output.stdout.clone()).unwrap(), stderr(&output));
@@ -43,7 +43,7 @@ fn a_recording_is_the_same_to_the_bit_lane_by_lane() {
 }
 
 #[test]
-fn the_first_check_that_fails_is_named_with_the_last_that_holds() {
+fn a_failure_names_the_first_failed_and_the_last_good_check() {
     let folder = recorded();
     edit(&folder, |text| {
         let (before, after) = text.split_once("tick = 120\nlane = 4\nhash = \"").unwrap();
@@ -63,7 +63,7 @@ fn the_first_check_that_fails_is_named_with_the_last_that_holds() {
 }
 
 #[test]
-fn another_parameter_shows_in_every_lane_and_is_blessed_with_all_else_left_as_it_is() {
+fn a_changed_parameter_fails_every_lane_and_bless_changes_only_hashes() {
     let folder = recorded();
     edit(&folder, |text| text.replacen("mass_kg = 1.0", "mass_kg = 1.25", 1));
     let (code, data, _) = verify(&folder, "");
@@ -84,7 +84,7 @@ fn another_parameter_shows_in_every_lane_and_is_blessed_with_all_else_left_as_it
 }
 
 #[test]
-fn a_scene_without_checks_is_not_judged_and_gets_them_by_bless() {
+fn a_scene_without_checks_is_not_judged_until_blessed() {
     let folder = tempfile::tempdir().unwrap();
     let text = "# mine\ntitle = 'x'\ntick_hz = 30\nseconds = 2.5\nmethods = ['rk4', 'midpoint']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
@@ -102,7 +102,7 @@ fn a_scene_without_checks_is_not_judged_and_gets_them_by_bless() {
 }
 
 #[test]
-fn the_rows_that_bless_adds_have_the_line_endings_of_the_file() {
+fn bless_keeps_the_line_endings_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let text = "# mine\ntitle = 'x'\ntick_hz = 30\nseconds = 2\nmethods = ['rk4']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
@@ -146,7 +146,7 @@ fn a_lane_is_named_by_its_number_and_by_every_method_that_it_had() {
 }
 
 #[test]
-fn a_check_that_no_run_reaches_is_not_blessed_and_the_file_stays_as_it_is() {
+fn an_unreachable_check_is_not_blessed_and_the_file_stays() {
     let folder = tempfile::tempdir().unwrap();
     let check = |tick: u64, lane: usize| {
         format!("[[check]]\ntick = {tick}\nlane = {lane}\nhash = '0123456789abcdef'\n")
@@ -197,7 +197,7 @@ fn checks_beyond_the_end_of_the_scene_are_announced_and_judged() {
 }
 
 #[test]
-fn reports_of_a_recording_are_written_for_programs() {
+fn reports_of_a_recording_are_machine_readable() {
     let folder = recorded();
     edit(&folder, |text| text.replacen("hash = \"", "hash = \"0000000000000000\" # \"", 1));
     let (code, ..) = verify(&folder, "--report json r.json --report junit r.xml");
@@ -217,7 +217,7 @@ fn reports_of_a_recording_are_written_for_programs() {
 }
 
 #[test]
-fn what_is_for_frames_is_refused_for_a_recording_and_a_file_that_is_not_there_is_named() {
+fn frame_options_and_missing_files_are_refused_for_a_recording() {
     let folder = recorded();
     for option in ["--diff d", "--max-channel 3", "--max-pixels 1"] {
         let (code, _, messages) = verify(&folder, option);
@@ -234,12 +234,14 @@ fn what_is_for_frames_is_refused_for_a_recording_and_a_file_that_is_not_there_is
 }
 
 #[test]
-fn what_is_played_is_recorded_and_a_file_that_is_there_is_kept() {
+fn play_records_the_run_but_keeps_an_existing_file() {
     let folder = tempfile::tempdir().unwrap();
     let play = "play --scene spring --method rk4 --seconds 1 --record run.toml";
     let output = run_in(folder.path(), play);
     if stderr(&output).contains("graphics") {
-        return eprintln!("what_is_played_is_recorded: skipped, no graphics to draw with");
+        return eprintln!(
+            "play_records_the_run_but_keeps_an_existing_file: skipped, no graphics to draw with"
+        );
     }
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(stderr(&output).contains("recorded 60 ticks in run.toml"), "{}", stderr(&output));
@@ -256,7 +258,7 @@ fn what_is_played_is_recorded_and_a_file_that_is_there_is_kept() {
 }
 
 #[test]
-fn a_recording_never_replaces_the_scene_that_is_played() {
+fn a_recording_never_replaces_the_played_scene() {
     let folder = recorded();
     let before = fs::read_to_string(folder.path().join("run.toml")).unwrap();
     for path in ["run.toml", "./run.toml"] {
@@ -272,7 +274,7 @@ fn a_recording_never_replaces_the_scene_that_is_played() {
 }
 
 #[test]
-fn a_report_never_replaces_the_recording_that_is_judged() {
+fn a_report_never_replaces_the_judged_recording() {
     let folder = recorded();
     let before = fs::read_to_string(folder.path().join("run.toml")).unwrap();
     fs::create_dir(folder.path().join("x")).unwrap();
@@ -285,7 +287,7 @@ fn a_report_never_replaces_the_recording_that_is_judged() {
 }
 
 #[test]
-fn a_report_replaces_a_report_or_an_empty_file_and_nothing_else() {
+fn a_report_replaces_only_a_report_or_an_empty_file() {
     let folder = recorded();
     let report = folder.path().join("report");
     for mine in [

@@ -1,4 +1,4 @@
-//! `rule`: lines of a game in; what a player sees at every frame rate, and code out.
+//! `rule`: reads lines of a game, and prints the visible motion at every frame rate, and code.
 
 use std::fs;
 use std::io::Write as _;
@@ -69,7 +69,7 @@ fn a_spring_without_dt_is_twice_as_fast_at_twice_the_rate() {
 }
 
 #[test]
-fn a_chase_by_a_rate_rings_and_grows_below_its_rates() {
+fn a_chase_rings_and_grows_below_the_reported_rates() {
     let found = json(&["x += (target - x) * 20 * dt", "--fps", "30"]);
     assert!(
         is_near(&found["rings_below_fps"], 20.0) && is_near(&found["explodes_below_fps"], 10.0)
@@ -110,7 +110,7 @@ fn lines_come_from_an_argument_a_file_or_standard_input() {
 }
 
 #[test]
-fn what_is_no_rule_is_refused_with_its_place_and_a_remedy() {
+fn an_invalid_rule_is_refused_with_its_place_and_a_remedy() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, bytes: &[u8]| {
         let path = folder.path().join(name);
@@ -123,7 +123,7 @@ fn what_is_no_rule_is_refused_with_its_place_and_a_remedy() {
         ("x += k * dt", "rule:1:6: unknown name `k`; write x, v, h or target, or give it"),
         (&*file, "camera.step:2:6: unknown name `speed`"),
         ("x += (1", "rule:1:7: the text ends where `)` is missing"),
-        ("pos.x += 1", "rule:1:1: `pos.x += 1` is a part of something; a step moves one number"),
+        ("pos.x += 1", "rule:1:1: `pos.x += 1` is one part of a value; a step moves one number"),
         ("x + 1", "\"x + 1\" is no rule and no file; write an assignment"),
         ("", "is no rule and no file"),
         ("v += a(x) * dt", "rule:1:6: a rule is the whole motion, and calls no acceleration"),

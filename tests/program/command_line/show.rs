@@ -26,7 +26,7 @@ fn every_method_is_shown_in_every_language() {
 }
 
 #[test]
-fn every_loop_is_shown_in_the_languages_that_it_is_written_in() {
+fn every_loop_is_shown_in_each_of_its_languages() {
     let languages =
         [("rust", "rust"), ("c", "c"), ("cpp", "c++"), ("csharp", "c#"), ("gdscript", "gdscript")];
     for card in POLICIES {
@@ -49,7 +49,7 @@ fn without_a_language_a_method_is_shown_in_rust() {
 }
 
 #[test]
-fn another_name_of_a_method_shows_the_method_and_says_which_it_is() {
+fn an_alias_shows_its_method_with_a_note() {
     let aliases = METHODS.iter().flat_map(|m| m.also.iter().map(move |alias| (m, *alias)));
     let aliases: Vec<_> = aliases.collect();
     assert!(aliases.iter().any(|(_, alias)| *alias == "xpbd"), "{aliases:?}");
@@ -71,7 +71,7 @@ fn another_name_of_a_method_shows_the_method_and_says_which_it_is() {
 }
 
 #[test]
-fn a_mistake_in_a_name_is_told_with_the_nearest() {
+fn a_misspelt_name_gets_the_nearest_suggestion() {
     for (arguments, said) in [
         ("show", "<METHOD|POLICY|FILE>"),
         (
@@ -90,7 +90,7 @@ fn a_mistake_in_a_name_is_told_with_the_nearest() {
 }
 
 #[test]
-fn a_pipe_that_closes_early_ends_it_in_silence() {
+fn a_pipe_that_closes_early_ends_show_quietly() {
     let mut command = regatta();
     command.args(["show", "dormand-prince-54"]).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
@@ -101,7 +101,7 @@ fn a_pipe_that_closes_early_ends_it_in_silence() {
 }
 
 #[test]
-fn the_manual_shows_what_is_printed() {
+fn the_manual_shows_the_printed_code() {
     let (_, example) = chapter("code")
         .unwrap()
         .text

@@ -1,4 +1,4 @@
-//! Signals and limits of the system: whatever ends a command, no temporary file stays.
+//! Signals and limits of the system: no temporary file survives the end of a command.
 #![cfg(unix)]
 
 use std::fs;
@@ -34,7 +34,7 @@ fn start(folder: &Path, arguments: &str) -> Child {
     command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// Sends a signal, and returns what the program leaves and how long it took.
+/// Sends a signal, and returns the program's output and the time until its end.
 fn ended_by(signal: &str, child: Child) -> (Output, Duration) {
     let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
     assert!(sent.unwrap().success());
@@ -45,7 +45,7 @@ fn ended_by(signal: &str, child: Child) -> (Output, Duration) {
 /// The temporary files in a folder and in those that it holds.
 fn parts(folder: &Path) -> Vec<String> {
     let mut found = Vec::new();
-    // What is renamed or removed meanwhile is no part any more.
+    // A renamed or removed file is no part any more.
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().into_string().unwrap();
         if entry.path().is_dir() {
@@ -68,8 +68,8 @@ fn until_begun(folder: &Path, child: &mut Child) {
 }
 
 #[test]
-fn a_signal_as_soon_as_a_file_is_begun_leaves_nothing_of_it() {
-    let test = "a_signal_as_soon_as_a_file_is_begun_leaves_nothing_of_it";
+fn a_signal_right_after_a_file_is_created_leaves_no_file() {
+    let test = "a_signal_right_after_a_file_is_created_leaves_no_file";
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let probe = "capture --scene spring --frames 1 --size 32x18 --out probe";
@@ -136,8 +136,8 @@ fn a_cloud_of_any_size_ends_within_a_second_of_a_signal() {
 }
 
 #[test]
-fn a_limit_of_a_files_size_ends_in_a_sentence_and_leaves_nothing() {
-    let test = "a_limit_of_a_files_size_ends_in_a_sentence_and_leaves_nothing";
+fn a_file_size_limit_ends_in_a_sentence_without_a_file() {
+    let test = "a_file_size_limit_ends_in_a_sentence_without_a_file";
     let folder = tempfile::tempdir().unwrap();
     for arguments in [
         "sweep --scene spring --method rk4 --out rows.csv",

@@ -1,4 +1,4 @@
-//! `sweep`: a row for every run, in one order, whatever the threads; and the picture of it.
+//! `sweep`: a row for every run, in one order for any number of threads, and the picture of the rows.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -71,7 +71,7 @@ fn without_options_all_methods_sweep_all_scenes_by_octaves() {
 }
 
 #[test]
-fn a_followers_row_has_its_half_life_and_overshoot_and_a_springs_has_none() {
+fn only_a_followers_row_has_half_life_and_overshoot() {
     let rows = rows("--scene lerp --scene spring --method lerp-dt --method rk4 --tick-hz 60");
     let of = |id: &str| rows.iter().find(|row| text(row, "method") == id).unwrap();
     let half_life = number(of("lerp-dt"), "half_life_ms");
@@ -117,7 +117,7 @@ fn a_constant_of_a_law_is_varied_like_a_parameter_of_a_body() {
 }
 
 #[test]
-fn json_holds_what_csv_holds() {
+fn json_and_csv_have_the_same_rows() {
     let folder = tempfile::tempdir().unwrap();
     // A name that needs quotes, and a run that is lost.
     let scene = "title = 'x'\ntick_hz = 60\nseconds = 2\n[[spring]]\nname = 'a, \"b\"'\n\
@@ -137,7 +137,7 @@ fn json_holds_what_csv_holds() {
     for (line, object) in csv.lines().skip(1).zip(objects) {
         assert_eq!(object.keys().cloned().collect::<Vec<_>>().join(","), HEADER);
         let mut cells = cells(line);
-        // What was measured differs from run to run.
+        // A measured value differs from run to run.
         assert!(cells.remove(8).parse::<f64>().unwrap() > 0.0, "{line}");
         let others = object.iter().filter(|(key, _)| *key != "ns_per_s");
         let same = others.map(|(_, value)| match value {
@@ -217,7 +217,7 @@ fn the_error_falls_with_the_methods_order() {
 }
 
 #[test]
-fn a_row_says_what_advise_says() {
+fn a_row_agrees_with_advise() {
     let some =
         ["explicit-euler", "rk4", "velocity-verlet", "dormand-prince-54", "implicit-midpoint"];
     let some: String = some.map(|id| format!("--method {id} ")).concat();
@@ -239,7 +239,7 @@ fn a_row_says_what_advise_says() {
 }
 
 #[test]
-fn energy_drifts_where_it_is_conserved_and_is_none_where_it_is_not() {
+fn only_a_conserved_energy_has_a_drift() {
     let rows = rows("--scene spring --scene ship --method explicit-euler --tick-hz 60 --seconds 1");
     let [spring, ship] = &rows[..] else { panic!("{rows:?}") };
     // (1 + z²)^60 with z = 2π/60.
@@ -250,7 +250,7 @@ fn energy_drifts_where_it_is_conserved_and_is_none_where_it_is_not() {
 }
 
 #[test]
-fn a_blow_up_is_a_row() {
+fn a_blow_up_has_a_row() {
     let rows = rows("--scene stiff --method semi-implicit-euler --tick-hz 49,60");
     let [lost, kept] = &rows[..] else { panic!("{rows:?}") };
     assert_eq!(lost["verdict"]["word"], "blows-up");
@@ -331,7 +331,7 @@ fn a_pipe_that_closes_early_ends_a_sweep_quietly() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupt_or_a_request_to_end_ends_the_longest_sweep_at_once_and_leaves_nothing() {
+fn a_signal_ends_the_longest_sweep_at_once_without_a_file() {
     let folder = tempfile::tempdir().unwrap();
     // Weeks.
     let sweep = "sweep --seconds 31536000 --tick-hz 10000 --out rows.csv";
@@ -355,7 +355,7 @@ fn an_interrupt_or_a_request_to_end_ends_the_longest_sweep_at_once_and_leaves_no
 }
 
 #[test]
-fn names_of_files_choose_the_format_and_contradict_others() {
+fn a_file_name_sets_the_format_and_must_not_contradict_it() {
     let folder = tempfile::tempdir().unwrap();
     let sweep = "sweep --scene spring --method rk4 --tick-hz 60 --seconds 0.1";
     for (out, start) in [("rows.json", "[\n{"), ("rows.CSV", HEADER), ("rows", HEADER)] {

@@ -22,9 +22,9 @@ fn lit(picture: &Path, colours: &[[u8; 3]]) -> Vec<usize> {
 }
 
 #[test]
-fn the_plot_is_a_picture_of_every_method_beside_the_rows() {
+fn the_plot_shows_every_method_in_addition_to_the_rows() {
     let folder = tempfile::tempdir().unwrap();
-    let test = "the_plot_is_a_picture_of_every_method_beside_the_rows";
+    let test = "the_plot_shows_every_method_in_addition_to_the_rows";
     let sweep = "sweep --scene spring --method explicit-euler --method midpoint --method rk4 \
                  --plot sweep.png";
     let Some(output) = drawn_or_skip(test, folder.path(), sweep) else { return };
@@ -52,9 +52,9 @@ fn the_plot_is_a_picture_of_every_method_beside_the_rows() {
 }
 
 #[test]
-fn a_picture_goes_to_standard_output_where_the_rows_do_not() {
+fn a_picture_goes_to_standard_output_if_the_rows_do_not() {
     let folder = tempfile::tempdir().unwrap();
-    let test = "a_picture_goes_to_standard_output_where_the_rows_do_not";
+    let test = "a_picture_goes_to_standard_output_if_the_rows_do_not";
     let sweep = "sweep --scene ship --scene surge --scene orbit --method rk4 --out rows.json \
                  --format json --plot -";
     let Some(output) = drawn_or_skip(test, folder.path(), sweep) else { return };
@@ -65,7 +65,7 @@ fn a_picture_goes_to_standard_output_where_the_rows_do_not() {
 }
 
 #[test]
-fn the_round_off_is_drawn_where_it_is_asked_for_and_the_chapters_ship_is_swept() {
+fn round_off_is_drawn_on_request_for_the_chapters_ship_only() {
     for arguments in ["--round-off", "--plot x.png --scene ship --vary x=1 --round-off"] {
         refusal(&format!("sweep {arguments}"), 2);
     }
@@ -74,7 +74,7 @@ fn the_round_off_is_drawn_where_it_is_asked_for_and_the_chapters_ship_is_swept()
         assert!(refused.contains("give --scene ship --method rk4"), "{refused}");
     }
     let folder = tempfile::tempdir().unwrap();
-    let test = "the_round_off_is_drawn_where_it_is_asked_for_and_the_chapters_ship_is_swept";
+    let test = "round_off_is_drawn_on_request_for_the_chapters_ship_only";
     let sweep = "sweep --scene ship --method rk4 --tick-hz 2,4 --plot";
     for (file, options, size) in
         [("one.png", "", (920, 900)), ("two.png", "--round-off", (1840, 900))]
@@ -87,9 +87,9 @@ fn the_round_off_is_drawn_where_it_is_asked_for_and_the_chapters_ship_is_swept()
 }
 
 #[test]
-fn a_pipe_that_closes_early_does_not_take_the_picture_with_it() {
+fn a_pipe_that_closes_early_does_not_lose_the_picture() {
     let folder = tempfile::tempdir().unwrap();
-    let test = "a_pipe_that_closes_early_does_not_take_the_picture_with_it";
+    let test = "a_pipe_that_closes_early_does_not_lose_the_picture";
     let sweep = "sweep --scene ship --method rk4 --plot sweep.png --force";
     if drawn_or_skip(test, folder.path(), sweep).is_none() {
         return;

@@ -27,7 +27,7 @@ fn a_loop_at_the_rate_of_ntsc_has_rows_of_59_94_hz() {
 }
 
 #[test]
-fn a_trace_counts_its_ticks_in_the_ratio_that_is_given() {
+fn a_trace_counts_its_ticks_in_the_given_ratio() {
     let trace = stdout_of("trace --scene spring --tick-hz 333.3333 --seconds 1 --every 100");
     let times: Vec<_> = trace.lines().skip(1).filter(|row| row.contains(",exact,")).collect();
     let time = |row: &str| row.split(',').nth(1).unwrap().parse::<f64>().unwrap();
@@ -60,7 +60,7 @@ fn a_sweep_has_a_row_for_each_rate_and_octaves_of_a_fractional_one() {
 }
 
 #[test]
-fn a_rate_that_no_clock_runs_at_is_refused_with_the_range() {
+fn an_impossible_rate_is_refused_with_the_range() {
     for bad in ["nan", "inf", "0", "-60", "1e400", "66.6666666667", "0.001", "20000", "1/0"] {
         let message = refusal(&format!("trace --scene spring --tick-hz {bad}"), 2);
         let range = "give a rate from 0.01 to 10000 Hz, with at most 9 digits after the point";

@@ -24,7 +24,7 @@ fn velocities(csv: &str, method: &str) -> BTreeMap<String, f64> {
 }
 
 #[test]
-fn the_chapters_table_7_1_comes_out_digit_by_digit() {
+fn the_chapters_table_7_1_is_reproduced_digit_by_digit() {
     const TIMES: [&str; 5] = ["6.5", "7.0", "7.5", "8.0", "8.5"];
     const TABLE: [(&str, [&str; 5]); 4] = [
         ("exact", ["9.559084465", "10.068293924", "10.552668945", "11.013420718", "11.451701361"]),
@@ -66,7 +66,7 @@ fn a_trace_is_tidy_and_begins_at_tick_0_with_the_truth_as_lane_0() {
 }
 
 #[test]
-fn a_body_without_a_closed_form_has_a_reference_for_truth_and_its_accuracy_is_told() {
+fn a_body_without_closed_form_has_a_reference_of_reported_accuracy() {
     let output = run_in(&std::env::temp_dir(), "trace --scene helm --method rk4 --seconds 0.2");
     let csv = String::from_utf8(output.stdout.clone()).unwrap();
     let heads: Vec<_> = rows(&csv).iter().map(|row| row[..6].join(",")).collect();
@@ -84,7 +84,7 @@ fn a_body_without_a_closed_form_has_a_reference_for_truth_and_its_accuracy_is_to
 }
 
 #[test]
-fn a_law_that_gives_its_solution_has_an_exact_truth_up_to_its_first_input() {
+fn a_law_with_a_solution_has_an_exact_truth_until_its_first_input() {
     let folder = tempfile::tempdir().unwrap();
     let law = "title = 'x'\ntick_hz = 10\nseconds = 0.3\n[[law]]\nname = 'swing'\n[law.coordinates.x]\n\
                start = 1\nacceleration = '-x'\nexact = 'cos(t)'\n";
@@ -130,7 +130,7 @@ fn numbers_are_the_shortest_that_read_back_the_same() {
 }
 
 #[test]
-fn json_holds_what_csv_holds() {
+fn json_and_csv_have_the_same_rows() {
     for options in ["--scene harbour --seconds 0.1 --metrics", "--scene ship --every 7 --seconds 9"]
     {
         let csv = stdout_of(&format!("trace {options}"));
@@ -178,7 +178,7 @@ fn seconds_are_counted_across_the_rates_that_a_script_sets() {
 }
 
 #[test]
-fn a_method_that_the_scene_does_not_list_is_not_flown() {
+fn a_method_not_listed_by_the_scene_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     for (lanes, flown) in [
         ("methods = ['explicit-euler']\n", vec!["exact", "explicit-euler"]),
@@ -197,7 +197,7 @@ fn a_method_that_the_scene_does_not_list_is_not_flown() {
 }
 
 #[test]
-fn every_keeps_the_multiples_only() {
+fn the_every_option_keeps_only_multiples() {
     let csv = stdout_of("trace --scene ship --method rk4 --seconds 10 --every 6");
     let ticks: Vec<_> = rows(&csv).iter().map(|row| row[0].to_owned()).collect();
     assert_eq!(ticks, ["0", "0", "6", "6", "12", "12", "18", "18"]);
@@ -229,7 +229,7 @@ fn several_methods_race_in_the_order_named_each_once() {
 }
 
 #[test]
-fn a_lane_that_halts_ends_with_a_word_on_standard_error() {
+fn a_lane_that_halts_is_reported_on_standard_error() {
     let output = run_in(
         &std::env::temp_dir(),
         "trace --scene stiff --method semi-implicit-euler --tick-hz 49 --seconds 20",
@@ -250,7 +250,7 @@ fn a_lane_that_halts_ends_with_a_word_on_standard_error() {
 }
 
 #[test]
-fn the_rows_of_a_body_that_halted_end_and_those_beside_it_go_on() {
+fn rows_of_a_halted_body_end_while_others_continue() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 10\nseconds = 60\nmethods = ['explicit-euler']\n\
                  [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 400\n\
@@ -284,7 +284,7 @@ fn the_rows_of_a_body_that_halted_end_and_those_beside_it_go_on() {
 }
 
 #[test]
-fn a_truth_that_halts_is_told_and_nothing_is_compared_with_it() {
+fn a_halted_truth_is_reported_and_nothing_is_compared_with_it() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 10\nseconds = 2\nmethods = ['rk4']\n\
                  [[spring]]\nname = 'light'\nmass_kg = 1e-300\nstiffness_n_per_m = 1e-300\n\
@@ -304,7 +304,7 @@ fn a_truth_that_halts_is_told_and_nothing_is_compared_with_it() {
 }
 
 #[test]
-fn a_script_switches_the_method_of_a_lane_alone_and_of_no_lane_in_a_race() {
+fn a_script_switches_a_lone_lane_but_no_lane_of_a_race() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 10\nseconds = 1\n\
                  [[spring]]\nname = 'a, \"b\"'\nmass_kg = 1\nstiffness_n_per_m = 40\n\

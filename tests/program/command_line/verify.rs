@@ -1,4 +1,4 @@
-//! `verify`: what is the same, what is another, and what cannot be judged.
+//! `verify`: the same runs, changed runs, and clips that cannot be judged.
 
 use std::fs;
 use std::io::{self, Write};
@@ -30,7 +30,7 @@ fn manifest_of(folder: &Path) -> PathBuf {
     folder.join("clip/manifest.json")
 }
 
-/// Changes the manifest, whatever its hashes say.
+/// Changes the manifest without regard to its hashes.
 fn edit(folder: &Path, change: impl FnOnce(&mut Manifest)) {
     let mut manifest = read(folder);
     change(&mut manifest);
@@ -42,8 +42,10 @@ fn read(folder: &Path) -> Manifest {
 }
 
 #[test]
-fn what_was_captured_here_is_the_same_here() {
-    let Some(folder) = clip_or_skip("what_was_captured_here_is_the_same_here") else { return };
+fn a_capture_from_this_machine_verifies_as_the_same() {
+    let Some(folder) = clip_or_skip("a_capture_from_this_machine_verifies_as_the_same") else {
+        return;
+    };
     let (code, stdout, stderr) = verify(folder.path(), "");
     assert_eq!((code, &*stderr), (Some(0), ""));
     let expected =
@@ -97,8 +99,8 @@ fn one_bit_of_one_frame_is_a_change_of_pixels_and_not_of_physics() {
 }
 
 #[test]
-fn a_frame_that_is_gone_or_broken_is_named() {
-    let Some(folder) = clip_or_skip("a_frame_that_is_gone_or_broken_is_named") else { return };
+fn a_missing_or_broken_frame_is_named() {
+    let Some(folder) = clip_or_skip("a_missing_or_broken_frame_is_named") else { return };
     let clip = folder.path().join("clip");
     fs::remove_file(clip.join("frame-000000.png")).unwrap();
     fs::write(clip.join("frame-000001.png"), "half").unwrap();
@@ -130,8 +132,8 @@ fn a_state_of_another_run_is_a_change_of_physics_at_its_tick() {
 }
 
 #[test]
-fn a_lane_that_ends_otherwise_is_a_change_of_physics() {
-    let test = "a_lane_that_ends_otherwise_is_a_change_of_physics";
+fn a_different_final_state_is_a_change_of_physics() {
+    let test = "a_different_final_state_is_a_change_of_physics";
     let Some(folder) = clip_or_skip(test) else { return };
     let whole = fs::read(manifest_of(folder.path())).unwrap();
     type Change = fn(&mut Manifest);
@@ -156,8 +158,8 @@ fn a_lane_that_ends_otherwise_is_a_change_of_physics() {
 }
 
 #[test]
-fn a_scene_file_that_has_changed_since_the_capture_is_told_of_and_not_run() {
-    let test = "a_scene_file_that_has_changed_since_the_capture_is_told_of_and_not_run";
+fn a_scene_file_changed_since_the_capture_is_reported_and_not_run() {
+    let test = "a_scene_file_changed_since_the_capture_is_reported_and_not_run";
     let Some(folder) = clip_or_skip(test) else { return };
     let mut text = String::new();
     edit(folder.path(), |manifest| {
@@ -170,7 +172,7 @@ fn a_scene_file_that_has_changed_since_the_capture_is_told_of_and_not_run() {
         fs::write(&file, now).unwrap();
         let (code, stdout, stderr) = verify(folder.path(), "--physics-only");
         assert_eq!(code, Some(0), "{stdout}{stderr}");
-        let said = "mine.toml has changed since the capture; the scene as captured is run";
+        let said = "mine.toml has changed since the capture; verify runs the captured scene";
         assert_eq!(stderr.contains(said), is_told, "{stderr}");
     }
 }
@@ -201,8 +203,10 @@ fn a_changed_constant_is_a_change_of_physics_at_the_first_tick() {
 }
 
 #[test]
-fn what_cannot_be_judged_says_why() {
-    let Some(folder) = clip_or_skip("what_cannot_be_judged_says_why") else { return };
+fn an_invalid_manifest_is_refused_with_the_reason() {
+    let Some(folder) = clip_or_skip("an_invalid_manifest_is_refused_with_the_reason") else {
+        return;
+    };
     let whole = fs::read(manifest_of(folder.path())).unwrap();
     let refused = |change: &dyn Fn(&mut Manifest), said: &str| {
         fs::write(manifest_of(folder.path()), &whole).unwrap();
@@ -270,8 +274,10 @@ fn what_cannot_be_judged_says_why() {
 }
 
 #[test]
-fn another_driver_is_said_and_has_its_limits() {
-    let Some(folder) = clip_or_skip("another_driver_is_said_and_has_its_limits") else { return };
+fn another_driver_is_reported_and_judged_within_limits() {
+    let Some(folder) = clip_or_skip("another_driver_is_reported_and_judged_within_limits") else {
+        return;
+    };
     edit(folder.path(), |manifest| manifest.adapter.name = "another card".into());
     let (code, stdout, stderr) = verify(folder.path(), "");
     assert_eq!(code, Some(0), "{stdout}{stderr}");
@@ -283,8 +289,8 @@ fn another_driver_is_said_and_has_its_limits() {
 /// Mesa draws in software under both interfaces; elsewhere one of them may be missing.
 #[cfg(target_os = "linux")]
 #[test]
-fn opengl_draws_what_vulkan_drew_within_the_limits() {
-    let test = "opengl_draws_what_vulkan_drew_within_the_limits";
+fn opengl_and_vulkan_frames_agree_within_the_limits() {
+    let test = "opengl_and_vulkan_frames_agree_within_the_limits";
     let folder = tempfile::tempdir().unwrap();
     let with = |backend: &str, arguments: &str| {
         let mut command = regatta();
@@ -309,8 +315,8 @@ fn opengl_draws_what_vulkan_drew_within_the_limits() {
 }
 
 #[test]
-fn differences_never_replace_what_is_judged_or_what_is_not_ours() {
-    let test = "differences_never_replace_what_is_judged_or_what_is_not_ours";
+fn differences_never_replace_judged_or_foreign_frames() {
+    let test = "differences_never_replace_judged_or_foreign_frames";
     let Some(folder) = clip_or_skip(test) else { return };
     let frame = folder.path().join("clip/frame-000003.png");
     fs::copy(folder.path().join("clip/frame-000004.png"), &frame).unwrap();
@@ -340,8 +346,8 @@ fn differences_never_replace_what_is_judged_or_what_is_not_ours() {
 }
 
 #[test]
-fn blessed_frames_are_the_same_again() {
-    let Some(folder) = clip_or_skip("blessed_frames_are_the_same_again") else { return };
+fn blessed_frames_verify_as_the_same() {
+    let Some(folder) = clip_or_skip("blessed_frames_verify_as_the_same") else { return };
     let whole = fs::read(manifest_of(folder.path())).unwrap();
     let frame = folder.path().join("clip/frame-000001.png");
     fs::write(&frame, "broken").unwrap();

@@ -1,4 +1,4 @@
-//! `verify --report`: what is written for programs and for a CI's list of tests, and what it never replaces.
+//! `verify --report`: reports for programs and for a CI's list of tests, and the files that they never replace.
 
 use std::fs;
 use std::path::Path;
@@ -9,8 +9,8 @@ use super::regatta;
 use super::verify::{clip_or_skip, verify};
 
 #[test]
-fn reports_are_written_for_programs() {
-    let Some(folder) = clip_or_skip("reports_are_written_for_programs") else { return };
+fn reports_are_machine_readable() {
+    let Some(folder) = clip_or_skip("reports_are_machine_readable") else { return };
     fs::remove_file(folder.path().join("clip/frame-000002.png")).unwrap();
     let report = |format: &str| {
         let (code, ..) = verify(folder.path(), &format!("--report {format} report"));
@@ -42,8 +42,8 @@ fn two_reports_are_two_files() {
 }
 
 #[test]
-fn a_report_that_cannot_be_written_names_its_own_option() {
-    let Some(folder) = clip_or_skip("a_report_that_cannot_be_written_names_its_own_option") else {
+fn an_unwritable_report_names_its_own_option() {
+    let Some(folder) = clip_or_skip("an_unwritable_report_names_its_own_option") else {
         return;
     };
     let (code, stdout, stderr) = verify(folder.path(), "--physics-only --report json no/x");
@@ -85,8 +85,9 @@ fn a_report_never_replaces_a_file_of_a_capture() {
 
 #[cfg(unix)]
 #[test]
-fn a_report_through_a_link_is_written_to_its_target() {
-    let Some(folder) = clip_or_skip("a_report_through_a_link_is_written_to_its_target") else {
+fn a_report_through_a_symbolic_link_is_written_to_its_target() {
+    let Some(folder) = clip_or_skip("a_report_through_a_symbolic_link_is_written_to_its_target")
+    else {
         return;
     };
     let [link, target] = ["link", "target"].map(|name| folder.path().join(name));
@@ -100,8 +101,8 @@ fn a_report_through_a_link_is_written_to_its_target() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_report_to_what_is_open_already_is_added_to_it() {
-    let Some(folder) = clip_or_skip("a_report_to_what_is_open_already_is_added_to_it") else {
+fn a_report_to_standard_output_is_appended() {
+    let Some(folder) = clip_or_skip("a_report_to_standard_output_is_appended") else {
         return;
     };
     let log = folder.path().join("log");

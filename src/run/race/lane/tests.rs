@@ -8,7 +8,7 @@ fn bits(stepper: &dyn Stepper) -> Vec<u64> {
 }
 
 #[test]
-fn a_tick_takes_as_many_equal_steps_as_the_lane_has_substeps() {
+fn a_tick_takes_one_equal_step_per_substep() {
     let scene = Scene::built_in("spring").unwrap();
     let body = &scene.bodies[0];
     for method in GENERAL_METHODS {
@@ -31,7 +31,7 @@ fn a_tick_takes_as_many_equal_steps_as_the_lane_has_substeps() {
 }
 
 #[test]
-fn a_lane_that_is_switched_takes_the_substeps_of_the_other() {
+fn a_switched_lane_takes_the_substeps_of_its_new_spec() {
     let scene = Scene::built_in("spring").unwrap();
     let euler = Solver::Method(method("explicit-euler").unwrap());
     let truth = Lane::new(&scene, Solver::Truth, 1);

@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_push_turns_as_sine_and_cosine_say_in_pieces_and_by_squaring() {
+    fn a_push_rotates_by_sine_and_cosine_in_pieces_and_by_squaring() {
         for (coupling, w) in [(Few, 0.6), (Few, 40.0), (All, 0.6), (All, 40.0)] {
             let found = flow(coupling, [w, 0.0], [0.0, w], [0.0, 0.0]).unwrap();
             near(found, [1.0 - libm::cos(w), libm::sin(w)], 40.0);
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn a_decay_far_beyond_the_step_ends_where_it_tends() {
+    fn a_decay_much_faster_than_the_step_ends_at_its_limit() {
         let found = flow(All, [0.0, 1e9], [0.0, 1e9], [0.0; 2]).unwrap();
         near(found, [0.0, 1.0], 1e3);
         let failure = flow(Few, [0.0, 1e9], [0.0, 1e9], [0.0; 2]);
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_response_is_that_of_swing_decay_and_growth() {
+    fn the_response_matches_oscillation_decay_and_growth() {
         // s = e^(αt) sin(ωt)/ω with z = 2α and y = -α² - ω², and its integrals from the equation.
         for alpha in [0.0, -0.3, -4.0, 0.5] {
             for w in [1e-3, 0.2, 1.7, 30.0] {
@@ -292,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_finite_comes_of_an_undefined_matrix() {
+    fn an_undefined_matrix_gives_no_finite_result() {
         let found = flow(All, [f64::NAN, 0.0], [1.0; 2], [0.0; 2]).unwrap();
         assert!(found.iter().all(|x| x.is_nan()));
     }

@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sparse_system_is_solved_even_where_all_products_point_one_way() {
+    fn a_sparse_system_is_solved_even_if_all_products_are_parallel() {
         let start: Vec<f64> = (0..8).map(|i| 1.0 - 0.3 * f64::from(i)).collect();
         let y = State { q: start.clone(), v: start.clone() };
         let [alpha, beta] = [0.01, 0.1];

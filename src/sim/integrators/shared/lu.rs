@@ -293,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_swaps_of_a_matrix_leave_is_not_in_the_next() {
+    fn row_swaps_of_one_matrix_do_not_affect_the_next() {
         // Bands stored as such, and one so small that it is stored whole.
         for n in [4, 9] {
             let mut matrix = StageLu::new(1, n, 1);

@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_written_with_the_brackets_that_keep_their_order() {
+    fn generated_lines_keep_the_necessary_brackets() {
         let text = "v = (v + (target - x) * 0.2) * -0.85; x += v * dt - (1 - (x - 3)) / (2 * 3)";
         let lines = [
             "v = (v + (target - x) * 0.2) * (-0.85)",

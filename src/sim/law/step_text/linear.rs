@@ -125,7 +125,7 @@ impl LinearRule {
             return refused("the rule leaves `x` where it is", "say how it moves: `x += v * dt`");
         }
         if !text.is_linear() {
-            return refused("the rule is not linear, so that no exact motion is behind it", ask);
+            return refused("the rule is not linear, so it has no exact motion", ask);
         }
         let state = text.with_causes(vec![0]);
         let hz = fps.hz();
@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_under_a_rule_is_where_its_lines_put_it() {
+    fn a_body_under_a_rule_follows_its_lines() {
         for (text, fps, target) in [
             ("v = (v + (target - x) * 0.2) * 0.85; x += v", 60, 0.0),
             ("v += ((target - x) * 100 - 5 * v - 9.8) * dt; x += v * dt", 60, 0.0),
@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rule_is_the_body_that_it_moves_like() {
+    fn a_rule_is_recognised_as_the_body_it_moves_like() {
         // Semi-implicit Euler of ω² = 100 at 60 Hz: cos(θ) = 1 - ω²h²/2.
         let theta = f64::acos(1.0 - 100.0 / 7200.0) * 60.0;
         let RuleBody::Spring { stiffness, damping } =
@@ -325,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rule_that_no_body_moves_like_says_why() {
+    fn a_rule_like_no_body_is_refused_with_the_reason() {
         for (text, why) in [
             ("v *= 0.9", "leaves `x`"),
             ("v -= v * abs(v) * dt; x += v", "not linear"),

@@ -114,7 +114,7 @@ mod tests {
     use super::plain;
 
     #[test]
-    fn what_only_another_language_wants_is_blank_and_no_byte_moves() {
+    fn foreign_syntax_becomes_blanks_and_no_byte_moves() {
         for (written, read) in [
             ("x += 0.2f * v; // drag", "x += 0.2  * v;        "),
             ("x = 1e-3F # £", "x = 1e-3      "),

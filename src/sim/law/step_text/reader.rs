@@ -174,7 +174,11 @@ impl<'t> Reader<'t> {
         match self.index(name) {
             Some(TARGET) => {
                 let remedy = "give the number another name, such as `goal`";
-                return fault(span, "`target` is where `x` goes, which no line changes", remedy);
+                return fault(
+                    span,
+                    "`target` is the goal of `x`, and no line may change it",
+                    remedy,
+                );
             }
             Some(index) => self.is_carried[index] |= is_carried,
             None if self.names.len() == MAX_STEP_NAMES => {
@@ -456,7 +460,7 @@ impl<'t> Reader<'t> {
         let last = 0..self.text.len();
         let assigns = |line: &Line| matches!(line, Line::Assign { name: X | V, .. });
         if !self.lines.iter().any(assigns) {
-            let remedy = "write `x` for what moves and `v` for its velocity: `x += v * dt`";
+            let remedy = "write `x` for the position and `v` for its velocity: `x += v * dt`";
             return fault(last, "no line assigns `x` or `v`", remedy);
         }
         let mut carried = self.carried.clone();

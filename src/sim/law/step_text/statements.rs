@@ -42,7 +42,7 @@ const REFUSED_ALONE: [(&str, &str); 5] = [
     ("takes", "a method takes `a(x, v)` alone"),
     ("use", "write the lines inside the functions"),
     ("count", "write the lines of one step, which has no loops"),
-    ("fail", "let the numbers be what they become"),
+    ("fail", "leave the numbers as they come out"),
     ("stay", "write the lines in an `if` of the opposite"),
 ];
 
@@ -190,8 +190,8 @@ impl Reader<'_> {
         let Some((sign, joins)) = operator.filter(|_| !self.rest().starts_with("==")) else {
             let (what, remedy) = match self.rest().chars().next() {
                 Some('.' | '[') => (
-                    format!("`{}` is a part of something", quoted(self.text[whole(self)].trim())),
-                    "a step moves one number: write `x` for where it is and `v` for how fast it moves",
+                    format!("`{}` is one part of a value", quoted(self.text[whole(self)].trim())),
+                    "a step moves one number: write `x` for its position and `v` for its velocity",
                 ),
                 Some('(') => (
                     format!("`{written}(…)` is a call"),
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn statements_end_at_semicolons_braces_and_lines_that_do_not_go_on() {
+    fn statements_end_at_semicolons_braces_and_complete_lines() {
         let text = "let k: f32 = 3; v = (v + (1 - x)\n * 0.2) * k\n  - 1\nx += v;\n";
         assert_eq!(read(text), ["let k = 3", "v = (v + (1 - x)\n * 0.2) * k\n  - 1", "x += v"]);
         let text = "memory old = 0\nif (x > 1) { x = 1; v = 0 } else if x < 0\n{\nx = 0 } else { old = x }";
@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_statement_is_refused_at_its_place() {
+    fn a_malformed_statement_is_refused_at_its_place() {
         for (text, at) in [
             ("x", 0..1),
             ("x == 1", 0..6),

@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_is_over_when_the_number_changes_or_all_are_forgotten() {
+    fn a_fault_disappears_when_its_number_changes_or_all_are_cleared() {
         let mut window = TestWindow::new([400.0, 300.0]);
         let context = window.context.clone();
         let id = Id::unique("field");
@@ -317,7 +317,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_is_entered_by_enter_or_where_the_focus_leaves_but_not_by_escape() {
+    fn a_number_is_entered_by_enter_or_loss_of_focus_but_not_by_escape() {
         let text = || vec![Event::Text("2.5".into())];
         for (key, entered) in [(Key::Enter, &[2.5][..]), (Key::Tab, &[2.5]), (Key::Escape, &[])] {
             let (words, taken) = typed(1.0, vec![text(), vec![pressed(key)], vec![]]);
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_paste_is_cut_and_is_still_a_fault() {
+    fn a_long_paste_is_truncated_and_still_refused() {
         let paste = || vec![Event::Paste("tick,x,v\n1,2.5,3\n".repeat(5000))];
         let (words, taken) = typed(1.0, (0..30).map(|_| paste()).collect());
         assert_eq!((words[0].chars().count(), taken.len()), (MAX_NUMBER, 0), "{words:?}");
@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_finite_number_gets_a_sentence() {
+    fn a_non_finite_number_is_refused_with_a_sentence() {
         for (text, sentence) in [
             ("1e400", "`1e400` is too large for a number"),
             ("-1e400 kg", "`-1e400 kg` is too large for a number"),
@@ -358,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_may_be_typed_with_its_unit_and_nothing_else() {
+    fn a_typed_number_may_be_followed_only_by_its_own_unit() {
         assert_eq!(parsed(" 90 N/m ", "N/m"), Some(90.0));
         assert_eq!(parsed("\u{2212}1e3", ""), Some(-1000.0));
         assert_eq!(parsed("90 kg", "N/m"), None);

@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slider_reaches_its_value_and_no_value_that_is_impossible() {
+    fn a_slider_reaches_its_value_and_no_invalid_value() {
         let mut seen = 0;
         let positive = [1e-300, 1e-3, 1.0, 39.5, 255.0, 1e15];
         for scene in SCENES {
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slider_of_a_positive_value_is_logarithmic_and_stays_while_it_is_dragged() {
+    fn a_slider_of_a_positive_value_is_logarithmic_and_keeps_its_range() {
         let reach = |present| {
             SliderRange::of(Range::POSITIVE, Values { present, opened: 40.0 })
                 .expect("it is no curve")

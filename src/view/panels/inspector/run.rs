@@ -189,7 +189,7 @@ mod tests {
     use crate::scene::Scene;
 
     #[test]
-    fn in_solo_the_number_beside_the_method_follows_a_switch() {
+    fn in_solo_the_number_of_the_method_follows_a_switch() {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.apply(StageCommand::Pick(2));
         assert_eq!(number(&studio, studio.selected()), 3);

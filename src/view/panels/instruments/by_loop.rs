@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn every_instrument_of_the_loop_lab_has_a_curve_for_each_loop_on_the_stage_and_can_be_saved() {
+    fn every_loop_lab_instrument_plots_and_exports_each_loop_on_the_stage() {
         for scene in ["spring", "harbour", "orbit"] {
             let mut studio = lab_at(scene, 3_000_000_000);
             studio.apply(StageCommand::Pick(1));
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn a_display_holds_what_a_loop_shows_until_the_next_frame() {
+    fn a_display_holds_the_shown_state_until_the_next_frame() {
         let studio = lab_at("spring", 900_000_000);
         let motion = plot(&studio, Instrument::Motion);
         let loops = studio.loop_lab().unwrap();
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn every_measure_of_a_frame_can_be_looked_at() {
+    fn every_measure_of_a_frame_can_be_plotted() {
         let mut studio = lab_at("spring", 2_000_000_000);
         studio.apply(StageCommand::Instrument(Instrument::Error));
         for (place, metric) in FRAME_METRICS.iter().enumerate() {

@@ -100,7 +100,7 @@ fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
 }
 
 #[test]
-fn in_a_low_window_a_plot_has_the_room_of_its_legend() {
+fn a_plot_in_a_low_window_takes_the_room_of_its_legend() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.apply(StageCommand::ToggleRace);
     (0..240).for_each(|_| studio.tick());
@@ -114,7 +114,7 @@ fn in_a_low_window_a_plot_has_the_room_of_its_legend() {
 }
 
 #[test]
-fn every_metric_can_be_looked_at() {
+fn every_metric_can_be_plotted() {
     let offered = error::choices().count();
     assert_eq!(offered + 1, METRICS.len(), "and the energy drift");
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
@@ -128,7 +128,7 @@ fn every_metric_can_be_looked_at() {
 }
 
 #[test]
-fn a_truth_that_halted_is_not_said_to_be_shown() {
+fn the_plot_of_a_halted_truth_says_that_there_is_none() {
     let text = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
                 [[spring]]\nmass_kg = 1e-10\nstiffness_n_per_m = 1e-10\nkick_n_s = 1e15\n";
     let mut studio = Studio::new(Scene::parse("kicked.toml", text).unwrap());
@@ -183,7 +183,7 @@ fn race_of_springs() -> Studio {
 }
 
 #[test]
-fn a_pointer_reads_off_every_curve_at_its_time() {
+fn the_pointer_reads_every_curve_at_its_time() {
     let (studio, mut person) = (race_of_springs(), Person::new());
     let (before, _) = person.frame(&studio, Vec::new());
     assert!(!before.iter().any(|text| text.starts_with("t = ")), "{before:?}");
@@ -232,7 +232,7 @@ fn a_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
 }
 
 #[test]
-fn a_click_on_a_curve_selects_its_lane_and_beside_it_goes_to_that_time() {
+fn a_click_on_a_curve_selects_its_lane_and_a_click_elsewhere_seeks() {
     let (studio, mut person) = (race_of_springs(), Person::new());
     let set = plot_set_of(&studio, Detail::Samples).unwrap();
     let room = Rect::from_min_size(Pos2::ZERO, FRAME);
@@ -251,7 +251,7 @@ fn a_click_on_a_curve_selects_its_lane_and_beside_it_goes_to_that_time() {
 }
 
 #[test]
-fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() {
+fn a_placement_refits_the_axis_and_breaks_the_exact_line() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.apply(StageCommand::Pick(3));
     (0..120).for_each(|_| studio.tick());
@@ -285,7 +285,7 @@ fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() 
 }
 
 #[test]
-fn a_reference_that_has_no_error_yet_is_not_said_to_have_one() {
+fn a_reference_shows_its_error_only_once_it_has_one() {
     for scene in ["helm", "pendulum"] {
         let mut studio = Studio::new(Scene::built_in(scene).unwrap());
         let words = |studio: &Studio| studio.race().truth().bodies()[0].truth_in_words();
@@ -297,7 +297,7 @@ fn a_reference_that_has_no_error_yet_is_not_said_to_have_one() {
 }
 
 #[test]
-fn the_cloud_tells_what_becomes_of_the_area_and_why_a_body_has_none() {
+fn the_cloud_reports_its_area_or_why_there_is_no_cloud() {
     const SIZE: Vec2 = vec2(1280.0, 720.0);
     let said = |studio: &Studio, wanted: &str| {
         texts(studio, SIZE).iter().any(|(_, text)| text.contains(wanted))
@@ -321,11 +321,11 @@ fn the_cloud_tells_what_becomes_of_the_area_and_why_a_body_has_none() {
     let table = csv(&studio).unwrap().concat();
     assert!(table.contains(",area / start,,implicit-euler,1,0.") && table.contains(",exact,1,"));
     assert!(svg(&studio).unwrap().contains("<polyline"));
-    assert!(said(&lab_of("orbit"), "has 2 coordinates"));
+    assert!(said(&lab_of("orbit"), "satellite has 2"));
 }
 
 #[test]
-fn where_the_scale_leaves_little_room_nothing_vanishes_in_silence() {
+fn curves_outside_the_scale_are_reported() {
     let mut studio = Studio::new(Scene::with_two_springs());
     (0..60).for_each(|_| studio.tick());
     // A window of 1280 × 720 at 125 and 175 %, one of 2560 × 1440 at 175 %, and a small one.

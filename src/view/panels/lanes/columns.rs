@@ -94,7 +94,8 @@ fn body<'a>() -> Column<Row<'a>> {
 /// The column of verdicts. Its head names the body if all verdicts are about one, and in a race the body of the
 /// numbers.
 fn verdict<'a>(studio: &Studio) -> Column<Row<'a>> {
-    let about = "what this method does to the scene at this tick rate: its worst body, judged in a run of its own; a click sorts from best to worst";
+    let about = "the effect of this method on the scene at this tick rate: its worst body, judged in a separate run; \
+                 click to sort from best to worst";
     let bodies = &studio.scene().bodies;
     let whose = row::judged_body(studio).map(|body| format!(" ({})", bodies[body].name));
     let head = format!("Verdict{}", whose.unwrap_or_default());
@@ -137,7 +138,7 @@ fn chase<'a>() -> [Column<Row<'a>>; 2] {
     let half_life = Column::number(
         "half-life",
         (88.0, 1),
-        "time in which the body covered half of the way to its target; of a method that does not run, the verdict's",
+        "time in which the body covered half of the way to its target; for a method that does not run, the verdict's",
         |row: &Row<'a>| Some(format!("{} ms", significant(row.half_life_ms()?, 3))),
         Row::half_life_ms,
     );
@@ -157,7 +158,9 @@ fn energy<'a>() -> Column<Row<'a>> {
         let sign = if energy > 0.0 && row.has_truth() { "+" } else { "" };
         Some(format!("{sign}{} {unit}", significant(energy, 3)))
     };
-    let about = "energy gained or lost, in percent of the energy that the exact swing exchanges, or else of the most that the exact body had; in joules where neither is known, and all that the body has where there is no truth";
+    let about = "energy gained or lost, in percent of the energy that the exact swing exchanges, or else of the most \
+                 that the exact body had; in joules if neither is known; without a truth, all the energy of the \
+                 body";
     Column::number("energy", (98.0, 3), about, text, |row| Some(row.energy()?.0))
 }
 
@@ -190,7 +193,7 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     #[test]
-    fn where_there_is_no_truth_the_stage_says_so_once_and_no_cell_repeats_it() {
+    fn a_missing_truth_is_reported_once_on_the_stage_and_in_no_cell() {
         let mut studio = Studio::new(Scene::built_in("cloth").unwrap());
         studio.apply(StageCommand::ToggleRace);
         studio.tick();
@@ -206,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn before_a_prediction_of_the_guide_the_table_has_no_numbers_and_no_signs() {
+    fn the_table_hides_numbers_and_signs_before_a_prediction_in_the_guide() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let names = |studio: &Studio| {
             let table = lanes::table(studio);
@@ -231,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_stage_shows_too_has_a_column_only_where_there_is_room_for_it() {
+    fn values_already_on_the_stage_have_a_column_only_if_there_is_room() {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
         studio.apply(StageCommand::ToggleRace);
         let table = lanes::table(&studio);

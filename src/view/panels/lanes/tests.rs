@@ -27,13 +27,13 @@ fn entries(studio: &Studio, order: Order) -> Vec<usize> {
 }
 
 #[test]
-fn without_an_order_rows_are_in_that_of_the_keys() {
+fn unsorted_rows_follow_the_order_of_the_keys() {
     let studio = race();
     assert!(entries(&studio, None).into_iter().eq(0..studio.entries().len()));
 }
 
 #[test]
-fn every_column_sorts_all_rows_both_ways_and_those_without_a_value_last() {
+fn every_column_sorts_both_ways_with_missing_values_last() {
     let studio = race();
     let all: Vec<usize> = (0..studio.entries().len()).collect();
     for column in &table(&studio).columns {
@@ -58,7 +58,7 @@ fn every_column_sorts_all_rows_both_ways_and_those_without_a_value_last() {
 }
 
 #[test]
-fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
+fn in_solo_the_bodies_of_the_lane_stay_together_under_every_order() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.apply(StageCommand::Pick(1));
     studio.tick();
@@ -76,7 +76,7 @@ fn verdict_texts(studio: &Studio) -> Vec<String> {
 }
 
 #[test]
-fn the_tooltip_of_an_engine_tells_the_version_and_the_day_that_it_is_held_against() {
+fn the_tooltip_of_an_engine_names_its_tested_version() {
     let mut studio = Studio::new(Scene::built_in("engines").unwrap());
     studio.apply(StageCommand::ToggleRace);
     let mut versions = 0;
@@ -92,7 +92,7 @@ fn the_tooltip_of_an_engine_tells_the_version_and_the_day_that_it_is_held_agains
 }
 
 #[test]
-fn a_method_is_being_judged_until_it_is() {
+fn an_unjudged_method_is_marked_as_being_judged() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     assert!(
         verdict_texts(&studio).iter().all(|said| said == "judging…"),
@@ -108,7 +108,7 @@ fn a_method_is_being_judged_until_it_is() {
 }
 
 #[test]
-fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
+fn a_verdict_predicts_a_blow_up_and_a_halt_reports_it() {
     let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
     studio.apply(StageCommand::ToggleRace);
     studio.apply(StageCommand::TickHz(49.into()));
@@ -134,7 +134,7 @@ fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
 }
 
 #[test]
-fn the_body_that_every_verdict_is_about_is_named_once() {
+fn the_common_body_of_all_verdicts_is_named_once() {
     let mut studio = judged_race(Scene::with_two_springs());
     let flown: Vec<usize> =
         studio.race().entrants().iter().map(|lane| studio.entry(lane)).collect();
@@ -155,7 +155,7 @@ fn the_body_that_every_verdict_is_about_is_named_once() {
 }
 
 #[test]
-fn the_cost_is_that_of_a_tick_now() {
+fn the_cost_column_follows_the_present_substeps() {
     let mut studio = race();
     let costs = |studio: &Studio| -> Vec<Option<f64>> {
         let flown = studio.race().entrants().iter().map(|lane| studio.entry(lane));
@@ -182,7 +182,7 @@ fn the_cost_is_that_of_a_tick_now() {
 }
 
 #[test]
-fn who_hears_a_row_hears_its_numbers() {
+fn a_screen_reader_reads_the_numbers_of_a_row() {
     let mut window = TestWindow::new([1600.0, 600.0]);
     window.context.enable_accesskit();
     let studio = race();
@@ -195,7 +195,7 @@ fn who_hears_a_row_hears_its_numbers() {
 }
 
 #[test]
-fn the_error_in_the_table_is_the_largest_so_far_also_after_a_seek_and_begins_again_at_a_throw() {
+fn the_table_shows_the_largest_error_since_the_last_throw_even_after_a_seek() {
     let mut studio = Studio::new(Scene { seconds: 200.0, ..Scene::built_in("spring").unwrap() });
     studio.apply(StageCommand::Pick(2));
     let error = |studio: &Studio| groups(studio)[0][0].largest_error().expect("there is a truth");
@@ -223,7 +223,7 @@ fn the_error_in_the_table_is_the_largest_so_far_also_after_a_seek_and_begins_aga
 }
 
 #[test]
-fn every_body_with_a_known_energy_has_a_number_for_it_and_rounding_is_nought() {
+fn every_known_energy_has_a_number_and_rounding_counts_as_zero() {
     for scene in crate::scene::SCENES {
         let mut studio = Studio::new(Scene::built_in(scene.name).unwrap());
         (0..30).for_each(|_| studio.tick());

@@ -45,7 +45,7 @@ pub(in crate::view::panels) fn speed_menu(
             }
         }
     });
-    let about = "how slowly the frames are played (- and =); a monitor adds its own judder to what is faster";
+    let about = "playback speed of the frames (- and =); if faster, a monitor adds its own judder";
     response.response.on_hover_text(about);
 }
 
@@ -60,7 +60,7 @@ fn short_name(name: &str) -> String {
 /// Description of a trace.
 fn about_trace(trace: &FrameTrace) -> String {
     let built_in = TRACES.iter().find(|card| card.id == trace.name());
-    let about = built_in.map_or("frames that were opened from a file", |card| card.about);
+    let about = built_in.map_or("frames from a file", |card| card.about);
     let missing = trace.missing_display();
     about.to_owned() + &missing.map_or(String::new(), |missing| format!("; {missing}"))
 }
@@ -119,13 +119,13 @@ mod tests {
     }
 
     #[test]
-    fn a_long_name_of_a_trace_takes_no_more_room_than_a_short_one() {
+    fn a_long_trace_name_takes_no_extra_room() {
         assert!(TRACES.iter().all(|card| short_name(card.id) == card.id));
         assert_eq!(short_name("log.csv:PresentBench.exe-24892"), "log.csv:PresentBe…");
     }
 
     #[test]
-    fn every_trace_says_what_happens_in_it() {
+    fn every_trace_has_a_description() {
         let display = RefreshRate::new(60, 1);
         assert!(TRACES.iter().all(|card| about_trace(&card.trace(display)) == card.about));
         let list = trace_file::read("times.txt", "16.7\n16.6\n").unwrap();

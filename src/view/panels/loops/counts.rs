@@ -127,7 +127,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bars_are_told_in_words() {
+    fn a_screen_reader_hears_the_bars_in_words() {
         let series = [Series::new(Color32::WHITE, [0, 1, 1, 2].into_iter())];
         let told = "Ticks per frame: 0: 25 %, 1: 50 %, 2: 25 %, 3+: 0 %";
         assert_eq!(in_words(&series), told);
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_are_in_percent_and_three_ticks_or_more_are_together() {
+    fn shares_are_in_percent_with_three_or_more_ticks_together() {
         assert_eq!(
             shares_percent([0, 1, 1, 2, 3, 250, 0, 1].into_iter()),
             [25.0, 37.5, 12.5, 25.0]

@@ -202,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_range_has_every_lane_that_is_near_and_none_that_has_run_away() {
+    fn the_range_covers_nearby_lanes_but_no_runaway() {
         assert_eq!(range_ms(100.0, [0.0, 16.7].into_iter()), [-120.0, 0.0]);
         assert_eq!(range_ms(100.0, [-3.0, 21.0].into_iter()), [-140.0, 20.0]);
         assert_eq!(range_ms(100.0, [-3000.0, 5000.0].into_iter()), [-100.0, 0.0]);

@@ -58,7 +58,7 @@ mod tests {
     const SIZE: Vec2 = vec2(1280.0, 720.0);
 
     #[test]
-    fn a_press_on_the_track_goes_to_the_moment_there_and_a_row_and_its_eye_select_and_show() {
+    fn a_click_on_the_track_seeks_and_a_click_on_a_row_selects_or_shows_a_loop() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(Command::Loop(LoopCommand::ToggleLab));
         run_loops(&mut studio);

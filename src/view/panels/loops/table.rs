@@ -75,7 +75,7 @@ fn columns<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         },
         |row| SortKey::Number(row.index as f64),
     );
-    let about = "what this loop does to motion at this tick rate on this display; sorted from best to worst";
+    let about = "the effect of this loop on motion at this tick rate on this display; sorts from best to worst";
     let display = loops.traces()[loops.trace()].name();
     let verdict = Column::shown(
         "Verdict",
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn values_have_three_digits_or_decimals_and_nothing_is_told_from_almost_nothing() {
+    fn values_have_three_digits_and_zero_differs_from_almost_zero() {
         let texts = [(8.2247, MS), (0.0, MS), (1e-7, MS), (0.1234, Unit::Amplitudes)];
         let texts = texts.map(|(value, unit)| metric_text(value, unit));
         assert_eq!(texts, ["8.22 ms", "0 ms", "<0.001 ms", "12.3 %"]);

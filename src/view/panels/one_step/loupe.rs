@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn a_landing_that_covers_the_exact_one_is_under_a_loupe_with_its_scale() {
+    fn a_landing_that_covers_the_exact_one_gets_a_loupe_with_its_scale() {
         assert_eq!(labels(3).len(), 1, "Runge-Kutta 4: {:?}", labels(3));
         assert_eq!(labels(0), Vec::<String>::new(), "explicit Euler can be seen to miss");
     }

@@ -17,7 +17,7 @@ fn window() -> TestWindow {
 }
 
 #[test]
-fn the_cross_sets_rate_and_parameter_where_it_is_dragged_to() {
+fn dragging_the_cross_sets_rate_and_parameter() {
     let mut studio = studio("stiff");
     let mut window = window();
     let (commands, shown) = window.panels(&studio, Vec::new());
@@ -62,14 +62,14 @@ fn the_sentence_counts_the_stable_methods() {
 }
 
 #[test]
-fn a_body_without_a_map_says_why() {
+fn a_body_without_a_map_shows_the_reason() {
     let mut window = window();
     let texts = window.panels(&studio("orbit"), Vec::new()).1.words();
     assert!(texts.iter().any(|text| text.starts_with("No stability map")), "{texts:?}");
 }
 
 #[test]
-fn arrow_keys_move_the_focused_cross_by_rates_and_by_factors_of_the_parameter() {
+fn arrow_keys_step_the_focused_cross_in_rate_and_parameter() {
     let mut studio = studio("stiff");
     let mut window = window();
     window.panels(&studio, Vec::new());
@@ -105,7 +105,7 @@ fn a_boundary_is_labelled_with_its_limit_where_nothing_is_damped() {
 }
 
 #[test]
-fn a_label_stands_at_its_own_boundary_and_not_at_one_beside_it() {
+fn a_label_is_nearest_to_its_own_boundary() {
     let rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(400.0, 300.0));
     let line = |y: f32| (0..=100).map(|i| pos2(4.0 * i as f32, y)).collect::<Vec<Pos2>>();
     for (own, other) in [(100.0, 112.0), (112.0, 100.0), (150.0, 158.0)] {
@@ -118,7 +118,7 @@ fn a_label_stands_at_its_own_boundary_and_not_at_one_beside_it() {
 }
 
 #[test]
-fn the_lines_of_equal_damping_of_the_selected_engine_are_labelled_and_explained() {
+fn lines_of_equal_damping_of_the_selected_engine_are_labelled() {
     let mut window = window();
     let mut studio = studio("engines");
     let mut words = |studio: &Studio| window.panels(studio, Vec::new()).1.words().join("\n");
@@ -148,7 +148,7 @@ fn every_boundary_has_its_name() {
 }
 
 #[test]
-fn a_corner_where_only_an_implicit_method_is_stable_says_so() {
+fn a_corner_with_only_an_implicit_method_stable_is_labelled() {
     let words = window().panels(&studio("quarter-car"), Vec::new()).1.words();
     assert!(words.contains(&"only 5 Implicit midpoint is bounded here".to_owned()), "{words:?}");
 }

@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mark_says_when_where_what_and_by_whom() {
+    fn a_mark_names_its_time_lane_action_and_author() {
         let text = "title = 'x'\ntick_hz = 60\nseconds = 5\nmethods = ['explicit-euler']\n\
                     [[spring]]\nname = 'buoy'\nmass_kg = 1\nstiffness_n_per_m = 40\nkick_n_s = 1\n\
                     [[command]]\nat_s = 0.2\nmethod = 'rk4'\n";
@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_undone_at_once_and_what_is_done_to_no_body_leaves_no_mark() {
+    fn actions_undone_at_once_or_without_a_body_leave_no_mark() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(StageCommand::ToggleRace);
         run(&mut studio, 20);
@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn a_method_after_the_race_is_in_the_lane_that_went_on() {
+    fn a_switch_after_the_race_is_marked_in_the_remaining_lane() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(StageCommand::ToggleRace);
         run(&mut studio, 20);
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn marks_that_would_touch_are_one_with_the_sign_that_matters_most() {
+    fn touching_marks_merge_under_the_most_important_sign() {
         let mark = |tick, sign| TimelineMark { tick, sign, colour: Color32::WHITE, event: None };
         let marks = vec![
             mark(0, Sign::Kick),

@@ -82,14 +82,14 @@ mod tests {
     }
 
     #[test]
-    fn the_whole_has_the_scene_in_it_and_room_ahead_of_a_longer_run() {
+    fn the_full_span_covers_the_scene_and_leaves_room_for_a_longer_run() {
         assert_eq!(Span::whole(20.0, 3.0), WHOLE);
         assert_eq!(Span::whole(20.0, 19.9), WHOLE, "its end stays in its place to the last");
         assert_near(Span::whole(20.0, 100.0), 0.0, 108.0);
     }
 
     #[test]
-    fn a_place_on_the_track_and_its_time_belong_together() {
+    fn a_position_on_the_track_converts_to_its_time_and_back() {
         let span = Span { from_s: 4.0, to_s: 8.0 };
         assert_eq!((span.x(4.0, TRACK), span.x(7.0, TRACK)), (100.0, 700.0));
         for x in [100.0, 333.0, 900.0] {
@@ -108,14 +108,14 @@ mod tests {
     }
 
     #[test]
-    fn zooming_ends_at_the_whole_and_at_the_least() {
+    fn zooming_stops_at_the_full_and_at_the_smallest_span() {
         assert_near(WHOLE.zoomed(20.0, 1e9, 0.5, WHOLE), 19.5, 20.0);
         assert_near(Span { from_s: 3.0, to_s: 5.0 }.zoomed(5.0, 1e-9, 0.5, WHOLE), 0.0, 20.0);
         assert_near(Span { from_s: 0.0, to_s: 4.0 }.zoomed(4.0, 0.5, 0.5, WHOLE), 0.0, 8.0);
     }
 
     #[test]
-    fn a_view_moves_no_further_than_the_run_and_follows_the_present() {
+    fn a_span_stays_within_the_run_and_follows_the_present() {
         let span = Span { from_s: 4.0, to_s: 8.0 };
         assert_near(span.moved(1.0, WHOLE), 5.0, 9.0);
         assert_near(span.moved(-9.0, WHOLE), 0.0, 4.0);

@@ -16,7 +16,7 @@ fn track_y(studio: &Studio) -> f32 {
 }
 
 #[test]
-fn a_press_on_the_track_goes_to_the_tick_there_and_a_drag_follows() {
+fn a_press_on_the_track_seeks_and_a_drag_follows() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..600).for_each(|_| studio.tick());
     let mut window = TestWindow::new(SIZE);
@@ -39,7 +39,7 @@ fn a_press_on_the_track_goes_to_the_tick_there_and_a_drag_follows() {
 }
 
 #[test]
-fn letting_go_of_the_track_does_not_undo_the_step_of_a_key() {
+fn releasing_the_track_does_not_undo_a_step_by_key() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..600).for_each(|_| studio.tick());
     let mut window = TestWindow::new(SIZE);
@@ -75,13 +75,13 @@ fn an_undo_is_offered_once_something_was_changed() {
 }
 
 #[test]
-fn memory_is_told_in_megabytes() {
+fn memory_is_shown_in_megabytes() {
     assert_eq!(memory(13_002_342, 64 << 20), "12.4 of 64 MB");
     assert_eq!(memory(0, 1 << 20), "0.0 of 1 MB");
 }
 
 #[test]
-fn the_moment_under_the_pointer_is_told_above_the_track_on_one_line() {
+fn the_moment_under_the_pointer_is_one_line_above_the_track() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..600).for_each(|_| studio.tick());
     let mut window = TestWindow::new(SIZE);
@@ -101,7 +101,7 @@ fn the_moment_under_the_pointer_is_told_above_the_track_on_one_line() {
 }
 
 #[test]
-fn a_recording_is_compared_in_the_menu_and_its_first_difference_is_marked_and_gone_to() {
+fn a_compared_recordings_first_difference_is_marked_and_sought() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..200).for_each(|_| studio.tick());
     let mut window = TestWindow::new(SIZE);

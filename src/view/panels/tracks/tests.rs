@@ -19,7 +19,7 @@ fn tick(studio: &mut Studio, ticks: u32) {
 }
 
 #[test]
-fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark() {
+fn the_past_keeps_its_methods_colour_and_each_switch_has_a_mark() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     let flown = [(3, 60), (1, 90), (4, 30)];
     for (entry, ticks) in flown {
@@ -59,7 +59,7 @@ fn a_switch_after_a_halt_is_marked_where_the_other_method_took_over() {
 }
 
 #[test]
-fn a_lane_that_grows_out_of_the_plot_ends_there_with_an_arrow() {
+fn a_lane_that_leaves_the_plot_ends_with_an_arrow() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.apply(StageCommand::Pick(0));
     studio.apply(StageCommand::Restart);
@@ -74,7 +74,7 @@ fn a_lane_that_grows_out_of_the_plot_ends_there_with_an_arrow() {
 }
 
 #[test]
-fn a_lane_that_comes_back_to_stay_is_drawn_again() {
+fn a_lane_that_returns_for_good_is_drawn_again() {
     let points: Vec<Point> = (0..100)
         .map(|i| {
             let y = if (20..30).contains(&i) || i == 35 { 9.0 } else { 0.0 };
@@ -87,7 +87,7 @@ fn a_lane_that_comes_back_to_stay_is_drawn_again() {
 }
 
 #[test]
-fn no_stroke_leads_to_where_a_body_was_put() {
+fn no_stroke_leads_to_a_placement() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     tick(&mut studio, 60);
     studio.apply(RunCommand::Act(Action::Place { body: 0, q: [0.5].into(), v: [0.0].into() }));
@@ -101,7 +101,7 @@ fn no_stroke_leads_to_where_a_body_was_put() {
 }
 
 #[test]
-fn a_method_that_flies_outside_all_along_has_an_arrow_of_its_own() {
+fn a_method_entirely_outside_has_an_arrow_of_its_own() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.apply(StageCommand::Pick(0));
     tick(&mut studio, 600);

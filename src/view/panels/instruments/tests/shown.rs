@@ -33,7 +33,7 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
 }
 
 #[test]
-fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
+fn a_net_plots_its_widest_motion_or_the_chosen_coordinate() {
     let mut studio = Studio::new(Scene::built_in("bridge").unwrap());
     let named = |studio: &Studio| studio.past().coordinate(studio.race(), 0).0.name.to_string();
     assert_eq!(named(&studio), "y4", "the sag in the middle");
@@ -60,7 +60,7 @@ fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
 }
 
 #[test]
-fn the_values_beside_a_plot_keep_their_places_while_the_curves_cross() {
+fn readouts_of_a_plot_keep_their_order_when_curves_cross() {
     let mut studio = race_of_springs();
     let mut orders = Vec::new();
     for _ in 0..5 {
@@ -77,7 +77,7 @@ fn the_values_beside_a_plot_keep_their_places_while_the_curves_cross() {
 }
 
 #[test]
-fn while_a_body_is_held_and_when_it_was_let_go_the_plot_says_what_the_stage_says() {
+fn plot_and_stage_agree_on_a_held_and_on_a_released_body() {
     let mut studio = race_of_springs();
     let front = |studio: &Studio| {
         let set = plot_set_of(studio, Detail::Samples).unwrap();
@@ -102,7 +102,7 @@ fn while_a_body_is_held_and_when_it_was_let_go_the_plot_says_what_the_stage_says
 }
 
 #[test]
-fn the_number_of_a_lane_and_its_value_do_not_run_together() {
+fn the_number_of_a_lane_and_its_value_are_apart() {
     let mut studio = race_of_springs();
     for q in [0.001_92, -0.000_192, -123.4, 1.92e-7, -1.92e-7, 8.5e30] {
         let place = Action::Place { body: 0, q: [q].into(), v: [q].into() };
@@ -156,7 +156,7 @@ fn a_saved_picture_has_nothing_to_click() {
 }
 
 #[test]
-fn a_saved_picture_has_no_tabs_and_an_enlarged_instrument_has_the_room_of_the_table() {
+fn a_saved_picture_has_no_tabs_and_an_enlarged_instrument_covers_the_table() {
     let mut studio = race_of_springs();
     let has_tabs = |texts: &[(Rect, String)]| texts.iter().any(|(_, text)| text == "Error");
     let mut window = TestWindow::new([960.0, 600.0]);
@@ -187,7 +187,7 @@ fn a_pure_number_has_no_unit() {
 }
 
 #[test]
-fn motion_shows_all_of_the_selected_lane_however_far_it_goes_and_the_truth() {
+fn motion_fits_the_whole_selected_lane_and_the_truth() {
     let scenes = ["harbour", "stiff", "held-force", "orbit"];
     for (scene, is_race) in scenes.into_iter().flat_map(|scene| [(scene, false), (scene, true)]) {
         let mut studio = Studio::new(Scene::built_in(scene).unwrap());
@@ -230,7 +230,7 @@ fn motion_shows_all_of_the_selected_lane_however_far_it_goes_and_the_truth() {
 }
 
 #[test]
-fn a_body_that_has_not_moved_is_not_seen_through_a_microscope() {
+fn the_plot_of_a_resting_body_is_not_magnified() {
     for scene in ["harbour", "spring", "pendulum", "orbit"] {
         let mut studio = Studio::new(Scene::built_in(scene).unwrap());
         for instrument in [Instrument::Motion, Instrument::Phase] {
@@ -272,7 +272,7 @@ fn the_helm_plots_its_track() {
 }
 
 #[test]
-fn a_lane_alone_has_a_number_in_the_legend_only_where_a_key_picks_it() {
+fn a_lone_lane_has_a_legend_number_only_if_a_key_picks_it() {
     let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
     for (id, told) in
         [("semi-implicit-euler", "2 Semi-implicit Euler"), ("implicit-euler", "Implicit Euler")]
@@ -287,7 +287,7 @@ fn a_lane_alone_has_a_number_in_the_legend_only_where_a_key_picks_it() {
 }
 
 #[test]
-fn the_selected_lane_stays_in_every_plot_however_far_it_goes() {
+fn the_selected_lane_never_leaves_a_plot() {
     for (scene, seconds) in [("harbour", 13), ("spring", 9), ("orbit", 5)] {
         for is_race in [false, true] {
             let mut studio = Studio::new(Scene::built_in(scene).unwrap());
@@ -317,7 +317,7 @@ fn the_selected_lane_stays_in_every_plot_however_far_it_goes() {
 }
 
 #[test]
-fn while_time_runs_stage_and_plot_tell_one_speed_at_one_time() {
+fn stage_and_plot_show_the_same_speed_at_the_same_time() {
     let mut studio = Studio::new(Scene::built_in("surge").unwrap());
     studio.apply(ViewCommand::Quantity(Some(Quantity::Velocity)));
     for _ in 0..60 {
