@@ -41,11 +41,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 2.0;
     which_bodies(ui, studio, commands);
     let Some(advice) = studio.viewer.advice() else {
-        truncated_line(ui, RichText::new("judging every method …").color(palette(ui).dim));
+        cut_line(ui, RichText::new("judging every method …").color(palette(ui).dim));
         return;
     };
-    let best: Vec<Option<usize>> =
-        (0..CRITERIA.len()).map(|i| recommended_method(advice, i)).collect();
+    let best: Vec<_> = (0..CRITERIA.len()).map(|i| recommended_method(advice, i)).collect();
     show_recommendations(ui, studio, advice, &best, commands);
     ui.separator();
     if ui.available_height() >= breakpoints::CODE && !is_picture(ui) {
@@ -86,12 +85,12 @@ fn recommended_method(advice: &Advice, criterion: usize) -> Option<usize> {
 }
 
 /// A line of text, truncated where it would widen the panel.
-fn truncated_line(ui: &mut Ui, text: RichText) -> Response {
+fn cut_line(ui: &mut Ui, text: RichText) -> Response {
     ui.add(Label::new(text).truncate())
 }
 
 /// Lays out content at the left of a slot of this width, cut off at its right.
-fn show_in_slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
+fn in_slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
     let layout = Layout::left_to_right(Align::Center);
     let place = ui.allocate_ui_with_layout(vec2(width, LINE), layout, |ui| {
         ui.set_min_width(width);
@@ -119,7 +118,7 @@ fn show_recommendations(
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             language_menu(ui, studio, commands);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                truncated_line(ui, RichText::new(told).color(palette(ui).dim));
+                cut_line(ui, RichText::new(told).color(palette(ui).dim));
             });
         });
     });
@@ -131,8 +130,7 @@ fn show_recommendations(
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = APART;
             let name = RichText::new(criterion.name()).color(palette(ui).dim);
-            show_in_slot(ui, CRITERION, |ui| truncated_line(ui, name))
-                .on_hover_text(criterion.about());
+            in_slot(ui, CRITERION, |ui| cut_line(ui, name)).on_hover_text(criterion.about());
             let Some((advised, met)) = taken else {
                 let all_miss = advice.advised.iter().all(|row| row.met[i] == CriterionResult::No);
                 let none = if done < wanted {
@@ -142,7 +140,7 @@ fn show_recommendations(
                 } else {
                     "not known".into()
                 };
-                truncated_line(ui, RichText::new(none).color(palette(ui).text));
+                cut_line(ui, RichText::new(none).color(palette(ui).text));
                 return;
             };
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -181,8 +179,8 @@ fn taken_line(
     let (name_width, name, substeps) = (width(name).min(room), strong(name), strong(&substeps));
     let reason = instead_of.map_or(String::new(), |passed_over| format!("; {passed_over}"));
     let about = cell_tooltip(met) + &reason;
-    show_in_slot(ui, name_width, |ui| truncated_line(ui, name)).on_hover_text(&about);
-    truncated_line(ui, substeps).on_hover_text(about);
+    in_slot(ui, name_width, |ui| cut_line(ui, name)).on_hover_text(&about);
+    cut_line(ui, substeps).on_hover_text(about);
 }
 
 /// The menu of languages in which methods are copied.
@@ -236,7 +234,7 @@ fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             let calls = counted(spec.substeps, "call");
             let called = format!("{}: {calls} a tick, h = 1/{hz:.3} s", spec.method.name);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                truncated_line(ui, RichText::new(called).color(palette(ui).text));
+                cut_line(ui, RichText::new(called).color(palette(ui).text));
             });
         });
     });
@@ -277,7 +275,7 @@ fn table(
 ) {
     let (width, has_rates) = cell_width(ui, advice, ui.available_width());
     let (cells, whose) = if has_rates { (CELLS[0], whose) } else { (CELLS[1], "") };
-    truncated_line(ui, RichText::new(format!("{cells}{whose}")).size(SMALL).color(palette(ui).dim));
+    cut_line(ui, RichText::new(format!("{cells}{whose}")).size(SMALL).color(palette(ui).dim));
     let name = Column::shown(
         "method",
         0.0,
@@ -585,12 +583,8 @@ mod tests {
                 stiffness_factor: Some(factor),
                 limited_by: Some("stiffness".into()),
             };
-            assert_eq!(
-                cell_tooltip(&met).matches("no reserve").count(),
-                marks,
-                "{}",
-                cell_tooltip(&met)
-            );
+            let tooltip = cell_tooltip(&met);
+            assert_eq!(tooltip.matches("no reserve").count(), marks, "{tooltip}");
             let mut window = TestWindow::new([1280.0, 720.0]);
             let mut frame = || {
                 window
