@@ -8,7 +8,7 @@ pub use crate::measure::{
     Adviser, CRITERIA, Criterion, Judge, Report, Verdict, advise, cloud, try_advise,
 };
 pub use crate::run::{
-    Follow, Journal, Lane, METRICS, Metric, Race, Run as Timeline, Session, diff, link, race, trace,
+    Journal, Lane, METRICS, Metric, Race, Run as Timeline, Session, Ticker, diff, link, race, trace,
 };
 pub use crate::scene::{
     self, Action, LaneId, LaneSpec, Options, SCENES, Scene, SceneBody, SceneErrors, Swing, custom,

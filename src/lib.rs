@@ -29,7 +29,7 @@
 //! # A frame
 //!
 //! events → [`Command`](studio::Command)s → [`Studio::apply`](studio::Studio::apply) → [`Action`](scene::Action)s →
-//! [`Race`](run::Race) → [`Done`](run::race::Done) → [`Clock::advance`](sim::Clock::advance) → due
+//! [`Race`](run::Race) → [`PerformedAction`](run::race::PerformedAction) → [`Clock::advance`](sim::Clock::advance) → due
 //! [ticks](run::Run::tick) → [`compose`](stage::compose()) → `FrameRenderer::draw` → present or read back. A
 //! [`FrameLoop`](studio::FrameLoop) does this in real time.
 //!

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::run::{Follow, Lane};
+use crate::run::{Lane, Ticker};
 
 /// Fewest ticks timed together. Reading the clock takes as long as a few ticks of a small body, at most a hundredth
 /// of this many.
@@ -21,7 +21,7 @@ const PATIENCE: u32 = 20;
 ///
 /// The lane must not halt within these ticks: a halted lane costs nothing.
 pub(crate) fn ns_per_tick(
-    made: impl Fn() -> Follow<'static, Lane>,
+    made: impl Fn() -> Ticker<'static, Lane>,
     ticks: u64,
     effort: Duration,
 ) -> Vec<f64> {
@@ -52,7 +52,7 @@ fn runs(
 
 /// Nanoseconds per tick, over enough copies for [`TOGETHER`] ticks, or over one copy if that takes `effort`.
 fn ns_per_tick_of_a_run(
-    made: &impl Fn() -> Follow<'static, Lane>,
+    made: &impl Fn() -> Ticker<'static, Lane>,
     ticks: u64,
     effort: Duration,
 ) -> f64 {
@@ -66,12 +66,12 @@ fn ns_per_tick_of_a_run(
 
 /// Time that this many runs take, and their ticks. Stops once `effort` has passed.
 fn elapsed_in(
-    made: &impl Fn() -> Follow<'static, Lane>,
+    made: &impl Fn() -> Ticker<'static, Lane>,
     ticks: u64,
     effort: Duration,
     runs: u64,
 ) -> (Duration, u64) {
-    let mut lanes: Vec<Follow<'static, Lane>> = (0..runs).map(|_| made()).collect();
+    let mut lanes: Vec<Ticker<'static, Lane>> = (0..runs).map(|_| made()).collect();
     let (start, mut done) = (Instant::now(), 0);
     for lane in &mut lanes {
         lane.run(ticks, |_, _| {
@@ -119,7 +119,7 @@ mod tests {
     fn only_a_run_with_ticks_has_a_cost() {
         let scene = Scene::built_in("chain").unwrap();
         let solver = Solver::Method(method("rk4").unwrap());
-        let made = || Follow::new(Lane::new(&scene, solver, 1), 60);
+        let made = || Ticker::new(Lane::new(&scene, solver, 1), 60);
         for ticks in [1, 60, 2 * TOGETHER] {
             let cost = ns_per_tick(made, ticks, Duration::from_millis(1)).first().copied();
             assert!(cost.is_some_and(|ns| ns.is_finite() && ns > 0.0), "{ticks} ticks: {cost:?}");

@@ -49,7 +49,7 @@ use clipboard::Clipboard;
 use error::reason;
 use event::Event;
 use growing_recording::GrowingRecording;
-use opening::Asked;
+use opening::RequestedFile;
 use tick_timer::TickTimer;
 use watch::FileWatch;
 use work_thread::WorkThread;
@@ -157,8 +157,8 @@ impl App {
         let now = Instant::now();
         self.redraw_owed = false;
         self.simulate(event_loop, now);
-        if self.hidden() {
-            return self.wait(event_loop);
+        if self.is_hidden() {
+            return self.wait_for_event(event_loop);
         }
         let Some(canvas) = &mut self.canvas else { return };
         if std::mem::take(&mut self.screenshot) {
@@ -183,7 +183,8 @@ impl App {
                     _ = thread::Builder::new().spawn(SceneList::prepare);
                 }
                 let due_ns = self.frames.end(self.ns_at(now), self.now_ns(), commands);
-                let recorded = || self.recording.as_ref()?.left(&self.frames.studio, now);
+                let recorded =
+                    || self.recording.as_ref()?.time_to_next_save(&self.frames.studio, now);
                 let after = match due_ns {
                     0 => Duration::ZERO,
                     _ if self.screenshot || waits_for_field => Duration::ZERO,
@@ -191,7 +192,7 @@ impl App {
                         .min(repaint_after)
                         .min(recorded().unwrap_or(Duration::MAX)),
                 };
-                self.schedule(event_loop, now, after);
+                self.schedule_frame(event_loop, now, after);
             }
             Ok(FrameOutcome::Skipped) => {
                 event_loop.set_control_flow(ControlFlow::WaitUntil(now + MAX_WAIT));
@@ -223,14 +224,14 @@ impl App {
             }
         }
         let studio = &self.frames.studio;
-        self.analysis.ask(studio.analysis_request());
-        self.loops.ask(loop_request(studio));
-        self.clouds.ask(cloud_request(studio).map(Arc::new));
-        self.tick_timer.ask(studio, now);
+        self.analysis.set_request(studio.analysis_request());
+        self.loops.set_request(loop_request(studio));
+        self.clouds.set_request(cloud_request(studio).map(Arc::new));
+        self.tick_timer.request_timing(studio, now);
         let last = self.seconds.map_or(u64::MAX, |s| studio.race().nearest_tick(s));
         let started = self.started;
         let clock = || started.elapsed().as_nanos() as u64;
-        self.frames.pass(self.ns_at(now), last, &clock);
+        self.frames.advance(self.ns_at(now), last, &clock);
         let studio = &self.frames.studio;
         if let Some(recording) = &mut self.recording {
             recording.update(studio, now);
@@ -259,12 +260,12 @@ impl App {
             DriverRequest::ExportInstrument => self.export_instrument(),
             DriverRequest::ToggleFullScreen => self.toggle_full_screen(),
             DriverRequest::OpenTypedPath => {
-                if let Some(asked) = Asked::typed(&mut self.frames.studio) {
-                    self.watch.open(asked);
+                if let Some(requested) = RequestedFile::typed(&mut self.frames.studio) {
+                    self.watch.open(requested);
                 }
             }
             DriverRequest::CompletePath => {
-                let path = opening::completed(self.frames.studio.viewer.typed_path());
+                let path = opening::complete_path(self.frames.studio.viewer.typed_path());
                 self.frames.studio.apply(ViewCommand::TypePath(path));
             }
             DriverRequest::CopyLink
@@ -331,12 +332,12 @@ impl ApplicationHandler<Event> for App {
         if !matches!(cause, StartCause::ResumeTimeReached { .. }) {
             return;
         }
-        if self.hidden() || self.redraw_owed {
+        if self.is_hidden() || self.redraw_owed {
             self.simulate(event_loop, Instant::now());
         } else {
             self.request_redraw();
         }
-        self.wait(event_loop);
+        self.wait_for_event(event_loop);
     }
 
     fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Event) {
@@ -365,7 +366,7 @@ impl ApplicationHandler<Event> for App {
                 }
             }
             WindowEvent::DroppedFile(path) => {
-                return self.watch.open(Asked::dropped(&self.frames.studio, path));
+                return self.watch.open(RequestedFile::dropped(&self.frames.studio, path));
             }
             WindowEvent::ModifiersChanged(modifiers) => {
                 self.held = keys::modifiers(modifiers.state());
@@ -387,7 +388,7 @@ impl ApplicationHandler<Event> for App {
             _ => {}
         }
         // While time runs the next frame is due soon, and a moving mouse needs no extra frames.
-        if (response.repaint || !self.frames.asked().is_empty()) && !self.frames.studio.running() {
+        if (response.repaint || !self.frames.queued().is_empty()) && !self.frames.studio.running() {
             self.request_redraw();
         }
     }

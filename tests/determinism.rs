@@ -298,7 +298,7 @@ fn ragged_frames_lose_ticks_to_the_cap_and_count_them() {
         dropped += due.dropped;
     }
     assert!(dropped > 0);
-    assert_eq!((studio.race().tick(), studio.deck.dropped()), (ticks, dropped));
+    assert_eq!((studio.race().tick(), studio.deck.dropped_ticks()), (ticks, dropped));
     let owed = real_ns.unsigned_abs() * u64::from(studio.clock().tick_hz().whole_hz().unwrap())
         / SECOND.unsigned_abs();
     assert_eq!(ticks + dropped, owed, "every nanosecond is a tick stepped, dropped, or owed");

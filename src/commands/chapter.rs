@@ -16,7 +16,7 @@ use super::help::flowing;
 use super::interrupt::watch_for_interrupt;
 use super::output::print;
 use super::terminal::{print_status, report_left_alone};
-use crate::run::{Follow, Lane};
+use crate::run::{Lane, Ticker};
 use crate::scene::Scene;
 use crate::sim::integrators::{Method, method};
 use crate::sim::{Solver, TickRate};
@@ -127,7 +127,7 @@ fn moments(scene: &Scene, solver: Solver, seconds: f64, rate: TickRate) -> Vec<M
         let stepper = &lane.bodies()[0].stepper;
         Moment { t: rate.seconds(tick), q: stepper.q()[0], v: stepper.v()[0] }
     };
-    let mut follow = Follow::new(Lane::new(scene, solver, 1), rate);
+    let mut follow = Ticker::new(Lane::new(scene, solver, 1), rate);
     let mut moments = vec![at(&follow.body, 0)];
     follow.run((seconds * rate.hz()).round() as u64, |lane, tick| {
         moments.push(at(lane, tick));

@@ -43,7 +43,7 @@ pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {
     if scene.checks.is_empty() {
         scene.checks = checks_of(&args.run, &scene)?;
     }
-    let link = link::to(&scene).map_err(Error::mistake)?;
+    let link = link::link_to_run(&scene).map_err(Error::mistake)?;
     if link.len() > MAX_LETTERS {
         print_status(&format!(
             "warning: the link has {} letters, and a command line takes some {MAX_LETTERS}; share the file",

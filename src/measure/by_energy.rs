@@ -43,7 +43,7 @@ pub(super) async fn follow_energy(
 ) -> EnergyRun {
     let max_work = max_work.min(truth.meter.budget_left());
     let horizon = ticks(truth.horizon_s, tick_hz);
-    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
+    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
     let is_conserved = followed.body.stepper.energy().is_some();
     let spectral_radius = spectral_radius(truth, &mut followed.body, spec, tick_hz, max_work).await;
     let (mut seconds, mut evaluations) = (0.0, 0);

@@ -108,7 +108,7 @@ pub(super) async fn follow(
     if series.as_ref().is_some_and(|series| series.is_too_much) {
         return JudgedRun { is_too_much: true, ..JudgedRun::new(tick_hz.seconds(horizon)) };
     }
-    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
+    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
     let stepper = &*followed.body.stepper;
     let swings = truth.swing.as_ref().filter(|_| until == Until::Swings).map(|swing| {
         let amplitudes = truth.amplitudes[..truth.centres.len()].to_vec();
@@ -166,7 +166,7 @@ impl Measured {
             run.evaluations = stepper.evaluations();
             let first = stepper.q()[0];
             let chased_s = self.chased_s;
-            run.chase.iter_mut().filter(|_| t <= chased_s).for_each(|it| it.take_in(first, t));
+            run.chase.iter_mut().filter(|_| t <= chased_s).for_each(|it| it.add_place(first, t));
             if let Some(series) = &self.series {
                 run.compare(stepper, series, truth, tick, horizon, t);
                 if let Some(swing) = &truth.swing {

@@ -187,7 +187,7 @@ impl BodyTruth {
         let mut reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
         let mut kinetic: f64 = body.kinetic_energy().unwrap_or(0.0);
         let mut extent = Extent::default();
-        extent.cover(0.0, body.kinetic_energy());
+        extent.add_moment(0.0, body.kinetic_energy());
         let conserves = body.energy().is_some() && self.inputs.is_empty();
         let mut has_moved = false;
         // A reference is expensive, so its moments are kept.
@@ -200,7 +200,7 @@ impl BodyTruth {
                 there.set(0.0, &moment.x[..n], &moment.x[n..]);
                 let now = there.kinetic_energy();
                 kinetic = kinetic.max(now.unwrap_or(0.0));
-                extent.cover(0.0, now);
+                extent.add_moment(0.0, now);
             }
         };
         let walked = self.walk(&mut *body, Solver::Truth, self.horizon_s, most, see).await;

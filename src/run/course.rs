@@ -1,7 +1,7 @@
 //! The course of a run from its start to the last tick reached: session, observations, snapshots and events.
 
 use super::observations::ObservationsMark;
-use super::race::{Done, Journal, Observer, Race};
+use super::race::{Journal, Observer, PerformedAction, Race};
 use super::{Event, EventKind, Observations, Session};
 use crate::scene::{Action, LaneId};
 
@@ -10,12 +10,12 @@ use crate::scene::{Action, LaneId};
 pub(super) struct Course {
     pub(super) session: Session,
     pub(super) seen: Observations,
-    pub(super) noted: Noted,
+    pub(super) record: RunRecord,
 }
 
 /// The record of a run's progress; replaying the run rebuilds it.
 #[derive(Default)]
-pub(super) struct Noted {
+pub(super) struct RunRecord {
     /// Last tick reached.
     pub(super) end: u64,
     /// In order of ticks. In a whole run, the first one is the start.
@@ -28,8 +28,8 @@ pub(super) struct Noted {
 impl Course {
     pub(super) fn new(session: Session) -> Self {
         let seen = Observations::new(session.race(), session.scene().seconds);
-        let mut course = Self { session, seen, noted: Noted::default() };
-        course.noted.snapshots.push(course.snapshot());
+        let mut course = Self { session, seen, record: RunRecord::default() };
+        course.record.snapshots.push(course.snapshot());
         course
     }
 
@@ -38,7 +38,11 @@ impl Course {
     }
 
     /// Performs a person's action at the present tick.
-    pub(super) fn act(&mut self, action: Action, observer: &mut dyn Observer) -> Option<Done> {
+    pub(super) fn act(
+        &mut self,
+        action: Action,
+        observer: &mut dyn Observer,
+    ) -> Option<PerformedAction> {
         self.session.race.act(action, &mut (&mut self.seen, observer))
     }
 
@@ -50,17 +54,17 @@ impl Course {
     /// Makes a tick. When the run reaches it for the first time, notes its halts and hashes.
     pub(super) fn tick(&mut self, observer: &mut dyn Observer) {
         self.session.tick(&mut (&mut self.seen, observer));
-        let (race, noted) = (&self.session.race, &mut self.noted);
-        if race.tick() > noted.end {
-            noted.end = race.tick();
-            noted.halts.extend(halts(race));
-            note_hashes(&mut noted.hashes, race);
+        let (race, record) = (&self.session.race, &mut self.record);
+        if race.tick() > record.end {
+            record.end = race.tick();
+            record.halts.extend(halts(race));
+            note_hashes(&mut record.hashes, race);
         }
     }
 
     /// Returns to the start, and begins new observations of these coordinates there.
     pub(super) fn begin(&mut self, coordinates: Vec<usize>) {
-        self.session.race = self.noted.snapshots[0].race.clone();
+        self.session.race = self.record.snapshots[0].race.clone();
         let (race, span_s) = (&self.session.race, self.session.scene().seconds);
         self.seen = Observations::of_coordinates(race, span_s, coordinates.into_iter());
     }
@@ -74,7 +78,7 @@ impl Course {
     }
 }
 
-impl Noted {
+impl RunRecord {
     /// Splits off every record that depends on the actions at `tick`.
     pub(super) fn split_off(&mut self, tick: u64) -> Self {
         let Self { end, snapshots, halts, hashes } = self;

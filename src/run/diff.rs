@@ -24,11 +24,11 @@ mod layout;
 mod number;
 mod side;
 
-use clock::{Course, Moves};
+use clock::{ClockCheck, Moves};
 pub use findings::{ColumnDifference, Comparison, Difference};
 use growth::Growth;
 pub use layout::{Chosen, NotComparable};
-use layout::{Layout, ValueColumn};
+use layout::{ColumnLayout, ValueColumn};
 pub use number::{distance_ulps, is_same_number};
 use number::{hide_a_difference, is_text, parsed, relative};
 use side::{Place, Side, Waiting};
@@ -106,7 +106,7 @@ struct Stream {
     /// First finite value (or NaN) and largest size so far, for each value column.
     values: Vec<[f64; 2]>,
     /// Course of each value column that may be a clock.
-    courses: Vec<Course>,
+    courses: Vec<ClockCheck>,
     /// Hash of the first cell, for each text column.
     texts: Vec<Option<u64>>,
 }
@@ -150,7 +150,7 @@ where
     B: Records,
     E: From<A::Error> + From<B::Error> + From<NotComparable>,
 {
-    let layout = Layout::of([a.header(), b.header()], chosen)?;
+    let layout = ColumnLayout::of([a.header(), b.header()], chosen)?;
     let mut work = Work::new(layout, tolerance);
     let mut rows = [ByteRecord::new(), ByteRecord::new()];
     let mut places: [Option<(Place, u64)>; 2] = [None; 2];
@@ -168,7 +168,7 @@ where
         match places {
             [None, None] => break,
             [Some((one, number)), Some((other, _))] if one == other => {
-                work.pair(one, number, [&rows[0], &rows[1]]);
+                work.compare_rows(one, number, [&rows[0], &rows[1]]);
                 places = [None; 2];
             }
             // Advance only the side that is behind. Then both line up again after a row that one side lacks.
@@ -178,7 +178,7 @@ where
                 let goes = [order(one) <= order(other), order(other) <= order(one)];
                 for side in (0..2).filter(|side| goes[*side]) {
                     if let Some((place, number)) = places[side].take() {
-                        work.wait(side, place, number, &mut rows[side]);
+                        work.pair_or_queue(side, place, number, &mut rows[side]);
                     }
                 }
             }
@@ -189,7 +189,7 @@ where
 
 /// A comparison in progress.
 struct Work {
-    layout: Layout,
+    layout: ColumnLayout,
     tolerance: Tolerance,
     streams: Vec<Stream>,
     by_key: HashMap<Vec<u8>, usize>,
@@ -208,7 +208,7 @@ struct Work {
 }
 
 impl Work {
-    fn new(layout: Layout, tolerance: Tolerance) -> Self {
+    fn new(layout: ColumnLayout, tolerance: Tolerance) -> Self {
         let mut course_count = 0;
         let state = |column: &ValueColumn| {
             let is_watched = matches!(column.moves, Moves::Back | Moves::Unevenly);
@@ -254,7 +254,7 @@ impl Work {
                 None => {
                     let (stream, columns) = (self.streams.len(), self.layout.values.len());
                     let values = columns * size_of::<([f64; 2], Option<u64>)>();
-                    let courses = self.course_count * size_of::<Course>();
+                    let courses = self.course_count * size_of::<ClockCheck>();
                     self.name_bytes += NAME_BYTES + 2 * self.key.len() + values + courses;
                     if self.name_bytes > MAX_NAME_BYTES && stream > 0 {
                         return Err(NotComparable::TooManyNames { names: stream, columns });
@@ -263,7 +263,7 @@ impl Work {
                     self.streams.push(Stream {
                         key: self.key.clone(),
                         values: vec![[f64::NAN, 0.0]; columns],
-                        courses: vec![Course::default(); self.course_count],
+                        courses: vec![ClockCheck::default(); self.course_count],
                         texts: vec![None; columns],
                     });
                     stream
@@ -279,29 +279,29 @@ impl Work {
     }
 
     /// Pairs a row with its counterpart on the other side, or queues it.
-    fn wait(&mut self, side: usize, place: Place, number: u64, row: &mut ByteRecord) {
+    fn pair_or_queue(&mut self, side: usize, place: Place, number: u64, row: &mut ByteRecord) {
         if let Some(other) = self.sides[1 - side].remove(&place) {
             self.found.displaced += 1;
             match side {
-                0 => self.pair(place, number, [row, &other.row]),
-                _ => self.pair(place, other.number, [&other.row, row]),
+                0 => self.compare_rows(place, number, [row, &other.row]),
+                _ => self.compare_rows(place, other.number, [&other.row, row]),
             }
             return;
         }
         let row = std::mem::take(row);
         let own = &mut self.sides[side];
         if let Some(twice) = own.insert(place, Waiting { row, number }) {
-            self.lack(1 - side, place, twice.number);
+            self.count_missing(1 - side, place, twice.number);
         }
         while self.sides[side].is_full() {
             self.found.is_cut_off = true;
             let Some((place, lost)) = self.sides[side].oldest() else { break };
-            self.lack(1 - side, place, lost.number);
+            self.count_missing(1 - side, place, lost.number);
         }
     }
 
     /// Counts a row that `side` lacks.
-    fn lack(&mut self, side: usize, place: Place, number: u64) {
+    fn count_missing(&mut self, side: usize, place: Place, number: u64) {
         self.found.missing[side] += 1;
         let tick = self.layout.tick(place.order, number);
         let first = &mut self.found.first_missing[side];
@@ -309,7 +309,7 @@ impl Work {
     }
 
     /// Compares two rows at one place; `number` counts on the first side.
-    fn pair(&mut self, place: Place, number: u64, rows: [&ByteRecord; 2]) {
+    fn compare_rows(&mut self, place: Place, number: u64, rows: [&ByteRecord; 2]) {
         self.found.rows += 1;
         let tick = self.layout.tick(place.order, number);
         if let Some((side, column)) = self.layout.first_alone {
@@ -332,27 +332,27 @@ impl Work {
             if self.columns[column].is_text {
                 self.note_text(place, column, cells);
                 if !is_written_alike {
-                    self.differs(place, number, (rows[0], column), cells, (None, None));
+                    self.record_difference(place, number, (rows[0], column), cells, (None, None));
                 }
                 continue;
             }
             let first = parsed(cells[0]);
             let second = if is_written_alike { first } else { parsed(cells[1]) };
             let numbers = [first, second];
-            let scale = self.note(place, number, column, cells, numbers);
+            let scale = self.note_values(place, number, column, cells, numbers);
             if is_written_alike {
                 self.found.nans += u64::from(first.is_some_and(f64::is_nan));
                 continue;
             }
             let [Some(a), Some(b)] = numbers else {
-                self.differs(place, number, (rows[0], column), cells, (None, None));
+                self.record_difference(place, number, (rows[0], column), cells, (None, None));
                 continue;
             };
             if is_same_number(a, b) {
                 if hide_a_difference(cells, a) {
-                    self.differs(place, number, (rows[0], column), cells, (None, None));
+                    self.record_difference(place, number, (rows[0], column), cells, (None, None));
                 } else {
-                    self.hide(place, number, (rows[0], column), cells);
+                    self.keep_spelling_difference(place, number, (rows[0], column), cells);
                 }
                 self.found.zeros_of_two_signs +=
                     u64::from(a == 0.0 && a.is_sign_negative() != b.is_sign_negative());
@@ -367,14 +367,20 @@ impl Work {
                     *reached = Some(tick);
                 }
             }
-            self.growth.note(tick, self.layout.time(rows[0]), of_scale);
+            self.growth.note_difference(tick, self.layout.time(rows[0]), of_scale);
             let ulps = distance_ulps(a, b);
             let of_larger = relative(a, b);
             let is_equal = ulps.is_some_and(|ulps| ulps <= self.tolerance.ulps)
                 || of_larger.is_some_and(|part| part <= self.tolerance.relative);
             match is_equal {
-                true => self.hide(place, number, (rows[0], column), cells),
-                false => self.differs(place, number, (rows[0], column), cells, (ulps, of_larger)),
+                true => self.keep_spelling_difference(place, number, (rows[0], column), cells),
+                false => self.record_difference(
+                    place,
+                    number,
+                    (rows[0], column),
+                    cells,
+                    (ulps, of_larger),
+                ),
             }
         }
     }
@@ -407,7 +413,7 @@ impl Work {
     }
 
     /// Adds a column's values to its stream, and returns their largest size so far.
-    fn note(
+    fn note_values(
         &mut self,
         place: Place,
         number: u64,
@@ -443,7 +449,7 @@ impl Work {
 
     /// Records cells that differ by more than the tolerance; `far` is their distance in ulps and relative to the
     /// larger.
-    fn differs(
+    fn record_difference(
         &mut self,
         place: Place,
         number: u64,
@@ -463,7 +469,13 @@ impl Work {
     }
 
     /// Keeps cells that differ only in spelling, in case their column turns out to be text.
-    fn hide(&mut self, place: Place, number: u64, row: (&ByteRecord, usize), cells: [&[u8]; 2]) {
+    fn keep_spelling_difference(
+        &mut self,
+        place: Place,
+        number: u64,
+        row: (&ByteRecord, usize),
+        cells: [&[u8]; 2],
+    ) {
         let at = (place.order, number);
         let (row, column) = row;
         let state = &mut self.columns[column];
@@ -499,7 +511,8 @@ impl Work {
     fn close(mut self) -> Comparison {
         for side in 0..2 {
             let left: Vec<_> = self.sides[side].waiting.drain().collect();
-            left.into_iter().for_each(|(place, row)| self.lack(1 - side, place, row.number));
+            left.into_iter()
+                .for_each(|(place, row)| self.count_missing(1 - side, place, row.number));
         }
         let columns = || self.columns.iter().zip(&self.layout.values);
         let most = columns().filter(|(state, _)| state.worst > 0.0);

@@ -99,11 +99,11 @@ fn format_name(version: u32) -> String {
 
 /// Whether a text is a link, or an address that ends in one.
 pub fn is_link(written: &str) -> bool {
-    let written = decoded(written);
+    let written = percent_decoded(written);
     let Some((_, fragment)) = written.rsplit_once(MARK) else { return false };
     let names = [SCENE, METHOD, TICK_HZ];
     let is_named = |part: &str| part.split_once('=').is_some_and(|(key, _)| names.contains(&key));
-    fragment.split(END).any(|part| packed(part).is_some() || is_named(part))
+    fragment.split(END).any(|part| packed_run(part).is_some() || is_named(part))
 }
 
 /// A parsed link.
@@ -136,14 +136,14 @@ impl Link {
     /// # Errors
     /// If a setting is unknown, or no run follows the version.
     pub fn read(written: &str) -> Result<Self, LinkError> {
-        let written = decoded(written);
+        let written = percent_decoded(written);
         let fragment = written.rsplit_once(MARK).map_or("", |(_, fragment)| fragment);
         // No run and no setting ends in one of these letters.
         let is_around = |end: char| !(end.is_ascii_alphanumeric() || end == '-' || end == '_');
         let fragment = fragment.trim_end_matches(is_around);
         let mut link = Self { fragment: fragment.to_owned(), ..Self::default() };
         for part in fragment.split(END) {
-            if let Some((version, run)) = packed(part) {
+            if let Some((version, run)) = packed_run(part) {
                 link.packed = Some((version, run.to_owned()));
                 continue;
             }
@@ -224,7 +224,9 @@ impl Link {
     /// # Errors
     /// If the link is broken, too new or too long. It never unpacks more than a scene file may have.
     pub fn text(&self) -> Result<String, LinkError> {
-        let Some((version, run)) = &self.packed else { return Ok(self.named()?.alone().to_toml()) };
+        let Some((version, run)) = &self.packed else {
+            return Ok(self.named()?.into_scene().to_toml());
+        };
         match *version {
             VERSION => {}
             0 => return Err(LinkError::Broken),
@@ -249,7 +251,7 @@ impl fmt::Display for Link {
 
 impl Named {
     /// The scene with the opening method and mode that the link asks for.
-    fn alone(self) -> Scene {
+    fn into_scene(self) -> Scene {
         let Self { mut scene, methods, races } = self;
         scene.opens_as_race |= races;
         if let [method] = methods[..]
@@ -266,7 +268,7 @@ impl Named {
 }
 
 /// Version and letters of a packed run.
-fn packed(part: &str) -> Option<(u32, &str)> {
+fn packed_run(part: &str) -> Option<(u32, &str)> {
     let (version, run) = part.strip_prefix(VERSION_MARK)?.split_once('.')?;
     let is_version = !version.is_empty() && version.bytes().all(|digit| digit.is_ascii_digit());
     // A version with too many digits is newer, too.
@@ -274,7 +276,7 @@ fn packed(part: &str) -> Option<(u32, &str)> {
 }
 
 /// Decodes the percent codes that a messenger may add.
-fn decoded(written: &str) -> String {
+fn percent_decoded(written: &str) -> String {
     let mut parts = written.split('%');
     let mut bytes = parts.next().unwrap_or_default().as_bytes().to_vec();
     for part in parts {
@@ -288,7 +290,7 @@ fn decoded(written: &str) -> String {
 }
 
 /// Ticks of the checks that a link keeps. Early ones matter, since a motion may rest at the end.
-fn kept(scene: &Scene) -> Vec<u64> {
+fn kept_ticks(scene: &Scene) -> Vec<u64> {
     let mut ticks: Vec<u64> = scene.checks.iter().map(|check| check.tick).collect();
     ticks.sort_unstable();
     ticks.dedup();
@@ -310,13 +312,13 @@ fn kept(scene: &Scene) -> Vec<u64> {
 /// use regatta::scene::Scene;
 ///
 /// let scene = Scene::built_in("spring").expect("a built-in scene");
-/// let link = link::to(&scene).expect("a short scene");
+/// let link = link::link_to_run(&scene).expect("a short scene");
 /// assert!(link.starts_with("#v1.") && link.len() < 1000);
 /// let text = link::text(&link).expect("it was made just now");
 /// assert_eq!(Scene::parse("spring", &text).expect("a scene").to_toml(), scene.to_toml());
 /// ```
-pub fn to(scene: &Scene) -> Result<String, LinkError> {
-    let (kept, mut short) = (kept(scene), scene.clone());
+pub fn link_to_run(scene: &Scene) -> Result<String, LinkError> {
+    let (kept, mut short) = (kept_ticks(scene), scene.clone());
     let mut last = BTreeMap::<LaneId, u64>::new();
     for Check { tick, lane, .. } in &scene.checks {
         let last = last.entry(*lane).or_default();
@@ -340,7 +342,7 @@ pub fn to_built_in(name: &str) -> String {
 
 /// The link that names a run from its start, at any present tick; `None` if it needs a packed run. Only an unedited
 /// built-in scene has such a link, under methods and at a rate that a link can name.
-pub fn naming(session: &Session) -> Option<String> {
+pub fn link_by_name(session: &Session) -> Option<String> {
     let (scene, start) = (session.scene(), session.start());
     let built_in = Scene::built_in(&scene.name).filter(|_| scene.in_rust().is_none())?;
     let as_built_in = Scene {
@@ -419,7 +421,7 @@ mod tests {
         }
         session.run(1);
         let recording = session.recording(session.race().tick());
-        let link = to(&recording).unwrap();
+        let link = link_to_run(&recording).unwrap();
         // A minute with five kicks per second.
         assert!(link.len() < 8_000, "{} bytes", link.len());
         let around = format!("https://example.org/play/{link}&panels=off&play");
@@ -439,7 +441,7 @@ mod tests {
 
     #[test]
     fn a_broken_link_is_refused_in_a_sentence() {
-        let link = to(&Scene::built_in("spring").unwrap()).unwrap();
+        let link = link_to_run(&Scene::built_in("spring").unwrap()).unwrap();
         assert_eq!(text(&link.replace("#v1.", "#v2.")), Err(LinkError::Newer { version: 2 }));
         let far = text(&link.replace("#v1.", "#v99999999999."));
         let far = far.unwrap_err().to_string();
@@ -479,7 +481,7 @@ mod tests {
             let solos = (0..scene.method_list().len()).step_by(3).map(Some);
             for entry in solos.chain([None]) {
                 let run = begun(built_in.name, entry);
-                let Some(link) = naming(&run) else {
+                let Some(link) = link_by_name(&run) else {
                     // Lanes at equal cost, or two of one method, have no name.
                     assert!(entry.is_none() || scene.lanes.len() > 1, "{}", built_in.name);
                     continue;
@@ -501,7 +503,7 @@ mod tests {
                     }
                 };
                 assert_eq!(again.race().state_hash(), run.race().state_hash(), "{link}");
-                assert!(naming(&again).is_none(), "a file of another name is not the scene");
+                assert!(link_by_name(&again).is_none(), "a file of another name is not the scene");
             }
         }
     }
@@ -511,7 +513,7 @@ mod tests {
         let named = |change: &dyn Fn(&mut Session)| {
             let mut run = begun("spring", Some(0));
             change(&mut run);
-            naming(&run)
+            link_by_name(&run)
         };
         let rk4 = method("rk4").unwrap();
         assert_eq!(named(&|run| run.run(90)).unwrap(), "#scene=spring");
@@ -525,14 +527,18 @@ mod tests {
         assert_eq!(named(&late), None);
         let slow = Scene { tick_hz: 30.into(), ..Scene::built_in("spring").unwrap() };
         let race = Session::racing(slow.clone().into());
-        assert_eq!(naming(&race).unwrap(), "#scene=spring&tick-hz=30&race");
+        assert_eq!(link_by_name(&race).unwrap(), "#scene=spring&tick-hz=30&race");
         let short = Scene { seconds: 3.0, ..slow.clone() };
-        assert_eq!(naming(&Session::racing(short.into())), None);
+        assert_eq!(link_by_name(&Session::racing(short.into())), None);
         let two = Scene { lanes: slow.lanes[..2].to_vec(), ..slow.clone() };
-        assert_eq!(naming(&Session::solo(two.into(), 0)), None, "other methods stand beside it");
+        assert_eq!(
+            link_by_name(&Session::solo(two.into(), 0)),
+            None,
+            "other methods stand beside it"
+        );
         let mut heavy = slow;
         heavy.bodies[0].values[0] *= 2.0;
-        assert_eq!(naming(&Session::racing(heavy.into())), None);
+        assert_eq!(link_by_name(&Session::racing(heavy.into())), None);
     }
 
     #[test]
@@ -564,6 +570,6 @@ mod tests {
             let own = Link::read(coded).unwrap().to_string();
             assert_eq!(own, "#scene=spring&method=rk4");
         }
-        assert_eq!(decoded("100 %, %zz, %C3%A9 and %"), "100 %, %zz, é and %");
+        assert_eq!(percent_decoded("100 %, %zz, %C3%A9 and %"), "100 %, %zz, é and %");
     }
 }

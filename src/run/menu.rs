@@ -1,7 +1,10 @@
 //! The menu of methods from which a person picks.
 
-use super::race::{Done, Race, Switch};
+use super::race::{PerformedAction, Race, Switch};
 use crate::scene::{LaneId, LaneSpec};
+
+/// Index of a method in a [`Menu`].
+pub type MenuIndex = usize;
 
 /// The methods to which digits, rows and colours refer by index: the scene's lanes, then all other methods that fit
 /// its bodies. Each entry has the substeps and tolerance that its lane uses, or used last. The menu follows the
@@ -10,19 +13,19 @@ use crate::scene::{LaneId, LaneSpec};
 pub struct Menu {
     specs: Vec<LaneSpec>,
     /// Menu index of each lane in the race.
-    flown: Vec<(LaneId, usize)>,
+    lane_entries: Vec<(LaneId, MenuIndex)>,
 }
 
 impl Menu {
     /// The menu of a race at its start.
     pub(crate) fn new(race: &Race) -> Self {
-        let mut menu = Self { specs: race.methods().to_vec(), flown: Vec::new() };
+        let mut menu = Self { specs: race.methods().to_vec(), lane_entries: Vec::new() };
         for entrant in race.entrants() {
             // Identical lanes get separate entries while any are free.
             let mut own = 0..menu.specs.len();
             let own = own.find(|&at| menu.specs[at] == entrant.spec && menu.lane(at).is_none());
             let entry = own.unwrap_or_else(|| menu.entry_for(entrant.id, entrant.spec));
-            menu.flown.push((entrant.id, entry));
+            menu.lane_entries.push((entrant.id, entry));
         }
         menu
     }
@@ -36,42 +39,46 @@ impl Menu {
     ///
     /// # Panics
     /// If the lane is not in the race.
-    pub fn entry(&self, lane: LaneId) -> usize {
+    pub fn entry(&self, lane: LaneId) -> MenuIndex {
         self.known_entry(lane).expect("it is in the race")
     }
 
     /// First lane under the method with this index; `None` if no lane uses it.
-    pub fn lane(&self, entry: usize) -> Option<LaneId> {
-        self.flown.iter().find(|(_, flown)| *flown == entry).map(|(lane, _)| *lane)
+    pub fn lane(&self, entry: MenuIndex) -> Option<LaneId> {
+        self.lane_entries.iter().find(|(_, known)| *known == entry).map(|(lane, _)| *lane)
     }
 
-    fn known_entry(&self, lane: LaneId) -> Option<usize> {
-        self.flown.iter().find(|(known, _)| *known == lane).map(|(_, entry)| *entry)
+    fn known_entry(&self, lane: LaneId) -> Option<MenuIndex> {
+        self.lane_entries.iter().find(|(known, _)| *known == lane).map(|(_, entry)| *entry)
     }
 
     /// Heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
-        size_of_val(&self.specs[..]) + size_of_val(&self.flown[..])
+        size_of_val(&self.specs[..]) + size_of_val(&self.lane_entries[..])
     }
 
     /// Follows an action: a switched lane takes another entry, and lanes that left the race release theirs.
-    pub(super) fn follow(&mut self, race: &Race, done: &Done) {
+    pub(super) fn follow(&mut self, race: &Race, done: &PerformedAction) {
         if let Some(Switch { lane, spec, .. }) = done.switch {
             let entry = self.entry_for(lane, spec);
-            self.flown.iter_mut().filter(|(known, _)| *known == lane).for_each(|it| it.1 = entry);
+            self.lane_entries
+                .iter_mut()
+                .filter(|(known, _)| *known == lane)
+                .for_each(|it| it.1 = entry);
         }
-        self.flown.retain(|(lane, _)| race.entrant(*lane).is_some());
+        self.lane_entries.retain(|(lane, _)| race.entrant(*lane).is_some());
     }
 
     /// The index for a lane that switches to `spec`, so that the menu lists every lane's method. Prefers the entry
     /// equal to `spec`. Otherwise changes an entry of the same method that no other lane uses, or adds one.
-    fn entry_for(&mut self, lane: LaneId, spec: LaneSpec) -> usize {
+    fn entry_for(&mut self, lane: LaneId, spec: LaneSpec) -> MenuIndex {
         if let Some(known) = self.specs.iter().position(|known| *known == spec) {
             return known;
         }
-        let is_free = |&entry: &usize| {
-            let by_other = |flown: &(LaneId, usize)| *flown == (flown.0, entry) && flown.0 != lane;
-            self.specs[entry].method == spec.method && !self.flown.iter().any(by_other)
+        let is_free = |&entry: &MenuIndex| {
+            let by_other =
+                |known: &(LaneId, MenuIndex)| *known == (known.0, entry) && known.0 != lane;
+            self.specs[entry].method == spec.method && !self.lane_entries.iter().any(by_other)
         };
         let free = self.known_entry(lane).into_iter().chain(0..self.specs.len()).find(is_free);
         let entry = free.unwrap_or(self.specs.len());

@@ -139,8 +139,9 @@ pub const METRICS: &[Metric] = &[
         is_of_energy: false,
         about: "largest difference from the exact solution in a coordinate",
         measure: |lane, truth| {
-            let [q, exact] = both(lane, truth)?.map(|body| body.like_first(body.stepper.q()));
-            known(largest_difference(q, exact))
+            let [q, exact] =
+                unless_halted(lane, truth)?.map(|body| body.like_first(body.stepper.q()));
+            if_finite(largest_difference(q, exact))
         },
     },
     Metric {
@@ -153,8 +154,9 @@ pub const METRICS: &[Metric] = &[
         is_of_energy: false,
         about: "largest difference from the exact solution in a velocity",
         measure: |lane, truth| {
-            let [v, exact] = both(lane, truth)?.map(|body| body.like_first(body.stepper.v()));
-            known(largest_difference(v, exact))
+            let [v, exact] =
+                unless_halted(lane, truth)?.map(|body| body.like_first(body.stepper.v()));
+            if_finite(largest_difference(v, exact))
         },
     },
     Metric {
@@ -167,9 +169,9 @@ pub const METRICS: &[Metric] = &[
         is_of_energy: false,
         about: "speed above the exact one, in percent of the largest exact speed so far",
         measure: |lane, truth| {
-            let [speed, exact] = both(lane, truth)?.map(LaneBody::speed);
+            let [speed, exact] = unless_halted(lane, truth)?.map(LaneBody::speed);
             let largest = truth.extent()?.largest_speed();
-            known(100.0 * (speed - exact) / largest)
+            if_finite(100.0 * (speed - exact) / largest)
         },
     },
     Metric {
@@ -183,9 +185,9 @@ pub const METRICS: &[Metric] = &[
         about: "energy gained, in percent of the energy that the exact motion exchanges: the range of its kinetic \
                 energy, once it has reached both ends",
         measure: |lane, truth| {
-            let [lane, exact] = both(lane, truth)?;
+            let [lane, exact] = unless_halted(lane, truth)?;
             let exchanged = exact.extent()?.exchanged_j(&*exact.stepper)?;
-            known(100.0 * (lane.stepper.energy()? - exact.stepper.energy()?) / exchanged)
+            if_finite(100.0 * (lane.stepper.energy()? - exact.stepper.energy()?) / exchanged)
         },
     },
     Metric {
@@ -240,16 +242,16 @@ pub const METRICS: &[Metric] = &[
 pub fn energy_gained_percent(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
     let of_swing = (METRICS[Metric::ENERGY_DRIFT].measure)(lane, truth);
     of_swing.or_else(|| {
-        let [_, exact] = both(lane, truth).filter(|_| truth.stepper.is_linear())?;
+        let [_, exact] = unless_halted(lane, truth).filter(|_| truth.stepper.is_linear())?;
         let most_j = exact.stepper.energy().unwrap_or(exact.extent()?.most_j());
-        known(100.0 * energy_gained_j(lane, truth)? / most_j)
+        if_finite(100.0 * energy_gained_j(lane, truth)? / most_j)
     })
 }
 
 /// Energy of a body in a lane above that in truth, in joules; `None` if either is unknown.
 pub fn energy_gained_j(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
-    let [lane, exact] = both(lane, truth)?.map(energy_j);
-    known(lane? - exact?)
+    let [lane, exact] = unless_halted(lane, truth)?.map(energy_j);
+    if_finite(lane? - exact?)
 }
 
 /// Kinetic plus potential energy of a body, in joules; `None` if unknown, or once the body has halted.
@@ -257,17 +259,17 @@ pub fn energy_j(body: &LaneBody) -> Option<f64> {
     let stepper = &body.stepper;
     let parts = || Some(stepper.mechanical_energy()?.iter().sum());
     let energy = stepper.energy().or_else(parts).filter(|_| body.halted().is_none());
-    energy.and_then(known)
+    energy.and_then(if_finite)
 }
 
 /// The body in a lane and in truth; `None` once either has halted.
-fn both<'a>(lane: &'a LaneBody, truth: &'a LaneBody) -> Option<[&'a LaneBody; 2]> {
-    let go_on = lane.halted().is_none() && truth.halted().is_none();
-    go_on.then_some([lane, truth])
+fn unless_halted<'a>(lane: &'a LaneBody, truth: &'a LaneBody) -> Option<[&'a LaneBody; 2]> {
+    let are_running = lane.halted().is_none() && truth.halted().is_none();
+    are_running.then_some([lane, truth])
 }
 
 /// The value, if it is finite.
-fn known(value: f64) -> Option<f64> {
+fn if_finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
@@ -438,7 +440,7 @@ mod tests {
         let largest = |a: [f64; 3]| largest_difference(a.into_iter(), [0.0; 3].into_iter());
         assert_eq!(largest([1.0, 3.0, 2.0]), 3.0);
         assert!(largest([1.0, f64::NAN, 2.0]).is_nan());
-        assert_eq!(known(f64::NAN), None);
+        assert_eq!(if_finite(f64::NAN), None);
     }
 
     #[test]

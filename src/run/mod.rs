@@ -10,10 +10,10 @@
 use std::mem::{replace, swap};
 
 use crate::scene::Action;
-use course::{Course, Hashes, Noted, Snapshot};
+use course::{Course, Hashes, RunRecord, Snapshot};
 use past::Past;
-use race::{Done, Mode, Observer, Starts, TimeScale};
-use undo::{Change, Future, Replaced, UndoStack};
+use race::{Checkpoints, Mode, Observer, PerformedAction, TimeScale};
+use undo::{Change, Replaced, ReplacedFuture, UndoStack};
 
 mod course;
 #[cfg(any(feature = "cli", feature = "view"))]
@@ -35,11 +35,11 @@ mod undo;
 #[cfg(any(feature = "cli", feature = "view"))]
 pub(crate) use csv_row::csv_row;
 pub use event::{Event, EventKind};
-pub use menu::Menu;
+pub use menu::{Menu, MenuIndex};
 pub use metrics::{METRICS, Metric, Scale, Unit, energy_gained_j, energy_gained_percent, energy_j};
 pub use observations::Observations;
-pub use race::{Follow, Journal, Lane, Race};
-pub(crate) use recording::among as recording_among;
+pub use race::{Journal, Lane, Race, Ticker};
+pub(crate) use recording::with_menu_lanes as recording_among;
 pub use recording::{Reached, RecordingError, Replay, text as recording_text};
 pub use session::Session;
 pub(crate) use start::StartSettings;
@@ -128,20 +128,20 @@ impl Run {
         self.course.seen.menu()
     }
     /// The checkpoints from which verdicts and clouds restart.
-    pub(crate) fn starts(&self) -> &Starts {
-        self.course.seen.starts()
+    pub(crate) fn checkpoints(&self) -> &Checkpoints {
+        self.course.seen.checkpoints()
     }
     /// The last tick reached.
     pub fn end(&self) -> u64 {
-        self.course.noted.end
+        self.course.record.end
     }
     /// Whether the present tick is before the last tick reached.
     pub fn is_in_past(&self) -> bool {
-        self.race().tick() < self.course.noted.end
+        self.race().tick() < self.course.record.end
     }
     /// Memory (bytes) of the snapshots, and of the drawn pasts from before restarts.
     pub fn bytes(&self) -> usize {
-        let all = self.course.noted.snapshots.iter().chain(self.changes.snapshots());
+        let all = self.course.record.snapshots.iter().chain(self.changes.snapshots());
         all.map(|snapshot| snapshot.bytes).sum::<usize>() + self.changes.past_bytes()
     }
     /// Limit for [`Run::bytes`].
@@ -166,14 +166,14 @@ impl Run {
         let rows = self.course.session.journal().rows().iter();
         let is_solo = self.start().mode() == Mode::Solo;
         let mut solo = is_solo.then(|| self.start().entrants()[0].id);
-        let done = rows.take_while(|row| row.tick <= self.course.noted.end).map(|row| {
+        let done = rows.take_while(|row| row.tick <= self.course.record.end).map(|row| {
             if let Action::Solo { lane } = row.action {
                 solo = Some(lane);
             }
             let (action, author) = (row.action.clone(), row.author);
             Event { tick: row.tick, kind: EventKind::Done { action, author, solo } }
         });
-        let mut events: Vec<Event> = done.chain(self.course.noted.halts.iter().cloned()).collect();
+        let mut events: Vec<Event> = done.chain(self.course.record.halts.iter().cloned()).collect();
         events.sort_by_key(|event| event.tick);
         events
     }
@@ -209,7 +209,7 @@ impl Run {
         &mut self,
         action: Action,
         observer: &mut dyn Observer,
-    ) -> Option<Done> {
+    ) -> Option<PerformedAction> {
         let was_past = self.is_in_past();
         let journal = self.course.session.journal().clone();
         let tick = self.race().tick();
@@ -217,16 +217,16 @@ impl Run {
         self.course.seen.forget_future();
         let added = self.race().done() - 1;
         let rows = journal.tail_beside(self.course.session.journal(), added);
-        let noted = self.course.noted.split_off(tick);
+        let record = self.course.record.split_off(tick);
         let what = format!("{} (tick {tick})", done.action.in_words(self.course.session.scene()));
         // A change in the past has its own future to bring back.
         if was_past || !self.changes.has_future() {
-            let replaced = Replaced::Future(Future { tick, rows, noted });
+            let replaced = Replaced::Future(ReplacedFuture { tick, rows, record });
             self.changes.push(Change { what, next: self.next.clone(), replaced });
         } else {
             self.changes.rename_newest(what);
         }
-        self.next.keep(&done, self.course.race(), self.course.seen.menu());
+        self.next.apply_edit(&done, self.course.race(), self.course.seen.menu());
         Some(done)
     }
 
@@ -256,7 +256,7 @@ impl Run {
         if let Some(what) = kept {
             let (what, replaced) = (what.to_owned(), Replaced::Course(Box::new(course)));
             self.changes.push(Change { what, next: before, replaced });
-            self.fit();
+            self.thin_to_limit();
         }
         self.spacing = SPACING;
     }
@@ -275,7 +275,7 @@ impl Run {
     /// former tick. Returns whether there was a change.
     pub fn undo(&mut self) -> bool {
         let Some(mut change) = self.changes.done.pop() else { return false };
-        self.exchange(&mut change);
+        self.swap_change(&mut change);
         self.changes.undone.push(change);
         true
     }
@@ -283,21 +283,21 @@ impl Run {
     /// Repeats the change that was undone last, and moves to its tick. Returns whether there was one.
     pub fn redo(&mut self) -> bool {
         let Some(mut change) = self.changes.undone.pop() else { return false };
-        self.exchange(&mut change);
+        self.swap_change(&mut change);
         self.changes.done.push(change);
         true
     }
 
     /// Swaps in the other side of a change, and leaves this side there.
-    fn exchange(&mut self, change: &mut Change) {
+    fn swap_change(&mut self, change: &mut Change) {
         self.changes.close();
         swap(&mut self.next, &mut change.next);
         match &mut change.replaced {
             Replaced::Nothing => {}
             Replaced::Course(course) => swap(&mut self.course, course),
-            Replaced::Future(Future { tick, rows, noted }) => {
-                let left = self.course.noted.split_off(*tick);
-                self.course.noted.extend(replace(noted, left));
+            Replaced::Future(ReplacedFuture { tick, rows, record }) => {
+                let left = self.course.record.split_off(*tick);
+                self.course.record.extend(replace(record, left));
                 let mut journal = self.course.session.journal().clone();
                 journal.swap_tail(rows);
                 self.course.session.follow(journal);
@@ -311,7 +311,7 @@ impl Run {
 
     /// Moves to a tick, at most the last one reached, in the state before its actions.
     pub fn seek(&mut self, tick: u64) {
-        let tick = tick.min(self.course.noted.end);
+        let tick = tick.min(self.course.record.end);
         if tick != self.race().tick() {
             self.restore(tick);
         }
@@ -333,10 +333,10 @@ impl Run {
         let (tick, journal) = (self.race().tick(), self.course.session.journal().clone());
         let done = self.race().done();
         // The other snapshots mark a past with other coordinates.
-        self.course.noted.snapshots.truncate(1);
+        self.course.record.snapshots.truncate(1);
         self.changes.clear_futures();
         self.course.begin(coordinates.to_vec());
-        self.course.noted.snapshots[0].mark = self.course.seen.mark();
+        self.course.record.snapshots[0].mark = self.course.seen.mark();
         self.course.session.follow(journal);
         self.repeat_to(tick);
         if self.race().done() < done {
@@ -347,12 +347,12 @@ impl Run {
 
     /// The hashes noted so far, in order of ticks.
     fn hashes(&self) -> &[Hashes] {
-        &self.course.noted.hashes
+        &self.course.record.hashes
     }
 
     /// The race at the last tick reached, before its actions.
     fn race_at_end(&self) -> Race {
-        let Course { session, noted: Noted { snapshots, end, .. }, .. } = &self.course;
+        let Course { session, record: RunRecord { snapshots, end, .. }, .. } = &self.course;
         let before = session.journal().rows().partition_point(|row| row.tick < *end);
         if session.race.tick() == *end && session.race.done() == before {
             return session.race.clone();
@@ -366,7 +366,7 @@ impl Run {
 
     /// Moves to `tick` from a snapshot.
     fn restore(&mut self, tick: u64) {
-        let Course { session, seen, noted: Noted { snapshots, .. } } = &mut self.course;
+        let Course { session, seen, record: RunRecord { snapshots, .. } } = &mut self.course;
         let nearest = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick) - 1;
         let is_ahead = (snapshots[nearest].race.tick()..tick).contains(&session.race.tick());
         if !is_ahead {
@@ -398,30 +398,30 @@ impl Run {
     fn take_snapshot(&mut self) {
         let tick = self.race().tick();
         let index =
-            self.course.noted.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);
+            self.course.record.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);
         if self
             .course
-            .noted
+            .record
             .snapshots
             .get(index)
             .is_some_and(|snapshot| snapshot.race.tick() == tick)
         {
             return;
         }
-        self.course.noted.snapshots.insert(index, self.course.snapshot());
-        self.fit();
+        self.course.record.snapshots.insert(index, self.course.snapshot());
+        self.thin_to_limit();
     }
 
     /// Thins the snapshots to the memory limit, and then forgets changes. Drawn pasts may take up to half of the
     /// limit.
-    fn fit(&mut self) {
+    fn thin_to_limit(&mut self) {
         while self.bytes() > self.limit {
             if self.changes.past_bytes() <= self.limit / 2
-                && self.spacing <= self.course.noted.end.max(self.changes.end())
+                && self.spacing <= self.course.record.end.max(self.changes.end())
             {
                 self.spacing *= 2;
                 let stays = |snapshot: &Snapshot| snapshot.race.tick().is_multiple_of(self.spacing);
-                self.course.noted.snapshots.retain(stays);
+                self.course.record.snapshots.retain(stays);
                 self.changes.retain(stays);
             } else if !self.changes.drop_last() {
                 return;

@@ -2,12 +2,12 @@
 
 use super::Menu;
 use super::past::{Past, PastMark};
-use super::race::{Done, Observer, Race, Starts};
+use super::race::{Checkpoints, Observer, PerformedAction, Race};
 
 /// The menu, the checkpoints and the drawn past of a race.
 pub struct Observations {
     menu: Menu,
-    starts: Starts,
+    checkpoints: Checkpoints,
     past: Past,
 }
 
@@ -15,14 +15,14 @@ pub struct Observations {
 #[derive(Clone, Debug)]
 pub(super) struct ObservationsMark {
     menu: Menu,
-    starts: Starts,
+    checkpoints: Checkpoints,
     past: PastMark,
 }
 
 impl ObservationsMark {
     /// Heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
-        self.menu.heap_bytes() + self.starts.heap_bytes() + self.past.heap_bytes()
+        self.menu.heap_bytes() + self.checkpoints.heap_bytes() + self.past.heap_bytes()
     }
 }
 
@@ -31,7 +31,7 @@ impl Observations {
     /// plots show by default.
     pub fn new(race: &Race, span_s: f64) -> Self {
         let menu = Menu::new(race);
-        Self { past: Past::new(race, span_s, &menu), starts: Starts::default(), menu }
+        Self { past: Past::new(race, span_s, &menu), checkpoints: Checkpoints::default(), menu }
     }
 
     /// Like [`Observations::new`], with the coordinate to record for each body.
@@ -42,7 +42,7 @@ impl Observations {
     ) -> Self {
         let menu = Menu::new(race);
         let past = Past::of_coordinates(race, span_s, &menu, coordinates);
-        Self { past, starts: Starts::default(), menu }
+        Self { past, checkpoints: Checkpoints::default(), menu }
     }
 
     /// The methods from which a person picks.
@@ -51,8 +51,8 @@ impl Observations {
     }
 
     /// The checkpoints from which verdicts and clouds restart.
-    pub(super) fn starts(&self) -> &Starts {
-        &self.starts
+    pub(super) fn checkpoints(&self) -> &Checkpoints {
+        &self.checkpoints
     }
 
     /// The drawn past.
@@ -66,8 +66,8 @@ impl Observations {
     }
 
     pub(super) fn mark(&self) -> ObservationsMark {
-        let Self { menu, starts, past } = self;
-        ObservationsMark { menu: menu.clone(), starts: starts.clone(), past: past.mark() }
+        let Self { menu, checkpoints, past } = self;
+        ObservationsMark { menu: menu.clone(), checkpoints: checkpoints.clone(), past: past.mark() }
     }
 
     /// Whether a repetition from the mark `from` restores the drawn past at `mark`.
@@ -78,7 +78,7 @@ impl Observations {
     /// Rewinds to a mark of the present of `race`, which may also lie in the recorded future.
     pub(super) fn rewind(&mut self, mark: &ObservationsMark, race: &Race) {
         self.menu = mark.menu.clone();
-        self.starts = mark.starts.clone();
+        self.checkpoints = mark.checkpoints.clone();
         self.past.rewind(&mark.past, race);
     }
 
@@ -89,13 +89,13 @@ impl Observations {
 }
 
 impl Observer for Observations {
-    fn before(&mut self, race: &Race, done: &Done) {
+    fn before(&mut self, race: &Race, done: &PerformedAction) {
         self.past.before(race, &self.menu, done);
     }
 
-    fn after(&mut self, race: &Race, done: &Done) {
+    fn after(&mut self, race: &Race, done: &PerformedAction) {
         self.menu.follow(race, done);
-        self.starts.after(race, done);
+        self.checkpoints.after(race, done);
         self.past.after(race, &self.menu, done);
     }
 

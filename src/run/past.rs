@@ -4,7 +4,7 @@
 //! shows the same past as it did then. Samples name a lane's method by its index on the [`Menu`].
 
 use super::Menu;
-use super::race::{Done, Entrant, Race, Resumed, ResumedFrom, Switch};
+use super::race::{Entrant, PerformedAction, Race, Resumed, ResumedFrom, Switch};
 use crate::scene::{Action, LaneId};
 use crate::sim::bodies::Coordinate;
 use history::HistoryMark;
@@ -15,7 +15,7 @@ mod sample;
 mod truth_curve;
 mod windowed_log;
 
-pub use history::{History, Most, Samples};
+pub use history::{History, Peaks, Samples};
 pub use quantity::Quantity;
 pub use sample::{CAPACITY, Energies, Sample, Summary, SweptRange};
 use truth_curve::TruthMark;
@@ -164,7 +164,7 @@ impl Past {
 
     /// Shows the present of `race` until the next sample, so that the drawn past reaches it. Never allocates.
     pub(super) fn show_present(&mut self, race: &Race, menu: &Menu) {
-        self.each(race, menu, History::record_passing);
+        self.add_samples(race, menu, History::record_passing);
     }
 
     /// Ticks between samples.
@@ -176,18 +176,18 @@ impl Past {
     /// Adds the present to the histories if a sample is due, or else to the range that the next sample sweeps.
     fn sample(&mut self, race: &Race, menu: &Menu) {
         if race.tick().is_multiple_of(self.stride(race)) {
-            return self.each(race, menu, History::record);
+            return self.add_samples(race, menu, History::push_present);
         }
         for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
             let curves = histories.iter_mut().zip(&self.truth_curves);
             let bodies = entrant.lane.bodies().iter().zip(curves);
             for (body, (history, curve)) in bodies.filter(|(body, _)| body.halted().is_none()) {
-                history.pass(body.stepper.q()[curve.coordinate()]);
+                history.extend_swept(body.stepper.q()[curve.coordinate()]);
             }
         }
     }
 
-    fn each(&mut self, race: &Race, menu: &Menu, add: fn(&mut History, Sample)) {
+    fn add_samples(&mut self, race: &Race, menu: &Menu, add: fn(&mut History, Sample)) {
         let t = race.t();
         for (Entrant { id, lane, .. }, (_, histories)) in
             race.entrants().iter().zip(&mut self.histories)
@@ -205,7 +205,7 @@ impl Past {
 
     fn keep_corner(&mut self, race: &Race) {
         for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
-            curve.keep(race.t(), body);
+            curve.push_present(race.t(), body);
         }
     }
 
@@ -270,7 +270,7 @@ impl Past {
     }
 
     /// Prepares for an action that is about to change the race.
-    pub(super) fn before(&mut self, race: &Race, menu: &Menu, done: &Done) {
+    pub(super) fn before(&mut self, race: &Race, menu: &Menu, done: &PerformedAction) {
         for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
             curve.refresh(body, race.t());
         }
@@ -308,7 +308,7 @@ impl Past {
     }
 
     /// Follows an action after it has changed the race and `menu`.
-    pub(super) fn after(&mut self, race: &Race, menu: &Menu, done: &Done) {
+    pub(super) fn after(&mut self, race: &Race, menu: &Menu, done: &PerformedAction) {
         match &done.action {
             Action::Throttle(_) | Action::Rudder(_) | Action::Kick(_) => {
                 if let Action::Kick(_) = done.action {
@@ -316,12 +316,12 @@ impl Past {
                 }
                 self.keep_corner(race);
                 let input = done.action.input().expect("it is one");
-                self.truth_curves.iter_mut().for_each(|curve| curve.bend(input));
+                self.truth_curves.iter_mut().for_each(|curve| curve.note_input(input));
             }
             Action::Set { .. } => {
                 (self.changed_s, self.swings_since_s) = (race.t(), race.t());
                 self.keep_corner(race);
-                self.truth_curves.iter_mut().for_each(TruthCurve::change);
+                self.truth_curves.iter_mut().for_each(TruthCurve::invalidate_copy);
             }
             Action::Place { body, .. } => {
                 (self.changed_s, self.swings_since_s) = (race.t(), race.t());
@@ -331,7 +331,7 @@ impl Past {
                 for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
                     let (placed, entry) = (&entrant.lane.bodies()[*body], menu.entry(entrant.id));
                     let sample = Sample::new(t, entry, coordinate, [placed, truth]);
-                    histories[*body].jump(sample, Most::of(placed, truth));
+                    histories[*body].jump(sample, Peaks::of(placed, truth));
                 }
             }
             Action::Solo { .. } => self.leave_with(race),
@@ -366,7 +366,7 @@ impl Past {
         for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
             let bodies = entrant.lane.bodies().iter().zip(race.truth().bodies()).zip(histories);
             for ((body, truth), history) in bodies.filter(|((b, _), _)| b.halted().is_none()) {
-                history.note(Most::of(body, truth));
+                history.note_peaks(Peaks::of(body, truth));
             }
         }
     }

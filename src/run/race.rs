@@ -1,7 +1,7 @@
 //! All lanes and the truth, stepped tick by tick in integer time, with the actions on them.
 //!
 //! A [`Race`] ticks its [`Entrant`]s and performs the actions of its [`Journal`], and notifies an [`Observer`] of
-//! both. A [`Lane`] is one method on its own copy of the scene's bodies. A [`Follow`] ticks a single lane outside a
+//! both. A [`Lane`] is one method on its own copy of the scene's bodies. A [`Ticker`] ticks a single lane outside a
 //! run. An [`Interpolation`] draws a body between two ticks.
 
 use std::sync::Arc;
@@ -14,7 +14,6 @@ pub use crate::scene::TimeScale;
 pub use chase::Chase;
 pub use equal_cost::{equal_cost, lanes_that_race};
 pub(crate) use extent::Extent;
-pub use follow::{Follow, StopReason, Ticked};
 pub use interpolation::Interpolation;
 pub(crate) use interpolation::{hermite, slope};
 pub(crate) use intervention::Interventions;
@@ -22,21 +21,22 @@ pub(crate) use journal::JournalTail;
 pub use journal::{Author, Journal, JournalRow};
 pub(crate) use lane::advance_checked;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
+pub use ticker::{StopReason, Ticked, Ticker};
 
 mod acting;
 mod chase;
 mod equal_cost;
 mod extent;
-mod follow;
 mod interpolation;
 mod intervention;
 mod journal;
 mod lane;
 mod observer;
 mod run_start;
+mod ticker;
 
-pub use observer::{Done, Observer, Switch};
-pub(crate) use run_start::Starts;
+pub use observer::{Observer, PerformedAction, Switch};
+pub(crate) use run_start::Checkpoints;
 use run_start::{BodyStart, RunStart};
 
 /// One method at a time, or all of them at once.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::course::Hashes;
-use super::race::{Done, Mode, Observer, Race, Switch};
+use super::race::{Mode, Observer, PerformedAction, Race, Switch};
 use super::{Run, Session};
 use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
 
@@ -102,7 +102,7 @@ impl Run {
 /// A solo recording with its lane among `lanes`, so that the menu offers the same methods as before. It opens with
 /// its own method, and its script and checks refer to that lane. If `lanes` has another spec for its method, the
 /// recording stays unchanged.
-pub(crate) fn among(recording: Scene, lanes: &[LaneSpec]) -> Scene {
+pub(crate) fn with_menu_lanes(recording: Scene, lanes: &[LaneSpec]) -> Scene {
     let ([flown], false) = (&recording.lanes[..], recording.opens_as_race) else {
         return recording;
     };
@@ -135,7 +135,7 @@ impl ScriptRecorder {
 }
 
 impl Observer for ScriptRecorder {
-    fn before(&mut self, race: &Race, done: &Done) {
+    fn before(&mut self, race: &Race, done: &PerformedAction) {
         let action = match (done.switch, &done.action) {
             (Some(Switch { lane, spec, .. }), _) => Action::Lane { lane: self.lane(lane), spec },
             (None, Action::Solo { lane }) => Action::Solo { lane: self.lane(*lane) },
@@ -183,7 +183,11 @@ impl Replay {
 
     /// Runs to the next check, for at most this number of ticks, and notifies the observer. Returns `None` if the
     /// check is farther away, or if there is none.
-    pub fn go_on(&mut self, ticks: u64, observer: &mut dyn Observer) -> Option<Reached> {
+    pub fn run_to_next_check(
+        &mut self,
+        ticks: u64,
+        observer: &mut dyn Observer,
+    ) -> Option<Reached> {
         let row = *self.rows.last()?;
         let Check { tick, lane, .. } = self.session.scene().checks[row];
         let now = self.session.race().tick();
@@ -240,7 +244,7 @@ mod tests {
         let mut reached = Vec::new();
         let mut slices = 0;
         while !replay.is_over() {
-            reached.extend(replay.go_on(7, &mut ()));
+            reached.extend(replay.run_to_next_check(7, &mut ()));
             slices += 1;
         }
         assert!(slices > 14 && reached.len() == recording.checks.len());

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::race::{Journal, Mode, Observer, Race};
+use crate::run::MenuIndex;
 use crate::scene::{Action, Scene};
 
 /// A running scene, without a clock, a picture or a viewer.
@@ -44,7 +45,7 @@ impl Session {
 
     /// The scene at its start with one lane, under the method with index `entry` in the scene's
     /// [list](Scene::method_list). The scene's script may switch it.
-    pub fn solo(scene: Arc<Scene>, entry: usize) -> Self {
+    pub fn solo(scene: Arc<Scene>, entry: MenuIndex) -> Self {
         let race = Race::solo(&scene, scene.method_list(), entry).with_script(&scene.script);
         Self::new(scene, race)
     }

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::race::{Done, Mode, Race, lanes_that_race};
-use super::{Menu, Session};
+use super::race::{Mode, PerformedAction, Race, lanes_that_race};
+use super::{Menu, MenuIndex, Session};
 use crate::scene::{
     Action, LaneId, LaneSpec, MAX_LANES, MAX_SECONDS, MIN_SECONDS, Scene, SceneBody, edited_values,
 };
@@ -21,9 +21,9 @@ pub(crate) struct StartSettings {
     pub(crate) list: Vec<LaneSpec>,
     pub(crate) mode: Mode,
     /// Indices in `list` of a race's lanes.
-    lanes: Vec<usize>,
+    lanes: Vec<MenuIndex>,
     /// Index in `list` of the solo method, which also joins a race.
-    pub(crate) entry: usize,
+    pub(crate) entry: MenuIndex,
     pub(crate) tick_hz: TickRate,
     /// The lanes before equal cost was switched on; `None` while it is off.
     pub(crate) before_equal_cost: Option<Vec<(LaneId, LaneSpec)>>,
@@ -129,7 +129,7 @@ impl StartSettings {
     }
 
     /// Applies a person's action in `race` to the next restart.
-    pub(super) fn keep(&mut self, done: &Done, race: &Race, menu: &Menu) {
+    pub(super) fn apply_edit(&mut self, done: &PerformedAction, race: &Race, menu: &Menu) {
         match done.action {
             Action::TickHz(_) => self.tick_hz = race.tick_hz(),
             Action::Set { body, parameter, value } => {
@@ -148,6 +148,6 @@ impl StartSettings {
 }
 
 /// Menu index of each lane's method.
-fn entries(race: &Race, menu: &Menu) -> Vec<usize> {
+fn entries(race: &Race, menu: &Menu) -> Vec<MenuIndex> {
     race.entrants().iter().map(|entrant| menu.entry(entrant.id)).collect()
 }

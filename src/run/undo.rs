@@ -1,6 +1,6 @@
 //! One stack of all edits that can be undone or redone.
 
-use super::course::{Course, Noted, Snapshot};
+use super::course::{Course, RunRecord, Snapshot};
 use super::race::JournalTail;
 use super::start::StartSettings;
 
@@ -23,25 +23,25 @@ pub(super) struct Change {
 pub(super) enum Replaced {
     /// The run did not change, only the next start.
     Nothing,
-    Future(Future),
+    Future(ReplacedFuture),
     Course(Box<Course>),
 }
 
 /// The future of a run from a tick on.
-pub(super) struct Future {
+pub(super) struct ReplacedFuture {
     /// Tick of the change. Until then, before its actions, both futures are the same.
     pub(super) tick: u64,
     /// Its own rows of the journal. The whole journal grows for as long as a person steers the run.
     pub(super) rows: JournalTail,
-    pub(super) noted: Noted,
+    pub(super) record: RunRecord,
 }
 
 impl Replaced {
-    fn noted(&self) -> Option<&Noted> {
+    fn record(&self) -> Option<&RunRecord> {
         match self {
             Replaced::Nothing => None,
-            Replaced::Future(future) => Some(&future.noted),
-            Replaced::Course(course) => Some(&course.noted),
+            Replaced::Future(future) => Some(&future.record),
+            Replaced::Course(course) => Some(&course.record),
         }
     }
 }
@@ -95,13 +95,13 @@ impl UndoStack {
     }
 
     /// The records of all replaced futures and runs.
-    fn noted(&self) -> impl Iterator<Item = &Noted> {
-        self.changes().filter_map(|change| change.replaced.noted())
+    fn records(&self) -> impl Iterator<Item = &RunRecord> {
+        self.changes().filter_map(|change| change.replaced.record())
     }
 
     /// The snapshots of all replaced futures and runs.
     pub(super) fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
-        self.noted().flat_map(|noted| &noted.snapshots)
+        self.records().flat_map(|record| &record.snapshots)
     }
 
     /// Memory (bytes) of the drawn pasts of the kept runs.
@@ -115,7 +115,7 @@ impl UndoStack {
 
     /// Last tick of all replaced futures and runs.
     pub(super) fn end(&self) -> u64 {
-        self.noted().map(|noted| noted.end).max().unwrap_or(0)
+        self.records().map(|record| record.end).max().unwrap_or(0)
     }
 
     /// Drops the snapshots for which `stays` is false.
@@ -123,8 +123,8 @@ impl UndoStack {
         for change in self.done.iter_mut().chain(&mut self.undone) {
             match &mut change.replaced {
                 Replaced::Nothing => {}
-                Replaced::Future(future) => future.noted.snapshots.retain(&stays),
-                Replaced::Course(course) => course.noted.snapshots.retain(&stays),
+                Replaced::Future(future) => future.record.snapshots.retain(&stays),
+                Replaced::Course(course) => course.record.snapshots.retain(&stays),
             }
         }
     }
@@ -133,7 +133,7 @@ impl UndoStack {
     pub(super) fn clear_futures(&mut self) {
         for change in self.done.iter_mut().chain(&mut self.undone) {
             if let Replaced::Future(future) = &mut change.replaced {
-                future.noted.snapshots.clear();
+                future.record.snapshots.clear();
             }
         }
     }

@@ -20,7 +20,7 @@ pub(super) struct OutlineView<'a> {
 }
 
 /// A part that moves with the body, in points.
-enum Part {
+enum MovingPart {
     /// Its ends.
     Rod([[f32; 2]; 2]),
     /// Its centre and radius.
@@ -52,7 +52,7 @@ impl OutlineView<'_> {
     }
 
     /// Draws only the fixed parts, for a body that is not shown.
-    pub(super) fn still(&self, picture: &mut Picture) {
+    pub(super) fn draw_fixed_parts(&self, picture: &mut Picture) {
         let is_still = |mark: &&Mark| {
             use Mark::{Anchor, Planet, Rail, Wall};
             matches!(mark, Wall { .. } | Anchor { .. } | Planet { .. } | Rail { .. })
@@ -61,7 +61,7 @@ impl OutlineView<'_> {
         let Outline { t, at, .. } = *self.outline;
         let outline = Outline { marks, t, at, ..Outline::default() };
         let nothing = LaneStyle { colour: self.palette.chart, dash: SOLID, fill: 0.0 };
-        OutlineView { outline: &outline, ..*self }.carried(picture, nothing);
+        OutlineView { outline: &outline, ..*self }.draw_below_exact(picture, nothing);
     }
 
     /// Writes a lane's number on a body of this colour, if the body is a single part with enough room.
@@ -82,7 +82,7 @@ impl OutlineView<'_> {
     }
 
     /// Draws the parts below the exact solution: springs, rods and fixed parts, with names.
-    pub(super) fn carried(&self, picture: &mut Picture, style: LaneStyle) {
+    pub(super) fn draw_below_exact(&self, picture: &mut Picture, style: LaneStyle) {
         let camera = self.camera;
         let pen = &mut picture.pen(camera.rect);
         let still = mixed(self.palette.chart, self.palette.sea[1], 0.35);
@@ -134,16 +134,18 @@ impl OutlineView<'_> {
     }
 
     /// The moving parts as this camera sees them.
-    fn parts(&self) -> impl Iterator<Item = Part> {
+    fn parts(&self) -> impl Iterator<Item = MovingPart> {
         self.outline.marks.iter().filter_map(|mark| {
             Some(match *mark {
-                Mark::Rod { from, to } => Part::Rod([from, to].map(|at| self.camera.points(at))),
-                Mark::Disc { centre, radius } => {
-                    Part::Disc(self.camera.points(centre), self.camera.size(radius))
+                Mark::Rod { from, to } => {
+                    MovingPart::Rod([from, to].map(|at| self.camera.points(at)))
                 }
-                Mark::Sprung => Part::Sprung(self.span()),
-                Mark::Block { centre, half } => Part::Block(self.box_of(centre, half)),
-                Mark::Hull { bow, length } => Part::Hull(self.pose(bow, length)),
+                Mark::Disc { centre, radius } => {
+                    MovingPart::Disc(self.camera.points(centre), self.camera.size(radius))
+                }
+                Mark::Sprung => MovingPart::Sprung(self.span()),
+                Mark::Block { centre, half } => MovingPart::Block(self.box_of(centre, half)),
+                Mark::Hull { bow, length } => MovingPart::Hull(self.pose(bow, length)),
                 Mark::Wall { .. }
                 | Mark::Anchor { .. }
                 | Mark::Planet { .. }
@@ -154,23 +156,23 @@ impl OutlineView<'_> {
     }
 
     /// Draws the body itself, in front of everything.
-    pub(super) fn front(&self, picture: &mut Picture, LaneStyle { colour, .. }: LaneStyle) {
+    pub(super) fn draw_front(&self, picture: &mut Picture, LaneStyle { colour, .. }: LaneStyle) {
         let camera = self.camera;
         let pen = &mut picture.pen(camera.rect);
         for part in self.parts() {
             match part {
                 // Drawn below the exact solution.
-                Part::Rod(_) => {}
-                Part::Disc(at, radius) => mass::ball(pen, at, radius, colour),
-                Part::Sprung(span) => mass::block(pen, span.block, camera.block, colour),
-                Part::Block(corners) => mass::slab(pen, corners, colour),
-                Part::Hull(pose) => hull::ship(pen, pose, colour, self.palette),
+                MovingPart::Rod(_) => {}
+                MovingPart::Disc(at, radius) => mass::ball(pen, at, radius, colour),
+                MovingPart::Sprung(span) => mass::block(pen, span.block, camera.block, colour),
+                MovingPart::Block(corners) => mass::slab(pen, corners, colour),
+                MovingPart::Hull(pose) => hull::ship(pen, pose, colour, self.palette),
             }
         }
     }
 
     /// Draws a lane behind as hollow outlines, without fixed parts.
-    pub(super) fn behind(&self, picture: &mut Picture, style: LaneStyle) {
+    pub(super) fn draw_behind(&self, picture: &mut Picture, style: LaneStyle) {
         let camera = self.camera;
         let pen = &mut picture.pen(camera.rect);
         // A small part has its pattern at half the length.
@@ -183,15 +185,19 @@ impl OutlineView<'_> {
         }
         for part in self.parts() {
             match part {
-                Part::Rod(ends) => pen.dashed(ends, 1.4, faded(style.colour, 0.7), style.dash),
-                Part::Disc(at, radius) => pen.hollow(&mass::round(at, radius), 1.8, short),
-                Part::Sprung(span) => {
+                MovingPart::Rod(ends) => {
+                    pen.dashed(ends, 1.4, faded(style.colour, 0.7), style.dash)
+                }
+                MovingPart::Disc(at, radius) => pen.hollow(&mass::round(at, radius), 1.8, short),
+                MovingPart::Sprung(span) => {
                     let side = camera.block;
                     let face = mass::square(span.block, 0.78 * side, 6.0 * side / 60.0);
                     pen.hollow(&face, 2.2, short);
                 }
-                Part::Block(corners) => pen.hollow(&mass::box_round(corners, 0.0), 2.0, short),
-                Part::Hull(pose) => pen.hollow(&pose.hull(0.0), 1.8, style),
+                MovingPart::Block(corners) => {
+                    pen.hollow(&mass::box_round(corners, 0.0), 2.0, short)
+                }
+                MovingPart::Hull(pose) => pen.hollow(&pose.hull(0.0), 1.8, style),
             }
         }
     }
@@ -211,14 +217,14 @@ impl OutlineView<'_> {
         }
         for part in self.parts() {
             match part {
-                Part::Rod(ends) => {
+                MovingPart::Rod(ends) => {
                     pen.path(ends, 3.6, faded(palette.sea[1], 0.6));
                     pen.path(ends, 1.4, faded(palette.exact, 0.8));
                 }
-                Part::Disc(at, radius) => pen.ghost(&mass::round(at, radius + 1.5), palette),
-                Part::Sprung(span) => silhouette(pen, span, palette),
-                Part::Block(corners) => pen.ghost(&mass::box_round(corners, 1.5), palette),
-                Part::Hull(pose) => pen.ghost(&pose.hull(-2.0), palette),
+                MovingPart::Disc(at, radius) => pen.ghost(&mass::round(at, radius + 1.5), palette),
+                MovingPart::Sprung(span) => silhouette(pen, span, palette),
+                MovingPart::Block(corners) => pen.ghost(&mass::box_round(corners, 1.5), palette),
+                MovingPart::Hull(pose) => pen.ghost(&pose.hull(-2.0), palette),
             }
         }
     }

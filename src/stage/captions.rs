@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::moment::{DrawContext, turns};
+use super::moment::{DrawContext, has_several_coordinates};
 use super::sketch::{Camera, rounded};
 use super::{Align, Label, Picture, Rect, breakpoints};
 use crate::look::Look;
@@ -108,7 +108,7 @@ fn fate_within(halt: &Halt, width: f32) -> String {
     if LETTER * fate.chars().count() as f32 <= width {
         return fate;
     }
-    halt.how().into()
+    halt.ending().into()
 }
 
 /// Caption for a body whose exact motion would take too much work.
@@ -190,8 +190,8 @@ pub(super) fn head(
     let chip =
         Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= breakpoints::CHIP);
     let room_for = |from: f32| rect.max[0] - 10.0 - from;
-    let beside_both = chip.as_ref().and_then(|chip| chip.within(room_for(right)));
-    let alone = chip.as_ref().and_then(|chip| chip.within(room_for(left)));
+    let beside_both = chip.as_ref().and_then(|chip| chip.longest_within(room_for(right)));
+    let alone = chip.as_ref().and_then(|chip| chip.longest_within(room_for(left)));
     // The chip of a halted body already reports the halt.
     if right <= rect.max[0] && (beside_both.is_some() && body.halted().is_none() || alone.is_none())
     {
@@ -240,7 +240,9 @@ pub(super) fn speed(
     let (q, v) = shown_state(&moment.studio.deck, &moment.studio.viewer, body);
     let outline = Look::of(body).outline(moment.t, &q);
     let bow = outline.marks.iter().find_map(|mark| match mark {
-        Mark::Hull { length, .. } if !turns(body) => Some(DVec2::new(length / 2.0, 0.0)),
+        Mark::Hull { length, .. } if !has_several_coordinates(body) => {
+            Some(DVec2::new(length / 2.0, 0.0))
+        }
         _ => None,
     });
     let Some(bow) = bow else { return };
@@ -316,7 +318,7 @@ impl Chip {
     }
 
     /// The longest version of the chip that fits into this width.
-    fn within(&self, width: f32) -> Option<Self> {
+    fn longest_within(&self, width: f32) -> Option<Self> {
         let said = [Some(&self.verdict), self.brief.as_ref()].into_iter().flatten();
         let mut chips = said.map(|verdict| Self { verdict: verdict.clone(), brief: None, ..*self });
         chips.find(|chip| chip.width() <= width)
@@ -339,7 +341,12 @@ impl Chip {
 }
 
 /// Writes the answer of a comparison with a recording near the foot of a cell.
-pub(super) fn compared(picture: &mut Picture, rect: Rect, lines: [String; 2], palette: &Palette) {
+pub(super) fn write_comparison(
+    picture: &mut Picture,
+    rect: Rect,
+    lines: [String; 2],
+    palette: &Palette,
+) {
     let Some([x, _]) = caption_place(rect) else { return };
     for (line, up) in lines.into_iter().zip(ANSWER) {
         let at = [x, rect.max[1] - up];

@@ -241,14 +241,14 @@ impl BodyCell<'_> {
             lost.extend(away);
             if held.is_none() && !self.room().contains(at) {
                 if is_front {
-                    seen.still(picture);
+                    seen.draw_fixed_parts(picture);
                     self.draw_ghost(picture, shows_ghost);
                 }
                 continue;
             }
             near.push(LoupeLane::of(moment, lane, index, colour));
             if !is_front {
-                seen.behind(picture, style);
+                seen.draw_behind(picture, style);
                 flagged.push(flag);
                 if self.lanes.len() <= MAX_NUMBERED && outline.threads.is_empty() {
                     rivals.push((outline, LaneStyle { fill: 0.0, ..style }));
@@ -260,14 +260,14 @@ impl BodyCell<'_> {
             if held.is_some() {
                 let left =
                     LaneStyle { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };
-                seen.behind(picture, left);
+                seen.draw_behind(picture, left);
             }
-            shown.carried(picture, style);
+            shown.draw_below_exact(picture, style);
             self.draw_ghost(picture, shows_ghost);
-            shown.front(picture, style);
+            shown.draw_front(picture, style);
             // The body in front would hide those behind.
             for (outline, style) in rivals.drain(..) {
-                OutlineView { outline: &outline, ..shown }.behind(picture, style);
+                OutlineView { outline: &outline, ..shown }.draw_behind(picture, style);
             }
             if let Some(held) = held.filter(|held| held.lane == lane.id) {
                 let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
@@ -332,7 +332,7 @@ impl BodyCell<'_> {
         if has_outgrown {
             let of_lane = (index, self.front);
             let swing_m = ghost.swing_m.unwrap_or(ghost.view.reach_m.x);
-            universe::sentence(picture, camera, moment, (view, swing_m), of_lane);
+            universe::write_distance(picture, camera, moment, (view, swing_m), of_lane);
         }
         picture.cells.push(cell);
     }
@@ -408,13 +408,13 @@ impl BodyCell<'_> {
             return;
         };
         if index == 0 {
-            captions::compared(picture, camera.rect, compared.lines(), palette);
+            captions::write_comparison(picture, camera.rect, compared.lines(), palette);
         }
         let Some(body) = compared.body(deck.scene(), &front.spec, index) else { return };
         let (q, _) = shown_state(deck, &moment.studio.viewer, body);
         let outline = Look::of(body).outline(moment.t, &q);
         let style = LaneStyle { colour: palette.accent, dash: SOLID, fill: 0.0 };
-        OutlineView { outline: &outline, camera, palette }.behind(picture, style);
+        OutlineView { outline: &outline, camera, palette }.draw_behind(picture, style);
         let named = (compared.name(), palette.accent);
         captions::ghost_name(picture, camera, (outline.at, lift), named, palette);
     }

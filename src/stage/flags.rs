@@ -93,7 +93,7 @@ pub(super) fn flags(
         let colour = if flags.len() == 1 { flags[0].colour } else { palette.dim };
         let foot = [flags[0].at[0], flags[0].at[1] - lift + 6.0];
         picture.pen(clip).line([x, y + half], foot, 1.4, colour);
-        board(picture, [x, y], width, (text(flags), colour), palette, clip);
+        draw_board(picture, [x, y], width, (text(flags), colour), palette, clip);
     }
 }
 
@@ -162,7 +162,7 @@ fn width(flags: &[Flag]) -> f32 {
 }
 
 /// Draws words in a box.
-fn board(
+fn draw_board(
     picture: &mut Picture,
     [x, y]: [f32; 2],
     width: f32,
@@ -344,7 +344,7 @@ mod tests {
 
     /// Words of the badge for a body at these places, in a cell that shows 5 m to each side, and whether it is at the
     /// right.
-    fn told(places: &[[f64; 2]]) -> Option<(String, bool)> {
+    fn badge_words(places: &[[f64; 2]]) -> Option<(String, bool)> {
         let rect = Rect { min: [0.0; 2], max: [100.0, 50.0] };
         let camera = Camera { points_per_metre: 10.0, ..Camera::of(rect, 10.0) };
         let flag = Flag { at: [0.0; 2], number: 1, colour: [255; 4] };
@@ -353,7 +353,7 @@ mod tests {
     }
 
     fn told_along(places: &[f64]) -> Option<(String, bool)> {
-        told(&places.iter().map(|x| [*x, 0.0]).collect::<Vec<_>>())
+        badge_words(&places.iter().map(|x| [*x, 0.0]).collect::<Vec<_>>())
     }
 
     #[test]
@@ -388,9 +388,9 @@ mod tests {
     fn the_badge_of_a_body_in_the_plane_shows_its_present_direction() {
         let said = |words: &str, is_right| Some((words.to_owned(), is_right));
         let over_the_top = [[-37.0, 2.0], [-4.0, 2.0], [0.0, 11.0]];
-        assert_eq!(told(&over_the_top), said("out to −37 m", false));
-        assert_eq!(told(&over_the_top[1..]), said("up to 11 m", false), "it is back");
-        assert_eq!(told(&[[1.0, -9.0], [1.0, -5.0]]), said("down at −9.00 m", true));
+        assert_eq!(badge_words(&over_the_top), said("out to −37 m", false));
+        assert_eq!(badge_words(&over_the_top[1..]), said("up to 11 m", false), "it is back");
+        assert_eq!(badge_words(&[[1.0, -9.0], [1.0, -5.0]]), said("down at −9.00 m", true));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::Rect;
-use super::moment::{DrawContext, turns};
+use super::moment::{DrawContext, has_several_coordinates};
 use super::outgrown::{Room, in_steps, strayed_m};
 use super::sketch::Camera;
 use crate::look::{Framing, drawn_unit};
@@ -134,7 +134,7 @@ impl BodyView {
         let is_stepped = moment.studio.display().motion == Motion::Reduced;
         let taken = |room: Room| match is_stepped {
             true => room.taken_in_steps(moment, lane, body),
-            false => room.taken(moment, lane, body),
+            false => room.reach_m(moment, lane, body),
         };
         match &mut self.framing {
             Framing::Recorder { half_width_m } => {
@@ -168,7 +168,7 @@ impl DrawContext<'_> {
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &BodyView) -> Camera {
         let unit = drawn_unit(&self.studio.race().truth().bodies()[index].kind);
         let camera = Camera { unit, ..self.fitted(rect, view) }.grown(view.grown);
-        camera.through(self.studio.view().zoom_pan(view.zoomed_as))
+        camera.zoomed(self.studio.view().zoom_pan(view.zoomed_as))
     }
 
     fn fitted(&self, rect: Rect, view: &BodyView) -> Camera {
@@ -219,7 +219,7 @@ impl DrawContext<'_> {
         let [body] = self.studio.race().truth().bodies() else { return None };
         match view.framing {
             Framing::Fixed { half_m, .. } => Some(half_m),
-            Framing::Follow { width_m, height_m, .. } if turns(body) => {
+            Framing::Follow { width_m, height_m, .. } if has_several_coordinates(body) => {
                 Some(DVec2::new(width_m, height_m))
             }
             Framing::Follow { .. } | Framing::Recorder { .. } => None,

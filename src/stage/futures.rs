@@ -30,7 +30,7 @@ pub(super) fn draw(
     for Future { entry, moments } in futures(&moment.studio.deck, body).iter().rev() {
         let now_s = moments[0].t;
         let place = |at: &FutureMoment| match framing {
-            Framing::Recorder { .. } => camera.ahead(at.at, at.t - now_s),
+            Framing::Recorder { .. } => camera.paper_point(at.at, at.t - now_s),
             Framing::Follow { .. } | Framing::Fixed { .. } => camera.points(at.at),
         };
         let (colour, width) = match entry {

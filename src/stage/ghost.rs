@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::framed::BodyView;
-use super::moment::{DrawContext, turns};
+use super::moment::{DrawContext, has_several_coordinates};
 use super::trails::Place;
 use crate::look::palette::{Rgba, faded};
 use crate::look::{Framing, Look};
@@ -47,7 +47,7 @@ impl Ghost {
         };
         let since_s = remembered.swing_since_s(race.t());
         let reach_m = curve.reach_m(centre_m, since_s);
-        let (followed, turns) = (outline.at, turns(body));
+        let (followed, turns) = (outline.at, has_several_coordinates(body));
         let view = BodyView { framing, followed, reach_m, turns, zoomed_as: index, grown: 1.0 };
         let swings_since_s = remembered.swings_since_s();
         let has_just_begun = since_s < remembered.changed_s();

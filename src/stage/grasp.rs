@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::Rect;
 use super::sketch::Camera;
 use crate::look::{Look, Pull};
+use crate::run::MenuIndex;
 use crate::scene::LaneId;
 use crate::studio::{HeldBody, Studio};
 
@@ -19,7 +20,7 @@ pub struct Cell {
     /// The lane in front.
     pub lane: LaneId,
     /// Menu index of the lane's method.
-    pub entry: usize,
+    pub entry: MenuIndex,
     /// Index of the body in the scene.
     pub body: usize,
     /// Index in the scene of the body whose zoom and pan apply; bodies on one ruler use those of the first.
@@ -50,7 +51,7 @@ pub enum Whose {
         /// The lane.
         lane: LaneId,
         /// Menu index of its method.
-        entry: usize,
+        entry: MenuIndex,
     },
     /// The truth, whose body is a ghost.
     Truth,

@@ -97,14 +97,14 @@ fn overlay(
         .map(|place| LoopBand::new(studio, loops, place, ground, foot))
         .collect();
     let front = bands.last()?;
-    let exact = front.exact(front.frames()?.last()?);
+    let exact = front.exact_outline(front.frames()?.last()?);
     let camera = front.camera(exact.at);
     if studio.display().ghost {
         front.ghost(picture, &camera, &exact);
     }
     for band in &bands {
         let Some(frames) = band.frames() else { continue };
-        let drawn = band.shown(&frames[frames.len() - 1]);
+        let drawn = band.shown_outline(&frames[frames.len() - 1]);
         if is_selected(band.place) {
             band.before(picture, &camera, frames);
         }
@@ -117,7 +117,7 @@ fn overlay(
     for (row, &place) in on_stage.iter().enumerate() {
         let Some(band) = bands.iter().find(|band| band.place == place) else { continue };
         let Some(frame) = band.frames().and_then(<[LoopFrame]>::last) else { continue };
-        let at = camera.points(band.shown(frame).at);
+        let at = camera.points(band.shown_outline(frame).at);
         let number = band.label([at[0], above], Align::Centre, 12.5, (place + 1).to_string());
         if above > ground.min[1] + 0.5 * LINE {
             picture.labels.push(Label { colour: band.colour, ..number }.strong());
@@ -187,12 +187,12 @@ impl<'a> LoopBand<'a> {
     }
 
     /// The body as a frame shows it.
-    fn shown(&self, frame: &LoopFrame) -> Outline {
+    fn shown_outline(&self, frame: &LoopFrame) -> Outline {
         self.outline(frame.shown_ms / 1e3, &frame.q)
     }
 
     /// The exact body at the moment of a frame's display.
-    fn exact(&self, frame: &LoopFrame) -> Outline {
+    fn exact_outline(&self, frame: &LoopFrame) -> Outline {
         self.outline(frame.displayed_ns as f64 / 1e9, &frame.exact)
     }
 
@@ -230,7 +230,7 @@ impl<'a> LoopBand<'a> {
             self.title(picture);
             return None;
         };
-        let exact = self.exact(frame);
+        let exact = self.exact_outline(frame);
         let camera = self.camera(exact.at);
         self.before(picture, &camera, frames);
         if self.has_path() {
@@ -239,39 +239,39 @@ impl<'a> LoopBand<'a> {
         if shows_ghost {
             self.ghost(picture, &camera, &exact);
         }
-        let drawn = self.shown(frame);
+        let drawn = self.shown_outline(frame);
         self.body(picture, &camera, &drawn);
-        self.seen(&camera, &drawn).number(picture, self.place + 1, self.colour);
+        self.outline_view(&camera, &drawn).number(picture, self.place + 1, self.colour);
         self.words(picture, &camera, frame, [drawn.at, exact.at]);
         self.is_recorded().then_some(camera)
     }
 
-    fn seen<'s>(&self, camera: &'s Camera, outline: &'s Outline) -> OutlineView<'s> {
+    fn outline_view<'s>(&self, camera: &'s Camera, outline: &'s Outline) -> OutlineView<'s> {
         OutlineView { outline, camera, palette: self.palette }
     }
 
     /// Draws the frames before the one on display.
     fn before(&self, picture: &mut Picture, camera: &Camera, frames: &[LoopFrame]) {
         for (strength, before) in distinct_before(frames) {
-            let outline = self.shown(before);
+            let outline = self.shown_outline(before);
             let style = LaneStyle { colour: faded(self.colour, strength), dash: SOLID, fill: 0.12 };
-            self.seen(camera, &outline).behind(picture, style);
+            self.outline_view(camera, &outline).draw_behind(picture, style);
         }
     }
 
     fn ghost(&self, picture: &mut Picture, camera: &Camera, exact: &Outline) {
         let style = LaneStyle { colour: self.palette.exact, dash: SOLID, fill: 0.08 };
-        self.seen(camera, exact).behind(picture, style);
+        self.outline_view(camera, exact).draw_behind(picture, style);
     }
 
     fn body(&self, picture: &mut Picture, camera: &Camera, drawn: &Outline) {
-        let seen = self.seen(camera, drawn);
+        let seen = self.outline_view(camera, drawn);
         let style = || LaneStyle { colour: self.colour, dash: SOLID, fill: 0.0 };
         // A coil would hide the frames before.
         if !self.is_recorded() {
-            seen.carried(picture, style());
+            seen.draw_below_exact(picture, style());
         }
-        seen.front(picture, style());
+        seen.draw_front(picture, style());
     }
 
     /// Draws the body's places in the frames as a staircase in time, next to its exact motion.

@@ -1,6 +1,7 @@
 //! The moment to draw, which may lie between two ticks.
 
 use crate::look::palette::{Palette, Rgba};
+use crate::run::MenuIndex;
 use crate::run::past::History;
 use crate::run::race::{Entrant, LaneBody};
 use crate::studio::{Studio, shown_s};
@@ -36,7 +37,7 @@ impl<'a> DrawContext<'a> {
     }
 
     /// Colour and dash pattern of the lane with this menu index.
-    pub(super) fn style(&self, entry: usize) -> (Rgba, [f32; 2]) {
+    pub(super) fn style(&self, entry: MenuIndex) -> (Rgba, [f32; 2]) {
         let lanes = self.studio.entries();
         self.studio.display().theme.lane_style(lanes, &lanes[entry])
     }
@@ -48,7 +49,7 @@ impl<'a> DrawContext<'a> {
 }
 
 /// Whether a body moves in more than one coordinate, and so may leave a line.
-pub(super) fn turns(body: &LaneBody) -> bool {
+pub(super) fn has_several_coordinates(body: &LaneBody) -> bool {
     body.coordinates().len() > 1
 }
 
@@ -73,7 +74,7 @@ mod tests {
 
     /// The drawn places (m) of the spring's mass and its ghost, then of the ship and its ghost, and the ship's speed
     /// on the stage.
-    fn drawn(studio: &Studio) -> ([[f64; 2]; 2], String) {
+    fn drawn_places(studio: &Studio) -> ([[f64; 2]; 2], String) {
         let picture = compose(studio, [780.0, 500.0]);
         let places = [0, 1].map(|body| {
             let cell = &picture.cells[body];
@@ -104,7 +105,7 @@ mod tests {
                 let wanted =
                     [0, 1].map(|body| lanes.map(|lane| lane.bodies()[body].stepper.q()[0]));
                 let speed = lanes[0].bodies()[1].stepper.v()[0];
-                let (places, said) = drawn(&studio);
+                let (places, said) = drawn_places(&studio);
                 let way = studio.display().interpolation;
                 for body in 0..2 {
                     let are_near = (0..2).all(|of| is_near(places[body][of], wanted[body][of]));
@@ -125,7 +126,7 @@ mod tests {
             studio.advance((part * 0.2e9) as i64);
             studio.advance(100_000_000);
             for way in Interpolation::ALL {
-                let ([[block, ghost], [ship, true_ship]], said) = drawn(&studio);
+                let ([[block, ghost], [ship, true_ship]], said) = drawn_places(&studio);
                 let t = shown_s(&studio.deck, &studio.viewer);
                 let exact = libm::cos(std::f64::consts::TAU * t);
                 assert!(is_near(ghost, exact), "{way:?}: {ghost} at {t} s");
@@ -165,9 +166,9 @@ mod tests {
             (0..ways).for_each(|_| _ = studio.apply(RunCommand::NextInterpolation));
             studio.advance(730_000_000);
             studio.apply(ViewCommand::TogglePause);
-            let ([rest, _], _) = drawn(&studio);
+            let ([rest, _], _) = drawn_places(&studio);
             studio.apply(ViewCommand::TogglePause);
-            let ([on, _], _) = drawn(&studio);
+            let ([on, _], _) = drawn_places(&studio);
             let way = studio.display().interpolation;
             assert!(is_near(rest[0], on[0]) && is_near(rest[1], on[1]), "{way:?}: {rest:?} {on:?}");
         }

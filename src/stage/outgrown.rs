@@ -33,9 +33,9 @@ pub(super) struct Room {
 
 impl Room {
     /// Reach of the stage with the lane, across and up, in metres.
-    pub(super) fn taken(&self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> DVec2 {
+    pub(super) fn reach_m(&self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> DVec2 {
         let history = moment.history(lane, body);
-        let furthest = |t: f64| self.furthest(history, [t - self.window_s, t]);
+        let furthest = |t: f64| self.max_distance_m(history, [t - self.window_s, t]);
         let part_s = EVENED_S / f64::from(PARTS);
         let ln = |reach: DVec2| DVec2::new(libm::log(reach.x), libm::log(reach.y));
         let evened = (0..PARTS).map(|i| {
@@ -44,7 +44,7 @@ impl Room {
         });
         let evened: DVec2 = evened.sum();
         let evened = self.base_m * DVec2::new(libm::exp(evened.x), libm::exp(evened.y));
-        evened.max(furthest(moment.t)).max(self.present(moment, lane, body))
+        evened.max(furthest(moment.t)).max(self.present_bound(moment, lane, body))
     }
 
     /// The same reach in steps of a factor of 2. It returns to the base only at the next edit or placement, so the
@@ -69,13 +69,14 @@ impl Room {
         };
         let reaches = moment.history(lane, body).since(since_s).map(reach);
         let furthest = reaches.filter(|reach| reach.is_finite()).fold(DVec2::ZERO, DVec2::max);
-        let taken = (MARGIN * furthest).max(self.present(moment, lane, body)).max(self.base_m);
+        let taken =
+            (MARGIN * furthest).max(self.present_bound(moment, lane, body)).max(self.base_m);
         let times = taken / self.base_m;
         self.base_m * DVec2::new(in_steps(times.x), in_steps(times.y))
     }
 
     /// Largest distance of a body within a time span (s).
-    fn furthest(&self, history: &History, [from, to]: [f64; 2]) -> DVec2 {
+    fn max_distance_m(&self, history: &History, [from, to]: [f64; 2]) -> DVec2 {
         let samples = history.samples().rev().skip_while(|sample| sample.t > to);
         let samples = samples.take_while(|sample| sample.t >= from);
         let places = samples.map(|sample| (sample.at - self.centre_m).abs());
@@ -83,7 +84,7 @@ impl Room {
     }
 
     /// Upper bound of the present distance of a body's parts.
-    fn present(&self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> DVec2 {
+    fn present_bound(&self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> DVec2 {
         let body = &lane.lane.bodies()[body];
         let look = Look::of(body);
         let race = moment.studio.race();

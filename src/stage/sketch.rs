@@ -60,8 +60,8 @@ impl Camera {
     }
 
     /// The same camera, zoomed in and panned.
-    pub(super) fn through(self, zoom_pan: ZoomPan) -> Self {
-        let (seen, size) = (zoom_pan.seen(self.rect.part(self.at)), self.rect.size());
+    pub(super) fn zoomed(self, zoom_pan: ZoomPan) -> Self {
+        let (seen, size) = (zoom_pan.place_in_view(self.rect.part(self.at)), self.rect.size());
         let point = |axis: usize| {
             let middle = f64::from(self.rect.min[axis] + self.rect.max[axis]) / 2.0;
             demote(middle + seen[axis] * size[axis])
@@ -88,7 +88,7 @@ impl Camera {
     }
 
     /// Point on a chart recorder's paper of one second, for a place at `seconds` from now.
-    pub(super) fn ahead(&self, place_m: DVec2, seconds: f64) -> [f32; 2] {
+    pub(super) fn paper_point(&self, place_m: DVec2, seconds: f64) -> [f32; 2] {
         let ([x, y], pen) = (self.points(place_m), f64::from(PEN * self.block));
         [x, demote(f64::from(y) + pen + seconds * (self.paper - pen - FOOT).max(0.0))]
     }

@@ -12,7 +12,7 @@ use crate::look::palette::{Palette, faded, mixed};
 use crate::run::race::Entrant;
 use crate::sim::number::{round, significant, superscript};
 use crate::studio::Motion;
-use Part::{Disc, Outline, Ring};
+use SilhouetteShape::{Disc, Outline, Ring};
 
 /// A thing of familiar size.
 struct Landmark {
@@ -20,11 +20,11 @@ struct Landmark {
     names: [&'static str; 2],
     length_m: f64,
     length: &'static str,
-    silhouette: &'static [Part],
+    silhouette: &'static [SilhouetteShape],
 }
 
 /// A part of a silhouette, in lengths of the whole: across from its left end, and up from its middle.
-enum Part {
+enum SilhouetteShape {
     /// Centre and radius.
     Disc([f32; 2], f32),
     /// Centre and radius.
@@ -36,7 +36,7 @@ enum Part {
 impl Landmark {
     /// Largest extent up or down from its middle, in its lengths.
     fn half_height(&self) -> f32 {
-        let highest = |part: &Part| match part {
+        let highest = |part: &SilhouetteShape| match part {
             Disc([_, y], radius) | Ring([_, y], radius) => y.abs() + radius,
             Outline(corners) => corners.iter().fold(0.0, |most, [_, y]| y.abs().max(most)),
         };
@@ -48,7 +48,7 @@ const fn known(
     names: [&'static str; 2],
     length_m: f64,
     length: &'static str,
-    silhouette: &'static [Part],
+    silhouette: &'static [SilhouetteShape],
 ) -> Landmark {
     Landmark { names, length_m, length, silhouette }
 }
@@ -142,12 +142,12 @@ pub(super) fn landmarks(picture: &mut Picture, camera: &Camera, palette: &Palett
         let left = if place == 0 { middle + ASIDE } else { middle - ASIDE - length };
         let part = length / width;
         let strength = ((LENGTHS[0] - part) / 0.06).min((part - LENGTHS[1]) / 0.02).clamp(0.0, 1.0);
-        lay(picture, camera, landmark, (left, strength), palette);
+        draw_landmark(picture, camera, landmark, (left, strength), palette);
     }
 }
 
 /// Draws a landmark from this point to the right with this opacity, and its length below it.
-fn lay(
+fn draw_landmark(
     picture: &mut Picture,
     camera: &Camera,
     landmark: &Landmark,
@@ -176,7 +176,7 @@ fn lay(
 }
 
 /// Writes how far a lane's body has gone instead of its swing, in a frame of the lane's colour.
-pub(super) fn sentence(
+pub(super) fn write_distance(
     picture: &mut Picture,
     camera: &Camera,
     moment: &DrawContext<'_>,
@@ -199,7 +199,7 @@ pub(super) fn sentence(
             let Some(Landmark { names: [one, many], length_m, .. }) = known else { return };
             let as_wide = match width_m / length_m {
                 times if times < 1.5 => (*one).to_owned(),
-                times => format!("{} {many}", counted(times)),
+                times => format!("{} {many}", in_words(times)),
             };
             format!("after {} s a {what} swings as wide as {as_wide}", significant(moment.t, 2))
         }
@@ -221,7 +221,7 @@ pub(super) fn sentence(
 }
 
 /// A number in words if it is small.
-fn counted(times: f64) -> String {
+fn in_words(times: f64) -> String {
     const WORDS: &str = "two three four five six seven eight nine ten";
     let whole = libm::round(times);
     let word = WORDS.split(' ').nth((whole as usize).saturating_sub(2));
@@ -243,18 +243,18 @@ mod tests {
         studio
     }
 
-    fn said(studio: &Studio) -> Vec<String> {
+    fn texts(studio: &Studio) -> Vec<String> {
         compose(studio, SIZE).labels.into_iter().map(|label| label.text).collect()
     }
 
     #[test]
     fn zooming_out_passes_landmarks_and_reports_the_bodys_distance() {
         let mut studio = watched("harbour", Motion::Live);
-        assert!(!said(&studio).iter().any(|text| text.starts_with("after")));
+        assert!(!texts(&studio).iter().any(|text| text.starts_with("after")));
         let mut passed = Vec::new();
         while studio.race().t() < 19.9 {
             studio.tick();
-            let said = said(&studio);
+            let said = texts(&studio);
             passed.extend(
                 LANDMARKS
                     .iter()
@@ -267,9 +267,9 @@ mod tests {
             assert!(names.contains(&name), "{names:?}");
         }
         let last = "after 20 s a 1 m spring swings as wide as three container ships";
-        assert!(said(&studio).iter().any(|text| text == last), "{:?}", said(&studio));
+        assert!(texts(&studio).iter().any(|text| text == last), "{:?}", texts(&studio));
         studio.viewer.preferences.display.motion = Motion::Reduced;
-        assert!(!said(&studio).iter().any(|text| text.starts_with("after")));
+        assert!(!texts(&studio).iter().any(|text| text.starts_with("after")));
     }
 
     #[test]
@@ -278,7 +278,7 @@ mod tests {
         studio.apply(crate::studio::StageCommand::TickHz(30.into()));
         studio.apply(crate::studio::StageCommand::Restart);
         (0..60).for_each(|_| studio.tick());
-        let said = said(&studio);
+        let said = texts(&studio);
         let last = "after 1.27 s your 1 m stiff spring is 10³⁶ m long";
         assert!(said.iter().any(|text| text == last), "{said:?}");
     }

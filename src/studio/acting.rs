@@ -6,8 +6,8 @@ use super::notice::Notice;
 use super::restarting::{Jump, follow, restart};
 use super::step::Step;
 use super::viewer::Viewer;
-use crate::run::StartSettings;
 use crate::run::race::{Mode, equal_cost};
+use crate::run::{MenuIndex, StartSettings};
 use crate::scene::{Action, LaneId, LaneSpec};
 use crate::sim::bodies::Acts;
 use crate::sim::integrators::Method;
@@ -27,8 +27,8 @@ pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {
     }
     let was_past = deck.run.is_in_past();
     let (is_input, rests) = (action.input().is_some(), deck.comes_to_rest(viewer.motion()));
-    let (done, mut told) = deck.watched(|run, notices| run.act_within(action, notices));
-    let Some(done) = done else { return viewer.tell(told) };
+    let (done, mut told) = deck.with_notices(|run, notices| run.act_within(action, notices));
+    let Some(done) = done else { return viewer.set_notice_parts(told) };
     deck.edits += 1;
     // Run, so that the person sees the effect of an input at rest.
     deck.running |= is_input && rests;
@@ -43,11 +43,11 @@ pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {
         format!("you have the {} now: the script leaves it alone until a restart", control.name())
     });
     told.extend(released.into_iter().chain(discarded));
-    viewer.tell(told);
+    viewer.set_notice_parts(told);
 }
 
-pub(super) fn pick(deck: &mut Deck, viewer: &mut Viewer, entry: usize) {
-    let Some(lane) = deck.picked(entry) else { return };
+pub(super) fn pick(deck: &mut Deck, viewer: &mut Viewer, entry: MenuIndex) {
+    let Some(lane) = deck.lane_to_pick(entry) else { return };
     deck.selected = lane;
     deck.is_selected = true;
     if deck.mode() == Mode::Solo {
@@ -58,7 +58,11 @@ pub(super) fn pick(deck: &mut Deck, viewer: &mut Viewer, entry: usize) {
 }
 
 /// Menu index of a method. If the menu lacks it, a notice explains why.
-pub(super) fn listed(deck: &mut Deck, viewer: &mut Viewer, method: &Method) -> Option<usize> {
+pub(super) fn menu_index(
+    deck: &mut Deck,
+    viewer: &mut Viewer,
+    method: &Method,
+) -> Option<MenuIndex> {
     let listed = deck.entries().iter().position(|spec| spec.method == method);
     if listed.is_none() {
         let why = match deck.scene().refusal(method) {
@@ -75,11 +79,11 @@ pub(super) fn listed(deck: &mut Deck, viewer: &mut Viewer, method: &Method) -> O
 /// Gives a menu method new substeps and a new tolerance, switches its racing lane to them, and picks it. A race
 /// without the method restarts with it.
 pub(super) fn set_lane(deck: &mut Deck, viewer: &mut Viewer, spec: LaneSpec) {
-    let Some(entry) = listed(deck, viewer, spec.method) else { return };
+    let Some(entry) = menu_index(deck, viewer, spec.method) else { return };
     if !spec.is_in_range() {
         return viewer.set_notice(out_of_range("the switch"));
     }
-    match (deck.mode(), deck.flown(entry)) {
+    match (deck.mode(), deck.lane_of(entry)) {
         (Mode::Race, None) => {
             restart(deck, viewer, Some("the new race"), |next| {
                 next.list[entry] = spec;
@@ -102,9 +106,9 @@ pub(super) fn set_lane(deck: &mut Deck, viewer: &mut Viewer, spec: LaneSpec) {
 /// Picks the next available menu entry in this direction, cyclically.
 pub(super) fn pick_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step) {
     let count = deck.entries().len();
-    let beside = |entry: &usize| Some(step.around(*entry, count));
+    let beside = |entry: &usize| Some(step.cyclic_index(*entry, count));
     let mut around = std::iter::successors(Some(deck.active()), beside).skip(1).take(count);
-    if let Some(entry) = around.find(|&entry| deck.picked(entry).is_some()) {
+    if let Some(entry) = around.find(|&entry| deck.lane_to_pick(entry).is_some()) {
         pick(deck, viewer, entry);
     }
 }

@@ -24,7 +24,7 @@ impl Studio {
     /// Executes a command. Returns the driver's part of it, if any.
     pub fn apply(&mut self, command: impl Into<Command>) -> Option<DriverRequest> {
         let command = command.into();
-        self.viewer.hints.see(&command, self.deck.run.next().scene.hint.as_deref());
+        self.viewer.hints.mark_followed(&command, self.deck.run.next().scene.hint.as_deref());
         if !self.viewer.pointer_is_down() {
             self.deck.run.close_change();
         }
@@ -48,7 +48,7 @@ impl Studio {
             (Command::Ask(DriverRequest::Record | DriverRequest::CopyLink), Some(loops)) => {
                 refuse_in_loop_lab(viewer, loops);
             }
-            (Command::Ask(request), _) => return possible(deck, viewer, request),
+            (Command::Ask(request), _) => return if_copyable(deck, viewer, request),
             (Command::Run(command), None) => carry_out_on_run(deck, viewer, command),
             (Command::Run(_), Some(loops)) => refuse_in_loop_lab(viewer, loops),
             (Command::Stage(command), None) => carry_out_on_stage(deck, viewer, command),
@@ -79,15 +79,17 @@ impl Studio {
                 display.measure = !display.measure;
                 display.enlarged &= !display.measure;
             }
-            ViewCommand::Split(splits) => display.splits = splits.within(),
+            ViewCommand::Split(splits) => display.splits = splits.clamped(),
             ViewCommand::ToggleGhost => display.ghost = !display.ghost,
             ViewCommand::ToggleTheme => {
                 display.theme = display.theme.other();
                 self.viewer.preferences.theme_is_chosen = true;
             }
             ViewCommand::Scale(step) => {
-                let beside = step.along(&SCALE_LADDER, display.scale_percent);
-                beside.into_iter().for_each(|percent| self.viewer.show_scale(percent));
+                let beside = step.next_rung(&SCALE_LADDER, display.scale_percent);
+                if let Some(percent) = beside {
+                    self.viewer.show_scale(percent);
+                }
             }
             ViewCommand::UsualScale => self.viewer.show_scale(USUAL_SCALE_PERCENT),
             ViewCommand::Quantity(quantity) => display.quantity = quantity,
@@ -102,12 +104,12 @@ impl Studio {
                 let pointed = self.viewer.pointed.map(of_lane);
                 let mut copies =
                     pointed.into_iter().flatten().chain([DriverRequest::CopyInstrument]);
-                return copies.find_map(|copy| possible(&self.deck, &self.viewer, copy));
+                return copies.find_map(|copy| if_copyable(&self.deck, &self.viewer, copy));
             }
             ViewCommand::Language(language) => self.viewer.preferences.language = language,
             ViewCommand::CopyMethod { entry, language } => {
                 self.viewer.preferences.language = language;
-                return possible(&self.deck, &self.viewer, DriverRequest::CopyMethod(entry));
+                return if_copyable(&self.deck, &self.viewer, DriverRequest::CopyMethod(entry));
             }
             ViewCommand::PointAt(entry) => self.viewer.pointed = entry,
             ViewCommand::AdviseOnOneBody(is_one) => display.advises_on_one_body = is_one,
@@ -134,7 +136,9 @@ impl Studio {
                 go_to_stop_beside(&mut self.deck, &mut self.viewer, step)
             }
             ViewCommand::Predict(choice) => {
-                self.viewer.tour.iter_mut().for_each(|tour| tour.predict(choice));
+                if let Some(tour) = &mut self.viewer.tour {
+                    tour.predict(choice);
+                }
             }
             ViewCommand::Escape => {
                 return if self.escape() { None } else { quit(&mut self.deck, &mut self.viewer) };
@@ -167,7 +171,7 @@ impl Studio {
 }
 
 /// The request, unless the driver would have nothing to copy.
-fn possible(deck: &Deck, viewer: &Viewer, request: DriverRequest) -> Option<DriverRequest> {
+fn if_copyable(deck: &Deck, viewer: &Viewer, request: DriverRequest) -> Option<DriverRequest> {
     match request {
         DriverRequest::CopyMethod(entry) => deck.entries().get(entry).map(|_| request),
         DriverRequest::CopyJoint(entry) => joint_code(deck, viewer, entry).map(|_| request),

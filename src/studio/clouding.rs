@@ -18,7 +18,7 @@ pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
     if !is_shown || cloud_refusal(deck, viewer).is_some() {
         return None;
     }
-    let changes = Interventions::all(deck.run().starts());
+    let changes = Interventions::after_last_edit(deck.run().checkpoints());
     let (tick_hz, choice) = (deck.clock.tick_hz(), viewer.display().cloud);
     // The points of later ticks may give away the answer at a stop of the guide.
     let seconds = match viewer.is_asked() {

@@ -10,6 +10,7 @@ use super::step::Step;
 use super::zoom_pan::ZoomPan;
 use crate::loops::loop_lab::LoopCommand;
 use crate::measure::cloud::CloudChoice;
+use crate::run::MenuIndex;
 use crate::run::past::Quantity;
 use crate::scene::{Action, LaneSpec};
 use crate::sim::TickRate;
@@ -96,7 +97,7 @@ pub enum StageCommand {
     /// Solo: switches the bodies to this method in flight. Race: selects its lane.
     Method(&'static Method),
     /// Solo: switches to the method with this menu index, from 0. Race: selects its lane.
-    Pick(usize),
+    Pick(MenuIndex),
     /// Selects the next or the previous menu entry, cyclically.
     MethodBeside(Step),
     /// Solo to race, from the start line; race to solo, in the present state of the selected lane.
@@ -189,12 +190,12 @@ pub enum ViewCommand {
     /// Copies a method as source code.
     CopyMethod {
         /// Menu index of the method.
-        entry: usize,
+        entry: MenuIndex,
         /// The language.
         language: Language,
     },
     /// The pointer or the keyboard's focus moves to the lane at this menu index, or leaves the list.
-    PointAt(Option<usize>),
+    PointAt(Option<MenuIndex>),
     /// Limits the advice to the displayed body, or extends it to all bodies.
     AdviseOnOneBody(bool),
     /// Releases the held body, which resumes from where it was taken.

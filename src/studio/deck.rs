@@ -11,7 +11,9 @@ use super::scene_list::SceneList;
 use crate::measure::cloud::MAX_CLOUDS;
 use crate::run::past::Past;
 use crate::run::race::{Author, Entrant, Interpolation, Mode, Race};
-use crate::run::{Menu, RecordingError, Run, StartSettings, link, recording_among, recording_text};
+use crate::run::{
+    Menu, MenuIndex, RecordingError, Run, StartSettings, link, recording_among, recording_text,
+};
 use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::sim::Clock;
 
@@ -102,7 +104,7 @@ impl Deck {
     }
 
     /// Name of the method with this menu index, with its settings if another entry has the same method.
-    pub fn lane_name(&self, entry: usize) -> String {
+    pub fn lane_name(&self, entry: MenuIndex) -> String {
         let spec = &self.entries()[entry];
         spec.distinct_name(spec.method.name, self.entries())
     }
@@ -119,17 +121,17 @@ impl Deck {
     }
 
     /// Menu index of the solo method, or of the selected lane's in a race.
-    pub fn active(&self) -> usize {
+    pub fn active(&self) -> MenuIndex {
         self.entry(self.selected())
     }
 
     /// Menu index of a lane's method.
-    pub fn entry(&self, entrant: &Entrant) -> usize {
+    pub fn entry(&self, entrant: &Entrant) -> MenuIndex {
         self.run().menu().entry(entrant.id)
     }
 
     /// The lane under the method with this menu index, if there is one.
-    pub fn flown(&self, entry: usize) -> Option<&Entrant> {
+    pub fn lane_of(&self, entry: MenuIndex) -> Option<&Entrant> {
         self.race().entrant(self.run().menu().lane(entry)?)
     }
 
@@ -140,10 +142,10 @@ impl Deck {
     }
 
     /// The lane that a pick of this menu index selects; in solo mode, the only one.
-    pub(super) fn picked(&self, entry: usize) -> Option<LaneId> {
+    pub(super) fn lane_to_pick(&self, entry: MenuIndex) -> Option<LaneId> {
         let picked = match self.mode() {
             Mode::Solo => self.race().entrants().first().filter(|_| entry < self.entries().len()),
-            Mode::Race => self.flown(entry),
+            Mode::Race => self.lane_of(entry),
         };
         picked.map(|lane| lane.id)
     }
@@ -170,7 +172,7 @@ impl Deck {
     }
 
     /// Ticks dropped since the scene was opened or restarted.
-    pub fn dropped(&self) -> u64 {
+    pub fn dropped_ticks(&self) -> u64 {
         self.dropped
     }
 
@@ -212,7 +214,7 @@ impl Deck {
 
     /// Whether the verdicts describe another run than the one on the screen, which has changed since.
     pub fn is_judged_apart(&self) -> bool {
-        self.run().starts().was_changed_since_judged(self.race())
+        self.run().checkpoints().was_changed_since_judged(self.race())
     }
 
     /// Menu indices of the lanes with a cloud: all, or with very many lanes, the first ones and the selected one.
@@ -226,10 +228,10 @@ impl Deck {
 
     /// Evaluations in the next tick under the method with this menu index. Takes its lane, or else switches a copy of
     /// the selected one.
-    pub fn evaluations_of_next_tick(&self, entry: usize) -> u64 {
+    pub fn evaluations_of_next_tick(&self, entry: MenuIndex) -> u64 {
         let (race, spec) = (self.race(), &self.entries()[entry]);
-        let mut lane = self.flown(entry).unwrap_or(self.selected()).lane.clone();
-        if self.flown(entry).is_none() {
+        let mut lane = self.lane_of(entry).unwrap_or(self.selected()).lane.clone();
+        if self.lane_of(entry).is_none() {
             lane.switch(spec.solver(), spec.substeps, race.t(), race.truth());
         }
         let before = lane.evaluations();
@@ -264,13 +266,13 @@ impl Deck {
     /// # Errors
     /// As [`Session::recording_text`](crate::run::Session::recording_text).
     pub fn link(&self) -> Result<String, RecordingError> {
-        if let Some(named) = link::naming(self.run.session()) {
+        if let Some(named) = link::link_by_name(self.run.session()) {
             return Ok(named);
         }
         let recording = self.recorded();
         // A link holds only runs that fit into a scene file.
         recording_text(&recording)?;
-        link::to(&recording)
+        link::link_to_run(&recording)
             .map_err(|_| RecordingError::TooLong { bytes: recording.to_toml().len() })
     }
 
@@ -292,7 +294,7 @@ impl Deck {
 
     /// Selects the lane under the method with which a solo run starts.
     pub(super) fn select_entry_of_start(&mut self) {
-        let picked = self.picked(self.run.next().entry);
+        let picked = self.lane_to_pick(self.run.next().entry);
         self.selected = picked.unwrap_or(self.race().entrants()[0].id);
     }
 
@@ -313,7 +315,7 @@ impl Deck {
     }
 
     /// Applies `change` to the run, and returns its result with the parts of a notice about it.
-    pub(super) fn watched<T>(
+    pub(super) fn with_notices<T>(
         &mut self,
         change: impl FnOnce(&mut Run, &mut Notices<'_>) -> T,
     ) -> (T, Vec<String>) {
@@ -321,7 +323,7 @@ impl Deck {
         let mut notices = Notices::new(&scene);
         let done = self.run.race().done();
         let changed = change(&mut self.run, &mut notices);
-        let told = notices.told;
+        let told = notices.parts;
         self.clock.set_tick_hz(self.race().tick_hz());
         self.select_as_scripted(done);
         self.met = self.met.max(self.active() + 1);

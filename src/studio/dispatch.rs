@@ -1,7 +1,8 @@
 //! Passes commands on the run, and on the stage while it shows the run, to the functions that execute them.
 
 use super::acting::{
-    act, listed, pick, pick_beside, seek, set_lane, step_by, tell_of_the_future, toggle_equal_cost,
+    act, menu_index, pick, pick_beside, seek, set_lane, step_by, tell_of_the_future,
+    toggle_equal_cost,
 };
 use super::command::{RunCommand, SPEED_LADDER, StageCommand, TICK_LADDER};
 use super::deck::Deck;
@@ -57,7 +58,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
     let race = deck.race();
     match command {
         StageCommand::Method(method) => {
-            if let Some(entry) = listed(deck, viewer, method) {
+            if let Some(entry) = menu_index(deck, viewer, method) {
                 pick(deck, viewer, entry);
             }
         }
@@ -65,12 +66,12 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
         StageCommand::MethodBeside(step) => pick_beside(deck, viewer, step),
         StageCommand::TickHz(tick_hz) => act(deck, viewer, Action::TickHz(tick_hz)),
         StageCommand::TickRate(step) => {
-            if let Some(hz) = step.along(&TICK_LADDER, race.tick_hz()) {
+            if let Some(hz) = step.next_rung(&TICK_LADDER, race.tick_hz()) {
                 act(deck, viewer, Action::TickHz(hz.into()));
             }
         }
         StageCommand::Speed(step) => {
-            if let Some(percent) = step.along(&SPEED_LADDER, deck.clock.speed_percent()) {
+            if let Some(percent) = step.next_rung(&SPEED_LADDER, deck.clock.speed_percent()) {
                 deck.clock.set_speed_percent(percent);
             }
         }
@@ -92,7 +93,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
         StageCommand::Instrument(instrument) => viewer.preferences.display.instrument = instrument,
         StageCommand::InstrumentBeside(step) => {
             let instrument = &mut viewer.preferences.display.instrument;
-            *instrument = instrument.beside(step);
+            *instrument = instrument.neighbour(step);
         }
         StageCommand::Metric(index) => {
             viewer.preferences.display.metric = index.min(METRICS.len() - 1)

@@ -6,6 +6,7 @@ use super::instrument::Instrument;
 use super::zoom_pan::ZoomPan;
 use crate::look::palette::Theme;
 use crate::measure::cloud::CloudChoice;
+use crate::run::MenuIndex;
 use crate::run::past::Quantity;
 use crate::run::race::Interpolation;
 
@@ -82,7 +83,7 @@ pub struct Splits {
 
 impl Splits {
     /// Clamps both to their ranges.
-    pub fn within(self) -> Self {
+    pub fn clamped(self) -> Self {
         Self {
             instruments: self.instruments.map(|percent| percent.clamp(20, 70)),
             table: self.table.map(|percent| percent.clamp(8, 60)),
@@ -154,9 +155,9 @@ pub enum DriverRequest {
     CopyInstrument,
     /// Copy the method with this menu index to the clipboard, as source code in the viewer's
     /// [language](super::Viewer::language).
-    CopyMethod(usize),
+    CopyMethod(MenuIndex),
     /// Copy the lines of code that set the displayed body's spring in the engine with this menu index.
-    CopyJoint(usize),
+    CopyJoint(MenuIndex),
     /// Save the instrument as a picture, a drawing and a table.
     ExportInstrument,
     /// Enter or leave full screen.

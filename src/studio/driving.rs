@@ -30,8 +30,8 @@ pub(super) fn advance(
     observer: &mut dyn Observer,
 ) -> Due {
     // A tick rate that the script sets at this tick applies to the time from here on.
-    let ((), told) = deck.watched(|run, notices| run.catch_up(&mut (notices, &mut *observer)));
-    viewer.tell(told);
+    let ((), told) = deck.with_notices(|run, notices| run.catch_up(&mut (notices, &mut *observer)));
+    viewer.set_notice_parts(told);
     let percent = slow_motion_percent(deck, viewer);
     let mut due = deck.clock.advance(frame_ns.saturating_mul(i64::from(percent)) / 100);
     for made in 1..=due.ticks {
@@ -63,9 +63,9 @@ pub(super) fn advance(
 /// Performs the actions at this tick, and steps to the next.
 pub(super) fn make_tick(deck: &mut Deck, viewer: &mut Viewer, observer: &mut dyn Observer) {
     viewer.notice.take_if(|notice| notice.is_of_tick());
-    let ((), told) = deck.watched(|run, notices| run.tick(&mut (notices, observer)));
+    let ((), told) = deck.with_notices(|run, notices| run.tick(&mut (notices, observer)));
     deck.follow_with_compared();
-    viewer.tell(told);
+    viewer.set_notice_parts(told);
 }
 
 fn note_frame(deck: &mut Deck, viewer: &mut Viewer, duration_ns: i64, due: Due) {
@@ -78,13 +78,13 @@ fn note_frame(deck: &mut Deck, viewer: &mut Viewer, duration_ns: i64, due: Due) 
 }
 
 /// Present interpolation: raw at rest, so that bodies appear at their tick.
-fn drawn(deck: &Deck, viewer: &Viewer) -> Interpolation {
+fn drawn_interpolation(deck: &Deck, viewer: &Viewer) -> Interpolation {
     if deck.time_runs() { viewer.display().interpolation } else { Interpolation::Raw }
 }
 
 /// The moment shown, in ticks from the last one.
 fn shown_ticks(deck: &Deck, viewer: &Viewer) -> f64 {
-    drawn(deck, viewer).shown(deck.clock.alpha())
+    drawn_interpolation(deck, viewer).shown(deck.clock.alpha())
 }
 
 /// The moment shown (s). Everything on the stage, numbers included, belongs to this moment.
@@ -100,7 +100,8 @@ pub fn shown_tick(deck: &Deck, viewer: &Viewer) -> u64 {
 
 /// Coordinates and velocities of a lane's body at the moment shown.
 pub fn shown_state(deck: &Deck, viewer: &Viewer, body: &LaneBody) -> (Vec<f64>, Vec<f64>) {
-    let (drawn, alpha, h) = (drawn(deck, viewer), deck.clock.alpha(), deck.race().last_step_s());
+    let (drawn, alpha, h) =
+        (drawn_interpolation(deck, viewer), deck.clock.alpha(), deck.race().last_step_s());
     (drawn.coordinates(body, alpha, h), drawn.velocities(body, alpha))
 }
 

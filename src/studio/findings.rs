@@ -25,7 +25,7 @@ pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     };
     AnalysisRequest {
         scene: Arc::clone(&deck.run.next().scene),
-        by_hand: Interventions::in_race(deck.race(), deck.run().starts()),
+        by_hand: Interventions::in_race(deck.race(), deck.run().checkpoints()),
         entries: entries.to_vec(),
         first,
         tick_hz: deck.clock.tick_hz(),

@@ -1,7 +1,7 @@
 //! The loop of a driver, without a clock and without a screen: commands → ticks → picture → commands.
 //!
 //! A driver counts time in nanoseconds from any origin. For each frame it calls [`begin`](FrameLoop::begin), executes
-//! the requests, calls [`pass`](FrameLoop::pass), draws, and calls [`end`](FrameLoop::end) with the commands of the
+//! the requests, calls [`advance`](FrameLoop::advance), draws, and calls [`end`](FrameLoop::end) with the commands of the
 //! panels.
 
 use super::pace::PaceMeter;
@@ -32,7 +32,7 @@ pub struct FrameLoop {
     goal: Option<(u64, bool)>,
     /// Start of the last frame; `None` after a pause or after skipped time.
     last_frame_ns: Option<u64>,
-    /// Real time of the last [`pass`](Self::pass).
+    /// Real time of the last [`advance`](Self::advance).
     passed_ns: u64,
     /// Number of openings when time last passed.
     openings: u64,
@@ -58,12 +58,12 @@ impl FrameLoop {
     }
 
     /// Queues commands for the next frame.
-    pub fn ask(&mut self, commands: impl IntoIterator<Item = Command>) {
+    pub fn queue(&mut self, commands: impl IntoIterator<Item = Command>) {
         self.asked.extend(commands);
     }
 
     /// The commands queued for the next frame, in order.
-    pub fn asked(&self) -> &[Command] {
+    pub fn queued(&self) -> &[Command] {
         &self.asked
     }
 
@@ -89,7 +89,7 @@ impl FrameLoop {
 
     /// Passes the time since the last frame, for a frame that began at `now_ns`. Makes the ticks due, up to tick
     /// `last`, while `clock` shows that the driver stays responsive.
-    pub fn pass(&mut self, now_ns: u64, last: u64, clock: &dyn Fn() -> u64) {
+    pub fn advance(&mut self, now_ns: u64, last: u64, clock: &dyn Fn() -> u64) {
         // Building another scene takes no time of its run.
         if std::mem::replace(&mut self.openings, self.studio.deck.openings())
             != self.studio.deck.openings()
@@ -100,7 +100,7 @@ impl FrameLoop {
         self.last_frame_ns = self.studio.running().then_some(now_ns);
         let passed_ns = now_ns.saturating_sub(std::mem::replace(&mut self.passed_ns, now_ns));
         if !self.studio.deck.time_runs() {
-            self.studio.viewer.pass(i64::try_from(passed_ns).unwrap_or(i64::MAX));
+            self.studio.viewer.pass_time(i64::try_from(passed_ns).unwrap_or(i64::MAX));
         }
         let mut is_time_left = || clock().saturating_sub(now_ns) < MAX_SIMULATION_NS;
         if self.reach_goal(&mut is_time_left) {
@@ -179,7 +179,7 @@ mod tests {
     /// A frame that begins at `now_ns` and takes no time, with these commands of its panels.
     fn frame(frames: &mut FrameLoop, now_ns: u64, commands: Vec<Command>) -> u64 {
         assert_eq!(frames.begin(), None);
-        frames.pass(now_ns, u64::MAX, &|| now_ns);
+        frames.advance(now_ns, u64::MAX, &|| now_ns);
         frames.end(now_ns, now_ns, commands)
     }
 
@@ -189,7 +189,7 @@ mod tests {
             let (mut frames, mut now_ns) = begun("spring");
             let kind = &frames.studio.scene().bodies[0].kind;
             let (parameter, _) = kind.parameter("stiffness_n_per_m").unwrap();
-            frames.ask([ViewCommand::PointerDown(is_held).into()]);
+            frames.queue([ViewCommand::PointerDown(is_held).into()]);
             for n in 0..60 {
                 let value = 40.0 + f64::from(n);
                 let edit = RunCommand::Act(Action::Set { body: 0, parameter, value });
@@ -208,7 +208,7 @@ mod tests {
         assert_eq!(frames.studio.race().tick(), 1);
         for command in [StageCommand::SceneBeside(Step::Previous), StageCommand::Restart] {
             let is_opened = command != StageCommand::Restart;
-            frames.ask([command.into()]);
+            frames.queue([command.into()]);
             // The frame before takes long, and so does the next one if a scene was opened.
             now_ns += 10 * FRAME_NS;
             frame(&mut frames, now_ns, Vec::new());
@@ -223,7 +223,7 @@ mod tests {
         let studio = Studio::new(Scene::built_in("spring").unwrap());
         let mut frames = FrameLoop::new(studio, |_| false, 0);
         for n in 0..5 {
-            frames.pass(n * FRAME_NS, u64::MAX, &|| n * FRAME_NS);
+            frames.advance(n * FRAME_NS, u64::MAX, &|| n * FRAME_NS);
             frames.not_drawn();
         }
         assert_eq!(frames.studio.race().tick(), 0);
@@ -246,7 +246,7 @@ mod tests {
         };
         let mut reached = Vec::new();
         while reached.last() != Some(&100) {
-            frames.pass(now_ns, u64::MAX, &clock);
+            frames.advance(now_ns, u64::MAX, &clock);
             reached.push(frames.studio.race().tick());
         }
         assert_eq!((reached, frames.studio.running()), (vec![40, 80, 100], false));
@@ -258,7 +258,7 @@ mod tests {
         let own = |command: &Command| *command == Command::Stage(StageCommand::OpenSpring);
         let mut frames = FrameLoop::new(studio, own, 0);
         let pause = Command::View(ViewCommand::TogglePause);
-        frames.ask([
+        frames.queue([
             Command::Ask(DriverRequest::Screenshot),
             StageCommand::OpenSpring.into(),
             pause.clone(),

@@ -77,7 +77,7 @@ pub enum Goal {
 }
 
 /// The state of a studio that goals and hints depend on.
-pub(super) struct Situation<'a> {
+pub(super) struct HintContext<'a> {
     pub(super) scene: &'a Scene,
     pub(super) race: &'a Race,
     /// The menu, and the index on it of the selected lane's method.
@@ -94,7 +94,7 @@ pub(super) struct Situation<'a> {
     pub(super) display: &'a Display,
 }
 
-impl Situation<'_> {
+impl HintContext<'_> {
     /// The method of the selected lane.
     fn method(&self) -> &'static Method {
         self.menu[self.active].method
@@ -102,7 +102,7 @@ impl Situation<'_> {
 }
 
 impl Goal {
-    pub(super) fn is_met(self, now: &Situation<'_>) -> bool {
+    pub(super) fn is_met(self, now: &HintContext<'_>) -> bool {
         match self {
             Goal::Method(id) => now.method().id == id,
             Goal::TickHzFrom(hz) => now.race.tick_hz() >= hz,
@@ -162,7 +162,7 @@ impl Tour {
 
     /// Marks the task as done if its goal is met. If the stop asks for `Home`, the run must also be unchanged since
     /// its start. A task once done stays done.
-    pub(super) fn look(&mut self, now: &Situation<'_>) {
+    pub(super) fn check_goal(&mut self, now: &HintContext<'_>) {
         let is_begun = now.is_from_the_start || !self.stop().keys.contains(&Key::Home);
         self.is_done |= is_begun && self.stop().goal.is_met(now);
     }

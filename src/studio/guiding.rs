@@ -2,7 +2,7 @@
 
 use super::deck::{Deck, LeftRun};
 use super::display::Display;
-use super::guide::{Goal, STOPS, Situation, Stop, Tour};
+use super::guide::{Goal, HintContext, STOPS, Stop, Tour};
 use super::opening::open_with;
 use super::restarting::{Jump, follow};
 use super::resting::rest_hint;
@@ -22,12 +22,12 @@ fn error_of(quantity: Quantity) -> usize {
 }
 
 /// The studio's state for goals and hints.
-fn situation<'a>(deck: &'a Deck, viewer: &'a Viewer, is_in_loop_lab: bool) -> Situation<'a> {
+fn hint_context<'a>(deck: &'a Deck, viewer: &'a Viewer, is_in_loop_lab: bool) -> HintContext<'a> {
     let own = &deck.scene_as_opened().bodies;
     let has_own_values = |(index, body): (usize, &SceneBody)| {
         body.values == deck.race().values(index) && body.values == deck.scene().bodies[index].values
     };
-    Situation {
+    HintContext {
         has_own_values: own.iter().enumerate().all(has_own_values),
         scene: deck.scene(),
         race: deck.race(),
@@ -133,7 +133,7 @@ pub(super) fn look_at_goal(
     was_asked: bool,
 ) {
     let Some(mut tour) = viewer.tour.take() else { return };
-    tour.look(&situation(deck, viewer, is_in_loop_lab));
+    tour.check_goal(&hint_context(deck, viewer, is_in_loop_lab));
     let is_stepped = matches!(tour.stop().goal, Goal::SteppedTo(_));
     deck.running |= was_asked && !tour.is_asking() && !is_stepped && deck.race().tick() == 0;
     viewer.tour = Some(tour);
@@ -159,7 +159,7 @@ pub(super) fn hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option
         return Some(next.to_owned());
     }
     let outcome = viewer.verdict(deck.active()).map(|verdict| verdict.outcome());
-    viewer.hints.text(&situation(deck, viewer, is_in_loop_lab), outcome)
+    viewer.hints.text(&hint_context(deck, viewer, is_in_loop_lab), outcome)
 }
 
 #[cfg(test)]

@@ -178,9 +178,9 @@ impl Instrument {
     }
 
     /// The instrument of the next or previous tab, cyclically.
-    pub(super) fn beside(self, step: Step) -> Self {
+    pub(super) fn neighbour(self, step: Step) -> Self {
         let index = Self::all().position(|instrument| instrument == self).unwrap_or(0);
-        INSTRUMENTS[step.around(index, INSTRUMENTS.len())].instrument
+        INSTRUMENTS[step.cyclic_index(index, INSTRUMENTS.len())].instrument
     }
 }
 
@@ -203,10 +203,10 @@ mod tests {
     fn next_and_previous_wrap_around() {
         let mut instrument = Instrument::Motion;
         for _ in INSTRUMENTS {
-            assert_eq!(instrument.beside(Step::Next).beside(Step::Previous), instrument);
-            instrument = instrument.beside(Step::Next);
+            assert_eq!(instrument.neighbour(Step::Next).neighbour(Step::Previous), instrument);
+            instrument = instrument.neighbour(Step::Next);
         }
         assert_eq!(instrument, Instrument::Motion);
-        assert_eq!(Instrument::Motion.beside(Step::Previous), Instrument::Cost);
+        assert_eq!(Instrument::Motion.neighbour(Step::Previous), Instrument::Cost);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::deck::Deck;
 use super::viewer::Viewer;
+use crate::run::MenuIndex;
 use crate::run::race::LaneBody;
 use crate::scene::{Action, Swing};
 use crate::tools::port::{Setup, setups};
@@ -54,7 +55,7 @@ impl Deck {
 
 /// The lines of code that set the displayed body's spring in the engine with this menu index. `None` if that is not
 /// an engine with a joint, or if the body is not a spring.
-pub fn joint_code(deck: &Deck, viewer: &Viewer, entry: usize) -> Option<String> {
+pub fn joint_code(deck: &Deck, viewer: &Viewer, entry: MenuIndex) -> Option<String> {
     let spring = deck.spring_joint(viewer.view.body)?;
     let spec = deck.entries().get(entry)?;
     let tick_hz = f64::from(deck.race().tick_hz());

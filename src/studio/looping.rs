@@ -89,7 +89,9 @@ pub fn open_traces(studio: &mut Studio, traces: Vec<FrameTrace>) {
         let missing = traces[0].missing_display();
         loops.add_traces(traces);
         loops.end_opening();
-        missing.into_iter().for_each(|missing| studio.viewer.set_notice(missing));
+        if let Some(missing) = missing {
+            studio.viewer.set_notice(missing);
+        }
     }
 }
 
@@ -129,7 +131,7 @@ pub(super) fn carry_out_in_loop_lab(studio: &mut Studio, command: StageCommand) 
         StageCommand::Pick(index) => loops.select(index),
         StageCommand::ToggleArrangement => loops.toggle_overlay(),
         StageCommand::InstrumentBeside(step) => {
-            loops.choose_trace(step.around(loops.trace(), loops.traces().len()));
+            loops.choose_trace(step.cyclic_index(loops.trace(), loops.traces().len()));
         }
         StageCommand::Restart => loops.seek(0),
         StageCommand::Tick(step) => step_loops(&mut studio.deck, loops, step.sign()),
@@ -143,12 +145,16 @@ pub(super) fn carry_out_in_loop_lab(studio: &mut Studio, command: StageCommand) 
         StageCommand::Method(method) => set_loop_method(&mut studio.viewer, loops, method),
         StageCommand::TickHz(tick_hz) => loops.set_tick_hz(tick_hz),
         StageCommand::TickRate(step) => {
-            let beside = step.along(&TICK_LADDER, tick_hz);
-            beside.into_iter().for_each(|hz| loops.set_tick_hz(hz));
+            let beside = step.next_rung(&TICK_LADDER, tick_hz);
+            if let Some(hz) = beside {
+                loops.set_tick_hz(hz);
+            }
         }
         StageCommand::Speed(step) => {
-            let beside = step.other().along(&SLOWNESS, loops.slowness());
-            beside.into_iter().for_each(|slowness| loops.set_slowness(slowness));
+            let beside = step.opposite().next_rung(&SLOWNESS, loops.slowness());
+            if let Some(slowness) = beside {
+                loops.set_slowness(slowness);
+            }
         }
         StageCommand::Scene(_) | StageCommand::SceneBeside(_) | StageCommand::Body(_) => {
             let running = studio.deck.running;
@@ -205,7 +211,7 @@ pub(super) fn change_loop_lab(studio: &mut Studio, command: LoopCommand) {
 fn method_beside(loops: &LoopLab, step: Step) -> &'static Method {
     let methods: Vec<_> = loops.scene().fitting_methods().collect();
     let index = methods.iter().position(|method| *method == loops.method()).unwrap_or(0);
-    methods[step.around(index, methods.len())]
+    methods[step.cyclic_index(index, methods.len())]
 }
 
 fn set_loop_method(viewer: &mut Viewer, loops: &mut LoopLab, method: &'static Method) {

@@ -10,7 +10,7 @@ use crate::loops::loop_lab::LoopLab;
 use crate::measure::{AnalysisRequest, AnalysisWorker};
 use crate::run::past::Past;
 use crate::run::race::{Entrant, Mode, Observer, Race};
-use crate::run::{Run, Session, StartSettings};
+use crate::run::{MenuIndex, Run, Session, StartSettings};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::Clock;
 use crate::sim::integrators::Method;
@@ -167,11 +167,11 @@ impl Studio {
         self.deck.entries()
     }
     /// Menu index of a lane's method.
-    pub fn entry(&self, entrant: &Entrant) -> usize {
+    pub fn entry(&self, entrant: &Entrant) -> MenuIndex {
         self.deck.entry(entrant)
     }
     /// Name of the method with this menu index, with its settings if another entry has the same method.
-    pub fn lane_name(&self, entry: usize) -> String {
+    pub fn lane_name(&self, entry: MenuIndex) -> String {
         self.deck.lane_name(entry)
     }
     /// Solo or race.
@@ -179,7 +179,7 @@ impl Studio {
         self.deck.mode()
     }
     /// Menu index of the solo method, or of the selected lane's in a race.
-    pub fn active(&self) -> usize {
+    pub fn active(&self) -> MenuIndex {
         self.deck.active()
     }
     /// The lane in solo mode, or the selected lane in a race.
@@ -252,7 +252,7 @@ impl Studio {
             viewer.live.jump();
             return Due::default();
         }
-        viewer.pass(frame_ns);
+        viewer.pass_time(frame_ns);
         if let Some(loops) = loops {
             loops.advance(frame_ns);
             return Due::default();

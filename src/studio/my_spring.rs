@@ -67,7 +67,7 @@ impl MySpring {
     }
 
     /// The same start on a spring that moves as `wish` asks.
-    pub fn told(self, wish: &Wish) -> Self {
+    pub fn with_wish(self, wish: &Wish) -> Self {
         Self { mass_kg: wish.mass_kg, ..self }.swinging(wish.frequency_hz, wish.damping_ratio)
     }
 

@@ -38,7 +38,7 @@ impl Notice {
     }
 
     /// Reduces the remaining display time by `ns` nanoseconds.
-    pub(super) fn pass(&mut self, ns: i64) {
+    pub(super) fn pass_time(&mut self, ns: i64) {
         self.left_ns = self.left_ns.saturating_sub(ns.max(0)).max(0);
     }
 }
@@ -87,7 +87,7 @@ mod tests {
                 let mut frames = 0;
                 while studio.viewer.notice.is_some() {
                     studio.advance(70_000_000);
-                    studio.viewer.pass(if is_running { 0 } else { 70_000_000 });
+                    studio.viewer.pass_time(if is_running { 0 } else { 70_000_000 });
                     frames += 1;
                 }
                 assert_eq!(studio.viewer.notice.as_ref().map(Notice::left_ns), None);

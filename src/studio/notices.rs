@@ -1,6 +1,6 @@
 //! Notices about bodies that halt and bodies that resume.
 
-use crate::run::race::{Done, Halt, Observer, Race, Resumed, ResumedFrom};
+use crate::run::race::{Halt, Observer, PerformedAction, Race, Resumed, ResumedFrom};
 use crate::scene::{Action, LaneSpec, Scene};
 use crate::sim::bodies::FalseClaims;
 
@@ -8,29 +8,29 @@ use crate::sim::bodies::FalseClaims;
 pub(super) struct Notices<'s> {
     scene: &'s Scene,
     /// Parts of the latest notice; empty without one.
-    pub(super) told: Vec<String>,
+    pub(super) parts: Vec<String>,
 }
 
 impl<'s> Notices<'s> {
     pub(super) fn new(scene: &'s Scene) -> Self {
-        Self { scene, told: Vec::new() }
+        Self { scene, parts: Vec::new() }
     }
 
-    fn tell(&mut self, told: Vec<String>) {
+    fn set_parts(&mut self, told: Vec<String>) {
         if !told.is_empty() {
-            self.told = told;
+            self.parts = told;
         }
     }
 }
 
 impl Observer for Notices<'_> {
-    fn after(&mut self, race: &Race, done: &Done) {
-        self.tell(resumed_notice(self.scene, &done.resumed));
-        self.tell(of_claims(self.scene, race, &done.action).into_iter().collect());
+    fn after(&mut self, race: &Race, done: &PerformedAction) {
+        self.set_parts(resumed_notice(self.scene, &done.resumed));
+        self.set_parts(of_claims(self.scene, race, &done.action).into_iter().collect());
     }
 
     fn ticked(&mut self, race: &Race) {
-        self.tell(of_halts(self.scene, race));
+        self.set_parts(of_halts(self.scene, race));
     }
 }
 

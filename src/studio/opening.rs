@@ -53,7 +53,7 @@ fn is_alike(a: &Scene, b: &Scene) -> bool {
 
 /// Lists the open scene as the file at `path`.
 pub fn list_as_file(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
-    let index = deck.scene_list.put(path, deck.scene().clone());
+    let index = deck.scene_list.add_or_replace(path, deck.scene().clone());
     deck.scene_list.set_open(Some(index));
     tell_outdated(deck, viewer);
 }
@@ -61,7 +61,7 @@ pub fn list_as_file(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
 /// Opens a scene from the file at `path`, and puts it on the list.
 pub fn open_file(studio: &mut Studio, path: &Path, scene: Scene) {
     studio.loops = None;
-    let index = studio.deck.scene_list.put(path, scene);
+    let index = studio.deck.scene_list.add_or_replace(path, scene);
     open(&mut studio.deck, &mut studio.viewer, index);
     tell_outdated(&mut studio.deck, &mut studio.viewer);
 }
@@ -124,7 +124,7 @@ pub fn open_advised_spring(studio: &mut Studio, scene: Result<Scene, SceneErrors
 fn open_described(deck: &mut Deck, viewer: &mut Viewer, scene: Result<Scene, SceneErrors>) {
     match scene {
         Ok(scene) => {
-            let index = deck.scene_list.put(Path::new(MY_SPRING), scene);
+            let index = deck.scene_list.add_or_replace(Path::new(MY_SPRING), scene);
             open_with(deck, viewer, index, |next| next.mode = Mode::Solo);
             deck.running = true;
             viewer.preferences.display.instrument = Instrument::Advice;
@@ -146,7 +146,7 @@ pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
     let before = studio.deck.scene_list.open().map(|index| studio.deck.scene_list.scene(index));
     let is_equal = before.as_ref().is_some_and(|before| before.to_toml() == scene.to_toml());
     let keeps = before.is_some_and(|before| is_alike(&before, &scene));
-    let index = studio.deck.scene_list.put(path, scene);
+    let index = studio.deck.scene_list.add_or_replace(path, scene);
     if !is_open {
         return;
     }
@@ -272,7 +272,7 @@ pub fn show_clouds_of_scene(deck: &mut Deck, viewer: &mut Viewer) {
 
 pub(super) fn open_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step) {
     let count = deck.scene_list.count();
-    open(deck, viewer, deck.scene_list.open().map_or(0, |here| step.around(here, count)));
+    open(deck, viewer, deck.scene_list.open().map_or(0, |here| step.cyclic_index(here, count)));
 }
 
 /// Opens the scene with this index in the list, modulo its length, under its opening method, and closes the guide,

@@ -56,7 +56,7 @@ pub(super) fn rest_hint(deck: &Deck, viewer: &Viewer) -> Option<String> {
         return None;
     }
     if let Some(halt) = deck.just_lost(viewer.motion()) {
-        let (name, how) = (deck.lane_name(deck.active()), halt.how());
+        let (name, how) = (deck.lane_name(deck.active()), halt.ending());
         let t = significant(halt.t, 3);
         return Some(format!(
             "{name} {how} at {t} s. `W` shows it again, `Home` starts over, `Space` goes on."

@@ -36,8 +36,12 @@ impl SavedPreferences {
     /// Applies the preferences to a studio.
     pub fn apply(&self, studio: &mut Studio) {
         let preferences = &mut studio.viewer.preferences;
-        self.theme.into_iter().for_each(|theme| preferences.choose_theme(theme));
-        self.scale_percent.into_iter().for_each(|percent| preferences.choose_scale(percent));
+        if let Some(theme) = self.theme {
+            preferences.choose_theme(theme);
+        }
+        if let Some(percent) = self.scale_percent {
+            preferences.choose_scale(percent);
+        }
         preferences.display.measure = self.measure;
         preferences.display.splits = self.splits;
     }
@@ -86,7 +90,7 @@ impl SavedPreferences {
                     let is_table = key == "table_percent";
                     *(if is_table { &mut splits.table } else { &mut splits.instruments }) =
                         Some(percent);
-                    if splits.within() != *splits {
+                    if splits.clamped() != *splits {
                         return Err(wrong());
                     }
                 }

@@ -107,7 +107,7 @@ impl SceneList {
     }
 
     /// Puts the scene of a file on the list, or replaces the file's earlier scene. Returns its index.
-    pub(super) fn put(&mut self, path: &Path, scene: Scene) -> usize {
+    pub(super) fn add_or_replace(&mut self, path: &Path, scene: Scene) -> usize {
         let file = SceneFile { path: path.to_owned(), scene, mistakes: None };
         match self.files.iter().position(|known| known.path == path) {
             Some(index) => {
@@ -142,15 +142,19 @@ mod tests {
         let ship = Scene::built_in("ship").unwrap();
         let mut scene_list = SceneList::of(&ship);
         assert_eq!(scene_list.names().nth(scene_list.open().unwrap()).unwrap(), "ship");
-        let index = scene_list.put(Path::new("a/ship.toml"), ship.clone());
+        let index = scene_list.add_or_replace(Path::new("a/ship.toml"), ship.clone());
         assert_eq!(scene_list.names().nth(index).unwrap(), "ship.toml");
         assert_eq!(index, SCENES.len());
-        let other = scene_list.put(Path::new("b/ship.toml"), ship.clone());
-        let bare = scene_list.put(Path::new("c/ship"), ship.clone());
+        let other = scene_list.add_or_replace(Path::new("b/ship.toml"), ship.clone());
+        let bare = scene_list.add_or_replace(Path::new("c/ship"), ship.clone());
         let names: Vec<String> = scene_list.names().skip(SCENES.len()).collect();
         assert_eq!(names, ["a/ship.toml", "b/ship.toml", "c/ship"]);
         assert_eq!((other, bare), (index + 1, index + 2));
-        assert_eq!(scene_list.put(Path::new("a/ship.toml"), ship), index, "it keeps its index");
+        assert_eq!(
+            scene_list.add_or_replace(Path::new("a/ship.toml"), ship),
+            index,
+            "it keeps its index"
+        );
         assert_eq!(scene_list.count(), SCENES.len() + 3);
     }
 }

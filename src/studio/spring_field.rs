@@ -36,7 +36,7 @@ impl SpringField {
     }
 
     /// Mass, stiffness and damping.
-    pub fn made_of(spring: MySpring) -> [Self; 3] {
+    pub fn constant_fields(spring: MySpring) -> [Self; 3] {
         let MySpring { mass_kg, stiffness_n_per_m, damping_n_s_per_m, .. } = spring;
         [
             Self::new("mass", "kg", mass_kg, move |mass_kg| MySpring { mass_kg, ..spring }),
@@ -52,7 +52,7 @@ impl SpringField {
     }
 
     /// Frequency and damping ratio, which describe the motion independently of the mass.
-    pub fn seen_as(spring: MySpring) -> [Self; 2] {
+    pub fn motion_fields(spring: MySpring) -> [Self; 2] {
         let [hz, ratio] = [spring.frequency_hz(), spring.damping_ratio()];
         [
             Self::new("frequency", "Hz", hz, move |hz| spring.swinging(hz, ratio)),
@@ -73,7 +73,7 @@ impl SpringField {
                 switches.for_each(|(_, told)| *told = 1.0);
                 let wish = dialect.read(&told)?;
                 let mass_kg = if dialect.has_mass() { wish.mass_kg } else { spring.mass_kg };
-                describe(spring.told(&Wish { mass_kg, ..wish }))
+                describe(spring.with_wish(&Wish { mass_kg, ..wish }))
             };
             Self { name: key.name, unit: "", value, is_whole: false, set: Box::new(set) }
         };
@@ -121,7 +121,7 @@ mod tests {
         let parameters = &kind("spring").unwrap().parameters;
         let spring = MySpring::default();
         let fields =
-            SpringField::made_of(spring).into_iter().chain(SpringField::of_release(spring));
+            SpringField::constant_fields(spring).into_iter().chain(SpringField::of_release(spring));
         let mut shared = 0;
         for field in fields {
             let Some(parameter) = parameters.iter().find(|it| it.quantity() == field.name) else {
@@ -140,11 +140,11 @@ mod tests {
             }
         }
         assert!(shared > 20, "{shared}");
-        let told = |value: f64| (SpringField::made_of(spring)[0].set)(value).unwrap_err();
+        let told = |value: f64| (SpringField::constant_fields(spring)[0].set)(value).unwrap_err();
         assert_eq!(told(-5.0), "mass would be -5; it must be from 1e-12 to 1e12");
         assert_eq!(told(1e-300), "mass would be 1e-300; it must be from 1e-12 to 1e12");
         // Errors also name derived numbers.
-        let [frequency, _] = SpringField::seen_as(spring);
+        let [frequency, _] = SpringField::motion_fields(spring);
         let words = (frequency.set)(1e200).unwrap_err();
         assert!(words.starts_with("stiffness would be too large for a number; it must"), "{words}");
     }

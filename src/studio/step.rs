@@ -19,7 +19,7 @@ impl Step {
     }
 
     /// The next or previous index of a cyclic list.
-    pub(super) fn around(self, index: usize, count: usize) -> usize {
+    pub(super) fn cyclic_index(self, index: usize, count: usize) -> usize {
         match self {
             Self::Next => (index + 1) % count,
             Self::Previous => (index + count - 1) % count,
@@ -27,7 +27,7 @@ impl Step {
     }
 
     /// The opposite step.
-    pub(super) fn other(self) -> Self {
+    pub(super) fn opposite(self) -> Self {
         match self {
             Self::Next => Self::Previous,
             Self::Previous => Self::Next,
@@ -35,7 +35,7 @@ impl Step {
     }
 
     /// The next or previous rung; `None` at the end of the ladder.
-    pub(super) fn along(self, ladder: &[u32], rung: impl PartialOrd<u32>) -> Option<u32> {
+    pub(super) fn next_rung(self, ladder: &[u32], rung: impl PartialOrd<u32>) -> Option<u32> {
         match self {
             Self::Next => ladder.iter().copied().find(|other| rung < *other),
             Self::Previous => ladder.iter().copied().rfind(|other| rung > *other),
@@ -51,7 +51,7 @@ mod tests {
     #[test]
     fn a_rate_between_two_rungs_steps_to_the_next_on_either_side() {
         let ladder = [2, 60, 100];
-        let from = |step: Step, hz: &str| step.along(&ladder, hz.parse::<TickRate>().unwrap());
+        let from = |step: Step, hz: &str| step.next_rung(&ladder, hz.parse::<TickRate>().unwrap());
         assert_eq!(
             ["66.667", "59.94", "60"].map(|hz| from(Step::Next, hz)),
             [100, 60, 100].map(Some)

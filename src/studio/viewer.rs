@@ -13,6 +13,7 @@ use super::pace::LiveLoop;
 use crate::look::palette::Theme;
 use crate::measure::cloud::{CloudChoice, FoundCloud};
 use crate::measure::{Advice, Findings, StabilityMap, Verdict};
+use crate::run::MenuIndex;
 use crate::run::race::{Interpolation, Mode};
 use crate::scene::{LaneSpec, Mistake, Scene};
 use crate::sim::TickRate;
@@ -142,7 +143,7 @@ pub struct Viewer {
     /// The person's view of the scene.
     pub view: View,
     /// Menu index of the lane under the pointer or the keyboard's focus.
-    pub(super) pointed: Option<usize>,
+    pub(super) pointed: Option<MenuIndex>,
     /// The driver's pace while time runs; `None` without real time, as in a capture.
     pub pace: Option<Pace>,
     /// Time (ns) of each lane's tick as the driver last measured it; `None` for a lane that halted.
@@ -188,7 +189,7 @@ impl Viewer {
     }
 
     /// Menu index of the lane under the pointer or the keyboard's focus, if there is one.
-    pub fn pointed_lane(&self) -> Option<usize> {
+    pub fn pointed_lane(&self) -> Option<MenuIndex> {
         self.pointed
     }
 
@@ -232,12 +233,12 @@ impl Viewer {
     /// The verdict on the method with this menu index, for the run that
     /// [`Studio::analysis_request`](super::Studio::analysis_request) describes. `None` until it is
     /// [found](super::accept_findings), and while a person is [asked](Self::is_asked).
-    pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
+    pub fn verdict(&self, entry: MenuIndex) -> Option<&Verdict> {
         self.judged(entry).filter(|_| !self.is_asked())
     }
 
     /// The same verdict, also while a person is asked.
-    pub(super) fn judged(&self, entry: usize) -> Option<&Verdict> {
+    pub(super) fn judged(&self, entry: MenuIndex) -> Option<&Verdict> {
         self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
     }
 
@@ -262,8 +263,10 @@ impl Viewer {
     }
 
     /// Lets `ns` nanoseconds of real time pass, and removes an expired notice.
-    pub fn pass(&mut self, ns: i64) {
-        self.notice.iter_mut().for_each(|notice| notice.pass(ns));
+    pub fn pass_time(&mut self, ns: i64) {
+        if let Some(notice) = &mut self.notice {
+            notice.pass_time(ns);
+        }
         self.notice.take_if(|notice| notice.left_ns() == 0);
     }
 
@@ -325,7 +328,7 @@ impl Viewer {
         self.preferences.typed_path = path;
     }
 
-    pub(super) fn tell(&mut self, told: Vec<String>) {
+    pub(super) fn set_notice_parts(&mut self, told: Vec<String>) {
         if !told.is_empty() {
             self.set_notice(told);
         }

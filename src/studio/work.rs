@@ -18,7 +18,7 @@ pub trait Work {
     fn is_same(one: &Self::Request, other: &Self::Request) -> bool;
 
     /// Replaces the request.
-    fn take(&mut self, request: Self::Request);
+    fn set_request(&mut self, request: Self::Request);
 
     /// Does one step, which may end early once `stop` returns `true`. Returns its result, if it has one, and whether
     /// there is more to do.
@@ -57,7 +57,7 @@ impl Work for AnalysisWorker {
         one == other
     }
 
-    fn take(&mut self, request: AnalysisRequest) {
+    fn set_request(&mut self, request: AnalysisRequest) {
         self.set_request(request);
     }
 
@@ -75,7 +75,7 @@ impl Work for LoopWorker {
         one.as_ref().map(Arc::as_ptr) == other.as_ref().map(Arc::as_ptr)
     }
 
-    fn take(&mut self, request: Self::Request) {
+    fn set_request(&mut self, request: Self::Request) {
         self.set_request(request);
     }
 
@@ -99,7 +99,7 @@ impl Work for CloudWorker {
         }
     }
 
-    fn take(&mut self, request: Self::Request) {
+    fn set_request(&mut self, request: Self::Request) {
         self.set_request(request);
     }
 

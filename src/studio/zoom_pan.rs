@@ -33,7 +33,7 @@ impl ZoomPan {
 
     /// The place in the view of a place of the fitted frame. Both are across and down from the middle, in widths and
     /// heights.
-    pub fn seen(&self, place: [f64; 2]) -> [f64; 2] {
+    pub fn place_in_view(&self, place: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|i| self.zoom * (place[i] - self.centre[i]))
     }
 
@@ -65,7 +65,7 @@ mod tests {
         for (times, about) in [(1.3, [0.3, -0.4]), (5.0, [-0.5, 0.5]), (0.1, [0.1, 0.2])] {
             let place = [0, 1].map(|i| zoom_pan.centre[i] + about[i] / zoom_pan.zoom);
             zoom_pan = zoom_pan.zoomed(times, about);
-            for (seen, about) in zoom_pan.seen(place).into_iter().zip(about) {
+            for (seen, about) in zoom_pan.place_in_view(place).into_iter().zip(about) {
                 assert!((seen - about).abs() < 1e-12, "{times} about {about}: {seen}");
             }
         }
@@ -75,8 +75,10 @@ mod tests {
     fn a_pan_moves_the_view_equally_at_every_zoom() {
         for times in [0.2, 1.0, 30.0] {
             let zoom_pan = ZoomPan::default().zoomed(times, [0.1, 0.3]);
-            let (before, after) =
-                (zoom_pan.seen([0.0; 2]), zoom_pan.panned([0.25, -0.125]).seen([0.0; 2]));
+            let (before, after) = (
+                zoom_pan.place_in_view([0.0; 2]),
+                zoom_pan.panned([0.25, -0.125]).place_in_view([0.0; 2]),
+            );
             assert!((after[0] - before[0] - 0.25).abs() < 1e-12);
             assert!((after[1] - before[1] + 0.125).abs() < 1e-12);
         }
@@ -88,7 +90,7 @@ mod tests {
         assert_eq!(ZoomPan::default().zoomed(1e9, about).zoom(), 64.0);
         assert_eq!(ZoomPan::default().zoomed(1e-9, about).zoom(), 0.125);
         let far = ZoomPan::default().panned([-100.0, 100.0]);
-        assert_eq!(far.seen([FARTHEST, -FARTHEST]), [0.0; 2]);
+        assert_eq!(far.place_in_view([FARTHEST, -FARTHEST]), [0.0; 2]);
         let there_and_back = ZoomPan::default().zoomed(2.0, about).zoomed(0.5, about);
         assert_eq!(there_and_back, ZoomPan::default());
     }

@@ -56,14 +56,14 @@ impl Backdrop {
     }
 
     /// Decides which part of the picture the backdrop covers: none if the texture cannot be copied to the target.
-    pub(super) fn cover(
+    pub(super) fn choose_cover(
         &mut self,
         gpu: &Gpu,
         target: &wgpu::Texture,
         transform: &ScreenTransform,
         picture: &Picture,
     ) -> Covered {
-        let alike = self.last.as_ref().and_then(|last| last.alike(transform, picture));
+        let alike = self.last.as_ref().and_then(|last| last.matching_shapes(transform, picture));
         let Some(alike) = alike.filter(|_| takes_copies(target, self.format)) else {
             self.drawn = None;
             return Covered::Nothing;
@@ -85,7 +85,7 @@ impl Backdrop {
     }
 
     /// Keeps the picture to compare the next one with.
-    pub(super) fn remember(
+    pub(super) fn keep_picture(
         &mut self,
         transform: ScreenTransform,
         Picture { sea, shapes, .. }: Picture,
@@ -110,7 +110,7 @@ impl Backdrop {
 
 impl Scenery {
     /// Number of shapes, from the bottom, that match the picture's; `None` if the sea or the transform differs.
-    fn alike(&self, transform: &ScreenTransform, picture: &Picture) -> Option<usize> {
+    fn matching_shapes(&self, transform: &ScreenTransform, picture: &Picture) -> Option<usize> {
         (self.transform == *transform && Some(self.sea) == picture.sea).then(|| {
             let pairs = self.shapes.iter().zip(&picture.shapes);
             pairs.take_while(|(one, other)| one == other).count()
@@ -190,8 +190,8 @@ mod tests {
             ScreenTransform { size_px: [64; 2], origin_px: [0.0; 2], px_per_point: 1.0, edges_px };
         let mut cover = |lines, own| {
             let picture = picture([40, 60, 90, 255], lines, own);
-            let covered = backdrop.cover(&gpu, &target, &transform, &picture);
-            backdrop.remember(transform, picture);
+            let covered = backdrop.choose_cover(&gpu, &target, &transform, &picture);
+            backdrop.keep_picture(transform, picture);
             covered
         };
         assert_eq!(cover(25, 0.0), Covered::Nothing);

@@ -6,19 +6,19 @@ use crate::tools::source_code::{Precision, source_code};
 
 /// A text for the clipboard.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Copied {
+pub struct ClipboardText {
     /// The text to copy.
     pub text: String,
-    told: String,
-    otherwise: String,
+    success_notice: String,
+    alternative: String,
 }
 
-impl Copied {
+impl ClipboardText {
     /// Notice after the clipboard took the text or refused it for a reason.
     pub fn notice(&self, taken: Result<(), String>) -> String {
         match taken {
-            Ok(()) => self.told.clone(),
-            Err(reason) => format!("no clipboard: {reason}; {}", self.otherwise),
+            Ok(()) => self.success_notice.clone(),
+            Err(reason) => format!("no clipboard: {reason}; {}", self.alternative),
         }
     }
 }
@@ -27,8 +27,11 @@ impl Copied {
 ///
 /// # Errors
 /// The reason why there is nothing to copy.
-pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, String>> {
-    let (text, told, otherwise) = match request {
+pub fn clipboard_text(
+    studio: &Studio,
+    request: DriverRequest,
+) -> Option<Result<ClipboardText, String>> {
+    let (text, success_notice, alternative) = match request {
         DriverRequest::CopyLink => match studio.deck.link() {
             Ok(run) => {
                 let Display { measure, instrument, motion, .. } = studio.display();
@@ -38,15 +41,16 @@ pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, 
                 let tick = tick.filter(|_| !studio.deck.runs_or_rests(*motion));
                 let at = tick.map(|tick| format!("&tick={tick}"));
                 let link = [Some(run), at, seen].into_iter().flatten().collect::<String>();
-                let told = format!("copied the run as a link of {} characters", link.len());
-                (link, told, "Ctrl S saves the run, and `regatta link` prints it".into())
+                let success_notice =
+                    format!("copied the run as a link of {} characters", link.len());
+                (link, success_notice, "Ctrl S saves the run, and `regatta link` prints it".into())
             }
             Err(error) => return Some(Err(error.to_string())),
         },
         DriverRequest::CopyInstrument => match panels::csv(studio) {
             Some(lines) => {
-                let told = format!("copied {} values as CSV", lines.len() - 1);
-                (lines.concat(), told, "Ctrl E saves the values".into())
+                let success_notice = format!("copied {} values as CSV", lines.len() - 1);
+                (lines.concat(), success_notice, "Ctrl E saves the values".into())
             }
             None => return Some(Err("this instrument has no values to copy".into())),
         },
@@ -63,12 +67,12 @@ pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, 
         DriverRequest::CopyJoint(entry) => {
             let (code, method) =
                 (joint_code(&studio.deck, &studio.viewer, entry)?, studio.entries()[entry].method);
-            let told = format!("copied the spring's settings of {}", method.name);
-            (code, told, format!("`regatta port --to {}` prints them", method.id))
+            let success_notice = format!("copied the spring's settings of {}", method.name);
+            (code, success_notice, format!("`regatta port --to {}` prints them", method.id))
         }
         _ => return None,
     };
-    Some(Ok(Copied { text, told, otherwise }))
+    Some(Ok(ClipboardText { text, success_notice, alternative }))
 }
 
 #[cfg(test)]
@@ -82,7 +86,7 @@ mod tests {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.viewer.preferences.display.measure = false;
         let link = |studio: &Studio| {
-            let copied = copied(studio, DriverRequest::CopyLink).unwrap().unwrap();
+            let copied = clipboard_text(studio, DriverRequest::CopyLink).unwrap().unwrap();
             (copied.text.clone(), copied.notice(Ok(())))
         };
         let told = "copied the run as a link of 13 characters".to_owned();
@@ -102,7 +106,7 @@ mod tests {
     fn without_a_clipboard_a_notice_gives_the_reason_and_a_command_instead() {
         let studio = Studio::new(Scene::built_in("spring").unwrap());
         let entry = studio.entries().iter().position(|spec| spec.method.id == "rk4").unwrap();
-        let copied = copied(&studio, DriverRequest::CopyMethod(entry)).unwrap().unwrap();
+        let copied = clipboard_text(&studio, DriverRequest::CopyMethod(entry)).unwrap().unwrap();
         assert!(copied.text.contains("fn "), "{}", copied.text);
         let expected = "no clipboard: there is no display; `regatta show rk4 --as rust` prints it";
         assert_eq!(copied.notice(Err("there is no display".into())), expected);

@@ -10,7 +10,7 @@ use super::gpu::Gpu;
 use super::meshes::MeshRenderer;
 use super::panels::{self, Panels};
 use super::stage::{Stage, StageRenderer};
-use super::textures::{Start, pass};
+use super::textures::{PassStart, begin_pass};
 use super::theme::{self, auto_zoom, colour};
 use super::touch::Touch;
 use crate::stage;
@@ -33,7 +33,7 @@ pub struct FrameOutput {
 
 /// A frame after its layout and before its drawing.
 #[must_use]
-pub struct Layout {
+pub struct LaidOutFrame {
     panels: egui::FullOutput,
     stage: Option<Stage>,
 }
@@ -101,14 +101,14 @@ impl FrameRenderer {
         scale: f32,
         input: egui::RawInput,
         studio: &Studio,
-    ) -> (Vec<Command>, Layout) {
+    ) -> (Vec<Command>, LaidOutFrame) {
         let mut commands = Vec::new();
         theme::show(&self.context, studio.display(), size_px.map(|side| side as f32 / scale));
         let shown = self.shown;
         let mut touch = std::mem::take(&mut self.touch);
         let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {
             let was_down = studio.viewer.pointer_is_down();
-            let is_down = ui.input(|input| input.pointer.any_down()) || panels::is_under_way(ui);
+            let is_down = ui.input(|input| input.pointer.any_down()) || panels::is_sweep_active(ui);
             if is_down && !was_down {
                 commands.push(Command::View(ViewCommand::PointerDown(true)));
             }
@@ -142,9 +142,9 @@ impl FrameRenderer {
         gpu: &Gpu,
         target: &wgpu::TextureView,
         size_px: [u32; 2],
-        layout: Layout,
+        layout: LaidOutFrame,
     ) -> FrameOutput {
-        let Layout { mut panels, stage } = layout;
+        let LaidOutFrame { mut panels, stage } = layout;
         let drawing = self.encode(gpu, target, size_px, &mut panels, stage);
         let repaint_delay = panels
             .viewport_output
@@ -184,9 +184,9 @@ impl FrameRenderer {
         scale: f32,
         input: egui::RawInput,
         mut show: impl FnMut(&mut egui::Ui) -> Option<Stage>,
-    ) -> Layout {
+    ) -> LaidOutFrame {
         let mut stage = None;
-        let input = self.sized(gpu, size_px, scale, input);
+        let input = self.sized_input(gpu, size_px, scale, input);
         let panels = self.context.run_ui(input, |ui| {
             stage = show(ui);
             if let Some(Stage { rect, picture }) = &stage {
@@ -194,10 +194,10 @@ impl FrameRenderer {
                 picture.labels.iter().for_each(|label| write(&painter, *rect, label));
             }
         });
-        Layout { panels, stage }
+        LaidOutFrame { panels, stage }
     }
 
-    fn sized(
+    fn sized_input(
         &self,
         gpu: &Gpu,
         size_px: [u32; 2],
@@ -234,12 +234,12 @@ impl FrameRenderer {
         let meshes = self.context.tessellate(std::mem::take(&mut output.shapes), px_per_point);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let has_stage = stage.is_some();
-        let start = stage.map_or(Start::Black, |stage| {
+        let start = stage.map_or(PassStart::Black, |stage| {
             self.stage.prepare(gpu, &mut encoder, target.texture(), stage, px_per_point)
         });
         self.panels.prepare(gpu, &meshes, size_px, px_per_point);
         {
-            let mut pass = pass(&mut encoder, "frame", target, start);
+            let mut pass = begin_pass(&mut encoder, "frame", target, start);
             if has_stage {
                 self.stage.paint(&mut pass);
             }

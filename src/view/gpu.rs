@@ -108,7 +108,7 @@ impl Gpu {
     /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
     pub async fn headless(preference: AdapterPreference) -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-        Self::choose(&instance(descriptor), None, preference).await
+        Self::choose(&instance(descriptor)?, None, preference).await
     }
 
     /// Creates a device of the best ranked adapter. If there is a `surface`, the adapter must be able to present to
@@ -118,14 +118,6 @@ impl Gpu {
         surface: Option<&wgpu::Surface<'_>>,
         preference: AdapterPreference,
     ) -> Result<Self, GpuError> {
-        // A browser's driver has its own memory, and a reservation in ours would never be returned.
-        if cfg!(not(target_arch = "wasm32")) {
-            let mut room = Vec::<u8>::new();
-            let reserved = room.try_reserve_exact(DRIVER_MIB << 20);
-            // Keeps an optimiser from removing the unused reservation.
-            std::hint::black_box(&mut room);
-            reserved.map_err(|_| GpuError::NoRoom { mib: DRIVER_MIB })?;
-        }
         let mut unfit = Vec::new();
         let mut candidates = Vec::new();
         let mut adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
@@ -224,9 +216,23 @@ impl Gpu {
 
 /// Creates an instance without validation of indirect draws, which we never issue. That validation needs compute
 /// shaders, which some drivers' GL lacks.
-pub(super) fn instance(mut descriptor: wgpu::InstanceDescriptor) -> wgpu::Instance {
+///
+/// # Errors
+/// [`GpuError::NoRoom`] if the memory that a software driver needs cannot be had.
+pub(super) fn instance(
+    mut descriptor: wgpu::InstanceDescriptor,
+) -> Result<wgpu::Instance, GpuError> {
+    // A driver that runs out of memory while it is loaded ends the process. A browser's driver has its own memory,
+    // and a reservation in ours would never be returned.
+    if cfg!(not(target_arch = "wasm32")) {
+        let mut room = Vec::<u8>::new();
+        let reserved = room.try_reserve_exact(DRIVER_MIB << 20);
+        // Keeps an optimiser from removing the unused reservation.
+        std::hint::black_box(&mut room);
+        reserved.map_err(|_| GpuError::NoRoom { mib: DRIVER_MIB })?;
+    }
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
-    wgpu::Instance::new(descriptor)
+    Ok(wgpu::Instance::new(descriptor))
 }
 
 /// Makes the C library keep the memory that a frame frees, for the next frame.

@@ -76,7 +76,7 @@ pub fn command_of(key: Key, is_repeated: bool, panels: &egui::Context) -> Option
     // Escape closes a menu.
     let closes_menu = key == Key::Escape && egui::Popup::is_any_open(panels);
     let focus = Focus::of(panels.egui_wants_keyboard_input(), panels.text_edit_focused());
-    if focus.takes(key) || closes_menu {
+    if focus.takes_key(key) || closes_menu {
         return None;
     }
     let (command, binding) = command_for(key)?;
@@ -104,7 +104,7 @@ impl Focus {
     }
 
     /// Whether the focused widget takes a key.
-    fn takes(self, key: Key) -> bool {
+    fn takes_key(self, key: Key) -> bool {
         match self {
             Focus::Nothing => false,
             Focus::Widget => works_widgets(key),

@@ -28,7 +28,7 @@ impl Joint {
 
 /// Visible parts of a line within a window, in runs cut off at its edges. Drops as many joints as possible, as long
 /// as the line passes the dropped ones within the tolerances.
-pub(super) fn shown(joints: impl Iterator<Item = Joint>, window: Rect) -> Vec<Vec<Joint>> {
+pub(super) fn visible_runs(joints: impl Iterator<Item = Joint>, window: Rect) -> Vec<Vec<Joint>> {
     let mut runs: Vec<Run> = Vec::new();
     let mut last: Option<(Joint, bool)> = None;
     for joint in joints {
@@ -38,14 +38,14 @@ pub(super) fn shown(joints: impl Iterator<Item = Joint>, window: Rect) -> Vec<Ve
             let seen = if whole { Some([last, joint]) } else { cut([last, joint], window) };
             if let Some([from, to]) = seen {
                 match runs.last_mut() {
-                    Some(run) if run.end == from => run.go_on(to),
-                    _ => runs.push(Run::between(from, to)),
+                    Some(run) if run.end == from => run.extend_to(to),
+                    _ => runs.push(Run::from_segment(from, to)),
                 }
             }
         }
         last = Some((joint, is_inside));
     }
-    runs.into_iter().map(Run::ended).collect()
+    runs.into_iter().map(Run::into_joints).collect()
 }
 
 /// The part of a line within a window (Liang and Barsky).
@@ -83,22 +83,22 @@ struct Run {
 }
 
 impl Run {
-    fn between(from: Joint, to: Joint) -> Self {
+    fn from_segment(from: Joint, to: Joint) -> Self {
         let mut run = Self { kept: vec![from], piece: Piece::from(from), end: from };
-        run.go_on(to);
+        run.extend_to(to);
         run
     }
 
-    fn go_on(&mut self, to: Joint) {
-        if !self.piece.reaches(to) {
+    fn extend_to(&mut self, to: Joint) {
+        if !self.piece.try_extend(to) {
             self.kept.push(self.end);
             self.piece = Piece::from(self.end);
-            self.piece.reaches(to);
+            self.piece.try_extend(to);
         }
         self.end = to;
     }
 
-    fn ended(mut self) -> Vec<Joint> {
+    fn into_joints(mut self) -> Vec<Joint> {
         self.kept.push(self.end);
         self.kept
     }
@@ -133,7 +133,7 @@ impl Piece {
 
     /// Extends the piece to a joint if the piece can replace all joints up to it. Returns whether it can; a new piece
     /// reaches any joint.
-    fn reaches(&mut self, joint: Joint) -> bool {
+    fn try_extend(&mut self, joint: Joint) -> bool {
         let is_new = std::mem::take(&mut self.is_new);
         let offset = joint.at - self.from.at;
         let tint = |i: usize| f32::from(joint.colour[i]) - f32::from(self.from.colour[i]);
@@ -198,9 +198,9 @@ mod tests {
             line([[1.0, 5.0], [2.0, 5.0], [2.0, 10.0]]),
             line([[4.0, 10.0], [4.0, 5.0], [10.0, 5.0]]),
         ];
-        assert_eq!(shown(there_and_back.into_iter(), window), expected);
+        assert_eq!(visible_runs(there_and_back.into_iter(), window), expected);
         let outside = line([[-5.0, -5.0], [-1.0, 20.0], [20.0, 40.0]]);
-        assert!(shown(outside.into_iter(), window).is_empty());
+        assert!(visible_runs(outside.into_iter(), window).is_empty());
     }
 
     #[test]
@@ -209,11 +209,11 @@ mod tests {
         let from = Joint { radius: 1.0, colour: Color32::from_gray(200), ..joint([5.0, 5.0]) };
         let to = Joint { radius: 3.0, colour: Color32::from_gray(100), ..joint([15.0, 5.0]) };
         let half = Joint { radius: 2.0, colour: Color32::from_gray(150), ..joint([10.0, 5.0]) };
-        assert_eq!(shown([from, to].into_iter(), window), [[from, half]]);
+        assert_eq!(visible_runs([from, to].into_iter(), window), [[from, half]]);
     }
 
     fn simple(line: &[Joint]) -> Vec<Joint> {
-        shown(line.iter().copied(), Rect::EVERYTHING).concat()
+        visible_runs(line.iter().copied(), Rect::EVERYTHING).concat()
     }
 
     /// Whether a straight piece looks the same without the joint between its ends.

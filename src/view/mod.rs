@@ -37,8 +37,8 @@ pub use {egui, wgpu};
 
 pub use chart::AxisScale;
 pub use chart::figure::{Axis, Chart, Figure, FigureCurve, Legend};
-pub use copying::{Copied, copied};
-pub use frame::{FrameOutput, FrameRenderer, Layout};
+pub use copying::{ClipboardText, clipboard_text};
+pub use frame::{FrameOutput, FrameRenderer, LaidOutFrame};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
 pub use keyboard::{Meaning, Modifiers, bound_key, command_of};
 pub use offscreen_renderer::{Offscreen, OffscreenRenderer};

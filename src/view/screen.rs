@@ -19,7 +19,7 @@ impl Screen {
         window: impl Into<wgpu::SurfaceTarget<'static>>,
     ) -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_with_display_handle_from_env(display);
-        let instance = instance(descriptor);
+        let instance = instance(descriptor)?;
         match instance.create_surface(window) {
             Ok(surface) => Ok(Self { instance, surface }),
             // Without a driver there is no surface either, but the missing driver is the cause to report.
@@ -35,7 +35,7 @@ impl Screen {
     /// # Errors
     /// [`GpuError::NoSurface`].
     pub fn of_canvas(canvas: impl Into<wgpu::SurfaceTarget<'static>>) -> Result<Self, GpuError> {
-        let instance = instance(wgpu::InstanceDescriptor::new_without_display_handle());
+        let instance = instance(wgpu::InstanceDescriptor::new_without_display_handle())?;
         let surface = instance.create_surface(canvas)?;
         Ok(Self { instance, surface })
     }

@@ -83,7 +83,7 @@ mod tests {
         for (x, y) in [(7, 30), (56, 30), (30, 7), (30, 56)] {
             assert_eq!(pixels.at(x, y)[..3], [0, 0, 0], "({x}, {y}) is outside");
         }
-        assert_eq!(pixels.lit(), 48 * 48);
+        assert_eq!(pixels.count_lit(), 48 * 48);
         let [above, below] = [9, 54].map(|y| pixels.at(9, y)[2]);
         assert!(above > below + 30, "{above} and {below}");
         let [lit, shaded] = [[38, 18], [9, 18]].map(|[x, y]| pixels.at(x, y)[2]);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use egui::Rect;
 
 use super::gpu::Gpu;
-use super::lines::{Joint, shown};
+use super::lines::{Joint, visible_runs};
 use super::screen_transform::ScreenTransform;
 use super::strokes::{StrokeMesh, StrokePipeline};
 use super::theme::colour;
@@ -86,7 +86,7 @@ fn add(mesh: &mut StrokeMesh, shape: &Shape, transform: &ScreenTransform) {
             let widest = path.points.iter().map(|point| point.radius).fold(0.0, f32::max);
             // Half a pixel more for the blur.
             let window = window.expand(widest + 0.5 / transform.px_per_point);
-            for run in shown(path.points.iter().map(joint), window) {
+            for run in visible_runs(path.points.iter().map(joint), window) {
                 mesh.add(run, path.dash, transform.px_per_point);
             }
         }
@@ -151,7 +151,7 @@ mod tests {
         let Some(gpu) = gpu_or_skip("nothing_is_drawn_outside_the_clip") else { return };
         let clip = stage::Rect { min: [20.0, 30.0], max: [40.0, 34.0] };
         let pixels = draw(&gpu, &[[-9e4, 32.0], [9e4, 32.0]].map(|at| point(at, 10.0)), clip);
-        assert_eq!(pixels.lit(), 20 * 4);
+        assert_eq!(pixels.count_lit(), 20 * 4);
         assert_eq!((pixels.at(20, 30)[0], pixels.at(39, 33)[0]), (255, 255));
     }
 

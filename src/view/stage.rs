@@ -7,7 +7,7 @@ use super::gpu::Gpu;
 use super::screen_transform::{ScreenBindGroup, ScreenTransform};
 use super::sea::SeaPipeline;
 use super::shapes::ShapeRenderer;
-use super::textures::{Start, pass};
+use super::textures::{PassStart, begin_pass};
 use crate::stage::{FAR, Picture, Rect};
 
 /// A rectangle that clips nothing.
@@ -64,7 +64,7 @@ impl StageRenderer {
         target: &wgpu::Texture,
         Stage { rect, picture }: Stage,
         scale: f32,
-    ) -> Start {
+    ) -> PassStart {
         let size_px = [target.width(), target.height()];
         // On whole pixels, so that shapes on whole points stay sharp.
         let low_px = (rect.min.to_vec2() * scale).round();
@@ -79,7 +79,7 @@ impl StageRenderer {
         };
         self.screen.write(gpu, &transform);
         self.scissor_px = transform.scissor_px(EVERYWHERE);
-        self.covered = self.backdrop.cover(gpu, target, &transform, &picture);
+        self.covered = self.backdrop.choose_cover(gpu, target, &transform, &picture);
         let (below, above) = picture.shapes.split_at(self.covered.shapes());
         self.shapes.clear();
         self.draws = match self.covered {
@@ -93,19 +93,19 @@ impl StageRenderer {
         if let (Covered::Drawing(_), Some(view)) = (self.covered, self.backdrop.view()) {
             // Submitted at once: later frames need the backdrop, even if the caller never submits this frame.
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let mut pass = pass(&mut encoder, "backdrop", &view, Start::Black);
+            let mut pass = begin_pass(&mut encoder, "backdrop", &view, PassStart::Black);
             if self.begin(&mut pass) {
                 self.paint_below(&mut pass);
             }
             drop(pass);
             gpu.queue.submit([encoder.finish()]);
         }
-        self.backdrop.remember(transform, picture);
+        self.backdrop.keep_picture(transform, picture);
         if self.covered == Covered::Nothing {
-            return Start::Black;
+            return PassStart::Black;
         }
         self.backdrop.copy(encoder, target);
-        Start::AsItIs
+        PassStart::Keep
     }
 
     /// Draws the prepared picture, and nothing outside the stage.

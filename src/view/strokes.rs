@@ -349,7 +349,7 @@ mod tests {
         let Some(gpu) = gpu_or_skip(test) else { return };
         let across = path(&[([-9.0, 8.0], 2.0), ([80.0, 8.0], 2.0)], [255; 4]);
         let clip = Rect { min: [4.0, 0.0], max: [12.0, 64.0] };
-        let lit = |scale: f32| draw(&gpu, scale, [Path { clip, ..across.clone() }]).lit();
+        let lit = |scale: f32| draw(&gpu, scale, [Path { clip, ..across.clone() }]).count_lit();
         assert_eq!((lit(1.0), lit(3.0)), (8 * 4, 9 * 8 * 4));
     }
 
@@ -359,6 +359,6 @@ mod tests {
         let Some(gpu) = gpu_or_skip(test) else { return };
         let pixel = |x: u8, y: u8| dot([x, y].map(|side| f32::from(side) + 0.5), 0.5, [255; 4]);
         let pixels = (0..64).flat_map(|y| (0..64).map(move |x| pixel(x, y)));
-        assert_eq!(draw(&gpu, 1.0, pixels).lit(), 64 * 64);
+        assert_eq!(draw(&gpu, 1.0, pixels).count_lit(), 64 * 64);
     }
 }

@@ -11,7 +11,7 @@ use super::{AdapterPreference, Gpu, Offscreen, Readback, panels, theme};
 use crate::stage::{Picture, Rect};
 use crate::studio::{Command, Studio};
 use crate::view::stage::StageRenderer;
-use crate::view::textures::pass;
+use crate::view::textures::begin_pass;
 
 /// A software device. Without one, writes the name of the skipped test and the reason to stderr.
 pub(super) fn gpu_or_skip(test: &str) -> Option<Gpu> {
@@ -34,7 +34,7 @@ impl Pixels {
     }
 
     /// Number of pixels that are not black.
-    pub(super) fn lit(&self) -> usize {
+    pub(super) fn count_lit(&self) -> usize {
         self.rows.chunks_exact(4).filter(|pixel| pixel[..3] != [0, 0, 0]).count()
     }
 
@@ -65,7 +65,7 @@ pub(super) fn draw_next(
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let stage = Stage { rect, picture: picture.clone() };
     let start = renderer.prepare(gpu, &mut encoder, &target.texture, stage, scale);
-    renderer.paint(&mut pass(&mut encoder, "picture", &target.view, start));
+    renderer.paint(&mut begin_pass(&mut encoder, "picture", &target.view, start));
     read(gpu, Some(encoder.finish()), &target)
 }
 

@@ -37,23 +37,23 @@ pub(super) fn takes_copies(target: &wgpu::Texture, format: wgpu::TextureFormat) 
 
 /// Initial contents of a pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Start {
+pub(super) enum PassStart {
     /// A black target.
     Black,
     /// The present contents of the target.
-    AsItIs,
+    Keep,
 }
 
 /// Begins a pass that draws on a target.
-pub(super) fn pass<'e>(
+pub(super) fn begin_pass<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     label: &str,
     target: &wgpu::TextureView,
-    start: Start,
+    start: PassStart,
 ) -> wgpu::RenderPass<'e> {
     let load = match start {
-        Start::Black => wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-        Start::AsItIs => wgpu::LoadOp::Load,
+        PassStart::Black => wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+        PassStart::Keep => wgpu::LoadOp::Load,
     };
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(label),

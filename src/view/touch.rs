@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use egui::{Align2, CursorIcon, Event, FontId, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
 use super::theme::{TYPE, palette};
+use crate::run::MenuIndex;
 use crate::run::race::Mode;
 use crate::scene::Action;
 use crate::stage::{Cell, Grasp, Picture, Whose};
@@ -28,7 +29,7 @@ const MAX_RING: f32 = 48.0;
 #[derive(Debug, Default)]
 pub(super) struct Touch {
     press: Option<Press>,
-    track: Track,
+    track: PointerTrail,
     /// Start of the last invitation to drag a body, in seconds; `None` if there was none.
     invited_s: Option<f64>,
 }
@@ -39,15 +40,15 @@ struct Press {
     /// Place of the press, in points of the frame.
     from: Pos2,
     is_drag: bool,
-    on: Pressed,
+    on: PressTarget,
 }
 
 /// Target of the press.
 #[derive(Debug)]
-enum Pressed {
+enum PressTarget {
     Body {
         grasp: Grasp,
-        entry: usize,
+        entry: MenuIndex,
     },
     /// A cell without a body there, with its zoom at that time.
     Sea {
@@ -96,7 +97,7 @@ impl Touch {
         let over_stage = |at: Pos2| {
             rect.contains(at) && ui.ctx().layer_id_at(at).is_none_or(|layer| layer == ui.layer_id())
         };
-        self.agree_with(studio, commands);
+        self.sync_held_body(studio, commands);
         for event in events {
             match event {
                 Event::PointerButton {
@@ -126,8 +127,8 @@ impl Touch {
 
     /// Agrees with the studio, which may have released the body itself (Escape), or may still hold one that this
     /// state forgot.
-    fn agree_with(&mut self, studio: &Studio, commands: &mut Vec<Command>) {
-        let holds = matches!(self.press, Some(Press { on: Pressed::Body { .. }, .. }));
+    fn sync_held_body(&mut self, studio: &Studio, commands: &mut Vec<Command>) {
+        let holds = matches!(self.press, Some(Press { on: PressTarget::Body { .. }, .. }));
         match studio.deck.held() {
             None if holds => self.press = None,
             Some(_) if !holds => commands.push(Command::View(ViewCommand::LetGo)),
@@ -152,15 +153,15 @@ impl Touch {
                     Some(Whose::Lane { entry, .. }) => entry,
                     Some(Whose::Truth) | None => cell.entry,
                 };
-                Pressed::Body { grasp, entry }
+                PressTarget::Body { grasp, entry }
             }
             None => {
                 let zoom_pan = stage.studio.view().zoom_pan(cell.zoomed_as);
-                Pressed::Sea { cell: cell.clone(), zoom_pan }
+                PressTarget::Sea { cell: cell.clone(), zoom_pan }
             }
         };
         self.press = Some(Press { from: at, is_drag: false, on });
-        self.track = Track::default();
+        self.track = PointerTrail::default();
         self.track.add(time, at);
     }
 
@@ -172,11 +173,11 @@ impl Touch {
             return;
         }
         match &mut press.on {
-            Pressed::Body { grasp, .. } => {
+            PressTarget::Body { grasp, .. } => {
                 grasp.pull(stage.studio, stage.point(at), [0.0; 2]);
                 commands.push(Command::Run(RunCommand::Hold(grasp.held().clone())));
             }
-            Pressed::Sea { cell, zoom_pan } => {
+            PressTarget::Sea { cell, zoom_pan } => {
                 let [from, to] = [press.from, at].map(|at| cell.part(stage.point(at)));
                 let zoom_pan = zoom_pan.panned([to[0] - from[0], to[1] - from[1]]);
                 commands
@@ -198,7 +199,7 @@ impl Touch {
         self.drag(stage, time, at, commands);
         let Some(Press { is_drag, on, .. }) = self.press.take() else { return };
         let entry = match on {
-            Pressed::Body { mut grasp, entry } => {
+            PressTarget::Body { mut grasp, entry } => {
                 if is_drag {
                     let speed = f64::from(stage.studio.clock().speed_percent()) / 100.0;
                     let velocity = if is_thrown { self.track.velocity() } else { Vec2::ZERO };
@@ -211,7 +212,7 @@ impl Touch {
                 commands.push(Command::View(ViewCommand::LetGo));
                 entry
             }
-            Pressed::Sea { cell, .. } => cell.entry,
+            PressTarget::Sea { cell, .. } => cell.entry,
         };
         if !is_drag && stage.studio.mode() == Mode::Race {
             commands.push(Command::Stage(StageCommand::Pick(entry)));
@@ -221,7 +222,7 @@ impl Touch {
     /// Marks a body that the pointer can grab, by the pointer's shape and a ring.
     fn point_out(&mut self, ui: &Ui, stage: &Stage<'_>, hover: Option<Pos2>, time: f64) {
         let cursor = match &self.press {
-            Some(Press { on: Pressed::Body { .. }, .. }) => CursorIcon::Grabbing,
+            Some(Press { on: PressTarget::Body { .. }, .. }) => CursorIcon::Grabbing,
             Some(Press { is_drag: true, .. }) => CursorIcon::Move,
             Some(_) => return,
             None => {
@@ -271,9 +272,9 @@ fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
 
 /// Recent places of the pointer, each with its time in seconds.
 #[derive(Debug, Default)]
-struct Track(VecDeque<(f64, Pos2)>);
+struct PointerTrail(VecDeque<(f64, Pos2)>);
 
-impl Track {
+impl PointerTrail {
     fn add(&mut self, time: f64, at: Pos2) {
         self.0.push_back((time, at));
         while self.0.get(1).is_some_and(|(second, _)| time - second >= MEMORY_S) {

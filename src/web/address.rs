@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn a_link_opens_with_the_settings_after_it() {
-        let link = link::to(&Scene::built_in("spring").unwrap()).unwrap();
+        let link = link::link_to_run(&Scene::built_in("spring").unwrap()).unwrap();
         let address = Address::of(&format!("{link}&panels=off&theme=light&tick=90")).unwrap();
         assert_eq!(address.run.as_ref().unwrap().title, "A spring at 1 Hz");
         assert_eq!((address.is_embedded, address.theme), (true, Some(Theme::Light)));

@@ -10,7 +10,7 @@ use regatta::studio::{
     Command, DriverRequest, FrameLoop, Motion, SavedPreferences, StageCommand, Studio, ViewCommand,
     open_file,
 };
-use regatta::view::{copied, egui};
+use regatta::view::{clipboard_text, egui};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::{Closure, JsValue};
 use web_sys::{Storage, Window};
@@ -121,7 +121,9 @@ impl Driver {
         studio.deck.set_rewind_bytes(REWIND_BYTES);
         let preferences = &mut studio.viewer.preferences;
         preferences.follow_theme(theme_of(&window));
-        address.theme.into_iter().for_each(|theme| preferences.choose_theme(theme));
+        if let Some(theme) = address.theme {
+            preferences.choose_theme(theme);
+        }
         preferences.is_page = true;
         let is_calm = prefers(&window, "(prefers-reduced-motion: reduce)");
         preferences.display.motion = if is_calm { Motion::Reduced } else { Motion::Live };
@@ -213,7 +215,7 @@ impl Driver {
     /// # Errors
     /// The reason why no link can hold the run.
     pub(crate) fn put_into_address(&self) -> Result<String, String> {
-        let copied = copied(&self.frames.studio, DriverRequest::CopyLink);
+        let copied = clipboard_text(&self.frames.studio, DriverRequest::CopyLink);
         let link = copied.unwrap_or_else(|| Err("there is no run".into()))?.text;
         let address = self.window.location().href().unwrap_or_default();
         let page = address.split('#').next().unwrap_or_default();
@@ -232,7 +234,7 @@ impl Driver {
     }
 
     /// Reloads the page at the current tick of the run, after the graphics driver has taken the canvas away.
-    pub(crate) fn start_again(&self) {
+    pub(crate) fn reload_page(&self) {
         let plays = if self.frames.studio.running() { "&play" } else { "" };
         let tick = self.frames.studio.race().tick();
         let panels = if self.is_embedded { "&panels=off" } else { "" };
@@ -243,17 +245,17 @@ impl Driver {
     }
 
     /// Resumes or pauses time.
-    pub(crate) fn play(&mut self) {
-        self.frames.ask([Command::View(ViewCommand::TogglePause)]);
+    pub(crate) fn toggle_pause(&mut self) {
+        self.frames.queue([Command::View(ViewCommand::TogglePause)]);
         self.request_frame();
     }
 
     /// Restarts the run and lets time run.
-    pub(crate) fn begin_again(&mut self) {
-        self.frames.ask([Command::Stage(StageCommand::Restart)]);
+    pub(crate) fn restart(&mut self) {
+        self.frames.queue([Command::Stage(StageCommand::Restart)]);
         match self.frames.studio.running() {
             true => self.request_frame(),
-            false => self.play(),
+            false => self.toggle_pause(),
         }
     }
 
@@ -277,12 +279,12 @@ impl Driver {
     pub(crate) fn request_work(&mut self) {
         let has_more = self.workers.have_more() || self.arrival.is_some();
         if has_more && !std::mem::replace(&mut self.work_is_due, true) {
-            self.after(0, Self::work);
+            self.run_after_ms(0, Self::work);
         }
     }
 
     /// Calls `does` on the driver after some milliseconds.
-    pub(crate) fn after(&self, ms: i32, does: fn(&mut Self)) {
+    pub(crate) fn run_after_ms(&self, ms: i32, does: fn(&mut Self)) {
         let does = Closure::once_into_js(move || with(does));
         let set = Window::set_timeout_with_callback_and_timeout_and_arguments_0;
         _ = set(&self.window, does.unchecked_ref(), ms);

@@ -17,7 +17,7 @@ use web_sys::{
 use crate::driver::{Driver, with};
 
 /// Asks for a file and opens it.
-pub(crate) fn ask() {
+pub(crate) fn pick_file() {
     let Some(input) = element::<HtmlInputElement>("input") else { return };
     input.set_type("file");
     input.set_accept(".toml,.csv,.txt");

@@ -1,7 +1,7 @@
 //! A frame: commands → ticks → picture → canvas; and the work between frames.
 
 use regatta::studio::{Command, DriverRequest, ToDo, ViewCommand, picture_file_name};
-use regatta::view::{copied, egui, spoken};
+use regatta::view::{clipboard_text, egui, spoken};
 use web_sys::Document;
 
 use crate::driver::{Driver, now_ns};
@@ -26,7 +26,7 @@ impl Driver {
         let scale = self.window.device_pixel_ratio();
         let Some((commands, output)) = self.canvas.draw(scale, input, &self.frames.studio) else {
             self.frames.not_drawn();
-            return self.after(100, Self::request_frame);
+            return self.run_after_ms(100, Self::request_frame);
         };
         if std::mem::take(&mut self.saves_picture) {
             let name = format!("{}.png", picture_file_name(&self.frames.studio));
@@ -42,7 +42,7 @@ impl Driver {
         let due_ms = u128::from(due_ns.div_ceil(1_000_000));
         let wait_ms = output.repaint_delay.as_millis().min(due_ms);
         if wait_ms <= MAX_WAIT_MS {
-            self.after(wait_ms as i32, Self::request_frame);
+            self.run_after_ms(wait_ms as i32, Self::request_frame);
         }
     }
 
@@ -50,10 +50,10 @@ impl Driver {
     fn simulate(&mut self, began_ns: u64) {
         while let Some(to_do) = self.frames.begin() {
             match to_do {
-                ToDo::Own(Command::View(ViewCommand::AskForPath)) => files::ask(),
+                ToDo::Own(Command::View(ViewCommand::AskForPath)) => files::pick_file(),
                 ToDo::Own(_) => {
-                    let told = "a page cannot compare recordings; `regatta diff` can";
-                    self.frames.studio.viewer.set_notice(told);
+                    let notice = "a page cannot compare recordings; `regatta diff` can";
+                    self.frames.studio.viewer.set_notice(notice);
                 }
                 ToDo::Request(DriverRequest::Screenshot) => self.saves_picture = true,
                 ToDo::Request(DriverRequest::Record) => self.save_recording(),
@@ -61,14 +61,14 @@ impl Driver {
                 ToDo::Request(request) => self.copy(request),
             }
         }
-        self.workers.ask(&self.frames.studio);
+        self.workers.set_requests(&self.frames.studio);
         let window = self.window.clone();
-        self.frames.pass(began_ns, u64::MAX, &|| now_ns(&window));
+        self.frames.advance(began_ns, u64::MAX, &|| now_ns(&window));
     }
 
     /// Copies the requested text to the clipboard, if the request is one to copy.
     fn copy(&mut self, request: DriverRequest) {
-        let copied = match copied(&self.frames.studio, request) {
+        let copied = match clipboard_text(&self.frames.studio, request) {
             Some(Ok(copied)) => copied,
             Some(Err(refused)) => return self.frames.studio.viewer.set_notice(refused),
             None => return,
@@ -137,9 +137,9 @@ impl Driver {
             }
         }
         let spoken = spoken(studio);
-        let told = document.get_element_by_id("state").filter(|_| spoken != self.spoken);
-        if let Some(told) = told {
-            told.set_text_content(Some(&spoken));
+        let state = document.get_element_by_id("state").filter(|_| spoken != self.spoken);
+        if let Some(state) = state {
+            state.set_text_content(Some(&spoken));
             self.spoken = spoken;
         }
         let stage = (studio.deck.openings(), studio.active(), studio.loop_lab().is_some());
@@ -158,10 +158,10 @@ impl Driver {
         while self.now_ns() < end_ns && (self.workers.have_more() || self.arrival.is_some()) {
             has_found |= self.workers.step(&mut self.frames.studio);
             if let Some(replay) = &mut self.arrival
-                && let Some(told) = crate::work::told_after_slice(replay)
+                && let Some(notice) = crate::work::replay_notice(replay)
             {
                 self.arrival = None;
-                self.frames.studio.viewer.set_notice(told);
+                self.frames.studio.viewer.set_notice(notice);
                 has_found = true;
             }
         }

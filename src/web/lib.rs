@@ -85,7 +85,7 @@ pub fn link() -> Result<String, JsValue> {
 /// Resumes or pauses time.
 #[wasm_bindgen]
 pub fn pause() {
-    driver::with(Driver::play);
+    driver::with(Driver::toggle_pause);
 }
 
 /// Number of frames drawn so far.
@@ -98,8 +98,8 @@ pub fn frames() -> u32 {
 
 /// Restarts the run and lets time run.
 #[wasm_bindgen]
-pub fn again() {
-    driver::with(Driver::begin_again);
+pub fn restart() {
+    driver::with(Driver::restart);
 }
 
 /// Sets whether any part of the page is in sight. Out of sight, nothing is drawn and no time passes.

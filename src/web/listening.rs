@@ -12,17 +12,17 @@ use web_sys::{
 use crate::driver::{Driver, theme_of, with};
 use crate::files;
 use crate::keyboard::Press;
-use crate::pointer::{self, Deed};
+use crate::pointer::{self, PointerAction};
 
 /// Calls a function with the driver at each event of this name.
-fn on<E>(target: &EventTarget, name: &str, told: impl Fn(&mut Driver, E) + 'static)
+fn add_listener<E>(target: &EventTarget, name: &str, handler: impl Fn(&mut Driver, E) + 'static)
 where
     E: FromWasmAbi + 'static,
 {
-    let told = Closure::<dyn Fn(E)>::new(move |event| with(|driver| told(driver, event)));
-    _ = target.add_event_listener_with_callback(name, told.as_ref().unchecked_ref());
+    let handler = Closure::<dyn Fn(E)>::new(move |event| with(|driver| handler(driver, event)));
+    _ = target.add_event_listener_with_callback(name, handler.as_ref().unchecked_ref());
     // The listener lives as long as the page.
-    told.forget();
+    handler.forget();
 }
 
 /// Adds all listeners to the page.
@@ -30,58 +30,60 @@ pub(crate) fn listen() {
     with(|driver| {
         let canvas = driver.canvas.element.clone();
         let window = driver.window.clone();
-        on(&window, "keydown", Driver::key_down);
-        on(&window, "keyup", |driver, event| driver.key_up(&event));
-        on(&window, "blur", |driver, _: Event| driver.hold(egui::Modifiers::default()));
-        for (name, deed) in [
-            ("pointerdown", Deed::Down),
-            ("pointermove", Deed::Move),
-            ("pointerup", Deed::Up),
-            ("pointercancel", Deed::Cancel),
-            ("pointerleave", Deed::Cancel),
+        add_listener(&window, "keydown", Driver::key_down);
+        add_listener(&window, "keyup", |driver, event| driver.key_up(&event));
+        add_listener(&window, "blur", |driver, _: Event| {
+            driver.set_modifiers(egui::Modifiers::default())
+        });
+        for (name, action) in [
+            ("pointerdown", PointerAction::Down),
+            ("pointermove", PointerAction::Move),
+            ("pointerup", PointerAction::Up),
+            ("pointercancel", PointerAction::Cancel),
+            ("pointerleave", PointerAction::Cancel),
         ] {
-            on(&canvas, name, move |driver, event| driver.pointer(&event, deed));
+            add_listener(&canvas, name, move |driver, event| driver.pointer(&event, action));
         }
         // After the stage has lost the focus, a person has to enter it again.
-        on(&canvas, "blur", |driver, _: Event| driver.enter(false));
-        on(&canvas, "contextmenu", |_, event: Event| event.prevent_default());
-        on(&canvas, "wheel", |driver: &mut Driver, event: WheelEvent| {
+        add_listener(&canvas, "blur", |driver, _: Event| driver.set_entered(false));
+        add_listener(&canvas, "contextmenu", |_, event: Event| event.prevent_default());
+        add_listener(&canvas, "wheel", |driver: &mut Driver, event: WheelEvent| {
             // The wheel scrolls the page around a stage until a person has entered the stage.
             let is_passed = driver.is_embedded && !driver.has_focus();
             let turned = pointer::wheel_event(&event, driver.held).filter(|_| !is_passed);
             if let Some(turned) = turned {
                 event.prevent_default();
-                driver.tell_panels([turned]);
+                driver.send_to_panels([turned]);
             }
         });
-        on(&canvas, "webglcontextlost", |driver, _: Event| driver.start_again());
+        add_listener(&canvas, "webglcontextlost", |driver, _: Event| driver.reload_page());
         for (name, copied) in [("copy", egui::Event::Copy), ("cut", egui::Event::Cut)] {
-            on(&window, name, move |driver: &mut Driver, event: Event| {
+            add_listener(&window, name, move |driver: &mut Driver, event: Event| {
                 if driver.is_for_stage(&event) {
-                    driver.tell_panels([copied.clone()]);
+                    driver.send_to_panels([copied.clone()]);
                 }
             });
         }
-        on(&window, "paste", |driver, event| driver.paste(&event));
-        on(&window, "dragover", |_, event: Event| event.prevent_default());
-        on(&window, "drop", |_, event: DragEvent| {
+        add_listener(&window, "paste", |driver, event| driver.paste(&event));
+        add_listener(&window, "dragover", |_, event: Event| event.prevent_default());
+        add_listener(&window, "drop", |_, event: DragEvent| {
             event.prevent_default();
             let dropped = event.data_transfer().and_then(|dropped| dropped.files());
             if let Some(file) = dropped.and_then(|files| files.get(0)) {
                 files::open(file);
             }
         });
-        on(&window, "resize", |driver, _: Event| driver.request_frame());
+        add_listener(&window, "resize", |driver, _: Event| driver.request_frame());
         if let Some(document) = window.document() {
             // Do not simulate time during which nobody could see the page.
-            on(&document, "visibilitychange", |driver, _: Event| {
+            add_listener(&document, "visibilitychange", |driver, _: Event| {
                 driver.frames.skip_time();
                 driver.remember();
                 driver.request_frame();
             });
         }
         if let Ok(Some(light)) = window.match_media("(prefers-color-scheme: light)") {
-            on(&light, "change", |driver, _: Event| {
+            add_listener(&light, "change", |driver, _: Event| {
                 let theme = theme_of(&driver.window);
                 driver.frames.studio.viewer.preferences.follow_theme(theme);
                 driver.request_frame();
@@ -97,15 +99,15 @@ impl Driver {
     }
 
     /// Gives events to the panels with the next frame.
-    fn tell_panels(&mut self, events: impl IntoIterator<Item = egui::Event>) {
+    fn send_to_panels(&mut self, events: impl IntoIterator<Item = egui::Event>) {
         self.input.events.extend(events);
         self.request_frame();
     }
 
     /// Updates the held modifier keys.
-    fn hold(&mut self, held: egui::Modifiers) {
+    fn set_modifiers(&mut self, held: egui::Modifiers) {
         if std::mem::replace(&mut self.held, held) != held {
-            self.tell_panels([egui::Event::ModifiersChanged(held)]);
+            self.send_to_panels([egui::Event::ModifiersChanged(held)]);
         }
     }
 
@@ -122,7 +124,7 @@ impl Driver {
     }
 
     /// Records that a person has entered or left the stage.
-    fn enter(&mut self, is_entered: bool) {
+    fn set_entered(&mut self, is_entered: bool) {
         if std::mem::replace(&mut self.is_entered, is_entered) != is_entered {
             self.request_frame();
         }
@@ -130,22 +132,22 @@ impl Driver {
 
     fn key_down(&mut self, event: KeyboardEvent) {
         let press = Press::of(&event, self.is_mac());
-        self.hold(press.modifiers());
+        self.set_modifiers(press.modifiers());
         if !self.is_for_stage(&event) {
             return;
         }
         let was_escaped = std::mem::replace(&mut self.was_escaped, press.is_escape());
         if press.is_tab() && was_escaped {
-            self.enter(false);
+            self.set_entered(false);
         } else if self.has_stage() && !press.is_tab() && !press.is_modifier() {
-            self.enter(true);
+            self.set_entered(true);
         }
         let panels = self.canvas.renderer.context();
         if let Some(key) = press.bound()
             && let Some(command) = command_of(key, press.is_repeated, panels)
         {
             event.prevent_default();
-            self.frames.ask(command);
+            self.frames.queue(command);
             return self.request_frame();
         }
         // Tab leaves an embedded stage: only the page around it has other elements to focus.
@@ -157,31 +159,31 @@ impl Driver {
         if moves_focus || is_typed {
             event.prevent_default();
         }
-        self.tell_panels(press.events(true));
+        self.send_to_panels(press.events(true));
     }
 
     fn key_up(&mut self, event: &KeyboardEvent) {
         let press = Press::of(event, self.is_mac());
-        self.hold(press.modifiers());
-        self.tell_panels(press.events(false));
+        self.set_modifiers(press.modifiers());
+        self.send_to_panels(press.events(false));
     }
 
     fn is_mac(&self) -> bool {
         self.window.navigator().platform().is_ok_and(|platform| platform.starts_with("Mac"))
     }
 
-    fn pointer(&mut self, event: &PointerEvent, deed: Deed) {
-        if deed == Deed::Down {
+    fn pointer(&mut self, event: &PointerEvent, action: PointerAction) {
+        if action == PointerAction::Down {
             event.prevent_default();
             _ = self.canvas.element.focus();
             _ = self.canvas.element.set_pointer_capture(event.pointer_id());
-            self.enter(true);
+            self.set_entered(true);
         }
         let zoom = self.canvas.renderer.context().zoom_factor();
         let at = egui::pos2(event.offset_x() as f32, event.offset_y() as f32) / zoom;
         let modifiers = self.held;
-        let events = pointer::events(&mut self.fingers, event, deed, at, modifiers);
-        self.tell_panels(events);
+        let events = pointer::events(&mut self.fingers, event, action, at, modifiers);
+        self.send_to_panels(events);
     }
 
     fn paste(&mut self, event: &ClipboardEvent) {
@@ -194,6 +196,6 @@ impl Driver {
         if link::is_link(&text) && !self.canvas.renderer.context().text_edit_focused() {
             return self.open_link(&text);
         }
-        self.tell_panels([egui::Event::Paste(text)]);
+        self.send_to_panels([egui::Event::Paste(text)]);
     }
 }

@@ -13,7 +13,7 @@ pub(crate) struct Fingers {
 
 /// Kind of a pointer's event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Deed {
+pub(crate) enum PointerAction {
     Down,
     Move,
     Up,
@@ -24,41 +24,41 @@ pub(crate) enum Deed {
 pub(crate) fn events(
     fingers: &mut Fingers,
     event: &PointerEvent,
-    deed: Deed,
+    action: PointerAction,
     pos: egui::Pos2,
     modifiers: egui::Modifiers,
 ) -> Vec<egui::Event> {
     if event.pointer_type() == "touch" {
-        return fingers.events(event.pointer_id(), deed, pos);
+        return fingers.events(event.pointer_id(), action, pos);
     }
     let button = match event.button() {
         1 => egui::PointerButton::Middle,
         2 => egui::PointerButton::Secondary,
         _ => egui::PointerButton::Primary,
     };
-    let pressed = deed == Deed::Down;
-    match deed {
-        Deed::Down | Deed::Up => {
+    let pressed = action == PointerAction::Down;
+    match action {
+        PointerAction::Down | PointerAction::Up => {
             vec![egui::Event::PointerButton { pos, button, pressed, modifiers }]
         }
-        Deed::Move => vec![egui::Event::PointerMoved(pos)],
-        Deed::Cancel => vec![egui::Event::PointerGone],
+        PointerAction::Move => vec![egui::Event::PointerMoved(pos)],
+        PointerAction::Cancel => vec![egui::Event::PointerGone],
     }
 }
 
 impl Fingers {
-    fn events(&mut self, finger: i32, deed: Deed, pos: egui::Pos2) -> Vec<egui::Event> {
+    fn events(&mut self, finger: i32, action: PointerAction, pos: egui::Pos2) -> Vec<egui::Event> {
         let press = |pressed| egui::Event::PointerButton {
             pos,
             button: egui::PointerButton::Primary,
             pressed,
             modifiers: egui::Modifiers::default(),
         };
-        let phase = match deed {
-            Deed::Down => egui::TouchPhase::Start,
-            Deed::Move => egui::TouchPhase::Move,
-            Deed::Up => egui::TouchPhase::End,
-            Deed::Cancel => egui::TouchPhase::Cancel,
+        let phase = match action {
+            PointerAction::Down => egui::TouchPhase::Start,
+            PointerAction::Move => egui::TouchPhase::Move,
+            PointerAction::Up => egui::TouchPhase::End,
+            PointerAction::Cancel => egui::TouchPhase::Cancel,
         };
         let mut events = vec![egui::Event::Touch {
             device_id: egui::TouchDeviceId(0),
@@ -67,8 +67,8 @@ impl Fingers {
             pos,
             force: None,
         }];
-        match deed {
-            Deed::Down => {
+        match action {
+            PointerAction::Down => {
                 self.down.push(finger);
                 let is_first = self.down.len() == 1;
                 if is_first {
@@ -78,9 +78,9 @@ impl Fingers {
                 }
                 self.is_pressing = is_first;
             }
-            Deed::Move if self.is_pressing => events.push(egui::Event::PointerMoved(pos)),
-            Deed::Move => {}
-            Deed::Up | Deed::Cancel => {
+            PointerAction::Move if self.is_pressing => events.push(egui::Event::PointerMoved(pos)),
+            PointerAction::Move => {}
+            PointerAction::Up | PointerAction::Cancel => {
                 self.down.retain(|down| *down != finger);
                 if std::mem::take(&mut self.is_pressing) {
                     events.push(press(false));
@@ -125,13 +125,13 @@ mod tests {
     #[test]
     fn one_finger_presses_and_two_fingers_only_zoom() {
         let mut fingers = Fingers::default();
-        let mut did = |finger, deed| fingers.events(finger, deed, egui::pos2(1.0, 2.0));
-        assert_eq!(presses(&did(7, Deed::Down)), [true]);
-        assert_eq!(presses(&did(8, Deed::Down)), [false]);
-        assert_eq!(did(7, Deed::Move).len(), 1);
-        assert_eq!(did(7, Deed::Up).len(), 1);
-        assert!(did(8, Deed::Up).contains(&egui::Event::PointerGone));
-        assert_eq!(presses(&did(9, Deed::Down)), [true]);
-        assert_eq!(presses(&did(9, Deed::Up)), [false]);
+        let mut did = |finger, action| fingers.events(finger, action, egui::pos2(1.0, 2.0));
+        assert_eq!(presses(&did(7, PointerAction::Down)), [true]);
+        assert_eq!(presses(&did(8, PointerAction::Down)), [false]);
+        assert_eq!(did(7, PointerAction::Move).len(), 1);
+        assert_eq!(did(7, PointerAction::Up).len(), 1);
+        assert!(did(8, PointerAction::Up).contains(&egui::Event::PointerGone));
+        assert_eq!(presses(&did(9, PointerAction::Down)), [true]);
+        assert_eq!(presses(&did(9, PointerAction::Up)), [false]);
     }
 }

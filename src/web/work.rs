@@ -12,18 +12,18 @@ use regatta::studio::{CurrentRequest, Found, Studio, Work, cloud_request, loop_r
 /// A worker with its current request.
 struct Worker<W: Work> {
     worker: W,
-    asked: CurrentRequest<W>,
+    current: CurrentRequest<W>,
     has_more: bool,
 }
 
 impl<W: Work<Found = Found>> Worker<W> {
     fn new(worker: W, request: W::Request) -> Self {
-        Self { worker, asked: CurrentRequest(request), has_more: true }
+        Self { worker, current: CurrentRequest(request), has_more: true }
     }
 
-    fn ask(&mut self, request: W::Request) {
-        if let Some(request) = self.asked.replace(request) {
-            self.worker.take(request);
+    fn set_request(&mut self, request: W::Request) {
+        if let Some(request) = self.current.replace(request) {
+            self.worker.set_request(request);
             self.has_more = true;
         }
     }
@@ -58,10 +58,10 @@ impl Workers {
     }
 
     /// Passes the studio's current requests to the workers.
-    pub(crate) fn ask(&mut self, studio: &Studio) {
-        self.analysis.ask(studio.analysis_request());
-        self.loops.ask(loop_request(studio));
-        self.clouds.ask(cloud_request(studio).map(Arc::new));
+    pub(crate) fn set_requests(&mut self, studio: &Studio) {
+        self.analysis.set_request(studio.analysis_request());
+        self.loops.set_request(loop_request(studio));
+        self.clouds.set_request(cloud_request(studio).map(Arc::new));
     }
 
     /// Whether a worker has more to do.
@@ -80,9 +80,9 @@ impl Workers {
 const TICKS: u64 = 50;
 
 /// Continues the replay for a slice. Returns a notice about the run once the outcome is known.
-pub(crate) fn told_after_slice(replay: &mut Replay) -> Option<String> {
+pub(crate) fn replay_notice(replay: &mut Replay) -> Option<String> {
     let last = replay.scene().checks.iter().map(|check| check.tick).max()?;
-    let reached = replay.go_on(TICKS, &mut ());
+    let reached = replay.run_to_next_check(TICKS, &mut ());
     if let Some(reached) = reached {
         let Check { tick, hash, .. } = replay.scene().checks[reached.row];
         if reached.hash != Some(hash) {
@@ -103,12 +103,12 @@ mod tests {
         let mut session = Session::racing(Scene::built_in("ship").unwrap().into());
         session.run(200);
         let mut recording = session.recording(200);
-        let told = |scene: &Scene| {
+        let notice = |scene: &Scene| {
             let mut replay = Replay::new(scene.clone().into());
-            std::iter::from_fn(|| Some(told_after_slice(&mut replay))).find_map(|told| told)
+            std::iter::from_fn(|| Some(replay_notice(&mut replay))).find_map(|notice| notice)
         };
-        assert!(told(&recording).unwrap().ends_with("where it was made, to tick 200"));
+        assert!(notice(&recording).unwrap().ends_with("where it was made, to tick 200"));
         recording.checks.last_mut().unwrap().hash ^= 1;
-        assert!(told(&recording).unwrap().ends_with("from tick 200 on"));
+        assert!(notice(&recording).unwrap().ends_with("from tick 200 on"));
     }
 }

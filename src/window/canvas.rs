@@ -96,9 +96,11 @@ impl Canvas {
         clipboard: &mut Clipboard,
     ) -> Result<FrameOutcome, WindowError> {
         if self.surface_is_lost || self.gpu.is_lost() {
-            self.renew()?;
+            self.renew_surface()?;
         }
-        let Some((texture, reconfigure)) = self.acquire() else { return Ok(FrameOutcome::Skipped) };
+        let Some((texture, reconfigure)) = self.acquire_texture() else {
+            return Ok(FrameOutcome::Skipped);
+        };
         let size_px = [texture.texture.width(), texture.texture.height()];
         let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let input = self.egui.take_egui_input(&self.window);
@@ -129,7 +131,7 @@ impl Canvas {
     }
 
     /// The texture to draw on, and whether the surface must be configured again afterwards.
-    fn acquire(&mut self) -> Option<(wgpu::SurfaceTexture, bool)> {
+    fn acquire_texture(&mut self) -> Option<(wgpu::SurfaceTexture, bool)> {
         use wgpu::CurrentSurfaceTexture::*;
         for _ in 0..2 {
             match self.screen.as_ref()?.surface().get_current_texture() {
@@ -149,7 +151,7 @@ impl Canvas {
     }
 
     /// Creates a new surface, and a new device if the old one is lost or cannot present on it.
-    fn renew(&mut self) -> Result<(), WindowError> {
+    fn renew_surface(&mut self) -> Result<(), WindowError> {
         if let Some(screen) = self.screen.take() {
             let screen = screen.renewed(Arc::clone(&self.window))?;
             if self.gpu.is_lost() || !self.gpu.adapter.is_surface_supported(screen.surface()) {

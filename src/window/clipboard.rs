@@ -22,7 +22,7 @@ impl Clipboard {
     /// # Errors
     /// The reason why there is no clipboard, or why it refuses the text.
     pub(super) fn set_text(&mut self, text: String) -> Result<(), String> {
-        self.opened()?.set_text(text).map_err(|error| reason(&error))
+        self.open_clipboard()?.set_text(text).map_err(|error| reason(&error))
     }
 
     /// Puts the texts copied from text fields on the clipboard.
@@ -39,7 +39,7 @@ impl Clipboard {
     /// The text on the clipboard, cut to the longest field. Empty if the clipboard has something else; `None` if it
     /// cannot be read.
     fn text(&mut self) -> Option<String> {
-        match self.opened().ok()?.get_text() {
+        match self.open_clipboard().ok()?.get_text() {
             Ok(text) => Some(text.chars().take(MAX_LETTERS).collect()),
             Err(arboard::Error::ContentNotAvailable) => Some(String::new()),
             Err(error) => {
@@ -49,7 +49,7 @@ impl Clipboard {
         }
     }
 
-    fn opened(&mut self) -> Result<&mut arboard::Clipboard, String> {
+    fn open_clipboard(&mut self) -> Result<&mut arboard::Clipboard, String> {
         let clipboard = match self.open.take() {
             Some(clipboard) => clipboard,
             None => arboard::Clipboard::new().map_err(|error| reason(&error))?,
@@ -62,7 +62,7 @@ impl App {
     /// Gives the clipboard's text to egui, if this event pastes.
     pub(super) fn fetch_pasted(&mut self, event: &WindowEvent) {
         if let WindowEvent::KeyboardInput { event, is_synthetic: false, .. } = event
-            && pastes(event, self.held)
+            && is_paste(event, self.held)
             && let Some(text) = self.clipboard.text()
             && let Some(canvas) = &mut self.canvas
         {
@@ -72,7 +72,7 @@ impl App {
 }
 
 /// Whether egui pastes at this key. A layout without Latin letters pastes with the key in the place of V.
-fn pastes(event: &KeyEvent, held: Modifiers) -> bool {
+fn is_paste(event: &KeyEvent, held: Modifiers) -> bool {
     let is_v = match &event.logical_key {
         Logical::Character(sign) if sign.is_ascii() => sign.eq_ignore_ascii_case("v"),
         _ => event.physical_key == PhysicalKey::Code(KeyCode::KeyV),

@@ -58,7 +58,7 @@ impl App {
             #[cfg(feature = "accessibility")]
             Event::ScreenReader(request) => {
                 if let Some(canvas) = &mut self.canvas {
-                    screen_reader::answer(&mut canvas.egui, request);
+                    screen_reader::answer_request(&mut canvas.egui, request);
                     self.request_redraw();
                 }
             }

@@ -6,7 +6,9 @@ use std::path::PathBuf;
 use super::App;
 use crate::atomic_file::{IfExists, write_file};
 use crate::studio::{DriverRequest, Studio, instrument_file_name, picture_file_name};
-use crate::view::{Gpu, OffscreenRenderer, Panels, copied, instrument_csv, instrument_svg, png};
+use crate::view::{
+    Gpu, OffscreenRenderer, Panels, clipboard_text, instrument_csv, instrument_svg, png,
+};
 
 /// Size of the picture in pixels, and its pixels per point.
 const SIZE_PX: [u32; 2] = [1920, 1200];
@@ -15,7 +17,7 @@ const SCALE: f32 = 2.0;
 impl App {
     /// Copies the requested text to the clipboard, if the request is one to copy.
     pub(super) fn copy(&mut self, request: DriverRequest) {
-        let Some(copied) = copied(&self.frames.studio, request) else { return };
+        let Some(copied) = clipboard_text(&self.frames.studio, request) else { return };
         let notice = match copied {
             Ok(copied) => copied.notice(self.clipboard.set_text(copied.text.clone())),
             Err(refused) => refused,

@@ -56,14 +56,14 @@ impl GrowingRecording {
 
     /// Saves the run so far, if that is due and the run has grown.
     pub(super) fn update(&mut self, studio: &Studio, now: Instant) {
-        if self.left(studio, now) == Some(Duration::ZERO) {
+        if self.time_to_next_save(studio, now) == Some(Duration::ZERO) {
             self.asked = Some(now);
-            self.thread.ask(Some(Grown::of(studio)));
+            self.thread.set_request(Some(Grown::of(studio)));
         }
     }
 
     /// Time until the next save; `None` if everything is saved.
-    pub(super) fn left(&self, studio: &Studio, now: Instant) -> Option<Duration> {
+    pub(super) fn time_to_next_save(&self, studio: &Studio, now: Instant) -> Option<Duration> {
         let passed = self.asked.map_or(EVERY, |asked| now.duration_since(asked));
         let (end, session) = (studio.run().end(), studio.run().session());
         let is_known = |grown: &Grown| grown.is_of(session.scene(), session.journal(), end);
@@ -89,7 +89,7 @@ impl Work for Keeper {
         }
     }
 
-    fn take(&mut self, run: Self::Request) {
+    fn set_request(&mut self, run: Self::Request) {
         self.run = run;
     }
 

@@ -27,7 +27,7 @@ impl App {
             // Close it at once: the next key is no longer text.
             let closes = key == Key::Escape;
             if closes {
-                self.frames.ask([Command::View(ViewCommand::CloseDialog)]);
+                self.frames.queue([Command::View(ViewCommand::CloseDialog)]);
                 if let Some(field) = panels.memory(|memory| memory.focused()) {
                     panels.memory_mut(|memory| memory.surrender_focus(field));
                 }
@@ -35,7 +35,7 @@ impl App {
             return closes;
         }
         let Some(command) = command_of(key, event.repeat, panels) else { return false };
-        self.frames.ask(command);
+        self.frames.queue(command);
         true
     }
 
@@ -49,7 +49,7 @@ impl App {
     /// Whether keys are text for the path field, once the queued commands are applied.
     fn asks_for_path(&self) -> bool {
         let is_open = matches!(self.frames.studio.viewer.dialog(), Some(Dialog::Path { .. }));
-        self.frames.asked().iter().fold(is_open, |is_open, command| match command {
+        self.frames.queued().iter().fold(is_open, |is_open, command| match command {
             Command::View(ViewCommand::AskForPath | ViewCommand::AskForRun) => true,
             // `OpenTypedPath` closes the field only if the scene can be opened.
             Command::View(ViewCommand::CloseDialog) => false,

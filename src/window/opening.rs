@@ -31,7 +31,7 @@ pub struct SceneFiles {
 }
 
 /// A file that was dropped on the window or typed as a path.
-pub(super) struct Asked {
+pub(super) struct RequestedFile {
     path: PathBuf,
     is_typed: bool,
     /// The run to compare the file with, if it is not to be opened.
@@ -40,11 +40,11 @@ pub(super) struct Asked {
 
 /// Content of a requested file, or its mistakes as the command line would print them.
 pub(super) struct ReadFile {
-    asked: Asked,
-    held: Result<Held, Vec<Mistake>>,
+    requested: RequestedFile,
+    content: Result<FileContent, Vec<Mistake>>,
 }
 
-enum Held {
+enum FileContent {
     Scene {
         scene: Box<Scene>,
         text: String,
@@ -56,10 +56,10 @@ enum Held {
     Compared(Box<(Comparison, Scene)>),
 }
 
-impl Asked {
+impl RequestedFile {
     /// The dropped file at `path`.
     pub(super) fn dropped(studio: &Studio, path: &Path) -> Self {
-        Self { path: known(studio, path), is_typed: false, compared: None }
+        Self { path: listed_path(studio, path), is_typed: false, compared: None }
     }
 
     /// The typed file, as the command line reads it. The name of a built-in scene opens that scene at once and
@@ -74,7 +74,7 @@ impl Asked {
             studio.apply(StageCommand::Scene(index));
             return None;
         }
-        Some(Self { path: known(studio, &from_home(&typed)), is_typed: true, compared: None })
+        Some(Self { path: listed_path(studio, &from_home(&typed)), is_typed: true, compared: None })
     }
 
     /// Whether the path is a link to a run instead of a file.
@@ -85,27 +85,29 @@ impl Asked {
     /// Reads the file, and prepares anything that its first frame would wait for. A disk can be slow, and a large net
     /// takes longer than a frame, so this must not run on the drawing thread.
     pub(super) fn read(self, read: &ReadScene) -> ReadFile {
-        let held = if let Some(run) = &self.compared {
+        let content = if let Some(run) = &self.compared {
             read(&self.path).map(|(scene, _)| {
-                Held::Compared((compared(scene.clone(), (**run).clone()), scene).into())
+                FileContent::Compared(
+                    (compare_recordings(scene.clone(), (**run).clone()), scene).into(),
+                )
             })
         } else if is_trace(&self.path) {
-            traces_in(&self.path).map(Held::Traces)
+            traces_in(&self.path).map(FileContent::Traces)
         } else if has_ending(&self.path, "step") {
             lines_in(&self.path, read)
         } else {
             scene_in(&self.path, read)
         };
-        ReadFile { asked: self, held }
+        ReadFile { requested: self, content }
     }
 }
 
 impl ReadFile {
     /// Path and text of the file, if it is a scene.
     pub(super) fn scene(&self) -> Option<(PathBuf, String)> {
-        match &self.held {
-            Ok(Held::Scene { text, .. }) if !self.asked.is_link() => {
-                Some((self.asked.path.clone(), text.clone()))
+        match &self.content {
+            Ok(FileContent::Scene { text, .. }) if !self.requested.is_link() => {
+                Some((self.requested.path.clone(), text.clone()))
             }
             _ => None,
         }
@@ -114,24 +116,24 @@ impl ReadFile {
     /// Opens the scene, or the loop lab on the traces. A dialog shows mistakes. For a typed path this is the path
     /// field, which stays open.
     pub(super) fn show(self, studio: &mut Studio) {
-        let name = self.asked.is_link().then(|| "a link".into());
-        let Asked { path, is_typed, .. } = self.asked;
+        let name = self.requested.is_link().then(|| "a link".into());
+        let RequestedFile { path, is_typed, .. } = self.requested;
         let path = name.unwrap_or(path);
-        match self.held {
-            Ok(Held::Scene { scene, .. }) => open_file(studio, &path, *scene),
-            Ok(Held::Traces(traces)) => {
+        match self.content {
+            Ok(FileContent::Scene { scene, .. }) => open_file(studio, &path, *scene),
+            Ok(FileContent::Traces(traces)) => {
                 open_traces(studio, traces);
                 if is_typed {
                     studio.apply(ViewCommand::CloseDialog);
                 }
             }
-            Ok(Held::Lane(lane)) => {
+            Ok(FileContent::Lane(lane)) => {
                 race_own_method(studio, lane);
                 if is_typed {
                     studio.apply(ViewCommand::CloseDialog);
                 }
             }
-            Ok(Held::Compared(compared)) => {
+            Ok(FileContent::Compared(compared)) => {
                 let (found, recording) = *compared;
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
                 show_comparison(studio, &name, &found, recording);
@@ -145,7 +147,7 @@ impl ReadFile {
 }
 
 /// Compares two recordings up to the end of the longer one.
-fn compared(recording: Scene, run: Scene) -> Comparison {
+fn compare_recordings(recording: Scene, run: Scene) -> Comparison {
     let last = last_tick(&recording).max(last_tick(&run));
     let [mut a, mut b] = [recording, run].map(|scene| Made::of_scene(scene, last));
     let found = diff(&mut a, &mut b, Tolerance::default(), &Chosen::default());
@@ -162,24 +164,24 @@ fn has_ending(path: &Path, known: &str) -> bool {
 }
 
 /// Reads a scene, and prepares anything that its first frame would wait for.
-fn scene_in(path: &Path, read: &ReadScene) -> Result<Held, Vec<Mistake>> {
+fn scene_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<Mistake>> {
     let (scene, text) = read(path)?;
     SceneList::prepare_scene(&scene);
-    Ok(Held::Scene { scene: Box::new(scene), text })
+    Ok(FileContent::Scene { scene: Box::new(scene), text })
 }
 
 /// Reads a file of lines: a method is a lane of the open scene, a rule a scene of its own.
-fn lines_in(path: &Path, read: &ReadScene) -> Result<Held, Vec<Mistake>> {
+fn lines_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<Mistake>> {
     let lines = regular_file::read(path, MAX_FILE_BYTES)
         .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
     if !is_rule(&lines) {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        return LaneSpec::from_step(&name, &lines).map(Held::Lane).map_err(Vec::from);
+        return LaneSpec::from_step(&name, &lines).map(FileContent::Lane).map_err(Vec::from);
     }
     let held = scene_in(path, read)?;
     // The watch compares with the file, which holds the lines instead of the scene.
     Ok(match (held, String::from_utf8(lines)) {
-        (Held::Scene { scene, .. }, Ok(text)) => Held::Scene { scene, text },
+        (FileContent::Scene { scene, .. }, Ok(text)) => FileContent::Scene { scene, text },
         (held, _) => held,
     })
 }
@@ -192,7 +194,7 @@ fn traces_in(path: &Path) -> Result<Vec<FrameTrace>, Vec<Mistake>> {
 }
 
 /// The listed path of the same file, or else `path` itself.
-fn known(studio: &Studio, path: &Path) -> PathBuf {
+fn listed_path(studio: &Studio, path: &Path) -> PathBuf {
     let real = path.canonicalize().ok();
     let is_same = |listed: &&Path| real.is_some() && listed.canonicalize().ok() == real;
     studio.deck.scene_list().paths().find(is_same).unwrap_or(path).to_owned()
@@ -208,7 +210,7 @@ fn from_home(typed: &str) -> PathBuf {
 }
 
 /// Completes a path with the common beginning of all matching folders and TOML files.
-pub(super) fn completed(typed: &str) -> String {
+pub(super) fn complete_path(typed: &str) -> String {
     let (folder, begun) = match typed.rfind(MAIN_SEPARATOR) {
         Some(end) => typed.split_at(end + MAIN_SEPARATOR.len_utf8()),
         None => ("", typed),
@@ -266,7 +268,7 @@ mod tests {
             std::fs::write(&recording, text).unwrap();
             studio.apply(ViewCommand::AskForRun);
             studio.apply(ViewCommand::TypePath(recording.display().to_string()));
-            Asked::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
+            RequestedFile::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
             let notice = studio.viewer.notice.as_deref().unwrap().to_owned();
             (studio.deck.compared().map(Compared::tick), studio.race().tick(), notice)
         };
@@ -287,7 +289,7 @@ mod tests {
         let link = studio.deck.link().unwrap();
         studio.apply(ViewCommand::AskForPath);
         studio.apply(ViewCommand::TypePath(format!("https://example.org/{link}")));
-        let found = Asked::typed(&mut studio).unwrap().read(&read());
+        let found = RequestedFile::typed(&mut studio).unwrap().read(&read());
         assert_eq!(found.scene(), None);
         found.show(&mut studio);
         assert_eq!((studio.deck.scene_name().as_str(), studio.race().tick()), ("a link", 0));
@@ -303,7 +305,7 @@ mod tests {
         (0..30).for_each(|_| studio.tick());
         let drop = |studio: &mut Studio, lines: &str| {
             std::fs::write(&path, lines).unwrap();
-            Asked::dropped(studio, &path).read(&read()).show(studio);
+            RequestedFile::dropped(studio, &path).read(&read()).show(studio);
             let specs = studio.race().entrants().iter().map(|entrant| entrant.spec);
             let own: Vec<_> = specs.filter(|spec| spec.method.id == "mine").collect();
             (own, studio.viewer.notice.as_deref().unwrap_or_default().to_owned())
@@ -338,12 +340,12 @@ mod tests {
             Ok((scene.clone(), scene.to_toml()))
         });
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-        let found = Asked::dropped(&studio, &path).read(&rule);
+        let found = RequestedFile::dropped(&studio, &path).read(&rule);
         assert_eq!(found.scene(), Some((path.clone(), lines.to_owned())));
         found.show(&mut studio);
         assert_eq!((studio.scene().name.as_str(), studio.race().entrants().len()), ("mine", 3));
         std::fs::write(&path, "x -= x * abs(x)").unwrap();
-        Asked::dropped(&studio, &path).read(&rule).show(&mut studio);
+        RequestedFile::dropped(&studio, &path).read(&rule).show(&mut studio);
         let Some(Dialog::Mistakes { report, .. }) = studio.viewer.dialog() else { panic!() };
         assert!(report[0].message.contains("the rule is not linear"), "{report:?}");
         assert_eq!(studio.scene().name, "mine");
@@ -357,12 +359,12 @@ mod tests {
         std::fs::write(&good, text).unwrap();
         std::fs::write(&bad, "tick_hz = 0").unwrap();
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-        let found = Asked::dropped(&studio, &good).read(&read());
+        let found = RequestedFile::dropped(&studio, &good).read(&read());
         assert_eq!(found.scene(), Some((good, text.to_owned())));
         found.show(&mut studio);
         assert_eq!(studio.deck.scene_name(), "ship.toml");
         studio.tick();
-        let found = Asked::dropped(&studio, &bad).read(&read());
+        let found = RequestedFile::dropped(&studio, &bad).read(&read());
         assert_eq!(found.scene(), None);
         found.show(&mut studio);
         assert_eq!((studio.deck.scene_name().as_str(), studio.race().tick()), ("ship.toml", 1));
@@ -371,7 +373,7 @@ mod tests {
         assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
         studio.apply(ViewCommand::AskForPath);
         studio.apply(ViewCommand::TypePath(bad.display().to_string()));
-        Asked::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
+        RequestedFile::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
         let Some(Dialog::Path { refused: Some(report), .. }) = studio.viewer.dialog() else {
             panic!()
         };
@@ -379,7 +381,7 @@ mod tests {
         assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
         // As on the command line, the name of a built-in scene opens that scene.
         studio.apply(ViewCommand::TypePath(" ship ".into()));
-        assert!(Asked::typed(&mut studio).is_none());
+        assert!(RequestedFile::typed(&mut studio).is_none());
         assert_eq!((studio.deck.scene_name().as_str(), studio.viewer.dialog()), ("ship", None));
     }
 
@@ -402,10 +404,10 @@ mod tests {
             ("", ""),
             (".", ".hidden.toml"),
         ] {
-            assert_eq!(completed(&format!("{root}{typed}")), format!("{root}{completed_name}"));
+            assert_eq!(complete_path(&format!("{root}{typed}")), format!("{root}{completed_name}"));
         }
-        assert_eq!(completed(&format!("{root}{deep}")), format!("{root}{deep}one.toml"));
-        assert_eq!(completed("/no/such/folder/a"), "/no/such/folder/a");
+        assert_eq!(complete_path(&format!("{root}{deep}")), format!("{root}{deep}one.toml"));
+        assert_eq!(complete_path("/no/such/folder/a"), "/no/such/folder/a");
     }
 
     #[test]
@@ -415,8 +417,8 @@ mod tests {
         std::fs::write(&path, "").unwrap();
         let mut studio = Studio::new(Scene::built_in("ship").unwrap());
         open_file(&mut studio, &path, Scene::built_in("ship").unwrap());
-        assert_eq!(known(&studio, &folder.path().join("./a.toml")), path);
+        assert_eq!(listed_path(&studio, &folder.path().join("./a.toml")), path);
         let other = folder.path().join("b.toml");
-        assert_eq!(known(&studio, &other), other);
+        assert_eq!(listed_path(&studio, &other), other);
     }
 }

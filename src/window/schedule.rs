@@ -11,7 +11,7 @@ const USUAL_REFRESH_MHZ: u32 = 60_000;
 
 impl App {
     /// Requests the next frame `after` the start of this one, but no faster than the display shows frames.
-    pub(super) fn schedule(
+    pub(super) fn schedule_frame(
         &mut self,
         event_loop: &ActiveEventLoop,
         began: Instant,
@@ -24,7 +24,7 @@ impl App {
         match began.checked_add(shortest.max(after)) {
             Some(due) if due <= Instant::now() => {
                 self.request_redraw();
-                self.wait(event_loop);
+                self.wait_for_event(event_loop);
             }
             Some(due) => event_loop.set_control_flow(ControlFlow::WaitUntil(due)),
             None => event_loop.set_control_flow(ControlFlow::Wait),
@@ -32,7 +32,7 @@ impl App {
     }
 
     /// Waits for an event, but at most for [`MAX_WAIT`] while time runs.
-    pub(super) fn wait(&self, event_loop: &ActiveEventLoop) {
+    pub(super) fn wait_for_event(&self, event_loop: &ActiveEventLoop) {
         event_loop.set_control_flow(if self.frames.studio.running() {
             ControlFlow::WaitUntil(Instant::now() + MAX_WAIT)
         } else {
@@ -47,7 +47,7 @@ impl App {
         }
     }
 
-    pub(super) fn hidden(&self) -> bool {
+    pub(super) fn is_hidden(&self) -> bool {
         self.occluded || self.minimised
     }
 }

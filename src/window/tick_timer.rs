@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use crate::run::{Follow, Lane};
+use crate::run::{Lane, Ticker};
 use crate::scene::LaneSpec;
 use crate::scene::TickRate;
 use crate::stopwatch;
@@ -42,7 +42,7 @@ impl TickTimer {
         thread::spawn(move || {
             while let Ok(lanes) = receiver.recv() {
                 let latest = receiver.try_iter().last().unwrap_or(lanes);
-                if events.send_event(Event::TicksTimed(timed(&latest))).is_err() {
+                if events.send_event(Event::TicksTimed(time_lanes(&latest))).is_err() {
                     return;
                 }
             }
@@ -51,7 +51,7 @@ impl TickTimer {
     }
 
     /// Sends the lanes to be timed, if their cost is shown and was not measured within the last second.
-    pub(super) fn ask(&mut self, studio: &Studio, now: Instant) {
+    pub(super) fn request_timing(&mut self, studio: &Studio, now: Instant) {
         let is_due = self.last.is_none_or(|last| now.duration_since(last) >= PERIOD);
         if studio.display().instrument != Instrument::Cost || !is_due {
             return;
@@ -66,9 +66,9 @@ impl TickTimer {
 }
 
 /// Nanoseconds per tick of each lane; `None` for one that halts.
-fn timed(Lanes { lanes, t, tick_hz }: &Lanes) -> Vec<(LaneSpec, Option<f64>)> {
+fn time_lanes(Lanes { lanes, t, tick_hz }: &Lanes) -> Vec<(LaneSpec, Option<f64>)> {
     let time = |lane: &Lane| {
-        let made = || Follow::new(lane.clone(), *tick_hz).from_time(*t);
+        let made = || Ticker::new(lane.clone(), *tick_hz).from_time(*t);
         let mut run = made();
         run.run(TICKS, |_, _| ControlFlow::Continue(()));
         let is_halted = run.body.halted().is_some();
@@ -89,14 +89,17 @@ mod tests {
     fn a_lane_that_halts_while_timed_has_no_cost() {
         let scene = Scene::built_in("stiff").unwrap();
         let spec = LaneSpec::plain(method("explicit-euler").unwrap());
-        let mut run = Follow::new(Lane::new(&scene, spec.solver(), spec.substeps), scene.tick_hz);
+        let mut run = Ticker::new(Lane::new(&scene, spec.solver(), spec.substeps), scene.tick_hz);
         // On the lane's last ticks.
         for end in (1..100).map(|i| i * TICKS / 2) {
             let before = run.clone();
             run.run(end, |_, _| ControlFlow::Continue(()));
             if run.body.halted().is_some() {
                 let lanes = vec![(spec, before.body)];
-                assert_eq!(timed(&Lanes { lanes, t: 0.0, tick_hz: scene.tick_hz }), [(spec, None)]);
+                assert_eq!(
+                    time_lanes(&Lanes { lanes, t: 0.0, tick_hz: scene.tick_hz }),
+                    [(spec, None)]
+                );
                 return;
             }
         }
@@ -109,7 +112,7 @@ mod tests {
         studio.apply(StageCommand::ToggleRace);
         let lanes = studio.race().entrants().iter();
         let lanes = lanes.map(|lane| (lane.spec, lane.lane.clone())).collect();
-        let timed = timed(&Lanes { lanes, t: 0.0, tick_hz: 60.into() });
+        let timed = time_lanes(&Lanes { lanes, t: 0.0, tick_hz: 60.into() });
         assert_eq!(timed.len(), 5);
         for (spec, ns) in timed {
             assert!(ns.is_some_and(|ns| ns > 1.0 && ns < 1e8), "{}: {ns:?} ns", spec.method.id);

@@ -9,7 +9,7 @@ use std::time::{Duration, SystemTime};
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use super::opening::{Asked, ReadScene};
+use super::opening::{ReadScene, RequestedFile};
 use crate::regular_file::{self, Unreadable};
 use crate::scene::MAX_FILE_BYTES;
 
@@ -25,7 +25,7 @@ const MISSING_WHEN_GONE: u32 = 2;
 
 /// A handle to the thread that watches files, which ends when this is dropped.
 pub(super) struct FileWatch {
-    files: Sender<Asked>,
+    files: Sender<RequestedFile>,
 }
 
 impl FileWatch {
@@ -44,27 +44,27 @@ impl FileWatch {
     }
 
     /// Reads a file, and watches it if it is a scene.
-    pub(super) fn open(&self, asked: Asked) {
+    pub(super) fn open(&self, requested: RequestedFile) {
         // If the thread has ended, the window ends too.
-        _ = self.files.send(asked);
+        _ = self.files.send(requested);
     }
 }
 
 fn watch(
     read: &ReadScene,
     mut files: Vec<WatchedFile>,
-    sent: &Receiver<Asked>,
+    sent: &Receiver<RequestedFile>,
     events: &EventLoopProxy<Event>,
 ) {
     loop {
-        let asked = if files.is_empty() {
+        let requested = if files.is_empty() {
             sent.recv().map_err(|_| RecvTimeoutError::Disconnected)
         } else {
             sent.recv_timeout(INTERVAL)
         };
-        match asked {
-            Ok(asked) => {
-                let found = asked.read(read);
+        match requested {
+            Ok(requested) => {
+                let found = requested.read(read);
                 if let Some((path, text)) = found.scene() {
                     files.retain(|known| known.path != path);
                     files.push(WatchedFile::new(path, text.into_bytes()));
@@ -76,11 +76,11 @@ fn watch(
             Err(RecvTimeoutError::Timeout) => {
                 for file in &mut files {
                     let path = file.path.clone();
-                    let event = match file.look() {
-                        Look::Same => continue,
-                        Look::Changed => Event::FileChanged { read: read(&path).into(), path },
-                        Look::Gone => Event::FileGone(path),
-                        Look::Back => Event::FileBack(path),
+                    let event = match file.check() {
+                        FileCheck::Same => continue,
+                        FileCheck::Changed => Event::FileChanged { read: read(&path).into(), path },
+                        FileCheck::Gone => Event::FileGone(path),
+                        FileCheck::Back => Event::FileBack(path),
                     };
                     if events.send_event(event).is_err() {
                         return;
@@ -94,7 +94,7 @@ fn watch(
 
 /// Result of a look at a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Look {
+enum FileCheck {
     /// Nothing has changed.
     Same,
     /// The file has other bytes.
@@ -154,24 +154,28 @@ impl WatchedFile {
     ///
     /// Compares bytes, because two changes can have the same time and a file that replaces another can be older.
     /// Stops reading after [`READS`] looks with the same stamp: from then on every change gives it another time.
-    fn look(&mut self) -> Look {
+    fn check(&mut self) -> FileCheck {
         let stamp = Stamp::of(&self.path);
         if stamp != self.stamp || stamp.is_none() {
             (self.stamp, self.reads) = (stamp, 0);
         } else if self.reads == READS {
-            return Look::Same;
+            return FileCheck::Same;
         }
         self.reads += 1;
         let Some(bytes) = self.read_steady() else {
             self.missing = self.missing.saturating_add(1);
-            return if self.missing == MISSING_WHEN_GONE { Look::Gone } else { Look::Same };
+            return if self.missing == MISSING_WHEN_GONE {
+                FileCheck::Gone
+            } else {
+                FileCheck::Same
+            };
         };
         let was_gone = std::mem::take(&mut self.missing) >= MISSING_WHEN_GONE;
         if bytes != self.bytes {
             self.bytes = bytes;
-            return Look::Changed;
+            return FileCheck::Changed;
         }
-        if was_gone { Look::Back } else { Look::Same }
+        if was_gone { FileCheck::Back } else { FileCheck::Same }
     }
 
     /// Reads the file. If its bytes are new, waits until they have stayed the same for [`STEADY`].
@@ -208,23 +212,23 @@ mod tests {
         (folder, WatchedFile::new(path, b"one".into()))
     }
 
-    fn looks(watched: &mut WatchedFile, count: usize) -> Vec<Look> {
-        (0..count).map(|_| watched.look()).collect()
+    fn looks(watched: &mut WatchedFile, count: usize) -> Vec<FileCheck> {
+        (0..count).map(|_| watched.check()).collect()
     }
 
     #[test]
     fn a_written_or_replaced_file_is_reported_once() {
         let (folder, mut watched) = watched();
-        assert_eq!(watched.look(), Look::Same);
+        assert_eq!(watched.check(), FileCheck::Same);
         std::fs::write(&watched.path, "two").unwrap();
-        assert_eq!(looks(&mut watched, 2), [Look::Changed, Look::Same]);
+        assert_eq!(looks(&mut watched, 2), [FileCheck::Changed, FileCheck::Same]);
         // Save as editors do: another file, renamed over it.
         let other = folder.path().join("a.toml~");
         std::fs::write(&other, "three").unwrap();
         std::fs::rename(&other, &watched.path).unwrap();
-        assert_eq!(looks(&mut watched, 2), [Look::Changed, Look::Same]);
+        assert_eq!(looks(&mut watched, 2), [FileCheck::Changed, FileCheck::Same]);
         std::fs::write(&watched.path, "").unwrap();
-        assert_eq!(watched.look(), Look::Changed);
+        assert_eq!(watched.check(), FileCheck::Changed);
     }
 
     #[test]
@@ -232,14 +236,17 @@ mod tests {
         let (_folder, mut watched) = watched();
         std::fs::remove_file(&watched.path).unwrap();
         // An editor may be about to replace it.
-        assert_eq!(watched.look(), Look::Same);
+        assert_eq!(watched.check(), FileCheck::Same);
         std::fs::write(&watched.path, "one").unwrap();
-        assert_eq!(watched.look(), Look::Same);
-        for (text, found) in [("one", Look::Back), ("two", Look::Changed)] {
+        assert_eq!(watched.check(), FileCheck::Same);
+        for (text, found) in [("one", FileCheck::Back), ("two", FileCheck::Changed)] {
             std::fs::remove_file(&watched.path).unwrap();
-            assert_eq!(looks(&mut watched, 4), [Look::Same, Look::Gone, Look::Same, Look::Same]);
+            assert_eq!(
+                looks(&mut watched, 4),
+                [FileCheck::Same, FileCheck::Gone, FileCheck::Same, FileCheck::Same]
+            );
             std::fs::write(&watched.path, text).unwrap();
-            assert_eq!(looks(&mut watched, 2), [found, Look::Same]);
+            assert_eq!(looks(&mut watched, 2), [found, FileCheck::Same]);
         }
     }
 
@@ -252,15 +259,15 @@ mod tests {
         };
         assert_eq!(reads(&mut watched), READS);
         std::fs::write(&watched.path, "two").unwrap();
-        assert_eq!(watched.look(), Look::Changed);
+        assert_eq!(watched.check(), FileCheck::Changed);
         assert!(watched.reads < READS);
         assert_eq!(reads(&mut watched), READS);
         // A file too large for a scene is not read to its end.
         let large = std::fs::File::create(&watched.path).unwrap();
         large.set_len(1 << 40).unwrap();
-        assert_eq!(looks(&mut watched, 2), [Look::Changed, Look::Same]);
+        assert_eq!(looks(&mut watched, 2), [FileCheck::Changed, FileCheck::Same]);
         assert_eq!(watched.bytes, None);
         std::fs::write(&watched.path, "two").unwrap();
-        assert_eq!(looks(&mut watched, 2), [Look::Changed, Look::Same]);
+        assert_eq!(looks(&mut watched, 2), [FileCheck::Changed, FileCheck::Same]);
     }
 }

@@ -14,7 +14,7 @@ use crate::studio::{CurrentRequest, Work};
 /// A handle to a worker's thread, which ends when this is dropped.
 pub(super) struct WorkThread<W: Work> {
     requests: Sender<W::Request>,
-    asked: CurrentRequest<W>,
+    current: CurrentRequest<W>,
     /// Number of requests sent.
     sent: Arc<AtomicU64>,
 }
@@ -29,17 +29,17 @@ where
         let sent = Arc::new(AtomicU64::new(0));
         let counted = Arc::clone(&sent);
         thread::spawn(move || run(worker, &received, &counted, &events));
-        Self { requests, asked: CurrentRequest(request), sent }
+        Self { requests, current: CurrentRequest(request), sent }
     }
 
     /// The last request sent.
     pub(super) fn request(&self) -> &W::Request {
-        &self.asked.0
+        &self.current.0
     }
 
     /// Replaces the request if it has changed.
-    pub(super) fn ask(&mut self, request: W::Request) {
-        if let Some(request) = self.asked.replace(request) {
+    pub(super) fn set_request(&mut self, request: W::Request) {
+        if let Some(request) = self.current.replace(request) {
             self.sent.fetch_add(1, Ordering::Relaxed);
             // If the thread has ended, nothing more is found, but the window stays open.
             _ = self.requests.send(request);
@@ -70,6 +70,6 @@ fn run<W: Work<Found: Into<Event>>>(
             next = later;
             received += 1;
         }
-        worker.take(next);
+        worker.set_request(next);
     }
 }

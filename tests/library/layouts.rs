@@ -73,9 +73,9 @@ fn a_race_has_the_scenes_lanes_and_the_last_method_only() {
 fn throttle_and_rudder_move_in_tenths_within_limits_until_a_restart() {
     let mut studio = Studio::new(scene("helm"));
     assert!(
-        studio.race().takes("rudder")
-            && studio.race().takes("throttle")
-            && !studio.race().takes("anchor")
+        studio.race().takes_input("rudder")
+            && studio.race().takes_input("throttle")
+            && !studio.race().takes_input("anchor")
     );
     assert_eq!((studio.race().rudder(), studio.race().throttle()), (0.0, 1.0));
     for (command, times, rudder) in [
@@ -97,7 +97,7 @@ fn throttle_and_rudder_move_in_tenths_within_limits_until_a_restart() {
     assert!(heading(&studio) > 0.1, "left is counter-clockwise");
     studio.apply(StageCommand::Restart);
     assert_eq!((studio.race().rudder(), heading(&studio)), (0.0, 0.0));
-    assert!(!Studio::new(scene("ship")).race().takes("rudder"));
+    assert!(!Studio::new(scene("ship")).race().takes_input("rudder"));
 }
 
 #[test]

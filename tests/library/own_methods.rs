@@ -229,7 +229,7 @@ fn carries_its_lines(scene: Scene) {
     session.run(90);
     let text = session.recording_text(90).unwrap();
     let recorded = Scene::parse("recorded.toml", &text).unwrap();
-    let packed = link::text(&link::to(&recorded).unwrap()).unwrap();
+    let packed = link::text(&link::link_to_run(&recorded).unwrap()).unwrap();
     for scene in [recorded, Scene::parse("link", &packed).unwrap()] {
         let checks = scene.checks.clone();
         let mut replay = Session::racing(scene.into());

@@ -107,7 +107,10 @@ fn a_frame_out_of_time_drops_its_remaining_ticks() {
         },
         &mut (),
     );
-    assert_eq!((due.ticks, due.dropped, studio.deck.dropped(), studio.race().tick()), (2, 4, 4, 2));
+    assert_eq!(
+        (due.ticks, due.dropped, studio.deck.dropped_ticks(), studio.race().tick()),
+        (2, 4, 4, 2)
+    );
     let due = studio.advance_in_time(u64::MAX, 50_000_000, &mut || true, &mut ());
     assert_eq!((due.ticks, due.dropped, studio.race().tick()), (3, 0, 5));
 }

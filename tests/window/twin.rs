@@ -182,7 +182,7 @@ impl Twin {
     #[track_caller]
     pub(crate) fn looks_alike(&mut self, desk: &Desk) {
         self.move_aside(desk);
-        self.studio.viewer.pass(i64::MAX);
+        self.studio.viewer.pass_time(i64::MAX);
         self.settle();
         let drawing = self.frame(None).drawing;
         let mut rgba = Vec::new();

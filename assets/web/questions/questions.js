@@ -16,7 +16,7 @@ for (const figure of document.querySelectorAll("figure")) {
         computed.classList.add(number === computed.dataset.number ? "same" : "other");
         computed.hidden = false;
         again.hidden = false;
-        again.addEventListener("click", async () => (await frame.contentWindow.regatta).again());
+        again.addEventListener("click", async () => (await frame.contentWindow.regatta).restart());
     };
     frame.addEventListener("load", show);
     // A stage may have been there before this script.

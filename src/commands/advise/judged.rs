@@ -9,7 +9,7 @@ use rayon::ThreadPool;
 use crate::commands::jobs;
 use crate::commands::terminal::{print_status, progress};
 use crate::measure::{Adviser, CRITERIA, MethodAdvice, Recommendation, ranked, recommended};
-use crate::run::{Follow, Lane};
+use crate::run::{Lane, Ticker};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::TickRate;
 use crate::sim::number::significant;
@@ -127,7 +127,7 @@ impl Row {
                 None => {
                     let spec = LaneSpec { substeps: met.substeps, ..self.advised.spec };
                     let lane = || Lane::new(scene, spec.solver(), spec.substeps);
-                    let made = || Follow::new(lane(), scene.tick_hz);
+                    let made = || Ticker::new(lane(), scene.tick_hz);
                     Timing::of(&stopwatch::ns_per_tick(made, ticks, EFFORT), scene.tick_hz)
                 }
             };

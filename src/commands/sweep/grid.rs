@@ -9,7 +9,7 @@ use crate::commands::error::Error;
 use crate::commands::jobs;
 use crate::commands::terminal::progress;
 use crate::measure::{Judge, MAX_HORIZON_S, Verdict};
-use crate::run::{Follow, Lane};
+use crate::run::{Lane, Ticker};
 use crate::scene::{LaneSpec, Scene, SceneBody};
 use crate::sim::TickRate;
 use crate::sim::bodies::Text;
@@ -154,7 +154,7 @@ impl Grid {
         };
         let ticks = (row.seconds() * f64::from(tick_hz)).round() as u64;
         let lane = || Lane::new(alone, spec.solver(), spec.substeps);
-        let runs = stopwatch::ns_per_tick(|| Follow::new(lane(), tick_hz), ticks, effort);
+        let runs = stopwatch::ns_per_tick(|| Ticker::new(lane(), tick_hz), ticks, effort);
         row.ns_per_s = runs.first().map(|least| least * f64::from(tick_hz));
         row
     }

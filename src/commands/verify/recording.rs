@@ -12,7 +12,7 @@ use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::output::Destination;
 use crate::commands::terminal::print_status;
 use crate::commands::{jobs, scene_file};
-use crate::run::race::{Done, Observer, Race};
+use crate::run::race::{Observer, PerformedAction, Race};
 use crate::run::trace::last_tick;
 use crate::run::{Reached, Replay, Session};
 use crate::scene::{Check, Scene};
@@ -250,7 +250,7 @@ impl MethodsSeen {
 }
 
 impl Observer for MethodsSeen {
-    fn after(&mut self, race: &Race, _: &Done) {
+    fn after(&mut self, race: &Race, _: &PerformedAction) {
         self.look(race);
     }
 }
@@ -258,7 +258,7 @@ impl Observer for MethodsSeen {
 /// Runs the race of a scene past all its checks, in the order of their ticks.
 fn replay(scene: &Scene, observer: &mut dyn Observer) -> Vec<Reached> {
     let mut replay = Replay::new(scene.clone().into());
-    std::iter::from_fn(|| replay.go_on(u64::MAX, observer)).collect()
+    std::iter::from_fn(|| replay.run_to_next_check(u64::MAX, observer)).collect()
 }
 
 /// Runs the race of a scene and compares every lane with its checks.

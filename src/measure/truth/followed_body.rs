@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::BodyTruth;
 use crate::measure::swings::Swings;
-use crate::run::race::{Follow, StopReason, Ticked, advance_checked};
+use crate::run::race::{StopReason, Ticked, Ticker, advance_checked};
 use crate::scene::Action;
 use crate::sim::bodies::Coordinates;
 use crate::sim::integrators::{Family, StepFailure};
@@ -46,7 +46,7 @@ pub(in crate::measure) struct FollowedBody {
 }
 
 /// A body followed from its start, with the inputs of the script.
-pub(in crate::measure) type FollowedRun = Follow<'static, FollowedBody>;
+pub(in crate::measure) type FollowedRun = Ticker<'static, FollowedBody>;
 
 impl BodyTruth {
     /// The body before its first tick, under `solver` at this rate.
@@ -67,7 +67,7 @@ impl BodyTruth {
             counted: 0,
         };
         body.base_j = body.energy();
-        Follow::new(body, tick_hz).with_script(self.inputs.clone())
+        Ticker::new(body, tick_hz).with_script(self.inputs.clone())
     }
 
     /// Continues until `end` ticks are made, or `see` stops the run.

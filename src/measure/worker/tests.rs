@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::run::Race;
-use crate::run::race::Starts;
+use crate::run::race::Checkpoints;
 use crate::scene::Action;
 use crate::sim::integrators::{GENERAL_METHODS, method};
 
@@ -54,7 +54,7 @@ fn each_verdict_is_computed_once_until_rate_run_or_scene_changes() {
     assert_eq!(count, GENERAL_METHODS.len());
     assert!(coarse != fine);
     let mut race = Race::of_scene(&first.scene);
-    let mut starts = Starts::default();
+    let mut starts = Checkpoints::default();
     race.act(Action::Throttle(0.5), &mut starts);
     let by_hand = Interventions::in_race(&race, &starts);
     let slower = AnalysisRequest { tick_hz: 20.into(), by_hand, ..first.clone() };

@@ -103,7 +103,7 @@ fn words(name: &str) -> Vec<String> {
 
 /// How a column advances through the rows with one key.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Course {
+pub(super) struct ClockCheck {
     /// Place of the last row, and the values of both sides there.
     last: Option<(f64, [f64; 2])>,
     /// Exclusive bounds on the growth per row, if it is constant, for each of [`PRECISIONS`].
@@ -113,13 +113,13 @@ pub(super) struct Course {
     unit: f64,
 }
 
-impl Default for Course {
+impl Default for ClockCheck {
     fn default() -> Self {
         Self { last: None, growth: [[f64::NEG_INFINITY, f64::INFINITY]; 2], steps: 0, unit: 0.0 }
     }
 }
 
-impl Course {
+impl ClockCheck {
     /// Adds the values of both sides at a place, with their cells. Returns whether the column may still be a clock.
     pub(super) fn add(
         &mut self,
@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn a_clock_grows_evenly_to_its_rounding_and_a_motion_does_not() {
         let is_clock = |cells: &[&str]| {
-            let mut course = Course::default();
+            let mut course = ClockCheck::default();
             let goes_on = cells.iter().zip(0..).all(|(cell, place)| {
                 let value: f64 = cell.parse().unwrap();
                 course.add(Moves::Unevenly, f64::from(place), [value; 2], [cell.as_bytes(); 2])

@@ -35,7 +35,7 @@ impl Line {
     }
 
     /// Share of the variance that the line explains.
-    fn explained(&self) -> f64 {
+    fn explained_share(&self) -> f64 {
         self.xy * self.xy / (self.xx * self.yy)
     }
 }
@@ -54,7 +54,7 @@ pub(super) struct Growth {
 
 impl Growth {
     /// Adds a difference at time `t` (s). Without times there is no rate.
-    pub(super) fn note(&mut self, tick: u64, t: Option<f64>, difference: f64) {
+    pub(super) fn note_difference(&mut self, tick: u64, t: Option<f64>, difference: f64) {
         let Some(t) = t.filter(|_| difference > 0.0) else { return };
         if self.present.is_some_and(|(present, _)| present != tick) {
             self.end_tick();
@@ -78,8 +78,8 @@ impl Growth {
         self.end_tick();
         let (_, least) = self.start?;
         let grew = self.largest.min(LARGE) >= LEAST_GROWTH * least;
-        let explained = self.exponential.explained();
-        let is_best = explained >= LEAST_EXPLAINED && explained > self.power.explained();
+        let explained = self.exponential.explained_share();
+        let is_best = explained >= LEAST_EXPLAINED && explained > self.power.explained_share();
         let slope = self.exponential.slope();
         (grew && is_best && slope.is_finite()).then_some(slope)
     }

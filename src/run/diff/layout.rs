@@ -127,7 +127,7 @@ pub(super) struct Key {
 }
 
 /// Positions and roles of the columns in both tables.
-pub(super) struct Layout {
+pub(super) struct ColumnLayout {
     order: Order,
     /// Column of the time (s), on the first side.
     t: Option<usize>,
@@ -139,7 +139,7 @@ pub(super) struct Layout {
     pub(super) first_alone: Option<(usize, usize)>,
 }
 
-impl Layout {
+impl ColumnLayout {
     pub(super) fn of(headers: [&ByteRecord; 2], chosen: &Chosen) -> Result<Self, NotComparable> {
         let names = headers.map(|header| -> Vec<String> {
             header.iter().map(|cell| String::from_utf8_lossy(cell).trim().to_owned()).collect()

@@ -22,19 +22,19 @@ pub struct History {
     present: Option<Sample>,
     /// Range of the recorded coordinate since the newest sample.
     since: SweptRange,
-    most: Most,
+    most: Peaks,
 }
 
 /// Largest values since the start, or since the last placement of the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Most {
+pub struct Peaks {
     /// Largest position error, in the unit of the first coordinate.
     pub error: f64,
     /// Largest coordinate in that unit, in the lane or in truth.
     pub size: f64,
 }
 
-impl Most {
+impl Peaks {
     /// The values at this moment.
     pub(super) fn of(body: &LaneBody, truth: &LaneBody) -> Self {
         let error = (METRICS[Metric::POSITION_ERROR].measure)(body, truth).unwrap_or_default();
@@ -42,7 +42,7 @@ impl Most {
         Self { error, size: all.map(f64::abs).fold(0.0, f64::max) }
     }
 
-    fn and(self, other: Self) -> Self {
+    fn max(self, other: Self) -> Self {
         Self { error: self.error.max(other.error), size: self.size.max(other.size) }
     }
 }
@@ -53,7 +53,7 @@ pub(super) struct HistoryMark {
     /// Number of samples since the start.
     samples: u64,
     since: SweptRange,
-    most: Most,
+    most: Peaks,
 }
 
 /// Samples of a [`History`], oldest first.
@@ -68,7 +68,7 @@ impl History {
             samples: WindowedLog::new(capacity, spare),
             present: None,
             since: SweptRange::NOTHING,
-            most: Most::default(),
+            most: Peaks::default(),
         }
     }
 
@@ -90,7 +90,7 @@ impl History {
         for (number, sample) in self.samples.numbered() {
             let next = Summary::of(sample);
             let last = summaries.last_mut().filter(|_| !number.is_multiple_of(together));
-            match last.and_then(|last| Some((last.and(next)?, last))) {
+            match last.and_then(|last| Some((last.joined_with(next)?, last))) {
                 Some((both, last)) => *last = both,
                 None => summaries.push(next),
             }
@@ -113,23 +113,23 @@ impl History {
     }
 
     /// Largest values since the start, or since the last placement of the body.
-    pub fn most(&self) -> Most {
+    pub fn peaks(&self) -> Peaks {
         self.most
     }
 
     /// Adds the values of a tick to the largest.
-    pub(super) fn note(&mut self, now: Most) {
-        self.most = self.most.and(now);
+    pub(super) fn note_peaks(&mut self, now: Peaks) {
+        self.most = self.most.max(now);
     }
 
     /// Adds a tick at which no sample is due.
-    pub(super) fn pass(&mut self, q: f64) {
-        self.since = self.since.and(q);
+    pub(super) fn extend_swept(&mut self, q: f64) {
+        self.since = self.since.extended_by(q);
     }
 
     /// Adds the present, and drops the oldest sample if the history is full.
-    pub(super) fn record(&mut self, now: Sample) {
-        let swept = self.since.and(now.q);
+    pub(super) fn push_present(&mut self, now: Sample) {
+        let swept = self.since.extended_by(now.q);
         self.begin_at(Sample { swept, ..now });
     }
 
@@ -143,7 +143,7 @@ impl History {
     /// Shows the present until the next sample.
     pub(super) fn record_passing(&mut self, now: Sample) {
         let is_there = self.samples.newest().is_some_and(|newest| newest.t == now.t);
-        let swept = self.since.and(now.q);
+        let swept = self.since.extended_by(now.q);
         self.present = (!is_there).then_some(Sample { swept, ..now });
     }
 
@@ -151,7 +151,7 @@ impl History {
     pub(super) fn end_run(&mut self, now: Sample) {
         self.present = None;
         if self.samples.newest().is_none_or(|newest| newest.t != now.t) {
-            self.record(now);
+            self.push_present(now);
         }
     }
 
@@ -175,7 +175,7 @@ impl History {
     }
 
     /// Continues from `now`, where the body was placed.
-    pub(super) fn jump(&mut self, now: Sample, most: Most) {
+    pub(super) fn jump(&mut self, now: Sample, most: Peaks) {
         self.most = most;
         self.begin_at(Sample { jumped: true, ..now });
     }
@@ -234,7 +234,7 @@ mod tests {
     /// A history of `entry` at 0, 1 and 2 s.
     fn flown(entry: usize) -> History {
         let mut history = History::new(CAPACITY);
-        (0..3).for_each(|t| history.record(sample(f64::from(t), entry)));
+        (0..3).for_each(|t| history.push_present(sample(f64::from(t), entry)));
         history
     }
 
@@ -247,7 +247,7 @@ mod tests {
     fn runs_meet_at_the_moment_of_the_switch() {
         let mut history = flown(0);
         switch(&mut history, 2.5, 0, 3);
-        history.record(sample(3.0, 3));
+        history.push_present(sample(3.0, 3));
         let first = (0, vec![0.0, 1.0, 2.0, 2.5]);
         assert_eq!(runs(&history), [first.clone(), (3, vec![2.5, 3.0])]);
         switch(&mut history, 3.0, 3, 0);
@@ -264,7 +264,7 @@ mod tests {
         switch(&mut history, 2.0, 2, 0);
         assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0])]);
         let mut history = History::new(CAPACITY);
-        history.record(sample(0.0, 0));
+        history.push_present(sample(0.0, 0));
         switch(&mut history, 0.0, 0, 1);
         assert_eq!(runs(&history), [(1, vec![0.0])]);
     }
@@ -277,11 +277,11 @@ mod tests {
         history.record_passing(sample(2.2, 0));
         history.record_passing(sample(2.4, 0));
         assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0, 2.4])]);
-        history.record(sample(3.0, 0));
+        history.push_present(sample(3.0, 0));
         assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0, 3.0])]);
         history.record_passing(sample(3.5, 0));
         switch(&mut history, 3.5, 0, 1);
-        history.record(sample(4.0, 1));
+        history.push_present(sample(4.0, 1));
         assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0, 3.0, 3.5]), (1, vec![3.5, 4.0])]);
     }
 
@@ -291,20 +291,20 @@ mod tests {
             history.samples().map(|sample| sample.swept.ends()).collect()
         };
         let mut history = flown(0);
-        history.pass(-2.0);
-        history.pass(1.0);
+        history.extend_swept(-2.0);
+        history.extend_swept(1.0);
         let mark = history.mark();
         history.record_passing(sample(2.5, 0));
         assert_eq!(swept(&history), [[0.0; 2], [0.0; 2], [0.0; 2], [-2.0, 1.0]]);
-        history.pass(3.0);
-        history.record(sample(3.0, 0));
-        history.record(sample(4.0, 0));
+        history.extend_swept(3.0);
+        history.push_present(sample(3.0, 0));
+        history.push_present(sample(4.0, 0));
         assert_eq!(swept(&history)[3..], [[-2.0, 3.0], [0.0; 2]]);
         history.rewind(mark);
         switch(&mut history, 2.5, 0, 1);
         assert_eq!(swept(&history)[2..], [[0.0; 2], [-2.0, 1.0], [0.0; 2]]);
-        history.pass(9.0);
-        history.jump(sample(3.0, 1), Most::default());
+        history.extend_swept(9.0);
+        history.jump(sample(3.0, 1), Peaks::default());
         assert_eq!(swept(&history)[5], [0.0; 2], "nothing leads to where it was put");
     }
 
@@ -312,8 +312,8 @@ mod tests {
     fn samples_since_a_placement_begin_at_the_placed_position() {
         let mut history = flown(0);
         history.end_run(Sample { q: 5.0, ..sample(2.5, 0) });
-        history.jump(Sample { q: 1.0, ..sample(2.5, 0) }, Most::default());
-        history.record(sample(3.0, 0));
+        history.jump(Sample { q: 1.0, ..sample(2.5, 0) }, Peaks::default());
+        history.push_present(sample(3.0, 0));
         history.record_passing(sample(3.5, 0));
         let since = |t: f64| history.since(t).map(|sample| sample.q).collect::<Vec<_>>();
         assert_eq!(since(2.5), [1.0, 0.0, 0.0]);
@@ -324,7 +324,7 @@ mod tests {
     #[test]
     fn a_full_history_forgets_its_oldest_sample() {
         let mut history = History::new(CAPACITY);
-        (0..=CAPACITY).for_each(|t| history.record(sample(t as f64, 0)));
+        (0..=CAPACITY).for_each(|t| history.push_present(sample(t as f64, 0)));
         history.record_passing(sample(1e9, 0));
         assert_eq!(history.samples().count(), CAPACITY + 1, "the present is beside them");
         assert_eq!(history.samples().next().unwrap().t, 1.0);
@@ -334,10 +334,10 @@ mod tests {
     fn a_summary_covers_four_samples_of_one_motion_with_their_swept_range() {
         let at = |t: u32, q: f64| Sample { q, swept: SweptRange::at(q), ..sample(f64::from(t), 0) };
         let mut history = History::new(CAPACITY);
-        (0..6).for_each(|t| history.record(at(t, f64::from(t))));
+        (0..6).for_each(|t| history.push_present(at(t, f64::from(t))));
         switch(&mut history, 5.5, 0, 1);
-        history.jump(Sample { entry: 1, ..at(6, 9.0) }, Most::default());
-        history.record(Sample { entry: 1, ..at(7, f64::INFINITY) });
+        history.jump(Sample { entry: 1, ..at(6, 9.0) }, Peaks::default());
+        history.push_present(Sample { entry: 1, ..at(7, f64::INFINITY) });
         history.record_passing(Sample { entry: 1, ..at(8, 7.0) });
         let summaries = |least: usize| -> Vec<(f64, usize, [f64; 2], bool)> {
             let all = history.summaries(least).into_iter();
@@ -353,7 +353,7 @@ mod tests {
     #[test]
     fn summaries_of_a_full_history_have_the_requested_count_and_stay_stable() {
         let mut history = History::new(CAPACITY);
-        let record = |history: &mut History, t: usize| history.record(sample(t as f64, 0));
+        let record = |history: &mut History, t: usize| history.push_present(sample(t as f64, 0));
         (0..3 * CAPACITY).for_each(|t| record(&mut history, t));
         for (least, together) in [(0, 4), (400, 4), (CAPACITY / 2, 2), (CAPACITY, 1)] {
             let times = |history: &History| -> Vec<f64> {

@@ -39,7 +39,7 @@ impl Quantity {
     }
 
     /// The value, given a coordinate and its velocity.
-    pub fn among(self, [q, v]: [f64; 2]) -> f64 {
+    pub fn value(self, [q, v]: [f64; 2]) -> f64 {
         match self {
             Quantity::Position => q,
             Quantity::Velocity => v,

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use crate::run::METRICS;
 use crate::run::race::LaneBody;
+use crate::run::{METRICS, MenuIndex};
 use crate::sim::Stepper;
 
 /// Most samples shown: every tick of 30 s at 60 Hz, and more than a plot has pixels.
@@ -25,7 +25,7 @@ pub struct Sample {
     /// Energies, if the body conserves energy.
     pub energies: Option<Energies>,
     /// Index of the lane's method on the [menu](super::Menu) at that moment: a trail changes colour at a switch.
-    pub entry: usize,
+    pub entry: MenuIndex,
     /// One value for each of [`METRICS`]; NaN where undefined.
     pub metrics: [f64; METRICS.len()],
     /// Whether the body was placed here, so that no path leads from the previous sample.
@@ -49,7 +49,7 @@ impl Sample {
     /// The present of `body` and its coordinate with this index, in a lane whose method has the menu index `entry`.
     pub(crate) fn new(
         t: f64,
-        entry: usize,
+        entry: MenuIndex,
         coordinate: usize,
         [body, truth]: [&LaneBody; 2],
     ) -> Self {
@@ -114,7 +114,7 @@ impl SweptRange {
     }
 
     /// The range extended by `q`.
-    pub(super) fn and(self, q: f64) -> Self {
+    pub(super) fn extended_by(self, q: f64) -> Self {
         Self { least: self.least.min(q), greatest: self.greatest.max(q) }
     }
 
@@ -134,7 +134,7 @@ pub struct Summary {
     /// Range of that coordinate since the previous summary.
     pub swept: SweptRange,
     /// Index of the lane's method on the [menu](super::Menu).
-    pub entry: usize,
+    pub entry: MenuIndex,
     /// Whether the body was placed at the first sample, so that no path leads from the previous summary.
     pub jumped: bool,
 }
@@ -147,10 +147,10 @@ impl Summary {
     }
 
     /// Joins two summaries if they belong to one motion under one method.
-    pub(super) fn and(self, next: Self) -> Option<Self> {
+    pub(super) fn joined_with(self, next: Self) -> Option<Self> {
         let is_one = self.entry == next.entry && !next.jumped;
         let ends = next.swept.ends();
-        let swept = self.swept.and(ends[0]).and(ends[1]);
+        let swept = self.swept.extended_by(ends[0]).extended_by(ends[1]);
         (is_one && self.q.is_finite() && next.q.is_finite()).then_some(Self {
             swept,
             jumped: self.jumped,

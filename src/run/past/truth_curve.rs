@@ -113,7 +113,7 @@ impl TruthCurve {
             extents: WindowedLog::new((GRID + OFF_GRID) / BLOCK + 1, SPARE / BLOCK + 1),
             since: SweptRange::NOTHING,
         };
-        curve.keep(0.0, truth);
+        curve.push_present(0.0, truth);
         curve
     }
 
@@ -178,10 +178,10 @@ impl TruthCurve {
                 let part = f64::from(i) / f64::from(count);
                 let t = from.t + part * wide;
                 let state = if follows { flow.state(from, t) } else { None };
-                points.push([t, quantity.among(state.unwrap_or_else(|| cubic(from, to, part)))]);
+                points.push([t, quantity.value(state.unwrap_or_else(|| cubic(from, to, part)))]);
             }
         }
-        points.extend(samples.last().map(|last| [last.t, quantity.among([last.q, last.v])]));
+        points.extend(samples.last().map(|last| [last.t, quantity.value([last.q, last.v])]));
         points
     }
 
@@ -195,7 +195,7 @@ impl TruthCurve {
     ) -> f64 {
         let mut flow = Flow::of(truth);
         let state = flow.leads(from, to).then(|| flow.state(from, t)).flatten();
-        quantity.among(state.unwrap_or_else(|| cubic(from, to, (t - from.t) / (to.t - from.t))))
+        quantity.value(state.unwrap_or_else(|| cubic(from, to, (t - from.t) / (to.t - from.t))))
     }
 
     /// Coordinates and velocities of `truth` within or beyond its last tick; during the tick, `part` runs from 0 to
@@ -228,7 +228,7 @@ impl TruthCurve {
         (copy.q().to_vec(), copy.v().to_vec())
     }
 
-    /// Adds the tick that `truth` has just made. Allocates only after a [change](Self::change) of the truth.
+    /// Adds the tick that `truth` has just made. Allocates only after a [change](Self::invalidate_copy) of the truth.
     pub(super) fn extend(&mut self, truth: &LaneBody, LastTick { from_s, to_s }: LastTick) {
         self.refresh(truth, from_s);
         for input in self.pending.drain(..) {
@@ -241,7 +241,7 @@ impl TruthCurve {
         let first = libm::floor(from_s / spacing_s);
         let count = (libm::floor(to_s / spacing_s) - first) as u64;
         if count == 0 {
-            self.since = self.since.and(truth.stepper.q()[self.coordinate]);
+            self.since = self.since.extended_by(truth.stepper.q()[self.coordinate]);
             return;
         }
         self.between.set(from_s, &truth.previous_q, &truth.previous_v);
@@ -256,13 +256,13 @@ impl TruthCurve {
         }
         // Where the grid is finer than the ticks, only grid points are drawn.
         if t < to_s && to_s - from_s < spacing_s {
-            self.since = self.since.and(truth.stepper.q()[self.coordinate]);
+            self.since = self.since.extended_by(truth.stepper.q()[self.coordinate]);
         }
     }
 
     /// Adds the present of `truth` at time `t`, before and after an input, where the curve has a corner. Never
     /// allocates.
-    pub(super) fn keep(&mut self, t: f64, truth: &LaneBody) {
+    pub(super) fn push_present(&mut self, t: f64, truth: &LaneBody) {
         self.push(self.present(truth, t));
     }
 
@@ -272,13 +272,13 @@ impl TruthCurve {
     }
 
     /// Notes an input to the truth.
-    pub(super) fn bend(&mut self, input: Input) {
+    pub(super) fn note_input(&mut self, input: Input) {
         self.pending.retain(|waiting| discriminant(waiting) != discriminant(&input));
         self.pending.push(input);
     }
 
     /// Notes any other change of the truth.
-    pub(super) fn change(&mut self) {
+    pub(super) fn invalidate_copy(&mut self) {
         self.is_stale = true;
     }
 
@@ -296,7 +296,7 @@ impl TruthCurve {
         let newest = self.samples.newest();
         let follows = newest.is_none_or(|last| is_another(last) && last.t <= sample.t);
         if follows && sample.is_finite() {
-            let swept = self.since.and(sample.q);
+            let swept = self.since.extended_by(sample.q);
             self.since = SweptRange::NOTHING;
             self.samples.push(TruthSample { swept, ..sample });
             if self.samples.mark().is_multiple_of(BLOCK as u64) {

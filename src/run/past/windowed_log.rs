@@ -95,14 +95,14 @@ impl<T: PartialEq> WindowedLog<T> {
     }
 
     /// Whether all records of the window that ends at `mark` are kept.
-    pub(super) fn keeps(&self, mark: u64) -> bool {
+    pub(super) fn keeps_window(&self, mark: u64) -> bool {
         let oldest = mark.saturating_sub(self.window as u64);
         self.first <= oldest && mark <= self.first + self.kept.len() as u64
     }
 
     /// Whether a repetition from `from` fills the window that ends at `mark`.
     pub(super) fn fills(&self, from: u64, mark: u64) -> bool {
-        from + self.window as u64 <= mark || self.keeps(mark) && self.first <= from
+        from + self.window as u64 <= mark || self.keeps_window(mark) && self.first <= from
     }
 
     /// Ends the window at `mark`. Clears the log if it has no records there.
@@ -138,7 +138,12 @@ mod tests {
     fn the_newest_records_are_visible_and_older_ones_return_on_rewind() {
         let mut log = filled(9);
         assert_eq!((shown(&log), log.mark(), log.newest()), (vec![6, 7, 8], 9, Some(&8)));
-        assert!(log.keeps(9) && log.keeps(7) && !log.keeps(6) && !log.keeps(10));
+        assert!(
+            log.keeps_window(9)
+                && log.keeps_window(7)
+                && !log.keeps_window(6)
+                && !log.keeps_window(10)
+        );
         log.rewind(7);
         assert_eq!(shown(&log), [4, 5, 6]);
         log.push(7);
@@ -152,18 +157,20 @@ mod tests {
         let mut log = filled(9);
         log.rewind(7);
         log.push(70);
-        assert_eq!((shown(&log), log.keeps(9)), (vec![5, 6, 70], false));
+        assert_eq!((shown(&log), log.keeps_window(9)), (vec![5, 6, 70], false));
         log.push(8);
         assert_eq!(shown(&log), [6, 70, 8]);
         log.rewind(8);
         log.forget_future();
-        assert!(!log.keeps(9) && log.keeps(8));
+        assert!(!log.keeps_window(9) && log.keeps_window(8));
     }
 
     #[test]
     fn a_lost_window_is_refilled_from_far_enough_back() {
         let mut log = filled(100);
-        assert!(!log.keeps(50) && log.fills(47, 50) && !log.fills(48, 50) && !log.fills(0, 2));
+        assert!(
+            !log.keeps_window(50) && log.fills(47, 50) && !log.fills(48, 50) && !log.fills(0, 2)
+        );
         log.rewind(47);
         assert_eq!((shown(&log), log.mark()), (vec![], 47));
         (47..50).for_each(|n| log.push(n));

@@ -2,7 +2,7 @@
 
 use super::journal::{Author, Journal};
 use super::lane::LaneBody;
-use super::observer::{Done, Observer, Switch};
+use super::observer::{Observer, PerformedAction, Switch};
 use super::{Mode, Race};
 use crate::scene::{Action, LaneId, LaneSpec, edited_values};
 use crate::sim::bodies::{Acts, incompatibility};
@@ -31,7 +31,7 @@ impl Race {
         for row in journal.rows().iter().take_while(|row| row.tick <= end) {
             self.tick = row.tick;
             if let Action::Place { .. } = row.action {
-                observer.before(&self, &Done::new(row.action.clone(), row.author, None));
+                observer.before(&self, &PerformedAction::new(row.action.clone(), row.author, None));
             } else {
                 self.perform_by(&row.action, row.author, observer);
             }
@@ -44,10 +44,14 @@ impl Race {
     /// removes the person's later actions. Returns `None`, and leaves the journal alone, if the run cannot take the
     /// action (see [`Action::checked`]). The same holds if it changes neither the present nor the script's pending
     /// actions.
-    pub(crate) fn act(&mut self, action: Action, observer: &mut dyn Observer) -> Option<Done> {
+    pub(crate) fn act(
+        &mut self,
+        action: Action,
+        observer: &mut dyn Observer,
+    ) -> Option<PerformedAction> {
         self.catch_up(observer);
         let action = action.checked()?;
-        let planned = self.planned(&action, Author::Person);
+        let planned = self.action_to_perform(&action, Author::Person);
         let control = action.control();
         let takes_over = self.can_take(&action) && self.journal.script_acts_on(control, self.done);
         if planned.is_none() && !takes_over {
@@ -60,12 +64,12 @@ impl Race {
             Some(planned) => self.carry_out(planned, observer),
             None => {
                 let switch = self.switch(&action);
-                Done::new(action, Author::Person, switch)
+                PerformedAction::new(action, Author::Person, switch)
             }
         };
         // The action may have changed the rate, or cancelled a pending change of it.
         self.journal.put_on_ticks(self.done, self.piece);
-        Some(Done { released, ..done })
+        Some(PerformedAction { released, ..done })
     }
 
     /// Whether the race has the target of an action, and accepts its values. A hand may still hold a body of the
@@ -96,21 +100,23 @@ impl Race {
 
     /// Whether an action would change anything.
     pub fn changes(&self, action: &Action) -> bool {
-        self.planned(action, Author::Person).is_some()
+        self.action_to_perform(action, Author::Person).is_some()
     }
 
     /// The action to perform; `None` if it would change nothing.
-    fn planned(&self, action: &Action, author: Author) -> Option<Done> {
+    fn action_to_perform(&self, action: &Action, author: Author) -> Option<PerformedAction> {
         if !self.can_take(action) {
             return None;
         }
         let switch = self.switch(action);
         let changes = match action {
             Action::Throttle(part) => {
-                self.takes("throttle") && self.throttle != part.clamp(-1.0, 1.0)
+                self.takes_input("throttle") && self.throttle != part.clamp(-1.0, 1.0)
             }
-            Action::Rudder(part) => self.takes("rudder") && self.rudder != part.clamp(-1.0, 1.0),
-            Action::Kick(times) => self.takes("kick") && *times != 0.0,
+            Action::Rudder(part) => {
+                self.takes_input("rudder") && self.rudder != part.clamp(-1.0, 1.0)
+            }
+            Action::Kick(times) => self.takes_input("kick") && *times != 0.0,
             Action::TickHz(tick_hz) => self.tick_hz() != *tick_hz,
             Action::Set { body, parameter, value } => self.values[*body][*parameter] != *value,
             Action::Place { body, q, v } => {
@@ -132,11 +138,11 @@ impl Race {
                 switch.is_some_and(|Switch { index, spec, .. }| self.entrants[index].spec != spec)
             }
         };
-        changes.then(|| Done::new(action.clone(), author, switch))
+        changes.then(|| PerformedAction::new(action.clone(), author, switch))
     }
 
     /// Whether any body takes an input, by its name on the body's [card](crate::sim::bodies::Kind).
-    pub fn takes(&self, input: &str) -> bool {
+    pub fn takes_input(&self, input: &str) -> bool {
         self.truth.bodies().iter().any(|body| body.kind.inputs.contains(&input))
     }
 
@@ -166,7 +172,11 @@ impl Race {
 
     /// Performs a person's action at the present tick, without adding it to the journal. Clamps throttle and rudder
     /// to -1 to 1. Returns `None` if the action [changes](Self::changes) nothing.
-    pub fn perform(&mut self, action: &Action, observer: &mut dyn Observer) -> Option<Done> {
+    pub fn perform(
+        &mut self,
+        action: &Action,
+        observer: &mut dyn Observer,
+    ) -> Option<PerformedAction> {
         self.perform_by(action, Author::Person, observer)
     }
 
@@ -175,12 +185,16 @@ impl Race {
         action: &Action,
         author: Author,
         observer: &mut dyn Observer,
-    ) -> Option<Done> {
-        let planned = self.planned(action, author)?;
+    ) -> Option<PerformedAction> {
+        let planned = self.action_to_perform(action, author)?;
         Some(self.carry_out(planned, observer))
     }
 
-    fn carry_out(&mut self, mut done: Done, observer: &mut dyn Observer) -> Done {
+    fn carry_out(
+        &mut self,
+        mut done: PerformedAction,
+        observer: &mut dyn Observer,
+    ) -> PerformedAction {
         observer.before(self, &done);
         let (tick, t, action) = (self.tick, self.t(), &done.action);
         match action {

@@ -28,7 +28,7 @@ impl Chase {
     }
 
     /// Adds the body's place, its first coordinate, at time `t` (s).
-    pub fn take_in(&mut self, place: f64, t: f64) {
+    pub fn add_place(&mut self, place: f64, t: f64) {
         let ((before_s, before), now) = (self.last, self.target - place);
         let (before, part) = (before / self.first, now / self.first);
         if self.halved_s.is_none() && part <= 0.5 {
@@ -70,7 +70,7 @@ mod tests {
         let mut chase = Chase::new(&*body, 0.0).unwrap();
         for tick in 0..2 * hz as u32 {
             body.advance(f64::from(tick) / hz, 1.0 / hz, 1).unwrap();
-            chase.take_in(body.q()[0], f64::from(tick + 1) / hz);
+            chase.add_place(body.q()[0], f64::from(tick + 1) / hz);
         }
         chase
     }

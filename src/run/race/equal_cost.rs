@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::follow::{Follow, StopReason};
 use super::lane::Lane;
+use super::ticker::{StopReason, Ticker};
 use crate::scene::{LaneSpec, MAX_SUBSTEPS, Scene, nearest_tick};
 use crate::sim::TickRate;
 
@@ -67,8 +67,9 @@ fn evaluations_per_tick(scene: &Scene, spec: &LaneSpec, tick_hz: TickRate, most:
     let over = scene.script.last().map_or(0, |last| nearest_tick(last.at_s, tick_hz));
     let end = over.saturating_add(SETTLING_TICKS).min(MAX_COUNTED_TICKS);
     let lane = Lane::new(scene, spec.solver(), spec.substeps);
-    let mut follow =
-        Follow::new(lane, tick_hz).with_script(&scene.script).within((most * end as f64) as u64);
+    let mut follow = Ticker::new(lane, tick_hz)
+        .with_script(&scene.script)
+        .with_max_work((most * end as f64) as u64);
     let stop = follow.run(end, |lane, _| match lane.halted() {
         Some(_) => ControlFlow::Break(()),
         None => ControlFlow::Continue(()),

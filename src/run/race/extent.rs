@@ -31,10 +31,10 @@ struct Kinetic {
 
 impl Extent {
     /// Adds a moment: the speed, and the kinetic energy (J) if the body conserves its energy.
-    pub(crate) fn cover(&mut self, speed: f64, kinetic_j: Option<f64>) {
+    pub(crate) fn add_moment(&mut self, speed: f64, kinetic_j: Option<f64>) {
         self.largest_speed = self.largest_speed.max(speed);
         if let Some(now) = kinetic_j {
-            self.kinetic.get_or_insert_with(|| Kinetic::from(now)).cover(now);
+            self.kinetic.get_or_insert_with(|| Kinetic::from(now)).add(now);
         }
     }
 
@@ -82,7 +82,7 @@ impl Kinetic {
         self.turns >= 2 || self.turns == 1 && self.least <= AT_REST * self.most
     }
 
-    fn cover(&mut self, now: f64) {
+    fn add(&mut self, now: f64) {
         (self.least, self.most) = (self.least.min(now), self.most.max(now));
         let range = self.range();
         if range <= ROUNDING * self.most {
@@ -112,7 +112,7 @@ mod tests {
 
     fn covered(kinetic_j: impl IntoIterator<Item = f64>) -> Extent {
         let mut extent = Extent::default();
-        kinetic_j.into_iter().for_each(|kinetic_j| extent.cover(0.0, Some(kinetic_j)));
+        kinetic_j.into_iter().for_each(|kinetic_j| extent.add_moment(0.0, Some(kinetic_j)));
         extent
     }
 
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn the_largest_speed_is_remembered() {
         let mut extent = Extent::default();
-        [1.0, 4.0, 2.0].into_iter().for_each(|speed| extent.cover(speed, None));
+        [1.0, 4.0, 2.0].into_iter().for_each(|speed| extent.add_moment(speed, None));
         assert_eq!(extent.largest_speed(), 4.0);
     }
 }

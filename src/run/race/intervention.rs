@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::journal::{Author, JournalRow};
-use super::{BodyStart, Race, RunStart, Starts};
+use super::{BodyStart, Checkpoints, Race, RunStart};
 use crate::scene::{Action, Scene, Scripted, nearest_tick};
 
 /// The edits by a person and the script up to the present tick.
@@ -18,7 +18,7 @@ pub(crate) struct Interventions {
 impl Interventions {
     /// The edits in `race` since its checkpoint for verdicts. A parameter that the script set counts like a person's
     /// edit. The script's throttle, rudder and state changes are part of the judged motion.
-    pub(crate) fn in_race(race: &Race, starts: &Starts) -> Self {
+    pub(crate) fn in_race(race: &Race, checkpoints: &Checkpoints) -> Self {
         let mut settings: Vec<Action> = Vec::new();
         let is_in_force = |row: &&JournalRow| {
             row.author == Author::Person || matches!(row.action, Action::Set { .. })
@@ -31,12 +31,12 @@ impl Interventions {
                 settings.push(row.action.clone());
             }
         }
-        Self { start: starts.judged.clone(), settings }
+        Self { start: checkpoints.of_verdicts.clone(), settings }
     }
 
     /// Starts right after the last edit, so no later settings remain.
-    pub(crate) fn all(starts: &Starts) -> Self {
-        Self { start: starts.cloud.clone(), settings: Vec::new() }
+    pub(crate) fn after_last_edit(checkpoints: &Checkpoints) -> Self {
+        Self { start: checkpoints.of_clouds.clone(), settings: Vec::new() }
     }
 
     /// Time (s) of the run at which the [edited scene](Self::applied_to) starts.

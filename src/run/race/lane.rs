@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::chase::Chase;
 use super::extent::Extent;
-use super::follow::Ticked;
+use super::ticker::Ticked;
 use crate::scene::{Action, Appearance, Drawing, Preview, Scene, SceneBody};
 use crate::sim::bodies::{Coordinate, Coordinates, Custom, FalseClaims, Input, Kind, Law, Truth};
 use crate::sim::integrators::StepFailure;
@@ -36,13 +36,13 @@ impl Halt {
     }
 
     /// How the body ended: `blew up` or `gave up`.
-    pub fn how(&self) -> &'static str {
+    pub fn ending(&self) -> &'static str {
         if self.is_blow_up() { "blew up" } else { "gave up" }
     }
 
     /// The body's end and its time: `blew up at 8.4 s`.
     pub fn fate(&self) -> String {
-        format!("{} at {}", self.how(), duration(self.t))
+        format!("{} at {}", self.ending(), duration(self.t))
     }
 }
 
@@ -112,7 +112,7 @@ impl LaneBody {
             chase,
             appearance: body.appearance.clone(),
         };
-        body.cover();
+        body.add_moment();
         body
     }
 
@@ -241,14 +241,16 @@ impl LaneBody {
         if self.halted.is_some() {
             return;
         }
-        self.remember();
+        self.store_previous();
         self.evaluations_before = self.stepper.evaluations();
         let coordinates = &self.kind.all_coordinates;
         match advance_checked(&mut *self.stepper, coordinates, (t, h), substeps) {
             Ok(()) => {
-                self.cover();
+                self.add_moment();
                 let place = self.stepper.q()[0];
-                self.chase.iter_mut().for_each(|chase| chase.take_in(place, t + h));
+                if let Some(chase) = &mut self.chase {
+                    chase.add_place(place, t + h);
+                }
             }
             Err(failure) => {
                 self.stepper.set(t, &self.previous_q, &self.previous_v);
@@ -272,7 +274,7 @@ impl LaneBody {
         let is_taken = self.stepper.input(t, input);
         match check(&*self.stepper, &self.kind.all_coordinates) {
             Ok(()) => {
-                self.cover();
+                self.add_moment();
                 if is_taken {
                     self.chase = Chase::new(&*self.stepper, t);
                 }
@@ -280,7 +282,7 @@ impl LaneBody {
             Err(failure) => {
                 let [q, v] = &self.before_input;
                 self.stepper.set(t, q, v);
-                self.remember();
+                self.store_previous();
                 self.halted = Some(Halt { tick, t, body: index, failure });
             }
         }
@@ -295,7 +297,7 @@ impl LaneBody {
         if from == ResumedFrom::Truth {
             self.stepper.set(t, truth.stepper.q(), truth.stepper.v());
         }
-        self.remember();
+        self.store_previous();
         Some(Resumed { halt, from })
     }
 
@@ -311,12 +313,12 @@ impl LaneBody {
             self.stepper.set(t, q, v);
             self.halted = Some(Halt { tick, t, body: index, failure });
         }
-        self.remember();
-        self.cover();
+        self.store_previous();
+        self.add_moment();
         self.chase = Chase::new(&*self.stepper, t);
     }
 
-    fn remember(&mut self) {
+    fn store_previous(&mut self) {
         self.previous_q.copy_from_slice(self.stepper.q());
         self.previous_v.copy_from_slice(self.stepper.v());
     }
@@ -329,10 +331,10 @@ impl LaneBody {
     }
 
     /// Extends the range of the true motion by the present state.
-    fn cover(&mut self) {
+    fn add_moment(&mut self) {
         if let Some(mut extent) = self.extent.take() {
             let kinetic_j = self.stepper.kinetic_energy();
-            extent.cover(self.speed(), kinetic_j);
+            extent.add_moment(self.speed(), kinetic_j);
             // A body that conserves its energy needs no record of the sum.
             if kinetic_j.is_none() {
                 extent.cover_energy(self.stepper.mechanical_energy());
@@ -436,7 +438,11 @@ impl Lane {
         match action {
             Action::Place { body, q, v } => self.bodies[*body].place(*body, tick, t, [q, v]),
             Action::Set { body, .. } => action.apply_to(&mut *self.bodies[*body].stepper, t),
-            other => other.input().into_iter().for_each(|input| self.input(tick, t, input)),
+            other => {
+                if let Some(input) = other.input() {
+                    self.input(tick, t, input);
+                }
+            }
         }
     }
 

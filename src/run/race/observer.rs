@@ -7,7 +7,7 @@ use crate::scene::{Action, Control, LaneId, LaneSpec};
 
 /// An action as a race performs it. The race computes its effect once, for all observers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Done {
+pub struct PerformedAction {
     /// The action.
     pub action: Action,
     /// Its author.
@@ -31,7 +31,7 @@ pub struct Switch {
     pub spec: LaneSpec,
 }
 
-impl Done {
+impl PerformedAction {
     /// An action before the race performs it.
     pub(super) fn new(action: Action, author: Author, switch: Option<Switch>) -> Self {
         Self { action, author, switch, resumed: Vec::new(), released: None }
@@ -41,9 +41,9 @@ impl Done {
 /// Follows a race without changing it.
 pub trait Observer {
     /// Runs before an action changes the race.
-    fn before(&mut self, _race: &Race, _done: &Done) {}
+    fn before(&mut self, _race: &Race, _done: &PerformedAction) {}
     /// Runs after the action has changed the race.
-    fn after(&mut self, _race: &Race, _done: &Done) {}
+    fn after(&mut self, _race: &Race, _done: &PerformedAction) {}
     /// Runs after each tick.
     fn ticked(&mut self, _race: &Race) {}
 }
@@ -52,11 +52,11 @@ pub trait Observer {
 impl Observer for () {}
 
 impl<A: Observer + ?Sized, B: Observer + ?Sized> Observer for (&mut A, &mut B) {
-    fn before(&mut self, race: &Race, done: &Done) {
+    fn before(&mut self, race: &Race, done: &PerformedAction) {
         self.0.before(race, done);
         self.1.before(race, done);
     }
-    fn after(&mut self, race: &Race, done: &Done) {
+    fn after(&mut self, race: &Race, done: &PerformedAction) {
         self.0.after(race, done);
         self.1.after(race, done);
     }

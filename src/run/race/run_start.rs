@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::journal::{Author, JournalRow};
-use super::observer::{Done, Observer};
+use super::observer::{Observer, PerformedAction};
 use super::{Mode, Race};
 use crate::scene::Action;
 use crate::sim::TickRate;
@@ -46,23 +46,23 @@ impl RunStart {
 
 /// The checkpoints of a run up to its present tick.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Starts {
+pub(crate) struct Checkpoints {
     /// Right after a person last placed or kicked a body.
-    pub(super) judged: Option<Arc<RunStart>>,
+    pub(super) of_verdicts: Option<Arc<RunStart>>,
     /// Right after a person or the script last changed a body.
-    pub(super) cloud: Option<Arc<RunStart>>,
+    pub(super) of_clouds: Option<Arc<RunStart>>,
 }
 
-impl Starts {
+impl Checkpoints {
     /// Heap memory in bytes.
     pub(crate) fn heap_bytes(&self) -> usize {
-        [&self.judged, &self.cloud].into_iter().flatten().map(|start| start.bytes()).sum()
+        [&self.of_verdicts, &self.of_clouds].into_iter().flatten().map(|start| start.bytes()).sum()
     }
 
     /// Whether verdicts describe another run than this: one before a person's later edit, or before the script
     /// changed a method, a parameter or the tick rate. Script actions on the bodies are part of the judged run.
     pub(crate) fn was_changed_since_judged(&self, race: &Race) -> bool {
-        let from = self.judged.as_ref().map_or(0, |start| start.tick);
+        let from = self.of_verdicts.as_ref().map_or(0, |start| start.tick);
         let is_setting = |action: &Action| match action {
             Action::Method(_) => race.mode() == Mode::Solo,
             Action::Lane { .. } | Action::Substeps { .. } | Action::Tolerance { .. } => true,
@@ -75,8 +75,8 @@ impl Starts {
     }
 }
 
-impl Observer for Starts {
-    fn after(&mut self, race: &Race, Done { action, author, .. }: &Done) {
+impl Observer for Checkpoints {
+    fn after(&mut self, race: &Race, PerformedAction { action, author, .. }: &PerformedAction) {
         if !(0..race.values.len()).any(|body| action.acts_on(body)) {
             return;
         }
@@ -96,8 +96,8 @@ impl Observer for Starts {
         });
         let is_placed = matches!(action, Action::Place { .. } | Action::Kick(_));
         if is_placed && *author == Author::Person {
-            self.judged = Some(Arc::clone(&start));
+            self.of_verdicts = Some(Arc::clone(&start));
         }
-        self.cloud = Some(start);
+        self.of_clouds = Some(start);
     }
 }

@@ -1,7 +1,7 @@
 //! The hint under the stage. The scene's own asks for its first key; after that, further hints present the program. A
 //! hint appears only where it is true: in this mode, under this method, at this rate.
 
-use super::Situation;
+use super::HintContext;
 use crate::measure::Outcome;
 use crate::run::race::Mode;
 use crate::studio::Step;
@@ -11,23 +11,23 @@ use crate::studio::instrument::Instrument;
 use crate::studio::key::KEYS;
 
 /// A hint after the scene's own.
-struct Lead {
+struct FollowUpHint {
     /// The sentence; `None` where it would not be true. Keys stand between backticks.
-    text: fn(&Situation<'_>) -> Option<&'static str>,
+    text: fn(&HintContext<'_>) -> Option<&'static str>,
     is_done_by: fn(&Command) -> bool,
 }
 
 /// Least duration (s) of a run that is worth rewinding.
 const WORTH_GOING_BACK_S: f64 = 1.0;
 
-static LEADS: [Lead; 8] = [
-    Lead {
+static FOLLOW_UP_HINTS: [FollowUpHint; 8] = [
+    FollowUpHint {
         text: |now| (!now.is_from_the_start).then_some("Press `Home` to see it from the start."),
         is_done_by: |command| {
             matches!(command, Command::Stage(StageCommand::Restart | StageCommand::ToggleRace))
         },
     },
-    Lead {
+    FollowUpHint {
         text: |now| match now.race.mode() {
             Mode::Solo if now.scene.lanes.len() < 2 => None,
             Mode::Solo if now.race.truth().halted().is_some() => {
@@ -40,7 +40,7 @@ static LEADS: [Lead; 8] = [
         },
         is_done_by: |command| matches!(command, Command::Stage(StageCommand::ToggleRace)),
     },
-    Lead {
+    FollowUpHint {
         text: |now| {
             let is_overlaid = now.display.arrangement == Arrangement::Overlay;
             (now.race.mode() == Mode::Race && is_overlaid)
@@ -48,7 +48,7 @@ static LEADS: [Lead; 8] = [
         },
         is_done_by: |command| matches!(command, Command::Stage(StageCommand::ToggleArrangement)),
     },
-    Lead {
+    FollowUpHint {
         text: |now| {
             (now.race.t() >= WORTH_GOING_BACK_S)
                 .then_some("Hold `,` to go back in time, tick by tick. `Space` goes on from there.")
@@ -62,13 +62,13 @@ static LEADS: [Lead; 8] = [
             )
         },
     },
-    Lead {
+    FollowUpHint {
         text: |now| {
             (!now.display.measure).then_some("Press `T` to measure: plots, numbers, a timeline.")
         },
         is_done_by: |command| matches!(command, Command::View(ViewCommand::ToggleMeasure)),
     },
-    Lead {
+    FollowUpHint {
         text: |now| {
             (now.display.instrument != Instrument::StabilityMap)
                 .then_some("Press `D` until the stability map is there, and drag its cross.")
@@ -80,10 +80,10 @@ static LEADS: [Lead; 8] = [
             )
         },
     },
-    Lead {
+    FollowUpHint {
         text: |now| {
             let beside = [Step::Previous, Step::Next]
-                .map(|step| step.along(&TICK_LADDER, now.race.tick_hz()));
+                .map(|step| step.next_rung(&TICK_LADDER, now.race.tick_hz()));
             beside
                 .iter()
                 .all(Option::is_some)
@@ -93,7 +93,7 @@ static LEADS: [Lead; 8] = [
             matches!(command, Command::Stage(StageCommand::TickRate(_) | StageCommand::TickHz(_)))
         },
     },
-    Lead {
+    FollowUpHint {
         text: |_| Some("Press `F2` for the guide through the chapter, or `N` for the next scene."),
         is_done_by: |command| {
             matches!(
@@ -112,7 +112,7 @@ static LEADS: [Lead; 8] = [
 pub(in crate::studio) struct Hints {
     /// Whether the person followed the open scene's hint.
     scene: bool,
-    leads: [bool; LEADS.len()],
+    leads: [bool; FOLLOW_UP_HINTS.len()],
 }
 
 impl Hints {
@@ -122,9 +122,10 @@ impl Hints {
     }
 
     /// Marks the hints that this command follows. `hint` is the scene's.
-    pub(in crate::studio) fn see(&mut self, command: &Command, hint: Option<&str>) {
-        self.scene |= hint.and_then(asked).is_some_and(|asked| asked.contains(&command));
-        for (done, lead) in self.leads.iter_mut().zip(&LEADS) {
+    pub(in crate::studio) fn mark_followed(&mut self, command: &Command, hint: Option<&str>) {
+        self.scene |=
+            hint.and_then(first_key_commands).is_some_and(|asked| asked.contains(&command));
+        for (done, lead) in self.leads.iter_mut().zip(&FOLLOW_UP_HINTS) {
             *done |= (lead.is_done_by)(command);
         }
     }
@@ -133,14 +134,14 @@ impl Hints {
     /// verdict on the selected lane.
     pub(in crate::studio) fn text(
         &self,
-        now: &Situation<'_>,
+        now: &HintContext<'_>,
         outcome: Option<Outcome>,
     ) -> Option<String> {
         let hint = now.scene.hint.as_deref().filter(|hint| is_so(hint, now));
         if let Some(hint) = hint.filter(|_| !self.scene) {
             return Some(hint.to_owned());
         }
-        let leads = LEADS.iter().zip(self.leads).filter(|(_, done)| !done);
+        let leads = FOLLOW_UP_HINTS.iter().zip(self.leads).filter(|(_, done)| !done);
         let text = leads.filter_map(|(lead, _)| (lead.text)(now)).next()?;
         let is_asked_to_restart = self.scene && !now.is_from_the_start && !self.leads[0];
         // A verdict is about a run from the start, and not about the one on the stage.
@@ -154,7 +155,7 @@ impl Hints {
 /// Whether the scene's hint applies now: at the scene's own tick rate and values. A hint about the mode or its lanes
 /// needs the opening mode, and one about a method also the opening method. Its digits must be among the scene's own
 /// lanes.
-fn is_so(hint: &str, now: &Situation<'_>) -> bool {
+fn is_so(hint: &str, now: &HintContext<'_>) -> bool {
     use StageCommand::{Method, MethodBeside, Pick, ToggleArrangement, ToggleRace};
     let asked: Vec<&StageCommand> = keys(hint)
         .flat_map(bound_to)
@@ -195,7 +196,7 @@ fn reaction(outcome: Option<Outcome>) -> Option<&'static str> {
 }
 
 /// The commands of the first key that a hint names.
-fn asked(hint: &str) -> Option<Vec<&'static Command>> {
+fn first_key_commands(hint: &str) -> Option<Vec<&'static Command>> {
     let commands: Vec<_> = bound_to(keys(hint).next()?).collect();
     (!commands.is_empty()).then_some(commands)
 }
@@ -220,7 +221,7 @@ mod tests {
     fn the_hint_of_every_scene_asks_for_a_key_of_the_table() {
         for scene in SCENES {
             let hint = Scene::built_in(scene.name).unwrap().hint.expect("a hint");
-            assert!(asked(&hint).is_some(), "{}: {hint}", scene.name);
+            assert!(first_key_commands(&hint).is_some(), "{}: {hint}", scene.name);
             assert_eq!(hint.matches('`').count() % 2, 0, "{hint}");
         }
     }

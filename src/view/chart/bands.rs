@@ -7,7 +7,7 @@ use std::ops::Range;
 use egui::epaint::Mesh;
 use egui::{Color32, Pos2, Rect, pos2};
 
-use crate::view::lines::{Joint, shown};
+use crate::view::lines::{Joint, visible_runs};
 
 /// Opacity of a band between its edges.
 const FILL: f32 = 0.35;
@@ -37,7 +37,7 @@ pub(super) fn of(
     (seen, step): (Rect, f32),
 ) -> Vec<Band> {
     let columns = Columns { left: seen.left(), step, count: (seen.width() / step) as usize + 1 };
-    let spans = widened(&columns.spans(points, swept), columns.apart(points));
+    let spans = widened(&columns.spans(points, swept), columns.columns_between_points(points));
     let half = width / 2.0;
     let band = |stretch: Range<usize>| Band {
         left: columns.left + step * stretch.start as f32,
@@ -85,7 +85,7 @@ impl Band {
     /// Visible parts of both edges in a window.
     pub(super) fn edges(&self, colour: Color32, window: Rect) -> Vec<Vec<Joint>> {
         let joint = |at: Pos2| Joint { at, radius: EDGE / 2.0, colour };
-        let edge = |i: usize| shown(self.edge(i).map(joint), window.expand(EDGE));
+        let edge = |i: usize| visible_runs(self.edge(i).map(joint), window.expand(EDGE));
         [0, 1].into_iter().flat_map(edge).collect()
     }
 }
@@ -106,18 +106,18 @@ impl Columns {
             let from = i.checked_sub(1).map(|before| points[before]);
             let from = from.filter(|from| from.is_finite()).unwrap_or(to);
             if to.is_finite() {
-                self.take_in([from, to], &mut spans);
+                self.extend_spans([from, to], &mut spans);
                 let between = from.y.min(to.y)..=from.y.max(to.y);
                 let beyond = swept.get(i).into_iter().flatten().filter(|y| !between.contains(y));
                 for &y in beyond {
-                    self.take_in([pos2(from.x, y), pos2(to.x, y)], &mut spans);
+                    self.extend_spans([pos2(from.x, y), pos2(to.x, y)], &mut spans);
                 }
             }
         }
         spans
     }
 
-    fn take_in(&self, [from, to]: [Pos2; 2], spans: &mut [Span]) {
+    fn extend_spans(&self, [from, to]: [Pos2; 2], spans: &mut [Span]) {
         let (first, last) = (from.x.min(to.x), from.x.max(to.x));
         let place = |x: f32| ((x - self.left) / self.step).floor();
         if last < self.left || place(first) >= self.count as f32 {
@@ -143,7 +143,7 @@ impl Columns {
     }
 
     /// Average number of columns between neighbouring points.
-    fn apart(&self, points: &[Pos2]) -> f32 {
+    fn columns_between_points(&self, points: &[Pos2]) -> f32 {
         let mut finite = points.iter().filter(|point| point.is_finite());
         let Some((first, last)) = finite.next().zip(finite.next_back()) else { return 0.0 };
         (last.x - first.x) / self.step / points.len() as f32
@@ -226,7 +226,7 @@ mod tests {
         let one = spans(&[[11.2, 5.0]]);
         assert_eq!(one[2], Some((5.0, 5.0)));
         assert_eq!(one.iter().flatten().count(), 1);
-        assert_eq!(COLUMNS.apart(&[pos2(11.2, 5.0)]), 0.0);
+        assert_eq!(COLUMNS.columns_between_points(&[pos2(11.2, 5.0)]), 0.0);
         assert_eq!(widened(&one, 0.0), one);
     }
 
@@ -257,7 +257,8 @@ mod tests {
             let swing = |i: usize| libm::sinf(std::f32::consts::TAU * turns_per_sample * i as f32);
             let points: Vec<Pos2> = (0..2000).map(|i| pos2(0.2 * i as f32, swing(i))).collect();
             let columns = Columns { left: 0.0, step: 1.0, count: 400 };
-            let band = widened(&columns.spans(&points, &[]), columns.apart(&points));
+            let band =
+                widened(&columns.spans(&points, &[]), columns.columns_between_points(&points));
             for (low, high) in band.into_iter().map(|span| span.unwrap()) {
                 assert!(low < -0.95 && high > 0.95, "{turns_per_sample}: {low} to {high}");
             }

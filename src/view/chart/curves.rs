@@ -10,7 +10,7 @@ use egui::{Color32, Painter, Pos2, Rect, Shape, Vec2, vec2};
 
 use super::PlotArea;
 use super::bands::{self, Band};
-use crate::view::lines::{Joint, shown};
+use crate::view::lines::{Joint, visible_runs};
 use crate::view::strokes::StrokeMesh;
 
 /// Line and dots of a curve.
@@ -120,15 +120,15 @@ pub(super) enum CurveDrawing {
 }
 
 /// Chooses how to draw a curve within the `seen` rectangle. A band has columns `column` points wide.
-pub(super) fn drawn(
+pub(super) fn choose_drawing(
     ScreenCurve { style, points, swept }: &ScreenCurve,
     (seen, column): (Rect, f32),
 ) -> CurveDrawing {
     let LineStyle { colour, width, dash: [drawn, gap], .. } = *style;
     let joints = points.iter().map(|&at| Joint { at, radius: width / 2.0, colour });
-    let runs = shown(joints, seen.expand(width));
+    let runs = visible_runs(joints, seen.expand(width));
     let is_crowded = is_crowded(&runs, width);
-    if hides(points, swept) || is_crowded && beats(points) {
+    if hides_motion(points, swept) || is_crowded && is_too_dense(points) {
         return match points.is_sorted_by(|a, b| a.x <= b.x) {
             true => CurveDrawing::Bands(bands::of(points, swept, width, (seen, column))),
             false => CurveDrawing::Scattered,
@@ -137,7 +137,7 @@ pub(super) fn drawn(
     CurveDrawing::Line(runs, [drawn, if is_crowded { 0.0 } else { gap }])
 }
 
-/// Draws a curve within the painter's clip, as [`drawn`] chooses. A line reaches the painter as a [`StrokeMesh`] for
+/// Draws a curve within the painter's clip, as [`choose_drawing`] chooses. A line reaches the painter as a [`StrokeMesh`] for
 /// [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether the curve is more than its dots.
 pub(super) fn paint(painter: &Painter, curve: &ScreenCurve) -> bool {
     let colour = curve.style.colour;
@@ -147,7 +147,7 @@ pub(super) fn paint(painter: &Painter, curve: &ScreenCurve) -> bool {
         runs.into_iter().for_each(|run| mesh.add(run, dash, px_per_point));
         painter.add(PaintCallback { rect: seen, callback: Arc::new(mesh) });
     };
-    match drawn(curve, (seen, 1.0 / px_per_point)) {
+    match choose_drawing(curve, (seen, 1.0 / px_per_point)) {
         CurveDrawing::Line(runs, dash) => stroke(runs, dash),
         CurveDrawing::Bands(all) => {
             for band in all {
@@ -161,14 +161,14 @@ pub(super) fn paint(painter: &Painter, curve: &ScreenCurve) -> bool {
 }
 
 /// Whether swings are too narrow for their samples or for the screen.
-fn beats(points: &[Pos2]) -> bool {
-    let turns = turns(points);
+fn is_too_dense(points: &[Pos2]) -> bool {
+    let turns = turn_share(points);
     let wide = points.first().zip(points.last()).map_or(0.0, |(from, to)| (to.x - from.x).abs());
     turns > MAX_TURNS || turns * points.len() as f32 > MAX_TURNS_PER_POINT * wide.max(BEGINNING)
 }
 
 /// Whether the line through `points` would hide much of the curve's motion between them.
-fn hides(points: &[Pos2], swept: &[[f32; 2]]) -> bool {
+fn hides_motion(points: &[Pos2], swept: &[[f32; 2]]) -> bool {
     let hides = |(ends, swept): &(&[Pos2], &[f32; 2])| {
         let (high, low) = (ends[0].y.min(ends[1].y), ends[0].y.max(ends[1].y));
         swept.iter().any(|&y| y < high - HIDDEN || y > low + HIDDEN)
@@ -178,7 +178,7 @@ fn hides(points: &[Pos2], swept: &[[f32; 2]]) -> bool {
 }
 
 /// Share of the points at which a curve turns up or down.
-fn turns(points: &[Pos2]) -> f32 {
+fn turn_share(points: &[Pos2]) -> f32 {
     let is_turn = |at: &&[Pos2]| (at[1].y - at[0].y) * (at[2].y - at[1].y) < 0.0;
     points.windows(3).filter(is_turn).count() as f32 / points.len().max(1) as f32
 }
@@ -223,7 +223,7 @@ impl Arrows {
 
     /// Corners of an arrow for a curve that leaves the plot between two screen points; `None` if it does not leave.
     pub(super) fn place(&mut self, ends: [Pos2; 2]) -> Option<[Pos2; 3]> {
-        let (mut at, towards) = exit(self.frame, ends)?;
+        let (mut at, towards) = exit_arrow(self.frame, ends)?;
         while self.placed.iter().any(|other| other.distance(at) < 2.0 * ARROW) {
             at += 2.0 * ARROW * towards.abs().yx();
         }
@@ -235,7 +235,7 @@ impl Arrows {
 }
 
 /// Position and direction of the arrow for a curve that leaves `frame` between two points.
-fn exit(frame: Rect, [from, to]: [Pos2; 2]) -> Option<(Pos2, Vec2)> {
+fn exit_arrow(frame: Rect, [from, to]: [Pos2; 2]) -> Option<(Pos2, Vec2)> {
     // The frame has no room for an arrow.
     if frame.size().min_elem() < 2.0 * ARROW_INSET {
         return None;
@@ -282,10 +282,10 @@ mod tests {
             let phase = |i: usize| std::f32::consts::TAU * (i as f32 + 0.2) / samples as f32;
             (0..40 * samples).map(|i| Pos2::new(i as f32, phase(i).sin())).collect()
         };
-        assert!((turns(&swings(4)) - 0.5).abs() < 0.02);
-        assert!((turns(&swings(8)) - 0.25).abs() < 0.02);
-        assert!(turns(&swings(9)) < MAX_TURNS && turns(&swings(7)) > MAX_TURNS);
-        assert_eq!(turns(&[]), 0.0);
+        assert!((turn_share(&swings(4)) - 0.5).abs() < 0.02);
+        assert!((turn_share(&swings(8)) - 0.25).abs() < 0.02);
+        assert!(turn_share(&swings(9)) < MAX_TURNS && turn_share(&swings(7)) > MAX_TURNS);
+        assert_eq!(turn_share(&[]), 0.0);
     }
 
     #[test]
@@ -295,13 +295,13 @@ mod tests {
                 let turns = (i as f32 + 0.2) / samples as f32;
                 Pos2::new(points_wide * turns, (std::f32::consts::TAU * turns).sin())
             };
-            beats(&(0..40 * samples).map(at).collect::<Vec<_>>())
+            is_too_dense(&(0..40 * samples).map(at).collect::<Vec<_>>())
         };
         assert!(!beats(20, 12.0));
         assert!(beats(5, 12.0), "the peaks fall between the samples");
         assert!(beats(20, 3.0), "a turn is three points wide");
         assert!(!beats(20, 5.0));
-        assert!(!super::beats(&[]));
+        assert!(!is_too_dense(&[]));
     }
 
     #[test]
@@ -311,10 +311,13 @@ mod tests {
             let reach = |i: usize| if i.is_multiple_of(every) { wide } else { 0.0 };
             (0..100).map(|i| [50.0 + reach(i), 50.0 - reach(i)]).collect()
         };
-        assert!(hides(&points, &swept(40.0, 1)) && hides(&points, &swept(40.0, 10)));
-        assert!(!hides(&points, &swept(40.0, 50)), "a rare peak");
-        assert!(!hides(&points, &swept(1.0, 1)), "peaks between points that are close enough");
-        assert!(!hides(&points, &[]) && !hides(&[], &[]));
+        assert!(hides_motion(&points, &swept(40.0, 1)) && hides_motion(&points, &swept(40.0, 10)));
+        assert!(!hides_motion(&points, &swept(40.0, 50)), "a rare peak");
+        assert!(
+            !hides_motion(&points, &swept(1.0, 1)),
+            "peaks between points that are close enough"
+        );
+        assert!(!hides_motion(&points, &[]) && !hides_motion(&[], &[]));
     }
 
     #[test]
@@ -327,11 +330,11 @@ mod tests {
             ([-60.0, 50.0], [ARROW_INSET, 50.0], [-1.0, 0.0]),
             ([340.0, 60.0], [200.0 - ARROW_INSET, 55.0], [1.0, 0.0]),
         ] {
-            assert_eq!(exit(frame, [inside, to.into()]), Some((at.into(), towards.into())));
+            assert_eq!(exit_arrow(frame, [inside, to.into()]), Some((at.into(), towards.into())));
         }
         let above = Pos2::new(60.0, -50.0);
         let at = Pos2::new(60.0, ARROW_INSET);
-        assert_eq!(exit(frame, [above, above]), Some((at, vec2(0.0, -1.0))));
-        assert_eq!(exit(frame, [inside, inside]), None);
+        assert_eq!(exit_arrow(frame, [above, above]), Some((at, vec2(0.0, -1.0))));
+        assert_eq!(exit_arrow(frame, [inside, inside]), None);
     }
 }

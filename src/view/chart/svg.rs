@@ -2,7 +2,7 @@
 
 use egui::{Align, Color32, Pos2, Rect, Stroke};
 
-use super::curves::{CurveDrawing, Dots, ScreenCurve, dots, drawn};
+use super::curves::{CurveDrawing, Dots, ScreenCurve, choose_drawing, dots};
 use super::primitive::{BEFORE_TAIL, Text};
 use super::{Primitive, SCATTERED, text_width};
 use crate::view::lines::Joint;
@@ -117,7 +117,7 @@ impl Svg {
     /// Adds the line or the bands of a curve. Returns which of its points have a dot.
     fn curve(&mut self, curve: &ScreenCurve, seen: Rect) -> Dots {
         let style = curve.style;
-        match drawn(curve, (seen, 1.0)) {
+        match choose_drawing(curve, (seen, 1.0)) {
             CurveDrawing::Line(runs, [_, 0.0]) => self.runs(&runs, ""),
             CurveDrawing::Line(runs, [drawn, gap]) => {
                 self.runs(&runs, &format!(r#" stroke-dasharray="{drawn} {gap}""#));

@@ -41,11 +41,11 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 2.0;
     which_bodies(ui, studio, commands);
     let Some(advice) = studio.viewer.advice() else {
-        line(ui, RichText::new("judging every method …").color(palette(ui).dim));
+        cut_line(ui, RichText::new("judging every method …").color(palette(ui).dim));
         return;
     };
-    let best: Vec<Option<usize>> = (0..CRITERIA.len()).map(|i| best(advice, i)).collect();
-    answer(ui, studio, advice, &best, commands);
+    let best: Vec<_> = (0..CRITERIA.len()).map(|i| recommended_method(advice, i)).collect();
+    show_recommendations(ui, studio, advice, &best, commands);
     ui.separator();
     if ui.available_height() >= breakpoints::CODE && !is_picture(ui) {
         code(ui, studio, commands);
@@ -80,17 +80,17 @@ fn which_bodies(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 }
 
 /// Index of the method to take for a criterion.
-fn best(advice: &Advice, criterion: usize) -> Option<usize> {
+fn recommended_method(advice: &Advice, criterion: usize) -> Option<usize> {
     recommended(&advice.advised, criterion)
 }
 
 /// A line of text, truncated where it would widen the panel.
-fn line(ui: &mut Ui, text: RichText) -> Response {
+fn cut_line(ui: &mut Ui, text: RichText) -> Response {
     ui.add(Label::new(text).truncate())
 }
 
 /// Lays out content at the left of a slot of this width, cut off at its right.
-fn slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
+fn in_slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
     let layout = Layout::left_to_right(Align::Center);
     let place = ui.allocate_ui_with_layout(vec2(width, LINE), layout, |ui| {
         ui.set_min_width(width);
@@ -100,7 +100,7 @@ fn slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
 }
 
 /// Recommends a method for each criterion, from the methods judged so far.
-fn answer(
+fn show_recommendations(
     ui: &mut Ui,
     studio: &Studio,
     advice: &Advice,
@@ -118,7 +118,7 @@ fn answer(
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             language_menu(ui, studio, commands);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                line(ui, RichText::new(told).color(palette(ui).dim));
+                cut_line(ui, RichText::new(told).color(palette(ui).dim));
             });
         });
     });
@@ -130,7 +130,7 @@ fn answer(
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = APART;
             let name = RichText::new(criterion.name()).color(palette(ui).dim);
-            slot(ui, CRITERION, |ui| line(ui, name)).on_hover_text(criterion.about());
+            in_slot(ui, CRITERION, |ui| cut_line(ui, name)).on_hover_text(criterion.about());
             let Some((advised, met)) = taken else {
                 let all_miss = advice.advised.iter().all(|row| row.met[i] == CriterionResult::No);
                 let none = if done < wanted {
@@ -140,7 +140,7 @@ fn answer(
                 } else {
                     "not known".into()
                 };
-                line(ui, RichText::new(none).color(palette(ui).text));
+                cut_line(ui, RichText::new(none).color(palette(ui).text));
                 return;
             };
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -178,9 +178,9 @@ fn taken_line(
     let room = room(&substeps);
     let (name_width, name, substeps) = (width(name).min(room), strong(name), strong(&substeps));
     let reason = instead_of.map_or(String::new(), |passed_over| format!("; {passed_over}"));
-    let about = told_of(met) + &reason;
-    slot(ui, name_width, |ui| line(ui, name)).on_hover_text(&about);
-    line(ui, substeps).on_hover_text(about);
+    let about = cell_tooltip(met) + &reason;
+    in_slot(ui, name_width, |ui| cut_line(ui, name)).on_hover_text(&about);
+    cut_line(ui, substeps).on_hover_text(about);
 }
 
 /// The menu of languages in which methods are copied.
@@ -234,7 +234,7 @@ fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             let calls = counted(spec.substeps, "call");
             let called = format!("{}: {calls} a tick, h = 1/{hz:.3} s", spec.method.name);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                line(ui, RichText::new(called).color(palette(ui).text));
+                cut_line(ui, RichText::new(called).color(palette(ui).text));
             });
         });
     });
@@ -275,7 +275,7 @@ fn table(
 ) {
     let (width, has_rates) = cell_width(ui, advice, ui.available_width());
     let (cells, whose) = if has_rates { (CELLS[0], whose) } else { (CELLS[1], "") };
-    line(ui, RichText::new(format!("{cells}{whose}")).size(SMALL).color(palette(ui).dim));
+    cut_line(ui, RichText::new(format!("{cells}{whose}")).size(SMALL).color(palette(ui).dim));
     let name = Column::shown(
         "method",
         0.0,
@@ -342,7 +342,7 @@ impl Row<'_> {
         let used = ui.button(RichText::new(text).color(colour).size(SMALL));
         let name = format!("{}: {}", CRITERIA[criterion].name(), spec.method.name);
         used.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
-        if used.on_hover_text(format!("use this: {}", told_of(met))).clicked() {
+        if used.on_hover_text(format!("use this: {}", cell_tooltip(met))).clicked() {
             commands.push(Command::Run(RunCommand::SetLane(LaneSpec {
                 substeps: met.substeps,
                 ..*spec
@@ -383,7 +383,7 @@ fn cell_text(met: &CriterionMet, has_rates: bool) -> String {
 }
 
 /// Tooltip of a cell.
-fn told_of(met: &CriterionMet) -> String {
+fn cell_tooltip(met: &CriterionMet) -> String {
     format!(
         "{} a tick, {} evaluations per simulated second; {}",
         counted(met.substeps, "substep"),
@@ -583,7 +583,8 @@ mod tests {
                 stiffness_factor: Some(factor),
                 limited_by: Some("stiffness".into()),
             };
-            assert_eq!(told_of(&met).matches("no reserve").count(), marks, "{}", told_of(&met));
+            let tooltip = cell_tooltip(&met);
+            assert_eq!(tooltip.matches("no reserve").count(), marks, "{tooltip}");
             let mut window = TestWindow::new([1280.0, 720.0]);
             let mut frame = || {
                 window

@@ -4,6 +4,7 @@
 use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 
 use super::table::{Column, SortKey, Table, TableRow, show_words};
+use crate::run::MenuIndex;
 use crate::run::race::Mode;
 use crate::scene::LaneSpec;
 use crate::scene::TickRate;
@@ -27,7 +28,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     let is_shown = |entry: &usize| match studio.mode() {
         Mode::Solo if studio.viewer.is_asked() => *entry == studio.active(),
         Mode::Solo => *entry < studio.deck.offered(),
-        Mode::Race => studio.deck.flown(*entry).is_some(),
+        Mode::Race => studio.deck.lane_of(*entry).is_some(),
     };
     let entries = (0..studio.entries().len()).filter(is_shown);
     let rows: Vec<Row<'_>> = entries.map(|entry| Row::new(studio, entry)).collect();
@@ -116,7 +117,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
 /// A row: a lane.
 struct Row<'a> {
     studio: &'a Studio,
-    entry: usize,
+    entry: MenuIndex,
     spec: LaneSpec,
     evaluations: u64,
     is_halted: bool,
@@ -125,8 +126,8 @@ struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    fn new(studio: &'a Studio, entry: usize) -> Self {
-        let flown = studio.deck.flown(entry);
+    fn new(studio: &'a Studio, entry: MenuIndex) -> Self {
+        let flown = studio.deck.lane_of(entry);
         let spec = flown.map_or(studio.entries()[entry], |lane| lane.spec);
         let mut times = studio.viewer.tick_times.iter();
         Self {

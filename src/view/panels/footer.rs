@@ -20,8 +20,8 @@ type KeyHint = (&'static str, String, Option<Command>);
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let width = ui.available_width();
-    let (parts, is_hint) = told(studio);
-    let sentence = fitting(ui, &parts, width);
+    let (parts, is_hint) = status_parts(studio);
+    let sentence = fitting_text(ui, &parts, width);
     let room_for_hint = keycap::line_width(ui, &sentence) + GAP;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 
 /// The parts of the notice, else of the hint, else the scene's description. Also returns whether they are a notice or
 /// a hint.
-fn told(studio: &Studio) -> (Vec<String>, bool) {
+fn status_parts(studio: &Studio) -> (Vec<String>, bool) {
     if let Some(notice) = &studio.viewer.notice {
         return (notice.parts().to_vec(), true);
     }
@@ -65,12 +65,12 @@ pub(in crate::view) fn spoken(studio: &Studio) -> String {
     let is_known = studio.loop_lab().is_none() && verdict.sign.is_some();
     let name = studio.lane_name(studio.active());
     let verdict = is_known.then(|| format!("{name}: {}.", verdict.whole()));
-    let line = keycap::plain(&told(studio).0.join("; "));
+    let line = keycap::without_backticks(&status_parts(studio).0.join("; "));
     verdict.into_iter().chain([line]).collect::<Vec<_>>().join(" ")
 }
 
 /// As many parts as fit this width, but at least the first.
-fn fitting(ui: &Ui, parts: &[String], width: f32) -> String {
+fn fitting_text(ui: &Ui, parts: &[String], width: f32) -> String {
     let mut sentences = (1..=parts.len()).rev().map(|count| parts[..count].join("; "));
     let fits = |sentence: &String| keycap::line_width(ui, sentence) <= width;
     sentences.find(fits).unwrap_or_else(|| parts[0].clone())
@@ -103,7 +103,7 @@ fn input_in_use(studio: &Studio) -> Option<KeyHint> {
     let shown = &studio.scene().bodies[studio.view().body].kind;
     let mut told = inputs.into_iter().filter(|(input, _, part, at_start)| {
         let is_in_use = shown.inputs.contains(input) || part != at_start;
-        studio.loop_lab().is_none() && studio.race().takes(input) && is_in_use
+        studio.loop_lab().is_none() && studio.race().takes_input(input) && is_in_use
     });
     told.next()
         .map(|(input, key, part, _)| (key, format!("{input} {} %", round(part * 100.0, 3)), None))

@@ -7,7 +7,7 @@ use egui::{
 
 pub(super) use self::number::NumberField;
 use self::rows::{Row, SliderRange, Spacing, Values, rows};
-pub(in crate::view) use self::sweep::is_under_way;
+pub(in crate::view) use self::sweep::is_sweep_active;
 use super::focus;
 use crate::scene::{Action, check_entered, edited_values};
 use crate::stage::Acts;
@@ -40,13 +40,14 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.label(RichText::new("Inspector").size(14.0).strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if named(ui, Button::new("×").frame(false), "close the inspector (E)").clicked() {
+            if named_button(ui, Button::new("×").frame(false), "close the inspector (E)").clicked()
+            {
                 commands.push(Command::Run(RunCommand::ToggleInspector));
             }
-            let restoring = restoring(studio);
+            let restoring = restore_commands(studio);
             let is_edited = !restoring.is_empty() || NumberField::has_faults(ui);
             let all = ui.add_enabled_ui(is_edited, |ui| {
-                named(ui, Button::new("↺ Restore all"), "restore every value of the scene")
+                named_button(ui, Button::new("↺ Restore all"), "restore every value of the scene")
             });
             if all.inner.clicked() {
                 NumberField::forget_faults(ui);
@@ -142,7 +143,7 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
         let (_, entered) = field.show(ui, vec2(number, LINE), check);
         commands.extend(entered.map(set));
         let about = format!("back to {} {}", values.opened, parameter.unit);
-        restore(ui, values.differ(), &about, &name, || commands.push(set(values.opened)));
+        restore_button(ui, values.differ(), &about, &name, || commands.push(set(values.opened)));
     });
 }
 
@@ -191,7 +192,7 @@ fn line(ui: &mut Ui, name: &str, about: &str, rest: impl FnOnce(&mut Ui, [f32; 2
 }
 
 /// The restore button, or an empty place if nothing was changed.
-fn restore(ui: &mut Ui, is_changed: bool, about: &str, name: &str, then: impl FnOnce()) {
+fn restore_button(ui: &mut Ui, is_changed: bool, about: &str, name: &str, then: impl FnOnce()) {
     if !is_changed {
         ui.allocate_exact_size(vec2(RESTORE, LINE), egui::Sense::hover());
         return;
@@ -205,14 +206,14 @@ fn restore(ui: &mut Ui, is_changed: bool, about: &str, name: &str, then: impl Fn
     }
 }
 
-fn named(ui: &mut Ui, button: Button<'_>, about: &str) -> Response {
+fn named_button(ui: &mut Ui, button: Button<'_>, about: &str) -> Response {
     let response = ui.add(button).on_hover_text(about);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, about));
     response
 }
 
 /// Commands that restore every edited value.
-fn restoring(studio: &Studio) -> Vec<Command> {
+fn restore_commands(studio: &Studio) -> Vec<Command> {
     let changed = (0..studio.scene().bodies.len()).flat_map(|body| {
         let changed = move |row: Row| {
             let opened = row.values.filter(|values| values.differ())?.opened;
@@ -227,7 +228,7 @@ fn restoring(studio: &Studio) -> Vec<Command> {
     let sets: Vec<Command> = changed.collect();
     // Twice, because a value may be refused until another is restored.
     let twice = sets.iter().chain(&sets).cloned();
-    twice.chain(run::restoring(studio)).collect()
+    twice.chain(run::restore_run_commands(studio)).collect()
 }
 
 #[cfg(test)]
@@ -298,7 +299,7 @@ mod tests {
     fn restore_all_restores_the_opened_scene() {
         let mut studio = Studio::new(Scene::built_in("chain").unwrap());
         studio.apply(StageCommand::ToggleRace);
-        assert_eq!(restoring(&studio), []);
+        assert_eq!(restore_commands(&studio), []);
         let index = |key| studio.scene().bodies[0].kind.parameter(key).unwrap().0;
         let (masses, plucked) = (index("masses"), index("plucked_mass"));
         let most = studio.scene().bodies[0].values[masses];
@@ -312,10 +313,10 @@ mod tests {
         studio.tick();
         assert_ne!(studio.scene().bodies[0].values[masses], most);
         assert_eq!(studio.race().values(0)[masses], most, "until the next start");
-        for command in restoring(&studio) {
+        for command in restore_commands(&studio) {
             studio.apply(command);
         }
-        assert_eq!(restoring(&studio), []);
+        assert_eq!(restore_commands(&studio), []);
         assert_eq!(studio.race().values(0), studio.deck.scene_as_opened().bodies[0].values);
         assert_eq!(studio.scene().bodies[0].values, studio.deck.scene_as_opened().bodies[0].values);
         assert_eq!(studio.scene().seconds, studio.deck.scene_as_opened().seconds);

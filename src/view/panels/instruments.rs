@@ -349,9 +349,9 @@ fn choice<N: AsRef<str>>(
     menu.response.on_hover_text(id);
 }
 
-/// Legend entries of all visible curves, in the order of [`PlotSet::shown`], and of the exact solution.
+/// Legend entries of all visible curves, in the order of [`PlotSet::visible_styles`], and of the exact solution.
 fn legend_entries(set: &PlotSet) -> Vec<Entry> {
-    let series = set.shown().map(|(place, SeriesStyle { name, colour, dash, .. })| {
+    let series = set.visible_styles().map(|(place, SeriesStyle { name, colour, dash, .. })| {
         // Solo, a lane has a number only if a key selects it.
         let name = match set.styles.is_race {
             true => format!("{} {name}", place + 1),
@@ -378,7 +378,7 @@ fn pick_by_legend(
     for (Entry { name, .. }, response) in entries.iter().zip(shown) {
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
     }
-    let clicked = set.shown().zip(shown).filter(|(_, entry)| entry.clicked());
+    let clicked = set.visible_styles().zip(shown).filter(|(_, entry)| entry.clicked());
     let picks = clicked.map(|((place, _), _)| Command::Stage(StageCommand::Pick(place)));
     commands.extend(picks.filter(|_| set.styles.is_race));
 }

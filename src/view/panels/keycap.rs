@@ -27,12 +27,12 @@ fn pieces(sentence: &str) -> impl Iterator<Item = Piece<'_>> {
 }
 
 /// Reduction of the gap before words that begin with punctuation, because it belongs to the key before.
-fn closer(words: &str) -> f32 {
+fn gap_reduction(words: &str) -> f32 {
     if words.starts_with(['.', ',', ':', ';']) { GAP - 1.0 } else { 0.0 }
 }
 
 /// A sentence to read aloud, without the backticks around its keys.
-pub(super) fn plain(sentence: &str) -> String {
+pub(super) fn without_backticks(sentence: &str) -> String {
     sentence.replace('`', "")
 }
 
@@ -60,7 +60,7 @@ pub(super) fn line_width(ui: &Ui, sentence: &str) -> f32 {
         Piece::Words(words) => {
             let font = FontId::proportional(TYPE);
             let size = ui.painter().layout_no_wrap(words.to_owned(), font, Color32::WHITE).size();
-            size.x + GAP - closer(words)
+            size.x + GAP - gap_reduction(words)
         }
     };
     pieces(sentence).map(of).sum()
@@ -70,7 +70,7 @@ pub(super) fn line_width(ui: &Ui, sentence: &str) -> f32 {
 /// tooltip has all of it.
 pub(super) fn line(ui: &mut Ui, sentence: &str, room: f32, colour: Color32) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(room.max(0.0), HEIGHT), Sense::hover());
-    let spoken = plain(sentence);
+    let spoken = without_backticks(sentence);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &spoken));
     let (mut x, middle) = (rect.left(), rect.center().y);
     let mut is_whole = true;
@@ -82,7 +82,7 @@ pub(super) fn line(ui: &mut Ui, sentence: &str, room: f32, colour: Color32) -> R
             }
             Piece::Key(_) => is_whole = false,
             Piece::Words(words) => {
-                x -= closer(words);
+                x -= gap_reduction(words);
                 let (text, whole) = short(ui, words, FontId::proportional(TYPE), left, colour);
                 is_whole &= whole;
                 let size = text.size();
@@ -111,7 +111,7 @@ pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32) {
                     paint(ui, rect.left(), rect.center().y, key, palette(ui).accent);
                 }
                 Piece::Words(words) => {
-                    ui.add_space(-closer(words));
+                    ui.add_space(-gap_reduction(words));
                     ui.label(egui::RichText::new(words).color(colour));
                 }
             }
@@ -146,6 +146,6 @@ mod tests {
             Piece::Words("."),
         ];
         assert_eq!(found, expected);
-        assert_eq!(plain("Press `2`."), "Press 2.");
+        assert_eq!(without_backticks("Press `2`."), "Press 2.");
     }
 }

@@ -6,6 +6,7 @@ use egui::{Color32, RichText, Ui};
 use super::parts::formula;
 use super::table::{Table, TableRow};
 use super::verdict::VerdictText;
+use crate::run::MenuIndex;
 use crate::run::race::{LaneBody, Mode};
 use crate::studio::{
     Command, DriverRequest, StageCommand, Studio, ViewCommand, joint_code, shown_truth,
@@ -49,12 +50,12 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
 }
 
 /// Verdict on the method at this index of the list.
-pub(super) fn verdict_on(studio: &Studio, entry: usize) -> VerdictText {
-    verdict::text_of(studio, entry, studio.deck.flown(entry), (None, None))
+pub(super) fn verdict_on(studio: &Studio, entry: MenuIndex) -> VerdictText {
+    verdict::text_of(studio, entry, studio.deck.lane_of(entry), (None, None))
 }
 
 /// Shows the card of the method at this index of the list, and the whole verdict on it.
-pub(super) fn tooltip(ui: &mut Ui, studio: &Studio, entry: usize) {
+pub(super) fn tooltip(ui: &mut Ui, studio: &Studio, entry: MenuIndex) {
     let exact = vec![None; studio.scene().bodies.len()];
     let mut rows = Row::of_method(studio, (entry, &studio.entries()[entry]), &exact, None);
     rows[0].is_of_body = false;
@@ -76,7 +77,7 @@ fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
     };
     let exact: Vec<Option<f64>> = truth.map(exact).collect();
     let judged = row::judged_body(studio);
-    let is_shown = |entry: usize| studio.mode() == Mode::Race || entry == studio.active();
+    let is_shown = |entry: MenuIndex| studio.mode() == Mode::Race || entry == studio.active();
     studio
         .entries()
         .iter()
@@ -87,7 +88,7 @@ fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
 }
 
 /// The context menu of a row. It copies a spring's settings for its engine, or its method as code, in each language.
-pub(super) fn menu(ui: &mut Ui, studio: &Studio, entry: usize, commands: &mut Vec<Command>) {
+pub(super) fn menu(ui: &mut Ui, studio: &Studio, entry: MenuIndex, commands: &mut Vec<Command>) {
     let has_joint = joint_code(&studio.deck, &studio.viewer, entry).is_some();
     if has_joint && ui.button("Copy the spring's settings (Ctrl C)").clicked() {
         commands.push(Command::Ask(DriverRequest::CopyJoint(entry)));
@@ -108,7 +109,7 @@ impl TableRow for Row<'_> {
         let name = [
             Some(format!("{} {}", self.entry + 1, self.method_name())),
             self.is_of_body.then(|| self.body_name().to_owned()),
-            Some(self.said().whole().to_owned()),
+            Some(self.verdict_text().whole().to_owned()),
         ];
         name.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
@@ -141,7 +142,11 @@ impl TableRow for Row<'_> {
         for line in method.formula {
             ui.label(formula(line, 16.0, palette(ui).text));
         }
-        ui.label(format!("At {:.3} Hz: {}.", self.studio.clock().tick_hz(), self.said().whole()));
+        ui.label(format!(
+            "At {:.3} Hz: {}.",
+            self.studio.clock().tick_hz(),
+            self.verdict_text().whole()
+        ));
         for detail in self.details() {
             ui.label(RichText::new(detail).color(palette(ui).dim));
         }

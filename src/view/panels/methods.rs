@@ -4,6 +4,7 @@ use egui::{FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, pos2, ve
 
 use super::verdict::VerdictText;
 use super::{breakpoints, keycap, lanes};
+use crate::run::MenuIndex;
 use crate::studio::{Command, DIGITS, StageCommand, Studio};
 use crate::view::theme::{TYPE, palette, strong_font};
 
@@ -38,7 +39,7 @@ impl Naming {
     const ALL: [Self; 4] = [Self::OneLine, Self::TwoLines, Self::Chosen, Self::None];
 
     /// Name of a method beside its digit, and its font; `None` if it has no name there.
-    fn name(self, ui: &Ui, studio: &Studio, entry: usize) -> Option<(String, FontId)> {
+    fn name(self, ui: &Ui, studio: &Studio, entry: MenuIndex) -> Option<(String, FontId)> {
         let is_chosen = entry == studio.active();
         let name = studio.lane_name(entry);
         let font =
@@ -100,7 +101,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
     let count = studio.deck.offered().min(DIGITS);
     let room = ui.available_width();
     let mut pointed = None;
-    let mut show = |ui: &mut Ui, entry: usize, naming: Naming| {
+    let mut show = |ui: &mut Ui, entry: MenuIndex, naming: Naming| {
         let response = method(ui, studio, entry, naming, commands);
         response.context_menu(|ui| lanes::menu(ui, studio, entry, commands));
         if response.hovered() || response.has_focus() {
@@ -134,11 +135,11 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
     pointed
 }
 
-fn digit(entry: usize) -> String {
+fn digit(entry: MenuIndex) -> String {
     ((entry + 1) % DIGITS).to_string()
 }
 
-fn width(ui: &Ui, studio: &Studio, entry: usize, naming: Naming) -> f32 {
+fn width(ui: &Ui, studio: &Studio, entry: MenuIndex, naming: Naming) -> f32 {
     // Measured in strong type, so that a selection moves no other method.
     let name = naming.name(ui, studio, entry);
     let named = name.map(|(name, font)| text_width(ui, &name, strong_font(font.size)) + PADDING);
@@ -150,7 +151,7 @@ fn width(ui: &Ui, studio: &Studio, entry: usize, naming: Naming) -> f32 {
 fn method(
     ui: &mut Ui,
     studio: &Studio,
-    entry: usize,
+    entry: MenuIndex,
     naming: Naming,
     commands: &mut Vec<Command>,
 ) -> Response {

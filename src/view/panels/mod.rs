@@ -38,7 +38,7 @@ mod verdict;
 #[cfg(test)]
 pub(super) use focus::RING;
 pub(super) use footer::spoken;
-pub(super) use inspector::is_under_way;
+pub(super) use inspector::is_sweep_active;
 pub(super) use instruments::{csv, svg};
 
 /// Panels that a frame shows beside the stage.
@@ -246,7 +246,7 @@ fn split(
     } else if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
         put(&mut splits, Some(at));
     }
-    let splits = splits.within();
+    let splits = splits.clamped();
     if splits != studio.display().splits {
         commands.push(Command::View(ViewCommand::Split(splits)));
     }

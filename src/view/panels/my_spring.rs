@@ -33,14 +33,14 @@ pub(super) fn show(
         let has_focus = ui.memory(|m| m.focused().is_some());
         let is_new = is_new(ui);
         let spring = studio.viewer.my_spring();
-        for (i, number) in SpringField::made_of(spring).into_iter().enumerate() {
+        for (i, number) in SpringField::constant_fields(spring).into_iter().enumerate() {
             line(ui, "", number, is_new && i == 0, commands);
         }
         ui.label(RichText::new("or as frequency and damping").color(palette(ui).dim));
-        for number in SpringField::seen_as(spring) {
+        for number in SpringField::motion_fields(spring) {
             line(ui, "", number, false, commands);
         }
-        if let Some((dialect, port)) = speaks(ui, spring)
+        if let Some((dialect, port)) = show_dialect(ui, spring)
             && dialect.is_read()
         {
             for number in SpringField::of_dialect(dialect, &port.values, spring) {
@@ -90,7 +90,7 @@ fn is_new(ui: &Ui) -> bool {
 }
 
 /// A menu of libraries, which shows the spring's numbers in the selected one. A button copies its line of code.
-fn speaks(ui: &mut Ui, spring: MySpring) -> Option<(&'static Dialect, DialectPort)> {
+fn show_dialect(ui: &mut Ui, spring: MySpring) -> Option<(&'static Dialect, DialectPort)> {
     let id = Id::unique("my spring speaks");
     let chosen = ui.data(|data| data.get_temp::<Option<usize>>(id)).flatten();
     let name = |index: Option<usize>| index.map_or("as a UI spring of…", |i| DIALECTS[i].name);

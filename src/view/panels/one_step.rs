@@ -61,13 +61,13 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
         ui.horizontal_top(|ui| {
             plot(ui, studio, &step, vec2(room.x - TABLE, height));
             ui.vertical(|ui| {
-                ui.label(said(ui, studio, &step, TABLE));
+                ui.label(lay_out_words(ui, studio, &step, TABLE));
                 table(ui, studio, &step, None);
             });
         });
     } else {
         // The effect of the step is visible in full; the table scrolls if it needs to.
-        let said = said(ui, studio, &step, room.x);
+        let said = lay_out_words(ui, studio, &step, room.x);
         let left = height - said.size().y - ui.spacing().item_spacing.y;
         let plot_height = (left - table_height(ui, &step, room.x)).max(PLOT * left);
         plot(ui, studio, &step, vec2(room.x, plot_height.max(MIN_PLOT.min(0.58 * height))));
@@ -83,7 +83,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
 }
 
 /// [`words`], laid out to paint.
-fn said(ui: &Ui, studio: &Studio, step: &OneStep, width: f32) -> Arc<Galley> {
+fn lay_out_words(ui: &Ui, studio: &Studio, step: &OneStep, width: f32) -> Arc<Galley> {
     let words = match studio.viewer.is_asked() {
         true => "The end of this tick is shown after your prediction.".into(),
         false => words(step, &shown_coordinate(studio)),
@@ -110,7 +110,7 @@ fn head(ui: &mut Ui, step: &OneStep) {
 }
 
 /// The evaluations to draw, each with its number and its colour.
-fn drawn<'s>(ui: &Ui, step: &'s OneStep) -> Vec<(usize, Color32, &'s Slope)> {
+fn evaluations_to_draw<'s>(ui: &Ui, step: &'s OneStep) -> Vec<(usize, Color32, &'s Slope)> {
     let theme = palette(ui).theme;
     let numbered = step.evaluations.iter().enumerate().take(MAX_DRAWN);
     numbered.map(|(i, slope)| (i + 1, colour(theme.evaluation(i)), slope)).collect()
@@ -143,7 +143,7 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
     let small = FontId::proportional(11.5);
     let up = format!("velocity {}, {}", coordinate.velocity, Unit::Velocity.on(coordinate));
     painter.text(whole.left_top(), Align2::LEFT_TOP, up, small.clone(), palette.dim);
-    let along = headed(&coordinate.name, coordinate.shown_unit());
+    let along = with_unit(&coordinate.name, coordinate.shown_unit());
     painter.text(rect.right_top(), Align2::RIGHT_BOTTOM, along, small, palette.dim);
 
     let own = palette.style(studio.entries(), &step.spec).0;
@@ -159,7 +159,7 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
     }
     curves.push(Curve::new(LineStyle::solid(palette.exact, 2.4), step.exact.clone()));
     let from = area.at(step.from);
-    let evaluations = drawn(ui, step);
+    let evaluations = evaluations_to_draw(ui, step);
     for (_, colour, slope) in
         evaluations.iter().filter(|(.., slope)| slope.at.iter().all(|at| at.is_finite()))
     {
@@ -304,7 +304,7 @@ fn table_height(ui: &Ui, step: &OneStep, width: f32) -> f32 {
 
 /// The lines of a formula, grouped by the evaluation at the end of each group, and the lines after the last. `None`
 /// if the formula does not list every evaluation, as with a solve of unknown length.
-fn beside<'f>(formula: &[&'f str], evaluations: usize) -> Option<Vec<Vec<&'f str>>> {
+fn formula_by_evaluation<'f>(formula: &[&'f str], evaluations: usize) -> Option<Vec<Vec<&'f str>>> {
     let mut rows = vec![Vec::new()];
     for line in formula {
         let before = |at: usize| line[..at].chars().next_back().is_some_and(char::is_alphabetic);
@@ -324,9 +324,9 @@ fn figures_and_gap(width: f32) -> (usize, f32) {
     if width < breakpoints::FOUR_FIGURES { (3, 5.0) } else { (4, 14.0) }
 }
 
-/// Lines of the step's method as in [`beside`], if a table of this width has room for them.
+/// Lines of the step's method as in [`formula_by_evaluation`], if a table of this width has room for them.
 fn rows_of_formula(ui: &Ui, step: &OneStep, width: f32) -> Option<Vec<Vec<&'static str>>> {
-    let rows = beside(step.spec.method.formula, step.evaluations.len())?;
+    let rows = formula_by_evaluation(step.spec.method.formula, step.evaluations.len())?;
     let line_width = |line: &&str| {
         let job = formula(line, BESIDE_NUMBERS, Color32::WHITE);
         ui.painter().layout_job(job).size().x
@@ -366,19 +366,19 @@ fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>
             for head in [
                 String::new(),
                 if rows.is_some() { String::new() } else { "at".into() },
-                headed(q, coordinate.shown_unit()),
-                headed(v, &Unit::Velocity.on(coordinate)),
+                with_unit(q, coordinate.shown_unit()),
+                with_unit(v, &Unit::Velocity.on(coordinate)),
                 format!("a, {}/s²", coordinate.unit),
             ] {
                 ui.label(RichText::new(head).size(11.0).color(palette(ui).dim));
             }
             ui.end_row();
-            for (number, colour, slope) in drawn(ui, step) {
+            for (number, colour, slope) in evaluations_to_draw(ui, step) {
                 let (rect, _) = ui.allocate_exact_size(vec2(20.0, 18.0), Sense::hover());
                 badge(ui.painter(), rect.center(), number, [colour, palette(ui).background]);
-                beside(ui, number - 1, RichText::new(when(slope.when)).color(colour));
+                beside(ui, number - 1, RichText::new(moment_in_words(slope.when)).color(colour));
                 for value in [slope.at[0], slope.at[1], slope.slope[1]] {
-                    ui.label(RichText::new(signed(value, figures)).color(colour));
+                    ui.label(RichText::new(signed_text(value, figures)).color(colour));
                 }
                 ui.end_row();
             }
@@ -395,7 +395,7 @@ fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>
                     ui.label(name);
                 }
                 for value in point.unwrap_or([f64::NAN; 2]) {
-                    ui.label(RichText::new(signed(value, figures)).color(colour));
+                    ui.label(RichText::new(signed_text(value, figures)).color(colour));
                 }
                 ui.label("");
                 ui.end_row();
@@ -405,12 +405,12 @@ fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>
 }
 
 /// A quantity with its unit, if it has one.
-fn headed(quantity: &str, unit: &str) -> String {
+fn with_unit(quantity: &str, unit: &str) -> String {
     if unit.is_empty() { quantity.into() } else { format!("{quantity}, {unit}") }
 }
 
 /// A moment of the tick in words.
-fn when(part: f64) -> String {
+fn moment_in_words(part: f64) -> String {
     let is = |wanted: f64| (part - wanted).abs() < 1e-9;
     match part {
         _ if is(0.0) => "the start".into(),
@@ -420,7 +420,7 @@ fn when(part: f64) -> String {
     }
 }
 
-fn signed(value: f64, figures: usize) -> String {
+fn signed_text(value: f64, figures: usize) -> String {
     if !value.is_finite() {
         return "-".into();
     }
@@ -484,7 +484,7 @@ mod tests {
     fn each_formula_line_is_beside_its_evaluation() {
         let of = |id, evaluations| {
             let method = METHODS.iter().find(|method| method.id == id).unwrap();
-            beside(method.formula, evaluations)
+            formula_by_evaluation(method.formula, evaluations)
         };
         let midpoint = of("midpoint", 2).unwrap();
         assert_eq!(midpoint[1], ["k₂ = f(t + ½h, y + ½h k₁)"]);

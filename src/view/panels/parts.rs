@@ -9,6 +9,7 @@ use egui::{
 };
 
 use crate::measure::{Outcome, Severity};
+use crate::run::MenuIndex;
 use crate::view::theme::{colour, formula_font, palette, quantity_font};
 
 /// Tag of a panel in a picture of an instrument.
@@ -25,7 +26,7 @@ pub(super) fn frame(fill: Color32) -> Frame {
 }
 
 /// Name of a method after the digit that selects it, if there is one.
-pub(super) fn numbered(entry: usize, name: &str) -> String {
+pub(super) fn numbered(entry: MenuIndex, name: &str) -> String {
     if entry < 9 { format!("{} {name}", entry + 1) } else { name.to_owned() }
 }
 

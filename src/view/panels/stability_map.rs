@@ -11,6 +11,7 @@ use super::annotations::{label, mixed, polygon};
 use super::breakpoints;
 use super::parts::{is_picture, numbered};
 use crate::measure::{Coverage, MapRequest, SeenLine, StabilityMap};
+use crate::run::MenuIndex;
 use crate::scene::TickRate;
 use crate::scene::{Action, edited_values};
 use crate::stage::Parameter;
@@ -174,8 +175,8 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
             region.boundary.iter().map(move |points| (*entry, line(points)))
         })
         .collect();
-    let is_selected = |entry: usize| entry == studio.active();
-    let style = |entry: usize| palette(ui).style(studio.entries(), &studio.entries()[entry]);
+    let is_selected = |entry: MenuIndex| entry == studio.active();
+    let style = |entry: MenuIndex| palette(ui).style(studio.entries(), &studio.entries()[entry]);
     let mut order: Vec<&(usize, Vec<Pos2>)> = lines.iter().collect();
     order.sort_by_key(|(entry, _)| is_selected(*entry));
     let seen = seen_lines(studio, map, area);
@@ -196,7 +197,7 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
     let mut taken: Vec<Pos2> = Vec::new();
     if let Some(at) = cross_at(studio, map, area) {
         let (chip, _) = you_are_here(ui, at, area.rect);
-        let edge = |y| along(pos2(chip.center().x, y), 0.0, chip.width());
+        let edge = |y| points_along(pos2(chip.center().x, y), 0.0, chip.width());
         taken.extend(edge(chip.top() + HALF_LETTER).chain(edge(chip.bottom() - HALF_LETTER)));
         taken.push(at);
     }
@@ -226,7 +227,7 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
         if let Some(((at, angle), width, text)) = found {
             let land = palette(ui).plot.gamma_multiply(0.8);
             label(&painter, (at, angle), &text, [style(*entry).0, land]);
-            taken.extend(along(at, angle, width));
+            taken.extend(points_along(at, angle, width));
             named.push(*entry);
         } else if area.rect.intersects(Rect::from_points(points)) && !keyed.contains(entry) {
             keyed.push(*entry);
@@ -246,7 +247,7 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
             let clear = places.iter().find(|place| is_clear(place, width, &others));
             if let Some(&(at, angle)) = clear.or(places.first()) {
                 label(&painter, (at, angle), &text, [seen_colour, land]);
-                taken.extend(along(at, angle, width));
+                taken.extend(points_along(at, angle, width));
                 break;
             }
         }
@@ -276,7 +277,7 @@ fn key(ui: &Ui, studio: &Studio, entries: &[usize], area: &PlotArea, taken: &[Po
         chart::paint(&painter, &[Primitive::Curves(vec![piece])]);
         let at = Align2::LEFT_CENTER.anchor_size(from + vec2(KEY_LINE, 0.0), name.size());
         painter.galley(at.min, name, colour);
-        places.extend(along(at.center(), 0.0, at.width()));
+        places.extend(points_along(at.center(), 0.0, at.width()));
     }
     places
 }
@@ -296,13 +297,13 @@ fn seen_lines(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64,
 }
 
 /// Stability limit of a method on the map, as a formula: `ω h < 2`.
-fn limit(map: &StabilityMap, entry: usize) -> Option<String> {
+fn limit(map: &StabilityMap, entry: MenuIndex) -> Option<String> {
     let index = map.request.specs.iter().position(|(listed, _)| *listed == entry)?;
     Some(format!("ω h < {}", round(map.regions.get(index)?.limit?, 4)))
 }
 
 /// Points along a label, at most [`APART`] from each other.
-fn along(at: Pos2, angle: f32, width: f32) -> impl Iterator<Item = Pos2> {
+fn points_along(at: Pos2, angle: f32, width: f32) -> impl Iterator<Item = Pos2> {
     let steps = (width / APART).ceil().max(1.0);
     let ends = at - Vec2::angled(angle) * (width / 2.0);
     (0..=steps as u32).map(move |i| ends + Vec2::angled(angle) * (width * i as f32 / steps))
@@ -327,7 +328,7 @@ fn label_places(points: &[Pos2], width: f32, rect: Rect, taken: &[Pos2]) -> Vec<
     });
     candidates
         .filter(|(at, angle)| {
-            along(*at, *angle, width).all(|at| {
+            points_along(*at, *angle, width).all(|at| {
                 rect.shrink(7.0).contains(at)
                     && taken.iter().all(|other| other.distance(at) >= APART)
             })
@@ -337,7 +338,8 @@ fn label_places(points: &[Pos2], width: f32, rect: Rect, taken: &[Pos2]) -> Vec<
 
 /// Whether a label is clear of the boundaries in `others`, so that it cannot be taken for theirs.
 fn is_clear((at, angle): &(Pos2, f32), width: f32, others: &[Pos2]) -> bool {
-    along(*at, *angle, width).all(|at| others.iter().all(|other| other.distance(at) >= BESIDE))
+    points_along(*at, *angle, width)
+        .all(|at| others.iter().all(|other| other.distance(at) >= BESIDE))
 }
 
 /// Names the methods that are stable everywhere, in a corner that usually has no other name. Returns the places along
@@ -357,7 +359,7 @@ fn only_everywhere(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea
     let only_here = laid_out(format!("only {name}{others} {verb} bounded here"));
     let mut partly = map.regions.iter().filter(|region| region.coverage == Coverage::Part);
     let is_shared = partly.any(|region| {
-        along(at + only_here.size() / 2.0, 0.0, only_here.size().x)
+        points_along(at + only_here.size() / 2.0, 0.0, only_here.size().x)
             .any(|at| region.contains(area.point(at)))
     });
     let words = match is_shared {
@@ -366,7 +368,7 @@ fn only_everywhere(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea
     };
     let rect = Rect::from_min_size(at, words.size());
     painter.galley(at, words, colour);
-    along(rect.center(), 0.0, rect.width()).collect()
+    points_along(rect.center(), 0.0, rect.width()).collect()
 }
 
 /// Place of the run on the map. A value beyond the map lies at its edge.

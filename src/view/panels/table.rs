@@ -186,7 +186,7 @@ pub(super) struct Table<R> {
 pub(super) type Order = Option<(&'static str, bool)>;
 
 /// The order after a click on the head of a column: by that column, then in reverse, then none.
-fn clicked(order: Order, name: &'static str) -> Order {
+fn order_after_click(order: Order, name: &'static str) -> Order {
     match order {
         Some((by, false)) if by == name => Some((name, true)),
         Some((by, true)) if by == name => None,
@@ -220,7 +220,7 @@ impl<R: TableRow> Table<R> {
         ui.spacing_mut().item_spacing = Vec2::ZERO;
         let width = ui.available_width();
         let columns = self.fitting(width - 2.0 * MARGIN);
-        let order = self.heads(ui, &columns, width);
+        let order = self.show_heads(ui, &columns, width);
         let rows: Vec<R> = self.sorted(groups, order).into_iter().flatten().collect();
         // The last row in sight must be as clear as the others.
         ui.spacing_mut().scroll.fade.strength = 0.0;
@@ -258,7 +258,7 @@ impl<R: TableRow> Table<R> {
     }
 
     /// Shows the heads. Returns the order that the user has chosen with them.
-    fn heads(&self, ui: &mut Ui, columns: &[(&Column<R>, f32, f32)], width: f32) -> Order {
+    fn show_heads(&self, ui: &mut Ui, columns: &[(&Column<R>, f32, f32)], width: f32) -> Order {
         let id = Id::unique(("order of a table", self.id));
         let mut order = ui.data(|data| data.get_temp::<Order>(id)).flatten();
         let (line, _) = ui.allocate_exact_size(vec2(width, self.head_height()), Sense::hover());
@@ -287,7 +287,7 @@ impl<R: TableRow> Table<R> {
                 }
             }
             if response.on_hover_text(&column.about).clicked() {
-                order = clicked(order, column.name);
+                order = order_after_click(order, column.name);
                 ui.data_mut(|data| data.insert_temp(id, order));
             }
         }
@@ -444,11 +444,11 @@ mod tests {
 
     #[test]
     fn a_second_click_reverses_the_order_and_a_third_ends_it() {
-        let by = clicked(None, "a");
+        let by = order_after_click(None, "a");
         assert_eq!((by, arrow(by, "a"), arrow(by, "b")), (Some(("a", false)), " ↑", ""));
-        let reversed = clicked(by, "a");
+        let reversed = order_after_click(by, "a");
         assert_eq!((reversed, arrow(reversed, "a")), (Some(("a", true)), " ↓"));
-        assert_eq!(clicked(reversed, "a"), None);
+        assert_eq!(order_after_click(reversed, "a"), None);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use egui::{
     Stroke, Ui, Vec2, pos2, vec2,
 };
 
-use self::marks::{Context, Group, Sign, grouped};
+use self::marks::{Context, MarkGroup, Sign, grouped};
 
 pub(super) use self::span::Span;
 use super::breakpoints;
@@ -55,8 +55,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let events = studio.run().events();
     let times = studio.run().times();
     let response = groove.interact(ui);
-    let span = viewed(ui, studio, &times, &response, along);
-    let track = Track { groove, span, times: &times, palette: palette(ui) };
+    let span = visible_span(ui, studio, &times, &response, along);
+    let track = TimelineView { groove, span, times: &times, palette: palette(ui) };
 
     seek(ui, studio, &response, &track, commands);
     let context = Context {
@@ -70,14 +70,14 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let in_view = |x: f32| along.expand(1.0).contains(x);
     let end = studio.run().end();
     let end = studio.run().is_in_past().then(|| context.end(end));
-    let mut marks: Vec<_> = context.marks().chain(end).chain(context.parting()).collect();
+    let mut marks: Vec<_> = context.marks().chain(end).chain(context.first_difference()).collect();
     marks.sort_by_key(|mark| mark.tick);
     let mut groups = grouped(marks.into_iter(), |mark| track.x(mark.tick), MARKS_APART);
     groups.retain(|group| in_view(group.x));
 
     let painter = ui.painter().clone();
     groove.write(&painter, span, track.palette);
-    fill(&painter, studio, &events, &track);
+    draw_track(&painter, studio, &events, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
     // The same moment as on the stage and in the plots.
     let shown_s = shown_s(&studio.deck, &studio.viewer);
@@ -85,7 +85,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     if along.expand(1.0).contains(present) {
         groove.handle(&painter, present, response.has_focus(), track.palette);
     }
-    beside(
+    show_undo_and_memory(
         ui,
         studio,
         Rect::from_min_max(pos2(along.max + MARGIN, room.top()), room.max),
@@ -183,14 +183,14 @@ fn is_tall(room: Rect) -> bool {
 }
 
 /// The track on the panel, with its view of the run.
-struct Track<'a> {
+struct TimelineView<'a> {
     groove: Groove,
     span: Span,
     times: &'a TimeScale,
     palette: &'static PanelPalette,
 }
 
-impl Track<'_> {
+impl TimelineView<'_> {
     fn x(&self, tick: u64) -> f32 {
         self.span.x(self.times.t(tick), self.groove.along)
     }
@@ -201,7 +201,13 @@ impl Track<'_> {
 }
 
 /// The visible part of the run, after this frame's wheel and clicks.
-fn viewed(ui: &Ui, studio: &Studio, times: &TimeScale, response: &Response, along: Rangef) -> Span {
+fn visible_span(
+    ui: &Ui,
+    studio: &Studio,
+    times: &TimeScale,
+    response: &Response,
+    along: Rangef,
+) -> Span {
     let id = response.id;
     let whole = Span::whole(studio.scene().seconds, times.t(studio.run().end()));
     if response.double_clicked() {
@@ -234,7 +240,7 @@ fn seek(
     ui: &Ui,
     studio: &Studio,
     response: &Response,
-    track: &Track<'_>,
+    track: &TimelineView<'_>,
     commands: &mut Vec<Command>,
 ) {
     let present = studio.race().tick();
@@ -301,7 +307,7 @@ fn numbers(
 }
 
 /// Draws the track: the run up to the present in the colours of the methods, the run beyond it in grey.
-fn fill(painter: &Painter, studio: &Studio, events: &[Event], track: &Track<'_>) {
+fn draw_track(painter: &Painter, studio: &Studio, events: &[Event], track: &TimelineView<'_>) {
     let round = 0.5 * THICKNESS;
     let (groove, along) = (track.groove, track.groove.along);
     painter.rect_filled(groove.piece(along.min, along.max), round, track.palette.raised);
@@ -332,9 +338,9 @@ fn strength(colour: Color32, mode: Mode, palette: &PanelPalette) -> Color32 {
 }
 
 /// Draws the sign of a group above the track, with the number of its marks.
-fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
+fn draw_group(painter: &Painter, track: &TimelineView<'_>, group: &MarkGroup) {
     let (x, foot) = (group.x, track.groove.y - 0.5 * THICKNESS);
-    let mark = group.shown();
+    let mark = group.drawn_mark();
     let colour = mark.colour;
     let centre = pos2(x, foot - 6.0);
     let rim = Stroke::new(1.0, track.palette.background);
@@ -380,7 +386,7 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
 }
 
 /// The *undo* button, and the memory that the past takes.
-fn beside(ui: &mut Ui, studio: &Studio, room: Rect, commands: &mut Vec<Command>) {
+fn show_undo_and_memory(ui: &mut Ui, studio: &Studio, room: Rect, commands: &mut Vec<Command>) {
     let timeline = studio.run();
     let is_near = timeline.bytes() as f64 >= NEAR_THE_BOUND * timeline.limit() as f64;
     // A recorded picture must not depend on the machine that makes it.
@@ -419,8 +425,8 @@ fn memory(bytes: usize, limit: usize) -> String {
 fn tooltip(
     ui: &Ui,
     response: Response,
-    track: &Track<'_>,
-    (context, groups): (&Context<'_>, &[Group]),
+    track: &TimelineView<'_>,
+    (context, groups): (&Context<'_>, &[MarkGroup]),
 ) {
     let Some(Pos2 { x, .. }) = response.hover_pos() else { return };
     let x = track.groove.along.clamp(x);
@@ -431,7 +437,7 @@ fn tooltip(
     above.popup = above.popup.align(egui::RectAlign::TOP);
     above.show(|ui| {
         ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
-        let near = |group: &&Group| (-6.0..=MARKS_APART - 6.0).contains(&(x - group.x));
+        let near = |group: &&MarkGroup| (-6.0..=MARKS_APART - 6.0).contains(&(x - group.x));
         let Some(group) = groups.iter().rfind(near) else {
             ui.label(track.times.moment(track.tick(x)));
             return;

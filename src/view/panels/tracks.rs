@@ -43,7 +43,7 @@ impl Detail {
 }
 
 /// Lowest and highest value along an axis on the way to a point.
-fn ends(axis: usize) -> impl Fn(&Point) -> [f64; 2] + Clone {
+fn range_along(axis: usize) -> impl Fn(&Point) -> [f64; 2] + Clone {
     move |point| if axis == 1 { point.swept } else { [point.at[axis]; 2] }
 }
 
@@ -99,7 +99,7 @@ impl Track {
     ) -> Vec<Self> {
         if quantity != Quantity::Position {
             return Self::of(studio, body, |sample| {
-                [sample.t, quantity.among([sample.q, sample.v])]
+                [sample.t, quantity.value([sample.q, sample.v])]
             });
         }
         let point = |s: Summary| Point {
@@ -185,12 +185,12 @@ impl Track {
     }
 
     /// The methods that flew the lane, in order.
-    pub(super) fn flown(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn methods(&self) -> impl Iterator<Item = usize> {
         self.points.chunk_by(|a, b| a.entry == b.entry).map(|run| run[0].entry)
     }
 
     /// Adds the place where the body is put at time `t` (s).
-    pub(super) fn put(&mut self, t: f64, at: [f64; 2]) {
+    pub(super) fn add_jump(&mut self, t: f64, at: [f64; 2]) {
         let entry = self.points.last().map_or(self.entry, |last| last.entry);
         self.points.push(Point { t, entry, at, swept: [at[1]; 2], jumped: true });
     }
@@ -202,7 +202,7 @@ impl Track {
 
     /// Values along an axis, including those between samples.
     pub(super) fn along(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
-        self.points.iter().flat_map(ends(axis))
+        self.points.iter().flat_map(range_along(axis))
     }
 
     /// Values of the front lane along an axis from time `t` (s) on, including those between samples. The axes of a
@@ -215,7 +215,7 @@ impl Track {
         let front = tracks.iter().filter(|track| track.is_front);
         let later = move |track: &Self| track.points.partition_point(|point| point.t < t);
         let points = front.flat_map(move |track| &track.points[later(track)..]);
-        points.flat_map(ends(axis)).filter(|value| value.is_finite())
+        points.flat_map(range_along(axis)).filter(|value| value.is_finite())
     }
 
     /// The tracks that an axis is fitted to. They start at the last placement or change of a parameter, but include

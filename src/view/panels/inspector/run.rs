@@ -3,7 +3,7 @@
 use egui::{ComboBox, RichText, Ui, vec2};
 
 use super::number::NumberField;
-use super::{LINE, RESTORE, line, restore};
+use super::{LINE, RESTORE, line, restore_button};
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{
     Action, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, MIN_SECONDS, TOLERANCES, check_entered,
@@ -67,7 +67,7 @@ fn show_lane(ui: &mut Ui, studio: &Studio, entrant: &Entrant, commands: &mut Vec
     }
     let opened = opened(studio, entrant);
     let about = format!("back to {}", opened.method.name);
-    restore(ui, spec != opened, &about, &format!("lane {number}"), || {
+    restore_button(ui, spec != opened, &about, &format!("lane {number}"), || {
         commands.push(act(Action::Lane { lane, spec: opened }));
     });
 }
@@ -138,7 +138,7 @@ pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command
         let entered = entered.and_then(|value| entered_tick_rate(value).ok());
         commands.extend(entered.map(|tick_hz| Command::Stage(StageCommand::TickHz(tick_hz))));
         let about = format!("back to {:.3} Hz", opened.tick_hz);
-        restore(ui, tick_hz != opened.tick_hz, &about, "tick rate", || {
+        restore_button(ui, tick_hz != opened.tick_hz, &about, "tick rate", || {
             commands.push(Command::Stage(StageCommand::TickHz(opened.tick_hz)));
         });
     });
@@ -161,7 +161,7 @@ pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command
             let (_, entered) = length.show(ui, size, check);
             commands.extend(entered.map(|it| Command::Run(RunCommand::Seconds(it))));
             let about = format!("back to {} s", opened.seconds);
-            restore(ui, seconds != opened.seconds, &about, "length", || {
+            restore_button(ui, seconds != opened.seconds, &about, "length", || {
                 commands.push(Command::Run(RunCommand::Seconds(opened.seconds)));
             });
         },
@@ -169,7 +169,7 @@ pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command
 }
 
 /// Commands that restore the scene's lanes and times; none if nothing differs.
-pub(super) fn restoring(studio: &Studio) -> impl Iterator<Item = Command> {
+pub(super) fn restore_run_commands(studio: &Studio) -> impl Iterator<Item = Command> {
     let lanes = studio.race().entrants().iter().filter_map(|entrant| {
         let (lane, spec) = (entrant.id, opened(studio, entrant));
         let is_changed = entrant.spec != spec;

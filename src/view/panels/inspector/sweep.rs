@@ -3,7 +3,7 @@
 use egui::{Button, Id, RichText, Ui};
 
 use super::rows::{SliderRange, Spacing, Values};
-use super::{LINE, named};
+use super::{LINE, named_button};
 use crate::view::theme::palette;
 
 /// The width of the button, in points.
@@ -62,7 +62,7 @@ impl Sweep {
 }
 
 /// Whether a sweep is active. It counts as one change, as if a pointer were held down.
-pub(in crate::view) fn is_under_way(ui: &Ui) -> bool {
+pub(in crate::view) fn is_sweep_active(ui: &Ui) -> bool {
     let sweep = ui.data(|data| data.get_temp::<Sweep>(Id::unique(ID)));
     sweep.is_some_and(|sweep| ui.input(|input| input.time) - sweep.shown_s < FRESH_S)
 }
@@ -89,7 +89,7 @@ pub(super) fn show(
     };
     let text = RichText::new(sign).size(10.0).color(palette(ui).dim);
     let button = Button::new(text).frame(false).min_size(egui::vec2(BUTTON, LINE));
-    let is_clicked = named(ui, button, &about).clicked();
+    let is_clicked = named_button(ui, button, &about).clicked();
     match under_way {
         None if is_clicked => {
             ui.data_mut(|data| data.insert_temp(id, Sweep::of(of, now_s, reach, values)));

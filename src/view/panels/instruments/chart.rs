@@ -27,7 +27,7 @@ impl Views {
         cell.area(&self.0)
     }
 
-    fn fit(&mut self, cell: &Cell<'_>) {
+    fn reset_ranges(&mut self, cell: &Cell<'_>) {
         let names = cell.plot.axis_names();
         self.0.retain(|name, _| !names.contains(name));
     }
@@ -62,7 +62,7 @@ impl Views {
 
 /// The tick that a click left for another.
 #[derive(Clone, Copy)]
-struct Left(u64);
+struct TickBeforeClick(u64);
 
 /// Shows a set in the rest of `ui`.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
@@ -84,15 +84,16 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut V
             turn_wheel(ui, &mut views, cell, at);
         }
         if response.double_clicked() {
-            views.fit(cell);
+            views.reset_ranges(cell);
             // The first click of a double click was not meant to seek.
-            let left = ui.data(|data| data.get_temp::<Option<Left>>(response.id)).flatten();
-            commands.extend(left.map(|Left(tick)| Command::Run(RunCommand::Seek(tick))));
+            let left =
+                ui.data(|data| data.get_temp::<Option<TickBeforeClick>>(response.id)).flatten();
+            commands.extend(left.map(|TickBeforeClick(tick)| Command::Run(RunCommand::Seek(tick))));
         } else if response.clicked() {
             let area = views.area(cell);
-            let picked = picked(&set.styles, cell, &area, &response);
-            let went = went_to(studio, cell, &area, &response).filter(|_| picked.is_none());
-            let left = went.is_some().then(|| Left(studio.race().tick()));
+            let picked = pick_command(&set.styles, cell, &area, &response);
+            let went = seek_command(studio, cell, &area, &response).filter(|_| picked.is_none());
+            let left = went.is_some().then(|| TickBeforeClick(studio.race().tick()));
             ui.data_mut(|data| data.insert_temp(response.id, left));
             commands.extend(picked.or(went));
         } else if response.dragged() {
@@ -143,7 +144,7 @@ fn turn_wheel(ui: &Ui, views: &mut Views, cell: &Cell<'_>, at: Pos2) {
 
 fn menu(ui: &mut Ui, cell: &Cell<'_>, views: &mut Views, commands: &mut Vec<Command>) {
     if ui.button("Fit (double click)").clicked() {
-        views.fit(cell);
+        views.reset_ranges(cell);
         ui.close();
     }
     for (text, command) in [
@@ -159,7 +160,7 @@ fn menu(ui: &mut Ui, cell: &Cell<'_>, views: &mut Views, commands: &mut Vec<Comm
 }
 
 /// The command that seeks to the time under a click.
-fn went_to(
+fn seek_command(
     studio: &Studio,
     cell: &Cell<'_>,
     area: &PlotArea,
@@ -172,7 +173,7 @@ fn went_to(
 }
 
 /// The command that selects the lane of the curve under a click.
-fn picked(
+fn pick_command(
     styles: &SeriesStyles,
     cell: &Cell<'_>,
     area: &PlotArea,

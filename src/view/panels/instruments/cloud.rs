@@ -177,7 +177,7 @@ fn moment(studio: &Studio, picture: &CloudPicture) -> String {
 
 /// Detail of the caption above each cloud. A hover shows the rest.
 #[derive(Clone, Copy, PartialEq)]
-enum Told {
+enum CaptionDetail {
     Words,
     Numbers,
     /// The beginning of its name.
@@ -185,11 +185,12 @@ enum Told {
 }
 
 /// Details of a caption from most to least, each with the minimum side of a cloud, in points.
-const TOLD: [(Told, f32); 3] = [(Told::Words, 60.0), (Told::Numbers, 40.0), (Told::Name, MIN_SIDE)];
+const CAPTION_DETAILS: [(CaptionDetail, f32); 3] =
+    [(CaptionDetail::Words, 60.0), (CaptionDetail::Numbers, 40.0), (CaptionDetail::Name, MIN_SIDE)];
 
 /// Captions of the clouds, laid out again for each width.
 struct Captions<'p> {
-    told: Told,
+    told: CaptionDetail,
     lanes: &'p [LaneCloud],
     /// Name and text of each cloud.
     texts: Vec<[String; 2]>,
@@ -198,12 +199,14 @@ struct Captions<'p> {
 }
 
 impl<'p> Captions<'p> {
-    fn new(ui: &Ui, studio: &Studio, picture: &'p CloudPicture, told: Told) -> Self {
+    fn new(ui: &Ui, studio: &Studio, picture: &'p CloudPicture, told: CaptionDetail) -> Self {
         let CloudPicture { lanes, points, .. } = picture;
         let text = |lane: &LaneCloud| {
             let words = match (told, lane.area_ratio) {
-                (Told::Name, _) => String::new(),
-                (Told::Numbers, Some(_)) => format!("\n{}", parts(*points, lane, told).join("\n")),
+                (CaptionDetail::Name, _) => String::new(),
+                (CaptionDetail::Numbers, Some(_)) => {
+                    format!("\n{}", parts(*points, lane, told).join("\n"))
+                }
                 _ => format!("\n{}", words(*points, lane)),
             };
             [studio.lane_name(lane.entry), words]
@@ -222,7 +225,7 @@ impl<'p> Captions<'p> {
     fn laid_out(&self, ui: &Ui, studio: &Studio, width: f32) -> Option<Vec<Arc<Galley>>> {
         let longest = self.longest.max(width);
         let size = (WORDS * width / longest).max(MIN_WORDS);
-        let is_name = self.told == Told::Name;
+        let is_name = self.told == CaptionDetail::Name;
         if !is_name && longest * MIN_WORDS > width * WORDS {
             return None;
         }
@@ -248,14 +251,14 @@ impl<'p> Captions<'p> {
 
 /// Summary of a cloud.
 fn words(points: usize, lane: &LaneCloud) -> String {
-    parts(points, lane, Told::Words).join(", ")
+    parts(points, lane, CaptionDetail::Words).join(", ")
 }
 
 /// Parts of a cloud's summary: its area, in words too if requested, and the numbers of invisible points.
-fn parts(points: usize, lane: &LaneCloud, told: Told) -> Vec<String> {
-    let name = if told == Told::Words { "area " } else { "" };
+fn parts(points: usize, lane: &LaneCloud, told: CaptionDetail) -> Vec<String> {
+    let name = if told == CaptionDetail::Words { "area " } else { "" };
     let area = lane.area_ratio.map(|ratio| format!("{name}×{}", significant(ratio, 3)));
-    let words = (told == Told::Words).then(|| lane.words.clone());
+    let words = (told == CaptionDetail::Words).then(|| lane.words.clone());
     let lost = (lane.lost > 0).then(|| format!("{} blew up", grouped(lane.lost as u64)));
     let hidden = hidden_in_words(lane.hidden, points);
     [area, words, lost, hidden].into_iter().flatten().collect()
@@ -295,14 +298,14 @@ fn side_by_side(
         (size.min_elem() >= least).then_some((columns, size, captions, above))
     };
     let area = |size: Vec2| size.x * size.y;
-    let largest = |(told, least): (Told, f32)| {
+    let largest = |(told, least): (CaptionDetail, f32)| {
         let captions = Captions::new(ui, studio, picture, told);
         let least_columns = if is_large { lanes.len() } else { 1 };
         let layouts =
             (least_columns..=lanes.len()).filter_map(|columns| layout(columns, &captions, least));
         layouts.max_by(|a, b| area(a.1).total_cmp(&area(b.1)))
     };
-    let found = TOLD.into_iter().find_map(largest);
+    let found = CAPTION_DETAILS.into_iter().find_map(largest);
     let Some((columns, size, captions, above)) = found else { return };
     let rows = lanes.len().div_ceil(columns);
     // The caption of a cloud may be wider than that.
@@ -354,7 +357,7 @@ fn cloud(
     };
     let size_px = [pixels(rect.width()), pixels(rect.height())];
     let (colour, _) = palette.theme.lane_style(studio.entries(), &studio.entries()[lane.entry]);
-    let texture = image(ui, place, &lane.density, (size_px, palette.theme, colour));
+    let texture = cached_image(ui, place, &lane.density, (size_px, palette.theme, colour));
     let all = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
     let view = picture.view;
     let area = PlotArea { rect, bounds: [view.q, view.v] };
@@ -414,16 +417,16 @@ type Style = ([usize; 2], Theme, Rgba);
 
 /// A cached image, with its source.
 #[derive(Clone)]
-struct Made {
+struct CachedImage {
     of: Arc<Density>,
     style: Style,
     texture: TextureHandle,
 }
 
 /// The image of a density. A change of the density or its style replaces the cached image.
-fn image(ui: &Ui, place: usize, density: &Arc<Density>, style: Style) -> TextureHandle {
+fn cached_image(ui: &Ui, place: usize, density: &Arc<Density>, style: Style) -> TextureHandle {
     let id = egui::Id::unique(("image of a cloud", place));
-    let made = ui.data(|data| data.get_temp::<Made>(id));
+    let made = ui.data(|data| data.get_temp::<CachedImage>(id));
     let old = match made {
         Some(made) if Arc::ptr_eq(&made.of, density) && made.style == style => return made.texture,
         made => made,
@@ -438,7 +441,7 @@ fn image(ui: &Ui, place: usize, density: &Arc<Density>, style: Style) -> Texture
         }
         _ => ui.ctx().load_texture("cloud", image, TextureOptions::NEAREST),
     };
-    let made = Made { of: Arc::clone(density), style, texture: texture.clone() };
+    let made = CachedImage { of: Arc::clone(density), style, texture: texture.clone() };
     ui.data_mut(|data| data.insert_temp(id, made));
     texture
 }

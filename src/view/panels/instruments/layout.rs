@@ -47,7 +47,7 @@ impl Cell<'_> {
 }
 
 /// The number of plots that fit into a height, and their minimum height.
-fn fit(plots: usize, height: f32) -> (usize, f32) {
+fn fitting_plots(plots: usize, height: f32) -> (usize, f32) {
     let height = (height - NUMBERS - NAMES).max(1.0);
     let of_least = |least: f32| ((height + GAP) / (ABOVE + least + GAP)).floor().max(1.0) as usize;
     let least = [MIN_HEIGHT, SHRUNK].into_iter().find(|least| of_least(*least) >= plots);
@@ -57,7 +57,7 @@ fn fit(plots: usize, height: f32) -> (usize, f32) {
 
 /// Whether all plots fit into a height.
 pub(super) fn all_fit(plots: usize, height: f32) -> bool {
-    fit(plots, height).0 == plots
+    fitting_plots(plots, height).0 == plots
 }
 
 /// The plots that fit into `room`, including that of `body`, with `left` points for the numbers of their axes.
@@ -71,7 +71,7 @@ pub(super) fn cells(set: &PlotSet, room: Rect, left: f32, body: usize) -> Vec<Ce
     let axes = (0..set.plots.len()).filter(|&i| is_last_of_axis(&set.plots, i)).count().max(1);
     let room_of_one_axis = room.height() - (axes - 1) as f32 * below;
     let height = (room_of_one_axis - below).max(1.0);
-    let (count, least) = fit(set.plots.len(), room_of_one_axis);
+    let (count, least) = fitting_plots(set.plots.len(), room_of_one_axis);
     let chosen = set.plots.iter().position(|plot| plot.body == body).unwrap_or(0);
     let first = chosen.min(set.plots.len() - count);
     let shown = &set.plots[first..first + count];

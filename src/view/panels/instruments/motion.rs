@@ -42,7 +42,7 @@ fn track(studio: &Studio, body: usize) -> Option<PlotModel> {
     let mut tracks = Track::of(studio, body, |sample| sample.at.into());
     let held = studio.deck.held().filter(|held| held.body == body);
     for (track, held) in tracks.iter_mut().filter(|track| track.is_front).zip(held) {
-        track.put(studio.race().t(), [held.q[0], held.q[1]]);
+        track.add_jump(studio.race().t(), [held.q[0], held.q[1]]);
     }
     let exact = ExactLine::of(studio, body, |sample| Some(sample.at.into()));
     let lanes = Track::fitted(studio, &tracks);
@@ -63,7 +63,7 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let (coordinate, _) = studio.past().coordinate(studio.race(), body);
     let quantity = studio.display().quantity.unwrap_or_else(|| Quantity::usual(truth));
     let mut tracks = Track::of_quantity(studio, body, quantity, detail);
-    put_in_hand(studio, body, &mut tracks, |t, [q, v]| [t, quantity.among([q, v])]);
+    extend_by_held_body(studio, body, &mut tracks, |t, [q, v]| [t, quantity.value([q, v])]);
     let exact = ExactLine::of_quantity(studio, body, quantity);
     let lanes = Track::fitted(studio, &tracks);
     // The view follows the selected lane too: beside one that has grown, the truth may be a flat line.
@@ -98,7 +98,7 @@ fn future_curves(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve>
             }
             None => LineStyle::solid(palette.exact, EXACT),
         };
-        let points = future.moments.iter().map(|moment| [moment.t, quantity.among(moment.state)]);
+        let points = future.moments.iter().map(|moment| [moment.t, quantity.value(moment.state)]);
         Curve::new(style, points.collect())
     };
     futures(&studio.deck, body).into_iter().map(curve).collect()
@@ -113,7 +113,7 @@ pub(super) fn name_of_plotted(studio: &Studio, body: usize, coordinate: &Coordin
 }
 
 /// Extends the selected lane to the place where a body in the user's hand would be released, as on the stage.
-pub(super) fn put_in_hand(
+pub(super) fn extend_by_held_body(
     studio: &Studio,
     body: usize,
     tracks: &mut [Track],
@@ -123,5 +123,5 @@ pub(super) fn put_in_hand(
     let (_, plotted) = studio.past().coordinate(studio.race(), body);
     let (q, v) = (held.q[plotted], held.v[plotted]);
     let front = tracks.iter_mut().filter(|track| track.is_front);
-    front.for_each(|track| track.put(studio.race().t(), place(studio.race().t(), [q, v])));
+    front.for_each(|track| track.add_jump(studio.race().t(), place(studio.race().t(), [q, v])));
 }

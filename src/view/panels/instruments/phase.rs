@@ -3,7 +3,7 @@
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
-use super::motion::{HEALTHY, name_of_plotted, put_in_hand};
+use super::motion::{HEALTHY, extend_by_held_body, name_of_plotted};
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, origin};
 use crate::studio::Studio;
 use crate::view::chart::Dots;
@@ -15,7 +15,7 @@ pub(super) fn plot_set(studio: &Studio) -> PlotSet {
     let body = studio.view().body;
     let mut tracks = Track::of(studio, body, |s| [s.q, s.v]);
     tracks.iter_mut().for_each(|lane| lane.keep_latest(SAMPLES));
-    put_in_hand(studio, body, &mut tracks, |_, place| place);
+    extend_by_held_body(studio, body, &mut tracks, |_, place| place);
     // Shows the exact solution over the same time as the lanes that still move.
     let newest = tracks.iter().filter_map(Track::times).max_by(|a, b| a.1.total_cmp(&b.1));
     let since_s = newest.map_or(f64::NEG_INFINITY, |(first, _)| first);

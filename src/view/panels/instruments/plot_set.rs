@@ -182,7 +182,7 @@ impl ExactLine {
         let most = samples(studio, body).size_hint().0;
         let mut swept = Vec::with_capacity(most);
         let line = Self::of(studio, body, |s| {
-            let at = known(quantity, s)?;
+            let at = finite_point(quantity, s)?;
             swept.push(s.swept.ends());
             Some(at)
         });
@@ -233,7 +233,8 @@ impl ExactLine {
         };
         let wide = (to - from) / f64::from(columns.max(1.0));
         let (first, end) = (first.saturating_sub(1), (end + 1).min(times.len()));
-        let samples = samples(studio, body).filter(|sample| known(quantity, sample).is_some());
+        let samples =
+            samples(studio, body).filter(|sample| finite_point(quantity, sample).is_some());
         let samples: Vec<_> = samples.skip(piece.start + first).take(end - first).collect();
         let truth = &studio.race().truth().bodies()[body];
         let points = TruthCurve::finer(truth, quantity, &samples, wide);
@@ -266,7 +267,8 @@ impl ExactLine {
         }
         let (&to_s, to) = self.times.get(after).zip(self.curve.points.get(after))?;
         if let Some(quantity) = self.known.filter(|_| to_s > from_s) {
-            let mut ends = samples(studio, body).filter(|sample| known(quantity, sample).is_some());
+            let mut ends =
+                samples(studio, body).filter(|sample| finite_point(quantity, sample).is_some());
             let (from, to) = ends.nth(before).zip(ends.next())?;
             let truth = &studio.race().truth().bodies()[body];
             return Some([t, TruthCurve::between(truth, quantity, [&from, &to], t)]);
@@ -286,8 +288,8 @@ fn samples(studio: &Studio, body: usize) -> impl Iterator<Item = TruthSample> {
 }
 
 /// A quantity over time at a sample; `None` if it is not finite.
-fn known(quantity: Quantity, sample: &TruthSample) -> Option<[f64; 2]> {
-    let at = [sample.t, quantity.among([sample.q, sample.v])];
+fn finite_point(quantity: Quantity, sample: &TruthSample) -> Option<[f64; 2]> {
+    let at = [sample.t, quantity.value([sample.q, sample.v])];
     at.iter().all(|x| x.is_finite()).then_some(at)
 }
 
@@ -387,10 +389,10 @@ fn joined(key: &str, part: &str) -> String {
 
 impl PlotSet {
     /// Styles of the visible curves, with their indices.
-    pub(super) fn shown(&self) -> impl Iterator<Item = (usize, &SeriesStyle)> {
+    pub(super) fn visible_styles(&self) -> impl Iterator<Item = (usize, &SeriesStyle)> {
         let tracks = self.plots.iter().flat_map(|plot| &plot.tracks);
         let mut shown: Vec<usize> =
-            tracks.flat_map(|track| track.flown().chain([track.entry])).collect();
+            tracks.flat_map(|track| track.methods().chain([track.entry])).collect();
         shown.sort_unstable();
         shown.dedup();
         shown.into_iter().map(|entry| (entry, &self.styles.series[entry]))

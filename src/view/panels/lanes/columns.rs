@@ -106,10 +106,10 @@ fn verdict<'a>(studio: &Studio) -> Column<Row<'a>> {
         about,
         |ui, row: &Row<'a>, rect, _| {
             if ui.is_rect_visible(rect) {
-                row.said().show(ui, rect, row.text(ui));
+                row.verdict_text().show(ui, rect, row.text(ui));
             }
         },
-        |row| row.said().rank.into(),
+        |row| row.verdict_text().rank.into(),
     );
     let beside_head = has_numbers_of_one.then(|| format!("{}:", bodies[studio.view().body].name));
     Column { beside_head, ..column.headed(head) }

@@ -2,9 +2,9 @@
 
 use super::verdict;
 use crate::measure::{ChaseFinding, Verdict};
-use crate::run::past::Most;
+use crate::run::past::Peaks;
 use crate::run::race::{Entrant, LaneBody, Mode};
-use crate::run::{METRICS, Metric, energy_gained_j, energy_gained_percent, energy_j};
+use crate::run::{METRICS, MenuIndex, Metric, energy_gained_j, energy_gained_percent, energy_j};
 use crate::scene::LaneSpec;
 use crate::stage::number::significant;
 use crate::studio::{Studio, shown_state};
@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1e-12;
 pub(super) struct Row<'a> {
     pub(super) studio: &'a Studio,
     /// Index of the method on the list.
-    pub(super) entry: usize,
+    pub(super) entry: MenuIndex,
     pub(super) spec: &'a LaneSpec,
     /// The lane that flies this method, if any.
     pub(super) flown: Option<&'a Entrant>,
@@ -43,7 +43,7 @@ impl<'a> Row<'a> {
         exact: &[Option<f64>],
         named_above: Option<usize>,
     ) -> Vec<Self> {
-        let flown = studio.deck.flown(entry);
+        let flown = studio.deck.lane_of(entry);
         let shown = studio.view().body;
         let count = studio.scene().bodies.len();
         let is_active = entry == studio.active();
@@ -67,7 +67,7 @@ impl<'a> Row<'a> {
     }
 
     /// Verdict of the row.
-    pub(super) fn said(&self) -> VerdictText {
+    pub(super) fn verdict_text(&self) -> VerdictText {
         let named = (self.is_of_body.then_some(self.body), self.named_above);
         verdict::text_of(self.studio, self.entry, self.flown, named)
     }
@@ -106,8 +106,8 @@ impl<'a> Row<'a> {
     }
 
     /// Largest values of the body so far, if a lane flies the method.
-    fn most(&self) -> Option<Most> {
-        Some(self.studio.past().histories(self.flown?.id)[self.body].most())
+    fn peaks(&self) -> Option<Peaks> {
+        Some(self.studio.past().histories(self.flown?.id)[self.body].peaks())
     }
 
     /// The value, or 0 if it is only rounding at this scale.
@@ -117,7 +117,7 @@ impl<'a> Row<'a> {
 
     /// A value with the unit of the body's first coordinate.
     pub(super) fn in_unit(&self, value: f64) -> Option<String> {
-        let value = Self::above_rounding(value, self.most().map_or(0.0, |most| most.size));
+        let value = Self::above_rounding(value, self.peaks().map_or(0.0, |most| most.size));
         let unit = self.truth().coordinates().at(0).shown_unit();
         Some(format!("{} {unit}", significant(value, 3)).trim_end().to_owned())
     }
@@ -138,7 +138,7 @@ impl<'a> Row<'a> {
 
     /// The largest position error so far, if there is a truth.
     pub(super) fn largest_error(&self) -> Option<f64> {
-        self.most().filter(|_| self.has_truth()).map(|most| most.error)
+        self.peaks().filter(|_| self.has_truth()).map(|most| most.error)
     }
 
     /// Energy of the body above the truth, in percent or else in joules, with its unit. Without a truth, its total

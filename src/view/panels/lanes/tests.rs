@@ -71,8 +71,8 @@ fn in_solo_the_bodies_of_the_lane_stay_together_under_every_order() {
     }
 }
 
-fn said(studio: &Studio) -> Vec<String> {
-    sorted(studio, None).iter().map(|row| row.said().whole().to_owned()).collect()
+fn verdict_texts(studio: &Studio) -> Vec<String> {
+    sorted(studio, None).iter().map(|row| row.verdict_text().whole().to_owned()).collect()
 }
 
 #[test]
@@ -94,9 +94,17 @@ fn the_tooltip_of_an_engine_names_its_tested_version() {
 #[test]
 fn an_unjudged_method_is_marked_as_being_judged() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
-    assert!(said(&studio).iter().all(|said| said == "judging…"), "{:?}", said(&studio));
+    assert!(
+        verdict_texts(&studio).iter().all(|said| said == "judging…"),
+        "{:?}",
+        verdict_texts(&studio)
+    );
     studio.analyse();
-    assert!(said(&studio).iter().all(|said| said != "judging…"), "{:?}", said(&studio));
+    assert!(
+        verdict_texts(&studio).iter().all(|said| said != "judging…"),
+        "{:?}",
+        verdict_texts(&studio)
+    );
 }
 
 #[test]
@@ -107,7 +115,7 @@ fn a_verdict_predicts_a_blow_up_and_a_halt_reports_it() {
     studio.analyse();
     let euler = studio.entries().iter().position(|spec| spec.method.id == "semi-implicit-euler");
     let euler = euler.unwrap();
-    assert_eq!(said(&studio)[euler], "blows up · at 4.14 s");
+    assert_eq!(verdict_texts(&studio)[euler], "blows up · at 4.14 s");
     let details = sorted(&studio, None)[euler].details();
     assert_eq!(details[0], "if run from the start");
     while !studio
@@ -118,7 +126,11 @@ fn a_verdict_predicts_a_blow_up_and_a_halt_reports_it() {
     {
         studio.tick();
     }
-    assert!(said(&studio)[euler].contains(" blew up at 4.1"), "{:?}", said(&studio));
+    assert!(
+        verdict_texts(&studio)[euler].contains(" blew up at 4.1"),
+        "{:?}",
+        verdict_texts(&studio)
+    );
 }
 
 #[test]
@@ -127,19 +139,19 @@ fn the_common_body_of_all_verdicts_is_named_once() {
     let flown: Vec<usize> =
         studio.race().entrants().iter().map(|lane| studio.entry(lane)).collect();
     let names = |studio: &Studio| {
-        let said = said(studio);
+        let said = verdict_texts(studio);
         flown.iter().filter(|&&entry| said[entry].contains("(spring)")).count()
     };
     assert_eq!(
         row::judged_body(&studio).map(|body| &*studio.scene().bodies[body].name),
         Some("spring")
     );
-    assert_eq!(names(&studio), 0, "{:?}", said(&studio));
+    assert_eq!(names(&studio), 0, "{:?}", verdict_texts(&studio));
     // At a low rate, another body is the stiffest of some lanes.
     studio.apply(StageCommand::TickHz(2.into()));
     studio.analyse();
-    assert_eq!(row::judged_body(&studio), None, "{:?}", said(&studio));
-    assert!(names(&studio) > 0, "{:?}", said(&studio));
+    assert_eq!(row::judged_body(&studio), None, "{:?}", verdict_texts(&studio));
+    assert!(names(&studio) > 0, "{:?}", verdict_texts(&studio));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Verdicts in the rows of the table of lanes.
 
 use crate::measure::Outcome;
+use crate::run::MenuIndex;
 use crate::run::race::Entrant;
 use crate::studio::Studio;
 use crate::view::panels::verdict::VerdictText;
@@ -9,7 +10,7 @@ use crate::view::panels::verdict::VerdictText;
 /// the row is about that body alone or `named_above` is the same body.
 pub(super) fn text_of(
     studio: &Studio,
-    entry: usize,
+    entry: MenuIndex,
     flown: Option<&Entrant>,
     (body, named_above): (Option<usize>, Option<usize>),
 ) -> VerdictText {
@@ -22,7 +23,7 @@ pub(super) fn text_of(
     // The displayed body first, because not all of several may fit.
     halts.sort_by_key(|halt| halt.body != studio.view().body);
     if let Some(first) = halts.first() {
-        let did = first.how();
+        let did = first.ending();
         let several = studio.scene().bodies.len() > 1 && body.is_none();
         let name = |body: usize| match several && named_above != Some(body) {
             true => format!(" ({})", studio.scene().bodies[body].name),

@@ -50,7 +50,7 @@ pub(in crate::view::panels) fn speed_menu(
 }
 
 /// Shortens a trace's name for the closed menu.
-fn short(name: &str) -> String {
+fn short_name(name: &str) -> String {
     match name.chars().count() {
         0..=MAX_CHARS => name.into(),
         _ => name.chars().take(MAX_CHARS - 1).chain(['…']).collect(),
@@ -72,7 +72,7 @@ pub(in crate::view::panels) fn trace_menu(
 ) {
     let trace = &loops.traces()[loops.trace()];
     let chosen = trace.name();
-    let menu = ComboBox::from_id_salt("trace").selected_text(short(chosen)).width(112.0);
+    let menu = ComboBox::from_id_salt("trace").selected_text(short_name(chosen)).width(112.0);
     let menu = menu.height(480.0);
     let response = menu.show_ui(ui, |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
@@ -120,8 +120,8 @@ mod tests {
 
     #[test]
     fn a_long_trace_name_takes_no_extra_room() {
-        assert!(TRACES.iter().all(|card| short(card.id) == card.id));
-        assert_eq!(short("log.csv:PresentBench.exe-24892"), "log.csv:PresentBe…");
+        assert!(TRACES.iter().all(|card| short_name(card.id) == card.id));
+        assert_eq!(short_name("log.csv:PresentBench.exe-24892"), "log.csv:PresentBe…");
     }
 
     #[test]

@@ -4,7 +4,7 @@ use egui::{Color32, Label, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::counts::{self, LEFT, Series};
 use super::errors::round_up;
-use super::table::shown;
+use super::table::metric_text;
 use crate::run::Unit;
 use crate::studio::{LiveFrame, Pace, Studio};
 use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};
@@ -72,9 +72,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
     };
     let Summary { mean_ms, usual_ms, worst_ms, error_rms_ms } = summary;
     let [mean, usual, worst] =
-        [mean_ms, usual_ms, worst_ms].map(|time_ms| shown(time_ms, Unit::Milliseconds));
+        [mean_ms, usual_ms, worst_ms].map(|time_ms| metric_text(time_ms, Unit::Milliseconds));
     let times = format!("Frame time: mean {mean}, 99 % within {usual}, worst {worst}.");
-    let (lost, colour) = match studio.deck.dropped() {
+    let (lost, colour) = match studio.deck.dropped_ticks() {
         0 => ("No tick dropped since the start.".into(), palette(ui).dim),
         1 => ("1 tick dropped since the start.".into(), palette(ui).bad),
         many => (format!("{many} ticks dropped since the start."), palette(ui).bad),
@@ -82,7 +82,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
     ui.add(Label::new(RichText::new(times).color(palette(ui).dim)).wrap());
     let lost = ui.add(Label::new(RichText::new(lost).color(colour)).wrap());
     lost.on_hover_text("the simulation fell behind real time");
-    let error = format!("Animation error {} RMS.", shown(error_rms_ms, Unit::Milliseconds));
+    let error = format!("Animation error {} RMS.", metric_text(error_rms_ms, Unit::Milliseconds));
     let error = ui.add(Label::new(RichText::new(error).color(palette(ui).dim)).wrap());
     error.on_hover_text(
         "change of the moment shown minus change of real time; a frame counts as displayed when it begins",

@@ -40,14 +40,14 @@ const MIN_VERDICT: f32 = 264.0;
 type MetricColumn = (&'static str, f32, u8, &'static str, fn(f64, Unit) -> String);
 
 const METRICS: [MetricColumn; 8] = [
-    ("repeated", 66.0, 2, "repeated_percent", shown),
-    ("double", 56.0, 4, "double_percent", shown),
-    ("error RMS", 76.0, 1, "animation_error_rms_ms", shown),
-    ("largest", 70.0, 5, "animation_error_max_ms", shown),
+    ("repeated", 66.0, 2, "repeated_percent", metric_text),
+    ("double", 56.0, 4, "double_percent", metric_text),
+    ("error RMS", 76.0, 1, "animation_error_rms_ms", metric_text),
+    ("largest", 70.0, 5, "animation_error_max_ms", metric_text),
     ("latency", 70.0, 3, "latency_mean_ms", latency),
-    ("dropped", 70.0, 7, "dropped_ms", shown),
-    ("position", 72.0, 8, "position_error_rms", shown),
-    ("at ½ rate", 72.0, 6, "state_difference", shown),
+    ("dropped", 70.0, 7, "dropped_ms", metric_text),
+    ("position", 72.0, 8, "position_error_rms", metric_text),
+    ("at ½ rate", 72.0, 6, "state_difference", metric_text),
 ];
 
 /// Every column, from left to right.
@@ -118,12 +118,12 @@ fn latency(ms: f64, unit: Unit) -> String {
         ms if ms.abs() < MIN_LATENCY_MS => "0 ms".into(),
         // The lead grows as long as the run continues.
         ahead if ahead < 0.0 => "ahead".into(),
-        behind => shown(behind, unit),
+        behind => metric_text(behind, unit),
     }
 }
 
 /// Text of a metric's value.
-pub(super) fn shown(value: f64, unit: Unit) -> String {
+pub(super) fn metric_text(value: f64, unit: Unit) -> String {
     let (value, unit) = match unit {
         Unit::Amplitudes => (100.0 * value, Unit::Percent),
         Unit::Milliseconds if value.abs() >= MANY_MS => (value / 1000.0, Unit::Seconds),
@@ -175,7 +175,7 @@ mod tests {
     #[test]
     fn values_have_three_digits_and_zero_differs_from_almost_zero() {
         let texts = [(8.2247, MS), (0.0, MS), (1e-7, MS), (0.1234, Unit::Amplitudes)];
-        let texts = texts.map(|(value, unit)| shown(value, unit));
+        let texts = texts.map(|(value, unit)| metric_text(value, unit));
         assert_eq!(texts, ["8.22 ms", "0 ms", "<0.001 ms", "12.3 %"]);
         let texts = [-290_000.0, -0.008_81, 3e-7, 0.3, 16.66, 14_000.0].map(|ms| latency(ms, MS));
         assert_eq!(texts, ["ahead", "0 ms", "0 ms", "0.3 ms", "16.7 ms", "14 s"]);

@@ -33,7 +33,7 @@ pub(super) enum Sign {
 
 /// A mark of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Mark {
+pub(super) struct TimelineMark {
     pub(super) tick: u64,
     pub(super) sign: Sign,
     pub(super) colour: Color32,
@@ -43,15 +43,15 @@ pub(super) struct Mark {
 
 /// Marks that share a sign.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Group {
+pub(super) struct MarkGroup {
     /// Place, in points.
     pub(super) x: f32,
-    pub(super) marks: Vec<Mark>,
+    pub(super) marks: Vec<TimelineMark>,
 }
 
-impl Group {
+impl MarkGroup {
     /// The mark that is drawn for the group.
-    pub(super) fn shown(&self) -> &Mark {
+    pub(super) fn drawn_mark(&self) -> &TimelineMark {
         let shown = self.marks.iter().max_by_key(|mark| mark.sign);
         shown.expect("a group begins with a mark")
     }
@@ -71,20 +71,20 @@ pub(super) struct Context<'a> {
 
 impl Context<'_> {
     /// Marks of the events that changed a body, by tick. An edit that was undone at once has none.
-    pub(super) fn marks(&self) -> impl Iterator<Item = Mark> {
-        let events = self.events.iter().enumerate().zip(self.lasting());
+    pub(super) fn marks(&self) -> impl Iterator<Item = TimelineMark> {
+        let events = self.events.iter().enumerate().zip(self.lasting_events());
         events.filter(|(_, lasts)| *lasts).map(|((i, Event { tick, kind }), _)| {
             let (sign, colour) = match kind {
                 EventKind::Done { action, .. } => self.of_action(action),
                 EventKind::Halted { .. } => (Sign::Halt, self.palette.bad),
             };
-            Mark { tick: *tick, sign, colour, event: Some(i) }
+            TimelineMark { tick: *tick, sign, colour, event: Some(i) }
         })
     }
 
     /// Whether each event affects a body beyond its tick. A lane that gets its old settings again moves on as before,
     /// unless the switch resumes its halted bodies.
-    fn lasting(&self) -> Vec<bool> {
+    fn lasting_events(&self) -> Vec<bool> {
         let lanes = self.start.entrants().iter();
         let mut specs: Vec<(LaneId, LaneSpec)> = lanes.map(|it| (it.id, it.spec)).collect();
         let mut halted: Vec<LaneId> = Vec::new();
@@ -116,18 +116,18 @@ impl Context<'_> {
     }
 
     /// The mark of the last tick that was reached.
-    pub(super) fn end(&self, tick: u64) -> Mark {
-        Mark { tick, sign: Sign::End, colour: self.palette.text, event: None }
+    pub(super) fn end(&self, tick: u64) -> TimelineMark {
+        TimelineMark { tick, sign: Sign::End, colour: self.palette.text, event: None }
     }
 
     /// The mark of the first difference from a recording.
-    pub(super) fn parting(&self) -> Option<Mark> {
+    pub(super) fn first_difference(&self) -> Option<TimelineMark> {
         let tick = self.compared?.tick();
-        Some(Mark { tick, sign: Sign::Parting, colour: self.palette.accent, event: None })
+        Some(TimelineMark { tick, sign: Sign::Parting, colour: self.palette.accent, event: None })
     }
 
     /// Moment, description and author of a mark.
-    pub(super) fn text(&self, mark: &Mark) -> String {
+    pub(super) fn text(&self, mark: &TimelineMark) -> String {
         let what = match mark.event {
             Some(event) => self.events[event].kind.words(self.scene),
             None if mark.sign == Sign::End => "the run has not gone further".into(),
@@ -172,16 +172,16 @@ fn setting(event: &Event) -> Option<(LaneId, impl Fn(&mut LaneSpec) + use<>)> {
 
 /// Groups marks in order. A mark less than `apart` points from the first of a group joins it.
 pub(super) fn grouped(
-    marks: impl Iterator<Item = Mark>,
-    x: impl Fn(&Mark) -> f32,
+    marks: impl Iterator<Item = TimelineMark>,
+    x: impl Fn(&TimelineMark) -> f32,
     apart: f32,
-) -> Vec<Group> {
-    let mut groups: Vec<Group> = Vec::new();
+) -> Vec<MarkGroup> {
+    let mut groups: Vec<MarkGroup> = Vec::new();
     for mark in marks {
         let x = x(&mark);
         match groups.last_mut() {
             Some(group) if x - group.x < apart => group.marks.push(mark),
-            _ => groups.push(Group { x, marks: vec![mark] }),
+            _ => groups.push(MarkGroup { x, marks: vec![mark] }),
         }
     }
     groups
@@ -313,7 +313,7 @@ mod tests {
 
     #[test]
     fn touching_marks_merge_under_the_most_important_sign() {
-        let mark = |tick, sign| Mark { tick, sign, colour: Color32::WHITE, event: None };
+        let mark = |tick, sign| TimelineMark { tick, sign, colour: Color32::WHITE, event: None };
         let marks = vec![
             mark(0, Sign::Kick),
             mark(3, Sign::Halt),
@@ -322,8 +322,10 @@ mod tests {
             mark(30, Sign::Input),
         ];
         let groups = grouped(marks.into_iter(), |mark| mark.tick as f32, 10.0);
-        let found: Vec<_> =
-            groups.iter().map(|group| (group.x, group.marks.len(), group.shown().tick)).collect();
+        let found: Vec<_> = groups
+            .iter()
+            .map(|group| (group.x, group.marks.len(), group.drawn_mark().tick))
+            .collect();
         assert_eq!(found, [(0.0, 3, 3), (10.0, 1, 10), (30.0, 1, 30)]);
         assert!(grouped(std::iter::empty(), |_| 0.0, 10.0).is_empty());
     }

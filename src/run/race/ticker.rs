@@ -7,7 +7,7 @@ use crate::scene::{Action, Scripted, nearest_tick};
 use crate::sim::TickRate;
 use crate::sim::integrators::StepFailure;
 
-/// A system that a [`Follow`] ticks.
+/// A system that a [`Ticker`] ticks.
 pub trait Ticked {
     /// Applies an action at time `t` (s), before tick `tick`.
     fn act(&mut self, tick: u64, t: f64, action: &Action);
@@ -26,13 +26,13 @@ pub trait Ticked {
 ///
 /// ```
 /// use std::ops::ControlFlow;
-/// use regatta::run::race::{Follow, Lane, StopReason};
+/// use regatta::run::race::{Ticker, Lane, StopReason};
 /// use regatta::scene::Scene;
 /// use regatta::sim::{Solver, integrators::method};
 ///
 /// let scene = Scene::built_in("spring").expect("a built-in scene");
 /// let lane = Lane::new(&scene, Solver::Method(method("rk4").expect("a method")), 1);
-/// let mut follow = Follow::new(lane, scene.tick_hz).with_script(&scene.script);
+/// let mut follow = Ticker::new(lane, scene.tick_hz).with_script(&scene.script);
 /// // Until the spring is past its place of rest.
 /// let stop = follow.run(600, |lane, _| match lane.bodies()[0].stepper.q()[0] > 0.0 {
 ///     true => ControlFlow::Continue(()),
@@ -42,7 +42,7 @@ pub trait Ticked {
 /// assert_eq!(follow.run(600, |_, _| ControlFlow::Continue(())), StopReason::End);
 /// ```
 #[derive(Clone, Debug)]
-pub struct Follow<'a, B> {
+pub struct Ticker<'a, B> {
     /// The system in its present state.
     pub body: B,
     script: Cow<'a, [Scripted]>,
@@ -54,7 +54,7 @@ pub struct Follow<'a, B> {
     max_work: u64,
 }
 
-/// Why a [`Follow`] stopped.
+/// Why a [`Ticker`] stopped.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StopReason {
     /// It reached the requested tick.
@@ -67,7 +67,7 @@ pub enum StopReason {
     Failed(StepFailure),
 }
 
-impl<'a, B: Ticked> Follow<'a, B> {
+impl<'a, B: Ticked> Ticker<'a, B> {
     /// `body` at its start, at a tick rate, without a script.
     pub fn new(body: B, tick_hz: impl Into<TickRate>) -> Self {
         Self {
@@ -92,7 +92,7 @@ impl<'a, B: Ticked> Follow<'a, B> {
     }
 
     /// Limits the work, in the unit of [`Ticked::has_worked_more`].
-    pub fn within(self, max_work: u64) -> Self {
+    pub fn with_max_work(self, max_work: u64) -> Self {
         Self { max_work, ..self }
     }
 
@@ -171,15 +171,15 @@ mod tests {
     }
 
     #[test]
-    fn stopping_after_each_tick_does_not_change_a_follow() {
+    fn stopping_after_each_tick_does_not_change_a_ticker() {
         let script = script();
-        let follow = || Follow::new(Log::default(), 4).from_time(10.0).with_script(&script);
-        let mut whole = follow();
+        let ticker = || Ticker::new(Log::default(), 4).from_time(10.0).with_script(&script);
+        let mut whole = ticker();
         let failed = whole.run(9, |_, _| ControlFlow::Continue(()));
         assert!(
             matches!(failed, StopReason::Failed(_)) && whole.ticks() == 3 && whole.t() == 10.75
         );
-        let mut sliced = follow();
+        let mut sliced = ticker();
         for ticks in 1..=3 {
             let stop = match ticks {
                 2 => sliced.run(ticks, |_, _| ControlFlow::Continue(())),
@@ -204,12 +204,12 @@ mod tests {
     }
 
     #[test]
-    fn a_follow_stops_after_the_tick_that_exceeds_its_work() {
-        let follow = || Follow::new(Log::default(), 4).within(1);
-        let mut stopped = follow();
+    fn a_ticker_stops_after_the_tick_that_exceeds_its_work() {
+        let ticker = || Ticker::new(Log::default(), 4).with_max_work(1);
+        let mut stopped = ticker();
         assert_eq!(stopped.run(3, |_, _| ControlFlow::Continue(())), StopReason::TooMuchWork);
         assert_eq!(stopped.ticks(), 2);
-        let mut whole = follow();
+        let mut whole = ticker();
         assert_eq!(whole.run(2, |_, _| ControlFlow::Continue(())), StopReason::End);
     }
 }
