@@ -79,6 +79,8 @@ pub struct Findings {
     pub(crate) request: AnalysisRequest,
     /// The last verdict on each method of the list. It may answer an earlier request about the same scene.
     pub(crate) verdicts: Vec<Option<Verdict>>,
+    /// Number of verdicts, from the first, that answer this request.
+    pub(crate) judged: usize,
     pub(crate) advice: Option<Advice>,
     pub(crate) map: Option<StabilityMap>,
     /// Whether the request is answered in full.
@@ -369,6 +371,7 @@ impl AnalysisWorker {
         Findings {
             request: self.request.clone(),
             verdicts: self.verdicts.clone(),
+            judged: self.judged,
             advice,
             map: self.mapping.as_ref().filter(|_| self.request.map.is_some()).map(MapWork::map),
             complete: self.is_done(),

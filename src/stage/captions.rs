@@ -14,6 +14,8 @@ use crate::sim::number::{round, significant};
 use crate::studio::Studio;
 use crate::studio::{shown_state, shown_truth};
 
+/// Opacity of the sign of a verdict at a former tick rate.
+const STALE: f32 = 0.35;
 /// Room of a scale bar at the right of a cell, in points.
 const BAR_MARGIN: f32 = 130.0;
 /// Height of a chip, in points.
@@ -301,9 +303,15 @@ impl Chip {
         }
         // The run on the screen differs from the judged one.
         let is_other = moment.studio.deck.is_judged_apart();
+        let viewer = &moment.studio.viewer;
+        let is_current = viewer.is_judged_at(entry, moment.studio.clock().tick_hz());
+        let tone = palette.of_severity(severity);
         Some(Self {
             sign: outcome.sign().glyph(),
-            colours: [palette.of_severity(severity), moment.style(entry).0],
+            colours: [
+                if is_current || halt.is_some() { tone } else { faded(tone, STALE) },
+                moment.style(entry).0,
+            ],
             verdict: match halt {
                 Some(halt) => halt.fate(),
                 None if is_other => verdict.wordings_of_another_run(false)[0].clone(),

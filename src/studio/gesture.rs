@@ -31,6 +31,10 @@ pub static GESTURES: &[Gesture] = &[
     },
     Gesture { shown: "Click a heading", about: "sort the table by it" },
     Gesture {
+        shown: "Drag the tick rate",
+        about: "time waits, and the next second unfolds under each method",
+    },
+    Gesture {
         shown: "Drag the cross",
         about: "stability map: set the tick rate and the parameter",
     },
