@@ -5,7 +5,7 @@ use super::moment::DrawContext;
 use super::sketch::Camera;
 use super::{Align, Picture, captions};
 use crate::look::Framing;
-use crate::measure::{Future, FutureMoment};
+use crate::measure::{FutureCurve, FutureMoment};
 use crate::studio::futures;
 
 /// Half the width of a thread, and of the exact one, in points.
@@ -27,7 +27,7 @@ pub(super) fn draw(
 ) {
     let (palette, clip) = (moment.palette, camera.rect);
     let mut ends: Vec<([f32; 2], usize)> = Vec::new();
-    for Future { entry, moments } in futures(&moment.studio.deck, body).iter().rev() {
+    for FutureCurve { entry, moments } in futures(&moment.studio.deck, body).iter().rev() {
         let now_s = moments[0].t;
         let place = |at: &FutureMoment| match framing {
             Framing::Recorder { .. } => camera.paper_point(at.at, at.t - now_s),
