@@ -6,7 +6,7 @@ use super::moment::{DrawContext, has_several_coordinates};
 use super::sketch::{Camera, rounded};
 use super::{Align, Label, Picture, Rect, breakpoints};
 use crate::look::Look;
-use crate::look::palette::{Palette, Rgba, faded};
+use crate::look::palette::{Palette, Rgba, fade};
 use crate::measure::{Outcome, Severity};
 use crate::run::race::{Entrant, Halt, LaneBody};
 use crate::scene::Mark;
@@ -224,7 +224,7 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
         None => {
             let truth = &studio.race().truth().bodies()[index];
             let (q, v) = shown_truth(&studio.deck, &studio.viewer, index);
-            Look::of(truth).promise(&q, &v).unwrap_or_default()
+            Look::of(truth).describe_motion(&q, &v).unwrap_or_default()
         }
     };
     (words, palette.dim)
@@ -309,7 +309,7 @@ impl Chip {
         Some(Self {
             sign: outcome.sign().glyph(),
             colours: [
-                if is_current || halt.is_some() { tone } else { faded(tone, STALE) },
+                if is_current || halt.is_some() { tone } else { fade(tone, STALE) },
                 moment.style(entry).0,
             ],
             verdict: match halt {
@@ -405,7 +405,7 @@ pub(super) fn ghost_name(
 pub(super) fn course(picture: &mut Picture, camera: &Camera, beam: f32, palette: &Palette) {
     let Rect { min, max } = camera.rect;
     let y = camera.points(DVec2::new(0.0, camera.centre_m.y))[1];
-    let chart = faded(palette.chart, 0.45);
+    let chart = fade(palette.chart, 0.45);
     picture.pen(camera.rect).dashed([[min[0], y], [max[0], y]], 1.0, chart, [8.0, 5.0]);
     if max[0] - min[0] < breakpoints::MARKS || max[1] - min[1] < breakpoints::SCALE_BAR {
         return;
@@ -448,7 +448,7 @@ pub(super) fn plate(
 ) {
     let shape = rounded(min, max, 7.0);
     let pen = &mut picture.pen(clip);
-    pen.fill(&shape, faded(palette.panel, 0.94));
+    pen.fill(&shape, fade(palette.panel, 0.94));
     pen.ring(&shape, 1.6, rim);
 }
 

@@ -5,7 +5,7 @@ use super::moment::DrawContext;
 use super::sketch::Camera;
 use super::{Align, Picture, captions};
 use crate::look::Framing;
-use crate::measure::{Future, FutureMoment};
+use crate::measure::{FutureCurve, FutureMoment};
 use crate::studio::futures;
 
 /// Half the width of a thread, and of the exact one, in points.
@@ -17,6 +17,8 @@ const APART: f32 = 7.0;
 /// Room for a digit at the end of a thread, and for the word at the end of the exact one, in points.
 const DIGIT: f32 = 15.0;
 const WORD: f32 = 40.0;
+/// Least distance of a digit from the edge of the stage, in points.
+const MARGIN: f32 = 10.0;
 
 /// Draws the futures of a body.
 pub(super) fn draw(
@@ -32,7 +34,7 @@ pub(super) fn draw(
     // The truth comes last, over the others, and below it the first method.
     let methods = futures.len().saturating_sub(1);
     futures[..methods].reverse();
-    for Future { entry, moments } in &futures {
+    for FutureCurve { entry, moments } in &futures {
         let now_s = moments[0].t;
         let place = |at: &FutureMoment| match framing {
             Framing::Recorder { .. } => camera.paper_point(at.at, at.t - now_s),
@@ -46,8 +48,14 @@ pub(super) fn draw(
         if places.len() > 1 {
             picture.pen(clip).path(places.iter().copied(), width, colour);
         }
-        if let Some(end) = places.iter().rev().find(|at| clip.contains(**at)) {
-            ends.push((*end, *entry));
+        // A thread that leaves the stage ends at its edge.
+        if let Some(end) =
+            places.iter().position(|at| !clip.contains(*at)).or(places.len().checked_sub(1))
+        {
+            let at = [0, 1].map(|axis| {
+                places[end][axis].clamp(clip.min[axis] + MARGIN, clip.max[axis] - MARGIN)
+            });
+            ends.push((at, *entry));
         }
         if entry.is_none() {
             continue;

@@ -8,7 +8,7 @@ use super::framed::BodyView;
 use super::moment::DrawContext;
 use super::sketch::{Camera, circle};
 use super::{Align, Label, Picture, Rect};
-use crate::look::palette::{Palette, faded, mixed};
+use crate::look::palette::{Palette, fade, mix};
 use crate::run::race::Entrant;
 use crate::sim::number::{round, significant, superscript};
 use crate::studio::Motion;
@@ -156,7 +156,7 @@ fn draw_landmark(
 ) {
     let (length, clip) = (camera.length(landmark.length_m), camera.rect);
     let [y, below, _] = FEET.map(|foot| clip.max[1] - foot);
-    let tone = faded(mixed(palette.chart, palette.sea[1], 0.25), 0.5 * strength);
+    let tone = fade(mix(palette.chart, palette.sea[1], 0.25), 0.5 * strength);
     let pen = &mut picture.pen(clip);
     let point = |[across, up]: &[f32; 2]| [left + length * across, y - length * up];
     for part in landmark.silhouette {
@@ -168,7 +168,7 @@ fn draw_landmark(
             Outline(corners) => pen.fill(&corners.iter().map(point).collect::<Vec<_>>(), tone),
         }
     }
-    let colour = faded(palette.dim, strength);
+    let colour = fade(palette.dim, strength);
     captions::span_line(picture, ([left, left + length], below), (1.0, 4.0), colour, clip);
     let words = format!("{}, {}", landmark.names[0], landmark.length);
     let at = [left + length / 2.0, below + 13.0];

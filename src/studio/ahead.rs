@@ -4,7 +4,7 @@ use super::Studio;
 use super::deck::Deck;
 use super::viewer::Viewer;
 use crate::measure;
-use crate::measure::{Future, OneStep};
+use crate::measure::{FutureCurve, OneStep};
 use crate::sim::stability::Tick;
 
 /// The anatomy of the next tick of the displayed body in the selected lane. `None` if the body has halted. While a
@@ -47,7 +47,7 @@ pub fn shows_futures(studio: &Studio) -> bool {
 
 /// The next second of the body with this index in the scene, in the selected lane; the truth comes last. Empty if the
 /// body has halted, or has too many coordinates.
-pub fn futures(deck: &Deck, body: usize) -> Vec<Future> {
+pub fn futures(deck: &Deck, body: usize) -> Vec<FutureCurve> {
     let of = &deck.selected().lane.bodies()[body];
     let held = deck.held().filter(|held| held.body == body);
     let held = held.map(|held| (&*held.q, &*held.v));

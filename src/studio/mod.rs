@@ -53,7 +53,7 @@ mod viewer;
 mod work;
 mod zoom_pan;
 
-pub use crate::measure::{Future, FutureMoment, OneStep, Slope};
+pub use crate::measure::{FutureCurve, FutureMoment, OneStep, Slope};
 pub use ahead::{futures, one_step, orbit, shows_futures};
 pub use clouding::{accept_cloud, cloud_refusal, cloud_request, complete_clouds, shown_cloud};
 pub use command::{

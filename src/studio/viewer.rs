@@ -15,7 +15,7 @@ use crate::measure::cloud::{CloudChoice, FoundCloud};
 use crate::measure::{Advice, Findings, StabilityMap, Verdict};
 use crate::run::MenuIndex;
 use crate::run::race::{Interpolation, Mode};
-use crate::scene::{LaneSpec, Mistake, Scene};
+use crate::scene::{LaneSpec, Scene, ShownError};
 use crate::sim::TickRate;
 use crate::tools::source_code::Language;
 
@@ -32,14 +32,14 @@ pub enum Dialog {
         /// Whether the file is a recording to compare with the run.
         compares: bool,
         /// Why the scene at the typed path could not be opened; `None` once the path is edited.
-        refused: Option<Vec<Mistake>>,
+        refused: Option<Vec<ShownError>>,
     },
     /// The errors of a scene file.
     Mistakes {
         /// Name of the file.
         file: String,
         /// The errors.
-        report: Vec<Mistake>,
+        report: Vec<ShownError>,
     },
 }
 

@@ -24,6 +24,8 @@ const WIDTH: f32 = 52.0;
 const MAX_HEIGHT: f32 = 320.0;
 const LEFT: f32 = 1.0;
 const FOOT: f32 = 44.0;
+/// From the left of the strip to the line, in points.
+const LINE: f32 = 16.0;
 /// Share of the stage above the scale: the first body with its name and its mooring.
 const ABOVE: f32 = 0.22;
 /// Height of the handle, and the distance within which it snaps to a mark, in points.
@@ -136,7 +138,7 @@ fn paint(ui: &Ui, line: Rect, tick_hz: TickRate, response: &Response) {
     let (palette, painter) = (palette(ui), ui.painter());
     let is_lit = response.hovered() || response.has_focus() || response.dragged();
     let quiet = if is_lit { palette.text } else { palette.dim };
-    let (x, y) = (line.center().x, y_of(line, tick_hz.into()));
+    let (x, y) = (line.left() + LINE, y_of(line, tick_hz.into()));
     painter.line_segment(
         [pos2(x, line.top()), pos2(x, line.bottom())],
         Stroke::new(2.0, quiet.gamma_multiply(0.6)),
@@ -154,8 +156,7 @@ fn paint(ui: &Ui, line: Rect, tick_hz: TickRate, response: &Response) {
     let words = painter.layout_no_wrap(words, strong_font(12.0), palette.text);
     let size = vec2((words.size().x + 8.0).max(WIDTH - 4.0), HANDLE);
     // A long number reaches over the stage.
-    let handle = Rect::from_center_size(pos2(x, y), size);
-    let handle = handle.translate(vec2((line.left() + 2.0 - handle.left()).max(0.0), 0.0));
+    let handle = Rect::from_min_size(pos2(line.left() + 2.0, y - HANDLE / 2.0), size);
     let rim = if is_lit { palette.accent } else { palette.dim };
     painter.rect(
         handle,

@@ -8,7 +8,7 @@ use super::plot_set::{
     EXACT, ExactLine, PlotAxis, PlotModel, PlotSet, origin, over_time, time_in_view,
 };
 use crate::look::{Framing, Look};
-use crate::measure::Future;
+use crate::measure::FutureCurve;
 use crate::run::past::Quantity;
 use crate::stage::Coordinate;
 use crate::studio::{Studio, futures, shows_futures};
@@ -94,7 +94,7 @@ fn future_curves(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve>
         return Vec::new();
     }
     let palette = palette_of(studio.display().theme);
-    let curve = |future: Future| {
+    let curve = |future: FutureCurve| {
         let style = match future.entry {
             Some(entry) => {
                 let (colour, _) = palette.style(studio.entries(), &studio.entries()[entry]);
