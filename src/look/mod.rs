@@ -18,6 +18,7 @@ mod custom;
 mod density;
 mod follow;
 mod helm;
+pub(crate) mod landmarks;
 mod law;
 mod net;
 mod orbit;

@@ -12,7 +12,7 @@ use crate::run::race::{Entrant, Halt, LaneBody};
 use crate::scene::Mark;
 use crate::sim::number::{round, significant};
 use crate::studio::Studio;
-use crate::studio::{shown_state, shown_truth};
+use crate::studio::{shown_state, shown_truth, slowed_in_words};
 
 /// Opacity of the sign of a verdict at a former tick rate.
 const STALE: f32 = 0.35;
@@ -224,7 +224,9 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
         None => {
             let truth = &studio.race().truth().bodies()[index];
             let (q, v) = shown_truth(&studio.deck, &studio.viewer, index);
-            Look::of(truth).describe_motion(&q, &v).unwrap_or_default()
+            let motion = Look::of(truth).describe_motion(&q, &v);
+            let slowed = slowed_in_words(&studio.deck, &studio.viewer).filter(|_| index == 0);
+            motion.into_iter().chain(slowed).collect::<Vec<_>>().join(" · ")
         }
     };
     (words, palette.dim)

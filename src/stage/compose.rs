@@ -95,7 +95,10 @@ fn overlay(
     }
     for (index, ((ghost, view), cell)) in ghosts.iter().zip(&views).zip(&cells).enumerate() {
         let camera = moment.camera(*cell, index, view);
-        let of_body = BodyCell { moment, index, ghost, view, camera, lanes: entrants, front };
+        let mut of_body = BodyCell { moment, index, ghost, view, camera, lanes: entrants, front };
+        if of_body.has_outgrown() {
+            of_body.camera = universe::with_short_paper(&camera);
+        }
         of_body.draw(picture);
         captions::name(picture, *cell, moment, index);
         if moment.studio.mode() == Mode::Solo {
@@ -195,10 +198,7 @@ impl BodyCell<'_> {
         let truth = &studio.race().truth().bodies()[index];
         let shows_ghost = studio.display().ghost && truth.halted().is_none();
         self.ground(picture, shows_ghost);
-        let has_outgrown = studio.mode() == Mode::Solo
-            && view.zoomed_as == index
-            && !self.shows_futures()
-            && universe::is_shown(moment, view, camera);
+        let has_outgrown = self.has_outgrown();
         if has_outgrown {
             universe::landmarks(picture, camera, palette);
         }
@@ -354,6 +354,14 @@ impl BodyCell<'_> {
 
     fn is_front(&self, lane: &Entrant) -> bool {
         lane.id == self.front.id
+    }
+
+    /// Whether the body has outgrown the stage, so that landmarks show its scale.
+    fn has_outgrown(&self) -> bool {
+        self.moment.studio.mode() == Mode::Solo
+            && self.view.zoomed_as == self.index
+            && !self.shows_futures()
+            && universe::is_shown(self.moment, self.view, &self.camera)
     }
 
     /// Whether the cell shows the body's futures instead of its trail.

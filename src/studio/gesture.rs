@@ -17,10 +17,7 @@ pub static GESTURES: &[Gesture] = &[
     },
     Gesture { shown: "Wheel, pinch", about: "zoom the stage, a plot, the timeline" },
     Gesture { shown: "Drag the water", about: "pan; in a plot too" },
-    Gesture {
-        shown: "Double click",
-        about: "fit the view; on a number in the inspector: type a value",
-    },
+    Gesture { shown: "Double click", about: "fit the view; on a number in Edit: type a value" },
     Gesture {
         shown: "Click a lane",
         about: "select it, in the table, on the stage or on its curve; solo: switch to its method",

@@ -153,6 +153,8 @@ pub struct Viewer {
     /// The last frames of the studio's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
+    /// Time for which the clouds of the scene have shown their start, in nanoseconds.
+    pub(super) start_shown_ns: i64,
     /// The latest clouds.
     pub(super) cloud: Option<FoundCloud>,
     /// Tick rate (Hz) when the pointer's button went down, while it is down.

@@ -17,8 +17,9 @@ const MOMENTS: u64 = 60;
 const MAX_TICKS: u64 = 3000;
 /// How far a point of a lone cloud may lie beyond the cloud's middle half, in widths of that half.
 const MAX_STRAY_WIDTHS: f64 = 3.0;
-/// How far other clouds may widen the axes, in widths of the exact cloud.
+/// How far other clouds may widen the axes of a run and those at one moment, in widths of the exact cloud.
 const MAX_WIDENING: f64 = 0.1;
+const MAX_WIDENING_AT_ONCE: f64 = 0.25;
 
 /// The moments that a picture covers: `times` of them, spread evenly over the first `ticks` of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,8 +95,8 @@ impl CloudAxes {
     }
 
     /// The view at one moment, given the exact border and some points of each cloud. With one cloud, it shows all of
-    /// its points that stay together. With several, it shows those within the whole region, on axes no larger than
-    /// that region.
+    /// its points that stay together. With several, it fits the exact cloud, with a little room for the others, on
+    /// axes no larger than the whole region.
     pub(super) fn around(&self, border: &[[f64; 2]], clouds: &[Vec<[f64; 2]>]) -> PlaneView {
         let mut view = self.whole;
         let is_alone = clouds.len() == 1;
@@ -106,7 +107,8 @@ impl CloudAxes {
             [cloud] => without_strays(cloud),
             _ => clouds.concat().into_iter().filter(is_in_whole).collect(),
         };
-        let near = PlaneView::around(border, &seen, f64::INFINITY, false);
+        let widening = if is_alone { f64::INFINITY } else { MAX_WIDENING_AT_ONCE };
+        let near = PlaneView::around(border, &seen, widening, false);
         for (i, (range, [low, high])) in
             [(&mut view.q, near.q), (&mut view.v, near.v)].into_iter().enumerate()
         {

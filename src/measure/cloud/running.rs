@@ -276,6 +276,7 @@ impl CloudRun {
                 entry: *entry,
                 lost: cloud.q().len() - cloud.points_left(),
                 hidden: cloud.hidden(&density),
+                beyond: cloud.beyond(view),
                 density: Arc::new(density),
                 area_ratio,
                 words: cloud.in_words(area_ratio, areas.iter().map(|[_, area]| *area)),

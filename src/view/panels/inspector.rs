@@ -38,10 +38,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.spacing_mut().interact_size.y = LINE;
     ui.spacing_mut().button_padding.y = 1.0;
     ui.horizontal(|ui| {
-        ui.label(RichText::new("Inspector").size(14.0).strong());
+        ui.label(RichText::new("Edit").size(14.0).strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if named_button(ui, Button::new("×").frame(false), "close the inspector (E)").clicked()
-            {
+            if named_button(ui, Button::new("×").frame(false), "close Edit (E)").clicked() {
                 commands.push(Command::Run(RunCommand::ToggleInspector));
             }
             let restoring = restore_commands(studio);

@@ -10,7 +10,8 @@ use crate::loops::loop_lab::LoopCommand;
 use crate::run::race::Mode;
 use crate::scene::{SCENES, Scene};
 use crate::studio::{
-    Command, RunCommand, SPEED_LADDER, StageCommand, Step, Studio, ViewCommand, shown_s, shown_tick,
+    Command, RunCommand, SPEED_LADDER, StageCommand, Step, Studio, ViewCommand, shown_s,
+    shown_tick, slowed_in_words,
 };
 use crate::view::theme::{TYPE, palette, strong_font};
 
@@ -59,7 +60,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
                     match is_wide {
                         true => {
                             let tick = shown_tick(&studio.deck, &studio.viewer);
-                            format!("t = {t:.3} s · tick {tick}")
+                            let slowed = slowed_in_words(&studio.deck, &studio.viewer);
+                            let slowed = slowed.map(|words| format!(" · {words}"));
+                            format!("t = {t:.3} s · tick {tick}{}", slowed.unwrap_or_default())
                         }
                         false => format!("{t:.3} s"),
                     }
@@ -157,7 +160,7 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
         false => Command::Stage(StageCommand::ToggleRace),
     };
     let is_in = |mode: Mode| !is_in_loops && studio.mode() == mode;
-    let loops = if width >= breakpoints::WORDS_IN_TOP_BAR { "Loop lab" } else { "Loops" };
+    let loops = "Loop lab";
     let parts = [
         (
             "Solo",
@@ -241,7 +244,7 @@ fn tick_rate(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 }
 
 fn inspector_button(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
-    let (is_open, about) = (studio.display().inspector, "inspector (E)");
+    let (is_open, about) = (studio.display().inspector, "edit parameters, methods and rates (E)");
     let response = ui.add(Button::new("Edit").selected(is_open)).on_hover_text(about);
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_open, about));
     if response.clicked() {
