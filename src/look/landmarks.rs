@@ -124,14 +124,15 @@ pub(crate) static LANDMARKS: [Landmark; 14] = [
     ]),
 ];
 
+/// Powers of ten between landmarks that count as one.
+const LEAST_DECADES: f64 = 0.3;
+
 /// Powers of ten from one landmark to the next, for a view of this width in metres. Infinite beyond the last.
 pub(crate) fn decades_to_next(width_m: f64) -> f64 {
     let next = LANDMARKS.iter().position(|landmark| landmark.length_m > width_m);
-    match next {
-        Some(0) => libm::log10(LANDMARKS[1].length_m / LANDMARKS[0].length_m),
-        Some(next) => libm::log10(LANDMARKS[next].length_m / LANDMARKS[next - 1].length_m),
-        None => f64::INFINITY,
-    }
+    let Some(next) = next else { return f64::INFINITY };
+    let [from, to] = [next.max(1) - 1, next.max(1)].map(|index| LANDMARKS[index].length_m);
+    libm::log10(to / from).max(LEAST_DECADES)
 }
 
 #[cfg(test)]

@@ -22,6 +22,8 @@ const STANDS_OUT: f64 = 4.0;
 /// any swing that people wait for.
 const MEASURED: usize = 4;
 const REMEMBERED_S: f64 = 2.0;
+/// Time over which a slow growth is measured, in seconds.
+const SWING_S: f64 = 1.0;
 
 /// Adds a frame of `frame_ns` nanoseconds of real time to a run: see
 /// [`Studio::advance_in_time`](super::Studio::advance_in_time).
@@ -158,11 +160,20 @@ pub fn slowed_in_words(deck: &Deck, viewer: &Viewer) -> Option<String> {
 fn growth(history: &History, base_m: f64) -> (f64, f64) {
     let newest = history.samples().rev();
     let Some(now) = newest.clone().next() else { return (0.0, base_m) };
-    let Some(then) = newest.clone().nth(MEASURED) else { return (0.0, base_m) };
     let reach = |from: usize| {
         let lately = newest.clone().skip(from).take_while(|sample| now.t - sample.t < REMEMBERED_S);
         lately.map(|sample| sample.at.length()).fold(base_m, f64::max)
     };
     let reach_m = reach(0);
-    (libm::log10(reach_m / reach(MEASURED)) / (now.t - then.t), reach_m)
+    let since = |count: usize| {
+        let then = newest.clone().nth(count);
+        then.map_or(0.0, |then| libm::log10(reach_m / reach(count)) / (now.t - then.t))
+    };
+    let sudden = since(MEASURED);
+    if sudden > MAX_ZOOM {
+        return (sudden, reach_m);
+    }
+    // Over a swing or more: a swing grows only on its way out.
+    let lately = newest.clone().take_while(|sample| now.t - sample.t <= SWING_S);
+    (since(lately.count().max(MEASURED + 1) - 1), reach_m)
 }

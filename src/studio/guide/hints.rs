@@ -236,7 +236,9 @@ mod tests {
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 9\nx0_m = 1\n";
         let mut studio = Studio::new(Scene::parse("mine.toml", text).unwrap());
         let asks_for = |studio: &Studio, key: &str| studio.hint().expect("a lead").contains(key);
-        assert!(asks_for(&studio, "`C`"), "it was just opened");
+        assert!(asks_for(&studio, "`[`"), "it was just opened");
+        studio.apply(StageCommand::TickHz(60.into()));
+        assert!(asks_for(&studio, "`C`"));
         studio.apply(StageCommand::Pick(1));
         assert!(asks_for(&studio, "`C`"), "it starts under the other method");
         studio.tick();
@@ -257,6 +259,8 @@ mod tests {
         studio.apply(StageCommand::Tick(Step::Previous));
         assert_eq!(text(&studio), own);
         studio.apply(StageCommand::Pick(1));
+        assert!(text(&studio).starts_with("Drag the tick rate"));
+        studio.apply(StageCommand::TickHz(60.into()));
         assert!(text(&studio).contains("`Home`"));
         studio.apply(StageCommand::Restart);
         assert!(text(&studio).contains("`C`"));
@@ -266,7 +270,6 @@ mod tests {
         (0..90).for_each(|_| studio.tick());
         assert!(text(&studio).contains("`D`"), "going back was done before");
         studio.apply(StageCommand::InstrumentBeside(Step::Next));
-        studio.apply(StageCommand::TickRate(Step::Next));
         assert!(text(&studio).contains("`F2`"));
         let open = |studio: &mut Studio, name: &str| {
             let place = SCENES.iter().position(|scene| scene.name == name);

@@ -438,10 +438,13 @@ mod tests {
         for size in SIZES {
             let (stage, texts) = shown(&studio, size);
             let beside = |(at, _): &&(Pos2, String)| at.x > stage.right();
-            let title = texts.iter().find(|(_, words)| words == "Inspector").expect("a title").0.y;
+            // The top bar has a button of that name.
+            let is_title = |(at, words): &&(Pos2, String)| {
+                at.y > super::super::top_bar::HEIGHT && words == "Edit"
+            };
+            let title = texts.iter().find(is_title).expect("a title").0.y;
             let over = texts.iter().filter(beside).filter(|(at, words)| {
-                (at.y - title).abs() < 9.0
-                    && !["Inspector", "↺ Restore all", "×"].contains(&&**words)
+                (at.y - title).abs() < 9.0 && !["Edit", "↺ Restore all", "×"].contains(&&**words)
             });
             let over: Vec<_> = over.collect();
             assert!(over.is_empty(), "{size:?}: {over:?}");

@@ -160,7 +160,6 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
         false => Command::Stage(StageCommand::ToggleRace),
     };
     let is_in = |mode: Mode| !is_in_loops && studio.mode() == mode;
-    let loops = "Loop lab";
     let parts = [
         (
             "Solo",
@@ -174,7 +173,12 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
             is_in(Mode::Race),
             to_mode(Mode::Race),
         ),
-        (loops, "see one motion in every game loop, in slow motion (L)", is_in_loops, toggle_loops),
+        (
+            "Loop lab",
+            "see one motion in every game loop, in slow motion (L)",
+            is_in_loops,
+            toggle_loops,
+        ),
     ];
     let frame = Frame::new().fill(palette(ui).raised).corner_radius(5.0);
     frame.show(ui, |ui| {
