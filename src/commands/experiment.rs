@@ -34,7 +34,8 @@ pub(super) struct ExperimentArgs {
 
     /// A method (`regatta list methods`), or several
     ///
-    /// Give the option again for each, to race them. A file that ends in .step is a method of your own: `regatta help step`.
+    /// Give the option again for each, to race them. A file that ends in .step is a method of your own: `regatta help
+    /// step`.
     #[arg(long = "method", value_name = "ID|FILE", value_parser = METHOD_OR_FILE)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,

@@ -69,7 +69,8 @@ pub(super) struct SweepArgs {
 
     /// A method, or several [default: all]
     ///
-    /// `regatta list methods` has them. Give the option again for each. A file that ends in .step is a method of your own.
+    /// `regatta list methods` has them. Give the option again for each. A file that ends in .step is a method of your
+    /// own.
     #[arg(long = "method", value_name = "ID|FILE", value_parser = METHOD_OR_FILE)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,

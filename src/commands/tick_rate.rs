@@ -34,8 +34,8 @@ impl TickRateArgs {
 pub(super) struct TickRatesArgs {
     /// Tick rates in Hz, separated by commas
     ///
-    /// From 0.01 to 10000, with at most nine digits after the point, or ratios such as 60000/1001; by default octaves about
-    /// the scene's own.
+    /// From 0.01 to 10000, with at most nine digits after the point, or ratios such as 60000/1001; by default octaves
+    /// about the scene's own.
     #[arg(long, value_name = "N", value_delimiter = ',', allow_negative_numbers = true)]
     tick_hz: Vec<TickRate>,
 

@@ -1,8 +1,8 @@
 //! The loop of a driver, without a clock and without a screen: commands → ticks → picture → commands.
 //!
 //! A driver counts time in nanoseconds from any origin. For each frame it calls [`begin`](FrameLoop::begin), executes
-//! the requests, calls [`advance`](FrameLoop::advance), draws, and calls [`end`](FrameLoop::end) with the commands of the
-//! panels.
+//! the requests, calls [`advance`](FrameLoop::advance), draws, and calls [`end`](FrameLoop::end) with the commands of
+//! the panels.
 
 use super::pace::PaceMeter;
 use super::{Command, DriverRequest, Studio, ViewCommand};

@@ -7,8 +7,8 @@ use crate::sim::law::{ExpressionFault, OwnLines, Remedy, RuleBody};
 use crate::sim::number::significant;
 use crate::sim::{check_own_id, own_method_id, own_rule};
 
-/// Frames of each lane per tick. A tick lasts two frames of the author, so the second lane runs at the author's rate, the
-/// first at half of it and the last at twice.
+/// Frames of each lane per tick. A tick lasts two frames of the author, so the second lane runs at the author's rate,
+/// the first at half of it and the last at twice.
 const SUBSTEPS: [u32; 3] = [1, 2, 4];
 /// Length of each of three starts: this many settling times, or this many swings if the rule never settles.
 const SETTLINGS: f64 = 1.5;
@@ -79,8 +79,8 @@ pub fn rule_scene(file: &str, text: &str, fps: TickRate) -> Result<Scene, SceneE
     Scene::parse(&id, &text)
 }
 
-/// Writes the body as a table of a scene. It starts 1 m from its rest with the velocity `v0` (m/s); a coasting body starts
-/// at 1 m/s.
+/// Writes the body as a table of a scene. It starts 1 m from its rest with the velocity `v0` (m/s); a coasting body
+/// starts at 1 m/s.
 fn body_table(id: &str, body: RuleBody, v0: f64) -> String {
     match body {
         RuleBody::Follower { rate } => format!(

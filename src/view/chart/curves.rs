@@ -137,8 +137,9 @@ pub(super) fn choose_drawing(
     CurveDrawing::Line(runs, [drawn, if is_crowded { 0.0 } else { gap }])
 }
 
-/// Draws a curve within the painter's clip, as [`choose_drawing`] chooses. A line reaches the painter as a [`StrokeMesh`] for
-/// [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether the curve is more than its dots.
+/// Draws a curve within the painter's clip, as [`choose_drawing`] chooses. A line reaches the painter as a
+/// [`StrokeMesh`] for [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether the curve is more than its
+/// dots.
 pub(super) fn paint(painter: &Painter, curve: &ScreenCurve) -> bool {
     let colour = curve.style.colour;
     let (seen, px_per_point) = (painter.clip_rect(), painter.pixels_per_point());
