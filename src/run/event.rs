@@ -95,5 +95,6 @@ fn what_was_done(action: &Action, solo: Option<LaneId>, scene: &Scene) -> String
         Action::Kick(1.0) => "kick".into(),
         Action::Kick(times) => format!("kick ×{}", round(times, 3)),
         Action::Place { body, .. } => format!("{} is moved by hand", scene.bodies[body].name),
+        Action::Push { body, .. } => format!("{} is pulled by hand", scene.bodies[body].name),
     }
 }

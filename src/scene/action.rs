@@ -62,6 +62,13 @@ pub enum Action {
         /// Its velocities.
         v: Box<[f64]>,
     },
+    /// Changes the velocities of a body by an impulse, in every lane and in truth.
+    Push {
+        /// The body's index in the scene.
+        body: usize,
+        /// The change of each velocity, in the coordinate's unit per second.
+        by: Box<[f64]>,
+    },
     /// Leaves only this lane in the race.
     Solo {
         /// The lane.
@@ -81,9 +88,9 @@ impl Action {
     /// Whether it changes the body at this index of the scene, provided that the body takes it.
     pub(crate) fn acts_on(&self, body: usize) -> bool {
         match self {
-            Action::Set { body: changed, .. } | Action::Place { body: changed, .. } => {
-                *changed == body
-            }
+            Action::Set { body: changed, .. }
+            | Action::Place { body: changed, .. }
+            | Action::Push { body: changed, .. } => *changed == body,
             other => other.input().is_some(),
         }
     }
@@ -95,6 +102,11 @@ impl Action {
                 stepper.set_parameter(t, *parameter, *value);
             }
             Action::Place { q, v, .. } => stepper.set(t, q, v),
+            Action::Push { by, .. } => {
+                let q: Vec<f64> = stepper.q().into();
+                let v: Vec<f64> = stepper.v().iter().zip(by).map(|(v, by)| v + by).collect();
+                stepper.set(t, &q, &v);
+            }
             other => {
                 if let Some(input) = other.input() {
                     stepper.input(t, input);
@@ -133,6 +145,7 @@ impl Action {
             Action::Kick(_) => "the kick",
             Action::Set { .. } => "the parameter",
             Action::Place { .. } => "the placement",
+            Action::Push { .. } => "the pull",
             Action::Solo { .. } => "the end of the race",
         }
     }
@@ -148,7 +161,9 @@ impl Action {
             Action::Throttle(_) => Some(Control::Throttle),
             Action::Rudder(_) => Some(Control::Rudder),
             Action::Set { body, parameter, .. } => Some(Control::Parameter { body, parameter }),
-            Action::Kick(_) | Action::Place { .. } | Action::Solo { .. } => None,
+            Action::Kick(_) | Action::Place { .. } | Action::Push { .. } | Action::Solo { .. } => {
+                None
+            }
         }
     }
 }

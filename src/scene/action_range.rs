@@ -21,6 +21,7 @@ impl Action {
             }
             Action::TickHz(tick_hz) => tick_hz.is_in_range(),
             Action::Kick(value) | Action::Set { value, .. } => value.abs() <= MAX_VALUE,
+            Action::Push { by, .. } => by.iter().all(|x| x.abs() <= MAX_COORDINATE),
             Action::Place { q, v, .. } => q.iter().chain(&v[..]).all(|x| x.abs() <= MAX_COORDINATE),
         };
         is_in_range.then_some(self)

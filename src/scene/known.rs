@@ -29,7 +29,7 @@ pub struct SceneKey {
 /// [`BODIES`](crate::sim::bodies::BODIES) have a `name` and their parameters.
 pub fn scene_tables() -> Vec<(String, Vec<SceneKey>)> {
     let array = |name: &str| format!("[[{name}]]");
-    let [set, place] = OF_A_BODY.map(|(name, keys)| (format!("`{name}`"), keys.to_vec()));
+    let [set, place, push] = OF_A_BODY.map(|(name, keys)| (format!("`{name}`"), keys.to_vec()));
     let of_commands = COMMAND_KEYS.iter().map(|command| command.field.clone());
     let of_nets = Net::descriptions().iter().map(field_of).collect();
     let of_nets =
@@ -46,6 +46,7 @@ pub fn scene_tables() -> Vec<(String, Vec<SceneKey>)> {
         (array(COMMAND), [AT_S, TICK, LANE_NUMBER].into_iter().chain(of_commands).collect()),
         set,
         place,
+        push,
         (array(CHECKS), fields(&CHECK)),
     ];
     let described = |Field { key, is_required, about, wanted }: Field| {

@@ -272,7 +272,7 @@ impl Scene {
         self.bodies = vec![self.bodies.swap_remove(index)];
         self.checks.clear();
         self.script.retain_mut(|scripted| match &mut scripted.action {
-            Action::Set { body, .. } | Action::Place { body, .. } => {
+            Action::Set { body, .. } | Action::Place { body, .. } | Action::Push { body, .. } => {
                 std::mem::replace(body, 0) == index
             }
             _ => true,

@@ -49,9 +49,10 @@ const KEY: Field = Field::required("key", "the parameter's key", NAME);
 const VALUE: Field = Field::required("value", "its new value", Wanted::ANY);
 const Q: Field = Field::required("q", "the coordinates", Wanted::Numbers(1));
 const V: Field = Field::required("v", "the velocities", Wanted::Numbers(1));
-/// The keys of `set` and of `place`.
-pub(super) static OF_A_BODY: [(&str, &[Field]); 2] =
-    [("set", &[BODY, KEY, VALUE]), ("place", &[BODY, Q, V])];
+const BY: Field = Field::required("by", "the changes of the velocities", Wanted::Numbers(1));
+/// The keys of `set`, `place` and `push`.
+pub(super) static OF_A_BODY: [(&str, &[Field]); 3] =
+    [("set", &[BODY, KEY, VALUE]), ("place", &[BODY, Q, V]), ("push", &[BODY, BY])];
 
 /// The keys of `[[check]]`. The reader needs the number of lanes.
 pub(super) static CHECK: [Key<(Check, usize), Check>; 3] = [
@@ -113,7 +114,7 @@ const fn input(
 /// The keys that change a lane, which `lane` selects.
 const OF_A_LANE: [&str; 3] = [METHOD.key, SUBSTEPS.key, TOLERANCE.key];
 
-pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
+pub(super) static COMMAND_KEYS: [CommandKey; 12] = [
     command_key(
         Field::optional("method", "the method, for a lane with what else it has", Wanted::Method),
         |context, row, _| read_method(context, row),
@@ -203,6 +204,20 @@ pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
             let Action::Place { body, q, v } = action else { return None };
             let name = quoted(&scene.bodies[*body].name);
             Some(inline(&[(BODY, name), (Q, numbers(q)), (V, numbers(v))]))
+        },
+    ),
+    command_key(
+        Field::optional("push", "changes a body's velocities", Wanted::Table("push")),
+        |context, row, field| {
+            let mut push = row.table(field)?;
+            let action = read_push(context, &mut push);
+            row.add_faults_of(push);
+            action
+        },
+        |scene, action| {
+            let Action::Push { body, by } = action else { return None };
+            let name = quoted(&scene.bodies[*body].name);
+            Some(inline(&[(BODY, name), (BY, numbers(by))]))
         },
     ),
     command_key(
@@ -536,6 +551,15 @@ fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Actio
     let mut read = |field| place.coordinates(&Field { wanted: Wanted::Numbers(count), ..field });
     let (q, v) = (read(Q), read(V));
     Some(Action::Place { body: at, q: q?.into(), v: v?.into() })
+}
+
+fn read_push(context: &SceneContext<'_>, push: &mut Table<'_>) -> Option<Action> {
+    let body = read_body(context, push);
+    push.allow_key(BY.key);
+    let (at, BodyDraft { kind, values, .. }) = body?;
+    let count = kind.as_ref()?.coordinates(values.as_ref()?).len();
+    let by = push.coordinates(&Field { wanted: Wanted::Numbers(count), ..BY })?;
+    Some(Action::Push { body: at, by: by.into() })
 }
 
 /// Reads the states that lanes must reach.

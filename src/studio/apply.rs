@@ -68,6 +68,7 @@ impl Studio {
             ViewCommand::PointerDown(is_down) => {
                 self.viewer.hz_at_press = is_down.then(|| self.deck.race().tick_hz());
                 self.deck.tick_rate_is_held &= is_down;
+                self.deck.pulled.take_if(|_| !is_down);
             }
             ViewCommand::HoldTickRate => self.deck.tick_rate_is_held = !is_in_loop_lab,
             ViewCommand::ToggleFutures => {
@@ -116,7 +117,7 @@ impl Studio {
             ViewCommand::PointAt(entry) => self.viewer.pointed = entry,
             ViewCommand::AdviseOnOneBody(is_one) => display.advises_on_one_body = is_one,
             ViewCommand::ToggleHelp => display.help = !display.help,
-            ViewCommand::LetGo => self.deck.held = None,
+            ViewCommand::LetGo => _ = self.deck.let_go(),
             ViewCommand::ZoomPan { body, zoom_pan } => {
                 self.viewer.view.set_zoom_pan(body, zoom_pan)
             }
@@ -155,7 +156,7 @@ impl Studio {
 
     /// Closes the foremost open thing. Returns whether there was one.
     fn escape(&mut self) -> bool {
-        self.deck.held.take().is_some()
+        self.deck.let_go()
             || self.viewer.dialog.take().is_some()
             || take(&mut self.viewer.preferences.display.help)
             || self.close_guide()

@@ -6,6 +6,7 @@ use super::deck::HeldBody;
 use super::display::{DriverRequest, Splits};
 use super::instrument::Instrument;
 use super::my_spring::MySpring;
+use super::pulling::PulledBody;
 use super::step::Step;
 use super::zoom_pan::ZoomPan;
 use crate::loops::loop_lab::LoopCommand;
@@ -81,6 +82,8 @@ pub enum RunCommand {
     Cloud(CloudChoice),
     /// Holds a body; time stands still until its release. Placing it is an [`Action`].
     Hold(HeldBody),
+    /// Pulls a body by a spring to the pointer while time runs, until its release. Each tick of it is an [`Action`].
+    Pull(PulledBody),
     /// Opens or closes the inspector.
     ToggleInspector,
     /// Sets the length of the scene in seconds, within [`MIN_SECONDS`](crate::scene::MIN_SECONDS) and

@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::compared::Compared;
 use super::display::{Display, View};
 use super::notices::Notices;
+use super::pulling::PulledBody;
 use super::scene_list::SceneList;
 use crate::measure::cloud::MAX_CLOUDS;
 use crate::run::past::Past;
@@ -25,6 +26,8 @@ pub struct Deck {
     pub(super) running: bool,
     /// The body that the person holds.
     pub(super) held: Option<HeldBody>,
+    /// The body that the person pulls while time runs.
+    pub(super) pulled: Option<PulledBody>,
     /// Whether the person holds the tick rate.
     pub(super) tick_rate_is_held: bool,
     /// Lane selected in a race; it stays selected through switches of method.
@@ -63,6 +66,7 @@ impl Deck {
             clock,
             running: true,
             held: None,
+            pulled: None,
             tick_rate_is_held: false,
             selected,
             is_selected: false,
@@ -352,6 +356,17 @@ impl Deck {
                 self.is_selected = true;
             }
         }
+    }
+
+    /// The body that the person pulls, if any.
+    pub fn pulled(&self) -> Option<&PulledBody> {
+        self.pulled.as_ref()
+    }
+
+    /// Lets go of a held or a pulled body. Returns whether there was one.
+    pub(super) fn let_go(&mut self) -> bool {
+        let had_pulled = self.pulled.take().is_some();
+        self.held.take().is_some() || had_pulled
     }
 
     /// The body that the person holds, if any.

@@ -53,6 +53,7 @@ pub(super) fn carry_out_on_run(deck: &mut Deck, viewer: &mut Viewer, command: Ru
             deck.set_start("the length", |start| start.set_seconds(seconds));
         }
         RunCommand::Hold(held) => deck.held = Some(held),
+        RunCommand::Pull(pulled) => deck.pulled = Some(pulled),
         RunCommand::ToggleEqualCost => toggle_equal_cost(deck, viewer),
     }
 }

@@ -4,6 +4,7 @@
 use super::Motion;
 use super::deck::Deck;
 use super::pace::LiveFrame;
+use super::pulling::pull;
 use super::viewer::Viewer;
 use crate::look::landmarks::decades_to_next;
 use crate::look::{Framing, Look};
@@ -44,6 +45,7 @@ pub(super) fn advance(
         if deck.race().tick() >= last {
             break;
         }
+        pull(deck, viewer);
         make_tick(deck, viewer, observer);
         if last == u64::MAX && deck.comes_to_rest(viewer.motion()) {
             due.ticks = made;
@@ -166,14 +168,15 @@ fn growth(history: &History, base_m: f64) -> (f64, f64) {
     };
     let reach_m = reach(0);
     let since = |count: usize| {
-        let then = newest.clone().nth(count);
+        let then = newest.clone().nth(count).filter(|then| then.t < now.t);
         then.map_or(0.0, |then| libm::log10(reach_m / reach(count)) / (now.t - then.t))
     };
-    let sudden = since(MEASURED);
+    let known = newest.clone().take(MEASURED + 1).count() - 1;
+    let sudden = since(known);
     if sudden > MAX_ZOOM {
         return (sudden, reach_m);
     }
     // Over a swing or more: a swing grows only on its way out.
     let lately = newest.clone().take_while(|sample| now.t - sample.t <= SWING_S);
-    (since(lately.count().max(MEASURED + 1) - 1), reach_m)
+    (since(lately.count().max(known + 1) - 1), reach_m)
 }

@@ -42,7 +42,7 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
     studio.loops = Some(loops.into());
     studio.viewer.preferences.display.instrument = Instrument::Loop;
     studio.viewer.preferences.display.inspector = false;
-    studio.deck.held = None;
+    studio.deck.let_go();
     studio.viewer.notice = None;
     if studio.viewer.tour.as_ref().is_some_and(|tour| tour.stop().goal != Goal::LoopLab) {
         studio.viewer.leave_guide(studio.deck.left.as_deref());

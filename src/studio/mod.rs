@@ -44,6 +44,7 @@ mod notice;
 mod notices;
 mod opening;
 mod pace;
+mod pulling;
 mod restarting;
 mod resting;
 mod saved_preferences;
@@ -85,6 +86,7 @@ pub use opening::{
     show_clouds_of_scene, show_comparison, show_mistakes,
 };
 pub use pace::{LiveFrame, LiveLoop, PaceMeter};
+pub use pulling::PulledBody;
 pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
 pub use spring_field::SpringField;

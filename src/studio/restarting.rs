@@ -23,7 +23,7 @@ pub(super) fn follow(deck: &mut Deck, viewer: &mut Viewer, jump: Jump) {
     deck.clock.set_tick_hz(deck.race().tick_hz());
     viewer.live.jump();
     if jump != Jump::ToAnotherTick {
-        deck.held = None;
+        deck.let_go();
         record_chosen_coordinates(deck, viewer);
     }
     if jump == Jump::ToAnotherRun {

@@ -127,6 +127,11 @@ impl Race {
                     !is_there || at.halted().is_some()
                 })
             }
+            Action::Push { body, by } => {
+                let bodies = self.entrants.iter().map(|e| &e.lane).chain([&self.truth]);
+                let mut bodies = bodies.map(|lane| &lane.bodies()[*body]);
+                bodies.any(|at| at.halted().is_none()) && by.iter().any(|by| *by != 0.0)
+            }
             Action::Solo { lane } => {
                 self.entrant(*lane).is_some()
                     && (self.mode == Mode::Race || self.entrants.len() > 1)

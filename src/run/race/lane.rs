@@ -262,16 +262,37 @@ impl LaneBody {
     /// Applies an input at time `t` (s), before tick `tick`. A body that fails under it halts in the state before. A
     /// halted body ignores a kick, and keeps the throttle and the rudder for when it resumes.
     fn input(&mut self, index: usize, tick: u64, t: f64, input: Input) {
-        if self.halted.is_some() {
-            if !matches!(input, Input::Kick(_)) {
-                self.stepper.input(t, input);
-            }
-            return;
+        if self.halted.is_none() {
+            self.change(index, tick, t, |stepper| stepper.input(t, input));
+        } else if !matches!(input, Input::Kick(_)) {
+            self.stepper.input(t, input);
         }
+    }
+
+    /// Pushes the body at time `t` (s), before tick `tick`. A body that fails under the push halts in the state before.
+    /// A halted body ignores it.
+    fn push(&mut self, index: usize, tick: u64, t: f64, action: &Action) {
+        if self.halted.is_none() {
+            self.change(index, tick, t, |stepper| {
+                action.apply_to(stepper, t);
+                true
+            });
+        }
+    }
+
+    /// Changes the state by `change`, which returns whether it did. A body that fails in the new state halts in the
+    /// state before.
+    fn change(
+        &mut self,
+        index: usize,
+        tick: u64,
+        t: f64,
+        change: impl FnOnce(&mut dyn Stepper) -> bool,
+    ) {
         let [q, v] = &mut self.before_input;
         q.copy_from_slice(self.stepper.q());
         v.copy_from_slice(self.stepper.v());
-        let is_taken = self.stepper.input(t, input);
+        let is_taken = change(&mut *self.stepper);
         match check(&*self.stepper, &self.kind.all_coordinates) {
             Ok(()) => {
                 self.add_moment();
@@ -437,6 +458,7 @@ impl Lane {
     pub(crate) fn act(&mut self, tick: u64, t: f64, action: &Action) {
         match action {
             Action::Place { body, q, v } => self.bodies[*body].place(*body, tick, t, [q, v]),
+            Action::Push { body, .. } => self.bodies[*body].push(*body, tick, t, action),
             Action::Set { body, .. } => action.apply_to(&mut *self.bodies[*body].stepper, t),
             other => {
                 if let Some(input) = other.input() {

@@ -68,7 +68,7 @@ impl Checkpoints {
             Action::Lane { .. } | Action::Substeps { .. } | Action::Tolerance { .. } => true,
             Action::TickHz(_) | Action::Set { .. } => true,
             Action::Throttle(_) | Action::Rudder(_) | Action::Kick(_) => false,
-            Action::Place { .. } | Action::Solo { .. } => false,
+            Action::Place { .. } | Action::Push { .. } | Action::Solo { .. } => false,
         };
         let differs = |row: &JournalRow| row.author == Author::Person || is_setting(&row.action);
         race.journal().rows()[..race.done()].iter().any(|row| row.tick > from && differs(row))
@@ -94,7 +94,8 @@ impl Observer for Checkpoints {
             rudder: race.rudder,
             bodies: bodies.collect(),
         });
-        let is_placed = matches!(action, Action::Place { .. } | Action::Kick(_));
+        let is_placed =
+            matches!(action, Action::Place { .. } | Action::Push { .. } | Action::Kick(_));
         if is_placed && *author == Author::Person {
             self.of_verdicts = Some(Arc::clone(&start));
         }

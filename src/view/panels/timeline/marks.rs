@@ -147,7 +147,7 @@ impl Context<'_> {
             }
             Action::TickHz(_) => (Sign::Rate, self.palette.text),
             Action::Throttle(_) | Action::Rudder(_) => (Sign::Input, self.palette.dim),
-            Action::Kick(_) => (Sign::Kick, self.palette.warn),
+            Action::Kick(_) | Action::Push { .. } => (Sign::Kick, self.palette.warn),
             Action::Place { .. } => (Sign::Place, self.palette.good),
         }
     }
