@@ -269,14 +269,15 @@ fn choices(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         choice(ui, "metric", offered, chosen, commands);
     }
     let has_all = instrument == Instrument::Motion && studio.loop_lab().is_none();
-    // In a picture, the axes name the usual quantity.
+    // In a picture, the axes name the default quantity.
     let is_said = studio.display().quantity.is_some() || !is_picture(ui);
     if has_all && is_said {
         let named = |quantity: Option<Quantity>| {
-            let name = quantity.map_or("usual", Quantity::name);
+            let name = quantity.map_or("default", Quantity::name);
             (Command::View(ViewCommand::Quantity(quantity)), name)
         };
         let offered = [None].into_iter().chain(Quantity::ALL.map(Some)).map(named);
+        ui.label(RichText::new("plot:").color(palette(ui).dim));
         choice(ui, "quantity", offered, named(studio.display().quantity), commands);
     }
     if has_all || instrument == Instrument::Phase && studio.loop_lab().is_none() {

@@ -162,7 +162,7 @@ fn a_saved_picture_has_no_tabs_and_an_enlarged_instrument_covers_the_table() {
     let mut window = TestWindow::new([960.0, 600.0]);
     let alone = window.show(Vec::new(), |ui| panels::show_instrument(ui, &studio)).1.whole();
     // The axes name the usual quantity.
-    assert!(alone.iter().all(|(_, text)| text != "usual"), "{alone:?}");
+    assert!(alone.iter().all(|(_, text)| text != "default"), "{alone:?}");
     assert!(!has_tabs(&alone) && alone.iter().any(|(_, text)| text == "time t, s"), "{alone:?}");
     let size = vec2(1280.0, 720.0);
     let lowest = |studio: &Studio| {
