@@ -107,7 +107,7 @@ pub fn complete_clouds(studio: &mut Studio, worker: &mut CloudWorker, stop: impl
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::studio::{StageCommand, Studio};
+    use crate::studio::{StageCommand, Studio, show_clouds_of_scene};
 
     #[test]
     fn a_lone_cloud_never_leaves_its_picture() {
@@ -131,5 +131,27 @@ mod tests {
                 assert!(border.iter().all(is_in), "{scene}: the exact cloud is in it too");
             }
         }
+    }
+
+    #[test]
+    fn a_scene_of_clouds_shows_its_start_for_a_second() {
+        const FRAME_NS: i64 = 16_666_667;
+        let mut studio = Studio::new(Scene::built_in("liouville").unwrap());
+        studio.viewer.preferences.display.motion = Motion::Live;
+        show_clouds_of_scene(&mut studio.deck, &mut studio.viewer);
+        // Half a second passes until the first picture.
+        (0..30).for_each(|_| _ = studio.advance(FRAME_NS));
+        complete_clouds(&mut studio, &mut CloudWorker::default(), || false);
+        let frames = (0..600).take_while(|_| {
+            studio.advance(FRAME_NS);
+            studio.race().tick() == 0
+        });
+        let frames = frames.count();
+        assert!((60..80).contains(&frames), "{frames} frames, and up to a tick of 1/12 s");
+        let mut blind = Studio::new(Scene::built_in("liouville").unwrap());
+        blind.viewer.preferences.display.motion = Motion::Live;
+        show_clouds_of_scene(&mut blind.deck, &mut blind.viewer);
+        (0..60 * 4).for_each(|_| _ = blind.advance(FRAME_NS));
+        assert!(blind.race().tick() > 0, "without a worker it waits no longer than three seconds");
     }
 }
