@@ -19,7 +19,7 @@ const MAX_TICKS: u64 = 3000;
 const MAX_STRAY_WIDTHS: f64 = 3.0;
 /// How far other clouds may widen the axes of a run and those at one moment, in widths of the exact cloud.
 const MAX_WIDENING: f64 = 0.1;
-const MAX_WIDENING_AT_ONCE: f64 = 0.25;
+const MAX_WIDENING_AT_ONCE: f64 = 0.5;
 
 /// The moments that a picture covers: `times` of them, spread evenly over the first `ticks` of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
