@@ -90,6 +90,10 @@ use play::PlayArgs;
 pub use terminal::{print_error, print_status, stderr_renderer};
 pub use visible::visible;
 
+/// The remedy for missing libraries of a window.
+pub const WINDOW_LIBRARIES: &str =
+    "on Debian and Ubuntu: apt install libx11-6 libxcursor1 libxi6 libxkbcommon-x11-0";
+
 use crate::manual::{CHAPTERS, chapter};
 use crate::scene::{SCENES, clip as shortened, nearest};
 

@@ -1,5 +1,6 @@
 //! `regatta play`: opens the window or, without a display, draws its first seconds as pictures.
 
+use std::env;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,7 +18,7 @@ use super::schedule::{FPS, Schedule, frames_in};
 use super::settings::CaptureSettings;
 use super::terminal::print_status;
 use super::unfinished::{self, UnfinishedRecording};
-use super::{clip, preferences, scene_file, state_log};
+use super::{WINDOW_LIBRARIES, clip, preferences, scene_file, state_log};
 use crate::atomic_file::IfExists;
 use crate::look::palette::Theme;
 use crate::loops::TraceCard;
@@ -196,8 +197,10 @@ fn without_display(
         None => FRAMES,
     };
     let folder = FrameFolder::new_sibling(FRAMES_DIR)?;
+    let has_display = ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| env::var_os(name).is_some());
+    let remedy = if has_display { format!("; {WINDOW_LIBRARIES}") } else { String::new() };
     print_status(&format!(
-        "no display to open a window on ({reason}); drawing {} s of it into {} instead",
+        "no display to open a window on ({reason}{remedy}); drawing {} s of it into {} instead",
         f64::from(frames) / f64::from(FPS),
         folder.path().display(),
     ));

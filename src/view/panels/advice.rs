@@ -406,6 +406,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::studio::{Instrument, StageCommand, accept_findings};
     use crate::view::panels;
+    use crate::view::panels::top_bar::HEIGHT as BAR;
     use crate::view::testing::{ShownText, TestWindow};
 
     /// Shows frames of this size. Returns the stage, and every text that is fully visible, with its place.
@@ -438,15 +439,12 @@ mod tests {
         for size in SIZES {
             let (stage, texts) = shown(&studio, size);
             let beside = |(at, _): &&(Pos2, String)| at.x > stage.right();
-            // The top bar has a button of that name.
-            let is_title = |(at, words): &&(Pos2, String)| {
-                at.y > super::super::top_bar::HEIGHT && words == "Edit"
-            };
-            let title = texts.iter().find(is_title).expect("a title").0.y;
-            let over = texts.iter().filter(beside).filter(|(at, words)| {
+            let mut titles = texts.iter().filter(|(at, words)| at.y > BAR && words == "Edit");
+            let title = titles.next().expect("a title").0.y;
+            let is_over = |(at, words): &&(Pos2, String)| {
                 (at.y - title).abs() < 9.0 && !["Edit", "↺ Restore all", "×"].contains(&&**words)
-            });
-            let over: Vec<_> = over.collect();
+            };
+            let over: Vec<_> = texts.iter().filter(beside).filter(is_over).collect();
             assert!(over.is_empty(), "{size:?}: {over:?}");
         }
     }

@@ -5,17 +5,16 @@ use egui::{
     Vec2, vec2,
 };
 
-pub(super) use self::number::NumberField;
 use self::rows::{Row, SliderRange, Spacing, Values, rows};
 pub(in crate::view) use self::sweep::is_sweep_active;
 use super::focus;
+use super::number_field::NumberField;
 use crate::scene::{Action, check_entered, edited_values};
 use crate::stage::TakesEffect;
 use crate::studio::{Command, RunCommand, Studio};
 use crate::view::theme::palette;
 
 mod engine;
-mod number;
 mod rows;
 mod run;
 mod sweep;

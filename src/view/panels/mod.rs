@@ -22,6 +22,7 @@ mod lanes;
 mod loops;
 mod methods;
 mod my_spring;
+mod number_field;
 mod one_step;
 mod opening;
 mod parts;

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Button, ComboBox, FontId, Id, Rect, RichText, Sense, Ui, vec2};
 
-use super::inspector::NumberField;
+use super::number_field::NumberField;
 use super::parts::dialog;
 use super::text_field::select;
 use crate::scene::TickRate;

@@ -7,10 +7,10 @@ use egui::{
 };
 
 use super::breakpoints;
-use super::inspector::NumberField;
+use super::number_field::NumberField;
 use crate::run::race::Mode;
 use crate::scene::entered_tick_rate;
-use crate::sim::TickRate;
+use crate::stage::TickRate;
 use crate::studio::{Arrangement, Command, StageCommand, Step, Studio, ViewCommand};
 use crate::view::theme::{palette, strong_font};
 

@@ -109,7 +109,9 @@ fn prose(source: &Source) -> Vec<String> {
 fn whats(sources: &[Source]) -> BTreeMap<String, [usize; 2]> {
     let mut rooms = BTreeMap::<String, [usize; 2]>::new();
     for source in sources {
-        let room: Vec<&str> = source.path.split('/').take(2).collect();
+        // The files beside the rooms count as one.
+        let folders = source.path.rsplit_once('/').map_or("", |(folders, _)| folders);
+        let room: Vec<&str> = folders.split('/').take(2).collect();
         let counts = rooms.entry(room.join("/")).or_default();
         for line in blocks(source).iter().flatten() {
             counts[0] += 1;

@@ -2,12 +2,13 @@
 
 use egui::{CollapsingHeader, ComboBox, RichText, Ui, vec2};
 
-use super::{LINE, NumberField, line};
+use super::{LINE, line};
 use crate::scene::check_entered;
 use crate::stage::Range;
 use crate::stage::number::significant;
 use crate::studio::{Command, RunCommand, Studio};
 use crate::tools::port::Setup;
+use crate::view::panels::number_field::NumberField;
 use crate::view::theme::palette;
 
 /// Shows the numbers of a spring as the selected engine has them, and nothing for any other body.

@@ -2,7 +2,6 @@
 
 use egui::{ComboBox, RichText, Ui, vec2};
 
-use super::number::NumberField;
 use super::{LINE, RESTORE, line, restore_button};
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{
@@ -10,6 +9,7 @@ use crate::scene::{
 };
 use crate::stage::Range;
 use crate::studio::{Command, RunCommand, StageCommand, Studio};
+use crate::view::panels::number_field::NumberField;
 use crate::view::panels::rate_scale;
 use crate::view::theme::palette;
 

@@ -38,20 +38,20 @@ struct Typed {
 }
 
 /// A field for a number.
-pub(in crate::view::panels) struct NumberField<'a> {
+pub(super) struct NumberField<'a> {
     /// Unique id of the field.
-    pub(in crate::view::panels) id: Id,
-    pub(in crate::view::panels) value: f64,
+    pub(super) id: Id,
+    pub(super) value: f64,
     /// Text after the number.
-    pub(in crate::view::panels) unit: &'a str,
+    pub(super) unit: &'a str,
     /// Name for a screen reader.
-    pub(in crate::view::panels) name: &'a str,
-    pub(in crate::view::panels) is_whole: bool,
+    pub(super) name: &'a str,
+    pub(super) is_whole: bool,
 }
 
 impl NumberField<'_> {
     /// Shows the field. Returns the entered number if it passes `check`.
-    pub(in crate::view::panels) fn show(
+    pub(super) fn show(
         &self,
         ui: &mut Ui,
         size: Vec2,
