@@ -44,7 +44,7 @@ impl BodyPicture for Chain {
         (1..).zip(q).map(|(j, &x)| Handle { at: self.place_of(j, x), radius }).collect()
     }
 
-    /// The other beads keep their positions and velocities.
+    /// Moves the pulled bead only. The other beads keep their positions and velocities.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         q[pull.handle] = pull.to.y;
         v[pull.handle] = pull.velocity.y;

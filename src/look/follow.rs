@@ -12,7 +12,8 @@ fn reach(follow: &Follow) -> f64 {
     if reach > 0.0 { reach } else { 1.0 }
 }
 
-/// Radius of the camera, radius of the target, and half the length of the line across the target, in reaches.
+/// Radius of the camera, radius of the target, and half the length of the line across the target, relative to the
+/// [`reach`].
 const CAMERA: f64 = 0.09;
 const TARGET: f64 = 0.045;
 const HALF_POST: f64 = 0.16;
@@ -35,7 +36,7 @@ impl BodyPicture for Follow {
         vec![Handle { at: DVec2::new(q[0], 0.0), radius: CAMERA * reach(self) }]
     }
 
-    /// Under the first-order law, the camera's velocity depends on its position.
+    /// Pulls the camera. Under the first-order law, its velocity follows from its position instead of the pull.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         v[0] = match self.order {
             1 => v[0] - self.rate * (pull.to.x - q[0]),

@@ -12,7 +12,7 @@ fn amplitude(spring: &Spring) -> f64 {
     if amplitude > 0.0 { amplitude } else { 1.0 }
 }
 
-/// Half the side of the block, in amplitudes.
+/// Half the side of the block, relative to the amplitude.
 const HALF_BLOCK: f64 = 0.16;
 
 impl BodyPicture for Spring {

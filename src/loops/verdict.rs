@@ -8,19 +8,19 @@ use crate::measure::Severity;
 use crate::sim::TickRate;
 use crate::sim::number::round;
 
-/// Animation error that nobody sees, in milliseconds.
+/// Animation error in milliseconds below which nobody sees it.
 const SMOOTH_MS: f64 = 0.1;
-/// Animation error that many people see, in milliseconds.
+/// Animation error in milliseconds above which many people see it.
 const JUDDER_MS: f64 = 2.0;
-/// Latency worth a mention, in ticks.
+/// Latency above which the verdict mentions it, in ticks.
 const LATE_TICKS: f64 = 0.25;
 
 /// A verdict on a loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoopVerdict {
-    /// How bad it is.
+    /// How bad the loop is.
     pub severity: Severity,
-    /// Its clauses, the most important first.
+    /// Clauses of the verdict, with the most important first.
     pub parts: Vec<String>,
 }
 
@@ -38,7 +38,7 @@ impl LoopVerdict {
         verdict
     }
 
-    /// A placeholder for a loop that has not run yet.
+    /// Returns a placeholder for a loop that has not run yet.
     pub(crate) fn awaited() -> Self {
         Self::new(Severity::Unknown, [Some("running…".into())])
     }
@@ -47,7 +47,7 @@ impl LoopVerdict {
         Self { severity, parts: parts.into_iter().flatten().collect() }
     }
 
-    /// Wordings of decreasing length, from all clauses to the first one only.
+    /// Returns wordings of decreasing length, from all clauses to the first one only.
     pub fn wordings(&self) -> Vec<String> {
         (1..=self.parts.len()).rev().map(|count| self.parts[..count].join(", ")).collect()
     }

@@ -1,4 +1,4 @@
-//! The values that keys of a scene file take, with their wording in messages.
+//! The values that keys of a scene file take, and their wording in messages.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -12,14 +12,14 @@ use crate::sim::law::Layout;
 /// Most characters in the name of a layout or a pin.
 const MAX_WORD_CHARS: usize = 16;
 
-/// The place of a key.
+/// The part of a scene file in which a key stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
-    /// Before the first table.
+    /// The part before the first table.
     Top,
-    /// In a table array of this name.
+    /// A table array of this name.
     Table(&'static str),
-    /// In a table of this name.
+    /// A table of this name.
     Within(&'static str),
 }
 
@@ -91,7 +91,7 @@ pub(super) enum Wanted {
     /// The numbers of two nodes.
     Ends,
     Springs,
-    /// A spring in such a list.
+    /// A spring in the list of springs.
     Spring,
     /// The name of a [`Pin`].
     Pin,
@@ -141,7 +141,7 @@ impl Wanted {
         if let Wanted::Text(most) = self { *most } else { MAX_WORD_CHARS }
     }
 
-    /// The remedy for any other value.
+    /// Returns the remedy for a value that does not fit.
     pub(super) fn remedy(&self) -> String {
         format!("write {self}")
     }

@@ -22,14 +22,14 @@ impl Scene {
         let rows = rows.into_iter().flatten().filter_map(|row| row.get_ref().as_table());
         let spans: Vec<_> = rows.filter_map(|row| Some(row.get("hash")?.span())).collect();
         let mut text = text.to_owned();
-        // From the end, so that the earlier spans stay valid.
+        // The replacements go from the end to the beginning, so that the earlier spans stay valid.
         for (span, hash) in spans.into_iter().zip(hashes).rev() {
             text.replace_range(span, &format!("\"{hash:016x}\""));
         }
         text
     }
 
-    /// The text of a scene file that [reads](Scene::parse) as this scene.
+    /// Returns the text of a scene file that [reads](Scene::parse) as this scene.
     ///
     /// No text can describe a body or a method [in Rust](Scene::in_rust), so the text of such a scene cannot be read
     /// again.
@@ -83,7 +83,7 @@ fn body_table(body: &SceneBody) -> String {
     text.extend(kind.net().map(|plan| net_lines(plan)));
     for (parameter, index) in kind.parameters.iter().zip(0..) {
         let value = match parameter.range {
-            // A curve is the last parameter, and takes all remaining values.
+            // A curve is the last parameter, and has all remaining values.
             Range::Curve { .. } => list(values[index..].chunks_exact(2).map(numbers)),
             range => parameter_value(range, values[index]),
         };

@@ -7,7 +7,7 @@ use crate::run::{Scale, Unit};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::Method;
 
-/// Maximum length of a run, in seconds of the display.
+/// Maximum length of a loop's run, in seconds of the display.
 const MAX_S: f64 = 20.0;
 
 /// The body in one loop, with all frames once the loop has run.
@@ -43,7 +43,7 @@ pub struct LoopFrame {
 pub struct LoopState {
     /// First coordinate.
     pub q: f64,
-    /// Its velocity.
+    /// Velocity of the first coordinate.
     pub v: f64,
     /// Energies, if the body conserves energy.
     pub energies: Option<Energies>,
@@ -98,7 +98,7 @@ impl LoopLane {
         Self { card, frames, report: Some(report) }
     }
 
-    /// Card of its policy.
+    /// Returns the card of the loop's policy.
     pub fn card(&self) -> &'static PolicyCard {
         self.card
     }
@@ -110,7 +110,7 @@ impl LoopLane {
     pub fn was_run(&self) -> bool {
         self.report.is_some()
     }
-    /// Measurements over all frames, once the loop has run.
+    /// Returns the measurements over all frames, once the loop has run.
     pub fn report(&self) -> Option<&PacingReport> {
         self.report.as_ref()
     }
@@ -123,15 +123,15 @@ impl LoopLane {
 /// A metric of a displayed frame.
 #[derive(Debug)]
 pub struct FrameMetric {
-    /// Its name in output, `snake_case`.
+    /// Name of the metric in output, `snake_case`.
     pub id: &'static str,
-    /// Its name for people.
+    /// Name of the metric for people.
     pub name: &'static str,
-    /// Its unit.
+    /// Unit of the metric.
     pub unit: Unit,
-    /// Scale of its plot.
+    /// Scale of the metric's plot.
     pub scale: Scale,
-    /// Computes its value.
+    /// Computes the metric's value.
     pub measure: fn(&LoopFrame) -> f64,
 }
 
