@@ -59,9 +59,9 @@ impl Checkpoints {
         [&self.of_verdicts, &self.of_clouds].into_iter().flatten().map(|start| start.bytes()).sum()
     }
 
-    /// Whether verdicts describe another run than this one, because they describe the run before a person's later edit,
-    /// or before the script changed a method, a parameter or the tick rate. Script actions on the bodies are part of
-    /// the judged run.
+    /// Whether verdicts describe another run than this one, because a person has edited this one later, or because the
+    /// script has changed a method, a parameter or the tick rate. Script actions on the bodies are part of the judged
+    /// run.
     pub(crate) fn was_changed_since_judged(&self, race: &Race) -> bool {
         let from = self.of_verdicts.as_ref().map_or(0, |start| start.tick);
         let is_setting = |action: &Action| match action {

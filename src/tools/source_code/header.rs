@@ -1,4 +1,4 @@
-//! The comment above a method's function: its description and its limits, from its card.
+//! The comment above a method's function, with the description and the limits of the method, from its card.
 
 use super::dialect::Language;
 use super::program::{MethodInput, Program};
