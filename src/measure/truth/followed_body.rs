@@ -11,13 +11,13 @@ use crate::sim::integrators::{Family, StepFailure};
 use crate::sim::stability::Tick;
 use crate::sim::{Solver, Stepper, TickRate};
 
-/// Work of a tick besides its evaluations, per coordinate: the comparison with the truth, and the energy.
+/// Work of a tick besides its evaluations, per coordinate, for the comparison with the truth and the energy.
 const WORK_OF_TICK: u64 = 4;
 
 /// Number of coordinates above which an implicit method spends more work on its matrix than on evaluations.
 const SMALL_MATRIX: u64 = 20;
 
-/// Ticks between two checks of the work, for a body with one coordinate.
+/// Number of ticks between two checks of the work, for a body with one coordinate.
 const TICKS_PER_LOOK: u64 = 64;
 
 /// Work of `evaluations` evaluations of a body with `n` coordinates, in evaluations of one coordinate.
@@ -37,9 +37,9 @@ pub(in crate::measure) struct FollowedBody {
     substeps: u32,
     /// Initial energy plus the energy that inputs have added, in joules.
     pub(in crate::measure) base_j: f64,
-    /// Its swings, if they are measured.
+    /// The body's swings, if they are measured.
     pub(in crate::measure) swings: Option<Swings>,
-    /// Work per tick of a true motion, which is its only measure of work.
+    /// Work per tick of a true motion, whose work is not measured in any other way.
     work_of_moment: u64,
     /// Work that the meter has counted.
     counted: u64,
@@ -154,7 +154,7 @@ impl Ticked for FollowedBody {
     }
 }
 
-/// Fraction of a tick by which the end of a span may be early, since its time is rounded.
+/// Fraction of a tick by which the end of a span may be early, because its time is rounded.
 const ON_TIME: f64 = 1e-6;
 
 /// Number of whole ticks at this rate in `seconds`.

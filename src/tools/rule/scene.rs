@@ -8,8 +8,8 @@ use crate::sim::law::{ExpressionFault, OwnLines, Remedy, RuleBody};
 use crate::sim::number::significant;
 use crate::sim::{check_own_id, own_method_id, own_rule};
 
-/// Number of frames of each lane per tick. A tick lasts two frames of the author, so that the second lane runs at the
-/// author's rate, the first one at half of it and the last one at twice.
+/// Number of frames of each lane per tick. A tick lasts two frames of the author. So the second lane runs at the
+/// author's rate, the first one at half that rate and the last one at twice that rate.
 const SUBSTEPS: [u32; 3] = [1, 2, 4];
 /// Length of each of three starts, in settling times or, if the rule never settles, in swings.
 const SETTLINGS: f64 = 1.5;

@@ -87,7 +87,7 @@ pub(super) struct Program<'a> {
     pub(super) body: Vec<Line<'a>>,
 }
 
-/// Parts of the header that a source can word itself, which are claims of the card, use on several coordinates, and the
+/// Parts of the header that a source can word itself. They are claims of the card, use on several coordinates, and the
 /// moment at which the method holds a time-dependent force.
 const CLAIMS: [&str; 5] = ["order", "stability", "symplectic", "several", "held"];
 
