@@ -40,7 +40,7 @@ impl Rail {
         self.middle + (x - self.at.x) / self.scale
     }
 
-    /// Left and right end of the rail in the picture.
+    /// Returns the left and right end of the rail in the picture.
     fn ends(&self) -> [DVec2; 2] {
         [-1.0, 1.0].map(|side| self.place(self.middle + side * BEYOND * self.half))
     }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Follow;
 
-/// Largest distance of the camera or the target from 0 at the start, in metres; 1 if both stay at 0.
+/// Returns the largest distance of the camera or the target from 0 at the start, in metres; 1 if both stay at 0.
 fn reach(follow: &Follow) -> f64 {
     let target = follow.step.abs() + follow.sine.abs();
     let reach = target.max(follow.x0.abs());

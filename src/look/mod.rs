@@ -106,7 +106,7 @@ trait BodyPicture {
         false
     }
 
-    /// The handles of the body at these coordinates.
+    /// Returns the handles of the body at these coordinates.
     fn handles(&self, q: &[f64]) -> Vec<Handle>;
 
     /// Brings a handle as close to its target position and velocity as the body allows. Coordinates that the handle
@@ -185,13 +185,13 @@ pub struct Look<'a> {
 }
 
 impl<'a> Look<'a> {
-    /// The look of `body`.
+    /// Returns the look of `body`.
     pub fn of(body: &'a LaneBody) -> Self {
         let card = LookCard::find(&body.kind);
         Self { body, card, picture: (card.picture)(body) }
     }
 
-    /// The outline at the coordinates `q` at time `t` (s).
+    /// Returns the outline at the coordinates `q` at time `t` (s).
     pub fn outline(&self, t: f64, q: &[f64]) -> Outline {
         let at = (self.card.place)(self.body.stepper.body(), q);
         let mut outline = Outline { t, at, ..Outline::default() };
@@ -199,7 +199,7 @@ impl<'a> Look<'a> {
         outline
     }
 
-    /// The part of the body's world that the stage shows.
+    /// Returns the part of the body's world that the stage shows.
     pub fn framing(&self) -> Framing {
         self.picture.framing()
     }
@@ -224,7 +224,7 @@ impl<'a> Look<'a> {
         self.picture.has_ground()
     }
 
-    /// The handles of the body at the coordinates `q`.
+    /// Returns the handles of the body at the coordinates `q`.
     pub fn handles(&self, q: &[f64]) -> Vec<Handle> {
         self.picture.handles(q)
     }

@@ -26,7 +26,7 @@ pub enum Theme {
 }
 
 impl Theme {
-    /// The colours of the theme.
+    /// Returns the colours of the theme.
     pub fn palette(self) -> &'static Palette {
         match self {
             Theme::Dark => &DARK,
@@ -34,7 +34,7 @@ impl Theme {
         }
     }
 
-    /// The opposite theme: light for dark, dark for light.
+    /// Returns the opposite theme: light for dark, dark for light.
     pub fn other(self) -> Self {
         match self {
             Theme::Dark => Theme::Light,
@@ -42,7 +42,7 @@ impl Theme {
         }
     }
 
-    /// Colour of the `number`th force evaluation of a step, counted from 0.
+    /// Returns the colour of the `number`th force evaluation of a step, counted from 0.
     pub fn evaluation(self, number: usize) -> Rgba {
         let [orange, blue, pink, yellow, green, amber, violet] = self.palette().methods;
         [green, blue, yellow, pink, orange, violet, amber][number % 7]
@@ -120,7 +120,7 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// Colour of a verdict of this severity.
+    /// Returns the colour of a verdict of this severity.
     pub fn of_severity(&self, severity: Severity) -> Rgba {
         match severity {
             Severity::Fine => self.good,
@@ -245,13 +245,13 @@ fn are_alike(a: usize, b: usize) -> bool {
     a == b || WARM.contains(&a) && WARM.contains(&b)
 }
 
-/// Indices of a method's colour and dash.
+/// Returns the indices of a method's colour and dash.
 fn indices(method: &Method) -> (usize, usize) {
     let listed = METHODS.iter().position(|listed| listed == method);
     listed.map_or_else(|| own_style(method), |index| STYLES[index])
 }
 
-/// Indices of the colour and dash of a method that has the same style in every scene.
+/// Returns the indices of the colour and dash of a method that has the same style in every scene.
 fn classic(method: &Method) -> Option<(usize, usize)> {
     let found = CLASSICS.iter().find(|(id, ..)| *id == method.id);
     found.map(|&(_, colour, dash)| (colour, dash))

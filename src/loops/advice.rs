@@ -51,7 +51,7 @@ pub enum NoLoop {
 }
 
 impl NoLoop {
-    /// The loop that comes closest to a recommendation.
+    /// Returns the loop that comes closest to a recommendation.
     pub fn nearest(self) -> Option<usize> {
         match self {
             Self::Unfit { late, uneven } => late.or(uneven),
@@ -81,7 +81,7 @@ impl<'a> MeasuredLoops<'a> {
         Self { loops, tick_hz: tick_hz.into(), origin_ms: least.unwrap_or(0.0) }
     }
 
-    /// Mean latency of the loop with this index, in milliseconds.
+    /// Returns the mean latency of the loop with this index, in milliseconds.
     pub fn latency_ms(&self, index: usize) -> Option<f64> {
         self.loops[index].1.latency_mean_ms().map(|latency| latency - self.origin_ms)
     }

@@ -213,7 +213,7 @@ impl LoopLab {
         self.on_stage.iter().all(|&index| self.lanes[index].was_run())
     }
 
-    /// The scene, reduced to the one body.
+    /// Returns the scene, reduced to the one body.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -221,7 +221,7 @@ impl LoopLab {
     pub fn method(&self) -> &'static Method {
         self.method
     }
-    /// The body at its start.
+    /// Returns the body at its start.
     pub fn body(&self) -> &LaneBody {
         &self.body
     }
@@ -233,11 +233,11 @@ impl LoopLab {
     pub fn traces(&self) -> &[FrameTrace] {
         &self.traces
     }
-    /// Index of the chosen trace.
+    /// Returns the index of the chosen trace.
     pub fn trace(&self) -> usize {
         self.trace
     }
-    /// The lanes of all loops, in the order of [`POLICIES`].
+    /// Returns the lanes of all loops, in the order of [`POLICIES`].
     pub fn lanes(&self) -> &[LoopLane] {
         &self.lanes
     }
@@ -267,7 +267,7 @@ impl LoopLab {
     pub fn waiting(&self) -> Option<&'static str> {
         (!self.is_stage_complete()).then_some("Running the loops on the stage…")
     }
-    /// Verdict on the loop with this index in [`POLICIES`].
+    /// Returns the verdict on the loop with this index in [`POLICIES`].
     pub fn verdict(&self, index: usize) -> LoopVerdict {
         let lane = &self.lanes[index];
         let Some(report) = lane.report() else { return LoopVerdict::awaited() };
@@ -277,7 +277,7 @@ impl LoopLab {
         }
         verdict
     }
-    /// Indices of the lanes on the stage, from top to bottom.
+    /// Returns the indices of the lanes on the stage, from top to bottom.
     pub fn on_stage(&self) -> &[usize] {
         &self.on_stage
     }
@@ -285,7 +285,7 @@ impl LoopLab {
     pub fn is_overlaid(&self) -> bool {
         self.is_overlaid
     }
-    /// Index of the selected lane.
+    /// Returns the index of the selected lane.
     pub fn selected(&self) -> usize {
         self.selected
     }
@@ -304,12 +304,12 @@ impl LoopLab {
     pub fn end_ns(&self) -> i64 {
         self.end_ns
     }
-    /// Slow-motion factor.
+    /// Returns the slow-motion factor.
     pub fn slowness(&self) -> u32 {
         self.slowness
     }
 
-    /// Index in [`FRAME_METRICS`] of the metric that the error instrument shows.
+    /// Returns the index in [`FRAME_METRICS`] of the metric that the error instrument shows.
     pub fn metric(&self) -> usize {
         self.metric
     }
@@ -423,18 +423,18 @@ impl LoopLab {
         }
     }
 
-    /// Card of the selected policy.
+    /// Returns the card of the selected policy.
     pub fn selected_card(&self) -> &'static PolicyCard {
         self.lanes[self.selected].card()
     }
 }
 
-/// Index of the loop with this id in [`POLICIES`].
+/// Returns the index of the loop with this id in [`POLICIES`].
 fn index_of(id: &str) -> usize {
     POLICIES.iter().position(|card| card.id == id).expect("a built-in loop")
 }
 
-/// The scene's only body at its start.
+/// Returns the scene's only body at its start.
 fn at_start(scene: &Scene) -> LaneBody {
     let body = &scene.bodies[0];
     LaneBody::new(body, Solver::Truth)

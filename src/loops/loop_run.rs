@@ -80,17 +80,17 @@ impl LoopRun {
         Self { stride: 2, ..self }
     }
 
-    /// The bodies in the loop.
+    /// Returns the bodies in the loop.
     pub fn lane(&self) -> &PacedLane {
         &self.lane
     }
 
-    /// Exact coordinates of the body with this index at the last displayed frame.
+    /// Returns the exact coordinates of the body with this index at the last displayed frame.
     pub fn exact(&self, body: usize) -> &[f64] {
         self.truth.body(body).stepper.q()
     }
 
-    /// The body with this index in its exact state at the last displayed frame.
+    /// Returns the body with this index in its exact state at the last displayed frame.
     pub(crate) fn exact_body(&self, body: usize) -> &LaneBody {
         self.truth.body(body)
     }
@@ -145,7 +145,7 @@ impl LoopRun {
         self.began_ns()
     }
 
-    /// Start of the last frame in nanoseconds; 0 before the first.
+    /// Returns the start of the last frame in nanoseconds; 0 before the first.
     fn began_ns(&self) -> i64 {
         self.last.map_or(0, |(frame, _)| frame.began_ns)
     }
@@ -187,7 +187,7 @@ impl LoopRun {
         }
     }
 
-    /// The report on the frames so far.
+    /// Returns the report on the frames so far.
     pub fn report(&self) -> PacingReport {
         let (steps, evaluations) = (self.lane.steps(), self.lane.evaluations());
         let report = self.meter.report(self.lane.pacer(), steps, evaluations);

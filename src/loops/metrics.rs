@@ -239,7 +239,7 @@ impl PacingMeter {
         Some(error_ms)
     }
 
-    /// The report so far on a loop that made `ticks` steps with `evaluations`.
+    /// Returns the report so far on a loop that made `ticks` steps with `evaluations`.
     pub(super) fn report(&self, pacer: &Pacer, ticks: u64, evaluations: u64) -> PacingReport {
         let base = pacer.base();
         let (displayed, changes) = (self.displayed as f64, self.displayed.saturating_sub(1) as f64);

@@ -33,12 +33,12 @@ impl PacedLane {
     pub fn lane(&self) -> &Lane {
         &self.lane
     }
-    /// Number of steps made.
+    /// Returns the number of steps made.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Evaluations of accelerations so far, including those of drawn copies.
+    /// Returns the evaluations of accelerations so far, including those of drawn copies.
     pub fn evaluations(&self) -> u64 {
         self.lane.evaluations() + self.evaluations_ahead
     }

@@ -47,7 +47,7 @@ impl Pacer {
     pub fn dropped(&self) -> i128 {
         self.dropped
     }
-    /// Time that is neither simulated nor dropped; negative if the simulation is ahead.
+    /// Returns the time that is neither simulated nor dropped; negative if the simulation is ahead.
     pub fn owed(&self) -> i128 {
         self.passed - self.simulated - self.dropped
     }

@@ -92,7 +92,7 @@ pub static TRACES: &[TraceCard] = &[
     },
 ];
 
-/// The built-in trace with this id.
+/// Returns the built-in trace with this id.
 pub fn trace_card(id: &str) -> Option<&'static TraceCard> {
     TRACES.iter().find(|card| card.id == id)
 }

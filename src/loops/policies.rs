@@ -223,7 +223,7 @@ pub static POLICIES: &[PolicyCard] = &[
     },
 ];
 
-/// The policy with this id.
+/// Returns the policy with this id.
 pub fn policy(id: &str) -> Option<&'static PolicyCard> {
     POLICIES.iter().find(|card| card.id == id)
 }

@@ -36,7 +36,7 @@ pub trait Policy: Send {
     /// never negative.
     fn frame(&mut self, duration: i128) -> Steps;
 
-    /// Time since the last tick, for drawing between ticks; 0 for a policy without ticks.
+    /// Returns the time since the last tick, for drawing between ticks; 0 for a policy without ticks.
     fn owed(&self) -> i128 {
         0
     }

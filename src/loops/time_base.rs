@@ -22,7 +22,7 @@ impl RefreshRate {
     /// Valid rates in Hz.
     pub const HZ: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
 
-    /// A rate of `numerator / denominator` in Hz.
+    /// Creates a rate of `numerator / denominator` in Hz.
     ///
     /// # Panics
     /// If the rate is not in [`RefreshRate::HZ`].
@@ -31,13 +31,13 @@ impl RefreshRate {
         Self { numerator, denominator }
     }
 
-    /// The rate with a refresh of `period_ns` nanoseconds, clamped to [`RefreshRate::HZ`].
+    /// Creates the rate with a refresh of `period_ns` nanoseconds, clamped to [`RefreshRate::HZ`].
     pub fn of_period(period_ns: i64) -> Self {
         let period_ns = period_ns.clamp(1_000_000, 1_000_000_000) as u32;
         Self::new(SECOND_NS as u32, period_ns)
     }
 
-    /// The rate in Hz.
+    /// Returns the rate in Hz.
     pub fn hz(self) -> f64 {
         f64::from(self.numerator) / f64::from(self.denominator)
     }
@@ -102,15 +102,15 @@ impl TimeBase {
         Self { tick_hz, refresh }
     }
 
-    /// The tick rate.
+    /// Returns the tick rate.
     pub fn tick_hz(&self) -> TickRate {
         self.tick_hz
     }
-    /// Length of a tick.
+    /// Returns the length of a tick.
     pub fn tick(&self) -> i128 {
         SECOND_NS * self.tick_terms()[1] * i128::from(self.refresh.numerator)
     }
-    /// Time between two refreshes of the display.
+    /// Returns the time between two refreshes of the display.
     pub fn refresh(&self) -> i128 {
         SECOND_NS * i128::from(self.refresh.denominator) * self.tick_terms()[0]
     }

@@ -180,7 +180,7 @@ impl FrameTrace {
     pub fn ends(&self) -> bool {
         matches!(self.source, Source::Recorded(_))
     }
-    /// The same frames on a display with another nominal rate.
+    /// Returns the same frames on a display with another nominal rate.
     pub fn on(self, refresh: RefreshRate) -> Self {
         Self { refresh, ..self }
     }

@@ -321,7 +321,7 @@ fn is_of_capframex(bytes: &[u8]) -> bool {
     bytes.starts_with(b"//") && head(bytes).contains("//GameName")
 }
 
-/// The first bytes of a log as text.
+/// Returns the first bytes of a log as text.
 fn head(bytes: &[u8]) -> String {
     String::from_utf8_lossy(&bytes[..bytes.len().min(400)]).into_owned()
 }

@@ -25,7 +25,7 @@ pub struct LoopVerdict {
 }
 
 impl LoopVerdict {
-    /// The verdict on a loop from its report, at a tick rate in Hz.
+    /// Returns the verdict on a loop from its report, at a tick rate in Hz.
     pub fn of(card: &PolicyCard, report: &PacingReport, tick_hz: impl Into<TickRate>) -> Self {
         let mut verdict = Self::of_picture(report, tick_hz.into());
         let differs = report.keeps_speed() != Some(false) && report.other_motion().is_some();
@@ -52,7 +52,7 @@ impl LoopVerdict {
         (1..=self.parts.len()).rev().map(|count| self.parts[..count].join(", ")).collect()
     }
 
-    /// The verdict on the picture as a viewer sees it.
+    /// Returns the verdict on the picture as a viewer sees it.
     fn of_picture(report: &PacingReport, tick_hz: TickRate) -> Self {
         let said = |severity, words: &str| Self::new(severity, [Some(words.into())]);
         if report.keeps_speed() == Some(false) && report.animation_error_rms_ms.is_some() {

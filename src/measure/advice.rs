@@ -132,17 +132,17 @@ impl Adviser {
         &self.scene
     }
 
-    /// The judge of the scene.
+    /// Returns the judge of the scene.
     pub fn judge(&self) -> &Judge {
         &self.judge
     }
 
-    /// The requested rate in Hz.
+    /// Returns the requested rate in Hz.
     pub fn tick_hz(&self) -> TickRate {
         self.tick_hz
     }
 
-    /// The verdict on a lane at the requested rate.
+    /// Returns the verdict on a lane at the requested rate.
     pub fn verdict(&self, spec: LaneSpec) -> Verdict {
         self.judge.verdict(spec, self.tick_hz)
     }
@@ -399,7 +399,7 @@ impl Adviser {
         })
     }
 
-    /// Name of the parameter that makes a body stiffer.
+    /// Returns the name of the parameter that makes a body stiffer.
     fn stiffness_name(&self, body: usize) -> String {
         let body = &self.scene.bodies[body];
         let (_, leading) =
@@ -441,7 +441,7 @@ impl Adviser {
     }
 }
 
-/// The ranking for the criterion with this index.
+/// Returns the ranking for the criterion with this index.
 fn ranking(advised: &[MethodAdvice], criterion: usize) -> Ranking<'_> {
     Ranking::new(
         advised.iter().enumerate().filter_map(|(i, advice)| {

@@ -52,7 +52,7 @@ impl ChaseFinding {
     }
 }
 
-/// True half-life in seconds, if it is within the horizon.
+/// Returns the true half-life in seconds, if it is within the horizon.
 fn true_half_life_s(truth: &BodyTruth) -> Option<f64> {
     let start = truth.start(Solver::Truth);
     let target = start.pursuit(0.0)?.target;

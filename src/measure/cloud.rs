@@ -342,17 +342,17 @@ impl Cloud {
         states
     }
 
-    /// The current tick.
+    /// Returns the current tick.
     pub fn tick(&self) -> u64 {
         self.course.tick()
     }
 
-    /// Coordinates of the points.
+    /// Returns the coordinates of the points.
     pub fn q(&self) -> &[f64] {
         self.course.q()
     }
 
-    /// Velocities of the points.
+    /// Returns the velocities of the points.
     pub fn v(&self) -> &[f64] {
         self.course.v()
     }
@@ -385,8 +385,8 @@ impl Cloud {
         self.present().count()
     }
 
-    /// Area relative to the start; `None` if no point is left, or if the cloud is too fine, folded or torn to
-    /// measure.
+    /// Returns the area relative to the start; `None` if no point is left, or if the cloud is too fine, folded or torn
+    /// to measure.
     pub fn area_ratio(&self) -> Option<f64> {
         self.present().next()?;
         match &self.area {
@@ -468,7 +468,7 @@ impl Cloud {
         beyond
     }
 
-    /// The points that have not blown up.
+    /// Returns the points that have not blown up.
     fn present(&self) -> impl Iterator<Item = [f64; 2]> {
         let is_there = |state: &[f64; 2]| state.iter().all(|number| number.abs() <= ESCAPE);
         self.q().iter().zip(self.v()).map(|(&q, &v)| [q, v]).filter(is_there)
@@ -504,7 +504,7 @@ fn mean_and_error(areas: &[f64]) -> [f64; 2] {
     [mean, (squares.sum::<f64>() / (count * (count - 1.0).max(1.0))).sqrt()]
 }
 
-/// Number of sampled points in a cloud of `points`.
+/// Returns the number of sampled points in a cloud of `points`.
 fn samples(points: usize) -> usize {
     (points / POINTS_TO_A_SAMPLE).clamp(POINTS_TO_A_SAMPLE / 2, MAX_SAMPLES)
 }

@@ -101,7 +101,7 @@ impl Swing {
         self.crossings.len() >= FEWEST_CROSSINGS
     }
 
-    /// Mean time between two crossings, in seconds.
+    /// Returns the mean time between two crossings, in seconds.
     pub(super) fn period(&self) -> f64 {
         let turns = self.crossings.len() - 1;
         (self.crossings[turns] - self.crossings[0]) / turns as f64

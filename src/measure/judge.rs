@@ -43,7 +43,7 @@ pub struct Judge {
 /// Default throttle for judging a scene.
 pub(super) const FULL_THROTTLE: f64 = 1.0;
 
-/// Horizon of a scene in simulated seconds.
+/// Returns the horizon of a scene in simulated seconds.
 pub(super) fn horizon_s(scene: &Scene) -> f64 {
     scene.seconds.min(MAX_HORIZON_S)
 }
@@ -107,12 +107,12 @@ impl Judge {
         ticks(self.horizon_s, tick_hz) > 0
     }
 
-    /// The throttle under which the scene is judged.
+    /// Returns the throttle under which the scene is judged.
     pub fn throttle(&self) -> f64 {
         self.throttle
     }
 
-    /// The horizon in simulated seconds.
+    /// Returns the horizon in simulated seconds.
     pub fn horizon_s(&self) -> f64 {
         self.horizon_s
     }
@@ -127,7 +127,7 @@ impl Judge {
         &self.meter
     }
 
-    /// The verdict on a lane. A body whose run exceeds the work limit is not judged.
+    /// Returns the verdict on a lane. A body whose run exceeds the work limit is not judged.
     pub(super) async fn verdict_within(
         &self,
         max_work: u64,
@@ -187,7 +187,7 @@ impl Judge {
         self.compared(body, spec, tick_hz, &run, by_modes).await
     }
 
-    /// The verdict on a body from a run alongside the truth, and from its modes if they determine the motion.
+    /// Returns the verdict on a body from a run alongside the truth, and from its modes if they determine the motion.
     async fn compared(
         &self,
         body: usize,
@@ -247,7 +247,7 @@ impl Judge {
         Verdict { chase, evaluations: run.evaluations, seconds: run.seconds, ..verdict }
     }
 
-    /// The verdict on a body without a reference solution.
+    /// Returns the verdict on a body without a reference solution.
     fn by_energy(&self, body: usize, tick_hz: TickRate, run: EnergyRun) -> Verdict {
         let found = run.finding;
         let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {

@@ -149,13 +149,13 @@ impl<'a> Modes<'a> {
         self.modes.iter().all(|mode| mode.stability.is_bounded())
     }
 
-    /// The swinging mode with the most energy.
+    /// Returns the swinging mode with the most energy.
     fn main(&self) -> Option<&SteppedMode<'a>> {
         let swinging = self.modes.iter().filter(|mode| mode.mode().swing().is_some());
         swinging.max_by(|a, b| a.moved.share.total_cmp(&b.moved.share))
     }
 
-    /// Frequency error of the main mode.
+    /// Returns the frequency error of the main mode.
     pub(super) fn frequency_error(&self) -> Option<f64> {
         self.main()?.stability.frequency_error
     }
@@ -220,7 +220,7 @@ impl<'a> Modes<'a> {
         Some(past)
     }
 
-    /// The change of the motion within the horizon and later.
+    /// Returns the change of the motion within the horizon and later.
     pub(super) fn change(&self, measure: Measure, horizon_s: f64) -> MotionChange {
         let moves = self.modes.iter().any(|mode| mode.moved.share > 0.0);
         let is_conserved = moves && self.are_conserved();

@@ -58,7 +58,7 @@ impl OneStep {
     }
 }
 
-/// Anatomy of the tick with this number; `None` if the body has halted.
+/// Returns the anatomy of the tick with this number; `None` if the body has halted.
 pub(crate) fn one_step(
     body: &LaneBody,
     spec: LaneSpec,
@@ -90,7 +90,7 @@ pub(crate) fn one_step(
     Some(step)
 }
 
-/// Relative change of the swing by a tick; see [`OneStep::growth`].
+/// Returns the relative change of the swing by a tick; see [`OneStep::growth`].
 fn growth(body: &LaneBody, spec: LaneSpec, Tick { t, h, substeps }: Tick) -> Option<[f64; 2]> {
     let stepper = &body.stepper;
     let mut at_rest = [0.0];
@@ -153,7 +153,7 @@ pub(crate) fn orbit(
     pieces.into_iter().chain(below).filter(|line| line.len() > 1).collect()
 }
 
-/// The true motion from the current state.
+/// Returns the true motion from the current state.
 fn exact(body: &LaneBody, tick: Tick) -> Vec<[f64; 2]> {
     let mut truth = body.stepper.with_solver(Solver::Truth, tick.t);
     let part = tick.h / f64::from(EXACT_POINTS);
@@ -167,7 +167,7 @@ fn exact(body: &LaneBody, tick: Tick) -> Vec<[f64; 2]> {
     points
 }
 
-/// The running sum of the weighted slopes, from the current state.
+/// Returns the running sum of the weighted slopes, from the current state.
 fn chain(step: &OneStep) -> Vec<[f64; 2]> {
     let weights = step.spec.method.weights;
     if step.spec.substeps != 1 || weights.is_empty() || weights.len() != step.evaluations.len() {

@@ -44,7 +44,7 @@ impl Outcome {
         Self::BlewUp,
     ];
 
-    /// Outcome of a body that halted.
+    /// Returns the outcome of a body that halted.
     pub fn of_halt(halt: &Halt) -> Self {
         if halt.is_blow_up() { Self::BlewUp } else { Self::GaveUp }
     }
@@ -126,7 +126,7 @@ impl Outcome {
 }
 
 impl Criterion {
-    /// The outcome of a lane that meets this criterion and no harder one.
+    /// Returns the outcome of a lane that meets this criterion and no harder one.
     pub fn outcome(self) -> Outcome {
         match self {
             Criterion::Bounded => Outcome::Bounded,
@@ -154,7 +154,7 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// The sign as a character.
+    /// Returns the sign as a character.
     pub fn glyph(self) -> &'static str {
         match self {
             Sign::Disc => "●",
@@ -183,7 +183,7 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// The sign of a result without an outcome, such as that of a game loop.
+    /// Returns the sign of a result without an outcome, such as that of a game loop.
     pub fn sign(self) -> Sign {
         match self {
             Severity::Fine | Severity::Fair => Sign::Disc,

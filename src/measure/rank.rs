@@ -63,7 +63,7 @@ impl<'a> Ranking<'a> {
         Some(self.all.first()?.met.cost_per_s)
     }
 
-    /// Index of the recommended method.
+    /// Returns the index of the recommended method.
     pub(super) fn recommended_index(&self) -> Option<usize> {
         let is_outdone = |one: &Ranked| self.all.iter().any(|other| one.loses_to(other));
         self.all.iter().find(|one| !is_outdone(one)).map(|one| one.index)

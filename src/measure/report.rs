@@ -30,7 +30,7 @@ impl<T> Criteria<T> {
         Self { bounded, looks_right, accurate }
     }
 
-    /// The value for a criterion.
+    /// Returns the value for a criterion.
     pub fn get(&self, criterion: Criterion) -> &T {
         match criterion {
             Criterion::Bounded => &self.bounded,
@@ -115,7 +115,7 @@ pub struct Recommendation {
 }
 
 impl Recommendation {
-    /// The recommendation for the criterion with this index; `None` if no method is known to meet it.
+    /// Returns the recommendation for the criterion with this index; `None` if no method is known to meet it.
     pub fn of(advised: &[MethodAdvice], criterion: usize) -> Option<Self> {
         let found = |row: usize| {
             let MethodAdvice { spec, met, .. } = &advised[row];

@@ -51,7 +51,7 @@ pub(super) const PARTS_OF_STRIDE: usize = 5;
 /// Number of factors, including those within strides.
 pub(super) const FINE_FACTORS: usize = PARTS_OF_STRIDE * (FACTORS.len() - 1) + 1;
 
-/// The factor with this index, counting [`PARTS_OF_STRIDE`] per stride.
+/// Returns the factor with this index, counting [`PARTS_OF_STRIDE`] per stride.
 pub(super) fn fine_factor(index: usize) -> f64 {
     let (stride, part) = (index / PARTS_OF_STRIDE, index % PARTS_OF_STRIDE);
     if part == 0 {

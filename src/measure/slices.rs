@@ -53,7 +53,7 @@ impl Meter {
         self.passed.load(Ordering::Relaxed)
     }
 
-    /// Work left in the slice.
+    /// Returns the work left in the slice.
     pub(super) fn work_left(&self) -> u64 {
         let passed = self.passed.load(Ordering::Relaxed);
         self.end.load(Ordering::Relaxed).saturating_sub(passed)

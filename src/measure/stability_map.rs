@@ -83,7 +83,7 @@ impl MapRequest {
         }
     }
 
-    /// The current value of the mapped parameter.
+    /// Returns the current value of the mapped parameter.
     pub fn value(&self) -> f64 {
         self.values[self.parameter]
     }
@@ -277,7 +277,7 @@ struct Plane {
 }
 
 impl Plane {
-    /// The motion of the body with this value of the mapped parameter.
+    /// Returns the motion of the body with this value of the mapped parameter.
     fn motion_at(&self, value: f64) -> Option<TestProblem> {
         TestProblem::of(&*self.body_at(value)).ok()
     }
@@ -288,7 +288,7 @@ impl Plane {
         (self.kind.build)(&values, Solver::Truth)
     }
 
-    /// Approximate work of finding a motion.
+    /// Returns the approximate work of finding a motion.
     fn work_of_motion(&self) -> u64 {
         work_of_roots(self.kind.coordinates(&self.values).len() as u64)
     }
@@ -465,7 +465,7 @@ impl MapWork {
         self.is_within_a_part = self.part.is_some();
     }
 
-    /// The work for the next region, or for the rows that it needs first.
+    /// Returns the work for the next region, or for the rows that it needs first.
     fn next_part(&self) -> Sliced<MapPart> {
         let (plane, meter) = (self.plane.clone(), self.plane.meter.clone());
         let (_, spec) = self.map.request.specs[self.map.regions.len()];

@@ -44,7 +44,7 @@ impl SwingCurve {
         (libm::floor(turned / PI) + 1.0).max(0.0)
     }
 
-    /// Largest distance from the place of rest in the half turn with this index.
+    /// Returns the largest distance from the place of rest in the half turn with this index.
     fn reach(&self, half_turn: f64) -> f64 {
         let slope = self.growth_per_s / self.frequency;
         let peak = self.first_passage() - FRAC_PI_2 + libm::atan(slope);
@@ -56,7 +56,7 @@ impl SwingCurve {
         }
     }
 
-    /// Largest distance from the place of rest, if the swing does not grow.
+    /// Returns the largest distance from the place of rest, if the swing does not grow.
     pub(super) fn widest(&self) -> f64 {
         self.reach(0.0).max(self.reach(1.0))
     }
@@ -99,7 +99,7 @@ impl SwingCurve {
 mod tests {
     use super::*;
 
-    /// Largest distance in each complete half turn, from small steps.
+    /// Returns the largest distance in each complete half turn, from small steps.
     fn stepped(curve: &SwingCurve, seconds: f64) -> Vec<f64> {
         let at = |t: f64| {
             let turned = curve.frequency * t;

@@ -191,7 +191,7 @@ impl Step {
         Self { h, q, v: v.map(|v| v + shift), a }
     }
 
-    /// The coordinate at a fraction of the step.
+    /// Returns the coordinate at a fraction of the step.
     fn at(&self, part: f64) -> f64 {
         let Self { h, q, v, a } = *self;
         let side = |s: f64, q: f64, v: f64, a: f64| {

@@ -117,7 +117,7 @@ impl BodyTruth {
         truth
     }
 
-    /// The body under `solver` at its start, after the script's actions at the start.
+    /// Returns the body under `solver` at its start, after the script's actions at the start.
     pub(super) fn start(&self, solver: Solver) -> Box<dyn Stepper> {
         let mut stepper = (self.body.kind.build)(&self.body.values, solver);
         stepper.input(0.0, Input::Throttle(self.throttle));
@@ -150,7 +150,7 @@ impl BodyTruth {
         body
     }
 
-    /// The body in its initial state, with the parameters in force after the last input.
+    /// Returns the body in its initial state, with the parameters in force after the last input.
     pub(super) fn with_last_parameters(&self) -> Box<dyn Stepper> {
         let mut body = self.start(Solver::Truth);
         let is_parameter = |input: &&Scripted| matches!(input.action, Action::Set { .. });
@@ -165,7 +165,7 @@ impl BodyTruth {
         self.body.kind.coordinates(&self.body.values)
     }
 
-    /// Work of one moment of the true motion, in evaluations of one coordinate.
+    /// Returns the work of one moment of the true motion, in evaluations of one coordinate.
     pub(super) fn work_of_moment(&self) -> u64 {
         let n = self.coordinates().len() as u64;
         match self.body.kind.truth {
@@ -250,7 +250,7 @@ impl BodyTruth {
             first_swings_s.filter(|&s| is_short && is_left_alone && s > self.horizon_s);
     }
 
-    /// Duration in seconds of the first swings of the slowest moving mode of an undamped linear body.
+    /// Returns the duration in seconds of the first swings of the slowest moving mode of an undamped linear body.
     fn first_swings_of_modes_s(&self) -> Option<f64> {
         let modes = self.modes.iter().flatten().filter(|moved| moved.share > 0.0);
         let slowest = modes.filter_map(|moved| moved.mode.swing()).min_by(f64::total_cmp)?;
@@ -258,7 +258,7 @@ impl BodyTruth {
         self.is_oscillator().then_some(f64::from(FOLLOWED_SWINGS) * period_s)
     }
 
-    /// The motion over the long run under this solver.
+    /// Returns the motion over the long run under this solver.
     ///
     /// # Errors
     /// If the solver fails, the motion up to the failure is returned as the error.

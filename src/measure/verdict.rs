@@ -182,7 +182,7 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// The outcome.
+    /// Returns the outcome.
     pub fn outcome(&self) -> Outcome {
         match &self.finding {
             Finding::Compared(comparison) => comparison.outcome(),
@@ -193,7 +193,7 @@ impl Verdict {
         }
     }
 
-    /// The comparison with the truth, if there is one.
+    /// Returns the comparison with the truth, if there is one.
     pub fn comparison(&self) -> Option<&Comparison> {
         if let Finding::Compared(comparison) = &self.finding { Some(comparison) } else { None }
     }
@@ -204,7 +204,7 @@ impl Verdict {
         self.comparison().map(|comparison| comparison.error)
     }
 
-    /// Why and when the run ended early, if it did.
+    /// Returns why and when the run ended early, if it did.
     pub fn failure(&self) -> Option<&RunFailure> {
         if let Finding::Failed { failure, .. } = &self.finding { Some(failure) } else { None }
     }
@@ -235,7 +235,7 @@ impl Verdict {
         self.by_energy().map(|_| Truth::Reference.missing())
     }
 
-    /// The same verdict for a part of a run that begins at this time of the run, in seconds.
+    /// Returns the same verdict for a part of a run that begins at this time of the run, in seconds.
     pub(super) fn starting_at(self, starts_at_s: f64) -> Self {
         let of_bodies = self.of_bodies.into_iter().map(|of_body| of_body.starting_at(starts_at_s));
         Self { starts_at_s, of_bodies: of_bodies.collect(), ..self }

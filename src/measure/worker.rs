@@ -287,7 +287,7 @@ impl AnalysisWorker {
         !self.is_done()
     }
 
-    /// The next part of the answer, if one is missing.
+    /// Returns the next part of the answer, if one is missing.
     fn next_part(&mut self) -> Option<Sliced<AnswerPart>> {
         let AnalysisRequest { scene, by_hand, entries, first, tick_hz, advice, .. } = &self.request;
         let (tick_hz, meter) = (*tick_hz, Arc::<Meter>::default());

@@ -50,7 +50,7 @@ pub trait Records {
     /// Why a row cannot be read.
     type Error;
 
-    /// Names of the columns.
+    /// Returns the names of the columns.
     fn header(&self) -> &ByteRecord;
 
     /// Reads the next row, with one cell for each column of the header; returns `false` after the last row.

@@ -170,7 +170,7 @@ impl Link {
         }
     }
 
-    /// Keys and values of the page's settings, in order.
+    /// Returns the keys and values of the page's settings, in order.
     pub fn settings(&self) -> impl Iterator<Item = (&str, &str)> {
         self.settings.iter().map(|(key, value)| (&**key, &**value))
     }
@@ -250,7 +250,7 @@ impl fmt::Display for Link {
 }
 
 impl Named {
-    /// The scene with the opening method and mode that the link asks for.
+    /// Returns the scene with the opening method and mode that the link asks for.
     fn into_scene(self) -> Scene {
         let Self { mut scene, methods, races } = self;
         scene.opens_as_race |= races;
@@ -267,7 +267,7 @@ impl Named {
     }
 }
 
-/// Version and letters of a packed run.
+/// Returns the version and letters of a packed run.
 fn packed_run(part: &str) -> Option<(u32, &str)> {
     let (version, run) = part.strip_prefix(VERSION_MARK)?.split_once('.')?;
     let is_version = !version.is_empty() && version.bytes().all(|digit| digit.is_ascii_digit());
@@ -335,7 +335,7 @@ pub fn link_to_run(scene: &Scene) -> Result<String, LinkError> {
     Ok(format!("{MARK}{VERSION_MARK}{VERSION}.{}", URL_SAFE_NO_PAD.encode(packed)))
 }
 
-/// The link to the built-in scene of this name.
+/// Returns the link to the built-in scene of this name.
 pub fn to_built_in(name: &str) -> String {
     format!("{MARK}{SCENE}={name}")
 }

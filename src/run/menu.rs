@@ -17,7 +17,7 @@ pub struct Menu {
 }
 
 impl Menu {
-    /// The menu of a race at its start.
+    /// Creates the menu of a race at its start.
     pub(crate) fn new(race: &Race) -> Self {
         let mut menu = Self { specs: race.methods().to_vec(), lane_entries: Vec::new() };
         for entrant in race.entrants() {
@@ -30,12 +30,12 @@ impl Menu {
         menu
     }
 
-    /// The methods, in menu order.
+    /// Returns the methods, in menu order.
     pub fn specs(&self) -> &[LaneSpec] {
         &self.specs
     }
 
-    /// Menu index of a lane in the race.
+    /// Returns the menu index of a lane in the race.
     ///
     /// # Panics
     /// If the lane is not in the race.
@@ -52,7 +52,7 @@ impl Menu {
         self.lane_entries.iter().find(|(known, _)| *known == lane).map(|(_, entry)| *entry)
     }
 
-    /// Heap memory in bytes.
+    /// Returns the heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         size_of_val(&self.specs[..]) + size_of_val(&self.lane_entries[..])
     }

@@ -269,12 +269,12 @@ fn unless_halted<'a>(lane: &'a LaneBody, truth: &'a LaneBody) -> Option<[&'a Lan
     are_running.then_some([lane, truth])
 }
 
-/// The value, if it is finite.
+/// Returns the value, if it is finite.
 fn if_finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// The largest difference; NaN if any difference is NaN.
+/// Returns the largest difference; NaN if any difference is NaN.
 fn largest_difference(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>) -> f64 {
     let larger = |largest: f64, x: f64| if x > largest || x.is_nan() { x } else { largest };
     a.zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)

@@ -82,7 +82,7 @@ impl Run {
         Self { limit, ..Self::of(StartSettings::of_session(&session), session) }
     }
 
-    /// A run that starts with these settings.
+    /// Creates a run that starts with these settings.
     pub(crate) fn starting_with(next: StartSettings) -> Self {
         let session = next.session();
         Self::of(next, session)
@@ -93,7 +93,7 @@ impl Run {
         Self { course, next, spacing: SPACING, limit: SNAPSHOT_BYTES, changes }
     }
 
-    /// The session at the present tick.
+    /// Returns the session at the present tick.
     pub fn session(&self) -> &Session {
         &self.course.session
     }
@@ -115,23 +115,23 @@ impl Run {
         let changes = rows.filter_map(|row| Some((row.tick, row.action.tick_hz()?)));
         TimeScale::new((0, 0.0), self.start().tick_hz(), changes)
     }
-    /// The lanes and the truth at the present tick.
+    /// Returns the lanes and the truth at the present tick.
     pub fn race(&self) -> &Race {
         self.course.race()
     }
-    /// The drawn past.
+    /// Returns the drawn past.
     pub fn past(&self) -> &Past {
         self.course.seen.past()
     }
-    /// The methods to which digits and rows refer.
+    /// Returns the methods to which digits and rows refer.
     pub fn menu(&self) -> &Menu {
         self.course.seen.menu()
     }
-    /// The checkpoints from which verdicts and clouds restart.
+    /// Returns the checkpoints from which verdicts and clouds restart.
     pub(crate) fn checkpoints(&self) -> &Checkpoints {
         self.course.seen.checkpoints()
     }
-    /// The last tick reached.
+    /// Returns the last tick reached.
     pub fn end(&self) -> u64 {
         self.course.record.end
     }
@@ -144,7 +144,7 @@ impl Run {
         let all = self.course.record.snapshots.iter().chain(self.changes.snapshots());
         all.map(|snapshot| snapshot.bytes).sum::<usize>() + self.changes.past_bytes()
     }
-    /// Limit for [`Run::bytes`].
+    /// Returns the limit for [`Run::bytes`].
     pub fn limit(&self) -> usize {
         self.limit
     }
@@ -152,16 +152,16 @@ impl Run {
     pub fn set_limit(&mut self, limit: usize) {
         self.limit = limit;
     }
-    /// Description of the change that [`Run::undo`] would take back; `None` if there is none.
+    /// Returns the description of the change that [`Run::undo`] would take back; `None` if there is none.
     pub fn undoes(&self) -> Option<&str> {
         self.changes.done.last().map(|change| &change.what[..])
     }
-    /// Description of the change that [`Run::redo`] would repeat; `None` if there is none.
+    /// Returns the description of the change that [`Run::redo`] would repeat; `None` if there is none.
     pub fn redoes(&self) -> Option<&str> {
         self.changes.undone.last().map(|change| &change.what[..])
     }
 
-    /// Events up to the last tick reached, in order.
+    /// Returns the events up to the last tick reached, in order.
     pub fn events(&self) -> Vec<Event> {
         let rows = self.course.session.journal().rows().iter();
         let is_solo = self.start().mode() == Mode::Solo;
@@ -345,7 +345,7 @@ impl Run {
         true
     }
 
-    /// The hashes noted so far, in order of ticks.
+    /// Returns the hashes noted so far, in order of ticks.
     fn hashes(&self) -> &[Hashes] {
         &self.course.record.hashes
     }

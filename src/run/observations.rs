@@ -20,7 +20,7 @@ pub(super) struct ObservationsMark {
 }
 
 impl ObservationsMark {
-    /// Heap memory in bytes.
+    /// Returns the heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.menu.heap_bytes() + self.checkpoints.heap_bytes() + self.past.heap_bytes()
     }
@@ -50,12 +50,12 @@ impl Observations {
         &self.menu
     }
 
-    /// The checkpoints from which verdicts and clouds restart.
+    /// Returns the checkpoints from which verdicts and clouds restart.
     pub(super) fn checkpoints(&self) -> &Checkpoints {
         &self.checkpoints
     }
 
-    /// The drawn past.
+    /// Returns the drawn past.
     pub fn past(&self) -> &Past {
         &self.past
     }

@@ -64,7 +64,7 @@ pub(super) struct PastMark {
 }
 
 impl PastMark {
-    /// Heap memory in bytes.
+    /// Returns the heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         let row = |(_, marks): &(LaneId, Box<[HistoryMark]>)| size_of_val(&marks[..]);
         size_of_val(&self.histories[..])
@@ -105,14 +105,14 @@ impl Past {
         past
     }
 
-    /// Heap memory in bytes.
+    /// Returns the heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         let histories: usize = self.histories.iter().map(|(_, histories)| histories.len()).sum();
         histories * History::heap_bytes(self.capacity)
             + self.truth_curves.iter().map(TruthCurve::heap_bytes).sum::<usize>()
     }
 
-    /// The histories of the bodies of a lane in the race.
+    /// Returns the histories of the bodies of a lane in the race.
     ///
     /// # Panics
     /// If the lane is not in the race.
@@ -124,23 +124,23 @@ impl Past {
         self.histories.iter().position(|(id, _)| *id == lane)
     }
 
-    /// The recent past of the truth, one curve for each body.
+    /// Returns the recent past of the truth, one curve for each body.
     pub fn truth_curves(&self) -> &[TruthCurve] {
         &self.truth_curves
     }
 
-    /// The indices of the recorded coordinates, one for each body.
+    /// Returns the indices of the recorded coordinates, one for each body.
     pub fn coordinates(&self) -> impl Iterator<Item = usize> {
         self.truth_curves.iter().map(TruthCurve::coordinate)
     }
 
-    /// The recorded coordinate of the body with this index in the scene, and the coordinate's index.
+    /// Returns the recorded coordinate of the body with this index in the scene, and the coordinate's index.
     pub fn coordinate(&self, race: &Race, body: usize) -> (Coordinate, usize) {
         let index = self.truth_curves[body].coordinate();
         (race.truth().bodies()[body].coordinates().at(index), index)
     }
 
-    /// Time (s) of the last placement or parameter change; before the start if there was none.
+    /// Returns the time (s) of the last placement or parameter change; before the start if there was none.
     pub fn changed_s(&self) -> f64 {
         self.changed_s
     }

@@ -49,7 +49,7 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// The mode in which a scene opens.
+    /// Returns the mode in which a scene opens.
     pub fn opening(scene: &Scene) -> Self {
         if scene.opens_as_race { Mode::Race } else { Mode::Solo }
     }
@@ -206,7 +206,7 @@ impl Race {
         race
     }
 
-    /// The same race at its start, at this tick rate and without its script.
+    /// Returns the same race at its start, at this tick rate and without its script.
     pub(crate) fn at_rate(self, tick_hz: TickRate) -> Self {
         Self { piece: Piece::first(tick_hz), journal: Journal::default(), ..self }
     }
@@ -215,15 +215,15 @@ impl Race {
     pub fn mode(&self) -> Mode {
         self.mode
     }
-    /// The tick reached.
+    /// Returns the tick reached.
     pub fn tick(&self) -> u64 {
         self.tick
     }
-    /// The tick rate in Hz.
+    /// Returns the tick rate in Hz.
     pub fn tick_hz(&self) -> TickRate {
         self.piece.tick_hz
     }
-    /// The time reached, in seconds.
+    /// Returns the time reached, in seconds.
     pub fn t(&self) -> f64 {
         self.piece.t(self.tick)
     }
@@ -235,7 +235,7 @@ impl Race {
     pub fn throttle(&self) -> f64 {
         self.throttle
     }
-    /// Rudder, from -1 (hard right) to 1 (hard left).
+    /// Returns the rudder, from -1 (hard right) to 1 (hard left).
     pub fn rudder(&self) -> f64 {
         self.rudder
     }
@@ -243,7 +243,7 @@ impl Race {
     pub fn truth(&self) -> &Lane {
         &self.truth
     }
-    /// The lanes, in list order.
+    /// Returns the lanes, in list order.
     pub fn entrants(&self) -> &[Entrant] {
         &self.entrants
     }
@@ -252,7 +252,7 @@ impl Race {
     pub fn methods(&self) -> &[LaneSpec] {
         &self.methods
     }
-    /// Present parameters of the body with this index in the scene, in the order of
+    /// Returns the present parameters of the body with this index in the scene, in the order of
     /// [`Kind::build`](crate::sim::bodies::Kind::build).
     pub fn values(&self, body: usize) -> &[f64] {
         &self.values[body]
@@ -279,12 +279,12 @@ impl Race {
     pub fn journal(&self) -> &Journal {
         &self.journal
     }
-    /// Number of journal rows already performed.
+    /// Returns the number of journal rows already performed.
     pub(crate) fn done(&self) -> usize {
         self.done
     }
 
-    /// Pending changes of the tick rate, each with its tick.
+    /// Returns the pending changes of the tick rate, each with its tick.
     pub fn rates_to_come(&self) -> impl Iterator<Item = (u64, TickRate)> {
         let pending = self.journal.rows()[self.done..].iter();
         pending.filter_map(|row| Some((row.tick, row.action.tick_hz()?)))

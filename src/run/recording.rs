@@ -32,7 +32,7 @@ pub enum RecordingError {
 }
 
 impl Session {
-    /// The text of the [recording](Session::recording) to tick `end`.
+    /// Returns the text of the [recording](Session::recording) to tick `end`.
     ///
     /// # Errors
     /// If the text is too long for a scene file, or if the run has a body or a method written in Rust.
@@ -166,14 +166,14 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// A replay at the start of the race.
+    /// Creates a replay at the start of the race.
     pub fn new(scene: Arc<Scene>) -> Self {
         let mut rows: Vec<usize> = (0..scene.checks.len()).rev().collect();
         rows.sort_by_key(|&row| std::cmp::Reverse(scene.checks[row].tick));
         Self { session: Session::racing(scene), rows }
     }
 
-    /// The scene with its checks.
+    /// Returns the scene with its checks.
     pub fn scene(&self) -> &Arc<Scene> {
         self.session.scene()
     }

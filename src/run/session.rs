@@ -16,7 +16,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// The race of all the scene's lanes, at its start, with the scene's script.
+    /// Creates the race of all the scene's lanes, at its start, with the scene's script.
     ///
     /// ```
     /// use regatta::run::Session;
@@ -50,7 +50,7 @@ impl Session {
         Self::new(scene, race)
     }
 
-    /// The same run before its first tick, with all its actions pending.
+    /// Returns the same run before its first tick, with all its actions pending.
     pub(crate) fn before_its_first_tick(&self) -> Self {
         let mut race = self.start().clone();
         race.set_journal(self.journal().clone());
@@ -62,11 +62,11 @@ impl Session {
         &self.start
     }
 
-    /// The scene, as it was opened.
+    /// Returns the scene, as it was opened.
     pub fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
-    /// The lanes and the truth.
+    /// Returns the lanes and the truth.
     pub fn race(&self) -> &Race {
         &self.race
     }

@@ -49,7 +49,7 @@ impl StartSettings {
         }
     }
 
-    /// The settings with which this run began.
+    /// Creates the settings with which this run began.
     pub(crate) fn of_session(session: &Session) -> Self {
         let menu = Menu::new(session.race());
         let lanes = entries(session.race(), &menu);
@@ -91,7 +91,7 @@ impl StartSettings {
         true
     }
 
-    /// The run at its start.
+    /// Returns the run at its start.
     pub(crate) fn session(&self) -> Session {
         let race = match self.mode {
             Mode::Solo => Race::solo(&self.scene, self.list.clone(), self.entry),
@@ -148,7 +148,7 @@ impl StartSettings {
     }
 }
 
-/// Menu index of each lane's method.
+/// Returns the menu index of each lane's method.
 fn entries(race: &Race, menu: &Menu) -> Vec<MenuIndex> {
     race.entrants().iter().map(|entrant| menu.entry(entrant.id)).collect()
 }

@@ -94,17 +94,17 @@ impl UndoStack {
         self.done.iter().chain(&self.undone)
     }
 
-    /// The records of all replaced futures and runs.
+    /// Returns the records of all replaced futures and runs.
     fn records(&self) -> impl Iterator<Item = &RunRecord> {
         self.changes().filter_map(|change| change.replaced.record())
     }
 
-    /// The snapshots of all replaced futures and runs.
+    /// Returns the snapshots of all replaced futures and runs.
     pub(super) fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
         self.records().flat_map(|record| &record.snapshots)
     }
 
-    /// Memory (bytes) of the drawn pasts of the kept runs.
+    /// Returns the memory (bytes) of the drawn pasts of the kept runs.
     pub(super) fn past_bytes(&self) -> usize {
         let pasts = self.changes().filter_map(|change| match &change.replaced {
             Replaced::Course(course) => Some(course.seen.past().heap_bytes()),
@@ -113,7 +113,7 @@ impl UndoStack {
         pasts.sum()
     }
 
-    /// Last tick of all replaced futures and runs.
+    /// Returns the last tick of all replaced futures and runs.
     pub(super) fn end(&self) -> u64 {
         self.records().map(|record| record.end).max().unwrap_or(0)
     }

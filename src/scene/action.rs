@@ -122,7 +122,7 @@ impl Action {
         words.trim_end().to_owned()
     }
 
-    /// A noun for the action, for people.
+    /// Returns a noun for the action, for people.
     pub(crate) fn noun(&self) -> &'static str {
         match self {
             Action::Method(_) | Action::Lane { .. } => "the switch",

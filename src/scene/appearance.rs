@@ -95,7 +95,7 @@ impl Appearance {
 }
 
 impl Preview {
-    /// Index of the coordinate with the widest range.
+    /// Returns the index of the coordinate with the widest range.
     fn widest(&self) -> usize {
         let far = |index: usize| self.ranges[index].1 - self.ranges[index].0;
         let farther =
@@ -122,7 +122,7 @@ impl Preview {
         self.corners = places.into_iter().fold(self.corners, hold);
     }
 
-    /// The preview of a net.
+    /// Creates the preview of a net.
     fn of_net(net: &Net, plan: &NetPlan) -> Self {
         let fixed: Vec<DVec2> = plan.fixed_places().map(DVec2::from).collect();
         let mut state = net.start();

@@ -118,7 +118,7 @@ pub(super) fn name_the_nameless(bodies: &mut [BodyDraft]) {
     }
 }
 
-/// The bodies with all their parameters.
+/// Returns the bodies with all their parameters.
 pub(super) fn complete_bodies(bodies: Vec<BodyDraft>) -> Vec<SceneBody> {
     let finish = |BodyDraft { kind, name, values, .. }| {
         Some(SceneBody::new(name.expect("each has one by now"), kind?, values?))
@@ -147,7 +147,7 @@ pub(super) fn check_method(
     }
 }
 
-/// A plain lane for each [method for games](Method::is_for_games) that steps all of these bodies.
+/// Returns a plain lane for each [method for games](Method::is_for_games) that steps all of these bodies.
 pub(super) fn every_lane(bodies: &[BodyDraft], own: &[&'static Method]) -> Vec<LaneSpec> {
     let steps = |method: &Method, body: &BodyDraft| {
         let known = body.kind.as_ref().zip(body.values.as_ref());

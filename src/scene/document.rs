@@ -190,7 +190,7 @@ pub(super) static RACE: [Key<Scene, Scene>; 2] = [
     },
 ];
 
-/// The key above the first table with this name.
+/// Returns the key above the first table with this name.
 fn at_top(key: &str) -> Option<&'static str> {
     TOP.iter().map(|it| it.field.key).find(|it| *it == key)
 }

@@ -98,7 +98,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::sim::bodies::{BODIES, MAX_VALUE, kind};
 
-    /// The values of the only body of a scene with this table, or the error message.
+    /// Returns the values of the only body of a scene with this table, or the error message.
     fn parsed(table: &str) -> Result<Vec<f64>, String> {
         let text = format!("title = 'one'\ntick_hz = 60\nseconds = 1\n{table}");
         let scene = Scene::parse("one.toml", &text).map_err(|errors| errors.to_string())?;

@@ -122,7 +122,7 @@ impl SceneErrors {
         errors.iter().map(message).chain(rest)
     }
 
-    /// Line and column of a byte of the text, both from 1. The column counts characters.
+    /// Returns the line and column of a byte of the text, both from 1. The column counts characters.
     pub fn position(&self, byte: usize) -> (usize, usize) {
         position(&self.text, byte)
     }

@@ -43,7 +43,7 @@ impl SceneFault {
         Self { kind, ..self }
     }
 
-    /// An unknown key, in a place for `known` keys.
+    /// Returns an unknown key, in a place for `known` keys.
     pub(super) fn unknown_key(
         key: &str,
         place: Place,

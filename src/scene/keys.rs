@@ -96,7 +96,7 @@ pub(super) fn rate(rate: TickRate) -> String {
     rate.decimal_hz().unwrap_or_else(|| quoted(&rate.to_string()))
 }
 
-/// The length of a tick as TOML, if the length is a decimal number and the rate is not.
+/// Returns the length of a tick as TOML, if the length is a decimal number and the rate is not.
 pub(super) fn step_s(rate: TickRate) -> Option<String> {
     rate.decimal_step_s().filter(|_| rate.decimal_hz().is_none())
 }
@@ -201,7 +201,7 @@ pub(super) fn read_tolerance(row: &mut Table<'_>, method: Option<&'static Method
     tolerance
 }
 
-/// Ids of the methods that choose their own steps.
+/// Returns the ids of the methods that choose their own steps.
 pub(super) fn adaptive_methods() -> String {
     methods(|method| method.tolerance.is_some())
 }

@@ -12,7 +12,7 @@ use crate::sim::{Range, Solver};
 pub struct LaneId(pub usize);
 
 impl LaneId {
-    /// The lane at this index of a scene's lanes.
+    /// Returns the lane at this index of a scene's lanes.
     pub const fn of_index(index: usize) -> Self {
         Self(index + 1)
     }
@@ -64,7 +64,7 @@ impl Swing {
         Self::RANGES.into_iter().zip(both).all(|(range, value)| range.contains(value))
     }
 
-    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass.
+    /// Returns the stiffness in 1/s² and damping in 1/s, each per unit of mass.
     pub fn per_mass(self) -> [f64; 2] {
         let omega = std::f64::consts::TAU * self.frequency_hz;
         [omega * omega, 2.0 * self.damping_ratio * omega]
@@ -95,7 +95,8 @@ impl LaneSpec {
         told.map(|it| format!(", set to {} Hz", round(it.frequency_hz, 3))).unwrap_or_default()
     }
 
-    /// The method's name with the substeps, unless these are 1 and no other of `lanes` with this method has more.
+    /// Returns the method's name with the substeps, unless these are 1 and no other of `lanes` with this method has
+    /// more.
     pub fn name_with_substeps(&self, lanes: &[LaneSpec]) -> String {
         let mut others = lanes.iter().filter(|other| other.method == self.method);
         let name = self.method.name;
@@ -106,7 +107,7 @@ impl LaneSpec {
         }
     }
 
-    /// The solver of the lane's bodies.
+    /// Returns the solver of the lane's bodies.
     pub fn solver(&self) -> Solver {
         match (self.joint.map(Swing::per_mass), self.tolerance) {
             (Some(joint), _) => Solver::With(self.method, Override::Joint(joint)),

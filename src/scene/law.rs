@@ -329,7 +329,7 @@ fn offer(written: &str, known: &[&str]) -> String {
     nearest::offer(nearest(written, known.iter().map(|name| (*name, *name))), known, '`')
 }
 
-/// The tables of a law's coordinates.
+/// Returns the tables of a law's coordinates.
 pub(super) fn coordinate_tables(SceneBody { values, .. }: &SceneBody, law: &LawText) -> String {
     let (n, rest) = (law.coordinates.len(), &values[law.constants.len()..]);
     let table = |(i, text): (usize, &CoordinateText)| {
@@ -349,7 +349,7 @@ impl WrittenLaw {
         self.coordinates.as_deref().unwrap_or_default()
     }
 
-    /// The text of the law; `None` if it has no coordinate or lacks an acceleration.
+    /// Returns the text of the law; `None` if it has no coordinate or lacks an acceleration.
     fn text(&self) -> Option<LawText> {
         let text = |written: &TextBlock| written.text.clone();
         let coordinate = |of: &WrittenCoordinate| {

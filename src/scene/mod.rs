@@ -167,7 +167,7 @@ pub struct SceneBody {
 }
 
 impl SceneBody {
-    /// A body with the usual look of its kind.
+    /// Creates a body with the usual look of its kind.
     pub(crate) fn new(name: impl Into<String>, kind: Arc<Kind>, values: Vec<f64>) -> Self {
         Self { name: name.into(), kind, values, appearance: Arc::default() }
     }
@@ -254,7 +254,7 @@ impl Scene {
         Piece::first(self.tick_hz).put_on_ticks(script)
     }
 
-    /// The actions of the script in order, each with its tick's time in seconds.
+    /// Returns the actions of the script in order, each with its tick's time in seconds.
     pub(crate) fn timed_script(&self) -> impl Iterator<Item = (f64, &Action)> {
         let actions = self.script.iter().map(|row| &row.action);
         self.script_on_ticks().map(|(_, t)| t).zip(actions)
@@ -301,7 +301,7 @@ impl Scene {
         Some(READ[index].get_or_init(read).clone())
     }
 
-    /// The harbour with a second spring, for tests on several springs.
+    /// Returns the harbour with a second spring, for tests on several springs.
     #[cfg(test)]
     pub(crate) fn with_two_springs() -> Scene {
         let [mut scene, mut damped] =

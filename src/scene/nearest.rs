@@ -40,7 +40,7 @@ pub fn nearest<'n>(
         .map(|(_, name)| name)
 }
 
-/// The remedy for an unknown name.
+/// Returns the remedy for an unknown name.
 pub(super) fn offer(nearest: Option<&str>, known: &[impl AsRef<str>], quote: char) -> String {
     match nearest {
         Some(name) => format!("did you mean {}?", listed(&[name], quote, "")),
@@ -48,7 +48,7 @@ pub(super) fn offer(nearest: Option<&str>, known: &[impl AsRef<str>], quote: cha
     }
 }
 
-/// The remedy for a fault of an expression, in words.
+/// Returns the remedy for a fault of an expression, in words.
 pub(super) fn words(remedy: Remedy) -> String {
     match remedy {
         Remedy::Words(words) => words,

@@ -19,7 +19,7 @@ pub struct Refusal {
 }
 
 impl Scene {
-    /// The reason why `method` cannot step this scene; `None` if it steps every body.
+    /// Returns the reason why `method` cannot step this scene; `None` if it steps every body.
     pub fn refusal(&self, method: &Method) -> Option<Refusal> {
         self.bodies.iter().find_map(|SceneBody { name, kind, values, .. }| {
             let reason = incompatibility(method, kind, values)?;
@@ -35,7 +35,7 @@ impl Scene {
         all.filter(is_shown).filter(|method| self.refusal(method).is_none())
     }
 
-    /// The [methods that fit](Scene::fitting_methods) and are [for a game to implement](Method::is_for_games).
+    /// Returns the [methods that fit](Scene::fitting_methods) and are [for a game to implement](Method::is_for_games).
     pub fn methods_for_games(&self) -> impl Iterator<Item = &'static Method> {
         self.fitting_methods().filter(|method| method.is_for_games())
     }
@@ -116,7 +116,7 @@ impl Scene {
         }
     }
 
-    /// The methods of a family that step every body of this scene.
+    /// Returns the methods of a family that step every body of this scene.
     pub fn methods_of(&self, family: Family) -> impl Iterator<Item = &'static Method> {
         let all = METHODS.iter().filter(move |method| method.family == family);
         all.filter(|method| self.refusal(method).is_none())

@@ -220,7 +220,7 @@ fn inline(entries: &[(Field, String)]) -> String {
     format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
 }
 
-/// A parameter's value as TOML, if the parameter is not a curve.
+/// Returns a parameter's value as TOML, if the parameter is not a curve.
 pub(super) fn parameter_value(range: Range, value: f64) -> String {
     match range {
         Range::Count(_) => format!("{}", value as u64),

@@ -95,7 +95,7 @@ impl<'t> Table<'t> {
         self.entries.contains_key(key)
     }
 
-    /// The file's own methods.
+    /// Returns the file's own methods.
     pub(super) fn own(&self) -> &[&'static Method] {
         &self.own
     }
@@ -212,7 +212,7 @@ impl<'t> Table<'t> {
         Some(methods)
     }
 
-    /// The tables of the array `name`, in the order of the file.
+    /// Returns the tables of the array `name`, in the order of the file.
     pub(super) fn rows(&mut self, name: &'static str) -> Vec<Table<'t>> {
         self.arrays.push(name);
         let Some(value) = self.entries.get(name) else { return vec![] };

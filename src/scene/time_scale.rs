@@ -33,17 +33,17 @@ impl Piece {
         Self { tick, t: self.t(tick), tick_hz }
     }
 
-    /// Time of a tick, in seconds.
+    /// Returns the time of a tick, in seconds.
     pub(crate) fn t(self, tick: u64) -> f64 {
         self.t + self.tick_hz.seconds(tick - self.tick)
     }
 
-    /// The fractional tick at a time in seconds; the first tick for all earlier times.
+    /// Returns the fractional tick at a time in seconds; the first tick for all earlier times.
     fn tick_at(self, t: f64) -> f64 {
         self.tick as f64 + ((t - self.t) * f64::from(self.tick_hz)).max(0.0)
     }
 
-    /// The tick nearest to a time in seconds; the first tick for all earlier times.
+    /// Returns the tick nearest to a time in seconds; the first tick for all earlier times.
     pub(crate) fn nearest_tick(self, t: f64) -> u64 {
         self.tick + nearest_tick(t - self.t, self.tick_hz)
     }
@@ -87,7 +87,7 @@ impl TimeScale {
         Self { pieces }
     }
 
-    /// Time of a tick, in seconds.
+    /// Returns the time of a tick, in seconds.
     pub fn t(&self, tick: u64) -> f64 {
         let next = self.pieces.partition_point(|piece| piece.tick <= tick);
         self.pieces[next - 1].t(tick)
@@ -98,12 +98,12 @@ impl TimeScale {
         format!("tick {tick} ({:.3} s)", self.t(tick))
     }
 
-    /// The fractional tick at a time in seconds; the first tick for all earlier times.
+    /// Returns the fractional tick at a time in seconds; the first tick for all earlier times.
     pub fn tick_at(&self, t: f64) -> f64 {
         self.piece_at(t).tick_at(t)
     }
 
-    /// The tick nearest to a time in seconds; the first tick for all earlier times.
+    /// Returns the tick nearest to a time in seconds; the first tick for all earlier times.
     pub fn nearest_tick(&self, t: f64) -> u64 {
         self.piece_at(t).nearest_tick(t)
     }

@@ -117,7 +117,7 @@ impl Wanted {
     /// Any number.
     pub(super) const ANY: Self = Self::Number(bodies::Range::ANY);
 
-    /// The kind of value that a parameter of this range takes.
+    /// Returns the kind of value that a parameter of this range takes.
     pub(super) fn of(range: bodies::Range) -> Self {
         match range {
             bodies::Range::Count(most) => Wanted::Whole(1..=most.into()),
@@ -136,7 +136,7 @@ impl Wanted {
         matches!(self, Wanted::Whole(range) if range.contains(&whole))
     }
 
-    /// Most characters of a text.
+    /// Returns the maximum number of characters of a text.
     pub(super) fn max_chars(&self) -> usize {
         if let Wanted::Text(most) = self { *most } else { MAX_WORD_CHARS }
     }
@@ -146,7 +146,7 @@ impl Wanted {
         format!("write {self}")
     }
 
-    /// The kind of value, for messages.
+    /// Returns the kind of value, for messages.
     pub(super) fn noun(&self) -> &'static str {
         match self {
             Wanted::Text(_)

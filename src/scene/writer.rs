@@ -65,13 +65,13 @@ impl Scene {
 }
 
 impl Check {
-    /// The check as a table of a scene file, after an empty line.
+    /// Returns the check as a table of a scene file, after an empty line.
     pub fn to_toml(&self) -> String {
         format!("\n[[{CHECKS}]]\n{}", Key::lines(&CHECK, self))
     }
 }
 
-/// The table of a body.
+/// Returns the table of a body.
 fn body_table(body: &SceneBody) -> String {
     let SceneBody { name, kind, values, .. } = body;
     let id = if kind.law().is_some() { LAW } else { kind.id };
@@ -92,7 +92,7 @@ fn body_table(body: &SceneBody) -> String {
     text
 }
 
-/// The nodes and springs of a net.
+/// Returns the nodes and springs of a net.
 fn net_lines(NetPlan { form, kicked }: &NetPlan) -> String {
     let lines = match form {
         NetLayout::Grid(grid) => Key::lines(&GRID_KEYS, grid),

@@ -46,7 +46,7 @@ pub enum Conclusion {
 }
 
 impl Conclusion {
-    /// The word used in output.
+    /// Returns the word used in output.
     pub fn id(self) -> &'static str {
         match self {
             Conclusion::Identified => "identified",
@@ -174,7 +174,8 @@ fn identify_with(
     })
 }
 
-/// Signed distance of the last row from the exact motion of the fitted start, in metres, and the row's time.
+/// Returns the signed distance of the last row from the exact motion of the fitted start, in metres, and the row's
+/// time.
 fn from_exact(log: &Log, fit: &Fit, tick_s: f64) -> Option<(f64, f64)> {
     let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringForm::Acceleration };
     let last = log.rows().last()?;
@@ -207,7 +208,7 @@ impl Identification {
     }
 }
 
-/// The cheapest methods whose visible motion is near the exact one.
+/// Returns the cheapest methods whose visible motion is near the exact one.
 fn recommended(
     body: &LoggedBody,
     tick_s: f64,
@@ -263,7 +264,7 @@ fn search(
     fits
 }
 
-/// Largest sum of squares on the head that is worth a fit to the whole log.
+/// Returns the largest sum of squares on the head that is worth a fit to the whole log.
 fn max_head_squares(squares: &[f64], log: &Log) -> f64 {
     let numbers = log.numbers() as f64;
     let nearest = squares.iter().copied().fold(f64::INFINITY, f64::min);

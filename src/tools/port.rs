@@ -136,19 +136,19 @@ impl Wish {
         Ok(())
     }
 
-    /// Angular frequency, in rad/s.
+    /// Returns the angular frequency, in rad/s.
     fn omega(&self) -> f64 {
         std::f64::consts::TAU * self.frequency_hz
     }
 
-    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation of motion.
+    /// Returns the stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation of motion.
     pub fn joint(&self) -> [f64; 2] {
         let &Self { frequency_hz, damping_ratio, .. } = self;
         Swing { frequency_hz, damping_ratio }.per_mass()
     }
 
-    /// The wish for a spring with this stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation
-    /// of motion.
+    /// Returns the wish for a spring with this stiffness in 1/s² and damping in 1/s, each per unit of mass, by the
+    /// equation of motion.
     pub fn of_joint([stiffness, damping]: [f64; 2], mass_kg: f64) -> Self {
         let omega = stiffness.sqrt();
         Self::of(Effective { omega, decay: damping / 2.0 }, mass_kg)
@@ -181,12 +181,12 @@ impl Wish {
         Ok(Self::of(seen, mass_kg))
     }
 
-    /// The wished motion.
+    /// Returns the wished motion.
     fn effective(&self) -> Effective {
         Effective { omega: self.omega(), decay: self.damping_ratio * self.omega() }
     }
 
-    /// The wish for this visible motion, on this mass in kg.
+    /// Returns the wish for this visible motion, on this mass in kg.
     pub fn of(seen: Effective, mass_kg: f64) -> Self {
         let damping_ratio = seen.damping_ratio().unwrap_or(0.0);
         Self { frequency_hz: seen.undamped_hz(), damping_ratio, mass_kg }
@@ -248,7 +248,7 @@ pub struct Ported {
 }
 
 impl Ported {
-    /// The code for these values, with the substeps unless they are the engine's default.
+    /// Returns the code for these values, with the substeps unless they are the engine's default.
     pub fn code(&self) -> String {
         self.setup.code(self.values)
     }

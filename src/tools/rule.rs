@@ -137,7 +137,7 @@ impl Rule {
         self.text.takes_step()
     }
 
-    /// Names of the numbers that decide the motion.
+    /// Returns the names of the numbers that decide the motion.
     pub fn state(&self) -> impl Iterator<Item = &str> {
         self.state.iter().map(|index| &*self.text.carried()[*index].name)
     }
@@ -182,7 +182,7 @@ impl Rule {
         rates.into_iter().map(|fps| self.motion_at(fps)).collect()
     }
 
-    /// The visible motion at this many frames per second.
+    /// Returns the visible motion at this many frames per second.
     pub fn motion_at(&self, fps: f64) -> VisibleMotion {
         let nothing = VisibleMotion {
             fps,
@@ -230,7 +230,7 @@ impl Rule {
         self.begins_below(FASTEST_RINGING, Motion::rings)
     }
 
-    /// Frame rate below which the rule grows; `None` if the frame rate does not decide that.
+    /// Returns the frame rate below which the rule grows; `None` if the frame rate does not decide that.
     pub fn explodes_below_fps(&self) -> Option<f64> {
         let above = |least| self.begins_below(FASTEST_GROWTH, |motion| motion.grows(least));
         // A rule that grows at every rate, but ever less, passes each limit somewhere.
@@ -262,12 +262,13 @@ impl Rule {
         None
     }
 
-    /// The spring with the same motion at the author's frame rate, with a mass of 1 kg; `None` if there is none.
+    /// Returns the spring with the same motion at the author's frame rate, with a mass of 1 kg; `None` if there is
+    /// none.
     pub fn spring(&self) -> Option<Wish> {
         Some(Wish::of(self.motion_at(self.fps).spring?, 1.0))
     }
 
-    /// The approach to the target, if the rule does nothing else.
+    /// Returns the approach to the target, if the rule does nothing else.
     pub fn approach(&self) -> Option<Approach> {
         let half_life_s = self.motion_at(self.fps).halves_s?;
         self.text.takes_target().then_some(Approach { half_life_s })
@@ -315,7 +316,7 @@ impl Rule {
 }
 
 impl Motion {
-    /// Largest modulus of an eigenvalue, without the 1 of a coasting motion.
+    /// Returns the largest modulus of an eigenvalue, without the 1 of a coasting motion.
     fn radius(&self) -> f64 {
         match self {
             Motion::Approach { kept } | Motion::Coast { kept } => kept.abs(),

@@ -47,7 +47,7 @@ impl MethodSource {
         (!method.code.is_empty()).then(|| Self(Program::read(method.code)))
     }
 
-    /// The function's inputs besides `x`, `v` and `h`.
+    /// Returns the function's inputs besides `x`, `v` and `h`.
     pub fn inputs(&self) -> &[MethodInput<'static>] {
         &self.0.inputs
     }
@@ -82,7 +82,7 @@ impl fmt::Display for NoSourceCode {
     }
 }
 
-/// A method's function in a language and a precision, below a comment made from its card.
+/// Returns a method's function in a language and a precision, below a comment made from its card.
 ///
 /// # Errors
 /// If the method is [custom](Method::custom), or cannot be written as such a function, or the language has no such

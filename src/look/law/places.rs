@@ -35,7 +35,7 @@ pub(super) struct Places<'a> {
 }
 
 impl Places<'_> {
-    /// Centre of the picture, and half its size.
+    /// Returns the centre of the picture, and half its size.
     fn room(&self) -> [DVec2; 2] {
         let [low, high] = self.corners;
         let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);

@@ -1,6 +1,6 @@
 use super::*;
 
-/// Relative luminance, as the Web Content Accessibility Guidelines 2.1 define it.
+/// Returns the relative luminance, as the Web Content Accessibility Guidelines 2.1 define it.
 fn luminance(colour: Rgba) -> f64 {
     let linear = |i: usize| {
         let part = f64::from(colour[i]) / 255.0;

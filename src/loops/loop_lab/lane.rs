@@ -57,14 +57,14 @@ impl LoopState {
 }
 
 impl LoopFrame {
-    /// Delay between the simulated time in the picture and the display, in milliseconds.
+    /// Returns the delay between the simulated time in the picture and the display, in milliseconds.
     pub fn latency_ms(&self) -> f64 {
         self.displayed_ns as f64 / 1e6 - self.shown_ms
     }
 }
 
 impl LoopLane {
-    /// A placeholder without frames for a loop that has not run yet.
+    /// Creates a placeholder without frames for a loop that has not run yet.
     pub(super) fn awaited(card: &'static PolicyCard) -> Self {
         Self { card, frames: Vec::new(), report: None }
     }
@@ -102,7 +102,7 @@ impl LoopLane {
     pub fn card(&self) -> &'static PolicyCard {
         self.card
     }
-    /// The displayed frames, in order.
+    /// Returns the displayed frames, in order.
     pub fn frames(&self) -> &[LoopFrame] {
         &self.frames
     }
@@ -114,7 +114,7 @@ impl LoopLane {
     pub fn report(&self) -> Option<&PacingReport> {
         self.report.as_ref()
     }
-    /// Index of the frame on the display at `now_ns`.
+    /// Returns the index of the frame on the display at `now_ns`.
     pub fn frame_at(&self, now_ns: i64) -> Option<usize> {
         self.frames.partition_point(|frame| frame.displayed_ns <= now_ns).checked_sub(1)
     }

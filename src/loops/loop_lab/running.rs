@@ -20,7 +20,7 @@ pub struct LoopRequest {
 }
 
 impl LoopRequest {
-    /// Indices of all loops, in the order of their runs.
+    /// Returns the indices of all loops, in the order of their runs.
     fn indices(&self) -> VecDeque<usize> {
         let is_first = |index: &usize| self.first.contains(index);
         let (first, others): (VecDeque<_>, VecDeque<_>) = (0..POLICIES.len()).partition(is_first);

@@ -50,7 +50,7 @@ mod tests {
     use super::*;
     use crate::loops::time_base::RefreshRate;
 
-    /// Refreshes counted for frames with these durations in hundredths of a refresh.
+    /// Returns the refreshes counted for frames with these durations in hundredths of a refresh.
     fn counted(hundredths: impl IntoIterator<Item = i128>) -> Vec<i128> {
         let mut policy =
             WholeRefresh::new(TimeBase::new(60, RefreshRate::new(60, 1)), FrameLimits::default());

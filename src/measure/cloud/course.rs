@@ -114,7 +114,7 @@ impl Course {
         self.ticks.first + self.ticks.count
     }
 
-    /// Time of the current tick, in seconds.
+    /// Returns the time of the current tick, in seconds.
     pub(super) fn t(&self) -> f64 {
         self.ticks.t(self.tick())
     }

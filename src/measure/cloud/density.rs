@@ -47,13 +47,13 @@ impl PlaneView {
         })
     }
 
-    /// Distance between minimum and maximum.
+    /// Returns the distance between minimum and maximum.
     pub(super) fn width(points: &[[f64; 2]], i: usize) -> f64 {
         let [least, most] = Self::range(points, i);
         most - least
     }
 
-    /// Position of a point in the view, from 0 to 1 to the right and up.
+    /// Returns the position of a point in the view, from 0 to 1 to the right and up.
     pub fn place(&self, q: f64, v: f64) -> [f64; 2] {
         let q = if self.wraps { q - TAU * ((q + PI) / TAU).floor() } else { q };
         let part = |number: f64, [least, most]: [f64; 2]| (number - least) / (most - least);
@@ -77,7 +77,7 @@ pub struct Density {
 }
 
 impl Density {
-    /// An empty picture of this size.
+    /// Creates an empty picture of this size.
     pub fn new(size_px: [usize; 2], view: PlaneView) -> Self {
         Self { size_px, view, counts: vec![0; size_px[0] * size_px[1]] }
     }
@@ -111,7 +111,7 @@ impl Density {
         }
     }
 
-    /// Number of points within the view.
+    /// Returns the number of points within the view.
     pub fn points(&self) -> usize {
         self.counts.iter().map(|&count| count as usize).sum()
     }

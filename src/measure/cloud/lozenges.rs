@@ -52,7 +52,7 @@ impl Lozenges {
         Self { beside, is_linear, renewed_every, factors: vec![1.0; count] }
     }
 
-    /// Coordinates and velocities of the corners around a middle.
+    /// Returns the coordinates and velocities of the corners around a middle.
     pub(super) fn corners(&self, [q, v]: [f64; 2]) -> [[f64; 2]; 4] {
         CORNERS.map(|[x, y]| [q + x * self.beside[0], v + y * self.beside[1]])
     }
@@ -62,12 +62,12 @@ impl Lozenges {
         self.renewed_every.is_some()
     }
 
-    /// The next tick after this one at which the corners are reset.
+    /// Returns the next tick after this one at which the corners are reset.
     pub(super) fn renewal_after(&self, tick: u64) -> u64 {
         self.renewed_every.map_or(u64::MAX, |every| (tick / every + 1) * every)
     }
 
-    /// Areas relative to the start, given the corners at a tick; `None` for a lost lozenge.
+    /// Returns the areas relative to the start, given the corners at a tick; `None` for a lost lozenge.
     pub(super) fn areas(&self, tick: u64, q: &[f64], v: &[f64]) -> Vec<Option<f64>> {
         let is_new = self.renewed_every.is_some_and(|every| tick.is_multiple_of(every));
         let now = |q: &[f64], v: &[f64]| if is_new { 1.0 } else { self.area(q, v) };

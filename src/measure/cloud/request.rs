@@ -83,7 +83,7 @@ impl CloudRequest {
             && self.choice == other.choice
     }
 
-    /// Tick of the clouds.
+    /// Returns the tick of the clouds.
     pub fn tick(&self) -> u64 {
         self.tick
     }
@@ -98,7 +98,7 @@ impl CloudRequest {
         self.changes.starts_at_s() + self.tick_hz.seconds(picture.tick)
     }
 
-    /// Time between the request and a picture, in seconds of the run.
+    /// Returns the time between the request and a picture, in seconds of the run.
     pub fn behind_s(&self, picture: &CloudPicture) -> f64 {
         self.tick_hz.seconds(self.tick.abs_diff(picture.tick))
     }

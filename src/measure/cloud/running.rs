@@ -130,7 +130,7 @@ fn next_stride(request: &CloudRequest, stride: usize) -> usize {
     if request.choice.points / (10 * stride) < LEAST_POINTS { stride } else { 10 * stride }
 }
 
-/// The initial stride of a run. It is larger if the first requested tick is late.
+/// Returns the initial stride of a run. It is larger if the first requested tick is late.
 fn initial_stride(request: &CloudRequest) -> usize {
     let points = request.choice.points as u64;
     let work =

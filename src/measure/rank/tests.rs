@@ -26,7 +26,7 @@ fn with_ranking<T>(mets: &[CriterionMet], see: impl FnOnce(&Ranking) -> T) -> T 
     see(&Ranking::new(methods.into_iter().zip(mets).enumerate()))
 }
 
-/// Index of the recommended method, given costs and reserves.
+/// Returns the index of the recommended method, given costs and reserves.
 fn first(costs: &[(f64, f64)]) -> Option<usize> {
     let mets: Vec<_> = costs.iter().map(|&(cost, reserve)| met(cost, Some(reserve))).collect();
     with_ranking(&mets, |it| it.recommended_index())

@@ -26,7 +26,7 @@ impl Corners {
         self.counts
     }
 
-    /// Position of the point with these indices.
+    /// Returns the position of the point with these indices.
     pub(super) fn at(&self, index: [usize; 2]) -> [f64; 2] {
         std::array::from_fn(|axis| {
             let [low, high] = self.ends[axis];

@@ -222,7 +222,7 @@ fn slicing_and_moving_the_point_leave_the_map_unchanged() {
     assert!(found(SLICE, true).0 == whole);
 }
 
-/// The map of a scene's first body over the parameter with this key.
+/// Returns the map of a scene's first body over the parameter with this key.
 fn map_of(scene: &Scene, key: &str, tick_hz: u32, ids: &[&str]) -> StabilityMap {
     let body = &scene.bodies[0];
     let (index, _) = body.kind.parameter(key).unwrap();
@@ -241,7 +241,7 @@ fn law(text: &str) -> Scene {
     Scene::parse("x.toml", &text).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// A quarter of a car, whose damper couples its modes.
+/// Returns a quarter of a car, whose damper couples its modes.
 fn quarter_car() -> Scene {
     law("constants = { m = 250.0, w = 40.0, k = 18000.0, kt = 160000.0, c = 1200.0 }\n\
          [law.coordinates.z]\nstart = 0.1\nacceleration = '(-k*(z-u) - c*(vz-vu))/m'\n\

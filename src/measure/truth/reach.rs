@@ -134,7 +134,7 @@ fn largest_alike(coordinates: &Coordinates, values: &[f64]) -> Vec<f64> {
     groups().map(|group| largest[group]).collect()
 }
 
-/// Amplitude of each component, from the true ranges.
+/// Returns the amplitude of each component, from the true ranges.
 pub(super) fn amplitudes(ranges: &[(f64, f64)], coordinates: &Coordinates) -> Vec<f64> {
     let halves: Vec<f64> = ranges.iter().map(|(low, high)| (high - low) / 2.0).collect();
     let sizes: Vec<f64> = ranges.iter().map(|(low, high)| low.abs().max(high.abs())).collect();

@@ -40,19 +40,19 @@ impl TruthSeries {
         self.values.get(from..from + self.components)
     }
 
-    /// Largest error of the truth up to `tick` ticks, in amplitudes; infinite after the truth has failed.
+    /// Returns the largest error of the truth up to `tick` ticks, in amplitudes; infinite after the truth has failed.
     pub(in crate::measure) fn gap(&self, tick: u64) -> f64 {
         self.gaps.get(tick as usize - 1).copied().unwrap_or(f64::INFINITY)
     }
 }
 
 impl BodyTruth {
-    /// Largest error of the truth up to this time, in amplitudes, at the ticks of this rate.
+    /// Returns the largest error of the truth up to this time, in amplitudes, at the ticks of this rate.
     pub(in crate::measure) async fn gap(&self, seconds: f64, tick_hz: TickRate) -> f64 {
         self.series(tick_hz).await.gap(ticks(seconds, tick_hz).max(1))
     }
 
-    /// The true states at the ticks of this rate, up to the horizon.
+    /// Returns the true states at the ticks of this rate, up to the horizon.
     pub(in crate::measure) async fn series(&self, tick_hz: TickRate) -> Arc<TruthSeries> {
         let once = {
             let mut series_by_rate = self.series_by_rate.lock().expect("no thread panics with it");

@@ -24,12 +24,12 @@ pub(in crate::measure) struct Swing {
 }
 
 impl Swing {
-    /// Largest distance of any coordinate from its centre, in amplitudes.
+    /// Returns the largest distance of any coordinate from its centre, in amplitudes.
     pub(in crate::measure) fn widest(&self) -> f64 {
         self.half_turns.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
+    /// Returns the largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
     pub(in crate::measure) fn error_when(&self, early_s: f64) -> f64 {
         let half_turns = (early_s.abs() / self.period()).min(0.5);
         2.0 * libm::sin(std::f64::consts::PI * half_turns)
@@ -57,7 +57,7 @@ impl Swing {
 }
 
 impl BodyTruth {
-    /// The quantity that grows or dies away.
+    /// Returns the quantity that grows or dies away.
     pub(in crate::measure) fn measure(&self) -> Measure {
         match (&self.swing, &self.modes) {
             (None, _) => Measure::Deviation,
@@ -119,7 +119,7 @@ impl BodyTruth {
     }
 }
 
-/// Time in seconds at which coordinate `i` crosses `level` between two moments.
+/// Returns the time in seconds at which coordinate `i` crosses `level` between two moments.
 fn crossing(from: &TruthNode, to: &TruthNode, i: usize, level: f64) -> f64 {
     let [low, _] = bisect([0.0, 1.0], 50, |part| from.between(to, i, part) < level);
     from.t + low * (to.t - from.t)

@@ -6,7 +6,7 @@ use crate::run::race::Checkpoints;
 use crate::scene::Action;
 use crate::sim::integrators::{GENERAL_METHODS, method};
 
-/// Number of methods that advice covers.
+/// Returns the number of methods that advice covers.
 fn for_games() -> usize {
     GENERAL_METHODS.iter().filter(|method| method.is_for_games()).count()
 }
@@ -184,7 +184,7 @@ fn a_lane_without_a_truth_makes_no_tick_when_no_work_is_left() {
     assert!(ticked(1_000_000) > 0);
 }
 
-/// The distinct meters of the worker.
+/// Returns the distinct meters of the worker.
 fn meters(worker: &AnalysisWorker) -> Vec<Arc<Meter>> {
     let part = worker.part.as_ref().map(Sliced::meter);
     let judge = worker.judge.as_ref().map(|judge| judge.meter());

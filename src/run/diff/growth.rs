@@ -74,7 +74,7 @@ impl Growth {
         }
     }
 
-    /// Growth rate in 1/s, if the difference grew exponentially.
+    /// Returns the growth rate in 1/s, if the difference grew exponentially.
     pub(super) fn per_second(mut self) -> Option<f64> {
         self.end_tick();
         let (_, least) = self.start?;

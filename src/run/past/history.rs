@@ -113,7 +113,7 @@ impl History {
         self.after(skipped + usize::from(is_over))
     }
 
-    /// Largest values since the start, or since the last placement of the body.
+    /// Returns the largest values since the start, or since the last placement of the body.
     pub fn peaks(&self) -> Peaks {
         self.most
     }
@@ -233,7 +233,7 @@ mod tests {
         runs.map(|run| (run[0].entry, run.iter().map(|s| s.t).collect())).collect()
     }
 
-    /// A history of `entry` at 0, 1 and 2 s.
+    /// Returns a history of `entry` at 0, 1 and 2 s.
     fn flown(entry: usize) -> History {
         let mut history = History::new(CAPACITY);
         (0..3).for_each(|t| history.push_present(sample(f64::from(t), entry)));

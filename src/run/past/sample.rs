@@ -79,7 +79,7 @@ impl Energies {
         Some(Self { kinetic_j: body.kinetic_energy()?, total_j: body.energy()? })
     }
 
-    /// Potential energy in joules.
+    /// Returns the potential energy in joules.
     pub fn potential_j(self) -> f64 {
         self.total_j - self.kinetic_j
     }
@@ -110,12 +110,12 @@ impl SweptRange {
     /// The empty range.
     pub(super) const NOTHING: Self = Self { least: f64::INFINITY, greatest: f64::NEG_INFINITY };
 
-    /// The range of one value.
+    /// Returns the range of one value.
     pub(super) fn at(q: f64) -> Self {
         Self { least: q, greatest: q }
     }
 
-    /// The range extended by `q`.
+    /// Returns the range extended by `q`.
     pub(super) fn extended_by(self, q: f64) -> Self {
         Self { least: self.least.min(q), greatest: self.greatest.max(q) }
     }
@@ -142,7 +142,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// The summary of one sample.
+    /// Returns the summary of one sample.
     pub fn of(sample: &Sample) -> Self {
         let &Sample { t, q, swept, entry, jumped, .. } = sample;
         Self { t, q, swept, entry, jumped }

@@ -118,7 +118,7 @@ impl TruthCurve {
         curve
     }
 
-    /// Heap memory in bytes.
+    /// Returns the heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.between.bytes(Solver::Truth) + self.samples.heap_bytes() + self.extents.heap_bytes()
     }
@@ -136,7 +136,8 @@ impl TruthCurve {
         self.samples.range(skipped)
     }
 
-    /// Largest distance of the body from `centre_m` [since](Self::since) `t` (s), along x and up, in metres.
+    /// Returns the largest distance of the body from `centre_m` [since](Self::since) `t` (s), along x and up, in
+    /// metres.
     pub fn reach_m(&self, centre_m: DVec2, t: f64) -> DVec2 {
         let (since, end) = (self.since(t), self.samples.mark() as usize);
         let (first, last) = ((end - since.len()).div_ceil(BLOCK), end / BLOCK);
@@ -156,7 +157,7 @@ impl TruthCurve {
         TruthSample::of(t, self.coordinate, &*truth.stepper)
     }
 
-    /// Index of the recorded coordinate.
+    /// Returns the index of the recorded coordinate.
     pub fn coordinate(&self) -> usize {
         self.coordinate
     }
@@ -188,7 +189,7 @@ impl TruthCurve {
         points
     }
 
-    /// A quantity of the true body `truth` at time `t` (s) between two consecutive samples, on the curve of
+    /// Returns a quantity of the true body `truth` at time `t` (s) between two consecutive samples, on the curve of
     /// [`finer`](Self::finer).
     pub fn between(
         truth: &LaneBody,

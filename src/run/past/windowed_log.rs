@@ -20,13 +20,13 @@ pub(super) struct WindowedLog<T> {
 }
 
 impl<T: PartialEq> WindowedLog<T> {
-    /// An empty log that shows the newest `window` records and keeps `spare` more.
+    /// Creates an empty log that shows the newest `window` records and keeps `spare` more.
     pub(super) fn new(window: usize, spare: usize) -> Self {
         let capacity = window + spare;
         Self { kept: VecDeque::with_capacity(capacity), window, capacity, first: 0, end: 0 }
     }
 
-    /// Heap memory in bytes.
+    /// Returns the heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.capacity * size_of::<T>()
     }

@@ -44,12 +44,12 @@ impl Extent {
         self.most_j = self.most_j.max(sum);
     }
 
-    /// Largest sum of kinetic and potential energy so far (J); 0 if unknown.
+    /// Returns the largest sum of kinetic and potential energy so far (J); 0 if unknown.
     pub(crate) fn most_j(&self) -> f64 {
         self.most_j
     }
 
-    /// Largest speed so far; 0 if the body has not moved.
+    /// Returns the largest speed so far; 0 if the body has not moved.
     pub(crate) fn largest_speed(&self) -> f64 {
         self.largest_speed
     }

@@ -90,7 +90,7 @@ pub(crate) fn hermite(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
     ends + h * a * b * (b * v[0] - a * v[1])
 }
 
-/// The slope of [`hermite`].
+/// Returns the slope of [`hermite`].
 pub(crate) fn slope(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
     let (a, b) = (alpha, 1.0 - alpha);
     6.0 * a * b * (q[1] - q[0]) / h + b * (b - 2.0 * a) * v[0] + a * (a - 2.0 * b) * v[1]

@@ -40,7 +40,7 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// The journal of a script, with all actions pending, for a run at this rate in Hz.
+    /// Creates the journal of a script, with all actions pending, for a run at this rate in Hz.
     pub fn of_script(script: &[Scripted], tick_hz: impl Into<TickRate>) -> Self {
         let row = |&Scripted { at_s, ref action }: &Scripted| JournalRow {
             tick: 0,

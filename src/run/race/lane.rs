@@ -95,7 +95,7 @@ impl LaneBody {
         body.downcast_ref().map(Custom::false_claims).or_else(law).unwrap_or_default()
     }
 
-    /// A body of a scene at its start, under `solver`.
+    /// Creates a body of a scene at its start, under `solver`.
     pub(crate) fn new(body: &SceneBody, solver: Solver) -> Self {
         let stepper = (body.kind.build)(&body.values, solver);
         let state = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
@@ -117,7 +117,7 @@ impl LaneBody {
         body
     }
 
-    /// The coordinates, in state order.
+    /// Returns the coordinates, in state order.
     pub fn coordinates(&self) -> Coordinates {
         self.kind.all_coordinates.first(self.stepper.q().len())
     }
@@ -170,7 +170,7 @@ impl LaneBody {
         self.stepper.evaluations() - self.evaluations_before
     }
 
-    /// Range of the true motion so far; `None` under a method.
+    /// Returns the range of the true motion so far; `None` under a method.
     pub(crate) fn extent(&self) -> Option<&Extent> {
         self.extent.as_ref()
     }
@@ -186,7 +186,7 @@ impl LaneBody {
         self.appearance.drawing.as_deref()
     }
 
-    /// The motion of a law, a net or a custom body in its first seconds.
+    /// Returns the motion of a law, a net or a custom body in its first seconds.
     pub(crate) fn preview(&self) -> Arc<Preview> {
         self.appearance.preview(&self.kind, self.stepper.body())
     }
@@ -204,13 +204,13 @@ impl LaneBody {
         units.zip(values).filter(move |(unit, _)| Some(*unit) == first).map(|(_, &value)| value)
     }
 
-    /// The speed in the coordinates that have the unit of the first coordinate.
+    /// Returns the speed in the coordinates that have the unit of the first coordinate.
     pub(crate) fn speed(&self) -> f64 {
         self.like_first(self.stepper.v()).fold(0.0, libm::hypot)
     }
 
-    /// The kind of truth for a body under [`Solver::Truth`]. A law that gives its solution is [exact](Truth::Exact)
-    /// up to the first input.
+    /// Returns the kind of truth for a body under [`Solver::Truth`]. A law that gives its solution is
+    /// [exact](Truth::Exact) up to the first input.
     pub fn truth(&self) -> Truth {
         if self.stepper.is_closed_form() { Truth::Exact } else { Truth::Reference }
     }
@@ -392,7 +392,7 @@ impl Lane {
         Self { solver, substeps, bodies }
     }
 
-    /// The solver of the bodies.
+    /// Returns the solver of the bodies.
     pub fn solver(&self) -> Solver {
         self.solver
     }
@@ -400,7 +400,7 @@ impl Lane {
     pub fn substeps(&self) -> u32 {
         self.substeps
     }
-    /// The bodies, in scene order.
+    /// Returns the bodies, in scene order.
     pub fn bodies(&self) -> &[LaneBody] {
         &self.bodies
     }
@@ -408,7 +408,7 @@ impl Lane {
     pub fn halts(&self) -> impl Iterator<Item = &Halt> {
         self.bodies.iter().filter_map(LaneBody::halted)
     }
-    /// The earliest halt of a body, if there is one.
+    /// Returns the earliest halt of a body, if there is one.
     pub fn halted(&self) -> Option<&Halt> {
         self.halts().min_by_key(|halt| halt.tick)
     }

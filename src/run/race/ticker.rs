@@ -96,12 +96,12 @@ impl<'a, B: Ticked> Ticker<'a, B> {
         Self { max_work, ..self }
     }
 
-    /// Number of ticks made.
+    /// Returns the number of ticks made.
     pub fn ticks(&self) -> u64 {
         self.ticks
     }
 
-    /// The time reached, in seconds.
+    /// Returns the time reached, in seconds.
     pub fn t(&self) -> f64 {
         self.start_s + self.tick_hz.seconds(self.ticks)
     }

@@ -29,7 +29,7 @@ const NO_SWING: f64 = 1e-9;
 const NO_SPRING: f64 = 1e-8;
 
 impl Effective {
-    /// Visible frequency in hertz; `None` if the motion does not swing.
+    /// Returns the visible frequency in hertz; `None` if the motion does not swing.
     pub fn frequency_hz(&self) -> Option<f64> {
         let square = self.omega * self.omega - self.decay * self.decay;
         (square > NO_SWING * self.omega * self.omega).then(|| square.sqrt() / std::f64::consts::TAU)
@@ -46,12 +46,12 @@ impl Effective {
         (self.omega > 0.0).then(|| self.decay / self.omega + 0.0)
     }
 
-    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass, of a spring with this motion.
+    /// Returns the stiffness in 1/s² and damping in 1/s, each per unit of mass, of a spring with this motion.
     pub fn spring(&self) -> Option<[f64; 2]> {
         (self.omega > 0.0).then_some([self.omega * self.omega, 2.0 * self.decay])
     }
 
-    /// Stiffness per unit of mass, in 1/s², of a spring with this motion.
+    /// Returns the stiffness per unit of mass, in 1/s², of a spring with this motion.
     pub fn spring_stiffness(&self) -> Option<f64> {
         Some(self.spring()?[0])
     }
@@ -103,7 +103,7 @@ impl Effective {
         Self::of_states(&states, &body, tick_s)
     }
 
-    /// The motion visible in a log.
+    /// Returns the motion visible in a log.
     pub(super) fn of_log(log: &Log, body: &LoggedBody, tick_s: f64) -> Option<Self> {
         let rows = log.rows();
         let mut states: Vec<(u64, [f64; 2])> =

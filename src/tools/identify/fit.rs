@@ -148,7 +148,7 @@ fn displace(index: usize, by: f64, start: &mut [f64; 2], body: &mut LoggedBody) 
     }
 }
 
-/// Units of the parameters.
+/// Returns the units of the parameters.
 fn start_unit(scale: [f64; 2], body: &LoggedBody, tick_s: f64) -> [f64; PARAMETERS] {
     let [stiffness, _] = body.spring.unwrap_or_default();
     let stiffness = stiffness.abs().max(1e-6);
@@ -184,12 +184,12 @@ fn mean_square(residuals: &[f64]) -> f64 {
 }
 
 impl Fit {
-    /// Sum of the squared residuals.
+    /// Returns the sum of the squared residuals.
     pub(super) fn squares(&self) -> f64 {
         squares(&self.residuals)
     }
 
-    /// Root mean square of the residuals.
+    /// Returns the root mean square of the residuals.
     pub(super) fn residual(&self) -> f64 {
         mean_square(&self.residuals.concat()).sqrt()
     }

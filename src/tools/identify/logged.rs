@@ -406,7 +406,7 @@ impl Log {
         self.rows[0].v.is_some()
     }
 
-    /// Number of logged coordinates and velocities.
+    /// Returns the number of logged coordinates and velocities.
     pub(super) fn numbers(&self) -> usize {
         self.rows.len() * if self.has_velocities() { 2 } else { 1 }
     }

@@ -49,7 +49,7 @@ fn displacement_at([k, c]: [f64; 2], [x, v]: [f64; 2], t: f64) -> f64 {
     libm::exp(-half * t) * (x * even + slope * odd)
 }
 
-/// Coordinates at the times of the log.
+/// Returns the coordinates at the times of the log.
 fn sample_swing(log: &Log, [k, c, rest, x, v]: Parameters) -> Vec<f64> {
     let at = |t: f64| rest + displacement_at([k, c], [x - rest, v], t);
     log.rows().iter().map(|row| at(row.t_s)).collect()
@@ -83,7 +83,7 @@ fn guess(log: &Log) -> Option<Parameters> {
     (k > 0.0).then(|| [k, c, pull / k, x, slope - c * x])
 }
 
-/// The damped swing nearest to a log; `None` if the body has no spring, no swing fits, or the log is too short.
+/// Returns the damped swing nearest to a log; `None` if the body has no spring, no swing fits, or the log is too short.
 pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> {
     if !body.has_spring() || log.rows().len() < 5 + SPARE_ROWS {
         return None;
@@ -179,7 +179,7 @@ mod tests {
     use super::*;
     use crate::tools::identify::ColumnNames;
 
-    /// A log of a spring that rests at 3, with x at uneven times.
+    /// Returns a log of a spring that rests at 3, with x at uneven times.
     fn log(noise: f64) -> Log {
         let (mut t, mut text) = (0.0, "t,x\n".to_owned());
         for row in 0..400 {

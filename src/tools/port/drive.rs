@@ -38,7 +38,7 @@ const MAX_MULTIPLE: f64 = 1e9;
 const STEP: f64 = 1.02;
 const HALVINGS: u32 = 50;
 
-/// The limits of a drive with this stiffness in 1/s² and damping in 1/s, each per unit of mass.
+/// Returns the limits of a drive with this stiffness in 1/s² and damping in 1/s, each per unit of mass.
 pub fn drive_limits(setup: Setup, joint: [f64; 2], held_ticks: Option<u32>) -> DriveLimits {
     let growth = |setup: Setup, joint: [f64; 2]| match held_ticks {
         Some(ticks) => setup.held_growth(joint, ticks),

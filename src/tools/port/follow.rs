@@ -51,12 +51,12 @@ impl Approach {
         Self { half_life_s: -std::f64::consts::LN_2 / libm::log1p(-part) / fps }
     }
 
-    /// The approach of a critically damped spring with this smoothing time in seconds, which is 2/ω.
+    /// Returns the approach of a critically damped spring with this smoothing time in seconds, which is 2/ω.
     pub fn of_smooth_time(seconds: f64) -> Self {
         Self { half_life_s: CRITICAL_HALF * seconds / 2.0 }
     }
 
-    /// The rate k of x′ = k (g - x), per second.
+    /// Returns the rate k of x′ = k (g - x), per second.
     pub fn rate(&self) -> f64 {
         std::f64::consts::LN_2 / self.half_life_s
     }
@@ -120,7 +120,7 @@ pub fn followers(approach: Approach, fps: Option<f64>) -> Vec<FollowerPort> {
     all.flat_map(of_follower).collect()
 }
 
-/// Value of a follower's setting for an approach.
+/// Returns the value of a follower's setting for an approach.
 fn value(approach: Approach, method: &Method, quantity: FollowerQuantity, fps: f64) -> f64 {
     match quantity {
         FollowerQuantity::Rate => rate(approach, method, fps),

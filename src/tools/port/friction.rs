@@ -12,12 +12,12 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// The drag C of v′ = -C v, per second.
+    /// Returns the drag C of v′ = -C v, per second.
     pub fn rate(&self) -> f64 {
         -libm::log(self.kept) * self.fps
     }
 
-    /// Time in which the velocity halves, in seconds.
+    /// Returns the time in which the velocity halves, in seconds.
     pub fn half_life_s(&self) -> f64 {
         std::f64::consts::LN_2 / self.rate()
     }

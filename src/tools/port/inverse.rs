@@ -98,7 +98,7 @@ fn in_stages(sees: Sees, wanted: &Effective) -> Option<EvaluatedJoint> {
     (damping >= 0.0).then(|| evaluate(sees, wanted, [stiffness, damping]))?
 }
 
-/// The best joint that Newton's method finds from `joint`, which is in units of the target's frequency.
+/// Returns the best joint that Newton's method finds from `joint`, which is in units of the target's frequency.
 fn newton(
     at: &dyn Fn([f64; 2]) -> Option<EvaluatedJoint>,
     target: &Effective,
@@ -156,7 +156,7 @@ pub(super) fn min_damping(sees: Sees, omega: f64) -> Option<(f64, f64)> {
     Some((omega * omega * libm::exp(high), ratio))
 }
 
-/// Intervals of a search through [`SPAN`].
+/// Returns the intervals of a search through [`SPAN`].
 fn intervals() -> impl Iterator<Item = (f64, f64)> {
     let step = (SPAN[1] - SPAN[0]) / f64::from(STEPS);
     let place = move |i: u32| SPAN[0] + step * f64::from(i);

@@ -62,7 +62,7 @@ impl Setup {
         Some(spectral_radius(trace, determinant))
     }
 
-    /// Maps of 1 to `ticks` ticks, from a start without memory.
+    /// Returns the maps of 1 to `ticks` ticks, from a start without memory.
     fn maps(&self, spring: [f64; 2], ticks: u64) -> Option<Vec<Map>> {
         let &Self { method, mode, tick_hz, substeps } = self;
         let body = LoggedBody { spring: Some(spring), ..LoggedBody::default() };
@@ -71,7 +71,7 @@ impl Setup {
         columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)
     }
 
-    /// Map of `ticks` ticks through which user code holds the spring's force.
+    /// Returns the map of `ticks` ticks through which user code holds the spring's force.
     fn held_map(&self, [stiffness, damping]: [f64; 2], ticks: u32) -> Option<Map> {
         let &Self { method, tick_hz, substeps, .. } = self;
         let candidate = Candidate { method, substeps, spring: SpringForm::Acceleration };
@@ -85,7 +85,7 @@ impl Setup {
         Some(free[0] - pushed * RowVector2::new(stiffness, damping))
     }
 
-    /// Visible motion of a spring whose force user code holds through `ticks` ticks.
+    /// Returns the visible motion of a spring whose force user code holds through `ticks` ticks.
     pub fn sees_held(&self, joint: [f64; 2], ticks: u32) -> Option<Effective> {
         let map = self.held_map(joint, ticks)?;
         spring_of_map(map.trace(), map.determinant(), f64::from(ticks) / self.tick_hz)
@@ -131,7 +131,7 @@ pub(in crate::tools) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
     }
 }
 
-/// The damped spring whose map over `tick_s` has this trace and determinant.
+/// Returns the damped spring whose map over `tick_s` has this trace and determinant.
 pub(in crate::tools) fn spring_of_map(
     trace: f64,
     determinant: f64,
@@ -152,7 +152,8 @@ pub(in crate::tools) fn spring_of_map(
     (omega_square > 0.0).then(|| Effective { omega: libm::sqrt(omega_square), decay })
 }
 
-/// Trace and determinant of the two slowest motions of a map with one number of memory, from its first three ticks.
+/// Returns the trace and determinant of the two slowest motions of a map with one number of memory, from its first
+/// three ticks.
 ///
 /// Let A be the map of the state alone. The memory adds w to a tick, which is nothing in the first tick, and C times
 /// the state in the second. In the third tick it is the same and ρ times the previous w. All w have one direction.

@@ -175,7 +175,7 @@ fn curve(wish: &Wish, [duration, points, ..]: Values) -> (String, f64) {
 }
 
 impl UiSpring {
-    /// The dialect with this id or former id.
+    /// Returns the dialect with this id or former id.
     pub fn of_id(id: &str) -> Option<&'static Self> {
         UI_SPRINGS.iter().find(|dialect| dialect.ids().any(|own| own == id))
     }
@@ -283,14 +283,14 @@ impl UiSpring {
         }
     }
 
-    /// The switches that these values turn on.
+    /// Returns the switches that these values turn on.
     pub fn switched_on(&self, values: &[f64]) -> impl Iterator<Item = &'static Switch> {
         let is_on =
             |(key, value): (&'static Key, &f64)| key.switch.as_ref().filter(|_| *value == 1.0);
         self.keys.iter().zip(values).filter_map(is_on)
     }
 
-    /// The map of one step of this motion; `None` for a closed form.
+    /// Returns the map of one step of this motion; `None` for a closed form.
     fn map(&self, motion: &Wish, frame_hz: f64) -> Option<StepMap> {
         let (step_s, pace) = match self.steps {
             Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => return None,
@@ -315,7 +315,7 @@ impl UiSpring {
         Some(libm::exp(high))
     }
 
-    /// The effect of the frame rate on a port, in words.
+    /// Returns the effect of the frame rate on a port, in words.
     pub fn at_frame_rates(&self, port: &UiSpringPort, frame_hz: f64) -> String {
         let percent = |part: f64| significant(100.0 * part.abs(), 2);
         match self.steps {

@@ -20,7 +20,7 @@ enum NoClosedForm {
 }
 
 impl NoClosedForm {
-    /// The reason as a clause.
+    /// Returns the reason as a clause.
     fn reason(self) -> &'static str {
         match self {
             Self::NotLinear => "the rule is not linear, and has no closed form",
@@ -73,7 +73,7 @@ impl Rule {
         }
     }
 
-    /// Names of the two numbers in the source.
+    /// Returns the names of the two numbers in the source.
     fn names(&self) -> Vec<String> {
         let name = |index: &usize| match index {
             0 | 1 => self.text.carried()[*index].name.clone(),

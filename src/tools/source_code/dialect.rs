@@ -58,7 +58,7 @@ impl Language {
 }
 
 impl Dialect {
-    /// The type of a number.
+    /// Returns the type of a number.
     pub(super) fn type_in(&self, precision: Precision) -> &'static str {
         self.types[precision as usize]
     }

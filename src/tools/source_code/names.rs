@@ -32,7 +32,7 @@ pub(super) fn pascal(snake: &str) -> String {
 }
 
 impl Names<'_> {
-    /// Name of a number or an input.
+    /// Returns the name of a number or an input.
     pub(super) fn name(&self, name: &str) -> String {
         if self.language != Language::CSharp {
             return name.to_owned();
@@ -157,7 +157,7 @@ impl Names<'_> {
     }
 }
 
-/// Index of the end of the number that begins `text`.
+/// Returns the index of the end of the number that begins `text`.
 fn number_end(text: &str) -> usize {
     let mut before = '0';
     let is_end = |c: char| {

@@ -41,7 +41,7 @@ impl Printer<'_> {
         self.dialect().type_in(self.precision)
     }
 
-    /// Names inside a function with these inputs.
+    /// Returns the names inside a function with these inputs.
     fn names<'a>(&'a self, inputs: &'a [MethodInput<'a>], body: &'a [Line<'a>]) -> Names<'a> {
         let Self { id, language, precision, .. } = *self;
         let whole = whole_numbers(inputs, body);

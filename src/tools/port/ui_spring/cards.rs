@@ -20,7 +20,7 @@ const fn bounce(usual: f64) -> Key {
     Key { name: "bounce", usual, range, wanted: "above −1 and at most 1", switch: None }
 }
 
-/// A duration in seconds that the library takes as whole milliseconds.
+/// Returns a duration in seconds that the library takes as whole milliseconds.
 const fn milliseconds(name: &'static str, usual: f64) -> Key {
     Key { range: [1e-3, f64::MAX], wanted: "0.001 or more", ..key(name, usual) }
 }
@@ -319,7 +319,7 @@ fn cut_to_milliseconds([seconds, rest @ ..]: Values) -> Values {
     [libm::floor(1e3 * seconds + 1e-6) / 1e3, second, third, fourth]
 }
 
-/// Angle ω t at which a spring with a damping ratio of 1 or more has [`OVER`] of its way left.
+/// Returns the angle ω t at which a spring with a damping ratio of 1 or more has [`OVER`] of its way left.
 fn angle_of(ratio: f64) -> f64 {
     bisect([0.0, 40.0 * ratio], HALVINGS, |angle| part_left(ratio, angle) > OVER)[0]
 }
