@@ -23,7 +23,7 @@ const TRAIL_S: f64 = 4.0;
 struct Rail {
     /// Middle of the coordinate's range.
     middle: f64,
-    /// Half of that range.
+    /// Half of the coordinate's range.
     half: f64,
     /// Position of the middle in the picture.
     at: DVec2,

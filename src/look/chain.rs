@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Chain;
 
-/// Returns the radius of each bead of a chain, in metres.
+/// Returns the radius of the beads of a chain, in metres.
 fn bead(chain: &Chain, beads: usize) -> f64 {
     let room = -2.0 * chain.place_of(0, 0.0).x / (beads + 1) as f64;
     (0.28 * room).min(0.11 * chain.amplitude())

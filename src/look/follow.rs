@@ -12,8 +12,8 @@ fn reach(follow: &Follow) -> f64 {
     if reach > 0.0 { reach } else { 1.0 }
 }
 
-/// Radius of the camera, radius of the target, and half the length of the line across the target, relative to the
-/// [`reach`].
+/// Radius of the camera, radius of the target, and half the length of the line across the target, as multiples of the
+/// `reach`.
 const CAMERA: f64 = 0.09;
 const TARGET: f64 = 0.045;
 const HALF_POST: f64 = 0.16;

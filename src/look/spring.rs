@@ -6,7 +6,7 @@ use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Spring;
 use crate::sim::number::round;
 
-/// Returns the amplitude of the undamped motion from the spring's start, in metres; 1 if it starts at rest.
+/// Returns the amplitude of the undamped motion from the spring's start, in metres; 1 if the spring starts at rest.
 fn amplitude(spring: &Spring) -> f64 {
     let amplitude = libm::hypot(spring.x0, spring.v0 / spring.angular_frequency());
     if amplitude > 0.0 { amplitude } else { 1.0 }

@@ -1,4 +1,4 @@
-//! The loop lab: one body under one method in every game loop, over the same frames, in slow motion.
+//! The loop lab, which shows one body under one method in every game loop, over the same frames, in slow motion.
 //!
 //! A run has few frames, so the lab keeps them all and moves through them by lookup. After each choice a
 //! [`LoopWorker`] runs the loops in the background, and the lab shows each loop as soon as it has run.

@@ -19,7 +19,7 @@ pub struct TraceCard {
 }
 
 impl TraceCard {
-    /// Returns the trace on its own display, or else on a display with this rate.
+    /// Returns the trace on its own display or, if it has none, on a display with this rate.
     pub fn trace(&self, refresh: RefreshRate) -> FrameTrace {
         (self.build)(self.id, self.refresh.unwrap_or(refresh))
     }

@@ -9,9 +9,10 @@ use crate::sim::number::{counted, grouped, significant};
 /// its trace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// When the game began the frame and read the time.
+    /// Time when the game began the frame and read the time, in nanoseconds.
     pub began_ns: i64,
-    /// When the frame's picture appeared on the display; `None` if another picture replaced it before.
+    /// Time when the frame's picture appeared on the display, in nanoseconds; `None` if another picture replaced it
+    /// before.
     pub displayed_ns: Option<i64>,
 }
 

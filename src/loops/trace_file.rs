@@ -215,7 +215,7 @@ fn median(values: &[f64]) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
-/// Reads the streams of a log with times in this unit, or else in the unit of the log's format.
+/// Reads the streams of a log with times in this unit or, if none is given, in the unit of the log's format.
 fn read_in(
     name: &str,
     bytes: &[u8],

@@ -147,7 +147,7 @@ impl Adviser {
         self.judge.verdict(spec, self.tick_hz)
     }
 
-    /// Returns whether a method meets a criterion, and if so with the fewest substeps and the margins. The substeps of
+    /// Returns whether a method meets a criterion and, if it does, the fewest substeps and the margins. The substeps of
     /// `spec` are ignored.
     pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
         let mut result = block_on(self.fewest_substeps(spec, criterion));

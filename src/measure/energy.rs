@@ -38,7 +38,7 @@ impl Energy {
         self.scale.is_some() && late < (1.0 - LOSING) * early
     }
 
-    /// Adds the state after `tick` ticks and returns its drift.
+    /// Adds the state after `tick` ticks and returns the drift of its energy.
     pub(super) fn add(&mut self, stepper: &dyn Stepper, tick: u64) -> Option<f64> {
         let drift = (stepper.energy()? - self.start) / self.scale?;
         if !drift.is_finite() {

@@ -19,7 +19,7 @@ pub(super) struct FrequencyError {
 }
 
 impl FrequencyError {
-    /// Whether the error is constant and larger than its uncertainty.
+    /// Whether the error is constant and its uncertainty small.
     pub(super) fn is_steady(&self) -> bool {
         let least = (0.005 * self.error.abs()).max(2.5e-5);
         let [a, b] = self.halves;

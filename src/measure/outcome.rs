@@ -154,7 +154,7 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// Returns the sign as a character.
+    /// Returns the character that shows the sign.
     pub fn glyph(self) -> &'static str {
         match self {
             Sign::Disc => "●",

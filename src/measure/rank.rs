@@ -7,11 +7,12 @@
 use super::criterion::{CriterionMet, MAX_STIFFER};
 use crate::sim::integrators::{METHODS, Method};
 
-/// Reserve below which it is little. A designer may well make a body half as stiff again in an afternoon.
+/// Reserve below which it counts as little, because a designer may well multiply the stiffness of a body by 1.5 in an
+/// afternoon.
 const LITTLE_RESERVE: f64 = 1.5;
 
-/// Maximum cost of a method with a larger reserve, as a multiple of the cost. For most methods, one more substep costs
-/// as much.
+/// Maximum cost of a method with a larger reserve, as a multiple of the cost of the method with little reserve. For
+/// most methods, one more substep multiplies the cost by this.
 const TIMES_ITS_COST: f64 = 2.0;
 
 /// The methods that meet a criterion, in order. A margin that is not searched counts as no reserve.

@@ -24,18 +24,18 @@ const FOLLOWED_ON: u64 = 100;
 /// Fraction of the true swing below which a swing has come to rest.
 const AT_REST: f64 = 0.02;
 
-/// When a run ends.
+/// The condition under which a run ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Until {
-    /// At the end of the horizon, or when the error exceeds this number of amplitudes.
+    /// The run ends with the horizon, or when the error exceeds this number of amplitudes.
     Error(f64),
-    /// At the end of the horizon.
+    /// The run ends with the horizon.
     Horizon,
-    /// At the end of the horizon, with the swings measured step by step.
+    /// The run ends with the horizon, and the swings are measured step by step.
     Swings,
-    /// At the end of the long run, or when the swing has grown.
+    /// The run ends with the long run, or when the swing has grown.
     Grown,
-    /// At the end of the long run.
+    /// The run ends with the long run.
     LongRun,
 }
 

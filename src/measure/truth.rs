@@ -319,7 +319,7 @@ fn close_solver() -> Solver {
     Solver::With(method, Override::tolerance(LONG_RUN_TOLERANCE))
 }
 
-/// Returns the second of two moments, and 15 between both if a velocity has an extreme there.
+/// Returns the second of two moments and, if a velocity has an extreme between both, 15 moments between them.
 fn fastest(from: &TruthNode, to: &TruthNode) -> Vec<TruthNode> {
     let n = to.x.len() / 2;
     let turns = (n..2 * n).any(|i| from.slope[i] * to.slope[i] < 0.0);

@@ -1,8 +1,8 @@
 //! Finds where two runs first differ, and how the difference grows.
 //!
-//! A run is a table. Key columns identify a row. They are `tick`, or else `t`, or else the row's position, and `lane`,
-//! `body` and `coordinate` where present. A caller may name [other key columns](Chosen). By default, `t` and `method`
-//! are not compared, and all other columns hold values.
+//! A run is a table. Key columns identify a row. They are `tick` or, if there is none, `t` or, if there is none either,
+//! the row's position. In addition, `lane`, `body` and `coordinate` are key columns. A caller may name [other key
+//! columns](Chosen). By default, `t` and `method` are not compared, and all other columns hold values.
 //!
 //! A column is numeric until one of its cells is not a number; then all of it is text. Rows with equal keys form a pair
 //! if at most [`MAX_WAITING`] rows lie between them, so memory does not grow with the number of rows. It grows with the
@@ -47,7 +47,7 @@ const NAME_BYTES: usize = 192;
 
 /// A run as a sequence of rows.
 pub trait Records {
-    /// Why a row cannot be read.
+    /// The reason why a row cannot be read.
     type Error;
 
     /// Returns the names of the columns.

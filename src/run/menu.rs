@@ -52,7 +52,7 @@ impl Menu {
         self.lane_entries.iter().find(|(known, _)| *known == lane).map(|(_, entry)| *entry)
     }
 
-    /// Returns the heap memory in bytes.
+    /// Returns the heap memory of the menu in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         size_of_val(&self.specs[..]) + size_of_val(&self.lane_entries[..])
     }

@@ -20,7 +20,7 @@ pub(super) struct ObservationsMark {
 }
 
 impl ObservationsMark {
-    /// Returns the heap memory in bytes.
+    /// Returns the heap memory of the mark in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.menu.heap_bytes() + self.checkpoints.heap_bytes() + self.past.heap_bytes()
     }

@@ -400,7 +400,7 @@ mod tests {
 
     #[test]
     fn histories_cover_the_scene_with_enough_samples() {
-        // The run has one tick less than the capacity, as many ticks, and one tick more.
+        // The run has one tick less than the capacity, the same number, and one tick more.
         for (ticks, stride) in
             [(CAPACITY as u32 - 1, 1), (CAPACITY as u32, 1), (CAPACITY as u32 + 1, 2)]
         {

@@ -4,7 +4,7 @@ use super::course::{Course, RunRecord, Snapshot};
 use super::race::JournalTail;
 use super::start::StartSettings;
 
-/// Most changes that can be undone.
+/// Maximum number of changes that can be undone.
 const MAX_CHANGES: usize = 200;
 
 /// Maximum number of runs that are kept from before a restart.
@@ -138,8 +138,8 @@ impl UndoStack {
         }
     }
 
-    /// Drops the change that undo would reach last, or else the one that redo would reach last. Returns whether there
-    /// was a change to drop.
+    /// Drops the change that undo would reach last or, if there is none, the one that redo would reach last. Returns
+    /// whether there was a change to drop.
     pub(super) fn drop_last(&mut self) -> bool {
         let from = if self.done.is_empty() { &mut self.undone } else { &mut self.done };
         let is_there = !from.is_empty();

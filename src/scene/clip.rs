@@ -3,7 +3,7 @@
 /// Maximum number of characters of a file's text in one message, so that the message stays a line.
 const MAX_QUOTED_CHARS: usize = 40;
 
-/// Most characters of a list of names from a file, such as a header.
+/// Maximum number of characters of a list of names from a file, such as a header.
 const MAX_LISTED_CHARS: usize = 200;
 
 /// Shortens a text for a message, and escapes its control characters.

@@ -30,7 +30,7 @@ use crate::sim::integrators::Method;
 /// Name of the table array of lanes.
 pub(super) const LANE: &str = "lane";
 
-/// Most characters in a title, which appears in the window's title bar.
+/// Maximum number of characters in a title, which appears in the window's title bar.
 const MAX_TITLE_CHARS: usize = 80;
 
 /// Maximum number of characters in `about`, which fills a few lines of a panel.

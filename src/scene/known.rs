@@ -17,7 +17,7 @@ use crate::sim::bodies::Net;
 pub struct SceneKey {
     /// Name of the key.
     pub key: &'static str,
-    /// Whether the key is required, at least in its way of writing the table.
+    /// Whether the key is required, at least in one way of writing the table.
     pub is_required: bool,
     /// Description of the key for people.
     pub about: &'static str,

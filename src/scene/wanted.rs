@@ -9,7 +9,7 @@ use crate::sim::TickRate;
 use crate::sim::bodies::{self, Pin};
 use crate::sim::law::Layout;
 
-/// Most characters in the name of a layout or a pin.
+/// Maximum number of characters in the name of a layout or a pin.
 const MAX_WORD_CHARS: usize = 16;
 
 /// The part of a scene file in which a key stands.

@@ -80,7 +80,7 @@ pub struct Identification {
     /// Whether the conclusion assumes that the body starts at rest, because x alone does not decide.
     pub supposes_start_at_rest: bool,
     /// Signed distance of the last row from the exact motion of the same start, in metres, and the row's time in
-    /// seconds. `None` unless a method was identified.
+    /// seconds. `None` if no method was identified.
     pub from_exact: Option<(f64, f64)>,
     /// The nearest damped swing, if the method is unknown.
     pub swing: Option<FittedSwing>,

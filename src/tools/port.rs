@@ -57,7 +57,7 @@ pub enum WishError {
         /// The tick rate, in hertz.
         tick_hz: f64,
     },
-    /// A swing takes so long in ticks that rounding hides it.
+    /// A swing takes such a large number of ticks that rounding hides it.
     #[error(
         "a swing of {frequency_hz} Hz takes more than {MAX_TICKS} ticks at {tick_hz} Hz, so that rounding hides it; give more than {} Hz, or tick slower",
         tick_hz / MAX_TICKS

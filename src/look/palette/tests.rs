@@ -79,7 +79,7 @@ fn seen_by(colour: Rgba, eyes: [[f64; 3]; 3]) -> [f64; 3] {
 
 #[test]
 fn a_deuteranope_can_distinguish_the_first_nine_lanes_by_hue_or_dash() {
-    /// Below this distance, a person who looks from curve to legend confuses two colours.
+    /// Distance below which a person who looks from curve to legend confuses two colours.
     const ALIKE: f64 = 25.5;
     let distance = |a: Rgba, b: Rgba| distance_seen(a, b, DEUTERANOPE);
     let white = seen_by([255; 4], DEUTERANOPE);

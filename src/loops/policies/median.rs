@@ -8,10 +8,11 @@ const LAST: usize = 11;
 /// Number of the longest and number of the shortest durations that are left out of the mean. Hitches of at most this
 /// many frames do not affect the mean.
 const LEFT_OUT: usize = 2;
-/// In each frame, the step approaches the mean by their difference divided by this. A larger divisor is smoother, but
-/// slower to adapt to another rate.
+/// Divisor of the difference between the mean and the step, by which the step approaches the mean in each frame. A
+/// larger divisor is smoother, but slower to adapt to another rate.
 const EASING: i128 = 4;
-/// In each frame, the debt divided by this is paid back. A larger divisor is smoother, but lags longer after a hitch.
+/// Divisor of the debt that gives the part paid back in each frame. A larger divisor is smoother, but lags longer after
+/// a hitch.
 const PAYING_BACK: i128 = 16;
 
 /// A smoothed step that makes up for its error over time.

@@ -20,7 +20,7 @@ pub(super) struct Stream {
     /// stayed.
     next_began_ns: Result<i64, Fault>,
     next_shown_ns: i64,
-    /// Time from the last frame to the generated frames after it.
+    /// Time that the generated frames after the last frame have lasted up to now, in nanoseconds.
     generated_ns: i64,
     /// First and last frame that have the log's own time, each with that time in nanoseconds. Below, the same for the
     /// time until display.
@@ -30,7 +30,7 @@ pub(super) struct Stream {
     lead_ns: i64,
 }
 
-/// Replaces control characters, since names appear in messages and on screens.
+/// Replaces control characters, because names appear in messages and on screens.
 fn printable(name: &str) -> String {
     name.replace(char::is_control, "\u{fffd}")
 }
@@ -111,7 +111,7 @@ impl Stream {
         Ok(())
     }
 
-    /// Lets the times of a generated frame pass. Its own beginning may be unknown.
+    /// Lets the times of a generated frame pass. The beginning of such a frame may be unknown.
     fn skip_generated_frame(&mut self, cells: &Cells) {
         let (began, shown) = (cells.began_ns.as_ref().copied().unwrap_or(0), cells.displayed_ns);
         match cells.span {

@@ -17,7 +17,8 @@ const MOMENTS: u64 = 60;
 const MAX_TICKS: u64 = 3000;
 /// Maximum distance of a point of a lone cloud beyond the cloud's middle half, in widths of that half.
 const MAX_STRAY_WIDTHS: f64 = 3.0;
-/// Share by which other clouds may widen the axes of a run, and the axes at one moment, in widths of the exact cloud.
+/// Largest widths by which other clouds may widen the axes of a run, and the axes at one moment, relative to the width
+/// of the exact cloud.
 const MAX_WIDENING: f64 = 0.1;
 const MAX_WIDENING_AT_ONCE: f64 = 0.25;
 

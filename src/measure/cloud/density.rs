@@ -47,7 +47,7 @@ impl PlaneView {
         })
     }
 
-    /// Returns the distance between minimum and maximum.
+    /// Returns the distance between the minimum and maximum of `range`.
     pub(super) fn width(points: &[[f64; 2]], i: usize) -> f64 {
         let [least, most] = Self::range(points, i);
         most - least

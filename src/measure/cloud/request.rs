@@ -126,7 +126,7 @@ pub struct CloudPicture {
     pub view: PlaneView,
     /// Border of the exact cloud.
     pub border: Vec<Vec<[f64; 2]>>,
-    /// Times in seconds and areas of the exact cloud relative to the start, where known.
+    /// Times in seconds and areas of the exact cloud relative to the start, at the moments at which these are known.
     pub exact: Vec<[f64; 2]>,
     /// The clouds of the lanes, in the order of the lanes.
     pub lanes: Vec<LaneCloud>,
@@ -143,7 +143,7 @@ pub struct LaneCloud {
     pub lost: usize,
     /// Number of remaining points beyond the axes; 0 for a section.
     pub hidden: usize,
-    /// Number of these hidden points on each side: left, right, below, above.
+    /// Number of the `hidden` points on each side: left, right, below, above.
     pub beyond: [usize; 4],
     /// Area relative to the start, as [`crate::measure::cloud::Cloud::area_ratio`] returns it.
     pub area_ratio: Option<f64>,

@@ -60,8 +60,8 @@ pub(super) struct HistoryMark {
 pub type Samples<'h> = iter::Chain<vec_deque::Iter<'h, Sample>, option::Iter<'h, Sample>>;
 
 impl History {
-    /// Creates an empty history that shows `capacity` samples, and keeps half as many more for rewinding without
-    /// repetition. With [`CAPACITY`](super::CAPACITY), these further samples cover 17 s at 60 Hz.
+    /// Creates an empty history that shows `capacity` samples, and keeps half of that number in addition for rewinding
+    /// without repetition. With [`CAPACITY`](super::CAPACITY), these further samples cover 17 s at 60 Hz.
     pub(super) fn new(capacity: usize) -> Self {
         let spare = capacity / 2;
         Self {

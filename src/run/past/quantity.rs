@@ -38,7 +38,7 @@ impl Quantity {
         }
     }
 
-    /// Returns the value, given a coordinate and its velocity.
+    /// Returns the value of the quantity, given a coordinate and its velocity.
     pub fn value(self, [q, v]: [f64; 2]) -> f64 {
         match self {
             Quantity::Position => q,

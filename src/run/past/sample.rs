@@ -131,7 +131,7 @@ impl SweptRange {
 pub struct Summary {
     /// Time (s) of the last sample.
     pub t: f64,
-    /// The recorded coordinate at that time.
+    /// The recorded coordinate at the time of the last sample.
     pub q: f64,
     /// Range of the recorded coordinate since the previous summary.
     pub swept: SweptRange,

@@ -118,7 +118,7 @@ impl TruthCurve {
         curve
     }
 
-    /// Returns the heap memory in bytes.
+    /// Returns the heap memory of the curve in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.between.bytes(Solver::Truth) + self.samples.heap_bytes() + self.extents.heap_bytes()
     }

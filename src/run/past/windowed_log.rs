@@ -26,7 +26,7 @@ impl<T: PartialEq> WindowedLog<T> {
         Self { kept: VecDeque::with_capacity(capacity), window, capacity, first: 0, end: 0 }
     }
 
-    /// Returns the heap memory in bytes.
+    /// Returns the heap memory of the log in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.capacity * size_of::<T>()
     }

@@ -16,7 +16,7 @@ pub enum Interpolation {
     /// stays unchanged.
     #[default]
     Monotone,
-    /// The last tick, extrapolated by its velocity.
+    /// The state of the last tick, extrapolated by its velocities.
     Extrapolated,
 }
 

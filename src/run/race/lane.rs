@@ -87,7 +87,7 @@ pub struct LaneBody {
 }
 
 impl LaneBody {
-    /// Returns the claims of a [`Law`] or a [`Custom`] body that fail with the present parameters; none for other
+    /// Returns the claims of a [`Law`] or a [`Custom`] body that fail with the present parameters; no claims for other
     /// bodies.
     pub fn false_claims(&self) -> FalseClaims {
         let body = self.stepper.body();

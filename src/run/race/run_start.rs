@@ -32,7 +32,7 @@ pub(super) struct BodyStart {
 }
 
 impl RunStart {
-    /// Returns the memory in bytes.
+    /// Returns the memory of this state in bytes.
     pub(super) fn bytes(&self) -> usize {
         let body = |body: &BodyStart| {
             size_of_val(body)
@@ -54,7 +54,7 @@ pub(crate) struct Checkpoints {
 }
 
 impl Checkpoints {
-    /// Returns the heap memory in bytes.
+    /// Returns the heap memory of the checkpoints in bytes.
     pub(crate) fn heap_bytes(&self) -> usize {
         [&self.of_verdicts, &self.of_clouds].into_iter().flatten().map(|start| start.bytes()).sum()
     }

@@ -15,7 +15,7 @@ pub(crate) struct NodeLine {
 /// eight pixels would look like a surface.
 const MAX_LINES: usize = 128;
 
-/// Maximum number of drawn nodes of a line, for the same reason.
+/// Maximum number of drawn nodes of a line, limited like `MAX_LINES` by the pixels of a stage.
 const MAX_POINTS: usize = 512;
 
 /// Maximum number of drawn springs of a net in the form of lists.

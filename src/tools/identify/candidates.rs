@@ -27,8 +27,8 @@ pub struct Candidate {
     pub spring: SpringForm,
 }
 
-/// Writes the id, the substeps and the way in which the method applies the spring. The last one is left out if it is
-/// the engine's first way.
+/// Writes the id, the substeps and the way in which the method applies the spring. This way is left out if it is the
+/// engine's first one.
 impl fmt::Display for Candidate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} ×{}", self.method.id, self.substeps)?;

@@ -140,7 +140,7 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
     let square = squares(&off);
     let variance = square / (x.len() - is_free.iter().filter(|free| **free).count()) as f64;
     let [of_k, of_c] = deviations(&slopes(&now, &base), variance)?;
-    // By ω = √k and ζ = c / (2 ω); the deviations are in units of k and ω.
+    // The errors follow from ω = √k and ζ = c / (2 ω); the deviations are in units of k and ω.
     let omega_error = of_k * omega / 2.0;
     let ratio_error = libm::hypot(of_c / 2.0, seen.damping_ratio()? * of_k / 2.0);
     let found = FittedSwing {
