@@ -20,7 +20,7 @@ pub enum EventKind {
     Done {
         /// The action.
         action: Action,
-        /// Its author.
+        /// The author of the action.
         author: Author,
         /// The only lane of the run; `None` in a race.
         solo: Option<LaneId>,
@@ -31,7 +31,7 @@ pub enum EventKind {
         lane: Option<LaneId>,
         /// Index of the body in the scene.
         body: usize,
-        /// Whether a value left its range; otherwise the solver failed.
+        /// Whether a value left its range; if not, the solver failed.
         is_blow_up: bool,
     },
 }

@@ -5,8 +5,8 @@ use crate::scene::{Action, LaneSpec, Swing};
 use crate::sim::bodies::MAX_VALUE;
 
 impl Action {
-    /// The action with throttle and rudder clamped to -1 to 1. `None` if a number is out of its range, so that no
-    /// scene file could express it.
+    /// Returns the action with throttle and rudder clamped to -1 to 1. `None` if a number is out of its range, because
+    /// then no scene file could express the action.
     pub fn clamped_in_range(mut self) -> Option<Self> {
         if let Action::Throttle(part) | Action::Rudder(part) = &mut self {
             *part = part.clamp(-1.0, 1.0);
@@ -29,7 +29,7 @@ impl Action {
 }
 
 impl LaneSpec {
-    /// Whether its numbers are in their ranges, and its method takes them.
+    /// Whether the lane's numbers are in their ranges and its method accepts them.
     pub(crate) fn is_in_range(&self) -> bool {
         let Self { method, substeps, tolerance, joint } = self;
         let takes = |given: f64| {
