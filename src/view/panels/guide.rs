@@ -7,12 +7,12 @@ use crate::studio::guide::{STOPS, Tour};
 use crate::studio::{Command, Step, ViewCommand};
 use crate::view::theme::{palette, strong_font};
 
-/// The usual height, the minimum, and the height left for the stage if possible, in points.
+/// The guide's usual height, its minimum height, and the height left for the stage if possible, in points.
 const HEIGHT: f32 = 172.0;
 const MIN_HEIGHT: f32 = 96.0;
 const FOR_STAGE: f32 = 150.0;
 
-/// Height of the guide, if it and the stage have `room` points together. A low guide scrolls.
+/// Returns the height of the guide, if the guide and the stage have `room` points together. A low guide scrolls.
 pub(super) fn height(room: f32) -> f32 {
     HEIGHT.min((room - FOR_STAGE).max(MIN_HEIGHT)).min(0.6 * room)
 }
@@ -87,7 +87,7 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     }
 }
 
-/// Shows the predictions to choose from. Once the task is done, the right one is marked.
+/// Shows the predictions to choose from. Once the task is done, a mark shows the right prediction.
 fn choices(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     let stop = tour.stop();
     ui.horizontal_wrapped(|ui| {

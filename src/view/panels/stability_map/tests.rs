@@ -39,7 +39,7 @@ fn dragging_the_cross_sets_rate_and_parameter() {
     for command in commands {
         studio.apply(command);
     }
-    // At its present place, the drag changes nothing.
+    // A press on the cross at its present place changes nothing.
     let (commands, _) = window.panels(&studio, vec![]);
     assert_eq!(commands, []);
     window.panels(&studio, vec![button(to, false)]);
