@@ -194,7 +194,7 @@ fn report_text(found: &Comparison, a: &Path, b: &Path) -> String {
     lines.iter().map(|line| visible_in_a_line(line) + "\n").collect()
 }
 
-/// Lists the columns that differ, each with the first tick at which it does, and the columns that are equal.
+/// Lists the columns that differ, each with the first tick of a difference, and the columns that are equal.
 fn by_column(found: &Comparison, tick_name: Option<&str>) -> String {
     let from = |tick: u64| tick_name.map_or(String::new(), |name| format!(" from {name} {tick}"));
     let differ = found

@@ -77,7 +77,7 @@ pub(super) fn wait_for<T: Send + 'static>(
     name: &str,
     wait: impl FnOnce() -> io::Result<T> + Send + 'static,
 ) -> io::Result<T> {
-    // Without a handler, a signal ends the process anyway, even while it waits.
+    // A signal without a handler ends the process anyway, even while it waits.
     let Some(SignalState { interrupted, .. }) = SIGNAL_STATE.get() else { return wait() };
     let done = jobs::result_within(GRACE, interrupted, wait);
     done.unwrap_or_else(|| Err(io::Error::other(Error::interrupted_while_waiting_for(name))))

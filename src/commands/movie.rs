@@ -27,8 +27,8 @@ pub(super) type Begun<'a> = Result<Box<dyn Movie + 'a>, Error>;
 /// A function that starts a stream of one format.
 pub(super) type Begin = for<'a> fn(&'a mut Output, &CaptureSettings) -> Begun<'a>;
 
-/// Sampling factor for the palette of a GIF: one pixel in 30 is sampled. This is the coarsest sampling. It is twice as
-/// fast as a medium one, and no worse on flat colours.
+/// Step between the pixels from which the palette of a GIF is computed. This step is the coarsest one, twice as fast as
+/// a medium one, and no worse on flat colours.
 const GIF_SPEED: i32 = 30;
 
 /// Draws the run of `studio` into `output`, and reports the result on standard error.

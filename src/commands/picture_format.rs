@@ -107,7 +107,7 @@ impl PictureFormat {
         }
     }
 
-    /// Fails if the format cannot show this many frames per second.
+    /// Fails if the format cannot show `fps` frames per second.
     pub(super) fn check(&self, fps: u32) -> Result<(), Error> {
         match self.max_fps {
             Some(most) if fps > most => Err(Error::mistake(format!(

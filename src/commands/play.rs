@@ -122,8 +122,8 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         let if_exists = if args.force { IfExists::Replace } else { IfExists::Beside };
         Destination { path, option: "--record", if_exists, inputs: &inputs }
     });
-    // The file is opened before the run, because it could turn out after the run that the file cannot be written. It is
-    // begun again after the run. A program that is killed then leaves only the unfinished recording beside it.
+    // The file is opened before the run, so that no run starts that cannot be saved. The file is begun again after the
+    // run, so that a program that is killed leaves only the unfinished recording beside it.
     let opened = record.map(Destination::open_for_text).transpose()?;
     let unfinished = opened.as_ref().and_then(Output::file).map(UnfinishedRecording::for_recording);
     let stream = opened.filter(|output| output.file().is_none());

@@ -14,7 +14,7 @@ use crate::scene::{LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, Swing, TOLERANCES, 
 use crate::sim::integrators::{Method, method};
 use crate::studio::{Instrument, Motion, RunCommand, Studio};
 
-/// Settings of a capture: its frames, their size and their content.
+/// Settings of a capture, namely its frames, their size and their content.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CaptureSettings {
     pub(super) schedule: Schedule,

@@ -1,4 +1,4 @@
-//! The options that set a tick rate: ticks per second, or the length of a tick.
+//! The options that set a tick rate, as ticks per second or as the length of a tick.
 
 use clap::Args;
 

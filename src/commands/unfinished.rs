@@ -167,7 +167,7 @@ impl Notes {
     /// if that still exists.
     fn left_behind_in(&self, path: &Path) -> Option<String> {
         let recording = self.recording_in(path)?;
-        // If the program still ran, it would have the lock.
+        // A program that still runs would have the lock.
         File::open(path).ok()?.try_lock().ok()?;
         fs::remove_file(path).ok()?;
         let name = recording.display();
@@ -268,7 +268,7 @@ mod tests {
             }
             assert_eq!(fs::read_to_string(folder.join(name)).unwrap(), text, "{name}");
         }
-        // If the recording no longer exists, its note is removed too.
+        // The note is removed too if its recording no longer exists.
         for (notes, name, text) in [
             (
                 NOTES,

@@ -158,7 +158,7 @@ pub(super) fn step_by(deck: &mut Deck, viewer: &mut Viewer, ticks: i64) {
     deck.run.show_present();
 }
 
-/// If the run has not yet come to this tick, reports how far it has come.
+/// Reports how far the run has come, if it has not yet come to this tick.
 pub(super) fn tell_of_the_future(deck: &mut Deck, viewer: &mut Viewer, tick: u64) {
     let (end, times) = (deck.run.end(), deck.run.times());
     if tick > end {

@@ -21,7 +21,7 @@ pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
     }
     let changes = Interventions::after_last_edit(deck.run().checkpoints());
     let (tick_hz, choice) = (deck.clock.tick_hz(), viewer.display().cloud);
-    // At a stop of the guide, the points of later ticks may give away the answer.
+    // The points of later ticks may give away the answer at a stop of the guide.
     let seconds = match viewer.is_asked() {
         true => 0.0,
         false => (deck.race().t() - changes.starts_at_s()).max(0.0),

@@ -59,7 +59,7 @@ pub enum RunCommand {
     Seek(u64),
     /// Rewinds to some time before the selected lane blew up, and runs.
     WatchAgain,
-    /// Undoes the last edit of the run or of its next start.
+    /// Undoes the last edit, whether of the run or of the next start.
     Undo,
     /// Redoes the edit that was undone last.
     Redo,

@@ -311,7 +311,7 @@ impl Deck {
 
     /// Lets time run on from the moment that was shown at rest.
     pub(super) fn run_on(&mut self, interpolation: Interpolation) {
-        // If bodies are drawn a tick late, the present tick appears only when the next one is due, so the clock starts
+        // The present tick appears only when the next one is due if bodies are drawn a tick late, so the clock starts
         // with a full tick.
         match interpolation {
             Interpolation::Raw | Interpolation::Extrapolated => self.clock.restart(),
@@ -342,7 +342,7 @@ impl Deck {
         (changed, told)
     }
 
-    /// In a race, selects the lane whose method the script selected in the rows of the journal after the first `done`.
+    /// Selects the lane of a race whose method the script selected in the rows of the journal after the first `done`.
     fn select_as_scripted(&mut self, done: usize) {
         let race = self.run.race();
         if race.mode() == Mode::Solo || race.done() <= done {

@@ -88,7 +88,7 @@ fn drawn_interpolation(deck: &Deck, viewer: &Viewer) -> Interpolation {
     if deck.time_runs() { viewer.display().interpolation } else { Interpolation::Raw }
 }
 
-/// Returns the displayed moment, in ticks after the last tick.
+/// Returns the displayed moment, in ticks after the last tick. It is negative before that tick.
 fn shown_ticks(deck: &Deck, viewer: &Viewer) -> f64 {
     drawn_interpolation(deck, viewer).shown(deck.clock.alpha())
 }

@@ -15,7 +15,7 @@ use crate::scene::Action;
 pub enum Key {
     /// A digit by its position on the keyboard, so that it needs no Shift on any layout.
     Digit(u8),
-    /// A lower-case letter or a sign, as the layout produces it.
+    /// A lower-case letter or a sign, as the keyboard's layout produces it.
     Sign(char),
     /// A lower-case letter or a sign with Shift held.
     ShiftSign(char),

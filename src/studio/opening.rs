@@ -255,7 +255,7 @@ pub fn reload_failed(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: 
 fn run_again(deck: &mut Deck, viewer: &mut Viewer, index: usize, tick: u64) {
     let scene = deck.scene_list.scene(index);
     restart(deck, viewer, Some("the change of the file"), |next| {
-        // If nobody has chosen a rate, the rate of the new scene applies.
+        // The rate of the new scene applies if nobody has chosen a rate.
         if next.tick_hz == next.scene.tick_hz {
             next.tick_hz = scene.tick_hz;
         }

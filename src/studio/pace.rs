@@ -119,7 +119,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::studio::{Command, RunCommand, StageCommand, Step, ViewCommand};
 
-    /// A studio at this tick rate, its meter, and the start of the last frame.
+    /// A studio at this tick rate, the meter of its pace, and the start of the last frame.
     struct Run(Studio, PaceMeter, u64);
 
     impl Run {

@@ -283,7 +283,7 @@ impl Viewer {
         self.notice.take_if(|notice| notice.left_ns() == 0);
     }
 
-    /// Switches to the next interpolation between ticks, and shows its name.
+    /// Switches to the next interpolation between ticks, and shows the name of that interpolation.
     pub(super) fn next_interpolation(&mut self) {
         self.preferences.display.interpolation = self.preferences.display.interpolation.next();
         let name = self.preferences.display.interpolation.name();

@@ -116,7 +116,7 @@ impl Driver {
         address: Address,
         mut studio: Studio,
     ) -> Self {
-        // At first the stage is alone, as in the window, unless a person has stored another choice.
+        // The stage is alone at first, as in the window, unless a person has stored another choice.
         let remembered = storage(&window).and_then(|storage| storage.get_item(STORED).ok()?);
         let remembered = remembered.and_then(|text| SavedPreferences::parse(&text).ok());
         remembered.unwrap_or_default().apply(&mut studio);
@@ -196,7 +196,7 @@ impl Driver {
                     self.go_to(tick, address.plays);
                 }
             }
-            // If the link names a scene, the page has to be reloaded to open it.
+            // The page has to be reloaded to open the scene that a link names.
             Ok(address) => {
                 self.put_fragment(&address.fragment());
                 _ = self.window.location().reload();

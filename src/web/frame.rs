@@ -116,7 +116,7 @@ impl Driver {
         _ = self.canvas.element.style().set_property("cursor", pointer);
     }
 
-    /// Updates the page's play state, its link to an explanation, and the text for a screen reader.
+    /// Updates the page's play state, the link to an explanation, and the text for a screen reader.
     fn show_state(&mut self, document: &Document) {
         let studio = &self.frames.studio;
         let (is_running, is_alone) = (studio.running(), !studio.display().measure);

@@ -48,7 +48,7 @@ pub(crate) fn listen() {
         add_listener(&canvas, "blur", |driver, _: Event| driver.set_entered(false));
         add_listener(&canvas, "contextmenu", |_, event: Event| event.prevent_default());
         add_listener(&canvas, "wheel", |driver: &mut Driver, event: WheelEvent| {
-            // On a page that embeds the stage, the wheel scrolls the page until a person has entered the stage.
+            // The wheel scrolls a page that embeds the stage until a person has entered the stage.
             let is_passed = driver.is_embedded && !driver.has_focus();
             let turned = pointer::wheel_event(&event, driver.held).filter(|_| !is_passed);
             if let Some(turned) = turned {

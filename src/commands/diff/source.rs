@@ -156,7 +156,7 @@ impl Table {
         if self.taken == self.filled {
             let Ok(next) = self.batches.recv() else { return Ok(false) };
             let (batch, filled) = next?;
-            // If the channel is full, the batch is dropped, and the reader allocates another one.
+            // The batch is dropped if the channel is full, and the reader then allocates another one.
             drop(self.used.try_send(std::mem::replace(&mut self.batch, batch)));
             (self.filled, self.taken) = (filled, 0);
             if filled == 0 {

@@ -12,7 +12,7 @@ pub(super) fn print_advice(rows: &[Measured], latency_ms: f64, limits: FrameLimi
         format!("{} ({} Hz display, {:.3} Hz ticks)", first.trace, first.refresh, first.tick_hz);
     let measured = rows.iter().map(|row| (row.card, &row.report));
     let loops = MeasuredLoops::new(measured, first.tick_hz, first.has_one_clock);
-    // If all policies were measured, the message does not speak of a subset, just as in the window.
+    // The message does not speak of a subset if all policies were measured, just as in the window.
     let are_all = rows.len() == POLICIES.len();
     match loops.advised(latency_ms) {
         Ok(advised) => {

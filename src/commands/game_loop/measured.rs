@@ -113,7 +113,7 @@ pub(super) fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
     let gaps = displayed.windows(2).map(|pair| pair[1] - pair[0]).enumerate();
     let refresh_ns = 1e9 / trace.refresh().hz();
     let long = gaps.filter(|(_, gap)| *gap as f64 > LONG * refresh_ns);
-    // If several frames are equally long, the first one counts.
+    // The first of several equally long frames counts.
     let longest = long.min_by_key(|(_, gap)| -gap);
     longest.map_or(0, |(index, _)| displayed[index.saturating_sub(BEFORE)])
 }

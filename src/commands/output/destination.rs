@@ -112,7 +112,7 @@ impl Destination<'_> {
         Ok(self.output(Target::File(file, self.if_exists)))
     }
 
-    /// Opens the destination, writes text and closes it.
+    /// Opens the destination, writes text to it and closes it.
     pub(crate) fn write(self, text: &str) -> Result<(), Error> {
         let mut output = self.open_for_text()?;
         output.write_all(text.as_bytes())?;

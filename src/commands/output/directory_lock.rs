@@ -9,7 +9,7 @@ use std::path::Path;
 /// Name of the lock file, which is used on systems that cannot lock a directory itself.
 const LOCK_NAME: &str = ".regatta-lock";
 
-/// A lock on a directory. It is released when it is dropped.
+/// A lock on a directory, which is released when the value is dropped.
 #[derive(Debug)]
 pub(crate) struct DirectoryLock {
     _file: File,

@@ -252,7 +252,7 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
                 };
                 let kept = limits.spectral_radius.map_or("unstable".into(), |radius| {
                     let word = if radius <= 1.0 + 1e-9 { "stable" } else { "unstable" };
-                    // If the radius is near 1, its difference from 1 counts.
+                    // The difference from 1 counts if the radius is near 1.
                     let digits = if (radius - 1.0).abs() < 0.01 { 6 } else { 3 };
                     format!("{word}, a tick leaves {}", significant(radius, digits))
                 });

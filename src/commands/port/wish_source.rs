@@ -17,7 +17,7 @@ pub(super) enum WishSource {
     UiSpring { shown: Wish, as_given: Wish },
     /// A velocity of which a constant part remains after each frame.
     Friction(Friction),
-    /// A value that chases its target, and the frame rate if it matters.
+    /// A value that chases its target, and the frame rate if it has one.
     Approach(Approach, Option<f64>),
     /// The path of a log.
     Log(PathBuf),
@@ -101,7 +101,7 @@ impl WishSource {
                 let half_life_s = above_0(rest, "s", "the half-life")?;
                 Ok(WishSource::Approach(Approach { half_life_s }, None))
             }
-            // If the part before the colon is one letter, it is the drive of a path.
+            // A single letter before the colon is the drive of a path.
             _ if head.len() == 1 => Ok(WishSource::Log(written.into())),
             _ => match TARGET.find(head)? {
                 Target::Engine(method) => {

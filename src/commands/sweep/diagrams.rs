@@ -35,8 +35,8 @@ pub(super) fn figure(swept: &Swept, rows: &[Row], rounded: Vec<ErrorCurve>) -> F
     Figure { title: title.into(), note, columns: columns(charts.len()), charts }
 }
 
-/// Returns the curve of a method's error against its evaluations, with a point for each tick rate. If there are several
-/// bodies, the largest of their errors counts, as in advice.
+/// Returns the curve of a method's error against its evaluations, with a point for each tick rate. The largest error
+/// counts if there are several bodies, as in advice.
 fn work_curve<'a>(method: &Method, rows: impl Iterator<Item = &'a Row>) -> FigureCurve {
     let mut by_rate = BTreeMap::new();
     for row in rows {

@@ -82,8 +82,7 @@ impl Row {
     /// Returns the number of evaluations of the body's acceleration per simulated second.
     pub(super) fn evaluations_per_s(&self) -> f64 {
         let (verdict, hz) = (&self.verdict, f64::from(self.tick_hz));
-        // The seconds are those of whole ticks, so that a method with a fixed number of evaluations per step has a
-        // whole number.
+        // Whole ticks are counted, so that a method with a fixed number of evaluations per step has a whole number.
         verdict.evaluations as f64 * hz / (verdict.seconds * hz).round()
     }
 }

@@ -162,7 +162,7 @@ impl Report {
 /// Prints a line to standard output.
 pub(super) fn print_line(line: &str) -> Result<(), Error> {
     match print(format!("{line}\n")) {
-        // If the reader has closed the pipe, the command still ends with its exit code.
+        // The command still ends with its exit code if the reader has closed the pipe.
         Err(error) if error.is_closed_pipe() => Ok(()),
         printed => printed,
     }

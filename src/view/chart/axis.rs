@@ -1,4 +1,4 @@
-//! Axis scales and their marks. Marks lie at round values, at least three of them wherever they fit.
+//! Axis scales and the marks of axes. Marks lie at round values, and an axis has at least three if they fit.
 
 use crate::stage::number::{grouped, round, superscript};
 

@@ -245,7 +245,7 @@ mod tests {
     fn a_band_is_widened_by_its_neighbours_up_to_its_gaps() {
         let at = |y: f32| Some((y, y));
         let row = [at(1.0), at(5.0), at(2.0), None, at(9.0), at(3.0)];
-        // If points lie an eighth of a column apart, a span widens by one column on either side.
+        // A span widens by one column on either side if points lie an eighth of a column apart.
         let first = [Some((1.0, 5.0)), Some((1.0, 5.0)), Some((2.0, 5.0))];
         let second = [Some((3.0, 9.0)); 2];
         assert_eq!(widened(&row, 0.125), [&first[..], &[None], &second].concat());

@@ -104,9 +104,9 @@ const ARROW_INSET: f32 = 9.0;
 const MAX_TURNS: f32 = 0.25;
 const MAX_TURNS_PER_POINT: f32 = 0.5;
 
-/// A stretch of a curve counts as hidden if it strays further than this from the line through its points, in screen
-/// points. A curve with a larger share of hidden stretches is not drawn as a line, because the line would show a false
-/// swing.
+/// Maximum distance in screen points between a stretch of a curve and the line through the curve's points. A stretch
+/// further away counts as hidden. Then the maximum share of hidden stretches for a curve that is drawn as a line. With
+/// more of them, the line would show a false swing.
 const HIDDEN: f32 = 2.0;
 const MAX_HIDDEN: f32 = 1.0 / 16.0;
 

@@ -38,9 +38,9 @@ pub struct Chart {
 /// Place of the names of a chart's curves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Legend {
-    /// Below the figure's title, once for all charts with this legend.
+    /// The names are below the figure's title, once for all charts with this legend.
     Shared,
-    /// Below the chart's own title.
+    /// The names are below the chart's own title.
     Own,
 }
 

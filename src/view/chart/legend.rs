@@ -7,7 +7,7 @@ use egui::{Align2, Color32, FontId, Galley, Pos2, Response, Sense, Stroke, Ui, p
 use super::{Primitive, Text, paint, text_width};
 use crate::view::theme::{PanelPalette, palette, strong_font};
 
-/// Length of a piece of line, gap between it and the name, and gap between two entries, in points.
+/// Length of a piece of line, gap between a piece and the name, and gap between two entries, in points.
 const SWATCH: f32 = 26.0;
 const BEFORE_NAME: f32 = 6.0;
 pub(in crate::view) const BETWEEN: f32 = 13.0;
@@ -58,7 +58,7 @@ impl Entry {
     }
 }
 
-/// Shows a legend in as many rows as it needs.
+/// Shows a legend in as many rows as its entries need.
 pub(in crate::view) fn show(ui: &mut Ui, entries: &[Entry]) -> Vec<Response> {
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = ROW;

@@ -1,4 +1,5 @@
-//! Charts: curves over a pair of axes, laid out as [primitives](Primitive) for a panel to paint or a file to keep.
+//! Charts, which are curves over a pair of axes. They are laid out as [primitives](Primitive), which a panel can paint
+//! and a file can keep.
 
 use egui::{Align2, Color32, Pos2, Rect, Stroke, pos2, vec2};
 

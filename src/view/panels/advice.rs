@@ -502,7 +502,7 @@ mod tests {
                 let font = &galley.job.sections.first()?.format.font_id;
                 let is_name = studio.entries().iter().any(|it| it.method.name == galley.text());
                 let is_plain = font.family == FontFamily::Proportional;
-                // Below the stage, the methods appear beside their digits.
+                // The methods below the stage appear beside their digits.
                 let is_beside =
                     text.shape.pos.x > stage.right() && text.shape.pos.y < stage.bottom();
                 (is_name && is_plain && is_beside).then_some(font.size)

@@ -1,4 +1,4 @@
-//! Annotations on a plot: tinted areas, arrows, and labels with a halo.
+//! Annotations on a plot, namely tinted areas, arrows, and labels with a halo.
 
 use egui::epaint::TextShape;
 use egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2};

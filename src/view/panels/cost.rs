@@ -1,5 +1,5 @@
-//! Cost of a tick by lane: force evaluations, which are the same on every machine, and the time measured in the
-//! window.
+//! Cost of a tick by lane: the number of force evaluations, which is the same on every machine, and the time measured
+//! in the window.
 
 use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 

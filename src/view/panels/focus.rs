@@ -1,4 +1,4 @@
-//! The keyboard focus: a ring around the focused widget, and lists that scroll to it.
+//! The keyboard focus. The focused widget has a ring around it, and lists scroll to it.
 
 use egui::style::ScrollAnimation;
 use egui::{Id, Response, Stroke, StrokeKind, Ui};

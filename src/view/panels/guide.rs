@@ -1,4 +1,4 @@
-//! The guide below the stage: the question of its stop, the choices, the key to press, and the answer.
+//! The guide below the stage, with the question of its stop, the choices, the key to press, and the answer.
 
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
@@ -20,7 +20,7 @@ pub(super) fn height(room: f32) -> f32 {
 pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing = vec2(6.0, 5.0);
     head(ui, tour, commands);
-    // Without this a low guide would exceed its height and lie over the stage.
+    // A low guide would otherwise exceed its height and lie over the stage.
     let scrolled = ScrollArea::vertical().auto_shrink(false).min_scrolled_height(0.0);
     scrolled.show(ui, |ui| {
         let stop = tour.stop();

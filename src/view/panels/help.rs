@@ -1,4 +1,4 @@
-//! The help overlay: every key and every gesture of the mouse, from their tables.
+//! The help overlay. It shows every key and every gesture of the mouse, from their tables.
 
 use egui::scroll_area::ScrollBarVisibility;
 use egui::{Align2, FontId, Order, RichText, ScrollArea, Ui, Vec2, Window, pos2, vec2};
@@ -13,7 +13,7 @@ const COLUMN: f32 = 560.0;
 const KEY: f32 = 128.0;
 /// Size of a window's border and of the margins around its content, in points.
 const AROUND: Vec2 = vec2(48.0, 110.0);
-/// Minimum height of the list: egui panics at a press on a scroll bar that is shorter than its handle.
+/// Minimum height of the list, because egui panics at a press on a scroll bar that is shorter than its handle.
 const MIN_LIST: f32 = 32.0;
 
 pub(super) fn show(ui: &Ui, is_page: bool, commands: &mut Vec<Command>) {
@@ -69,7 +69,7 @@ pub(super) fn show(ui: &Ui, is_page: bool, commands: &mut Vec<Command>) {
     });
 }
 
-/// Shows a key or a gesture, and its effect.
+/// Shows a key or a gesture, and the effect of either.
 fn row(ui: &mut Ui, (shown, about, is_key): (&str, &str, bool), width: f32) {
     ui.horizontal(|ui| {
         let size = vec2(KEY, keycap::HEIGHT);

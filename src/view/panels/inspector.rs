@@ -1,4 +1,4 @@
-//! The inspector: everything that can be edited during a run, from the tables of parameters and methods.
+//! The inspector. It shows everything that can be edited during a run, from the tables of parameters and methods.
 
 use egui::{
     Align, Button, CollapsingHeader, Label, Layout, Response, RichText, ScrollArea, Slider, Ui,

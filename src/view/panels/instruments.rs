@@ -1,4 +1,4 @@
-//! The instrument beside the stage: tabs in one row, and the selected instrument below.
+//! The instrument beside the stage, with tabs in one row and the selected instrument below them.
 //!
 //! The axes follow the truth and the lanes near it. A lane beyond the axes is cut off at the edge, and an arrow in its
 //! colour marks the place.
@@ -219,7 +219,7 @@ fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command
         && studio.display().instrument == Instrument::Motion;
     let for_plots = ui.available_height() - HEAD * (1.0 + f32::from(u8::from(has_legend)));
     let is_beside = ui.horizontal_wrapped(|ui| {
-        // In a window, the tab of the instrument is the title.
+        // The tab of the instrument is its title, if there is a window.
         if is_picture(ui) {
             ui.label(RichText::new(&set.title).font(strong_font(15.0)).color(palette(ui).text));
         }
@@ -271,7 +271,7 @@ fn choices(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         choice(ui, "metric", offered, chosen, commands);
     }
     let has_all = instrument == Instrument::Motion && studio.loop_lab().is_none();
-    // In a picture, the axes name the usual quantity, so the menu has no need to.
+    // The axes of a picture already name the usual quantity.
     let is_said = studio.display().quantity.is_some() || !is_picture(ui);
     if has_all && is_said {
         let named = |quantity: Option<Quantity>| {
@@ -289,7 +289,7 @@ fn choices(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     }
 }
 
-/// Offers the bodies of the scene, if it has several.
+/// Offers the bodies of the scene, if there are several.
 fn body_choice(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     if studio.scene().bodies.len() > 1 {
         let names = studio.scene().bodies.iter().map(|body| body.name.as_str());
@@ -372,7 +372,7 @@ fn legend_entries(set: &PlotSet) -> Vec<Entry> {
     series.chain(exact).collect()
 }
 
-/// Selects the lane of a race after a click on its legend entry.
+/// Selects a lane of a race after a click on the lane's legend entry.
 fn pick_by_legend(
     set: &PlotSet,
     (entries, shown): (&[Entry], &[Response]),

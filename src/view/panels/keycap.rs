@@ -98,7 +98,7 @@ pub(super) fn line(ui: &mut Ui, sentence: &str, room: f32, colour: Color32) -> R
     if is_whole { response } else { response.on_hover_text(spoken) }
 }
 
-/// Shows a sentence in as many lines as it needs.
+/// Shows a sentence in as many lines as necessary.
 pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(4.0, 2.0);

@@ -78,7 +78,7 @@ pub(super) fn height(ui: &Ui, studio: &Studio, room: f32, window: Vec2) -> f32 {
     if is_narrow && height <= ROWS * window.y { height } else { HEIGHT }
 }
 
-/// Splits the methods, each with its name, into rows of this width.
+/// Splits the methods into rows of this width. Each method has its name.
 fn rows(ui: &Ui, studio: &Studio, room: f32) -> Vec<Vec<usize>> {
     let (mut rows, mut left) = (Vec::<Vec<usize>>::new(), 0.0);
     for entry in 0..studio.deck.offered().min(DIGITS) {

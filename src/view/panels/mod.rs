@@ -89,7 +89,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         panel.show(ui, |ui| footer::show(ui, studio, &mut commands));
     }
     let mut pointed = None;
-    // In a race, the table has all the methods.
+    // The table of a race already has all the methods.
     let has_methods = studio.loop_lab().is_none()
         && (studio.mode() == Mode::Solo || !studio.display().measure)
         && size.y >= breakpoints::LANES

@@ -46,7 +46,7 @@ const SLOPE: f32 = 0.13;
 const ORBIT: f32 = 0.7;
 /// Maximum number of evaluations that are drawn. An implicit or an adaptive method may take hundreds.
 const MAX_DRAWN: usize = 12;
-/// Margin of the plot on each side, relative to the size of its contents.
+/// Margin of the plot on each side, relative to the size of the plot's contents.
 const MARGIN: f64 = 0.16;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
@@ -72,7 +72,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
         let left = height - said.size().y - ui.spacing().item_spacing.y;
         let plot_height = (left - table_height(ui, &step, room.x)).max(PLOT * left);
         plot(ui, studio, &step, vec2(room.x, plot_height.max(MIN_PLOT.min(0.58 * height))));
-        // If there is hardly any room for the plot, the words scroll too.
+        // The words scroll too if there is hardly any room for the plot.
         let scrolled = if plot_height < MIN_PLOT {
             Some(said)
         } else {
@@ -228,7 +228,7 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
                     (other.y - at.y).abs() < 14.0 && (other.x - at.x).abs() < half + own + 12.0
                 })
         };
-        // If there is no room for a label, the colour has to suffice.
+        // The colour has to suffice if there is no room for a label.
         let Some(&at) = places.iter().find(is_free) else { continue };
         label(&painter, (at, 0.0), text, [colour, palette.plot]);
         named.push((at, half));
@@ -433,7 +433,7 @@ fn signed_text(value: f64, figures: usize) -> String {
 /// A relative change of the swing below this value is only rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// Describes the effect of the tick on the swing, and the effect of two ticks half as long.
+/// Describes the effect of the tick on the swing, and the effect of a tick half as long.
 fn swing([whole, halves]: [f64; 2]) -> String {
     if whole.abs() < ROUNDING {
         return "One tick keeps the swing.".into();

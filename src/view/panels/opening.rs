@@ -49,7 +49,7 @@ pub(super) fn path(
         }
         if ui.input(|input| input.key_pressed(Key::Enter)) {
             commands.push(Command::Ask(DriverRequest::OpenTypedPath));
-            // After Enter the path can be edited at its end, in case the path is refused.
+            // The path can be edited at its end after Enter, in case the path is refused.
             ui.memory_mut(|memory| memory.request_focus(id));
             select(ctx, id, usize::MAX);
         }

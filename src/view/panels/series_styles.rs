@@ -1,4 +1,4 @@
-//! Styles of the curves in plots: those of a run's methods, or of the loop lab's loops.
+//! Styles of the curves in plots, which are those of a run's methods or of the loop lab's loops.
 
 use egui::Color32;
 

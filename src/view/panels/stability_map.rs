@@ -215,7 +215,7 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
         let others =
             lines.iter().filter(|(other, _)| other != entry).flat_map(|(_, points)| points);
         let others: Vec<Pos2> = others.copied().collect();
-        // If there is no room for the name with its limit, only the name is shown.
+        // Only the name is shown if there is no room for the name with its limit.
         let texts: Vec<String> = with_limit.into_iter().chain([name]).collect();
         let placed = |text: &String, is_at_all: bool| {
             let width = 7.0 * text.chars().count() as f32;

@@ -21,7 +21,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let width = ui.available_width();
     ui.horizontal_centered(|ui| {
         scene_menu(ui, studio, width, commands);
-        // Below this width, the menu of scenes offers the spring.
+        // The menu of scenes offers the spring if the top bar is narrower than this.
         if width >= breakpoints::SPRING {
             let about = "a spring of your own: the recommended method, and its code (S)";
             let words = if width >= breakpoints::MY_SPRING { "My spring" } else { "Spring" };

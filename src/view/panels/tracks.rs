@@ -28,7 +28,7 @@ struct Point {
 pub(super) enum Detail {
     /// Every sample.
     Samples,
-    /// As many samples as this number of pixel columns needs.
+    /// As many samples as are needed for this number of pixel columns.
     Columns(f32),
 }
 

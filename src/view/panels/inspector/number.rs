@@ -204,7 +204,8 @@ impl NumberField<'_> {
         size.x + 2.0 * ui.spacing().button_padding.x
     }
 
-    /// Shows the error of the last entry over the field. The message takes no room, so that no other field moves.
+    /// Shows the error of the last entry over the field. The message takes no room, so that no other field moves and
+    /// the next field stays visible.
     fn show_fault(&self, ui: &Ui, field: Rect) {
         let Some(fault) = ui.data(|data| data.get_temp::<Fault>(self.id)) else { return };
         if !ui.is_rect_visible(field) {
@@ -324,7 +325,7 @@ mod tests {
         for (key, entered) in [(Key::Enter, &[2.5][..]), (Key::Tab, &[2.5]), (Key::Escape, &[])] {
             let (words, taken) = typed(1.0, vec![text(), vec![pressed(key)], vec![]]);
             assert_eq!(taken, entered, "{key:?}");
-            // The Tab key returns to the only field, and selects its number without the unit.
+            // The Tab key returns to the only field, which then shows the number without its unit.
             let shown = if key == Key::Tab { "1" } else { "1 kg" };
             assert_eq!(words.concat(), shown, "{key:?}");
         }

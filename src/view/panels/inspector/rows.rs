@@ -1,4 +1,4 @@
-//! The inspector's rows for a body: one for each parameter, with the range of its slider.
+//! The inspector's rows for a body. Each parameter has a row, and its slider has a range.
 
 use crate::stage::{Parameter, Range, TakesEffect};
 use crate::studio::Studio;

@@ -1,4 +1,5 @@
-//! The inspector's lanes and times: methods, substeps, tolerances, the tick rate, the scene's length.
+//! The inspector's settings of lanes and times, namely methods, substeps, tolerances, the tick rate, and the length of
+//! the scene.
 
 use egui::{ComboBox, RichText, Ui, vec2};
 

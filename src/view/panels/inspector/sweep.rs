@@ -36,7 +36,7 @@ impl Sweep {
     fn of(of: Id, began_s: f64, reach: SliderRange, Values { present: from, .. }: Values) -> Self {
         let is_logarithmic = matches!(reach.spacing, Spacing::Logarithmic(_)) && from > 0.0;
         let far = if from == 0.0 { PART_FROM_ZERO * reach.high } else { FACTOR * from };
-        // The sweep goes towards zero if the value is already at the end of the slider, or is negative.
+        // A sweep that starts at the end of its slider goes towards zero instead. This also holds for negative values.
         let to = far.clamp(reach.low.min(from), reach.high.max(from));
         let to = if to == from { from / FACTOR } else { to };
         let is_whole = matches!(reach.spacing, Spacing::Whole);

@@ -16,7 +16,7 @@ use crate::view::touch::wheel_or_pinch;
 
 /// Minimum width for the numbers of a vertical axis, in points.
 const LEFT: f32 = 40.0;
-/// Maximum distance of a click from the curve that it selects, in points.
+/// Maximum distance between a click and the curve that it selects, in points.
 const NEAR: f32 = 9.0;
 
 /// The user's zoom and pan: a range for each axis, under the name of the axis.

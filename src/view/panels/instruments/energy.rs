@@ -11,7 +11,7 @@ use crate::run::past::Energies;
 use crate::studio::Studio;
 use crate::view::chart::AxisScale;
 
-/// An energy: its name, its dash, its opacity, and its formula.
+/// An energy in the plot: its name, its dash, its opacity, and its formula.
 type Part = (&'static str, [f32; 2], f32, fn(Energies) -> f64);
 
 /// Energies in the plot. The total comes after the terms of its sum.

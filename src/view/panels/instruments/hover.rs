@@ -13,7 +13,7 @@ use crate::view::theme::{palette, strong_font};
 /// The width of the crosshair and the radius of the dots on the curves, in points.
 const CROSSHAIR: f32 = 1.4;
 const DOT: f32 = 3.6;
-/// Minimum gap between the number of a lane and its value, in points.
+/// Minimum gap between the number of a lane and the lane's value, in points.
 const BETWEEN: f32 = 5.0;
 /// Height of a line of the values beside the plot, in points.
 const LINE: f32 = 15.5;
@@ -103,7 +103,7 @@ fn time_tag(ui: &Ui, frame: Rect, x: f32, text: &str) {
     painter.galley(tag.min + vec2(7.0, 2.5), words, palette.on_accent);
 }
 
-/// Writes the values beside the plot in a fixed order: the exact solution, then the lanes by number.
+/// Writes the values beside the plot in a fixed order. The exact solution comes first, then the lanes by number.
 fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
     let frame = cell.frame;
     let lines = |readout: &Readout| -> Vec<[String; 2]> {
@@ -112,7 +112,7 @@ fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
         shown.map(|(axis, place)| [axis.with_unit(place), axis.number(place)]).collect()
     };
     let most = ((frame.height() + 10.0) / LINE).floor().max(1.0) as usize;
-    // If there is no room for all values, only those of the front curves are shown.
+    // Only the values of the front curves are shown if there is no room for all of them.
     let each = if cell.plot.is_over_time() { 1 } else { 2 };
     if readouts.len() * each > most {
         readouts.retain(|readout| readout.is_front);

@@ -23,7 +23,7 @@ const SHRUNK: f32 = 44.0;
 /// Height of the displayed body's plot, relative to the other plots.
 const CHOSEN: f32 = 2.0;
 
-/// A plot at its place.
+/// A plot at its place in the instrument.
 pub(super) struct Cell<'s> {
     pub(super) plot: &'s PlotModel,
     /// Rectangle in which the curves are drawn.

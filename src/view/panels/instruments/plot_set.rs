@@ -75,7 +75,7 @@ pub(super) struct Readout {
     pub(super) entry: Option<usize>,
     pub(super) colour: Color32,
     pub(super) is_front: bool,
-    /// In a race, the digit of the method. The name of the part follows, if the curve shows a part.
+    /// Digit of the method in a race, followed by the name of the part if the curve shows a part.
     pub(super) name: String,
     /// The point of the curve, in places of the axes.
     pub(super) at: [f64; 2],

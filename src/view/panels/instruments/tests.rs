@@ -30,7 +30,7 @@ fn assert_legible(studio: &Studio, what: &str) {
     let here: Vec<_> = texts.iter().filter(|(rect, _)| rect.left() > left).collect();
     let place = |wanted: &str| here.iter().find(|(_, text)| text == wanted).map(|(rect, _)| rect);
     for card in INSTRUMENTS {
-        // If there is no room for all tabs, every group except the selected one has a single tab.
+        // Every group except the selected one has a single tab if there is no room for all tabs.
         let is_chosen = card.group == studio.display().instrument.card().group;
         let group = place(card.group.name()).filter(|_| !is_chosen);
         assert!(place(card.name).or(group).is_some(), "{what}: no tab {}", card.name);
@@ -158,7 +158,7 @@ impl Person {
         (shown.whole().into_iter().map(|(_, text)| text).collect(), commands)
     }
 
-    /// Shows a frame after these events, and applies its commands. Returns every number in it.
+    /// Shows a frame after these events, and applies the commands. Returns every number in the frame.
     fn numbers(&mut self, studio: &mut Studio, events: Vec<Event>) -> Vec<String> {
         let (texts, commands) = self.frame(studio, events);
         for command in commands {

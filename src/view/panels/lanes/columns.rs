@@ -21,11 +21,11 @@ pub(super) fn min_verdict(priority: u8) -> f32 {
 pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
     let is_solo = studio.mode() == Mode::Solo;
     let mut truths = studio.race().truth().bodies().iter();
-    // If there is no truth to compare with, the stage says so once.
+    // The stage says once that there is no truth, so the table has no columns that compare with it.
     let has_truth = truths.clone().any(|body| body.halted().is_none());
     let mut columns: Vec<_> = marks().into();
     if is_solo {
-        // In solo mode, the digit and the name of the method appear above the table.
+        // The digit and the name of the method appear above the table in solo mode.
         columns.retain(|column| column.name == "line");
     }
     if is_solo && studio.scene().bodies.len() > 1 {

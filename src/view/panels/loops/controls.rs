@@ -1,4 +1,5 @@
-//! Controls of the loop lab in the top bar: the speed of its slow motion, and its display.
+//! Controls of the loop lab in the top bar. They set the speed of the slow motion and the trace, and show the moment
+//! and the simulated display.
 
 use egui::{ComboBox, RichText, TextWrapMode, Ui};
 

@@ -94,7 +94,7 @@ pub(super) fn layout(room: Rect, series: &[Series], palette: &PanelPalette) -> V
     let group = rect.width() / NAMES.len() as f32;
     let width = group * BARS / series.len().max(1) as f32;
     let has_room = width >= breakpoints::NUMBER_ON_BAR;
-    // If there is no room for all numbers, only the first series has numbers, each over its bar.
+    // Only the first series has numbers if there is no room for all, and each number is over its bar.
     let first = series.iter().position(|series| series.is_first);
     for (count, name) in NAMES.iter().enumerate() {
         let middle = rect.left() + group * (count as f32 + 0.5);

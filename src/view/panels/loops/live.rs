@@ -1,4 +1,4 @@
-//! The window's own loop: the duration of its last frames, and the ticks in each.
+//! The window's own loop, with the duration of its last frames and the number of ticks in each.
 
 use egui::{Color32, Label, Rect, RichText, Sense, Ui, Vec2, vec2};
 

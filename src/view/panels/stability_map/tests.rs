@@ -51,7 +51,7 @@ fn the_sentence_counts_the_stable_methods() {
     let map = studio.viewer.stability_map().unwrap();
     assert_eq!(
         map.stable_here().split(" Explicit").next().unwrap(),
-        // At 60 Hz, ω h is 1.67.
+        // The product ω h is 1.67 at 60 Hz.
         "2 of 5 methods are bounded, 1 chooses its own steps."
     );
     assert!(
