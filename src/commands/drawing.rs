@@ -1,4 +1,4 @@
-//! Renderers for captures and charts, and the closing and interrupt messages of a capture.
+//! Renderers for captures and charts, and the messages that end a capture or report its interruption.
 
 use std::io::Write;
 
@@ -10,12 +10,12 @@ use super::settings::CaptureSettings;
 use crate::sim::number::counted;
 use crate::view::{AdapterPreference, Figure, Gpu, GpuError, OffscreenRenderer, Panels, png};
 
-/// Most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files. A larger request is
-/// probably a typing mistake.
+/// Maximum number of pixels of a whole capture, which is hours of drawing and about a hundred gigabytes of files. A
+/// larger request is probably a typing mistake.
 const MAX_PIXELS: u64 = 1_000_000_000_000;
 
 impl CaptureSettings {
-    /// A renderer for these frames. Fails if the capture has too many pixels.
+    /// Returns a renderer for the frames, or an error if the capture has too many pixels.
     pub(super) fn renderer(&self) -> Result<OffscreenRenderer, Error> {
         let size_px = self.size_px;
         check_pixels(self.schedule.frames, size_px, MAX_PIXELS)?;
@@ -24,7 +24,7 @@ impl CaptureSettings {
     }
 }
 
-/// The best graphics device that needs no display.
+/// Returns the best graphics device that needs no display.
 pub(super) fn gpu() -> Result<Gpu, Error> {
     let gpu = pollster::block_on(Gpu::headless(AdapterPreference::Any))?;
     log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
@@ -33,7 +33,7 @@ pub(super) fn gpu() -> Result<Gpu, Error> {
 
 const GIGA: u64 = 1_000_000_000;
 
-/// Fails if the frames together have more than `most` pixels.
+/// Fails if all frames together have more than `most` pixels.
 pub(super) fn check_pixels(frames: u32, [width, height]: [u32; 2], most: u64) -> Result<(), Error> {
     let pixels = u64::from(frames) * u64::from(width) * u64::from(height);
     if pixels <= most {
@@ -47,19 +47,19 @@ pub(super) fn check_pixels(frames: u32, [width, height]: [u32; 2], most: u64) ->
     )))
 }
 
-/// The error for an interrupt after `done` of `frames` frames. `whole` names the complete frames.
+/// Returns the error for an interrupt after `done` of `frames` frames. `whole` names the complete frames.
 pub(super) fn interrupted_after(done: u32, frames: u32, whole: &str) -> Error {
     Error::interrupted_after(format!("{done} of {frames} frames; whole: {whole}"))
 }
 
-/// The last message of a capture: frame count, size and place.
+/// Returns the last message of a capture: the number of frames, their size and their place.
 pub(super) fn closing_line(capture: &CaptureSettings, place: &str) -> String {
     let Schedule { frames, fps } = capture.schedule;
     let [width, height] = capture.size_px;
     format!("wrote {}, {width}x{height}, {fps} fps: {place}", counted(frames, "frame"))
 }
 
-/// The adapter as the manifest describes it.
+/// Returns the adapter in the form in which the manifest describes it.
 pub(super) fn adapter(renderer: &OffscreenRenderer) -> Adapter {
     let info = renderer.adapter();
     Adapter {
@@ -71,21 +71,21 @@ pub(super) fn adapter(renderer: &OffscreenRenderer) -> Adapter {
     }
 }
 
-/// Pixel size of a chart, and pixels per point: legible when a few charts fill a screen.
+/// Size of a chart in pixels, and pixels per point. The text is legible when a few charts fill a screen.
 const CHART_PX: [u32; 2] = [920, 660];
 const SCALE: f32 = 1.6;
 
-/// Height in pixels of title, legend and note.
+/// Height of the title, the legend and the note together, in pixels.
 const MARGIN_PX: u32 = 240;
 
-/// Draws one figure of charts into a PNG file. Opens the file before the figure is computed.
+/// Draws one figure of charts into a PNG file, which is opened before the figure is computed.
 pub(super) struct Plot {
     renderer: OffscreenRenderer,
     output: Output,
 }
 
 impl Plot {
-    /// Opens the output and a device that can draw `charts` charts.
+    /// Opens the output, and a device that can draw `charts` charts.
     pub(super) fn open(to: Destination<'_>, charts: usize) -> Result<Self, Error> {
         let output = to.open()?;
         let columns = columns(charts);
@@ -110,7 +110,7 @@ impl Plot {
     }
 }
 
-/// The number of columns for which a grid has about as many rows.
+/// Returns the number of columns of a grid that has about as many rows as columns.
 pub(super) fn columns(charts: usize) -> usize {
     (2..charts).find(|columns| columns * (columns + 1) >= charts).unwrap_or(charts.min(2))
 }

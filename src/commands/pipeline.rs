@@ -1,8 +1,8 @@
-//! Draws frames on this thread, encodes them on several others, and passes them on in order on one more. While a
-//! frame is encoded, the next is drawn and the one after it is simulated.
+//! Draws frames on this thread, encodes them on several other threads, and passes them on in order on one more. While a
+//! frame is encoded, the next one is drawn and the one after that is simulated.
 //!
-//! A frame that has been passed on gives its buffer back to the drawing thread. The fixed number of buffers bounds
-//! the memory of a run of any length, whichever stage is slow.
+//! When a frame has been passed on, its buffer goes back to the drawing thread. The number of buffers is fixed, which
+//! bounds the memory of a run of any length, whichever stage is slow.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::num::NonZero;
@@ -20,43 +20,45 @@ use crate::measure::cloud::CloudWorker;
 use crate::studio::{Studio, analyse_bounded, complete_clouds, run_loops};
 use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 
-/// Frames that the device draws at a time. More gain nothing on a software adapter and cost memory.
+/// Maximum number of frames that the device draws at a time. More frames would cost memory, and gain nothing on a
+/// software adapter.
 const MAX_IN_FLIGHT: usize = 2;
 
-/// Threads that encode. No device draws fast enough to keep more of them busy, and each uses a frame of memory.
+/// Maximum number of threads that encode. No device draws fast enough to keep more of them busy, and each thread needs
+/// the memory of a frame.
 const MAX_ENCODERS: usize = 4;
 
-/// Buffers beyond one per encoder: one frame waits for an encoder, and one is being passed on.
+/// Number of buffers in addition to one per encoder. One frame waits for an encoder, and one is being passed on.
 const SPARE_BUFFERS: usize = 2;
 
-/// A frame from the device.
+/// A frame that the device has drawn.
 pub(super) struct DrawnFrame {
-    /// Index, from 0.
+    /// Index of the frame, from 0.
     pub(super) frame: u32,
-    /// Tick reached.
+    /// Tick that the frame has reached.
     pub(super) tick: u64,
-    /// Part of the next tick that is drawn, as an exact fraction.
+    /// Part of the next tick that the frame shows, as an exact fraction.
     pub(super) alpha: (u64, u64),
-    /// Pixels, top row first.
+    /// Pixels of the frame, with the top row first.
     pub(super) rgba: Vec<u8>,
 }
 
-/// A frame with the result or the panic of its encoder.
+/// A frame, and the result or the panic of its encoder.
 type Encoded<T> = (DrawnFrame, thread::Result<T>);
 
 /// A run to be drawn.
 pub(super) struct Pipeline<'a> {
     pub(super) renderer: &'a mut OffscreenRenderer,
-    /// Must be at tick 0.
+    /// The studio, which must be at tick 0.
     pub(super) studio: &'a mut Studio,
     pub(super) state_log: &'a mut StateLog,
     pub(super) schedule: Schedule,
 }
 
 impl Pipeline<'_> {
-    /// Draws the frames in order and passes each to `take` with the result of `encode`. Encodes several frames at
-    /// once if there are processors for it. Returns the number of frames drawn. Once `interrupted` is set, draws no
-    /// further frame but still passes on those already drawn.
+    /// Draws the frames in order, and passes each to `take` with the result of `encode`. Encodes several frames at once
+    /// if there are processors for it. Returns the number of frames drawn. After `interrupted` is set, no further frame
+    /// is drawn, but those already drawn are passed on.
     pub(super) fn draw_all<T: Send>(
         self,
         interrupted: &AtomicBool,
@@ -69,14 +71,14 @@ impl Pipeline<'_> {
             take(drawn, encoded)
         };
         let processors = thread::available_parallelism().map_or(1, NonZero::get);
-        // Leave one processor for drawing.
+        // One processor is left for drawing.
         let encoders = (processors - 1).clamp(1, MAX_ENCODERS);
         let drawn = self.draw_with_encoders(encoders, interrupted, encode, take);
         progress.finish_and_clear();
         drawn
     }
 
-    /// [`draw_all`](Self::draw_all) with this number of encoder threads.
+    /// Like [`draw_all`](Self::draw_all), but with this number of encoder threads.
     fn draw_with_encoders<T: Send>(
         self,
         encoders: usize,
@@ -99,7 +101,7 @@ impl Pipeline<'_> {
                     let (results, encode) = (results.clone(), &encode);
                     jobs.spawn_fifo(move |_| {
                         let made = panic::catch_unwind(AssertUnwindSafe(|| encode(&drawn)));
-                        // The receiver is gone once `take` has failed.
+                        // The receiver no longer exists after `take` has failed.
                         let _ = results.send((drawn, made));
                     });
                 })
@@ -113,7 +115,7 @@ impl Pipeline<'_> {
         })
     }
 
-    /// Draws until the last frame, an interrupt, or the end of the thread that returns buffers.
+    /// Draws until the last frame, until an interrupt, or until the thread that returns buffers ends.
     fn draw(
         self,
         buffers: &Receiver<Vec<u8>>,
@@ -145,8 +147,8 @@ impl Pipeline<'_> {
     }
 }
 
-/// Passes encoded frames to `take` in order, from frame 0, and returns their buffers. Stops at the first
-/// error of `take`. Resumes the panic of an encoder.
+/// Passes encoded frames to `take` in order, from frame 0, and returns their buffers. Stops at the first error of
+/// `take`. A panic of an encoder is resumed here.
 fn deliver_in_order<T>(
     encoded: &Receiver<Encoded<T>>,
     emptied: &Sender<Vec<u8>>,
@@ -157,14 +159,14 @@ fn deliver_in_order<T>(
         window.insert(drawn.frame, (drawn, made));
         while let Some((drawn, made)) = window.take_next() {
             take(&drawn, made.unwrap_or_else(|bug| panic::resume_unwind(bug)))?;
-            // After the last frame the receiver is gone.
+            // The receiver no longer exists after the last frame.
             let _ = emptied.send(drawn.rgba);
         }
     }
     Ok(())
 }
 
-/// Puts numbered results back in order and keeps those that arrive before their turn.
+/// Puts numbered results back in order, and keeps those that arrive too early.
 struct ReorderingWindow<T> {
     next: u32,
     early: BTreeMap<u32, T>,
@@ -181,7 +183,7 @@ impl<T> ReorderingWindow<T> {
         self.early.insert(number, result);
     }
 
-    /// The result with the next number, from 0, if it has arrived.
+    /// Returns the result with the next number, from 0, if that result has arrived.
     fn take_next(&mut self) -> Option<T> {
         let result = self.early.remove(&self.next)?;
         self.next += 1;
@@ -190,8 +192,9 @@ impl<T> ReorderingWindow<T> {
 }
 
 /// Completes the loops on the stage, and the analysis and the clouds that the panels show. A window shows results as
-/// they arrive. A recording completes a stated amount of work on verdicts before each frame, so that its frames are
-/// reproducible. Returns `false` after an interrupt, without waiting for the work: the process is about to end.
+/// they arrive. A recording does a fixed amount of work on verdicts before each frame, so that its frames are
+/// reproducible. Returns `false` after an interrupt. It does not wait for the work then, because the process is about
+/// to end.
 pub(super) fn complete_analysis(
     studio: &mut Studio,
     renderer: &OffscreenRenderer,
@@ -219,7 +222,7 @@ mod tests {
     use crate::studio::StageCommand;
     use crate::view::{AdapterPreference, Gpu};
 
-    /// More frames than there are buffers.
+    /// The schedule has more frames than there are buffers.
     const SCHEDULE: Schedule = Schedule { frames: 30, fps: 10 };
 
     fn renderer_or_skip(test: &str) -> Option<OffscreenRenderer> {
@@ -246,7 +249,7 @@ mod tests {
         let mut state_log = StateLog::new(1, studio.race());
         let (studio, state_log) = (&mut studio, &mut state_log);
         let run = Pipeline { renderer, studio, state_log, schedule: SCHEDULE };
-        // Every other frame, from the first on, takes longer to encode.
+        // Every other frame takes longer to encode, beginning with the first.
         let encode = |drawn: &DrawnFrame| {
             thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
             drawn.frame
@@ -301,7 +304,7 @@ mod tests {
         let [on_their_way, most] = [0, 0].map(AtomicUsize::new);
         let encode = |drawn: &DrawnFrame| {
             most.fetch_max(on_their_way.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
-            // Delay the first frame until all buffers are in use, and a little longer.
+            // The first frame is delayed until all buffers are in use, and a little longer.
             while drawn.frame == 0 && most.load(Ordering::SeqCst) < 3 + SPARE_BUFFERS {
                 thread::yield_now();
             }

@@ -1,11 +1,11 @@
 //! The gestures of the mouse, for the help overlay.
 
-/// A gesture of the mouse.
+/// A gesture of the mouse, and its effect.
 #[derive(Debug)]
 pub struct Gesture {
-    /// The gesture, as the help shows it.
+    /// The gesture, as the help names it.
     pub shown: &'static str,
-    /// Its effect, for people.
+    /// Description of the gesture's effect, for people.
     pub about: &'static str,
 }
 

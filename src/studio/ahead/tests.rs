@@ -4,7 +4,7 @@ use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::{GENERAL_METHODS, METHODS, Method};
 use crate::studio::{RunCommand, StageCommand, Step, ViewCommand};
 
-/// A studio under a method, after some ticks.
+/// Returns a studio whose scene has run for some ticks under a method.
 fn studio(scene: &str, method: &str, ticks: u64) -> Studio {
     let mut scene = Scene::built_in(scene).unwrap();
     let method = METHODS.iter().find(|known| known.id == method).unwrap();
@@ -18,12 +18,12 @@ fn studio(scene: &str, method: &str, ticks: u64) -> Studio {
     studio
 }
 
-/// The next tick of the selected lane.
+/// Returns the anatomy of the next tick of the selected lane.
 fn step_of(studio: &Studio) -> Option<OneStep> {
     one_step(&studio.deck, &studio.viewer)
 }
 
-/// A scene that the method can step.
+/// Returns the name of a scene that the method can step.
 fn scene_for(method: &Method) -> &'static str {
     let fits = |name: &&str| Scene::built_in(name).unwrap().refusal(method).is_none();
     ["spring", "ship", "follow", "lerp"].into_iter().find(fits).expect("one of them")
@@ -149,7 +149,7 @@ fn each_predicted_future_matches_the_run_under_its_method() {
             let FutureMoment { t, state: [x, _], .. } = moments[moments.len() - 1];
             let from = studio.race().entrants()[0].lane.bodies()[0].stepper.clone();
             let [q, v] = [from.q()[0], from.v()[0]];
-            // A period is a second.
+            // The future is a second long, which is a period.
             assert!(
                 (t - studio.race().t() - 1.0).abs() < 1e-9 && (x - q).abs() < 1e-9,
                 "{x} {q} {v}"
