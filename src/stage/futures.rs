@@ -55,8 +55,10 @@ pub(super) fn draw(
         if let Some(end) =
             places.iter().position(|at| !clip.contains(*at)).or(places.len().checked_sub(1))
         {
+            // The order of the bounds suits a stage of no size too.
             let at = [0, 1].map(|axis| {
-                places[end][axis].clamp(clip.min[axis] + MARGIN, clip.max[axis] - MARGIN)
+                let at = places[end][axis].max(clip.min[axis] + MARGIN);
+                at.min(clip.max[axis] - MARGIN)
             });
             ends.push((at, *entry));
         }

@@ -406,7 +406,6 @@ mod tests {
     use crate::scene::Scene;
     use crate::studio::{Instrument, StageCommand, accept_findings};
     use crate::view::panels;
-    use crate::view::panels::top_bar::HEIGHT as BAR;
     use crate::view::testing::{ShownText, TestWindow};
 
     /// Shows frames of this size. Returns the stage, and every text that is fully visible, with its place.
@@ -439,7 +438,7 @@ mod tests {
         for size in SIZES {
             let (stage, texts) = shown(&studio, size);
             let beside = |(at, _): &&(Pos2, String)| at.x > stage.right();
-            let mut titles = texts.iter().filter(|(at, words)| at.y > BAR && words == "Edit");
+            let mut titles = texts.iter().filter(|(at, words)| at.y > 40.0 && words == "Edit");
             let title = titles.next().expect("a title").0.y;
             let is_over = |(at, words): &&(Pos2, String)| {
                 (at.y - title).abs() < 9.0 && !["Edit", "↺ Restore all", "×"].contains(&&**words)
