@@ -47,12 +47,12 @@ impl Family {
         ("engine", Family::Engine),
     ];
 
-    /// The id of the family.
+    /// Returns the id of the family.
     pub fn id(self) -> &'static str {
         super::id_in(&Self::ALL, self)
     }
 
-    /// The base card of the family. It has no name, source, order and evaluations yet.
+    /// Returns the base card of the family. It has no name, source, order and evaluations yet.
     pub const fn card(self) -> Method {
         match self {
             Family::Explicit => EXPLICIT,
@@ -161,7 +161,7 @@ impl Engine {
         }
     }
 
-    /// The version and the log date that the formula was checked against, in words; `None` for a held force.
+    /// Returns the version and the log date that the formula was checked against, in words; `None` for a held force.
     pub fn checked_against(&self) -> Option<String> {
         match (self.version, self.logged) {
             ("", _) => None,
@@ -194,7 +194,7 @@ pub enum FollowerQuantity {
 }
 
 impl FollowerSetting {
-    /// The rate of the law, set by this line of code.
+    /// Returns the rate of the law, set by this line of code.
     pub(super) const fn rate(code: &'static str) -> Self {
         Self { name: "rate", quantity: FollowerQuantity::Rate, code }
     }
@@ -292,7 +292,7 @@ impl Method {
         self.custom.is_some() || self.own_text().is_some()
     }
 
-    /// The text of a method or a rule made of a person's own lines; `None` for any other.
+    /// Returns the text of a method or a rule made of a person's own lines; `None` for any other.
     pub fn own_text(&self) -> Option<&'static str> {
         #[cfg(feature = "lab")]
         return self.own.map(|own| own.text().source());
@@ -300,7 +300,7 @@ impl Method {
         None
     }
 
-    /// The frame rate for which a rule was written; `None` for a method.
+    /// Returns the frame rate for which a rule was written; `None` for a method.
     pub fn rule_fps(&self) -> Option<TickRate> {
         #[cfg(feature = "lab")]
         if let Some(OwnLines::Rule(rule)) = self.own {
@@ -320,8 +320,8 @@ impl Method {
         !self.is_engine() && !self.is_as_printed() && self.rule_fps().is_none()
     }
 
-    /// An upper bound on the numbers that it keeps on the heap besides its own vectors, for `n` coordinates with this
-    /// coupling. A custom method counts as one with sixteen vectors.
+    /// Returns an upper bound on the numbers that it keeps on the heap besides its own vectors, for `n` coordinates
+    /// with this coupling. A custom method counts as one with sixteen vectors.
     pub(in crate::sim) fn numbers_kept(&self, n: usize, coupling: Coupling) -> usize {
         let matrices = self.matrices as usize;
         match coupling.reach(n) {
@@ -344,7 +344,7 @@ impl Method {
         Some(self.evaluations? * if reads_once { 1 } else { substeps })
     }
 
-    /// The order of the law that a body must follow its target by; `None` if the method is no follower.
+    /// Returns the order of the law that a body must follow its target by; `None` if the method is no follower.
     pub fn law_order(&self) -> Option<u32> {
         match self.only?.needs {
             Needs::Law { order } => Some(order),

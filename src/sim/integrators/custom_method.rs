@@ -12,7 +12,7 @@ pub type AnySystem<'a, V = Vec<f64>> = &'a (dyn System<Vector = V> + 'a);
 
 /// A method behind a pointer, which steps systems behind a pointer. Every `Clone` [`Integrator`] is one.
 pub trait AnyIntegrator<V = Vec<f64>>: for<'a> Integrator<AnySystem<'a, V>> {
-    /// A copy with the same memory.
+    /// Returns a copy with the same memory.
     fn boxed_clone(&self) -> Box<dyn AnyIntegrator<V>>;
 }
 
@@ -79,7 +79,7 @@ pub(super) struct CustomMethod<V> {
 }
 
 impl<V: Vector> CustomMethod<V> {
-    /// The method that `build` returns, for coordinates shaped `like` these.
+    /// Returns the method that `build` returns, for coordinates shaped `like` these.
     pub(super) fn new(build: fn(usize) -> Box<dyn AnyIntegrator>, like: &V) -> Self {
         let zero = vec![0.0; like.components().len()];
         Self {

@@ -140,7 +140,7 @@ pub(super) fn cap<V: Vector>(v: &mut V, max_speed: f64) {
     }
 }
 
-/// The factor that shortens a velocity with these components to `max_speed`, in metres per second; at most 1.
+/// Returns the factor that shortens a velocity with these components to `max_speed`, in metres per second; at most 1.
 #[inline]
 pub(super) fn part_below(max_speed: f64, v: impl Iterator<Item = f64>) -> f64 {
     let square: f64 = v.map(|v| v * v).sum();

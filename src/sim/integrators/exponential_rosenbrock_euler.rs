@@ -41,7 +41,7 @@ pub struct ExponentialRosenbrockEuler<V> {
 }
 
 impl<V: Vector> ExponentialRosenbrockEuler<V> {
-    /// The step for several coordinates, whose derivatives `jacobian` already has.
+    /// Returns the step for several coordinates, whose derivatives `jacobian` already has.
     fn step_together(
         &mut self,
         system: &dyn System<Vector = V>,

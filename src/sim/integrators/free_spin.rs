@@ -34,7 +34,7 @@ impl SpinMap {
         ("runge-kutta", SpinMap::RungeKutta),
     ];
 
-    /// The kebab-case name of the map.
+    /// Returns the kebab-case name of the map.
     pub fn id(self) -> &'static str {
         super::id_in(&Self::ALL, self)
     }

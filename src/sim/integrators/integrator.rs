@@ -67,7 +67,7 @@ pub trait Integrator<S: System>: CloneIntegrator<S> + Send + Sync {
     /// Overrides a setting of the card or the body. A method without this setting ignores it.
     fn set(&mut self, _override: Override) {}
 
-    /// The time in seconds that the method has left out of its steps since it was built; 0 if it [keeps
+    /// Returns the time in seconds that the method has left out of its steps since it was built; 0 if it [keeps
     /// time](super::Method::keeps_time).
     fn lost_time(&self) -> f64 {
         0.0
@@ -76,7 +76,7 @@ pub trait Integrator<S: System>: CloneIntegrator<S> + Send + Sync {
 
 /// Clones an [`Integrator`] behind a pointer. Implemented for every integrator that is `Clone`.
 pub trait CloneIntegrator<S: System> {
-    /// A copy with the same memory: from equal states both make steps of equal bits.
+    /// Returns a copy with the same memory: from equal states both make steps of equal bits.
     fn clone_boxed(&self) -> Box<dyn Integrator<S>>;
 }
 
@@ -110,7 +110,7 @@ pub enum Override {
 }
 
 impl Override {
-    /// One number for all parts of the tolerance.
+    /// Returns one number for all parts of the tolerance.
     pub const fn tolerance(bound: f64) -> Self {
         Self::Tolerance(Tolerance::uniform(bound))
     }
@@ -130,12 +130,12 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// One number for all three parts.
+    /// Returns one number for all three parts.
     pub const fn uniform(tolerance: f64) -> Self {
         Self { absolute_q: tolerance, absolute_v: tolerance, relative: tolerance }
     }
 
-    /// The largest component of `h error`, relative to the tolerance at `y`.
+    /// Returns the largest component of `h error`, relative to the tolerance at `y`.
     #[inline]
     pub(in crate::sim::integrators) fn relative_error<V: Vector>(
         &self,
@@ -154,7 +154,7 @@ impl Tolerance {
     }
 }
 
-/// The larger number. Unlike `f64::max` it keeps a NaN, so that a worthless step is rejected.
+/// Returns the larger number. Unlike `f64::max` it keeps a NaN, so that a worthless step is rejected.
 #[inline]
 fn larger(a: f64, b: f64) -> f64 {
     if b <= a || a.is_nan() { a } else { b }

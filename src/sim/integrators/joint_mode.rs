@@ -48,7 +48,7 @@ pub enum JointQuantity {
 use JointQuantity::*;
 
 impl JointQuantity {
-    /// The unit; empty if it has none.
+    /// Returns the unit; empty if it has none.
     pub fn unit(self) -> &'static str {
         match self {
             Stiffness => "N/m",
@@ -61,7 +61,8 @@ impl JointQuantity {
         }
     }
 
-    /// The value for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on a mass in kg.
+    /// Returns the value for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on a mass in
+    /// kg.
     pub fn of(self, [stiffness, damping]: [f64; 2], mass_kg: f64) -> f64 {
         match self {
             Stiffness => stiffness * mass_kg,
@@ -76,19 +77,19 @@ impl JointQuantity {
 }
 
 impl JointMode {
-    /// The settings for the stiffness and for the damping.
+    /// Returns the settings for the stiffness and for the damping.
     pub fn settings(&self) -> [Setting; 2] {
         [self.stiffness, self.damping]
     }
 
-    /// The values of its settings for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on
-    /// a mass in kg.
+    /// Returns the values of its settings for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of
+    /// mass, on a mass in kg.
     pub fn values(&self, joint: [f64; 2], mass_kg: f64) -> [f64; 2] {
         self.settings().map(|setting| setting.quantity.of(joint, mass_kg))
     }
 
-    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, of these values of its settings on a mass
-    /// in kg.
+    /// Returns the stiffness in 1/s² and the damping in 1/s, each per unit of mass, of these values of its settings on
+    /// a mass in kg.
     pub fn joint(&self, [first, second]: [f64; 2], mass_kg: f64) -> [f64; 2] {
         let stiffness = match self.stiffness.quantity {
             Stiffness => first / mass_kg,
@@ -114,13 +115,13 @@ impl JointMode {
     }
 }
 
-/// A number as code writes it: with a decimal point or an exponent, to nine digits.
+/// Returns a number as code writes it: with a decimal point or an exponent, to nine digits.
 pub fn in_code(value: f64) -> String {
     let rounded = format!("{value:.8e}").parse::<f64>();
     format!("{:?}", rounded.unwrap_or(value))
 }
 
-/// A mode that is not explicit.
+/// Returns a mode that is not explicit.
 pub(super) const fn mode(
     id: &'static str,
     stiffness: (&'static str, JointQuantity),
@@ -132,7 +133,7 @@ pub(super) const fn mode(
     JointMode { id, stiffness, damping, is_explicit: false, code }
 }
 
-/// A [`mode`] with the settings `stiffness`, in N/m, and `damping`, in N s/m.
+/// Returns a [`mode`] with the settings `stiffness`, in N/m, and `damping`, in N s/m.
 pub(super) const fn si_mode(id: &'static str, code: &'static str) -> JointMode {
     mode(id, ("stiffness", Stiffness), ("damping", Damping), code)
 }

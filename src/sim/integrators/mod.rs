@@ -285,7 +285,7 @@ methods! {
     held_force::HeldForce as EngineMethod,
 }
 
-/// An integrator of `method` for bodies of this class and coupling, compiled once for each vector type.
+/// Returns an integrator of `method` for bodies of this class and coupling, compiled once for each vector type.
 ///
 /// # Panics
 /// As [`construct`].
@@ -321,18 +321,19 @@ const GENERAL_COUNT: usize = {
 /// The methods that step every body: the part of [`METHODS`] before the first method for [`Only`] some bodies.
 pub static GENERAL_METHODS: &[Method] = METHODS.split_at(GENERAL_COUNT).0;
 
-/// The id of a value in a table of all values.
+/// Returns the id of a value in a table of all values.
 fn id_in<T: PartialEq>(all: &[(&'static str, T)], value: T) -> &'static str {
     all.iter().find(|(_, listed)| *listed == value).expect("the table has every value").0
 }
 
-/// The method with this id.
+/// Returns the method with this id.
 pub fn method(id: &str) -> Option<&'static Method> {
     METHODS.iter().find(|method| method.id == id)
 }
 
-/// A new integrator of `method` for any system with coordinates shaped `like` these. It [resets](Integrator::reset)
-/// itself if its state is not the one it returned; the caller must report a jump of the forces.
+/// Returns a new integrator of `method` for any system with coordinates shaped `like` these. It
+/// [resets](Integrator::reset) itself if its state is not the one it returned; the caller must report a jump of the
+/// forces.
 ///
 /// ```
 /// # use regatta::sim::{State, bodies::Spring, integrators::{integrator, method}};
@@ -366,8 +367,8 @@ pub fn integrator_for<S: System<Vector: Vector> + 'static>(
     construct::<S, _>(method, coupling, Boxed(like))
 }
 
-/// A fresh [integrator](integrator()) for problems of one coordinate. Generic functions are compiled again in each
-/// crate that uses them; this one is not.
+/// Returns a fresh [integrator](integrator()) for problems of one coordinate. Generic functions are compiled again in
+/// each crate that uses them; this one is not.
 pub fn fresh(method: &Method) -> Box<dyn Integrator<Problem<f64>>> {
     integrator(method, &0.0)
 }

@@ -15,7 +15,7 @@ pub(super) struct StepMethod<V> {
 }
 
 impl<V: Vector> StepMethod<V> {
-    /// The method of these lines, for coordinates shaped `like` these.
+    /// Returns the method of these lines, for coordinates shaped `like` these.
     pub(super) fn of(lines: &'static StepText, like: &V) -> Self {
         let registers = lines.method_registers(like.components().len());
         let [q, v, a] = [(); 3].map(|()| like.clone());

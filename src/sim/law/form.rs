@@ -1,4 +1,4 @@
-//! Finds linearity and angles of a motion from the form of its tape.
+//! Finds from the form of a tape whether its motion is linear and which coordinates are angles.
 
 use super::op::Op;
 use super::tape::Tape;

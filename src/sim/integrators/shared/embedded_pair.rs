@@ -24,7 +24,7 @@ pub trait Pair<const N: usize>: Clone + Send + Sync + 'static {
     /// The default tolerance.
     const TOLERANCE: Tolerance;
 
-    /// The factor for the next step after one with this error, relative to the tolerance.
+    /// Returns the factor for the next step after one with this error, relative to the tolerance.
     #[inline(always)]
     fn factor(error: f64) -> f64 {
         steady_factor(error, Self::ORDER)
@@ -44,7 +44,7 @@ pub struct EmbeddedPair<V, P, const N: usize> {
 }
 
 impl<V: Vector, P: Pair<N>, const N: usize> EmbeddedPair<V, P, N> {
-    /// The method with a tolerance that overrides its card's.
+    /// Returns the method with a tolerance that overrides its card's.
     pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
         let state = State { q: like.clone(), v: like.clone() };
         Self {

@@ -25,7 +25,7 @@ pub(in crate::sim::integrators) struct Jacobian<V> {
     da_dv: Vec<f64>,
 }
 
-/// The first row and the number of rows kept in column `j` of `n`.
+/// Returns the first row and the number of rows kept in column `j` of `n`.
 #[inline]
 fn rows(j: usize, reach: usize, n: usize) -> (usize, usize) {
     let height = n.min(2 * reach + 1);
@@ -33,13 +33,13 @@ fn rows(j: usize, reach: usize, n: usize) -> (usize, usize) {
 }
 
 impl<V: Vector> Jacobian<V> {
-    /// A Jacobian with both derivatives.
+    /// Returns a Jacobian with both derivatives.
     pub(in crate::sim::integrators) fn new(like: &V, coupling: Coupling) -> Self {
         let by_v = Self::by_velocity(like, coupling);
         Self { da_dq: by_v.da_dv.clone(), ..by_v }
     }
 
-    /// A Jacobian with `∂a/∂v` alone.
+    /// Returns a Jacobian with `∂a/∂v` alone.
     pub(in crate::sim::integrators) fn by_velocity(like: &V, coupling: Coupling) -> Self {
         let n = like.components().len();
         let reach = coupling.reach(n);

@@ -176,13 +176,13 @@ pub(super) fn add(to: &mut [f64], times: f64, x: &[f64]) {
     to.iter_mut().zip(x).for_each(|(to, x)| *to += times * x);
 }
 
-/// The length of a vector, computed so that squares do not underflow.
+/// Returns the length of a vector, computed so that squares do not underflow.
 pub(super) fn length(x: &[f64]) -> f64 {
     let unit = unit(x);
     unit * x.iter().fold(0.0, |sum, x| sum + (x / unit) * (x / unit)).sqrt()
 }
 
-/// A power of 2, so that dividing by it is exact: near the largest component if that is [tiny](TINY), else 1.
+/// Returns a power of 2, so that dividing by it is exact: near the largest component if that is [tiny](TINY), else 1.
 fn unit(x: &[f64]) -> f64 {
     let largest = largest(x);
     if largest >= TINY || largest.is_nan() {
@@ -191,7 +191,7 @@ fn unit(x: &[f64]) -> f64 {
     f64::from_bits(largest.to_bits() & f64::INFINITY.to_bits()).max(f64::MIN_POSITIVE)
 }
 
-/// The inner product, summed in order.
+/// Returns the inner product, summed in order.
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b)
 }

@@ -22,8 +22,8 @@ const TERMS: usize = 12;
 /// The largest root of a response's equation for which the series is summed; longer times are doubled from there.
 const SHORT: f64 = 0.25;
 
-/// The response of `x″ = y x + z x′` at time 1 to a push at time 0: the displacement `s(1)` from a unit of velocity,
-/// its integral, and the integral of that. It is the exponential of one coordinate.
+/// Returns the response of `x″ = y x + z x′` at time 1 to a push at time 0: the displacement `s(1)` from a unit of
+/// velocity, its integral, and the integral of that. It is the exponential of one coordinate.
 ///
 /// Uses products and sums only: the series over a part of the time, doubled until it is the whole. For a decaying
 /// motion, no term cancels another.

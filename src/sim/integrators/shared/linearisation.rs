@@ -162,8 +162,8 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         })
     }
 
-    /// The largest acceleration at the first stage when neighbours are displaced by ±`distance`: an estimate of the
-    /// stiffest mode.
+    /// Returns the largest acceleration at the first stage when neighbours are displaced by ±`distance`: an estimate of
+    /// the stiffest mode.
     pub(super) fn largest_change(
         &mut self,
         system: &dyn System<Vector = V>,

@@ -19,15 +19,15 @@ pub(super) struct Lu {
 }
 
 impl Lu {
-    /// A matrix of `size` rows whose entries lie at most `reach` from the diagonal. Stores all entries if a band would
-    /// not be smaller.
+    /// Returns a matrix of `size` rows whose entries lie at most `reach` from the diagonal. Stores all entries if a
+    /// band would not be smaller.
     pub(super) fn new(size: usize, reach: usize) -> Self {
         let band = Some(reach).filter(|reach| 3 * reach + 1 < size);
         let height = band.map_or(size, |reach| 3 * reach + 1);
         Self { size, band, height, entries: vec![0.0; size * height], swaps: vec![0; size] }
     }
 
-    /// The stored entries of column `j` from this row on.
+    /// Returns the stored entries of column `j` from this row on.
     #[inline]
     fn column_from(&mut self, j: usize, row: usize) -> &mut [f64] {
         let (diagonal, _) = self.stored(j, self.band);
@@ -56,8 +56,8 @@ impl Lu {
         }
     }
 
-    /// The index of the diagonal in the stored entries of column `j`, and the end of the rows that may have entries
-    /// below it.
+    /// Returns the index of the diagonal in the stored entries of column `j`, and the end of the rows that may have
+    /// entries below it.
     #[inline(always)]
     fn stored(&self, j: usize, band: Option<usize>) -> (usize, usize) {
         match band {

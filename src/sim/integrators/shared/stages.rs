@@ -12,7 +12,7 @@ pub(in crate::sim::integrators) struct Stages<const S: usize> {
 }
 
 impl<const S: usize> Stages<S> {
-    /// The stages with all weights multiplied by `factor`.
+    /// Returns the stages with all weights multiplied by `factor`.
     pub(super) fn scaled(&self, factor: f64) -> Self {
         let scaled = |weights: [[f64; S]; S]| weights.map(|row| row.map(|weight| factor * weight));
         Self { t: self.t, alpha: scaled(self.alpha), beta: scaled(self.beta) }
@@ -40,7 +40,7 @@ impl<const S: usize> Stages<S> {
     }
 }
 
-/// The largest magnitude over all stages; NaN if a component is NaN.
+/// Returns the largest magnitude over all stages; NaN if a component is NaN.
 #[inline]
 pub(super) fn largest_of<V: Vector, const S: usize>(vectors: &[V; S]) -> f64 {
     let bits = vectors.iter().map(|vector| largest(vector.components()).to_bits());

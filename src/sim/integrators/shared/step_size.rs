@@ -23,7 +23,7 @@ const MAX_STEADY_ERROR: f64 = 0.8;
 /// never end.
 const MAX_ATTEMPTS: u32 = 10_000;
 
-/// The factor for the next step; `root` is the error relative to the tolerance, to the power 1 / p.
+/// Returns the factor for the next step; `root` is the error relative to the tolerance, to the power 1 / p.
 #[inline]
 pub(in crate::sim::integrators) fn factor(root: f64) -> f64 {
     let factor = (SAFETY / root).clamp(FACTORS.0, FACTORS.1);
@@ -85,7 +85,7 @@ pub(super) struct TickProgress<'a> {
 }
 
 impl TickProgress<'_> {
-    /// The substep to try next; the last one ends exactly with the tick.
+    /// Returns the substep to try next; the last one ends exactly with the tick.
     #[inline]
     pub(super) fn trial(&mut self) -> Result<f64, StepFailure> {
         if self.attempts == MAX_ATTEMPTS {
@@ -97,7 +97,7 @@ impl TickProgress<'_> {
         Ok(self.trial)
     }
 
-    /// The time from the start of the tick to the start of the substep.
+    /// Returns the time from the start of the tick to the start of the substep.
     #[inline]
     pub(super) fn elapsed(&self) -> f64 {
         self.h - self.left

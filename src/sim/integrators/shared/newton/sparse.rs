@@ -137,7 +137,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         false
     }
 
-    /// The scale of the forces' rounding: the forces at the stages, and their change from the rounding of the
+    /// Returns the scale of the forces' rounding: the forces at the stages, and their change from the rounding of the
     /// coordinates.
     fn rounding_of_forces(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) -> f64 {
         let distances = self.base.iter().map(|base| largest(base.q.components()));
