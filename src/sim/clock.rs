@@ -101,7 +101,7 @@ impl Clock {
     /// Changes the tick rate. The owed fraction of a tick stays the same, so that nothing drawn jumps.
     ///
     /// # Panics
-    /// As [`Clock::new`].
+    /// The same as for [`Clock::new`].
     #[track_caller]
     pub fn set_tick_hz(&mut self, tick_hz: impl Into<TickRate>) {
         let before = self.tick_hz.ratio()[1].into();

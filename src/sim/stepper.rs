@@ -49,7 +49,7 @@ pub trait Stepper: Send {
     /// Advances from `t` to `t + h` (s). A method takes `substeps` equal steps.
     ///
     /// # Errors
-    /// As [`Integrator::step`](super::integrators::Integrator::step).
+    /// The same as for [`Integrator::step`](super::integrators::Integrator::step).
     fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped;
 
     /// Changes the body or its state at time `t` (s), and restarts the solver there. Returns whether anything changed.

@@ -43,7 +43,7 @@ impl TickRate {
     }
 
     /// Reads the length of a tick in seconds, which is a decimal or a ratio of two decimals, such as `0.015` or
-    /// `1/66.667`, optionally with `s` or `ms` at the end.
+    /// `1/66.667`. It may end with `s` or `ms`.
     ///
     /// # Errors
     /// An error message that explains how to write the length.

@@ -151,7 +151,7 @@ impl Batch {
     /// processor must [have](InstructionSet::is_available).
     ///
     /// # Errors
-    /// As [`Batch::new`].
+    /// The same as for [`Batch::new`].
     ///
     /// # Panics
     /// If the solver is the truth.
@@ -214,7 +214,7 @@ impl Batch {
     /// If a copy blows up or its method gives up, its coordinate or velocity is not finite.
     ///
     /// # Panics
-    /// As [`Ticks::from_start`].
+    /// The same as for [`Ticks::from_start`].
     #[track_caller]
     pub fn run(&mut self, ticks: Ticks) {
         self.advance.advance(ticks.checked(), &mut self.q, &mut self.v);

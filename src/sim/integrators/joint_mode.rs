@@ -13,16 +13,16 @@ pub struct JointMode {
     pub damping: Setting,
     /// Whether the engine computes the spring's force at the start of a substep, like a force of user code.
     pub is_explicit: bool,
-    /// Lines of code that set it, in the engine's own language, with the names of settings in braces.
+    /// Lines of code that set the spring, in the engine's own language, with the names of settings in braces.
     pub code: &'static str,
 }
 
 /// A numerical setting of an engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {
-    /// Its name in the engine.
+    /// The name of the setting in the engine.
     pub name: &'static str,
-    /// Its quantity.
+    /// The quantity of the setting.
     pub quantity: JointQuantity,
 }
 
@@ -48,7 +48,7 @@ pub enum JointQuantity {
 use JointQuantity::*;
 
 impl JointQuantity {
-    /// Returns the unit; empty if it has none.
+    /// Returns the unit; empty if the quantity has no unit.
     pub fn unit(self) -> &'static str {
         match self {
             Stiffness => "N/m",
@@ -61,8 +61,8 @@ impl JointQuantity {
         }
     }
 
-    /// Returns the value for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on a mass in
-    /// kg.
+    /// Returns the value of the quantity for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of
+    /// mass, on a mass in kg.
     pub fn of(self, [stiffness, damping]: [f64; 2], mass_kg: f64) -> f64 {
         match self {
             Stiffness => stiffness * mass_kg,
@@ -82,14 +82,14 @@ impl JointMode {
         [self.stiffness, self.damping]
     }
 
-    /// Returns the values of its settings for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of
-    /// mass, on a mass in kg.
+    /// Returns the values of the mode's settings for a joint on a mass in kg. The joint is given by its stiffness in
+    /// 1/s² and its damping in 1/s, each per unit of mass.
     pub fn values(&self, joint: [f64; 2], mass_kg: f64) -> [f64; 2] {
         self.settings().map(|setting| setting.quantity.of(joint, mass_kg))
     }
 
-    /// Returns the stiffness in 1/s² and the damping in 1/s, each per unit of mass, of these values of its settings on
-    /// a mass in kg.
+    /// Returns the joint that these values of the mode's settings make on a mass in kg. The joint is given by its
+    /// stiffness in 1/s² and its damping in 1/s, each per unit of mass.
     pub fn joint(&self, [first, second]: [f64; 2], mass_kg: f64) -> [f64; 2] {
         let stiffness = match self.stiffness.quantity {
             Stiffness => first / mass_kg,
@@ -105,7 +105,7 @@ impl JointMode {
         [stiffness, damping]
     }
 
-    /// Its lines of code with these values; a whole number gets a decimal point.
+    /// Returns the mode's lines of code with these values. A whole number gets a decimal point.
     pub fn code_with(&self, values: [f64; 2]) -> String {
         let mut code = self.code.to_owned();
         for (setting, value) in self.settings().into_iter().zip(values) {
@@ -115,7 +115,7 @@ impl JointMode {
     }
 }
 
-/// Returns a number as code writes it: with a decimal point or an exponent, to nine digits.
+/// Writes a number as in code, with a decimal point or an exponent, to nine digits.
 pub fn in_code(value: f64) -> String {
     let rounded = format!("{value:.8e}").parse::<f64>();
     format!("{:?}", rounded.unwrap_or(value))

@@ -7,7 +7,7 @@ use crate::sim::law::{StepRegisters, StepText};
 /// A method made of lines that call the acceleration.
 #[derive(Clone)]
 pub(super) struct StepMethod<V> {
-    /// The lines, and the numbers they carry; `None` refuses every step.
+    /// The lines, and the numbers that they carry. If `None`, the method refuses every step.
     lines: Option<(&'static StepText, StepRegisters)>,
     q: V,
     v: V,

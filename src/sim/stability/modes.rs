@@ -92,7 +92,7 @@ impl NormalMode {
     /// the method has memory, a growth of less than 1e-9 per step counts as zero.
     ///
     /// # Errors
-    /// As [`NormalMode::stability`].
+    /// The same as for [`NormalMode::stability`].
     pub fn stability_of_small(
         &self,
         body: &dyn Stepper,

@@ -3,7 +3,8 @@
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::System;
 
-/// The times of the stages, and the weights α and β of the accelerations in their coordinates and velocities.
+/// The times of the stages, and the weights α and β of the accelerations in the coordinates and velocities of the
+/// stages.
 #[derive(Clone, Copy)]
 pub(in crate::sim::integrators) struct Stages<const S: usize> {
     pub(in crate::sim::integrators) t: [f64; S],
@@ -18,7 +19,7 @@ impl<const S: usize> Stages<S> {
         Self { t: self.t, alpha: scaled(self.alpha), beta: scaled(self.beta) }
     }
 
-    /// Overwrites `at` with the states at the stages, and `evaluated` with the forces there.
+    /// Overwrites `at` with the states at the stages, and `evaluated` with the forces at these states.
     #[inline]
     pub(super) fn evaluate<V: Vector>(
         &self,
