@@ -21,8 +21,8 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// [`Kind::parameters`](super::bodies::Kind::parameters).
     const PARAMETERS: &'static [ParameterOf<Self>] = &[];
 
-    /// Returns the body with these values of its [parameters](Body::PARAMETERS), in order: one value per parameter,
-    /// and two per point of a curve.
+    /// Returns the body with these values of its [parameters](Body::PARAMETERS), in order. There is one value per
+    /// parameter, and there are two per point of a curve.
     ///
     /// # Panics
     /// If the number of values is wrong, or if no body of this kind can be built from the values; see
@@ -146,8 +146,9 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         None
     }
 
-    /// Returns the kinetic part of [`Body::energy`], in joules: the energy minus that of the body at rest in the same
-    /// place. A body with coordinates on the heap overrides this so that it does not allocate.
+    /// Returns the kinetic part of [`Body::energy`], in joules, which is the energy minus the energy of the body at
+    /// rest in the same place. A body with coordinates on the heap overrides this function so that it does not
+    /// allocate.
     fn kinetic_energy(&self, state: &StateOf<Self>) -> Option<f64> {
         let mut still = state.clone();
         still.v.components_mut().fill(0.0);
@@ -170,7 +171,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Applies an input to the body or its state at once. Returns whether this kind of body accepts it.
     fn input(&mut self, input: Input, state: &mut StateOf<Self>) -> bool;
 
-    /// Returns the position of the body in metres, which the camera, trails and arrows refer to. By default, this is
+    /// Returns the position of the body in metres, to which the camera, trails and arrows refer. By default, this is
     /// the first coordinate, to the right.
     fn place(&self, q: &Self::Vector) -> DVec2 {
         DVec2::new(q.components()[0], 0.0)
@@ -181,7 +182,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Input {
-    /// Sets the thrust to this fraction of full thrust, -1 to 1.
+    /// Sets the thrust to this fraction of full thrust, from -1 to 1.
     Throttle(f64),
     /// Sets the rudder to this fraction of its full angle, from -1 (hard right) to 1 (hard left).
     Rudder(f64),
@@ -196,7 +197,7 @@ pub const MAX_SWITCHES: usize = 32;
 /// jump; a body without switches has one piece.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
-    /// The modes, in the order of the switches; 0 beyond the last.
+    /// The modes, in the order of the switches; 0 beyond the last switch.
     pub modes: [i64; MAX_SWITCHES],
 }
 

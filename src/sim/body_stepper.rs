@@ -158,7 +158,7 @@ struct BodyAtState<B: Body> {
     body: Counted<B>,
     state: StateOf<B>,
     solver: Solver,
-    /// The time in seconds that methods left out of their steps before the present solver, and the same in all.
+    /// The time in seconds that methods left out of their steps, first only before the present solver, then in all.
     lost_before: f64,
     lost_time: f64,
 }

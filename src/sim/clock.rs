@@ -22,7 +22,7 @@ pub struct Clock {
     accumulator: Accumulator,
 }
 
-/// A tick rate in Hz outside [`Clock::TICK_HZ`].
+/// The error about a tick rate in Hz outside [`Clock::TICK_HZ`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TickRateError(pub TickRate);
 
@@ -35,7 +35,7 @@ impl fmt::Display for TickRateError {
 
 impl std::error::Error for TickRateError {}
 
-/// Runs at 60 Hz.
+/// The default clock runs at 60 Hz.
 impl Default for Clock {
     fn default() -> Self {
         Self::new(60)
@@ -43,9 +43,9 @@ impl Default for Clock {
 }
 
 impl Clock {
-    /// The tick rates a clock can run at, in Hz.
+    /// The tick rates at which a clock can run, in Hz.
     pub const TICK_HZ: std::ops::RangeInclusive<TickRate> = TickRate::MIN..=TickRate::MAX;
-    /// The speeds a clock can run at, in percent of real time.
+    /// The speeds at which a clock can run, in percent of real time.
     pub const SPEED_PERCENT: std::ops::RangeInclusive<u32> = 1..=10_000;
 
     /// Returns a clock at full speed that owes nothing.
@@ -200,7 +200,7 @@ impl Accumulator {
         self.owed = tick - 1;
     }
 
-    /// Changes the unit: `parts` present units become `whole` new ones. Drops fractions of a unit.
+    /// Changes the unit, so that `parts` present units become `whole` new ones. Drops fractions of a unit.
     fn scale(&mut self, whole: i128, parts: i128) {
         self.owed = self.owed / parts * whole + self.owed % parts * whole / parts;
     }
@@ -255,7 +255,7 @@ mod tests {
                 |ns: i64| ns as u128 * u128::from(ticks) / (u128::from(seconds) * 1_000_000_000);
             let mut clock = Clock::new(rate);
             let (mut passed, mut made) = (0, 0);
-            // Frames of 100 to 160 ms.
+            // The frames last 100 to 160 ms.
             for frame in (0..).map(|i| 100_000_007 + i % 7 * 10_000_019) {
                 let frame = DAY_NS.min(passed + frame) - passed;
                 passed += frame;
@@ -281,7 +281,7 @@ mod tests {
         clock.set_speed_percent(10_000);
         clock.fill();
         let due = clock.advance(i64::MAX);
-        // 9.2 · 10⁹ s at a million ticks a second.
+        // The frame lasts 9.2 · 10⁹ s, at a million ticks a second.
         let wanted = i64::MAX as u128 * 9_999_999_999_999 / 10_u128.pow(16);
         assert!((u128::from(due.dropped) + 250_000).abs_diff(wanted) <= 1, "{due:?}, {wanted}");
     }

@@ -31,7 +31,7 @@ pub struct Claim {
     pub claimed: String,
     /// The measured value, in words.
     pub measured: String,
-    /// Whether the two agree.
+    /// Whether the claimed and the measured value agree.
     pub holds: bool,
 }
 
@@ -114,9 +114,10 @@ pub fn check(method: &Method) -> Conformance {
     Conformance { method: method.id, claims }
 }
 
-/// Returns the card of a method with measured values in place of its claims: orders, evaluations, stability limits,
-/// symplectic, reversible and memory. [`Method::about`] states the orders, how the energy of a spring changes, and the
-/// nearest built-in method. A claim that cannot be measured is left out, and an order that cannot be measured is 0.
+/// Returns the card of a method with measured values in place of its claims, which are the orders, evaluations,
+/// stability limits, symplectic, reversible and memory. [`Method::about`] states the orders, how the energy of a spring
+/// changes, and the nearest built-in method. A claim that cannot be measured is left out, and an order that cannot be
+/// measured is 0.
 pub fn measured(card: &'static Method) -> Method {
     let is_so = |found: Measured| found.is_ok_and(|(is_so, _)| is_so);
     let orders = orders_of(card);

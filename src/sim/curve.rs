@@ -1,4 +1,4 @@
-//! A curve through points: straight between them, constant beyond them.
+//! A curve through points, which is straight between them and constant beyond them.
 
 /// A curve through points in order of rising x. A curve without points is 0.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -15,7 +15,7 @@ pub(super) struct DoubleDouble {
     pub(super) low: f64,
 }
 
-/// 2π.
+/// The number 2π.
 pub(super) const TWO_PI: DoubleDouble =
     DoubleDouble { high: std::f64::consts::TAU, low: 2.449_293_598_294_706_4e-16 };
 
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn two_pi_is_right_to_both_halves() {
-        // Machin: π = 16 atan 1/5 - 4 atan 1/239.
+        // Machin's formula is π = 16 atan 1/5 - 4 atan 1/239.
         let atan_of_inverse = |n: f64| {
             let (mut power, mut sum) = (DoubleDouble::ONE / n, DoubleDouble::from(0.0));
             for k in 0..25 {

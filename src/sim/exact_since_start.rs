@@ -19,7 +19,7 @@ pub(super) struct ExactSinceStart<V> {
     t: f64,
     /// The start of the exact motion, kept because a change must not allocate.
     pub(super) start: State<V>,
-    /// Scratch for the error, which is read at every tick.
+    /// Scratch for computing the error, which is read at every tick.
     a: RefCell<V>,
 }
 

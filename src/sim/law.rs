@@ -55,17 +55,17 @@ pub(in crate::sim) fn shown_unit(unit: &'static str) -> &'static str {
     if unit == "1" { "" } else { unit }
 }
 
-/// Returns the operators of expressions: signs and words.
+/// Returns the operators of expressions, which are signs and words.
 pub fn operators() -> impl Iterator<Item = &'static str> {
     token::operator_signs().chain(op::OPERATOR_WORDS)
 }
 
-/// Returns the functions of expressions, each with its arguments: `min(a, b)`.
+/// Returns the functions of expressions, each with its arguments, such as `min(a, b)`.
 pub fn functions() -> impl Iterator<Item = String> {
     function::FUNCTIONS.iter().map(function::Function::usage)
 }
 
-/// Returns the names that every acceleration can use: the time, the inputs and π.
+/// Returns the names that every acceleration can use, which are the time, the inputs and π.
 pub fn values() -> impl Iterator<Item = &'static str> {
     op::VALUE_WORDS.into_iter()
 }
@@ -86,7 +86,7 @@ pub struct Equations {
     is_steered: [bool; 2],
 }
 
-/// The slots of the inputs.
+/// The slots of the first inputs.
 const T: usize = 0;
 const THROTTLE: usize = 1;
 const RUDDER: usize = 2;
@@ -171,7 +171,7 @@ impl Equations {
     }
 }
 
-/// A moment of a motion: its time, inputs and state.
+/// A moment of a motion, with its time, inputs and state.
 #[derive(Clone, Copy, Debug)]
 pub struct At<'a> {
     /// The time in seconds.
@@ -257,8 +257,8 @@ impl Equations {
         Some(registers.energy[*tape.outputs.first()? as usize])
     }
 
-    /// Calls `to` with the drawing position of each coordinate that has one: x to the right and y up, in metres, in
-    /// the order of the coordinates. Never allocates.
+    /// Calls `to` with the drawing position of each coordinate that has one, in the order of the coordinates. A
+    /// position has x to the right and y up, in metres. Never allocates.
     pub(super) fn place(&self, registers: &mut Registers, q: &[f64], mut to: impl FnMut([f64; 2])) {
         let Some(tape) = &self.places else { return };
         let slots = &mut registers.places;
@@ -269,8 +269,9 @@ impl Equations {
         }
     }
 
-    /// Calls `to` with the exact solution at time `t` (s): each coordinate's index, and its value, velocity and
-    /// acceleration. Returns whether the law has an exact solution. Never allocates.
+    /// Calls `to` with the exact solution of each coordinate at time `t` (s). Its arguments are the coordinate's index,
+    /// and the coordinate's value, velocity and acceleration. Returns whether the law has an exact solution. Never
+    /// allocates.
     pub(super) fn solve(
         &self,
         registers: &mut Registers,

@@ -17,7 +17,7 @@ pub const MAX_SPRINGS: usize = 8 * MAX_NODES;
 pub struct NetPlan {
     /// The nodes and springs of the net.
     pub form: NetLayout,
-    /// The node that a kick hits; `None` if it hits every free node.
+    /// The node that a kick hits; `None` if a kick hits every free node.
     pub kicked: Option<usize>,
 }
 
@@ -83,13 +83,13 @@ pub struct Lists {
 /// A spring of a plan. A missing number defaults to the number of the net.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlannedSpring {
-    /// The numbers of the nodes at its ends.
+    /// The numbers of the nodes at the spring's ends.
     pub between: [usize; 2],
-    /// Its own stiffness, in newtons per metre.
+    /// The spring's own stiffness, in newtons per metre.
     pub stiffness: Option<f64>,
-    /// Its own damping, in N·s/m.
+    /// The spring's own damping, in N·s/m.
     pub damping: Option<f64>,
-    /// Its own length at rest, in metres.
+    /// The spring's own length at rest, in metres.
     pub rest: Option<f64>,
 }
 
@@ -100,7 +100,7 @@ pub struct NetFault {
     pub part: NetPart,
     /// The error message, in lower case.
     pub what: String,
-    /// How to fix it.
+    /// How to fix the fault.
     pub remedy: String,
 }
 
@@ -325,13 +325,13 @@ impl Grid {
 /// The directions of the springs of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SpringDirection {
-    /// Right.
+    /// The spring runs to the right.
     Right,
-    /// Down.
+    /// The spring runs down.
     Down,
-    /// Down right.
+    /// The spring runs down and to the right.
     Falling,
-    /// Down left, from the next column.
+    /// The spring runs from the next column down and to the left.
     Rising,
 }
 

@@ -1,4 +1,5 @@
-//! Numbers for people: a few significant digits, a true minus sign, and powers of ten for very large or small values.
+//! Writes numbers for people, with a few significant digits, a true minus sign, and powers of ten for very large or
+//! small values.
 
 /// Writes `value` with `digits` significant digits. Values from 10⁵ up and below 10⁻³ get a power of ten.
 pub fn significant(value: f64, digits: usize) -> String {

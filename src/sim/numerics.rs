@@ -58,7 +58,7 @@ pub fn least_squares(columns: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     Some(found.iter().copied().collect())
 }
 
-/// Pseudo-random numbers, the same on every run for a nonzero seed: Marsaglia's xorshift with 13, 7 and 17.
+/// Pseudo-random numbers, the same on every run for a nonzero seed, by Marsaglia's xorshift with 13, 7 and 17.
 #[cfg(feature = "lab")]
 pub(super) struct XorShift(u64);
 

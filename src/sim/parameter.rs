@@ -11,7 +11,7 @@ use std::fmt;
 /// Text from a static table, or owned by a kind made from a scene.
 pub type Text = Cow<'static, str>;
 
-/// The largest magnitude of a body's parameter; products in the force laws overflow beyond it.
+/// The largest magnitude of a body's parameter; products in the force laws would overflow beyond this magnitude.
 pub const MAX_VALUE: f64 = 1e15;
 
 /// The maximum number of points of a curve, enough for a curve typed by hand.
@@ -117,7 +117,7 @@ impl Range {
     /// Any sign, or 0.
     pub const ANY: Self = Self::Within(MAX_VALUE);
 
-    /// Whether `value` is in the range; for a curve, whether it can be a coordinate of a point.
+    /// Whether `value` is in the range; for a curve, whether the value can be a coordinate of a point.
     pub fn contains(self, value: f64) -> bool {
         match self {
             Range::Positive(most) => value > 0.0 && value <= most,
@@ -154,7 +154,7 @@ pub struct Fault {
     pub key: Text,
     /// The error message.
     pub what: String,
-    /// How to fix it.
+    /// How to fix the fault.
     pub remedy: String,
 }
 

@@ -17,9 +17,9 @@ use trajectory::{StepControl, Trajectory, TrajectoryEnd};
 mod extrapolation;
 mod trajectory;
 
-/// The accuracy that a reference solution aims at: its error over the duration of a built-in scene, relative to the
-/// largest coordinate and to the largest velocity. `tests/library/bodies/reference.rs` compares reference solutions
-/// with a closed form and with Runge-Kutta at a fine step, to a tighter bound. `truth_error` of a
+/// The accuracy at which a reference solution aims. It is the error of the solution over the duration of a built-in
+/// scene, relative to the largest coordinate and to the largest velocity. `tests/library/bodies/reference.rs` compares
+/// reference solutions with a closed form and with Runge-Kutta at a fine step, to a tighter bound. `truth_error` of a
 /// [`Stepper`](super::Stepper) estimates the error of each run. A motion that amplifies its initial deviations, such as
 /// a pendulum started upright, amplifies this error too.
 pub const REFERENCE_ACCURACY: f64 = 1e-10;
@@ -61,9 +61,9 @@ impl Allowance {
 /// A reference solution, or the exact motion while the body knows it.
 #[derive(Clone, Debug)]
 pub(super) struct Reference<V> {
-    /// `None` if the body does not know its motion from the start, or did not begin there.
+    /// The exact motion; `None` if the body does not know its motion from the start, or did not begin there.
     exact: Option<Box<ExactSinceStart<V>>>,
-    /// `None` if the solutions would take too much work.
+    /// The numerical solutions; `None` if they would take too much work.
     solutions: Option<Box<Solutions<V>>>,
     /// Whether both solutions have started from the state of the body.
     has_begun: bool,

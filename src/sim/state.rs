@@ -6,7 +6,8 @@ use super::cores::in_parts;
 ///
 /// The numbers may be the [components](Vector) of one body, or one coordinate of each of several bodies stepped
 /// together. Such bodies must not mix, so that each has the same bits as alone. A method that looks across components,
-/// for a norm, a limit or a solution, steps a single body. It must declare this by the bound `System<Vector: Vector>`:
+/// for a norm, a limit or a solution, steps a single body. Such a method must declare this by the bound `System<Vector:
+/// Vector>`:
 ///
 /// ```compile_fail,E0277
 /// # use regatta::sim::{Elementwise, System, integrators::{Integrator, LinearlyImplicitEuler}};
@@ -64,8 +65,9 @@ pub trait Elementwise: Clone + Send + Sync + 'static {
 /// The coordinates of one body.
 ///
 /// `f64` is for bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] for motion in a plane or in space. `[f64;
-/// N]` and [`glam::DVec4`] are for a few coordinates, such as those of two bodies in the plane, `Vec<f64>` for many. A
-/// method is written once over this trait. The method compiles to registers for the small types and to loops for `Vec`.
+/// N]` and [`glam::DVec4`] are for a few coordinates, such as those of two bodies in the plane. `Vec<f64>` is for many
+/// coordinates. A method is written once over this trait. The method compiles to registers for the small types and to
+/// loops for `Vec`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no vector of one body's coordinates",
     note = "a vector is f64, DVec2, DVec3, DVec4, [f64; N] or Vec<f64>: two bodies in the plane are one [f64; 4]"
@@ -76,7 +78,7 @@ pub trait Vector: Elementwise {
     const IS_SMALL: bool = false;
     /// Returns the components in order.
     fn components(&self) -> &[f64];
-    /// Returns the components in order, mutable.
+    /// Returns the components in order, as a mutable slice.
     fn components_mut(&mut self) -> &mut [f64];
 }
 
@@ -165,7 +167,7 @@ impl Elementwise for Vec<f64> {
             }
         });
     }
-    /// Computes both in one pass over the vectors.
+    /// Computes the kick and the drift in one pass over the vectors.
     #[inline]
     fn kick_and_drift(k: f64, a: &Self, v: &mut Self, h: f64, q: &mut Self) {
         in_parts([v, q], [a], |[v, q], [a]| {
@@ -228,7 +230,7 @@ pub(in crate::sim) fn bytes_with_vectors(size: usize, like: &[f64]) -> usize {
 /// Returns the largest magnitude; NaN if a component is NaN.
 #[inline]
 pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>) -> f64 {
-    // The bits of magnitudes have the order of the magnitudes; those of a NaN are above all others.
+    // The bits of magnitudes have the order of the magnitudes; the bits of a NaN are above all others.
     let mut bits = components.into_iter().map(|component| component.abs().to_bits());
     // Four maxima are updated in turn, so that no update waits for the one before it.
     let mut most = [0; 4];

@@ -1,4 +1,4 @@
-//! An object-safe stepper: a body, its solver and its state behind one dynamic call per tick.
+//! An object-safe stepper, which has a body, its solver and its state behind one dynamic call per tick.
 
 use std::any::Any;
 use std::ops::Deref;
@@ -10,7 +10,7 @@ use super::integrators::{Method, Override, StepFailure, Stepped};
 use super::state::Vector;
 use super::system::{Coupling, EngineSettings, Evaluation, Pursuit, StateOf};
 
-/// The solver of a body: a method, or the truth.
+/// The solver of a body, which is a method or the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
     /// A method from the table.
@@ -18,12 +18,12 @@ pub enum Solver {
     /// A method from the table, with an override of its card's tolerance or of the body's joint. A method without a
     /// tolerance ignores the override, as does an engine on a body without a joint.
     With(&'static Method, Override),
-    /// The exact flow from the last jump; for a body without a closed form, a reference solution.
+    /// The exact flow from the last jump, or a reference solution if the body has no closed form.
     Truth,
 }
 
 impl Solver {
-    /// Returns the method, unless this is the truth.
+    /// Returns the method; `None` if the solver is the truth.
     pub fn method(self) -> Option<&'static Method> {
         match self {
             Solver::Method(method) | Solver::With(method, _) => Some(method),
@@ -98,8 +98,8 @@ impl dyn Stepper + '_ {
     }
 
     /// Sets a parameter of the body at time `t` (s), by its index in the kind's
-    /// [`parameters`](super::bodies::Kind::parameters). The state is unchanged. Returns whether the body changed. It
-    /// does not change if the value equals the old one, or if the parameter [acts at the
+    /// [`parameters`](super::bodies::Kind::parameters). The state is unchanged. Returns whether the body changed. The
+    /// body does not change if the value equals the old one, or if the parameter [acts at the
     /// start](super::bodies::TakesEffect). `value` must be in the parameter's range and pass the kind's check.
     pub fn set_parameter(&mut self, t: f64, index: usize, value: f64) -> bool {
         self.change(t, Change::Parameter { index, value })
@@ -164,8 +164,8 @@ pub trait PlacedBody {
     /// evaluation.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
 
-    /// Returns the number of evaluations of the acceleration by all methods since the start, without those of the
-    /// truth.
+    /// Returns the number of evaluations of the acceleration by all methods since the start, without the evaluations of
+    /// the truth.
     fn evaluations(&self) -> u64;
     /// Returns the time in seconds that methods left out of their steps since the start.
     fn lost_time(&self) -> f64;

@@ -17,7 +17,7 @@ pub trait System {
     /// Overwrites `a` with the acceleration at time `t` (s). Uses only `+ - × ÷ √` and `libm`.
     fn acceleration(&self, t: f64, q: &Self::Vector, v: &Self::Vector, a: &mut Self::Vector);
 
-    /// Overwrites `d` with the derivative `(v, a)` of the state: one evaluation.
+    /// Overwrites `d` with the derivative `(v, a)` of the state, by one evaluation.
     #[inline(always)]
     fn derivative(&self, t: f64, state: &StateOf<Self>, d: &mut StateOf<Self>) {
         d.q.assign(&state.v);
@@ -25,13 +25,13 @@ pub trait System {
     }
 
     /// Answers an optional query at time `t` (s). Returns `false` if the system has no answer. A system that wraps
-    /// another must forward this, the coupling and the acceleration, and nothing else.
+    /// another must forward this function, the coupling and the acceleration, and nothing else.
     #[inline]
     fn query(&self, _t: f64, _question: Query<'_, Self::Vector>) -> bool {
         false
     }
 
-    /// Returns the dependence between coordinates. A system that wraps another must forward this.
+    /// Returns the dependence between coordinates. A system that wraps another must forward this function.
     #[inline]
     fn coupling(&self) -> Coupling {
         Coupling::All
@@ -55,20 +55,20 @@ pub enum Query<'a, V> {
         /// Receives the derivative.
         slope: &'a mut V,
     },
-    /// The target that the body follows: see [`Pursuit::of`].
+    /// The target that the body follows; see [`Pursuit::of`].
     Target(&'a mut Option<Pursuit<V>>),
-    /// The body as a physics engine sees it: see [`EngineSettings::of`].
+    /// The body as a physics engine sees it; see [`EngineSettings::of`].
     Engine {
         /// The state.
         state: &'a State<V>,
-        /// Receives the settings that the engine integrates itself; [`EngineSettings::NONE`] before.
+        /// Receives the settings that the engine integrates itself. They are [`EngineSettings::NONE`] before the query.
         settings: &'a mut EngineSettings,
         /// Receives the remaining force per unit mass.
         force: &'a mut V,
     },
 }
 
-/// The coordinates and velocities that the acceleration of a coordinate depends on. Implicit methods choose their
+/// The coordinates and velocities on which the acceleration of a coordinate depends. Implicit methods choose their
 /// linear algebra by this coupling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coupling {
@@ -94,7 +94,7 @@ impl Coupling {
     }
 }
 
-/// A system behind a pointer: methods on systems of any type are compiled only once for each vector type.
+/// A system behind a pointer, so that methods on systems of any type are compiled only once for each vector type.
 impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
     type Vector = S::Vector;
 
@@ -111,7 +111,7 @@ impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
     }
 }
 
-/// The target of a body at one moment, and the law by which it follows.
+/// The target of a body at one moment, and the law by which the body follows the target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pursuit<V> {
     /// The target, in the units of the coordinates.
@@ -135,7 +135,7 @@ impl<V: Elementwise> Pursuit<V> {
     }
 }
 
-/// The part of an acceleration that an engine's joint and its damping replace: `-(K q + c v) - C v`, the same for
+/// The part of an acceleration that an engine's joint and its damping replace. It is `-(K q + c v) - C v`, the same for
 /// every coordinate, with the spring at rest at `q` = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EngineSettings {
@@ -148,7 +148,7 @@ pub struct EngineSettings {
 }
 
 impl EngineSettings {
-    /// No joint and no damping: everything is a force of user code.
+    /// No joint and no damping, so that everything is a force of user code.
     pub const NONE: Self = Self { stiffness: 0.0, damping: 0.0, drag: 0.0 };
 
     /// Returns the settings of `system` in a physics engine. Writes the remaining force per unit mass to `force`, which

@@ -1,4 +1,4 @@
-//! A tick rate as a ratio of integers: 66.667 Hz and a step of 0.015 s are exact, as 60 Hz is.
+//! A tick rate as a ratio of integers, so that 66.667 Hz and a step of 0.015 s are as exact as 60 Hz.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -12,9 +12,9 @@ const MAX_DIGITS: usize = 9;
 /// frame at the highest speed.
 const MAX_TERM: u64 = 100_000_000_000_000;
 
-/// Ticks per second: `ticks / seconds`, in lowest terms.
+/// A number of ticks per second, as the ratio `ticks / seconds` in lowest terms.
 ///
-/// Any whole number of hertz is a rate, also 0, which no clock runs at. A rate [read](FromStr) from text is in the
+/// Any whole number of hertz is a rate, even 0, at which no clock runs. A rate [read](FromStr) from text is in the
 /// range of a clock.
 ///
 /// ```
@@ -32,12 +32,12 @@ pub struct TickRate {
 }
 
 impl TickRate {
-    /// The lowest rate of a clock: one tick in 100 seconds.
+    /// The lowest rate of a clock, which is one tick in 100 seconds.
     pub const MIN: Self = Self { ticks: 1, seconds: 100 };
-    /// The highest rate of a clock: 10 000 Hz.
+    /// The highest rate of a clock, which is 10 000 Hz.
     pub const MAX: Self = Self::whole(10_000);
 
-    /// Returns a whole number of ticks per second.
+    /// Returns the rate of a whole number of ticks per second.
     pub const fn whole(hz: u32) -> Self {
         Self { ticks: hz as u64, seconds: 1 }
     }
@@ -72,7 +72,7 @@ impl TickRate {
         Self { ticks: term(ticks), seconds: term(seconds) }
     }
 
-    /// Returns the ratio, if a clock runs at it.
+    /// Returns the rate of this ratio; `None` if no clock runs at it.
     fn checked(ticks: u128, seconds: u128) -> Option<Self> {
         let rate = Self::reduced(ticks, seconds);
         (rate.ticks.max(rate.seconds) <= MAX_TERM && rate.is_in_range()).then_some(rate)
@@ -91,7 +91,7 @@ impl TickRate {
         )
     }
 
-    /// Returns the rate in lowest terms: ticks, and the whole seconds they take.
+    /// Returns the rate in lowest terms, as a number of ticks and the whole seconds that they take.
     pub fn ratio(self) -> [u64; 2] {
         [self.ticks, self.seconds]
     }
@@ -121,12 +121,12 @@ impl TickRate {
         ticks * self.seconds as f64 / self.ticks as f64
     }
 
-    /// Returns the rate in Hz as a decimal, if it has one of at most nine digits after the point.
+    /// Returns the rate in Hz as a decimal; `None` if it needs more than nine digits after the point.
     pub fn decimal_hz(self) -> Option<String> {
         decimal(self.ticks, self.seconds)
     }
 
-    /// Returns the length of a tick in seconds as a decimal, if it has one of at most nine digits after the point.
+    /// Returns the length of a tick in seconds as a decimal; `None` if it needs more than nine digits after the point.
     pub fn decimal_step_s(self) -> Option<String> {
         decimal(self.seconds, self.ticks)
     }
@@ -240,7 +240,7 @@ fn integers(decimal: &str) -> Option<[u128; 2]> {
     Some([value.into(), 10_u128.pow(part.len() as u32)])
 }
 
-/// Returns `above / below` as the shortest decimal, if it has one of at most [`MAX_DIGITS`] digits after the point.
+/// Returns `above / below` as the shortest decimal; `None` if it needs more than [`MAX_DIGITS`] digits after the point.
 fn decimal(above: u64, below: u64) -> Option<String> {
     let scaled = |digits: &usize| u128::from(above) * 10_u128.pow(*digits as u32);
     let is_whole = |digits: &usize| scaled(digits).checked_rem(below.into()) == Some(0);

@@ -18,7 +18,7 @@ impl<'a, S: System> VecSystem<'a, S> {
     }
 }
 
-/// Scratch in the system's own vectors: a state, a direction, and the result.
+/// Scratch in the system's own vectors, for a state, a direction and the result.
 #[derive(Clone)]
 pub(super) struct Scratch<V> {
     state: State<V>,

@@ -5,7 +5,7 @@ use std::io::{self, BufRead, Read};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Encoding {
     Utf8,
-    /// Little-endian: the less significant byte of each unit comes first.
+    /// Little-endian, in which the less significant byte of each unit comes first.
     Utf16Le,
     Utf16Be,
 }

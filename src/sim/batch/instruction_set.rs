@@ -1,4 +1,4 @@
-//! Instruction sets of a processor that blocks are compiled for.
+//! The instruction sets of a processor for which blocks are compiled.
 
 use multiversion::multiversion;
 use multiversion::target::match_target;
@@ -82,7 +82,7 @@ pub(in crate::sim) trait Kernel {
 fn with_avx2<K: Kernel>(kernel: K) {
     match_target! {
         "x86_64+avx+avx2" => kernel.run(),
-        // Chosen only where the processor has it.
+        // Never runs, because the function is chosen only if the processor has the instructions.
         _ => {
             let _ = kernel;
             unreachable!()
@@ -94,7 +94,7 @@ fn with_avx2<K: Kernel>(kernel: K) {
 fn with_avx512<K: Kernel>(kernel: K) {
     match_target! {
         "x86_64+avx+avx2+avx512f+avx512vl" => kernel.run(),
-        // Chosen only where the processor has it.
+        // Never runs, because the function is chosen only if the processor has the instructions.
         _ => {
             let _ = kernel;
             unreachable!()

@@ -3,7 +3,7 @@
 //! A method that steps each number by itself steps blocks of copies. Its formula file is compiled for `[f64; W]`
 //! instead of `f64`, once per [`InstructionSet`], and the widest set of the processor runs. Other methods step copy by
 //! copy. All methods share the work among the threads of rayon's pool. Neither the instruction set nor the number of
-//! threads changes a bit: each copy has the state of a body stepped alone.
+//! threads changes a bit, so that each copy has the state of a body stepped alone.
 
 mod blocks;
 mod instruction_set;
@@ -204,14 +204,14 @@ impl Batch {
         let mut room = Vec::<u8>::new();
         let reserved =
             room.try_reserve_exact(copies.saturating_mul(bytes).min(isize::MAX as usize));
-        // Without this, an optimiser drops the unused reservation.
+        // Without this line, an optimiser drops the unused reservation.
         std::hint::black_box(&mut room);
         reserved
     }
 
     /// Steps every copy through `ticks`. A method with memory continues from the last run.
     ///
-    /// If a copy blows up or its method gives up, its coordinate or velocity is not finite.
+    /// If a copy blows up or its method gives up, the coordinate or the velocity of the copy is not finite.
     ///
     /// # Panics
     /// The same as for [`Ticks::from_start`].
@@ -252,7 +252,7 @@ pub(in crate::sim) trait Copies: Clone + Send + Sync + 'static {
     fn alone(&self) -> Problem<f64>;
 }
 
-/// A system that a batch can step: it has one coordinate, and threads can share it.
+/// A system that a batch can step, because it has one coordinate and threads can share it.
 pub trait OneCoordinate: System<Vector = f64> + Clone + Send + Sync + 'static {}
 
 impl<S: System<Vector = f64> + Clone + Send + Sync + 'static> OneCoordinate for S {}

@@ -65,11 +65,11 @@ const PARAMETERS: [Of; 7] = [
 pub struct Chain {
     /// Number of masses.
     masses: usize,
-    /// m, in kilograms.
+    /// m, each mass, in kilograms.
     mass: f64,
-    /// k, in newtons per metre.
+    /// k, the stiffness of each spring, in newtons per metre.
     stiffness: f64,
-    /// c, in N·s/m.
+    /// c, the damping of each dash-pot, in N·s/m.
     damping: f64,
     /// The number of the mass that is plucked and kicked, counted from 1.
     plucked: usize,

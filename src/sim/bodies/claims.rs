@@ -149,7 +149,7 @@ pub(super) struct ClaimFault {
     pub(super) coordinate: Option<usize>,
     /// The error message.
     pub(super) what: String,
-    /// How to mend it.
+    /// How to mend the fault.
     pub(super) remedy: &'static str,
 }
 

@@ -56,7 +56,7 @@ impl Custom {
         &self.info
     }
 
-    /// Returns the system with its present parameters, of the type that the body was made from.
+    /// Returns the system with its present parameters, of the type from which the body was made.
     pub fn system(&self) -> &dyn Any {
         self.motion.system()
     }

@@ -55,7 +55,7 @@ const PARAMETERS: [Of; 9] = [
 ];
 
 /// The rates of a law, per second. A slower follower would lag so far behind a moving target that the closed form
-/// cancels. A faster one reaches its target within a tick at any tick rate.
+/// cancels. A faster follower reaches its target within a tick at any tick rate.
 const RATES: Range = Range::Between(1e-3, 1e6);
 
 /// The highest frequency of the target in hertz. Above this frequency, the phase would be lost to rounding within a
@@ -67,7 +67,7 @@ const MAX_SINE_HZ: f64 = 1e4;
 pub struct Follow {
     /// The order of the law: 1 or 2.
     pub order: usize,
-    /// k or ω, per second.
+    /// k or ω, the rate of the law, per second.
     pub rate: f64,
     /// s, the target's place, in metres.
     pub step: f64,

@@ -60,17 +60,17 @@ const PARAMETERS: [Of; 12] = [
 /// A steered ship. Its coordinates are x and y in metres and the heading ψ, in radians counter-clockwise from x.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Helm {
-    /// m, in kilograms.
+    /// m, the mass, in kilograms.
     pub mass: f64,
-    /// I, in kilogram square metres.
+    /// I, the moment of inertia about the upright axis, in kilogram square metres.
     pub inertia: f64,
-    /// C, in N·s/m.
+    /// C, the drag ahead, in N·s/m.
     pub drag: f64,
-    /// S, in N·s/m.
+    /// S, the drag sideways, in N·s/m.
     pub side_drag: f64,
-    /// D, in N·m·s.
+    /// D, the damping of turning, in N·m·s.
     pub yaw_drag: f64,
-    /// L, in N·s.
+    /// L, the moment of the full rudder per speed ahead, in N·s.
     pub rudder_moment: f64,
     /// T, the thrust in newtons, over the speed ahead in m/s.
     pub thrust: Curve,

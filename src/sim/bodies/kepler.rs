@@ -34,7 +34,7 @@ const MAX_REFINEMENTS: u32 = 80;
 /// The relative size of a step after which the root is accepted.
 const REFINED_TO: f64 = 1e-30;
 
-/// `r v² / μ` above which the path is straight to the precision of [`DoubleDouble`].
+/// The `r v² / μ` above which the path is straight to the precision of [`DoubleDouble`].
 const UNBENT: f64 = 1e60;
 
 /// Stumpff's functions `Gₖ = sᵏ cₖ(β s²)`, with `G₀″ = -β G₀`. For β = 1 they are cos s, sin s, 1 - cos s, s - sin s.
@@ -117,7 +117,7 @@ struct Path {
     v: [DoubleDouble; 2],
     /// Distance from the centre.
     r: DoubleDouble,
-    /// q · v.
+    /// The product q · v.
     eta: DoubleDouble,
     /// Twice the binding energy per kilogram; positive on an ellipse.
     beta: DoubleDouble,

@@ -56,15 +56,15 @@ const PARAMETERS: [Of; 8] = [
 #[derive(Clone, Debug)]
 pub struct Net {
     topology: Arc<Topology>,
-    /// m, in kilograms.
+    /// m, the mass of each node, in kilograms.
     mass: f64,
-    /// k, in newtons per metre.
+    /// k, the stiffness of springs without their own, in newtons per metre.
     stiffness: f64,
-    /// c, in N·s/m.
+    /// c, the damping of springs without their own, in N·s/m.
     damping: f64,
-    /// b, in N·s/m.
+    /// b, the drag of each node, in N·s/m.
     drag: f64,
-    /// g, in metres per second squared.
+    /// g, the gravity, in metres per second squared.
     gravity: f64,
     /// Rest lengths of the springs, relative to their lengths at the start.
     rest_ratio: f64,
@@ -184,7 +184,7 @@ impl Net {
     }
 
     /// Returns an upper bound on the fastest angular frequency, in radians per second, and on the fastest rate of
-    /// damping; positive.
+    /// damping. The bound is positive.
     pub fn fastest_rate(&self) -> f64 {
         self.springs.fastest_rate.max(f64::MIN_POSITIVE)
     }

@@ -48,7 +48,7 @@ const PARAMETERS: [Of; 6] = [
 /// centre, in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Orbit {
-    /// μ, in cubic metres per second squared.
+    /// μ, the pull of the centre times the distance squared, in cubic metres per second squared.
     pub mu: f64,
     /// Position at the start, in metres; not the centre.
     pub q0: DVec2,

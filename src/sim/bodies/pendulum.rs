@@ -44,13 +44,13 @@ const PARAMETERS: [Of; 7] = [
 /// A pendulum. Its coordinate is the angle from hanging down, in radians, counter-clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pendulum {
-    /// l, in metres.
+    /// l, the length from the pivot to the bob, in metres.
     pub length: f64,
-    /// m, in kilograms.
+    /// m, the mass of the bob, in kilograms.
     pub mass: f64,
-    /// g, in metres per second squared.
+    /// g, the gravity, in metres per second squared.
     pub gravity: f64,
-    /// c, in N·m·s.
+    /// c, the damping, in N·m·s.
     pub damping: f64,
     /// Angle at the start, in radians.
     pub theta0: f64,

@@ -40,9 +40,9 @@ pub struct Ship {
     pub thrust: f64,
     /// The throttle, which is the fraction of full thrust, from -1 to 1.
     pub throttle: f64,
-    /// C, in N·s/m.
+    /// C, the drag, in N·s/m.
     pub drag: f64,
-    /// m, in kilograms.
+    /// m, the mass, in kilograms.
     pub mass: f64,
     /// Distance run at the start, in metres.
     pub s0: f64,

@@ -38,11 +38,11 @@ const PARAMETERS: [Of; 6] = [
 /// A mass on a spring. Its coordinate is the stretch, in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spring {
-    /// m, in kilograms.
+    /// m, the mass, in kilograms.
     pub mass: f64,
-    /// k, in newtons per metre.
+    /// k, the stiffness, in newtons per metre.
     pub stiffness: f64,
-    /// c, in N·s/m.
+    /// c, the damping, in N·s/m.
     pub damping: f64,
     /// Stretch at the start, in metres.
     pub x0: f64,

@@ -82,7 +82,7 @@ impl System for Kepler {
 /// below 1, and the period is 2π.
 pub fn kepler_orbit(eccentricity: f64, t: f64) -> State<DVec2> {
     let e = eccentricity;
-    // Kepler's equation E - e sin E = t by Newton's method, which converges from E = π for every e.
+    // Solves Kepler's equation E - e sin E = t by Newton's method, which converges from E = π for every e.
     let mut anomaly = std::f64::consts::PI;
     for _ in 0..50 {
         let (sin, cos) = (libm::sin(anomaly), libm::cos(anomaly));

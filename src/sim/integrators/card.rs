@@ -186,11 +186,11 @@ pub struct FollowerSetting {
 /// The quantity of a follower's setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FollowerQuantity {
-    /// k or ω of the law, per second.
+    /// The rate k or ω of the law, per second.
     Rate,
     /// The fraction of the remaining way covered in each frame.
     Part,
-    /// 2/ω, in seconds.
+    /// The smoothing time 2/ω, in seconds.
     SmoothTime,
 }
 
@@ -334,7 +334,7 @@ impl Method {
             _ if self.custom.is_some() => 16 * (n + 3),
             // The exponential of a small matrix is a full matrix.
             Some(_) if self.family == Family::Linearised && n <= 32 => matrices * (n + 2) * (n + 2),
-            // The factored band is one and a half times as wide as that of the matrix.
+            // The band of the factored matrix is one and a half times as wide as the band of the matrix.
             Some(reach) => matrices * (n + 2) * (n + 2).min(3 * reach + 2),
             // These are the vectors of an iteration, for at most two stages.
             None => 12 * (n + 3) * matrices.min(2),

@@ -22,7 +22,7 @@ pub enum StepFailure {
         /// The maximum number of iterations in a step.
         limit: u32,
     },
-    /// The linear equations of a step were not solved within its budget of work.
+    /// The linear equations of a step were not solved within the step's budget of work.
     LinearSolveFailed,
     /// A reference solution exceeded its budget of evaluations.
     ReferenceFailed {

@@ -15,7 +15,8 @@ pub enum SpinMap {
     ScaledMomentum,
     /// One Newton step from `ω` towards the root of implicit Euler, `I (ω' - ω) + h ω' × I ω' = 0`: `ω' = ω - J⁻¹ h ω ×
     /// L` with `J = I + h ([ω] I - [L])`, where `[a] b = a × b`. It is not finite if `J` has no inverse. It is used by
-    /// Bullet (`computeGyroscopicImpulseImplicit_Body`) and by MuJoCo's integrators `implicit` and `implicitfast`.
+    /// Bullet (`computeGyroscopicImpulseImplicit_Body`), by Box3D, and by MuJoCo's integrators `implicit` and
+    /// `implicitfast`.
     NewtonStep,
     /// `ω' = ω - h I⁻¹ (ω × L)`, which is explicit Euler. It is used by MuJoCo's integrator `Euler`.
     Explicit,

@@ -93,7 +93,7 @@ impl<S: System> Clone for Box<dyn Integrator<S>> {
 }
 
 impl<S: System> fmt::Debug for dyn Integrator<S> {
-    /// Neither the type of the method nor its memory is known here.
+    /// Writes only a name, because neither the type of the method nor its memory is known here.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Integrator").finish_non_exhaustive()
     }

@@ -29,19 +29,19 @@ pub struct Setting {
 /// The quantity of a joint's setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointQuantity {
-    /// k, in N/m.
+    /// The stiffness k, in N/m.
     Stiffness,
-    /// k/m, in 1/s².
+    /// The stiffness per unit of mass, k/m, in 1/s².
     StiffnessPerMass,
-    /// 1/k, in m/N.
+    /// The compliance 1/k, in m/N.
     Compliance,
-    /// √(k/m) / 2π, in Hz.
+    /// The frequency √(k/m) / 2π, in Hz.
     Frequency,
-    /// c, in N s/m.
+    /// The damping c, in N s/m.
     Damping,
-    /// c/m, in 1/s.
+    /// The damping per unit of mass, c/m, in 1/s.
     DampingPerMass,
-    /// c / (2 √(k m)).
+    /// The damping ratio c / (2 √(k m)).
     DampingRatio,
 }
 

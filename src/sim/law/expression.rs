@@ -26,7 +26,7 @@ pub(super) struct Node {
     pub(super) op: Op,
     operands: [usize; 3],
     count: usize,
-    /// The value of a number.
+    /// The value of the node, if it is a number.
     pub(super) number: f64,
     /// The index of an input among the inputs, or of a table among the tables.
     pub(super) index: usize,

@@ -28,7 +28,7 @@ pub struct LawFault {
     pub span: Range<usize>,
     /// The error message.
     pub what: String,
-    /// How to fix it.
+    /// How to fix the fault.
     pub remedy: Remedy,
 }
 
@@ -53,7 +53,7 @@ pub struct ExpressionFault {
     pub span: Range<usize>,
     /// The error message.
     pub what: String,
-    /// How to fix it.
+    /// How to fix the fault.
     pub remedy: Remedy,
 }
 

@@ -56,7 +56,8 @@ pub(super) fn is_linear(
     tape.outputs.iter().all(|&output| of[output as usize] < Dependence::Any)
 }
 
-/// Whether this input is used, and only by sines, cosines and tangents, so that a full turn of it changes nothing.
+/// Whether this input is used, and only by sines, cosines and tangents, so that a full turn of the input changes
+/// nothing.
 pub(super) fn is_angle(tape: &Tape, input: usize) -> bool {
     let is_it = |slot: &u16| usize::from(*slot) == input;
     let mut uses = tape.operations().filter(|(_, operands, ..)| operands.iter().any(is_it));

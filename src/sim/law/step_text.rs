@@ -50,7 +50,7 @@ enum Line {
 /// A number carried from one step to the next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Carried {
-    /// `x`, `v`, or a name of the text.
+    /// The name of the number, which is `x`, `v`, or a name of the text.
     pub name: String,
     /// The value of the number before the first step.
     pub start: f64,
@@ -66,7 +66,7 @@ pub struct StepText {
     carried: Vec<Carried>,
     /// The operations of a step. The outputs are the carried numbers after the step, in the order of `carried`.
     tape: Tape,
-    /// The bytes of the first call of the acceleration; `None` in a rule, which has no call.
+    /// The byte range of the first call of the acceleration; `None` in a rule, which has no call.
     call: Option<Range<usize>>,
     calls: Vec<StepCall>,
 }
@@ -128,8 +128,8 @@ impl StepText {
         Ok(Self { source: text.to_owned(), ..reader.finish()? })
     }
 
-    /// Reads the text of a rule, which calls no acceleration. If it does call the acceleration, the fault has this
-    /// remedy.
+    /// Reads the text of a rule, which calls no acceleration. If the text does call the acceleration, the fault has
+    /// this remedy.
     pub(crate) fn read_rule(text: &str, remedy: &str) -> Result<Self, ExpressionFault> {
         let read = Self::read(text)?;
         match read.acceleration_at() {

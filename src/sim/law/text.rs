@@ -42,7 +42,7 @@ impl LawText {
 pub struct CoordinateText {
     /// The name of the coordinate. The velocity has the same name with a `v` before it.
     pub name: String,
-    /// One of [`UNITS`](super::UNITS).
+    /// The unit of the coordinate, which is one of [`UNITS`](super::UNITS).
     pub unit: &'static str,
     /// The acceleration of the coordinate.
     pub acceleration: String,

@@ -11,8 +11,8 @@ const FEW_COLUMNS: usize = 6;
 /// The factor that shortens a rejected step.
 const REJECTED_FACTOR: f64 = 0.25;
 
-/// The largest magnitude of an angle before full turns are removed: slightly more than half a turn, so that a motion
-/// about half a turn does not alternate.
+/// The largest magnitude of an angle before full turns are removed. It is slightly more than half a turn, so that a
+/// motion about half a turn does not alternate.
 const MAX_ANGLE: f64 = 3.3;
 
 /// The largest distance from the boundary of a piece at which a step may end, relative to the distances at both ends.
@@ -76,7 +76,7 @@ const FIRST_UNEVEN_STEP: f64 = 0.57;
 struct Crossing {
     /// The switch whose mode changes.
     switch: usize,
-    /// 0 for the mode below, 1 for the mode above.
+    /// The side of the boundary, which is 0 for the mode below and 1 for the mode above.
     side: usize,
     /// The distance to the boundary at the start of the step and at its end.
     begun: f64,
@@ -301,8 +301,8 @@ impl<V: Vector> Trajectory<V> {
         }
     }
 
-    /// Returns the first crossing of a step, as estimated from the distances at both ends. Only a boundary counts that
-    /// the step ends beyond, unless it started further beyond it.
+    /// Returns the first crossing of a step, as estimated from the distances at both ends. A boundary counts only if
+    /// the step ends beyond it and did not start further beyond it.
     fn first_crossing(
         &self,
         switches: usize,

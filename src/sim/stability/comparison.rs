@@ -78,8 +78,8 @@ pub(super) struct LinearMotion {
 }
 
 impl LinearMotion {
-    /// Returns the stability of a tick in which the method of `stepper` makes `step` `times` times. It comes from runs
-    /// that start at this `amplitude`. Also returns whether the method has memory.
+    /// Returns the stability of a tick in which the method of `stepper` repeats `step` for this number of `times`. The
+    /// stability comes from runs that start at this `amplitude`. Also returns whether the method has memory.
     ///
     /// # Errors
     /// The failure of the method in the first steps.

@@ -83,8 +83,8 @@ pub(super) fn linear(jacobian: DMatrix<f64>, method: &'static Method) -> Box<dyn
 }
 
 /// Returns a deviation from the state of `body` at time `t` (s), under forces linearised there. The slopes of the
-/// forces are differences along the deviation, over `displacement` times the size of the state. Sizes compare
-/// coordinates with velocities times `h`.
+/// forces are differences along the deviation, over `displacement` times the size of the state. The size of a state is
+/// its largest coordinate, or its largest velocity times `h` if that is larger.
 pub(super) fn deviation_along_forces(
     body: &dyn Stepper,
     t: f64,

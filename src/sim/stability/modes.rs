@@ -18,9 +18,9 @@ use crate::sim::{Solver, Stepper};
 pub struct NormalMode {
     /// The displacement of each coordinate. The shape is normalised to length 1.
     pub shape: Vec<f64>,
-    /// ω², per second squared; not negative.
+    /// ω², the square of the undamped angular frequency, per second squared; not negative.
     pub omega_squared: f64,
-    /// c, per second; not negative.
+    /// c, the damping, per second; not negative.
     pub damping_per_s: f64,
 }
 
@@ -270,7 +270,7 @@ mod tests {
                 assert!((mode.omega_squared / (wanted * 400.0) - 1.0).abs() < 1e-12, "{mode:?}");
                 let decay = wanted * damping / 0.5;
                 assert!((mode.damping_per_s - decay).abs() < 1e-12, "{mode:?}");
-                // The projection of a wave of amplitude 1 onto a shape of length 1.
+                // `length` is the projection of a wave of amplitude 1 onto a shape of length 1.
                 let wave: Vec<f64> =
                     (1..=MASSES).map(|j| libm::sin(2.0 * half * j as f64)).collect();
                 let length = ((MASSES + 1) as f64 / 2.0).sqrt();

@@ -14,7 +14,7 @@ const MIN_ITERATIONS: usize = 64;
 /// The largest relative difference between the radius after three quarters of the iterations and the radius after all
 /// of them, if the iteration has settled.
 const SETTLED: f64 = 5e-3;
-/// The displacement of the state, relative to its size. It is large enough for rounding, and small enough for the
+/// The displacement of the state, relative to its size. It is large compared with rounding, and small compared with the
 /// curvature of the forces.
 const DISPLACEMENT: f64 = 1e-7;
 /// The initial size of a deviation in a continued run. From this size the deviation may grow by 450 decades and shrink
@@ -80,7 +80,7 @@ impl PowerIteration {
     /// Returns the spectral radius; `None` if the iteration has not settled.
     ///
     /// Up to rounding, the length after n iterations grows like ρⁿ nᵖ, with p > 0 for a drifting body. A second
-    /// difference of its logarithm removes the part with p.
+    /// difference of the logarithm of the length removes the part with p.
     pub fn radius(&self) -> Option<f64> {
         settled_radius(&self.logs)
     }
@@ -164,7 +164,7 @@ fn continued_run(
     }
 }
 
-/// Returns the spectral radius; `None` if it still changes with more iterations.
+/// Returns the spectral radius; `None` if the radius still changes with more iterations.
 fn settled_radius(logs: &[f64]) -> Option<f64> {
     let [earlier, all] = [logs.len() * 3 / 4, logs.len()].map(|count| radius(&logs[..count]));
     let (earlier, all) = (earlier?, all?);

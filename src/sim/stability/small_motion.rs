@@ -21,7 +21,7 @@ pub struct SmallMotion {
     jacobian: DMatrix<f64>,
 }
 
-/// A [`SmallMotion`] with its true modes. A method steps all its coordinates together.
+/// A [`SmallMotion`] with its true modes. A method steps all coordinates of the motion together.
 #[derive(Clone, Debug)]
 pub struct CoupledMotion {
     jacobian: DMatrix<f64>,
@@ -136,7 +136,7 @@ impl CoupledMotion {
     }
 
     /// Returns the stability of `method` with equal steps on this motion, from the map of all coordinates over a step.
-    /// It ignores growth that the true motion shares, and frequencies beyond half a turn in a step.
+    /// The stability ignores growth that the true motion shares, and frequencies beyond half a turn in a step.
     ///
     /// # Errors
     /// The failure of the method in the first steps.
@@ -162,7 +162,8 @@ const FORCE_FREE: f64 = 1e-7;
 /// A true growth below this fraction of the largest rate is rounding.
 const ROUNDED_GROWTH: f64 = 1e-10;
 
-/// Returns the modes of `x″ = A x + B x′`, and the unit of velocity per second.
+/// Returns the modes of `x″ = A x + B x′`, and the unit of velocity, per second, in which the fastest mode moves on
+/// circles.
 fn true_modes(jacobian: &DMatrix<f64>) -> Option<(Vec<Mode>, f64)> {
     let n = jacobian.nrows();
     let stiffness = jacobian.columns(0, n).amax();
@@ -290,7 +291,7 @@ mod tests {
         let modes = SmallMotion::of(&*pendulum).unwrap().normal_modes().unwrap();
         assert_eq!(modes.len(), 1);
         assert!((modes[0].omega_squared / (9.81 / 2.0) - 1.0).abs() < 1e-6, "{modes:?}");
-        // c / (m l²), with l = 2 m and m = 3 kg.
+        // The damping is c / (m l²), with l = 2 m and m = 3 kg.
         assert!((modes[0].damping_per_s / (0.6 / 12.0) - 1.0).abs() < 1e-6, "{modes:?}");
         let orbit = SmallMotion::of(&*body("orbit", &[1000.0, 9.0, 2.0, 1.5, 10.0, 0.3]));
         assert_eq!(orbit.err(), Some(NoSmallMotion::NoRest));

@@ -7,7 +7,7 @@ use super::deviation::acceleration_at;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 
-/// An eigenvalue. Of a conjugate pair, each is represented by the one in the upper half plane.
+/// An eigenvalue. Both eigenvalues of a conjugate pair are represented by the one in the upper half plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Eigenvalue {
     pub(super) modulus: f64,
@@ -50,7 +50,7 @@ pub(super) fn linear_maps(
     let (n, count) = (body.q().len(), shapes.len());
     let rest = vec![0.0; 2 * n];
     let stays_at_rest = stays_at_rest(body, tick.t);
-    // The components along the shapes after each tick from a state.
+    // Returns the components along the shapes after each of three ticks from a state.
     let mut run = |state: &[f64]| {
         body.set(tick.t, &state[..n], &state[n..]);
         let mut after = |k: u32| {

@@ -14,15 +14,15 @@ pub struct CustomFault {
     pub field: &'static str,
     /// The error message.
     pub what: String,
-    /// How to mend it.
+    /// How to mend the fault.
     pub remedy: &'static str,
 }
 
 /// The relative tolerance of a claim, which allows for the error of differences.
 const TOLERANCE: f64 = 1e-6;
 
-/// Steps of finite differences, in seconds. For a motion of any pace, one of these steps is short enough for a smooth
-/// motion and long enough for rounding.
+/// Steps of finite differences, in seconds. For a motion of any pace, one of these steps is so short that the motion
+/// over it is smooth, but so long that rounding is small.
 const STEPS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 impl Claimant for Custom {

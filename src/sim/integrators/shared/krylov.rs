@@ -145,7 +145,7 @@ impl Krylov {
             }
             multiply(products_left, s, t);
 
-            // This minimises the residual along its two products.
+            // This minimises the residual along its two products with the matrix.
             let (along, across, both) = (dot(s, s), dot(s, t), dot(t, t));
             let first = dot(r, s);
             let apart = both - across * across / along;

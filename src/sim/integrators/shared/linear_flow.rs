@@ -245,7 +245,7 @@ mod tests {
         for (coupling, w) in [(Few, 0.6), (Few, 40.0), (All, 0.6), (All, 40.0)] {
             let found = flow(coupling, [w, 0.0], [0.0, w], [0.0, 0.0]).unwrap();
             near(found, [1.0 - libm::cos(w), libm::sin(w)], 40.0);
-            // A growing push: x = t - sin(wt)/w, x' = (1 - cos(wt))/w.
+            // For a growing push, x = t - sin(wt)/w, x' = (1 - cos(wt))/w.
             let found = flow(coupling, [w, 0.0], [0.0; 2], [0.0, w]).unwrap();
             near(found, [1.0 - libm::sin(w) / w, (1.0 - libm::cos(w)) / w], 40.0);
         }
@@ -261,7 +261,7 @@ mod tests {
 
     #[test]
     fn the_response_matches_oscillation_decay_and_growth() {
-        // s = e^(αt) sin(ωt)/ω with z = 2α and y = -α² - ω², and its integrals from the equation.
+        // The displacement is s = e^(αt) sin(ωt)/ω with z = 2α and y = -α² - ω², and its integrals from the equation.
         for alpha in [0.0, -0.3, -4.0, 0.5] {
             for w in [1e-3, 0.2, 1.7, 30.0] {
                 let (y, z) = (-alpha * alpha - w * w, 2.0 * alpha);

@@ -275,7 +275,7 @@ mod tests {
                 full.entries.fill(0.0);
                 for j in 0..size {
                     for row in j.saturating_sub(reach)..(j + reach + 1).min(size) {
-                        // A small diagonal, so that rows are swapped.
+                        // The diagonal is small, so that rows are swapped.
                         let entry = if row == j { 1e-3 } else { random.next() };
                         band.column_from(j, row)[0] = entry;
                         full.column_from(j, row)[0] = entry;
@@ -300,7 +300,7 @@ mod tests {
             let [once, again] = [(); 2].map(|()| {
                 matrix.clear_matrix();
                 for first in 0..matrix.independent_stride() {
-                    // A small diagonal of `I - slopes`, so that rows are swapped.
+                    // The diagonal of `I - slopes` is small, so that rows are swapped.
                     let slope = |row: usize| if row % 3 == first { 0.999 } else { -1.0 };
                     let slopes: Vec<f64> = (0..n).map(slope).collect();
                     matrix.add_slopes([0, first], 0, &slopes, &mut |_, _| ());

@@ -41,7 +41,7 @@ const EXTREMES: (f64, f64) = (1e-150, 1e150);
 pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
     /// `q_i` and `v_i`, which the caller sets before solving.
     pub(in crate::sim::integrators) base: [State<V>; S],
-    /// `A_i`, the solution after solving.
+    /// `A_i`, the solution of the equations.
     pub(in crate::sim::integrators) a: [V; S],
     /// The force law evaluated at `A`.
     evaluated: [V; S],

@@ -23,7 +23,8 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// Returns the two numbers at rest, per unit of the target and without it; `None` if they have no rest.
+    /// Returns the values of the two numbers at rest, first per unit of the target, then for a target of 0. Returns
+    /// `None` if the numbers have no rest.
     pub(crate) fn rests(&self) -> Option<[Vector2<f64>; 2]> {
         let inverse = (Matrix2::identity() - self.map).try_inverse()?;
         Some([inverse * self.by_target, inverse * self.offset])
@@ -309,7 +310,7 @@ mod tests {
 
     #[test]
     fn a_rule_is_recognised_as_the_body_it_moves_like() {
-        // Semi-implicit Euler of ω² = 100 at 60 Hz: cos(θ) = 1 - ω²h²/2.
+        // Semi-implicit Euler of ω² = 100 at 60 Hz has cos(θ) = 1 - ω²h²/2.
         let theta = f64::acos(1.0 - 100.0 / 7200.0) * 60.0;
         let RuleBody::Spring { stiffness, damping } =
             rule("v += (target - x) * 100 * dt; x += v * dt", 60).unwrap().body()

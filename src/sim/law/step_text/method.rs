@@ -28,8 +28,8 @@ impl StepCall {
 }
 
 impl StepText {
-    /// Returns the bytes of the first call of the acceleration, which makes the lines those of a method; `None` for a
-    /// rule.
+    /// Returns the byte range of the first call of the acceleration, which makes the lines those of a method; `None`
+    /// for a rule.
     pub fn acceleration_at(&self) -> Option<Range<usize>> {
         self.call.clone()
     }
