@@ -8,24 +8,24 @@ use super::system::{BodyClass, StateOf, System};
 
 /// A kind of body that moves by an equation of motion.
 pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
-    /// Its class, for methods that step only [some](super::integrators::Only) bodies.
+    /// The class of the body, for methods that step only [some](super::integrators::Only) bodies.
     const CLASS: BodyClass = BodyClass::Forced;
 
-    /// The inputs that it accepts: `throttle`, `rudder`, `kick`.
+    /// The inputs that the body accepts, from `throttle`, `rudder` and `kick`.
     const INPUTS: &'static [&'static str] = &["kick"];
 
-    /// Whether it has a closed form, [`Body::exact_into`].
+    /// Whether the body has a closed form, [`Body::exact_into`].
     const HAS_EXACT: bool = false;
 
-    /// The parameters of this kind of body. Its card lists their descriptions as
+    /// The parameters of this kind of body. The card of the kind has their descriptions as
     /// [`Kind::parameters`](super::bodies::Kind::parameters).
     const PARAMETERS: &'static [ParameterOf<Self>] = &[];
 
-    /// Returns the body with these values of its [parameters](Body::PARAMETERS), in order: one value per parameter,
-    /// and two per point of a curve.
+    /// Returns the body with these values of its [parameters](Body::PARAMETERS), in order. There is one value per
+    /// parameter, and there are two per point of a curve.
     ///
     /// # Panics
-    /// If the number of values is wrong, or if no body of this kind can be built from them: see
+    /// If the number of values is wrong, or if no body of this kind can be built from the values; see
     /// [`Kind::check`](super::bodies::Kind::check).
     fn with_parameters(mut self, values: &[f64]) -> Self {
         parameter::write(&mut self, Self::PARAMETERS, values);
@@ -48,21 +48,22 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Recomputes fields derived from the parameters. Must be called after parameters are written.
     fn prepare(&mut self) {}
 
-    /// Memory on the heap, in bytes.
+    /// Returns the memory of the body on the heap, in bytes.
     fn heap_bytes(&self) -> usize {
         0
     }
 
-    /// The state at tick 0.
+    /// Returns the state at tick 0.
     fn start(&self) -> StateOf<Self>;
 
-    /// Overwrites `to` with the exact flow over `dt` (s) from time `t` (s) under constant input, for a body that [has
-    /// a closed form](Body::HAS_EXACT). The truth of any other body is a reference solution. Never allocates.
+    /// Overwrites `to` with the exact state `dt` (s) after the state `from` at time `t` (s), under constant input. The
+    /// body must [have a closed form](Body::HAS_EXACT); the truth of any other body is a reference solution. Never
+    /// allocates.
     fn exact_into(&self, _t: f64, _dt: f64, _from: &StateOf<Self>, _to: &mut StateOf<Self>) {
         unreachable!("a body with `HAS_EXACT` has a closed form");
     }
 
-    /// The state that [`Body::exact_into`] computes from time 0; `None` without a closed form.
+    /// Returns the state that [`Body::exact_into`] computes from time 0; `None` if the body has no closed form.
     fn exact(&self, dt: f64, from: &StateOf<Self>) -> Option<StateOf<Self>> {
         Self::HAS_EXACT.then(|| {
             let mut to = from.clone();
@@ -72,13 +73,13 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     }
 
     /// Overwrites `to` with the exact state at time `t` (s) of a body untouched since the start. Returns whether the
-    /// body knows it; a body with [`Body::exact`] need not. Never allocates.
+    /// body knows this state. A body with [`Body::exact`] need not know it. Never allocates.
     fn exact_since_start(&self, _t: f64, _to: &mut StateOf<Self>) -> bool {
         false
     }
 
-    /// A bound on the rounding error of [`Body::exact_into`] over `dt` from `from` at time `_t` to `to`, for exact
-    /// arguments: of a coordinate and of a velocity.
+    /// Returns bounds on the rounding errors of a coordinate and of a velocity when [`Body::exact_into`] advances
+    /// `_from` at time `_t` by `_dt` to `_to`. The bounds assume exact arguments.
     fn exact_error(
         &self,
         _t: f64,
@@ -99,23 +100,23 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         false
     }
 
-    /// Number of parts of the force law with corners or jumps.
+    /// Returns the number of parts of the force law with corners or jumps.
     fn switches(&self) -> usize {
         0
     }
 
-    /// The smooth piece of the force law at this time and state. A reference solution ends a step at each boundary
-    /// between pieces, so that no step contains a corner.
+    /// Returns the smooth piece of the force law at this time and state. A reference solution ends a step at each
+    /// boundary between pieces, so that no step contains a corner.
     fn piece(&self, _t: f64, _state: &StateOf<Self>) -> Piece {
         Piece::FIRST
     }
 
-    /// The distances to the boundaries of a piece at this time and state.
+    /// Returns the distances to the boundaries of a piece at this time and state.
     fn distances_to_ends(&self, _piece: &Piece, _t: f64, _state: &StateOf<Self>) -> Distances {
         NO_BOUNDARIES
     }
 
-    /// The mode of a switch beyond the lower (`side` 0) or the upper (1) boundary of its mode.
+    /// Returns the mode of a switch beyond the lower boundary (`side` 0) or the upper boundary (`side` 1) of `mode`.
     fn neighbour(&self, _switch: usize, mode: i64, side: usize) -> i64 {
         mode + 2 * side as i64 - 1
     }
@@ -126,7 +127,8 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         false
     }
 
-    /// The acceleration of this piece of the force law, continued smoothly beyond its boundaries.
+    /// Overwrites `a` with the acceleration of this piece of the force law, continued smoothly beyond the piece's
+    /// boundaries.
     #[inline]
     fn acceleration_on(
         &self,
@@ -139,28 +141,29 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         self.acceleration(t, q, v, a);
     }
 
-    /// The conserved energy in joules; `None` if no energy is conserved.
+    /// Returns the conserved energy in joules; `None` if no energy is conserved.
     fn energy(&self, _state: &StateOf<Self>) -> Option<f64> {
         None
     }
 
-    /// The kinetic part of [`Body::energy`], in joules: the energy minus that of the body at rest in the same place. A
-    /// body with coordinates on the heap overrides this so that it does not allocate.
+    /// Returns the kinetic part of [`Body::energy`], in joules, which is the energy minus the energy of the body at
+    /// rest in the same place. A body with coordinates on the heap overrides this function so that it does not
+    /// allocate.
     fn kinetic_energy(&self, state: &StateOf<Self>) -> Option<f64> {
         let mut still = state.clone();
         still.v.components_mut().fill(0.0);
         Some(self.energy(state)? - self.energy(&still)?)
     }
 
-    /// The kinetic and the potential energy in joules, conserved or not; `None` if they are unknown. Damping can only
-    /// decrease their sum.
+    /// Returns the kinetic and the potential energy in joules, conserved or not; `None` if they are unknown. Damping
+    /// can only decrease their sum.
     fn mechanical_energy(&self, state: &StateOf<Self>) -> Option<[f64; 2]> {
         let kinetic = self.kinetic_energy(state)?;
         Some([kinetic, self.energy(state)? - kinetic])
     }
 
-    /// An estimate of the work of a reference solution: evaluations of the parts of the force law for each simulated
-    /// second. Above [`MAX_REFERENCE_WORK`](super::MAX_REFERENCE_WORK), the body has no truth.
+    /// Estimates the work of a reference solution, in evaluations of the parts of the force law per simulated second. A
+    /// body with more than [`MAX_REFERENCE_WORK`](super::MAX_REFERENCE_WORK) has no truth.
     fn reference_work(&self) -> f64 {
         0.0
     }
@@ -168,8 +171,8 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Applies an input to the body or its state at once. Returns whether this kind of body accepts it.
     fn input(&mut self, input: Input, state: &mut StateOf<Self>) -> bool;
 
-    /// The position of the body in metres, which the camera, trails and arrows refer to. By default, the first
-    /// coordinate to the right.
+    /// Returns the position of the body in metres, to which the camera, trails and arrows refer. By default, this is
+    /// the first coordinate, to the right.
     fn place(&self, q: &Self::Vector) -> DVec2 {
         DVec2::new(q.components()[0], 0.0)
     }
@@ -179,11 +182,11 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Input {
-    /// Sets the thrust to this fraction of full thrust, -1 to 1.
+    /// Sets the thrust to this fraction of full thrust, from -1 to 1.
     Throttle(f64),
     /// Sets the rudder to this fraction of its full angle, from -1 (hard right) to 1 (hard left).
     Rudder(f64),
-    /// Adds an impulse: this multiple of the body's own kick.
+    /// Adds an impulse, which is this multiple of the body's own kick.
     Kick(f64),
 }
 
@@ -194,7 +197,7 @@ pub const MAX_SWITCHES: usize = 32;
 /// jump; a body without switches has one piece.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
-    /// The modes, in the order of the switches; 0 beyond the last.
+    /// The modes, in the order of the switches; 0 beyond the last switch.
     pub modes: [i64; MAX_SWITCHES],
 }
 
@@ -203,10 +206,10 @@ impl Piece {
     pub const FIRST: Self = Self { modes: [0; MAX_SWITCHES] };
 }
 
-/// Signed distances from a state to the boundaries of a piece: for each switch, to the mode below and to the mode
-/// above. A distance is negative if the state is beyond the boundary by more than rounding, and infinite without a
-/// boundary.
+/// Signed distances from a state to the boundaries of a piece. Each switch has a distance to the mode below and one to
+/// the mode above. A distance is negative if the state is beyond the boundary by more than rounding, and infinite if
+/// there is no boundary.
 pub type Distances = [[f64; 2]; MAX_SWITCHES];
 
-/// No boundary anywhere.
+/// The distances of a piece without boundaries.
 pub const NO_BOUNDARIES: Distances = [[f64::INFINITY; 2]; MAX_SWITCHES];

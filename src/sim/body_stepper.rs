@@ -21,7 +21,7 @@ use super::system::{
     BodyClass, Counted, Coupling, EngineSettings, Logged, Pursuit, StateOf, System,
 };
 
-/// Puts `body` at its start, at time 0, under `solver`.
+/// Returns a stepper of `body` under `solver`, at the start of the body and at time 0.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
     BodyAtState { body: Counted::new(body), state, solver, lost_before: 0.0, lost_time: 0.0 }
@@ -29,7 +29,7 @@ pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
 }
 
 impl<B: Body> BodyAtState<B> {
-    /// Starts under the solver at time `t` (s).
+    /// Builds the stepper, which starts under the solver at time `t` (s).
     fn begin(self, t: f64) -> Box<dyn Stepper> {
         if let Some(method) = self.solver.method() {
             let coupling = self.body.coupling();
@@ -50,7 +50,7 @@ impl<B: Body> BodyAtState<B> {
         }
     }
 
-    /// The recorded tick of `step`, made on a copy of the body; `None` if the solver is no method.
+    /// Returns the recorded tick of `step`, made on a copy of the body; `None` if the solver is no method.
     fn recorded(&self, step: &TryStep<'_, B::Vector>) -> Option<RecordedTick> {
         let log = Rc::default();
         let system = problem(Logged { system: self.body.system.clone(), log: Rc::clone(&log) });
@@ -62,7 +62,7 @@ impl<B: Body> BodyAtState<B> {
     }
 }
 
-/// Steps a problem from a state; `None` for the truth.
+/// A function that steps a problem from a state; it returns `None` if the solver is the truth.
 type TryStep<'a, V> = dyn Fn(&Problem<V>, &mut State<V>) -> Option<Stepped> + 'a;
 
 impl<B: Body> Construct<Counted<B>> for BodyAtState<B> {
@@ -158,13 +158,13 @@ struct BodyAtState<B: Body> {
     body: Counted<B>,
     state: StateOf<B>,
     solver: Solver,
-    /// The time in seconds that methods left out of their steps: before the present solver, and in all.
+    /// The time in seconds that methods left out of their steps, first only before the present solver, then in all.
     lost_before: f64,
     lost_time: f64,
 }
 
 impl<B: Body> Clone for BodyAtState<B> {
-    /// Apart from the methods, each of which would otherwise inline a copy.
+    /// Not inlined, because each method would otherwise contain a copy of this function.
     #[inline(never)]
     fn clone(&self) -> Self {
         let Self { body, state, solver, lost_before, lost_time } = self;

@@ -1,8 +1,8 @@
-//! Converts frame durations into whole ticks, exactly: the heart of every loop with a fixed timestep.
+//! Converts the durations of frames into whole ticks, exactly. This is the heart of every loop with a fixed timestep.
 //!
-//! Owed time is an integer in nanoseconds × ticks × percent, where the rate is a ratio of ticks to seconds. Any
-//! [`TickRate`] at any whole percentage of real time divides it without rounding: however it is cut into frames, a day
-//! at 60 Hz is 5 184 000 ticks, and a day at 59.94 Hz is 5 178 816.
+//! Owed time is an integer in nanoseconds × ticks × percent, because a rate is a ratio of ticks to seconds. In this
+//! unit a tick is a whole number at any [`TickRate`] and at any whole percentage of real time, so that nothing is
+//! rounded. However a day is cut into frames, it has 5 184 000 ticks at 60 Hz, and 5 178 816 ticks at 59.94 Hz.
 
 use std::fmt;
 
@@ -18,11 +18,11 @@ const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
 pub struct Clock {
     tick_hz: TickRate,
     speed_percent: u32,
-    /// Less than one tick.
+    /// The owed time, less than one tick.
     accumulator: Accumulator,
 }
 
-/// A tick rate in Hz outside [`Clock::TICK_HZ`].
+/// The error about a tick rate in Hz outside [`Clock::TICK_HZ`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TickRateError(pub TickRate);
 
@@ -35,7 +35,7 @@ impl fmt::Display for TickRateError {
 
 impl std::error::Error for TickRateError {}
 
-/// 60 Hz.
+/// The default clock runs at 60 Hz.
 impl Default for Clock {
     fn default() -> Self {
         Self::new(60)
@@ -43,25 +43,25 @@ impl Default for Clock {
 }
 
 impl Clock {
-    /// The tick rates a clock can run at, in Hz.
+    /// The tick rates at which a clock can run, in Hz.
     pub const TICK_HZ: std::ops::RangeInclusive<TickRate> = TickRate::MIN..=TickRate::MAX;
-    /// The speeds a clock can run at, in percent of real time.
+    /// The speeds at which a clock can run, in percent of real time.
     pub const SPEED_PERCENT: std::ops::RangeInclusive<u32> = 1..=10_000;
 
-    /// A clock at full speed that owes nothing.
+    /// Returns a clock at full speed that owes nothing.
     ///
     /// # Panics
     /// If the rate is not in [`Clock::TICK_HZ`]; [`Clock::try_new`] returns an error instead.
     #[track_caller]
     pub fn new(tick_hz: impl Into<TickRate>) -> Self {
-        // A closure would panic at its own line, rather than at the caller's.
+        // A closure would panic at its own line, rather than at the line of the caller.
         match Self::try_new(tick_hz) {
             Ok(clock) => clock,
             Err(error) => panic!("{error}"),
         }
     }
 
-    /// A clock at full speed that owes nothing, at a rate from a file or a person.
+    /// Returns a clock at full speed that owes nothing, at a rate from a file or a person.
     ///
     /// # Errors
     /// If the rate is not in [`Clock::TICK_HZ`].
@@ -73,27 +73,27 @@ impl Clock {
         Ok(Self { tick_hz, speed_percent: 100, accumulator: Accumulator::default() })
     }
 
-    /// The tick rate.
+    /// Returns the tick rate.
     pub fn tick_hz(&self) -> TickRate {
         self.tick_hz
     }
 
-    /// The length of a tick, in seconds.
+    /// Returns the length of a tick, in seconds.
     pub fn dt_s(&self) -> f64 {
         self.tick_hz.step_s()
     }
 
-    /// The length of a tick in nanoseconds × ticks × percent.
+    /// Returns the length of a tick in nanoseconds × ticks × percent.
     fn tick(&self) -> i128 {
         SECOND * i128::from(self.tick_hz.ratio()[1])
     }
 
-    /// Owed time per nanosecond of real time.
+    /// Returns the owed time per nanosecond of real time.
     fn pace(&self) -> i128 {
         i128::from(self.tick_hz.ratio()[0]) * i128::from(self.speed_percent)
     }
 
-    /// The speed in percent of real time.
+    /// Returns the speed in percent of real time.
     pub fn speed_percent(&self) -> u32 {
         self.speed_percent
     }
@@ -101,7 +101,7 @@ impl Clock {
     /// Changes the tick rate. The owed fraction of a tick stays the same, so that nothing drawn jumps.
     ///
     /// # Panics
-    /// As [`Clock::new`].
+    /// The same as for [`Clock::new`].
     #[track_caller]
     pub fn set_tick_hz(&mut self, tick_hz: impl Into<TickRate>) {
         let before = self.tick_hz.ratio()[1].into();
@@ -115,7 +115,7 @@ impl Clock {
             percent.clamp(*Self::SPEED_PERCENT.start(), *Self::SPEED_PERCENT.end());
     }
 
-    /// The most ticks per frame: those of 250 ms, and at least one.
+    /// Returns the maximum number of ticks per frame, which is the ticks in 250 ms, and at least one.
     pub fn max_ticks(&self) -> u32 {
         max_ticks(self.tick_hz, self.speed_percent, MAX_FRAME_MS)
     }
@@ -126,26 +126,26 @@ impl Clock {
         self.accumulator.advance(time, self.tick(), self.max_ticks())
     }
 
-    /// The fraction of the next tick that has passed in real time, in [0, 1).
+    /// Returns the fraction of the next tick that has passed in real time, in [0, 1).
     pub fn alpha(&self) -> f64 {
         (self.accumulator.owed() as f64 / self.tick() as f64).min(BELOW_ONE)
     }
 
-    /// [`Clock::alpha`] as a numerator and a denominator, the latter the same for all whole rates. It is exact at
-    /// rates of at most seven digits after the point, and otherwise off by less than 2⁻⁶².
+    /// Returns [`Clock::alpha`] as a numerator and a denominator. The denominator is the same for all whole rates. The
+    /// fraction is exact if the rate has at most seven digits after the point, and otherwise off by less than 2⁻⁶².
     pub fn alpha_fraction(&self) -> (u64, u64) {
         let unit = (self.tick() >> 63) + 1;
         ((self.accumulator.owed() / unit) as u64, (self.tick() / unit) as u64)
     }
 
-    /// The shortest frame in nanoseconds after which `ticks` ticks are due.
+    /// Returns the shortest frame in nanoseconds after which `ticks` ticks are due.
     #[cfg(feature = "cli")]
     pub(crate) fn ns_until(&self, ticks: u64) -> u64 {
         let due = i128::from(ticks) * self.tick() - self.accumulator.owed();
         u64::try_from(due.unsigned_abs().div_ceil(self.pace().unsigned_abs())).unwrap_or(u64::MAX)
     }
 
-    /// Sets the owed time to just below a tick, so that the next frame makes one.
+    /// Sets the owed time to just below a tick, so that the next frame makes a tick.
     pub fn fill(&mut self) {
         self.accumulator.fill(self.tick());
     }
@@ -156,8 +156,9 @@ impl Clock {
     }
 }
 
-/// The longest real time that one frame catches up with, in milliseconds: 15 ticks at 60 Hz. If longer, a slow machine
-/// falls further behind each frame; if shorter, a hitch shows as slow motion.
+/// The longest real time that one frame catches up with, in milliseconds, which is 15 ticks at 60 Hz. With a longer
+/// time, a slow machine would fall further behind with each frame. With a shorter time, a hitch would show as slow
+/// motion.
 pub const MAX_FRAME_MS: u32 = 250;
 
 /// The ticks that a frame has to simulate.
@@ -165,21 +166,21 @@ pub const MAX_FRAME_MS: u32 = 250;
 pub struct Due {
     /// Ticks to step in this frame.
     pub ticks: u32,
-    /// Ticks dropped because the frame exceeded the cap: the simulation falls behind real time.
+    /// Ticks dropped because the frame exceeded the cap, so that the simulation falls behind real time.
     pub dropped: u64,
 }
 
 /// Owed time, less than a tick.
 ///
-/// It is an integer in a unit that the caller chooses so that a tick is a whole number of units: nothing is ever
-/// rounded.
+/// The owed time is an integer in a unit that the caller chooses. A tick must be a whole number of these units, so that
+/// nothing is ever rounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Accumulator {
     owed: i128,
 }
 
 impl Accumulator {
-    /// The time since the last tick was due.
+    /// Returns the time since the last tick was due.
     pub fn owed(&self) -> i128 {
         self.owed
     }
@@ -199,7 +200,7 @@ impl Accumulator {
         self.owed = tick - 1;
     }
 
-    /// Changes the unit: `parts` present units become `whole` new ones. Drops fractions of a unit.
+    /// Changes the unit, so that `parts` present units become `whole` new ones. Drops fractions of a unit.
     fn scale(&mut self, whole: i128, parts: i128) {
         self.owed = self.owed / parts * whole + self.owed % parts * whole / parts;
     }
@@ -210,7 +211,7 @@ impl Accumulator {
     }
 }
 
-/// The most ticks in a frame: those of `longest_ms`, and at least one.
+/// Returns the maximum number of ticks in a frame, which is the ticks in `longest_ms` milliseconds, and at least one.
 pub(crate) fn max_ticks(tick_hz: TickRate, speed_percent: u32, longest_ms: u32) -> u32 {
     let [ticks, seconds] = tick_hz.ratio().map(u128::from);
     let ticks = ticks * u128::from(speed_percent) * u128::from(longest_ms);
@@ -254,7 +255,7 @@ mod tests {
                 |ns: i64| ns as u128 * u128::from(ticks) / (u128::from(seconds) * 1_000_000_000);
             let mut clock = Clock::new(rate);
             let (mut passed, mut made) = (0, 0);
-            // Frames of 100 to 160 ms.
+            // The frames last 100 to 160 ms.
             for frame in (0..).map(|i| 100_000_007 + i % 7 * 10_000_019) {
                 let frame = DAY_NS.min(passed + frame) - passed;
                 passed += frame;
@@ -280,7 +281,7 @@ mod tests {
         clock.set_speed_percent(10_000);
         clock.fill();
         let due = clock.advance(i64::MAX);
-        // 9.2 · 10⁹ s at a million ticks a second.
+        // The frame lasts 9.2 · 10⁹ s, at a million ticks a second.
         let wanted = i64::MAX as u128 * 9_999_999_999_999 / 10_u128.pow(16);
         assert!((u128::from(due.dropped) + 250_000).abs_diff(wanted) <= 1, "{due:?}, {wanted}");
     }

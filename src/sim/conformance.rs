@@ -1,7 +1,7 @@
-//! Checks the card of a method against measurements, each claim both ways.
+//! Checks each claim of a method's card against a measurement.
 //!
-//! A method that beats its card is as wrong as one that falls short. The measurements run on [problems] with known
-//! solutions, and assume nothing from the method's family.
+//! A method that does better than its card is as wrong as one that does worse. The measurements run on [problems] with
+//! known solutions, and assume nothing about a method from its family.
 
 use std::error::Error;
 use std::fmt;
@@ -25,13 +25,13 @@ pub use stability::limits;
 /// A claim of a card, and its measurement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Claim {
-    /// The field of [`Method`].
+    /// Name of the field of [`Method`] that makes the claim.
     pub field: &'static str,
     /// The claimed value.
     pub claimed: String,
     /// The measured value, in words.
     pub measured: String,
-    /// Whether the two agree.
+    /// Whether the claimed and the measured value agree.
     pub holds: bool,
 }
 
@@ -40,7 +40,7 @@ pub struct Claim {
 pub struct Conformance {
     /// The method's id.
     pub method: &'static str,
-    /// Its claims in the order of the card.
+    /// The claims, in the order of the method's card.
     pub claims: Vec<Claim>,
 }
 
@@ -50,13 +50,13 @@ impl Conformance {
         self.claims.iter().all(|claim| claim.holds)
     }
 
-    /// The claims that do not hold.
+    /// Returns the claims that do not hold.
     pub fn broken(&self) -> impl Iterator<Item = &Claim> {
         self.claims.iter().filter(|claim| !claim.holds)
     }
 }
 
-/// One line per claim.
+/// Writes a heading, and one line per claim.
 impl fmt::Display for Conformance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let broken = self.broken().count();
@@ -73,11 +73,12 @@ impl fmt::Display for Conformance {
     }
 }
 
-/// Measures every claim of a card: its orders, evaluations and stability limit, its tolerance and its memory. Also
-/// whether it is exact on linear systems, symplectic and reversible, and whether it keeps time. Takes about a second.
+/// Measures every claim of a method's card: the orders, evaluations, stability limit, tolerance and memory. Also
+/// measures whether the method is exact on linear systems, symplectic and reversible, and whether it keeps time. All
+/// this takes about a second.
 ///
-/// A method that steps [only](Method::only) some bodies cannot be measured on these problems; its result then says so
-/// and does not hold.
+/// A method that steps [only](Method::only) some bodies cannot be measured on these problems; the only claim of the
+/// result then says so and does not hold.
 ///
 /// ```
 /// use regatta::conformance::check;
@@ -113,9 +114,10 @@ pub fn check(method: &Method) -> Conformance {
     Conformance { method: method.id, claims }
 }
 
-/// The card of a method with measured values in place of its claims: orders, evaluations, stability limits,
-/// symplectic, reversible and memory. [`Method::about`] gets its orders, the energy of a spring, and the nearest
-/// built-in method. A claim that cannot be measured is left out, with an order of 0.
+/// Returns the card of a method with measured values in place of its claims, which are the orders, evaluations,
+/// stability limits, symplectic, reversible and memory. [`Method::about`] states the orders, how the energy of a spring
+/// changes, and the nearest built-in method. A claim that cannot be measured is left out, and an order that cannot be
+/// measured is 0.
 pub fn measured(card: &'static Method) -> Method {
     let is_so = |found: Measured| found.is_ok_and(|(is_so, _)| is_so);
     let orders = orders_of(card);
@@ -153,12 +155,12 @@ pub fn measured(card: &'static Method) -> Method {
     }
 }
 
-/// Whether a method of the table has its id.
+/// Whether a method of the table has the id of `method`.
 fn is_listed(method: &Method) -> bool {
     METHODS.iter().any(|listed| listed.id == method.id)
 }
 
-/// Whether the id is well formed and unique, and the card has a name.
+/// Measures whether the id is well formed and unique, and whether the card has a name.
 fn named(method: &Method) -> Claim {
     let Method { id, name, .. } = *method;
     let is_kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
@@ -177,10 +179,10 @@ fn named(method: &Method) -> Claim {
     Claim { field: "id", claimed: id.to_owned(), measured, holds }
 }
 
-/// Whether a claim is true, with the evidence in words; or why it cannot be measured.
+/// Whether a claim is true, with the evidence in words; or the reason why the claim cannot be measured.
 type Measured = Result<(bool, String), Box<dyn Error>>;
 
-/// A yes-or-no claim; `found` has the measured answer and the evidence.
+/// Returns a yes-or-no claim; `found` has the measured answer and the evidence.
 fn yes_or_no(field: &'static str, claimed: bool, found: Measured) -> Claim {
     let word = if claimed { "yes" } else { "no" };
     let (measured, holds) = match found {

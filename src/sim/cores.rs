@@ -1,9 +1,9 @@
-//! Long loops over the numbers of one large body, shared by all cores. The parts depend on size alone, and no sum
-//! passes from one to another, so that the number of threads changes no bit. Without the feature `batch`, one thread
-//! runs them.
+//! Loops over the many numbers of one large body, split among all cores. The parts of a loop depend only on its length,
+//! and no sum runs across parts, so that the number of threads changes no bit. Without the feature `batch`, one thread
+//! runs the loops.
 
-/// Numbers that a thread takes at a time, of vectors and of states: some ten microseconds of memory traffic. One
-/// thread handles fewer.
+/// How many numbers of a vector or a state a thread handles at a time, which is some ten microseconds of memory
+/// traffic. A shorter loop stays on one thread.
 #[cfg(feature = "batch")]
 pub(super) const GRAIN: usize = 1 << 15;
 
@@ -13,13 +13,14 @@ pub(super) fn is_large(coordinates: usize) -> bool {
     coordinates > GRAIN / 2
 }
 
-/// Runs `work` on a worker of rayon's pool: nested [`split`]s from outside the pool would inject work, and allocate.
+/// Runs `work` on a worker of rayon's pool, because a nested [`split`] from outside the pool would inject work, which
+/// allocates.
 #[cfg(feature = "lab")]
 pub(super) fn on_worker(work: &mut (dyn FnMut() + Send)) {
     rayon::join(work, || ());
 }
 
-/// Runs `work`, splitting it for as long as `halve` succeeds. A half moves to another core if one is free.
+/// Runs `work`, splitting it for as long as `halve` succeeds. A half moves to another core if another core is free.
 #[cfg(feature = "batch")]
 pub(super) fn split<W: Send>(
     work: W,
@@ -53,10 +54,10 @@ fn other_length(found: usize, wanted: usize) -> ! {
     )
 }
 
-/// Runs `work` on equal parts of vectors of one length, which write `to` and read `from`.
+/// Runs `work` on equal parts of vectors of one length. It writes the parts of `to` and reads the parts of `from`.
 ///
 /// # Panics
-/// If their lengths differ.
+/// If the lengths of the vectors differ.
 #[inline]
 pub(super) fn in_parts<const M: usize, const N: usize>(
     to: [&mut [f64]; M],
@@ -76,7 +77,7 @@ pub(super) fn in_parts<const M: usize, const N: usize>(
 #[cfg(feature = "batch")]
 type Vectors<'a, const M: usize, const N: usize> = ([&'a mut [f64]; M], [&'a [f64]; N]);
 
-/// The halves of vectors that are longer than a [`GRAIN`].
+/// Splits vectors that are longer than a [`GRAIN`] into halves. Returns shorter vectors as the error.
 #[cfg(feature = "batch")]
 fn halves<const M: usize, const N: usize>(
     (to, from): Vectors<'_, M, N>,

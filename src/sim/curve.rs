@@ -1,13 +1,13 @@
-//! A curve through points: straight between them, constant beyond them.
+//! A curve through points, which is straight between them and constant beyond them.
 
-/// Points in order of rising x. Without points the curve is 0.
+/// A curve through points in order of rising x. A curve without points is 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
     points: Vec<[f64; 2]>,
 }
 
 impl Curve {
-    /// The curve through these points.
+    /// Returns the curve through these points.
     ///
     /// # Panics
     /// If there are no points, or if their x do not rise.
@@ -18,31 +18,31 @@ impl Curve {
         Self { points }
     }
 
-    /// The points.
+    /// Returns the points.
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
     }
 
-    /// The value at `x`.
+    /// Returns the value at `x`.
     #[inline]
     pub fn at(&self, x: f64) -> f64 {
         self.on(self.piece(x), x)
     }
 
-    /// The piece at `x`: the number of points at or below it.
+    /// Returns the number of the piece at `x`, which is the number of points at or below `x`.
     #[inline]
     pub(super) fn piece(&self, x: f64) -> i64 {
         self.points.partition_point(|point| point[0] <= x) as i64
     }
 
-    /// The points at the lower and the upper boundary of a piece.
+    /// Returns the points at the lower and the upper boundary of a piece.
     #[inline]
     fn ends(&self, piece: i64) -> (Option<[f64; 2]>, Option<[f64; 2]>) {
         let at = |index: i64| self.points.get(usize::try_from(index).ok()?).copied();
         (at(piece - 1), at(piece))
     }
 
-    /// The value of one piece, continued linearly beyond its boundaries.
+    /// Returns the value of one piece at `x`, continued linearly beyond the boundaries of the piece.
     #[inline]
     pub(super) fn on(&self, piece: i64, x: f64) -> f64 {
         match self.ends(piece) {
@@ -52,7 +52,7 @@ impl Curve {
         }
     }
 
-    /// The slope of one piece.
+    /// Returns the slope of one piece.
     pub(super) fn slope(&self, piece: i64) -> f64 {
         match self.ends(piece) {
             (Some([x0, y0]), Some([x1, y1])) => (y1 - y0) / (x1 - x0),
@@ -60,7 +60,8 @@ impl Curve {
         }
     }
 
-    /// Signed distances of `x` to the lower and the upper boundary of a piece; negative beyond them.
+    /// Returns the signed distances of `x` to the lower and the upper boundary of a piece. A distance is negative
+    /// beyond its boundary.
     pub(super) fn distances(&self, piece: i64, x: f64) -> [f64; 2] {
         let (lower, upper) = self.ends(piece);
         [
@@ -70,16 +71,18 @@ impl Curve {
     }
 }
 
-/// Rounding of a value at a boundary, relative to the compared numbers. If smaller, a rounded boundary looks like a
-/// crossing.
+/// The rounding error of a value at a boundary, relative to the compared numbers. With a smaller number, a rounded
+/// boundary would look like a crossing.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// The distance of `value` from the lower boundary `end`; negative below it by more than rounding.
+/// Returns the distance of `value` from the lower boundary `end`. The distance is negative if the value is below `end`
+/// by more than rounding.
 pub(super) fn above(value: f64, end: f64) -> f64 {
     value - end + ROUNDING * (value.abs() + end.abs())
 }
 
-/// The distance of `value` from the upper boundary `end`; negative above it by more than rounding.
+/// Returns the distance of `value` from the upper boundary `end`. The distance is negative if the value is above `end`
+/// by more than rounding.
 pub(super) fn below(value: f64, end: f64) -> f64 {
     above(-value, -end)
 }

@@ -1,39 +1,39 @@
-//! Double-double arithmetic: the unevaluated sum of two `f64`, the second at most half a unit in the last place of the
-//! first.
+//! Double-double arithmetic. A number is the unevaluated sum of two `f64`, of which the second is at most half a unit
+//! in the last place of the first.
 //!
-//! The closed forms and the reference solution use it where plain `f64` would lose digits to cancellation. It uses
-//! only `+ - × ÷ √` and no fused multiply-add, so that the bits are the same on every platform. Dekker, *A
+//! The closed forms and the reference solution use this arithmetic where plain `f64` would lose digits to cancellation.
+//! It uses only `+ - × ÷ √` and no fused multiply-add, so that the bits are the same on every platform. Dekker, *A
 //! floating-point technique for extending the available precision* (1971); Joldes, Muller & Popescu, *Tight and
 //! rigorous error bounds for basic building blocks of double-word arithmetic* (2017).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// `high + low`. Products of magnitudes from 1e-140 to 1e140 neither overflow nor lose their lower half.
+/// The number `high + low`. Products of magnitudes from 1e-140 to 1e140 neither overflow nor lose their lower half.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DoubleDouble {
     pub(super) high: f64,
     pub(super) low: f64,
 }
 
-/// 2π.
+/// The number 2π.
 pub(super) const TWO_PI: DoubleDouble =
     DoubleDouble { high: std::f64::consts::TAU, low: 2.449_293_598_294_706_4e-16 };
 
 impl DoubleDouble {
-    /// The exact sum.
+    /// Returns the exact sum.
     pub(super) fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let b_there = high - a;
         Self { high, low: (a - (high - b_there)) + (b - b_there) }
     }
 
-    /// The exact sum, for `b` no larger in magnitude than `a`.
+    /// Returns the exact sum, for `b` no larger in magnitude than `a`.
     fn quick_sum(a: f64, b: f64) -> Self {
         let high = a + b;
         Self { high, low: b - (high - a) }
     }
 
-    /// The exact product.
+    /// Returns the exact product.
     pub(super) fn product(a: f64, b: f64) -> Self {
         let high = a * b;
         let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
@@ -41,7 +41,7 @@ impl DoubleDouble {
     }
 }
 
-/// For the closed forms of bodies.
+/// Functions that only the closed forms of bodies need.
 #[cfg(feature = "lab")]
 impl DoubleDouble {
     pub(super) const ONE: Self = Self { high: 1.0, low: 0.0 };
@@ -55,13 +55,13 @@ impl DoubleDouble {
         Self::quick_sum(root, rest.high / (2.0 * root))
     }
 
-    /// Times a power of two.
+    /// Multiplies the number by a power of two.
     pub(super) fn scaled(self, power_of_two: f64) -> Self {
         Self { high: self.high * power_of_two, low: self.low * power_of_two }
     }
 }
 
-/// The upper and the lower half of a number's digits (Veltkamp).
+/// Returns the upper and the lower half of a number's digits (Veltkamp).
 fn halves(x: f64) -> (f64, f64) {
     let far = 134_217_729.0 * x;
     let upper = far - (far - x);
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn two_pi_is_right_to_both_halves() {
-        // Machin: π = 16 atan 1/5 - 4 atan 1/239.
+        // Machin's formula is π = 16 atan 1/5 - 4 atan 1/239.
         let atan_of_inverse = |n: f64| {
             let (mut power, mut sum) = (DoubleDouble::ONE / n, DoubleDouble::from(0.0));
             for k in 0..25 {

@@ -7,7 +7,7 @@ use super::state::{State, Vector, largest, nan_is_infinite};
 use super::stepper::Change;
 use super::system::{Counted, StateOf};
 
-/// The exact flow. Each state is one stride from the anchor, so that no error accumulates.
+/// The exact flow. Each state is computed in one stride from the anchor, so that no error accumulates.
 #[derive(Clone)]
 pub(super) struct ExactFlow<V> {
     anchor: Anchor<V>,
@@ -21,14 +21,14 @@ pub(super) struct ExactFlow<V> {
 struct Anchor<V> {
     state: State<V>,
     t: f64,
-    /// The state displaced by its error. The same flow carries it, to show how the error grows.
+    /// The state displaced by its error. The same flow carries the displaced state, which shows how the error grows.
     displaced: State<V>,
     /// The displacement, in coordinates and in velocities.
     error: [f64; 2],
 }
 
 impl<V: Vector> ExactFlow<V> {
-    /// The flow from `state` at time `t` (s).
+    /// Returns the flow from `state` at time `t` (s).
     pub(super) fn new(state: &State<V>, t: f64) -> Self {
         let [displaced, scratch] = [state.clone(), state.clone()];
         let anchor = Anchor { state: state.clone(), t, displaced, error: [0.0; 2] };
@@ -46,8 +46,8 @@ impl<V: Vector> Anchor<V> {
         (self.t, self.error) = (t, error);
     }
 
-    /// A bound on the error of `state` at time `t`: the rounding of the closed form and of the time, and the error of
-    /// the anchor carried along.
+    /// Returns a bound on the error of `state` at time `t`. It sums the rounding errors of the closed form and of the
+    /// time, and the error of the anchor after the flow has carried it to `t`.
     fn error<B: Body<Vector = V>>(
         &self,
         body: &B,
@@ -73,7 +73,8 @@ impl<V: Vector> Anchor<V> {
     }
 }
 
-/// The error of a state from a time error of `late` (s), by its velocity and its acceleration.
+/// Returns the errors of the coordinates and of the velocities that a time error of `late` (s) causes, at velocity `v`
+/// and acceleration `a`.
 pub(super) fn late_error<V: Vector>(late: f64, v: &V, a: &V) -> [f64; 2] {
     [v, a].map(|rate| late * largest(rate.components()))
 }

@@ -1,9 +1,9 @@
-//! Equations of motion as text: `z = "-k*z/m"`, compiled to a flat tape.
+//! Equations of motion as text, such as `z = "-k*z/m"`, compiled to a flat tape.
 //!
-//! The parser and the evaluator are our own. Crates that read expressions evaluate them with std's mathematics, which
-//! differs from platform to platform; here every function is `libm`'s. Operations keep the order of the text:
-//! `a + b + c` is `(a + b) + c`. A whole exponent up to 16 becomes a product, so that `x^2` has the bits of `x*x`,
-//! `x^3` those of `x*x*x`, and `x^-2` those of `1/(x*x)`. Any other exponent is `libm::pow`'s. The parser recurses for
+//! The parser and the evaluator are our own, because crates for expressions evaluate with std's mathematics, which
+//! differs from platform to platform. Here every function is `libm`'s. Operations keep the order of the text: `a + b +
+//! c` is `(a + b) + c`. A whole exponent up to 16 becomes a product, so that `x^2` has the bits of `x*x`, `x^3` those
+//! of `x*x*x`, and `x^-2` those of `1/(x*x)`. Any other power is computed by `libm::pow`. The parser recurses for
 //! brackets, signs and functions, at most [`MAX_DEPTH`] deep.
 
 use super::body::Distances;
@@ -40,40 +40,40 @@ pub use step_text::{
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText, Layout};
 
-/// The most coordinates of a law: more are not distinguishable on a stage.
+/// The maximum number of coordinates of a law. More could not be distinguished on a stage.
 pub const MAX_COORDINATES: usize = 16;
 
-/// The most constants of a law.
+/// The maximum number of constants of a law.
 pub const MAX_CONSTANTS: usize = 64;
 
 /// The units that a coordinate can have.
 pub const UNITS: [&str; 14] =
     ["m", "rad", "km", "cm", "mm", "deg", "kg", "N", "J", "V", "A", "C", "K", "1"];
 
-/// A unit as people read it: empty for a pure number.
+/// Returns a unit as people read it, which is empty for a pure number.
 pub(in crate::sim) fn shown_unit(unit: &'static str) -> &'static str {
     if unit == "1" { "" } else { unit }
 }
 
-/// The operators of expressions: signs and words.
+/// Returns the operators of expressions, which are signs and words.
 pub fn operators() -> impl Iterator<Item = &'static str> {
     token::operator_signs().chain(op::OPERATOR_WORDS)
 }
 
-/// The functions of expressions, each with its arguments: `min(a, b)`.
+/// Returns the functions of expressions, each with its arguments, such as `min(a, b)`.
 pub fn functions() -> impl Iterator<Item = String> {
     function::FUNCTIONS.iter().map(function::Function::usage)
 }
 
-/// The names that every acceleration can use: the time, the inputs and π.
+/// Returns the names that every acceleration can use, which are the time, the inputs and π.
 pub fn values() -> impl Iterator<Item = &'static str> {
     op::VALUE_WORDS.into_iter()
 }
 
 /// A compiled law.
 ///
-/// The slots of its inputs are, in order: the time, throttle and rudder, coordinates, velocities, constants, and the
-/// coordinates and velocities at the start.
+/// The slots of the law's inputs are, in order: the time, throttle and rudder, coordinates, velocities, constants, and
+/// the coordinates and velocities at the start.
 #[derive(Debug)]
 pub struct Equations {
     text: LawText,
@@ -86,7 +86,7 @@ pub struct Equations {
     is_steered: [bool; 2],
 }
 
-/// The slots of the inputs.
+/// The slots of the first inputs.
 const T: usize = 0;
 const THROTTLE: usize = 1;
 const RUDDER: usize = 2;
@@ -126,7 +126,7 @@ impl Equations {
         })
     }
 
-    /// The text.
+    /// Returns the text.
     pub fn text(&self) -> &LawText {
         &self.text
     }
@@ -147,7 +147,7 @@ impl Equations {
         self.angles[coordinate]
     }
 
-    /// The text of a part.
+    /// Returns the text of a part.
     pub fn part(&self, part: Part) -> &str {
         let text = &self.text;
         match part {
@@ -165,13 +165,13 @@ impl Equations {
         self.places.is_some()
     }
 
-    /// Number of parts of the accelerations with a corner or a jump.
+    /// Returns the number of parts of the accelerations with a corner or a jump.
     pub fn switches(&self) -> usize {
         self.motion.switches()
     }
 }
 
-/// A moment of a motion: its time, inputs and state.
+/// A moment of a motion, with its time, inputs and state.
 #[derive(Clone, Copy, Debug)]
 pub struct At<'a> {
     /// The time in seconds.
@@ -210,7 +210,7 @@ impl Equations {
         self.read(registers, a);
     }
 
-    /// Overwrites `a` with the accelerations of the piece of these modes, continued beyond its boundaries.
+    /// Overwrites `a` with the accelerations of the piece with these modes, continued beyond the piece's boundaries.
     pub(super) fn accelerate_on(
         &self,
         modes: &[i64],
@@ -223,14 +223,14 @@ impl Equations {
         self.read(registers, a);
     }
 
-    /// Overwrites the modes of the switches with those at this moment.
+    /// Overwrites `modes` with the modes of the switches at this moment.
     pub(super) fn write_modes(&self, registers: &mut Registers, at: At<'_>, modes: &mut [i64]) {
         self.write_inputs(registers, at);
         self.motion.evaluate(&mut registers.motion);
         self.motion.write_modes(&registers.motion, modes);
     }
 
-    /// Overwrites `distances` with those of this moment to the boundaries of the piece of these modes.
+    /// Overwrites `distances` with the distances from this moment to the boundaries of the piece with these modes.
     pub(super) fn write_distances(
         &self,
         modes: &[i64],
@@ -243,7 +243,8 @@ impl Equations {
         self.motion.write_distances(&registers.motion, modes, distances);
     }
 
-    /// The energy in joules; at rest if `v` is `None`. `None` if the law has no energy. Never allocates.
+    /// Returns the energy in joules; if `v` is `None`, it is the energy at rest. Returns `None` if the law has no
+    /// energy. Never allocates.
     pub fn energy(&self, registers: &mut Registers, q: &[f64], v: Option<&[f64]>) -> Option<f64> {
         let tape = self.energy.as_ref()?;
         let slots = &mut registers.energy[FIRST_COORDINATE..];
@@ -256,8 +257,8 @@ impl Equations {
         Some(registers.energy[*tape.outputs.first()? as usize])
     }
 
-    /// Calls `to` with the drawing position of each coordinate that has one: x to the right and y up, in metres, in
-    /// the order of the coordinates. Never allocates.
+    /// Calls `to` with the drawing position of each coordinate that has one, in the order of the coordinates. A
+    /// position has x to the right and y up, in metres. Never allocates.
     pub(super) fn place(&self, registers: &mut Registers, q: &[f64], mut to: impl FnMut([f64; 2])) {
         let Some(tape) = &self.places else { return };
         let slots = &mut registers.places;
@@ -268,8 +269,9 @@ impl Equations {
         }
     }
 
-    /// Calls `to` with the exact solution at time `t` (s): each coordinate's index, and its value, velocity and
-    /// acceleration. Returns whether the law has one. Never allocates.
+    /// Calls `to` with the exact solution of each coordinate at time `t` (s). Its arguments are the coordinate's index,
+    /// and the coordinate's value, velocity and acceleration. Returns whether the law has an exact solution. Never
+    /// allocates.
     pub(super) fn solve(
         &self,
         registers: &mut Registers,
@@ -286,8 +288,8 @@ impl Equations {
         true
     }
 
-    /// dE/dt split into ∂E/∂q·v and ∂E/∂v·a, in watts; their sum is 0 if energy is conserved. `None` if the law has no
-    /// energy.
+    /// Returns the two parts ∂E/∂q·v and ∂E/∂v·a of dE/dt, in watts; their sum is 0 if energy is conserved. Returns
+    /// `None` if the law has no energy.
     pub(super) fn power(&self, registers: &Registers, [q, v, a]: [&[f64]; 3]) -> Option<[f64; 2]> {
         let tape = self.energy.as_ref()?;
         let n = q.len();
@@ -306,8 +308,8 @@ impl Equations {
 }
 
 impl Equations {
-    /// The fault of the first operation that makes an acceleration infinite or undefined in the last evaluation;
-    /// `None` if all accelerations are finite.
+    /// Returns the fault of the first operation that makes an acceleration infinite or undefined in the last
+    /// evaluation; `None` if all accelerations are finite.
     pub(in crate::sim) fn not_finite(&self, registers: &Registers) -> Option<LawFault> {
         let value = |slot: u16| registers.motion[slot as usize];
         let mut slot = *self.motion.outputs.iter().find(|&&slot| !value(slot).is_finite())?;

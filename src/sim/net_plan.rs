@@ -5,19 +5,19 @@ use std::ops::Range;
 
 use super::number::counted;
 
-/// The most nodes of a net. On a grid with shear of this size, two cores make a few hundred evaluations a second. That
-/// lets a few lanes of explicit methods race at the rate of a display.
+/// The maximum number of nodes of a net. On a grid with shear of this size, two cores make a few hundred evaluations a
+/// second. This speed lets a few lanes of explicit methods race at the rate of a display.
 pub const MAX_NODES: usize = 100_000;
 
-/// The most springs of a net: eight per node, twice the springs of a grid with shear.
+/// The maximum number of springs of a net. At eight per node, it is twice the number in a grid with shear.
 pub const MAX_SPRINGS: usize = 8 * MAX_NODES;
 
 /// The plan of a net, as a scene writes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetPlan {
-    /// Its nodes and springs.
+    /// The nodes and springs of the net.
     pub form: NetLayout,
-    /// The node that a kick hits; `None` if it hits every free node.
+    /// The node that a kick hits; `None` if a kick hits every free node.
     pub kicked: Option<usize>,
 }
 
@@ -26,12 +26,13 @@ pub struct NetPlan {
 pub enum NetLayout {
     /// A grid.
     Grid(Grid),
-    /// Lists.
+    /// Nodes and springs as lists.
     Lists(Lists),
 }
 
-/// Nodes in rows and columns, each joined to the next in its row and in its column, unless both are fixed. Their
-/// numbers start from 0 at the top left and run row by row; the first node is at the origin.
+/// Nodes in rows and columns. Springs join each node to the next one in its row and in its column, unless both nodes
+/// are fixed. The numbers of the nodes start from 0 at the top left and run row by row; the first node is at the
+/// origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
     /// Number of columns.
@@ -59,7 +60,7 @@ impl Pin {
     /// All pins.
     pub const ALL: [Self; 2] = [Self::Top, Self::Corners];
 
-    /// The name of the pin in scenes.
+    /// Returns the name of the pin in scenes.
     pub fn id(self) -> &'static str {
         match self {
             Pin::Top => "top",
@@ -68,7 +69,7 @@ impl Pin {
     }
 }
 
-/// Nodes and springs one by one.
+/// Nodes and springs, listed one by one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lists {
     /// The place of each node at the start, in metres.
@@ -79,16 +80,16 @@ pub struct Lists {
     pub springs: Vec<PlannedSpring>,
 }
 
-/// A spring of a plan. Missing numbers default to those of the net.
+/// A spring of a plan. A missing number defaults to the number of the net.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlannedSpring {
-    /// The numbers of the nodes at its ends.
+    /// The numbers of the nodes at the spring's ends.
     pub between: [usize; 2],
-    /// Its own stiffness, in newtons per metre.
+    /// The spring's own stiffness, in newtons per metre.
     pub stiffness: Option<f64>,
-    /// Its own damping, in N·s/m.
+    /// The spring's own damping, in N·s/m.
     pub damping: Option<f64>,
-    /// Its own length at rest, in metres.
+    /// The spring's own length at rest, in metres.
     pub rest: Option<f64>,
 }
 
@@ -99,7 +100,7 @@ pub struct NetFault {
     pub part: NetPart,
     /// The error message, in lower case.
     pub what: String,
-    /// How to fix it.
+    /// How to fix the fault.
     pub remedy: String,
 }
 
@@ -120,11 +121,11 @@ pub enum NetPart {
     Kicked,
 }
 
-/// The fault of a net without a free node.
+/// The message about a net without a free node.
 const ALL_FIXED: &str = "every node is fixed, so that nothing moves";
 
 impl NetPlan {
-    /// The nodes and the springs as lists.
+    /// Returns the nodes and the springs as lists.
     pub fn lists(&self) -> Lists {
         match &self.form {
             NetLayout::Grid(grid) => grid.lists(),
@@ -132,7 +133,7 @@ impl NetPlan {
         }
     }
 
-    /// The springs, in the order in which they act.
+    /// Returns the springs, in the order in which they act.
     pub fn springs(&self) -> Box<dyn Iterator<Item = PlannedSpring> + '_> {
         match &self.form {
             NetLayout::Grid(grid) => Box::new(grid.planned_springs()),
@@ -140,7 +141,7 @@ impl NetPlan {
         }
     }
 
-    /// The places of the fixed nodes, in metres.
+    /// Returns the places of the fixed nodes, in metres.
     pub fn fixed_places(&self) -> Box<dyn Iterator<Item = [f64; 2]> + '_> {
         match &self.form {
             NetLayout::Grid(grid) => {
@@ -151,7 +152,8 @@ impl NetPlan {
         }
     }
 
-    /// One fault of the net as a whole, or else the faults of all its entries; empty if a net can be built.
+    /// Returns one fault of the net as a whole, or else the faults of all its entries. The result is empty if a net can
+    /// be built.
     pub fn faults(&self) -> Vec<NetFault> {
         let faults = match &self.form {
             NetLayout::Grid(grid) => grid.fault().into_iter().collect(),
@@ -180,12 +182,12 @@ impl NetPlan {
     }
 }
 
-/// The message and the remedy for a node number out of range.
+/// Returns the message and the remedy for a node number out of range.
 fn unknown(node: usize, nodes: usize) -> (String, String) {
     (format!("node {node} does not exist"), format!("write a number from 0 to {}", nodes - 1))
 }
 
-/// The fault of too few or too many nodes, if there is one.
+/// Returns the fault of too few or too many nodes, if there is one.
 fn fault_of_count(nodes: usize) -> Option<NetFault> {
     if (2..=MAX_NODES).contains(&nodes) {
         return None;
@@ -195,7 +197,7 @@ fn fault_of_count(nodes: usize) -> Option<NetFault> {
 }
 
 impl Grid {
-    /// The fault of the counts, the pin or the spacing, if there is one.
+    /// Returns the fault of the counts, the pin or the spacing, if there is one.
     fn fault(&self) -> Option<NetFault> {
         let Self { columns, rows, spacing, .. } = *self;
         let nodes = columns.saturating_mul(rows);
@@ -216,7 +218,7 @@ impl Grid {
         Some(NetFault { part, what, remedy })
     }
 
-    /// The nodes and the springs as lists.
+    /// Returns the nodes and the springs as lists.
     pub fn lists(&self) -> Lists {
         let nodes = (0..self.nodes()).map(|node| self.place(node)).collect();
         let fixed = (0..self.columns).filter(|&node| self.is_fixed(node)).collect();
@@ -232,12 +234,12 @@ impl Grid {
         (0..self.rows).flat_map(of_row).map(spring)
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub fn nodes(&self) -> usize {
         self.columns * self.rows
     }
 
-    /// The place of a node at the start, in metres.
+    /// Returns the place of a node at the start, in metres.
     pub fn place(&self, node: usize) -> [f64; 2] {
         let (column, row) = (node % self.columns, node / self.columns);
         [column as f64 * self.spacing, -(row as f64) * self.spacing]
@@ -253,7 +255,7 @@ impl Grid {
         }
     }
 
-    /// The columns of the free nodes of a row.
+    /// Returns the columns of the free nodes of a row.
     #[inline]
     pub(super) fn free_columns(&self, row: usize) -> Range<usize> {
         match self.pin {
@@ -263,7 +265,7 @@ impl Grid {
         }
     }
 
-    /// Number of free nodes before a node.
+    /// Returns the number of free nodes before a node.
     #[inline]
     pub(super) fn free_before(&self, node: usize) -> usize {
         let fixed = match self.pin {
@@ -276,7 +278,7 @@ impl Grid {
         node - fixed
     }
 
-    /// The free node after `before` other free nodes.
+    /// Returns the free node after `before` other free nodes.
     pub(super) fn free_node(&self, before: usize) -> usize {
         let fixed = match self.pin {
             None => 0,
@@ -286,8 +288,8 @@ impl Grid {
         before + fixed
     }
 
-    /// The springs that begin in a row, each with the column that it starts [right or below](SpringDirection) of.
-    /// Leaves out springs between fixed nodes.
+    /// Returns the springs that begin in a row, each with the column from which it runs [right or
+    /// below](SpringDirection). Leaves out springs between fixed nodes.
     pub(super) fn springs(
         &self,
         row: usize,
@@ -312,7 +314,7 @@ impl Grid {
         (0..self.columns).flat_map(ways)
     }
 
-    /// The nodes that a spring joins.
+    /// Returns the nodes that a spring joins.
     #[inline]
     pub(super) fn ends(&self, row: usize, column: usize, way: SpringDirection) -> [usize; 2] {
         let ([from, to], down) = way.ends();
@@ -323,13 +325,13 @@ impl Grid {
 /// The directions of the springs of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SpringDirection {
-    /// Right.
+    /// The spring runs to the right.
     Right,
-    /// Down.
+    /// The spring runs down.
     Down,
-    /// Down right.
+    /// The spring runs down and to the right.
     Falling,
-    /// From the next column down left.
+    /// The spring runs from the next column down and to the left.
     Rising,
 }
 
@@ -337,7 +339,8 @@ impl SpringDirection {
     /// All directions, in the order of a plan's springs.
     const ALL: [Self; 4] = [Self::Right, Self::Down, Self::Falling, Self::Rising];
 
-    /// The columns of both ends, relative to the spring's column, and the number of rows it goes down.
+    /// Returns the columns of both ends, relative to the spring's column, and the number of rows that the spring goes
+    /// down.
     #[inline(always)]
     pub(super) const fn ends(self) -> ([usize; 2], usize) {
         match self {
@@ -349,13 +352,13 @@ impl SpringDirection {
     }
 }
 
-/// The distance between two places, in metres.
+/// Returns the distance between two places, in metres.
 pub(super) fn distance([[ax, ay], [bx, by]]: [[f64; 2]; 2]) -> f64 {
     ((bx - ax) * (bx - ax) + (by - ay) * (by - ay)).sqrt()
 }
 
 impl Lists {
-    /// The length of a spring at the start, in metres.
+    /// Returns the length of a spring at the start, in metres.
     pub fn length(&self, [a, b]: [usize; 2]) -> f64 {
         distance([self.nodes[a], self.nodes[b]])
     }
@@ -399,7 +402,7 @@ impl Lists {
         faults
     }
 
-    /// The fault of the counts of nodes and springs, if there is one.
+    /// Returns the fault of the counts of nodes and springs, if there is one.
     fn fault_as_a_whole(&self) -> Option<NetFault> {
         let (nodes, springs) = (self.nodes.len(), self.springs.len());
         if let Some(fault) = fault_of_count(nodes) {
@@ -417,7 +420,7 @@ impl Lists {
         Some(NetFault { part, what, remedy })
     }
 
-    /// The message and the remedy for a spring between these nodes; `None` without a fault.
+    /// Returns the message and the remedy for a spring between these nodes; `None` if there is no fault.
     fn fault_of_ends(&self, [a, b]: [usize; 2], is_fixed: &[bool]) -> Option<(String, String)> {
         let (what, remedy) =
             if let Some(end) = [a, b].into_iter().find(|&end| end >= is_fixed.len()) {

@@ -1,6 +1,7 @@
-//! Numbers for people: a few significant digits, a true minus sign, and powers of ten for very large or small values.
+//! Writes numbers for people, with a few significant digits, a true minus sign, and powers of ten for very large or
+//! small values.
 
-/// `value` with `digits` significant digits; from 10⁵ up and below 10⁻³ as a power of ten.
+/// Writes `value` with `digits` significant digits. Values from 10⁵ up and below 10⁻³ get a power of ten.
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "-".into();
@@ -19,7 +20,7 @@ pub fn significant(value: f64, digits: usize) -> String {
     if value < 0.0 { format!("\u{2212}{magnitude}") } else { magnitude }
 }
 
-/// A number without trailing zeros, for the marks of an axis.
+/// Writes a number without trailing zeros, for the marks of an axis.
 pub fn round(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
     let (number, power) = text.split_at(text.find('·').unwrap_or(text.len()));
@@ -30,10 +31,10 @@ pub fn round(value: f64, digits: usize) -> String {
     }
 }
 
-/// The factor that enlarges a distance to fill `room`: 1, 2 or 5 times a power of ten. `None` if the distance already
-/// fills half of it, or is only rounding.
+/// Returns the factor that enlarges a distance to fill `room`, which is 1, 2 or 5 times a power of ten. Returns `None`
+/// if the distance already fills more than half of `room`, or is only a rounding error.
 pub fn enlargement(distance: f64, room: f64) -> Option<f64> {
-    /// A distance that is invisible at this magnification is rounding.
+    /// A distance that is invisible at this magnification is a rounding error.
     const MAX: f64 = 1e10;
     let most = room / distance;
     let decade = libm::pow(10.0, libm::floor(libm::log10(most)));
@@ -41,13 +42,13 @@ pub fn enlargement(distance: f64, room: f64) -> Option<f64> {
     (2.0..=MAX).contains(&times).then_some(times)
 }
 
-/// A number of things, such as `1 row` and `2 rows`.
+/// Writes a number of things, such as `1 row` and `2 rows`.
 pub fn counted(number: impl TryInto<u64>, thing: &str) -> String {
     let number = number.try_into().unwrap_or(u64::MAX);
     format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }
 
-/// A whole number with its thousands separated by spaces that do not break lines.
+/// Writes a whole number with its thousands separated by spaces that do not break lines.
 pub fn grouped(number: u64) -> String {
     match number {
         ..1000 => number.to_string(),
@@ -55,7 +56,7 @@ pub fn grouped(number: u64) -> String {
     }
 }
 
-/// A whole number in raised figures.
+/// Writes a whole number in raised figures.
 pub fn superscript(exponent: i32) -> String {
     let raise = |c: char| match c {
         '-' => '⁻',
@@ -67,12 +68,12 @@ pub fn superscript(exponent: i32) -> String {
     exponent.to_string().chars().map(raise).collect()
 }
 
-/// A duration to three digits, in the unit that fits its length.
+/// Writes a duration to three digits, in the unit that fits its length.
 pub fn duration(seconds: f64) -> String {
     in_unit(seconds, |value| round(value, 3))
 }
 
-/// A duration in the unit that fits its length; `written` formats its number.
+/// Writes a duration in the unit that fits its length; `written` formats its number.
 pub(crate) fn in_unit(seconds: f64, written: impl Fn(f64) -> String) -> String {
     const MINUTE: f64 = 60.0;
     const HOUR: f64 = 60.0 * MINUTE;

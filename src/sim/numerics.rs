@@ -4,8 +4,8 @@
 #[cfg(feature = "lab")]
 use nalgebra::{DMatrix, DVector};
 
-/// A difference quotient: overwrites the values `ahead` with their differences from `behind`, per unit of the
-/// `distance` between the two. The caller must justify its choice of distance.
+/// Overwrites each value `ahead` with its difference from the value `behind`, divided by the `distance` between the
+/// two. The caller must justify its choice of distance.
 #[inline]
 pub(super) fn quotient(ahead: &mut [f64], behind: &[f64], distance: f64) {
     for (ahead, behind) in ahead.iter_mut().zip(behind) {
@@ -17,15 +17,15 @@ pub(super) fn quotient(ahead: &mut [f64], behind: &[f64], distance: f64) {
 #[cfg(feature = "lab")]
 pub(super) const OFFSETS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 
-/// The derivative by a central difference of fourth order, from the values at the [`OFFSETS`] with step `h`.
+/// Returns the derivative by a central difference of fourth order, from the values at the [`OFFSETS`] with step `h`.
 #[cfg(feature = "lab")]
 pub(super) fn fourth_order([far_behind, behind, ahead, far_ahead]: [f64; 4], h: f64) -> f64 {
     (8.0 * (ahead - behind) - far_ahead + far_behind) / (12.0 * h)
 }
 
-/// Bisects for the point at which a condition changes: halves the interval from `low`, which `is_low`, to `high`,
-/// which is not, `halvings` times. Returns the ends of the remaining interval, in that order; `low` may be the
-/// greater.
+/// Bisects for the point at which a condition changes: `is_low` is true at `low` and false at `high`. Halves the
+/// interval between them `halvings` times. Returns the ends of the remaining interval, `low` first; `low` may be
+/// greater than `high`.
 #[cfg(feature = "lab")]
 pub(crate) fn bisect(
     [mut low, mut high]: [f64; 2],
@@ -39,10 +39,10 @@ pub(crate) fn bisect(
     [low, high]
 }
 
-/// Linear least squares: the coefficients whose sum of these columns is closest to `right` in mean square. Among
-/// equally close ones, those with the smallest squares.
+/// Solves a problem of linear least squares. Returns the coefficients with which the sum of these columns is closest to
+/// `right` in mean square. If several solutions are equally close, returns the one with the smallest sum of squares.
 ///
-/// `None` if there are fewer rows than columns, or if a number is not finite.
+/// Returns `None` if there are fewer rows than columns, or if a number is not finite.
 #[cfg(feature = "lab")]
 pub fn least_squares(columns: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     if right.len() < columns.len() {
@@ -58,18 +58,18 @@ pub fn least_squares(columns: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     Some(found.iter().copied().collect())
 }
 
-/// Pseudo-random numbers, the same on every run for a nonzero seed: Marsaglia's xorshift with 13, 7 and 17.
+/// Pseudo-random numbers, the same on every run for a nonzero seed, by Marsaglia's xorshift with 13, 7 and 17.
 #[cfg(feature = "lab")]
 pub(super) struct XorShift(u64);
 
 #[cfg(feature = "lab")]
 impl XorShift {
-    /// The sequence with this seed.
+    /// Returns the sequence with this seed.
     pub(super) fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// The next number, from -1 to below 1.
+    /// Returns the next number, from -1 to below 1.
     pub(super) fn next(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;

@@ -7,17 +7,17 @@ use super::integrators::{Family, METHODS, Method, Needs, Only};
 use super::law::{ExpressionFault, LinearRule, OwnLines, Remedy, RuleBody, StepText};
 use super::tick_rate::TickRate;
 
-/// The most characters of the id of an own method.
+/// The maximum number of characters in the id of an own method.
 pub(crate) const MAX_OWN_ID_CHARS: usize = 64;
 
 /// Every method made so far, so that equal lines under one id are one method.
 static KNOWN: Mutex<Vec<&'static Method>> = Mutex::new(Vec::new());
 
-/// The method of these lines under this id. [`conformance`] measures its card once per process, in a fraction of a
-/// second. Equal lines share one card, which lives as long as the process.
+/// Returns the method of these lines under this id. [`conformance`] measures its card once per process, in a fraction
+/// of a second. Equal lines share one card, which lives as long as the process.
 ///
 /// # Errors
-/// The first fault of the lines, or that they do not call the acceleration.
+/// The first fault of the lines, or a fault if the lines do not call the acceleration.
 ///
 /// ```
 /// use regatta::sim::own_method;
@@ -48,12 +48,12 @@ pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFau
     })
 }
 
-/// The rule of these lines under this id, written for this many frames per second. As a method it steps followers of
-/// first order, or bodies with a force: a rule of one number the former, one of two the latter. It knows nothing of
-/// their forces.
+/// Returns the rule of these lines under this id, written for this many frames per second. As a method, a rule of one
+/// number steps followers of first order, and a rule of two numbers steps bodies with a force. A rule ignores the force
+/// of the body.
 ///
 /// # Errors
-/// The first fault of the lines, or why no body moves like them.
+/// The first fault of the lines, or the reason why no body moves like them.
 ///
 /// ```
 /// use regatta::sim::{TickRate, own_rule};
@@ -89,7 +89,7 @@ pub fn own_rule(id: &str, text: &str, fps: TickRate) -> Result<&'static Method, 
     })
 }
 
-/// The method of these lines that this process has, or else the one that is made.
+/// Returns the method of these lines if this process has it already, or else the method that `make` returns.
 fn known_or(
     id: &str,
     text: &str,
@@ -105,7 +105,7 @@ fn known_or(
     }
     let method = make()?;
     let mut known = known();
-    // Another thread may have been faster.
+    // Another thread may have made the same method meanwhile.
     if let Some(method) = known.iter().find(is_it) {
         return Ok(method);
     }
@@ -113,7 +113,7 @@ fn known_or(
     Ok(known[known.len() - 1])
 }
 
-/// A card with the name and formula of these lines.
+/// Returns a card with the name and formula of these lines.
 fn card(id: &str, own: OwnLines) -> Method {
     let lines = own.text().source().lines().map(str::trim);
     let lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -123,8 +123,8 @@ fn card(id: &str, own: OwnLines) -> Method {
     Method { id: name, name, formula: formula.leak(), own: Some(own), ..Family::Explicit.card() }
 }
 
-/// The method id for a file with this name without its extension: letters and digits in lower case, and hyphens for
-/// all other characters.
+/// Returns the method id for a file whose name without its extension is `stem`. The id has the letters and digits of
+/// the name in lower case, and a hyphen for each group of other characters between them.
 pub fn own_method_id(stem: &str) -> String {
     let mut id = String::new();
     for letter in stem.chars() {

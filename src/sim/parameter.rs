@@ -1,9 +1,9 @@
-//! The parameters of a body: one description each, shared by the scene file, the help, the sliders and the body
-//! itself.
+//! The parameters of a body. Each has one description, which the scene file, the help, the sliders and the body itself
+//! share.
 //!
-//! The file of a body lists its parameters once, as [`ParameterOf`] that body: each with the struct field of its
-//! value. A [`Kind`](super::bodies::Kind) has the same list as plain [`Parameter`]s, for code that does not know the
-//! struct.
+//! The source file of a body lists the body's parameters once, as [`ParameterOf`] that body. Each parameter is listed
+//! with the struct field of its value. A [`Kind`](super::bodies::Kind) has the same list as plain [`Parameter`]s, for
+//! code that does not know the struct.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -11,24 +11,24 @@ use std::fmt;
 /// Text from a static table, or owned by a kind made from a scene.
 pub type Text = Cow<'static, str>;
 
-/// The largest magnitude of a body's parameter; products in the force laws overflow beyond it.
+/// The largest magnitude of a body's parameter; products in the force laws would overflow beyond this magnitude.
 pub const MAX_VALUE: f64 = 1e15;
 
-/// The largest number of points of a curve, enough for one typed by hand.
+/// The maximum number of points of a curve, enough for a curve typed by hand.
 pub const MAX_POINTS: usize = 64;
 
 /// One key of a body's table in a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// The key, unit included.
+    /// The key, which ends with the unit.
     pub key: Text,
-    /// Its name in words, if that is not the key without the unit.
+    /// The name in words; `None` if it is the key without the unit.
     pub name: Option<&'static str>,
-    /// Its letter in the equation of motion, if it has one.
+    /// The letter of the parameter in the equation of motion, if it has one.
     pub symbol: Option<&'static str>,
-    /// Its description.
+    /// The description of the parameter.
     pub about: &'static str,
-    /// The symbol of the unit that ends the key, such as `N/m`; empty if the key names none.
+    /// The symbol of the unit that ends the key, such as `N/m`; empty if the key names no unit.
     pub unit: Text,
     /// The default; `None` if the scene must give a value.
     pub default: Option<f64>,
@@ -39,7 +39,7 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// A parameter without a letter, a unit and a default.
+    /// Returns a parameter without a letter, a unit and a default.
     pub(super) const fn new(
         key: Text,
         about: &'static str,
@@ -50,12 +50,12 @@ impl Parameter {
         Self { key, name: None, symbol: None, about, unit, default: None, range, acts }
     }
 
-    /// Its description after its letter: `m, the mass`.
+    /// Returns the description after the letter, such as `m, the mass`.
     pub fn described(&self) -> String {
         self.symbol.map_or_else(|| self.about.into(), |symbol| format!("{symbol}, {}", self.about))
     }
 
-    /// Its name in words.
+    /// Returns the name of the parameter in words.
     pub fn quantity(&self) -> String {
         if let Some(name) = self.name {
             return name.to_owned();
@@ -68,14 +68,15 @@ impl Parameter {
 /// When a change of a parameter takes effect on a moving body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TakesEffect {
-    /// At once: it changes the forces, or the size of a kick.
+    /// The change takes effect at once, because the parameter acts on the forces or on the size of a kick.
     AtOnce,
-    /// At the next start: it is part of the initial state, or a count or a curve.
+    /// The change takes effect at the next start, because the parameter is part of the initial state, a count or a
+    /// curve.
     AtStart,
 }
 
 impl TakesEffect {
-    /// The name in output.
+    /// Returns the name in the output.
     pub fn id(self) -> &'static str {
         match self {
             TakesEffect::AtOnce => "at-once",
@@ -88,16 +89,16 @@ impl TakesEffect {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Range {
-    /// Greater than 0 and at most this.
+    /// Greater than 0 and at most this number.
     Positive(f64),
-    /// From 0 to this.
+    /// From 0 to this number.
     NonNegative(f64),
-    /// From minus this to this.
+    /// From minus this number to this number.
     Within(f64),
-    /// Whole numbers from 1 to this.
+    /// Whole numbers from 1 to this number.
     Count(u32),
-    /// A curve of 2 to [`MAX_POINTS`] points `[x, y]` with rising x, each number from minus to plus [`MAX_VALUE`].
-    /// Only a kind's last parameter can be one.
+    /// A curve of 2 to [`MAX_POINTS`] points `[x, y]` with rising x, each number from minus to plus [`MAX_VALUE`]. Only
+    /// a kind's last parameter can be a curve.
     Curve {
         /// The unit of x.
         x: &'static str,
@@ -116,7 +117,7 @@ impl Range {
     /// Any sign, or 0.
     pub const ANY: Self = Self::Within(MAX_VALUE);
 
-    /// Whether `value` is in the range; for a curve, whether it can be a coordinate of a point.
+    /// Whether `value` is in the range; for a curve, whether the value can be a coordinate of a point.
     pub fn contains(self, value: f64) -> bool {
         match self {
             Range::Positive(most) => value > 0.0 && value <= most,
@@ -153,7 +154,7 @@ pub struct Fault {
     pub key: Text,
     /// The error message.
     pub what: String,
-    /// How to fix it.
+    /// How to fix the fault.
     pub remedy: String,
 }
 
@@ -178,23 +179,23 @@ impl<B> ParameterOf<B> {
         Self { parameter: Parameter::new(Cow::Borrowed(key), "", range, acts), slot }
     }
 
-    /// A number without a default that acts at once.
+    /// Returns a parameter that is a number, has no default and acts at once.
     pub const fn number(key: &'static str, range: Range, field: fn(&mut B) -> &mut f64) -> Self {
         Self::new(key, range, TakesEffect::AtOnce, Slot::Number(field))
     }
 
-    /// A number of any sign that is part of the initial state, with its default.
+    /// Returns a parameter that is a number of any sign, has this default and is part of the initial state.
     pub const fn start(key: &'static str, default: f64, field: fn(&mut B) -> &mut f64) -> Self {
         Self::number(key, Range::ANY, field).or(default).at_start()
     }
 
-    /// A whole number from 1 to `most`, without a default, that acts at the start.
+    /// Returns a parameter that is a whole number from 1 to `most`, has no default and acts at the start.
     pub const fn count(key: &'static str, most: u32, field: fn(&mut B) -> &mut usize) -> Self {
         Self::new(key, Range::Count(most), TakesEffect::AtStart, Slot::Count(field))
     }
 
-    /// A curve through points in the units `x` and `y`, without a default, that acts at the start. `write` stores
-    /// points in rising order in the body.
+    /// Returns a parameter that is a curve through points in the units `x` and `y`, has no default and acts at the
+    /// start. `write` stores points in rising order in the body.
     pub const fn curve(
         key: &'static str,
         [x, y]: [&'static str; 2],
@@ -209,7 +210,7 @@ impl<B> ParameterOf<B> {
         self
     }
 
-    /// Sets its letter in the equation of motion.
+    /// Sets the letter in the equation of motion.
     pub const fn symbol(mut self, symbol: &'static str) -> Self {
         self.parameter.symbol = Some(symbol);
         self
@@ -233,13 +234,13 @@ impl<B> ParameterOf<B> {
         self
     }
 
-    /// The parameter without its field.
+    /// Returns the parameter without its field.
     #[cfg(feature = "lab")]
     pub(super) fn parameter(&self) -> Parameter {
         Parameter { unit: unit(&self.parameter.key).1.into(), ..self.parameter.clone() }
     }
 
-    /// The field of a parameter that acts at once; `None` for other parameters.
+    /// Returns the field of a parameter that acts at once; `None` for other parameters.
     pub(super) fn acting_at_once(&self) -> Option<fn(&mut B) -> &mut f64> {
         match self.slot {
             Slot::Number(field) if self.parameter.acts == TakesEffect::AtOnce => Some(field),
@@ -268,7 +269,7 @@ pub(super) fn write<B>(body: &mut B, parameters: &[ParameterOf<B>], values: &[f6
     assert!(left.is_empty(), "values without a parameter: {left:?}");
 }
 
-/// Suffixes of keys, each with the symbol of its unit. A suffix comes before any shorter suffix that ends it.
+/// Suffixes of keys, each with the symbol of its unit. A suffix comes before any shorter suffix with which it ends.
 const UNITS: [(&str, &str); 15] = [
     ("_kg_m2", "kg·m²"),
     ("_n_s_per_m", "N·s/m"),
@@ -287,7 +288,7 @@ const UNITS: [(&str, &str); 15] = [
     ("_m", "m"),
 ];
 
-/// The unit suffix of a key and its symbol; both empty if the key names no unit.
+/// Returns the unit suffix of a key and the symbol of the unit. Both are empty if the key names no unit.
 fn unit(key: &str) -> (&'static str, &'static str) {
     UNITS.into_iter().find(|(end, _)| key.ends_with(end)).unwrap_or_default()
 }

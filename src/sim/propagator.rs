@@ -1,4 +1,4 @@
-//! The propagator of a body, a method or a truth, and its reaction when the body jumps.
+//! The propagator of a body, which is a method or a truth, and how it reacts when the body jumps.
 //!
 //! # When something jumps
 //!
@@ -6,8 +6,8 @@
 //!
 //! - The *state or the forces* jump when the body is placed, given an input or edited. A stepper owns its body and
 //!   state, and makes every such change within [`Propagator::jump`]. A method is [reset](Integrator::reset) there. The
-//!   exact flow restarts from the new state, and keeps the error of the old one, computed with the body before the
-//!   change.
+//!   exact flow restarts from the new state, and keeps the error of the old state, which is computed with the body
+//!   before the change.
 //! - The *length of the step* is an argument of every step. A method with memory compares it with the length of its
 //!   last step, so nobody has to announce a change.
 //! - Any caller can change a state *outside a stepper*. The method that [`integrator`](super::integrators::integrator)
@@ -35,7 +35,7 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
         is_changed
     }
 
-    /// Restarts after a change by [`Propagator::jump`]; `is_placing` as [`Change::is_placing`].
+    /// Restarts after a change by [`Propagator::jump`]; `is_placing` is [`Change::is_placing`] of that change.
     fn restart(&mut self, _t: f64, _is_placing: bool, _body: &B, _state: &StateOf<B>) {}
 
     /// Steps a problem from the state `y`, with a copy of the method that steps the body; `None` for a truth.
@@ -49,22 +49,22 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
         None
     }
 
-    /// Whether the state is that of a closed form.
+    /// Whether the state comes from a closed form.
     fn is_closed_form(&self) -> bool {
         false
     }
 
-    /// The error of a truth at the current `state`, in a coordinate and in a velocity.
+    /// Returns the errors of a coordinate and of a velocity at the current `state` of a truth; `None` for a method.
     fn truth_error(&self, _body: &Counted<B>, _state: &StateOf<B>) -> Option<[f64; 2]> {
         None
     }
 
-    /// The time in seconds that a method has left out of its steps.
+    /// Returns the time in seconds that a method has left out of its steps.
     fn lost_time(&self) -> f64 {
         0.0
     }
 
-    /// Memory on the heap in bytes, without its coordinate vectors.
+    /// Returns the memory on the heap in bytes, without coordinate vectors.
     fn heap_bytes(&self) -> usize {
         0
     }
@@ -108,7 +108,7 @@ impl<V: Vector, B: Body<Vector = V>> Propagator<B> for AnyMethod<V> {
 pub(super) struct MethodPropagator<I>(pub(super) I);
 
 impl<I: Clone> Clone for MethodPropagator<I> {
-    /// Apart from the bodies, each of which would otherwise inline a copy.
+    /// Not inlined, because each body would otherwise contain a copy of this function.
     #[inline(never)]
     fn clone(&self) -> Self {
         Self(self.0.clone())

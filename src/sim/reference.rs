@@ -1,7 +1,8 @@
-//! The reference solution, the truth of a body without a closed form: Bulirsch and Stoer's extrapolation to round-off,
-//! and a second solution with other steps. The difference of the two estimates the error.
+//! The reference solution, which is the truth of a body without a closed form. It is made by Bulirsch and Stoer's
+//! extrapolation to round-off. A second solution has other steps, and the difference of the two estimates the error.
 //!
-//! It is not a method of the table: it chooses its own substeps, and its evaluations do not count.
+//! The reference solution is not a method of the table, because it chooses its own substeps and its evaluations do not
+//! count.
 
 use super::body::Body;
 use super::exact_since_start::ExactSinceStart;
@@ -16,37 +17,38 @@ use trajectory::{StepControl, Trajectory, TrajectoryEnd};
 mod extrapolation;
 mod trajectory;
 
-/// The accuracy that a reference solution aims at: its error over the duration of a built-in scene, relative to the
-/// largest coordinate and to the largest velocity. `tests/library/bodies/reference.rs` compares it with a closed form
-/// and with Runge-Kutta at a fine step, to a tighter bound. `truth_error` of a [`Stepper`](super::Stepper) estimates
-/// the error of each run. A motion that amplifies its initial deviations, such as a pendulum started upright,
-/// amplifies this error too.
+/// The accuracy at which a reference solution aims. It is the error of the solution over the duration of a built-in
+/// scene, relative to the largest coordinate and to the largest velocity. `tests/library/bodies/reference.rs` compares
+/// reference solutions with a closed form and with Runge-Kutta at a fine step, to a tighter bound. `truth_error` of a
+/// [`Stepper`](super::Stepper) estimates the error of each run. A motion that amplifies its initial deviations, such as
+/// a pendulum started upright, amplifies this error too.
 pub const REFERENCE_ACCURACY: f64 = 1e-10;
 
 /// The ratio of the error estimate to the difference of the two solutions, which is only one sample of their errors.
 /// `tests/library/bodies/fifty_digits.rs` measures the estimate.
 const MARGIN: f64 = 8.0;
 
-/// Evaluations granted per call, in addition to the saved ones: about the work of 30 calls of a built-in scene. With
-/// fewer, a stiff body would have no truth at a coarse tick; with many more, the judge would wait long for a hopeless
-/// one.
+/// Number of evaluations granted per call, in addition to the saved ones. It is about the work of 30 calls in a
+/// built-in scene. With fewer evaluations, a stiff body would have no truth at a coarse tick. With many more, the judge
+/// would wait long for a hopeless body.
 const EVALUATIONS_PER_CALL: u64 = 6_000;
 
-/// The most evaluations saved for hard stretches, all available at the start: some tenths of a second of work.
+/// The maximum number of evaluations that are saved for hard stretches, which is some tenths of a second of work. All
+/// of them are available at the start.
 const MAX_SAVED_EVALUATIONS: u64 = 4_000_000;
 
-/// The most [work](Body::reference_work) of a body with a reference solution, per simulated second. It takes about as
-/// long as the second itself in an unoptimised build, and a tenth of that in an optimised one.
+/// The maximum [work](Body::reference_work) of a body with a reference solution, per simulated second. This work takes
+/// about a second in an unoptimised build, and about a tenth of a second in an optimised one.
 pub const MAX_REFERENCE_WORK: f64 = 1e6;
 
 /// The evaluation budget of a reference solution.
 #[derive(Clone, Copy, Debug)]
 struct Allowance {
-    /// Evaluations left to spend.
+    /// Number of evaluations left to spend.
     saved: u64,
-    /// Evaluations granted per call.
+    /// Number of evaluations granted per call.
     per_call: u64,
-    /// The most evaluations to save; all of them are available at the start.
+    /// Maximum number of saved evaluations; all of them are available at the start.
     most: u64,
 }
 
@@ -59,9 +61,9 @@ impl Allowance {
 /// A reference solution, or the exact motion while the body knows it.
 #[derive(Clone, Debug)]
 pub(super) struct Reference<V> {
-    /// `None` if the body does not know its motion from the start, or did not begin there.
+    /// The exact motion; `None` if the body does not know its motion from the start, or did not begin there.
     exact: Option<Box<ExactSinceStart<V>>>,
-    /// `None` if the solutions would take too much work.
+    /// The numerical solutions; `None` if they would take too much work.
     solutions: Option<Box<Solutions<V>>>,
     /// Whether both solutions have started from the state of the body.
     has_begun: bool,
@@ -69,13 +71,13 @@ pub(super) struct Reference<V> {
     failed: Option<StepFailure>,
     /// Simulated seconds since the body was placed.
     elapsed: f64,
-    /// The largest difference of the two solutions since then, in coordinates and in velocities.
+    /// The largest difference of the two solutions since the body was placed, in coordinates and in velocities.
     largest_difference: [f64; 2],
-    /// The largest velocity and the largest acceleration since then.
+    /// The largest velocity and the largest acceleration since the body was placed.
     fastest: [f64; 2],
 }
 
-/// The two solutions: some forty vectors of the body's coordinates.
+/// The two solutions, which hold some forty vectors of the body's coordinates.
 #[derive(Clone, Debug)]
 struct Solutions<V> {
     solution: Trajectory<V>,
@@ -102,9 +104,9 @@ pub(super) fn is_beyond_reference<B: Body>(body: &B) -> bool {
 }
 
 impl<V: Vector> Reference<V> {
-    /// The truth of `body` from `state` at time `t` (s).
+    /// Returns the truth of `body` from `state` at time `t` (s).
     pub(super) fn new<B: Body<Vector = V>>(body: &B, state: &State<V>, t: f64) -> Self {
-        // Allocated here if needed, so that no tick allocates.
+        // The solutions are allocated here, so that no tick allocates.
         let solutions = (!is_beyond_reference(body)).then(|| Solutions::new(state));
         let allowance = Allowance::new(EVALUATIONS_PER_CALL, MAX_SAVED_EVALUATIONS);
         let exact = ExactSinceStart::new(body, t, state);
@@ -194,15 +196,15 @@ impl<V: Vector> Reference<V> {
     }
 }
 
-/// For claims of laws and custom bodies, checked within a budget.
+/// Functions that check the claims of laws and custom bodies within a budget of evaluations.
 #[cfg(feature = "lab")]
 impl<V: Vector> Reference<V> {
-    /// A reference that fails after about this many evaluations in all.
+    /// Returns a reference solution that fails after about this number of evaluations in all.
     pub(super) fn within(like: &State<V>, evaluations: u64) -> Self {
         Self::with_allowance(Some(Solutions::new(like)), Allowance::new(0, evaluations))
     }
 
-    /// Evaluations that it may still use.
+    /// Returns the number of evaluations that the reference solution may still use.
     pub(super) fn saved_evaluations(&self) -> u64 {
         self.allowance.saved
     }
@@ -210,7 +212,7 @@ impl<V: Vector> Reference<V> {
 
 impl<B: Body> Propagator<B> for Reference<B::Vector> {
     fn step(&mut self, body: &Counted<B>, t: f64, h: f64, _n: u32, y: &mut StateOf<B>) -> Stepped {
-        // Bypasses the counters of `body`: the truth does not compete.
+        // Bypasses the counters of `body`, because the truth does not compete.
         let body = &body.system;
         if self.exact.as_mut().is_some_and(|exact| exact.step(body, t + h, y)) {
             return Ok(());
@@ -252,7 +254,7 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
     }
 }
 
-/// The largest magnitude.
+/// Returns the largest magnitude of a component; infinite if a component is NaN.
 fn size<V: Vector>(vector: &V) -> f64 {
     nan_is_infinite(largest(vector.components()))
 }

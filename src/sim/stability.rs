@@ -1,13 +1,13 @@
-//! Stability of a method on a body: the map of a step about rest, its growth and its frequencies, compared with the
-//! true motion.
+//! The stability of a method on a body. The map of a step about rest has a growth and frequencies, which are compared
+//! with those of the true motion.
 //!
-//! The acceleration is linearised about rest, which leaves a linear body unchanged. If damping does not couple its
-//! normal modes, a method acts on each of them alone; otherwise all coordinates are analysed together. The map of a
-//! step covers the state and the method's memory. It comes from the method's own steps, never from a formula, so that
-//! it is valid for any method with equal steps. Growth that the true motion shares, such as the fall of an upright
-//! pendulum, does not count against a method.
+//! The acceleration is linearised about rest, which leaves a linear body unchanged. If damping does not couple the
+//! normal modes of the body, a method acts on each mode alone; otherwise all coordinates are analysed together. The map
+//! of a step covers the state and the method's memory. The map is measured from the method's own steps, never from a
+//! formula, so that it is valid for any method with equal steps. Growth that the true motion shares, such as the fall
+//! of an upright pendulum, does not count against a method.
 //!
-//! For a body of many coordinates, power iteration about its present state finds only the spectral radius.
+//! For a body of many coordinates, power iteration about the body's present state finds only the spectral radius.
 
 use super::integrators::Method;
 
@@ -28,17 +28,17 @@ pub use small_motion::{CoupledMotion, NoSmallMotion, SmallMotion, normal_modes};
 /// One tick of a lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tick {
-    /// Its start, in seconds.
+    /// Start of the tick, in seconds.
     pub t: f64,
-    /// Its length, in seconds.
+    /// Length of the tick, in seconds.
     pub h: f64,
     /// Number of equal steps.
     pub substeps: u32,
 }
 
 impl Tick {
-    /// The step that a method repeats in this tick, as a tick of its own, and the number of repetitions. An engine's
-    /// substeps share one force, so that its whole tick is one step.
+    /// Returns the step that a method repeats in this tick, as a tick of its own, and the number of repetitions. An
+    /// engine's substeps share one force, so that its whole tick is one step.
     pub fn repeated(self, method: Option<&Method>) -> (Tick, u32) {
         if method.is_some_and(Method::is_engine) {
             return (self, 1);

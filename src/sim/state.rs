@@ -5,8 +5,9 @@ use super::cores::in_parts;
 /// Numbers that are added and scaled one by one, which is all that the formula of a method with fixed steps needs.
 ///
 /// The numbers may be the [components](Vector) of one body, or one coordinate of each of several bodies stepped
-/// together, which must not mix: each then has the same bits as alone. A method that looks across components, for a
-/// norm, a limit or a solution, steps a single body. It must declare this by the bound `System<Vector: Vector>`:
+/// together. Such bodies must not mix, so that each has the same bits as alone. A method that looks across components,
+/// for a norm, a limit or a solution, steps a single body. Such a method must declare this by the bound `System<Vector:
+/// Vector>`:
 ///
 /// ```compile_fail,E0277
 /// # use regatta::sim::{Elementwise, System, integrators::{Integrator, LinearlyImplicitEuler}};
@@ -28,30 +29,32 @@ use super::cores::in_parts;
 pub trait Elementwise: Clone + Send + Sync + 'static {
     /// Copies `from`, which must have the same length. Never allocates.
     fn assign(&mut self, from: &Self);
-    /// `self += h x`, rounded after the product and after the sum.
+    /// Computes `self += h x`, rounded after the product and after the sum.
     fn add_scaled(&mut self, h: f64, x: &Self);
-    /// `self *= h`.
+    /// Computes `self *= h`.
     fn scale(&mut self, h: f64);
-    /// `v += k a`, then `q += h v`: a kick and the drift after it.
+    /// Computes `v += k a`, then `q += h v`, which is a kick and the drift after it.
     #[inline(always)]
     fn kick_and_drift(k: f64, a: &Self, v: &mut Self, h: f64, q: &mut Self) {
         v.add_scaled(k, a);
         q.add_scaled(h, v);
     }
-    /// `self += h1 x1 + h2 x2 …`, term by term in this order, each rounded after the product and after the sum.
+    /// Computes `self += h1 x1 + h2 x2 …`, term by term in this order. Each term is rounded after the product and after
+    /// the sum.
     #[inline(always)]
     fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
         for (h, x) in terms {
             self.add_scaled(h, x);
         }
     }
-    /// `self = x + h d`, rounded after the product and after the sum; `x` must have the same length. Never allocates.
+    /// Computes `self = x + h d`, rounded after the product and after the sum; `x` must have the same length. Never
+    /// allocates.
     #[inline(always)]
     fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
         self.assign(x);
         self.add_scaled(h, d);
     }
-    /// `self = h x`; `x` must have the same length. Never allocates.
+    /// Computes `self = h x`; `x` must have the same length. Never allocates.
     #[inline(always)]
     fn assign_scaled(&mut self, h: f64, x: &Self) {
         self.assign(x);
@@ -61,25 +64,25 @@ pub trait Elementwise: Clone + Send + Sync + 'static {
 
 /// The coordinates of one body.
 ///
-/// `f64` is for bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] for motion in a plane or in space.
-/// `[f64; N]` and [`glam::DVec4`] are for a few coordinates, such as those of two bodies in the plane, `Vec<f64>` for
-/// many. A method is written once over this trait; it compiles to registers for the small types and to loops for
-/// `Vec`.
+/// `f64` is for bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] for motion in a plane or in space. `[f64;
+/// N]` and [`glam::DVec4`] are for a few coordinates, such as those of two bodies in the plane. `Vec<f64>` is for many
+/// coordinates. A method is written once over this trait. The method compiles to registers for the small types and to
+/// loops for `Vec`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no vector of one body's coordinates",
     note = "a vector is f64, DVec2, DVec3, DVec4, [f64; N] or Vec<f64>: two bodies in the plane are one [f64; 4]"
 )]
 pub trait Vector: Elementwise {
-    /// Whether the coordinates fit into registers, so that each method is compiled for each body of this type. For all
-    /// bodies of any other type it is compiled only once.
+    /// Whether the coordinates fit into registers, so that each method is compiled for each body of this type. For any
+    /// other type, a method is compiled once for all bodies.
     const IS_SMALL: bool = false;
-    /// The components in order.
+    /// Returns the components in order.
     fn components(&self) -> &[f64];
-    /// The components in order, mutable.
+    /// Returns the components in order, as a mutable slice.
     fn components_mut(&mut self) -> &mut [f64];
 }
 
-/// A vector in registers, with its components as a slice.
+/// Implements a vector in registers, given the functions that return its components as slices.
 macro_rules! small {
     ($($Small:ty: $components:expr, $components_mut:expr;)+) => {$(
         impl Elementwise for $Small {
@@ -150,7 +153,7 @@ impl<const N: usize> Vector for [f64; N] {
     }
 }
 
-/// All cores share long vectors.
+/// All cores share the work on long vectors.
 impl Elementwise for Vec<f64> {
     #[inline]
     fn assign(&mut self, from: &Self) {
@@ -164,7 +167,7 @@ impl Elementwise for Vec<f64> {
             }
         });
     }
-    /// Both in one pass.
+    /// Computes the kick and the drift in one pass over the vectors.
     #[inline]
     fn kick_and_drift(k: f64, a: &Self, v: &mut Self, h: f64, q: &mut Self) {
         in_parts([v, q], [a], |[v, q], [a]| {
@@ -174,7 +177,7 @@ impl Elementwise for Vec<f64> {
             }
         });
     }
-    /// All terms in one pass.
+    /// Adds all terms in one pass over the vectors.
     #[inline]
     fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
         let scales = terms.map(|(h, _)| h);
@@ -218,18 +221,18 @@ impl Vector for Vec<f64> {
     }
 }
 
-/// An upper bound on the memory of values with this inline `size` in bytes: one heap vector as long as `like` for
-/// every 24 bytes.
+/// Returns an upper bound on the memory of values with this inline `size` in bytes. It assumes one heap vector as long
+/// as `like` for every 24 bytes.
 pub(in crate::sim) fn bytes_with_vectors(size: usize, like: &[f64]) -> usize {
     size + size / size_of::<Vec<f64>>() * size_of_val(like)
 }
 
-/// The largest magnitude; NaN if a component is NaN.
+/// Returns the largest magnitude; NaN if a component is NaN.
 #[inline]
 pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>) -> f64 {
-    // The bits of magnitudes have the order of the magnitudes; those of a NaN are above all others.
+    // The bits of magnitudes have the order of the magnitudes; the bits of a NaN are above all others.
     let mut bits = components.into_iter().map(|component| component.abs().to_bits());
-    // Four maxima in turn, so that none waits for the last.
+    // Four maxima are updated in turn, so that no update waits for the one before it.
     let mut most = [0; 4];
     while let Some(a) = bits.next() {
         most[0] = a.max(most[0]);
@@ -243,13 +246,13 @@ pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>)
     f64::from_bits(most.into_iter().fold(0, u64::max))
 }
 
-/// An error or a size; infinite if it is NaN, so that no comparison loses it.
+/// Returns the number, or infinity if it is NaN, so that no comparison loses the NaN.
 #[inline]
 pub(in crate::sim) fn nan_is_infinite(error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }
 
-/// Coordinates and velocities. Also their time derivative `(v, a)`.
+/// Coordinates and velocities, or their time derivative `(v, a)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct State<V> {
@@ -274,21 +277,21 @@ impl<V: Elementwise> State<V> {
         self.v.assign(&from.v);
     }
 
-    /// `self += h1 x1 + h2 x2 …` in both halves.
+    /// Computes `self += h1 x1 + h2 x2 …` in both halves of the state.
     #[inline(always)]
     pub fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
         self.q.add_terms(terms.map(|(h, x)| (h, &x.q)));
         self.v.add_terms(terms.map(|(h, x)| (h, &x.v)));
     }
 
-    /// `self = x + h d` in both halves. Never allocates.
+    /// Computes `self = x + h d` in both halves of the state. Never allocates.
     #[inline(always)]
     pub fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
         self.q.assign_sum(&x.q, h, &d.q);
         self.v.assign_sum(&x.v, h, &d.v);
     }
 
-    /// `self += h x` in both halves.
+    /// Computes `self += h x` in both halves of the state.
     #[inline(always)]
     pub fn add_scaled(&mut self, h: f64, x: &Self) {
         self.q.add_scaled(h, &x.q);

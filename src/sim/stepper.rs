@@ -1,4 +1,4 @@
-//! An object-safe stepper: a body, its solver and its state behind one dynamic call per tick.
+//! An object-safe stepper, which has a body, its solver and its state behind one dynamic call per tick.
 
 use std::any::Any;
 use std::ops::Deref;
@@ -10,20 +10,20 @@ use super::integrators::{Method, Override, StepFailure, Stepped};
 use super::state::Vector;
 use super::system::{Coupling, EngineSettings, Evaluation, Pursuit, StateOf};
 
-/// The solver of a body: a method, or the truth.
+/// The solver of a body, which is a method or the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
     /// A method from the table.
     Method(&'static Method),
-    /// A method from the table that overrides its card's tolerance or the body's joint. A method without a tolerance,
-    /// and an engine on a body without a joint, ignore it.
+    /// A method from the table, with an override of its card's tolerance or of the body's joint. A method without a
+    /// tolerance ignores the override, as does an engine on a body without a joint.
     With(&'static Method, Override),
-    /// The exact flow from the last jump; for a body without a closed form, a reference solution.
+    /// The exact flow from the last jump, or a reference solution if the body has no closed form.
     Truth,
 }
 
 impl Solver {
-    /// The method, unless this is the truth.
+    /// Returns the method; `None` if the solver is the truth.
     pub fn method(self) -> Option<&'static Method> {
         match self {
             Solver::Method(method) | Solver::With(method, _) => Some(method),
@@ -32,7 +32,7 @@ impl Solver {
     }
 }
 
-/// A tick on a copy of a body, recorded.
+/// A recorded tick, made on a copy of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordedTick {
     /// Every evaluation of the acceleration, in the order of the method.
@@ -43,38 +43,38 @@ pub struct RecordedTick {
 
 /// A body under a solver. The layers above this one see bodies only through `dyn Stepper`.
 ///
-/// This trait has only the functions that depend on body *and* solver: it is compiled for each pair of them. It
-/// dereferences to the [body at its state](PlacedBody), which is compiled for each body.
+/// This trait has only the functions that depend on body *and* solver, because it is compiled for each pair of them. A
+/// stepper dereferences to the [body at its state](PlacedBody), which is compiled for each body.
 pub trait Stepper: Send {
     /// Advances from `t` to `t + h` (s). A method takes `substeps` equal steps.
     ///
     /// # Errors
-    /// As [`Integrator::step`](super::integrators::Integrator::step).
+    /// The same as for [`Integrator::step`](super::integrators::Integrator::step).
     fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped;
 
     /// Changes the body or its state at time `t` (s), and restarts the solver there. Returns whether anything changed.
     fn change(&mut self, t: f64, change: Change<'_>) -> bool;
 
-    /// The body at its state.
+    /// Returns the body at its state.
     fn placed(&self) -> &(dyn PlacedBody + 'static);
 
     /// Records a [`Stepper::advance`] with the method's present memory, on a copy. The body and its counts are
-    /// unchanged. `None` unless the body is under `method`.
+    /// unchanged. Returns `None` if the body is not under `method`.
     fn recorded(&self, method: &Method, t: f64, h: f64, substeps: u32) -> Option<RecordedTick>;
 
-    /// Whether the current state is that of a closed form; `false` under a reference solution or a method. A body that
+    /// Whether the current state comes from a closed form; `false` under a reference solution or a method. A body that
     /// knows its exact motion only from the start has no closed form after an input, an edit or a placement.
     fn is_closed_form(&self) -> bool;
 
-    /// The error of the truth at the current state: the largest of a coordinate and of a velocity, in their own units.
-    /// For a closed form it is a bound on rounding. For a reference solution it is an estimate from a second solution
-    /// with other steps. Infinite if unknown; `None` under a method.
+    /// Returns the largest error of a coordinate and that of a velocity at the current state of the truth, in their own
+    /// units. For a closed form, the errors are bounds on rounding. For a reference solution, they are estimated from a
+    /// second solution with other steps. An unknown error is infinite. Returns `None` under a method.
     fn truth_error(&self) -> Option<[f64; 2]>;
 
-    /// An upper bound on its memory under its `solver`, in bytes.
+    /// Returns an upper bound on the memory of the stepper under its `solver`, in bytes.
     fn bytes(&self, solver: Solver) -> usize;
 
-    /// A copy with all memory of the solver: original and copy continue with the same bits.
+    /// Returns a copy with all memory of the solver, so that original and copy continue with the same bits.
     fn boxed_clone(&self) -> Box<dyn Stepper>;
 }
 
@@ -98,9 +98,9 @@ impl dyn Stepper + '_ {
     }
 
     /// Sets a parameter of the body at time `t` (s), by its index in the kind's
-    /// [`parameters`](super::bodies::Kind::parameters). The state is unchanged. Returns whether the body changed: it
-    /// does not if the value equals the old one, or if the parameter [acts at the start](super::bodies::TakesEffect).
-    /// `value` must be in the parameter's range and pass the kind's check.
+    /// [`parameters`](super::bodies::Kind::parameters). The state is unchanged. Returns whether the body changed. The
+    /// body does not change if the value equals the old one, or if the parameter [acts at the
+    /// start](super::bodies::TakesEffect). `value` must be in the parameter's range and pass the kind's check.
     pub fn set_parameter(&mut self, t: f64, index: usize, value: f64) -> bool {
         self.change(t, Change::Parameter { index, value })
     }
@@ -115,20 +115,20 @@ impl Clone for Box<dyn Stepper> {
 /// A change of a body between ticks.
 #[derive(Clone, Copy, Debug)]
 pub enum Change<'a> {
-    /// Puts it into a state known exactly, unrelated to the one before.
+    /// Puts the body into a state that is known exactly and unrelated to the state before.
     State {
         /// The coordinates.
         q: &'a [f64],
         /// The velocities.
         v: &'a [f64],
     },
-    /// Applies an input to its state or its forces.
+    /// Applies an input to the state or the forces of the body.
     Input(Input),
-    /// Edits a parameter.
+    /// Edits a parameter of the body.
     Parameter {
-        /// Its index in the kind's [`parameters`](super::bodies::Kind::parameters).
+        /// The index of the parameter in the kind's [`parameters`](super::bodies::Kind::parameters).
         index: usize,
-        /// Its new value.
+        /// The new value of the parameter.
         value: f64,
     },
 }
@@ -147,7 +147,7 @@ impl Change<'_> {
         }
     }
 
-    /// Whether the change removes the accumulated error.
+    /// Whether the change places the body in a state, which removes the accumulated error.
     pub(super) fn is_placing(self) -> bool {
         matches!(self, Change::State { .. })
     }
@@ -155,18 +155,19 @@ impl Change<'_> {
 
 /// The body of a [`Stepper`] at its state, independent of the solver.
 pub trait PlacedBody {
-    /// The coordinates, in the order of the body kind's [`coordinates`](super::bodies::Kind::coordinates).
+    /// Returns the coordinates, in the order of the body kind's [`coordinates`](super::bodies::Kind::coordinates).
     fn q(&self) -> &[f64];
-    /// Their velocities.
+    /// Returns the velocities, in the order of the coordinates.
     fn v(&self) -> &[f64];
 
     /// Overwrites `a` with the acceleration at the given state under the current input. Does not count as an
     /// evaluation.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
 
-    /// Evaluations of the acceleration by all methods since the start, without those of the truth.
+    /// Returns the number of evaluations of the acceleration by all methods since the start, without the evaluations of
+    /// the truth.
     fn evaluations(&self) -> u64;
-    /// The time in seconds that methods left out of their steps since the start.
+    /// Returns the time in seconds that methods left out of their steps since the start.
     fn lost_time(&self) -> f64;
     /// Whether the equation of motion is linear, apart from a constant.
     fn is_linear(&self) -> bool;
@@ -174,32 +175,32 @@ pub trait PlacedBody {
     fn is_angle(&self, coordinate: usize) -> bool;
     /// Whether a reference solution would take more than [`MAX_REFERENCE_WORK`](super::MAX_REFERENCE_WORK).
     fn is_beyond_reference(&self) -> bool;
-    /// The dependence between coordinates.
+    /// Returns the dependence between coordinates.
     fn coupling(&self) -> Coupling;
     /// Whether implicit methods solve the body's equations without a matrix.
     fn is_sparse(&self) -> bool {
         self.coupling() == Coupling::Few
     }
-    /// The conserved energy in joules; `None` if the body conserves none under its current input.
+    /// Returns the conserved energy in joules; `None` if the body conserves none under its current input.
     fn energy(&self) -> Option<f64>;
-    /// The kinetic part of [`PlacedBody::energy`], in joules. Never allocates.
+    /// Returns the kinetic part of [`PlacedBody::energy`], in joules. Never allocates.
     fn kinetic_energy(&self) -> Option<f64>;
 
-    /// The kinetic and the potential energy in joules, conserved or not; `None` if the body does not know them. Never
-    /// allocates.
+    /// Returns the kinetic and the potential energy in joules, conserved or not; `None` if the body does not know them.
+    /// Never allocates.
     fn mechanical_energy(&self) -> Option<[f64; 2]>;
 
-    /// The target of the body at time `t` (s), in its first coordinate; `None` if it follows none. Does not count as
-    /// an evaluation.
+    /// Returns the target of the body at time `t` (s), in its first coordinate; `None` if the body follows no target.
+    /// Does not count as an evaluation.
     fn pursuit(&self, t: f64) -> Option<Pursuit<f64>>;
-    /// The joint and damping settings of the body in a physics engine. Does not count as an evaluation.
+    /// Returns the joint and damping settings of the body in a physics engine. Does not count as an evaluation.
     fn engine_settings(&self, t: f64) -> EngineSettings;
 
-    /// The position of the body, in metres. Never allocates.
+    /// Returns the position of the body, in metres. Never allocates.
     fn place(&self) -> DVec2;
-    /// The body with its current parameters, of the type that the kind builds.
+    /// Returns the body with its current parameters, of the type that the kind builds.
     fn body(&self) -> &dyn Any;
 
-    /// A copy of the body under another solver, with the same input and the same state to the bit.
+    /// Returns a copy of the body under another solver, with the same input and the same state to the bit.
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper>;
 }

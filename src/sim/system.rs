@@ -8,7 +8,7 @@ use super::state::{Elementwise, State, Vector};
 
 /// An equation of motion of second order, `q″ = a(t, q, v)`.
 ///
-/// It stays second order because symplectic methods need the split into `q` and `v`.
+/// The equation is not reduced to first order, because symplectic methods need the split into `q` and `v`.
 pub trait System {
     /// The body's natural coordinates. Every method steps a [`Vector`], the coordinates of one body. Only methods that
     /// do not look across components step a mere [`Elementwise`].
@@ -17,7 +17,7 @@ pub trait System {
     /// Overwrites `a` with the acceleration at time `t` (s). Uses only `+ - × ÷ √` and `libm`.
     fn acceleration(&self, t: f64, q: &Self::Vector, v: &Self::Vector, a: &mut Self::Vector);
 
-    /// Overwrites `d` with the derivative `(v, a)` of the state: one evaluation.
+    /// Overwrites `d` with the derivative `(v, a)` of the state, by one evaluation.
     #[inline(always)]
     fn derivative(&self, t: f64, state: &StateOf<Self>, d: &mut StateOf<Self>) {
         d.q.assign(&state.v);
@@ -25,13 +25,13 @@ pub trait System {
     }
 
     /// Answers an optional query at time `t` (s). Returns `false` if the system has no answer. A system that wraps
-    /// another must forward this, the coupling and the acceleration, and nothing else.
+    /// another must forward this function, the coupling and the acceleration, and nothing else.
     #[inline]
     fn query(&self, _t: f64, _question: Query<'_, Self::Vector>) -> bool {
         false
     }
 
-    /// The dependence between coordinates. A system that wraps another must forward this.
+    /// Returns the dependence between coordinates. A system that wraps another must forward this function.
     #[inline]
     fn coupling(&self) -> Coupling {
         Coupling::All
@@ -55,34 +55,35 @@ pub enum Query<'a, V> {
         /// Receives the derivative.
         slope: &'a mut V,
     },
-    /// The target that the body follows: see [`Pursuit::of`].
+    /// The target that the body follows; see [`Pursuit::of`].
     Target(&'a mut Option<Pursuit<V>>),
-    /// The body as a physics engine sees it: see [`EngineSettings::of`].
+    /// The body as a physics engine sees it; see [`EngineSettings::of`].
     Engine {
         /// The state.
         state: &'a State<V>,
-        /// Receives the settings that the engine integrates itself; [`EngineSettings::NONE`] before.
+        /// Receives the settings that the engine integrates itself. They are [`EngineSettings::NONE`] before the query.
         settings: &'a mut EngineSettings,
         /// Receives the remaining force per unit mass.
         force: &'a mut V,
     },
 }
 
-/// The coordinates and velocities that the acceleration of a coordinate depends on. Implicit methods choose their
-/// linear algebra by it.
+/// The coordinates and velocities on which the acceleration of a coordinate depends. Implicit methods choose their
+/// linear algebra by this coupling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coupling {
-    /// Any coordinate: the whole Jacobian is factored.
+    /// The acceleration can depend on any coordinate, so that the whole Jacobian is factored.
     All,
-    /// Coordinates whose index differs by at most this: the Jacobian is a band, and is factored.
+    /// The acceleration depends on coordinates whose index differs by at most this number. The Jacobian is a band,
+    /// which is factored.
     Band(usize),
-    /// Few coordinates, at any index: equations are solved by iteration, without a matrix.
+    /// The acceleration depends on few coordinates, at any index. Equations are solved by iteration, without a matrix.
     Few,
 }
 
 impl Coupling {
-    /// The largest distance from the diagonal of an entry of a Jacobian of `size` rows; `None` if it should not be
-    /// formed.
+    /// Returns the largest distance of an entry from the diagonal, in a Jacobian of `size` rows; `None` if the Jacobian
+    /// should not be formed.
     #[inline]
     pub(super) fn reach(self, size: usize) -> Option<usize> {
         match self {
@@ -93,7 +94,7 @@ impl Coupling {
     }
 }
 
-/// A system behind a pointer: methods on systems of any type are compiled only once for each vector type.
+/// A system behind a pointer, so that methods on systems of any type are compiled only once for each vector type.
 impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
     type Vector = S::Vector;
 
@@ -110,7 +111,7 @@ impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
     }
 }
 
-/// The target of a body at one moment, and the law by which it follows.
+/// The target of a body at one moment, and the law by which the body follows the target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pursuit<V> {
     /// The target, in the units of the coordinates.
@@ -124,8 +125,8 @@ pub struct Pursuit<V> {
 }
 
 impl<V: Elementwise> Pursuit<V> {
-    /// The target and the law of `system` at time `t` (s), which counts as an evaluation; `None` if it follows
-    /// nothing. A [follower](super::integrators::Family::Follower) steps by this alone.
+    /// Returns the target and the law of `system` at time `t` (s); `None` if the system follows nothing. The answer
+    /// counts as an evaluation. A [follower](super::integrators::Family::Follower) steps by this answer alone.
     #[inline]
     pub fn of(system: &(impl System<Vector = V> + ?Sized), t: f64) -> Option<Self> {
         let mut pursuit = None;
@@ -134,7 +135,7 @@ impl<V: Elementwise> Pursuit<V> {
     }
 }
 
-/// The part of an acceleration that an engine's joint and its damping replace: `-(K q + c v) - C v`, the same for
+/// The part of an acceleration that an engine's joint and its damping replace. It is `-(K q + c v) - C v`, the same for
 /// every coordinate, with the spring at rest at `q` = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EngineSettings {
@@ -147,11 +148,11 @@ pub struct EngineSettings {
 }
 
 impl EngineSettings {
-    /// No joint and no damping: everything is a force of user code.
+    /// No joint and no damping, so that everything is a force of user code.
     pub const NONE: Self = Self { stiffness: 0.0, damping: 0.0, drag: 0.0 };
 
-    /// The settings of `system` in a physics engine. Writes the remaining force per unit mass to `force`: all of it if
-    /// the system gives no settings. Counts as an evaluation.
+    /// Returns the settings of `system` in a physics engine. Writes the remaining force per unit mass to `force`, which
+    /// is the whole force if the system gives no settings. The call counts as an evaluation.
     #[inline]
     pub fn of<V: Elementwise>(
         system: &(impl System<Vector = V> + ?Sized),
@@ -172,14 +173,14 @@ impl EngineSettings {
         self.stiffness != 0.0 || self.damping != 0.0
     }
 
-    /// `D = 1 + h c + h² K`, the divisor of an implicit solve of a step of `h` (s).
+    /// Returns `D = 1 + h c + h² K`, the divisor of an implicit solve of a step of `h` (s).
     #[inline]
     pub fn resistance(&self, h: f64) -> f64 {
         1.0 + h * self.damping + h * h * self.stiffness
     }
 }
 
-/// The class of a kind of body, for methods that step only [some](super::integrators::Only).
+/// The class of a kind of body, for methods that step only [some](super::integrators::Only) bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyClass {
     /// Moves by a force, which an engine holds for a tick, and a drag, which the engine integrates itself.
@@ -188,12 +189,13 @@ pub enum BodyClass {
     Joint,
     /// Moves by a force that an engine cannot express. The reason is a clause in lower case that follows a colon.
     NoEngine(&'static str),
-    /// Follows a target by a rule. The reason why an engine cannot express it is a clause as above.
+    /// Follows a target by a rule. The reason why an engine cannot express the rule is a clause in lower case that
+    /// follows a colon.
     Follower(&'static str),
 }
 
 impl BodyClass {
-    /// Why a physics engine cannot express the body; `None` if it can.
+    /// Returns the reason why a physics engine cannot express the body; `None` if it can.
     pub const fn engine_refusal(self) -> Option<&'static str> {
         match self {
             Self::Forced | Self::Joint => None,
@@ -216,7 +218,7 @@ impl<S> Counted<S> {
         Self { system, evaluations: Cell::new(0) }
     }
 
-    /// Evaluations so far.
+    /// Returns the number of evaluations so far.
     pub fn evaluations(&self) -> u64 {
         self.evaluations.get()
     }
@@ -257,7 +259,7 @@ pub struct Evaluation {
     pub a: Vec<f64>,
 }
 
-/// A system that appends every evaluation to a log. It allocates.
+/// A system that appends every evaluation to a log, which allocates.
 pub(super) struct Logged<S> {
     pub(super) system: S,
     pub(super) log: Rc<RefCell<Vec<Evaluation>>>,
@@ -276,7 +278,8 @@ impl<S: System<Vector: Vector>> System for Logged<S> {
         self.log.borrow_mut().push(Evaluation { t, q, v, a });
     }
 
-    /// Logs an answer as an evaluation: a slope and settings at their state, and a target at rest in it.
+    /// Logs an answer as an evaluation. A slope or engine settings are logged at their state, and a target is logged as
+    /// a state at rest on the target.
     fn query(&self, t: f64, query: Query<'_, S::Vector>) -> bool {
         match query {
             Query::Slope { state, .. } | Query::Engine { state, .. } => {

@@ -1,20 +1,20 @@
-//! A tick rate as a ratio of integers: 66.667 Hz and a step of 0.015 s are exact, as 60 Hz is.
+//! A tick rate as a ratio of integers, so that 66.667 Hz and a step of 0.015 s are as exact as 60 Hz.
 
 use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
 
-/// The most digits after the point of a rate or a step: a nanosecond.
+/// The maximum number of digits after the point of a rate or a step. The last digit of a step is a nanosecond.
 const MAX_DIGITS: usize = 9;
 
-/// The largest term of a ratio read from text; all rates of [`MAX_DIGITS`] digits have smaller ones. An `f64`
-/// represents it exactly, and the [`Clock`](super::Clock)'s integers have room for it times the longest frame at the
-/// highest speed.
+/// The largest term of a ratio read from text; all rates of [`MAX_DIGITS`] digits have smaller terms. An `f64`
+/// represents this term exactly. The integers of the [`Clock`](super::Clock) have room for this term times the longest
+/// frame at the highest speed.
 const MAX_TERM: u64 = 100_000_000_000_000;
 
-/// Ticks per second: `ticks / seconds`, in lowest terms.
+/// A number of ticks per second, as the ratio `ticks / seconds` in lowest terms.
 ///
-/// Any whole number of hertz is a rate, also 0, which no clock runs at. A rate [read](FromStr) from text is in the
+/// Any whole number of hertz is a rate, even 0, at which no clock runs. A rate [read](FromStr) from text is in the
 /// range of a clock.
 ///
 /// ```
@@ -32,21 +32,21 @@ pub struct TickRate {
 }
 
 impl TickRate {
-    /// The lowest rate of a clock: one tick in 100 seconds.
+    /// The lowest rate of a clock, which is one tick in 100 seconds.
     pub const MIN: Self = Self { ticks: 1, seconds: 100 };
-    /// The highest rate of a clock: 10 000 Hz.
+    /// The highest rate of a clock, which is 10 000 Hz.
     pub const MAX: Self = Self::whole(10_000);
 
-    /// A whole number of ticks per second.
+    /// Returns the rate of a whole number of ticks per second.
     pub const fn whole(hz: u32) -> Self {
         Self { ticks: hz as u64, seconds: 1 }
     }
 
-    /// Reads the length of a tick in seconds: a decimal or a ratio of two, such as `0.015` or `1/66.667`, optionally
-    /// with `s` or `ms` at the end.
+    /// Reads the length of a tick in seconds, which is a decimal or a ratio of two decimals, such as `0.015` or
+    /// `1/66.667`. It may end with `s` or `ms`.
     ///
     /// # Errors
-    /// An error message that says how to write it.
+    /// An error message that explains how to write the length.
     pub fn of_step(written: &str) -> Result<Self, String> {
         let (number, per_second) = match written.strip_suffix('s') {
             Some(number) => number.strip_suffix('m').map_or((number, 1), |number| (number, 1000)),
@@ -62,7 +62,7 @@ impl TickRate {
         })
     }
 
-    /// The ratio in lowest terms.
+    /// Returns the ratio in lowest terms.
     fn reduced(ticks: u128, seconds: u128) -> Self {
         let (mut common, mut rest) = (ticks, seconds);
         while rest > 0 {
@@ -72,7 +72,7 @@ impl TickRate {
         Self { ticks: term(ticks), seconds: term(seconds) }
     }
 
-    /// The ratio, if a clock runs at it.
+    /// Returns the rate of this ratio; `None` if no clock runs at it.
     fn checked(ticks: u128, seconds: u128) -> Option<Self> {
         let rate = Self::reduced(ticks, seconds);
         (rate.ticks.max(rate.seconds) <= MAX_TERM && rate.is_in_range()).then_some(rate)
@@ -83,7 +83,7 @@ impl TickRate {
         self.seconds > 0 && (Self::MIN..=Self::MAX).contains(&self)
     }
 
-    /// This rate times `times / parts`. The result need not be in the range of a clock.
+    /// Returns this rate times `times / parts`. The result need not be in the range of a clock.
     pub fn scaled(self, times: u32, parts: u32) -> Self {
         Self::reduced(
             u128::from(self.ticks) * u128::from(times),
@@ -91,42 +91,42 @@ impl TickRate {
         )
     }
 
-    /// The rate in lowest terms: ticks, and the whole seconds they take.
+    /// Returns the rate in lowest terms, as a number of ticks and the whole seconds that they take.
     pub fn ratio(self) -> [u64; 2] {
         [self.ticks, self.seconds]
     }
 
-    /// The rate in Hz, if it is whole.
+    /// Returns the rate in Hz, if it is whole.
     pub fn whole_hz(self) -> Option<u32> {
         u32::try_from(self.ticks).ok().filter(|_| self.seconds == 1)
     }
 
-    /// The rate in Hz, to the nearest `f64`.
+    /// Returns the rate in Hz, to the nearest `f64`.
     pub fn hz(self) -> f64 {
         self.ticks as f64 / self.seconds as f64
     }
 
-    /// The length of a tick in seconds, to the nearest `f64`.
+    /// Returns the length of a tick in seconds, to the nearest `f64`.
     pub fn step_s(self) -> f64 {
         self.seconds as f64 / self.ticks as f64
     }
 
-    /// The duration of this many ticks, in seconds.
+    /// Returns the duration of this many ticks, in seconds.
     pub fn seconds(self, ticks: u64) -> f64 {
         self.seconds_of(ticks as f64)
     }
 
-    /// The duration of this many ticks, including fractions, in seconds.
+    /// Returns the duration of this many ticks, including fractions, in seconds.
     pub fn seconds_of(self, ticks: f64) -> f64 {
         ticks * self.seconds as f64 / self.ticks as f64
     }
 
-    /// The rate in Hz as a decimal, if it has one of at most nine digits after the point.
+    /// Returns the rate in Hz as a decimal; `None` if it needs more than nine digits after the point.
     pub fn decimal_hz(self) -> Option<String> {
         decimal(self.ticks, self.seconds)
     }
 
-    /// The length of a tick in seconds as a decimal, if it has one of at most nine digits after the point.
+    /// Returns the length of a tick in seconds as a decimal; `None` if it needs more than nine digits after the point.
     pub fn decimal_step_s(self) -> Option<String> {
         decimal(self.seconds, self.ticks)
     }
@@ -138,7 +138,7 @@ impl From<u32> for TickRate {
     }
 }
 
-/// The rate in Hz.
+/// Converts the rate to hertz.
 impl From<TickRate> for f64 {
     fn from(rate: TickRate) -> Self {
         rate.hz()
@@ -170,8 +170,9 @@ impl PartialOrd<u32> for TickRate {
     }
 }
 
-/// A text that reads back as the same rate: `66.667`, or `1/0.015` if only the step is a decimal, or `60000/1001`.
-/// With a precision, as in `{:.3}`, the nearest decimal with at most that many digits, for people.
+/// Writes a text that reads back as the same rate: `66.667`, or `1/0.015` if only the step is a decimal, or
+/// `60000/1001`. With a precision, as in `{:.3}`, writes the nearest decimal with at most that many digits after the
+/// point, for people.
 impl fmt::Display for TickRate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(digits) = f.precision() {
@@ -190,7 +191,7 @@ impl fmt::Display for TickRate {
 impl FromStr for TickRate {
     type Err = String;
 
-    /// Reads a rate in Hz: a decimal or a ratio of two, such as `59.94` or `60000/1001`.
+    /// Reads a rate in Hz, which is a decimal or a ratio of two decimals, such as `59.94` or `60000/1001`.
     fn from_str(written: &str) -> Result<Self, String> {
         let rate = ratio(written).and_then(|[ticks, seconds]| Self::checked(ticks, seconds));
         rate.ok_or_else(|| {
@@ -203,7 +204,7 @@ impl FromStr for TickRate {
     }
 }
 
-/// A number from a file. Its shortest decimal is the text in the file.
+/// Reads a number from a file. Its shortest decimal is the text in the file.
 impl TryFrom<f64> for TickRate {
     type Error = String;
 
@@ -212,7 +213,7 @@ impl TryFrom<f64> for TickRate {
     }
 }
 
-/// A number in Hz: an integer if it is whole.
+/// Writes a number in Hz, which is an integer if the rate is whole.
 #[cfg(feature = "serde")]
 impl serde::Serialize for TickRate {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -223,14 +224,14 @@ impl serde::Serialize for TickRate {
     }
 }
 
-/// A decimal, or a ratio of two, as a ratio of integers.
+/// Reads a decimal, or a ratio of two decimals, as a ratio of integers.
 fn ratio(written: &str) -> Option<[u128; 2]> {
     let (above, below) = written.split_once('/').unwrap_or((written, "1"));
     let [[a, a_parts], [b, b_parts]] = [integers(above)?, integers(below)?];
     Some([a * b_parts, b * a_parts])
 }
 
-/// A decimal as a ratio of integers below 2⁶⁴.
+/// Reads a decimal as a ratio of integers below 2⁶⁴.
 fn integers(decimal: &str) -> Option<[u128; 2]> {
     let (whole, part) = decimal.split_once('.').unwrap_or((decimal, ""));
     let digits = format!("{whole}{part}");
@@ -239,7 +240,7 @@ fn integers(decimal: &str) -> Option<[u128; 2]> {
     Some([value.into(), 10_u128.pow(part.len() as u32)])
 }
 
-/// `above / below` as the shortest decimal, if it has one of at most [`MAX_DIGITS`] digits after the point.
+/// Returns `above / below` as the shortest decimal; `None` if it needs more than [`MAX_DIGITS`] digits after the point.
 fn decimal(above: u64, below: u64) -> Option<String> {
     let scaled = |digits: &usize| u128::from(above) * 10_u128.pow(*digits as u32);
     let is_whole = |digits: &usize| scaled(digits).checked_rem(below.into()) == Some(0);

@@ -18,7 +18,7 @@ impl<'a, S: System> VecSystem<'a, S> {
     }
 }
 
-/// Scratch in the system's own vectors: a state, a direction, and the result.
+/// Scratch in the system's own vectors, for a state, a direction and the result.
 #[derive(Clone)]
 pub(super) struct Scratch<V> {
     state: State<V>,
@@ -27,13 +27,13 @@ pub(super) struct Scratch<V> {
 }
 
 impl<V: Vector> Scratch<V> {
-    /// Scratch for coordinates shaped `like` these.
+    /// Returns scratch for coordinates shaped `like` these.
     pub(super) fn new(like: &V) -> Self {
         let state = State { q: like.clone(), v: like.clone() };
         Self { along: state.clone(), result: like.clone(), state }
     }
 
-    /// The state with these coordinates and velocities; at rest without velocities.
+    /// Returns the state with these coordinates and velocities. The state is at rest if `v` is `None`.
     pub(super) fn state(&mut self, q: &[f64], v: Option<&[f64]>) -> &State<V> {
         self.state.q.components_mut().copy_from_slice(q);
         let own = self.state.v.components_mut();

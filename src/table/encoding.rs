@@ -1,24 +1,24 @@
-//! Reads text in UTF-8 or UTF-16, as tools and shells write it, as UTF-8.
+//! Reads text that tools and shells write in UTF-8 or UTF-16, and converts it to UTF-8.
 
 use std::io::{self, BufRead, Read};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Encoding {
     Utf8,
-    /// Little-endian: the less significant byte of each unit comes first.
+    /// Little-endian, in which the less significant byte of each unit comes first.
     Utf16Le,
     Utf16Be,
 }
 
-/// The UTF-8 of an input, without its byte order mark. Invalid UTF-16 becomes a replacement character; UTF-8 passes
-/// unchecked.
+/// A reader that converts its input to UTF-8, without the byte order mark. Invalid UTF-16 becomes a replacement
+/// character; UTF-8 passes unchecked.
 pub struct Utf8<R> {
     input: R,
     encoding: Option<Encoding>,
-    /// Decoded UTF-8, and how many of its bytes were read.
+    /// Decoded UTF-8, and the number of its bytes that were read.
     decoded: Vec<u8>,
     taken: usize,
-    /// First byte of an incomplete unit, and first unit of an incomplete pair.
+    /// First byte of an incomplete unit, and first unit of an incomplete surrogate pair.
     odd: Option<u8>,
     high: Option<u16>,
 }
@@ -29,7 +29,7 @@ impl<R: BufRead> Utf8<R> {
         Self { input, encoding: None, decoded: Vec::new(), taken: 0, odd: None, high: None }
     }
 
-    /// Reads the byte order mark, if there is one.
+    /// Reads the byte order mark, if there is one, and returns the encoding.
     fn begin(&mut self) -> io::Result<Encoding> {
         let mut mark = Vec::new();
         (&mut self.input).take(2).read_to_end(&mut mark)?;
@@ -50,7 +50,7 @@ impl<R: BufRead> Utf8<R> {
         Ok(encoding)
     }
 
-    /// Decodes the bytes in the input's buffer. Returns whether there were any.
+    /// Decodes the bytes in the input's buffer. Returns whether there were any bytes.
     fn decode(&mut self, is_little: bool) -> io::Result<bool> {
         let bytes = self.input.fill_buf()?;
         let count = bytes.len();

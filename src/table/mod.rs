@@ -1,9 +1,9 @@
-//! One reader of tables, for logs of any tool: bytes come in, and a header, rows of cells and numbers come out.
+//! A reader of tables for the logs of any tool. It turns bytes into a header, rows of cells, and numbers.
 //!
 //! A [`TableReader`] skips the byte order mark, blank lines, remarks that begin with `#` or `//`, and up to
-//! [`MAX_ABOVE`] lines above the header that its caller does not know. The header shows the separator of the cells:
-//! comma, semicolon or tab. A [decoder](Utf8) turns UTF-16 into UTF-8 on the way. Numbers may have a decimal comma
-//! unless commas separate the cells.
+//! [`MAX_ABOVE`] other lines above the header, which the caller recognises. The separator of the cells in the header
+//! (comma, semicolon or tab) is the separator of all rows. A [decoder](Utf8) turns UTF-16 into UTF-8 on the way.
+//! Numbers may have a decimal comma unless commas separate the cells.
 
 use std::io::{self, BufRead, Read};
 
@@ -15,14 +15,14 @@ mod number;
 pub use encoding::Utf8;
 pub use number::{Decimal, number};
 
-/// Most lines above a header, not counting remarks and blank lines.
+/// Maximum number of lines above a header, not counting remarks and blank lines.
 pub const MAX_ABOVE: u64 = 16;
-/// Most bytes of a row, of the header or of a line above it. No log has a longer one, but an input without line ends,
-/// such as a device, does.
+/// Maximum number of bytes in a row, in the header, or in a line above the header. No log has a longer line, but an
+/// input without line ends has one, for example a device.
 pub const MAX_ROW_BYTES: usize = 1 << 20;
-/// Most bytes of the header and everything above it.
+/// Maximum number of bytes in the header and all lines above it.
 const MAX_HEAD_BYTES: usize = 1 << 22;
-/// Bytes to read from an input at once.
+/// Number of bytes that are read from an input at once.
 pub(crate) const BUFFER_BYTES: usize = 1 << 20;
 
 /// Options for reading a table.
@@ -36,7 +36,7 @@ pub struct Reading {
     pub lists: bool,
 }
 
-/// The reason why a table cannot be read, with its line.
+/// The reason why a table cannot be read, and the line that it is about.
 #[derive(Debug, thiserror::Error)]
 #[error("{fault}")]
 pub struct TableError {
@@ -92,8 +92,8 @@ pub struct TableReader<R> {
 }
 
 impl<R: BufRead> TableReader<R> {
-    /// Reads up to the header: the first line for which `is_header` is true. If there is none, the first line that is
-    /// neither blank nor a remark becomes the header.
+    /// Reads a table up to its header, which is the first line for which `is_header` is true. If there is no such line,
+    /// the first line that is neither blank nor a remark becomes the header.
     ///
     /// # Errors
     /// If the input cannot be read, has too long a line, or has only blank lines and remarks.
@@ -152,7 +152,7 @@ impl<R: BufRead> TableReader<R> {
         Ok(Self { rows, header, first, above, header_line: above + 1, is_list, separator, reading })
     }
 
-    /// Names of the columns. A list has one column with an empty name.
+    /// Returns the names of the columns. A list has one column with an empty name.
     pub fn header(&self) -> &ByteRecord {
         &self.header
     }
@@ -162,21 +162,21 @@ impl<R: BufRead> TableReader<R> {
         self.is_list
     }
 
-    /// Line of the header, or of the first row of a list.
+    /// Returns the line number of the header, or that of the first row if the table is a list.
     pub fn header_line(&self) -> u64 {
         self.header_line
     }
 
-    /// Decimal signs that the table's numbers may have.
+    /// Returns the decimal signs that the table's numbers may have.
     pub fn decimal(&self) -> Decimal {
         if self.separator == b',' { Decimal::Point } else { Decimal::PointOrComma }
     }
 
-    /// Reads the next row and returns its line; `None` after the last. Skips blank lines and, with
-    /// [`Reading::remarks`], remarks.
+    /// Reads the next row and returns its line number, or `None` after the last row. Skips blank lines, and skips
+    /// remarks if [`Reading::remarks`] is set.
     ///
     /// # Errors
-    /// If the row cannot be read, or if its number of cells does not fit the header.
+    /// If the row cannot be read, or if it has too many or too few cells for the header.
     pub fn next(&mut self, row: &mut ByteRecord) -> Result<Option<u64>, TableError> {
         if let Some(first) = self.first.take() {
             *row = first;
@@ -196,7 +196,7 @@ impl<R: BufRead> TableReader<R> {
             let line = self.above + row.position().map_or(line, csv::Position::line);
             let (cells, header) = (row.len(), self.header.len());
             let first = row.get(0).unwrap_or_default().trim_ascii_start();
-            // A line of several cells may be a row, about an object whose name begins with `#`.
+            // A line of several cells may be a row about an object whose name begins with `#`.
             let is_said = cells == 1 || first.starts_with(b"# ") || first.starts_with(b"//");
             if self.reading.remarks && cells != header && is_remark(first) && is_said {
                 continue;
@@ -244,15 +244,15 @@ fn cells(line: &[u8]) -> ByteRecord {
     row
 }
 
-/// Separator of a header's cells: the most frequent one, and the comma in a tie. A single cell gets the semicolon,
-/// which is in no number.
+/// Returns the separator of a header's cells, which is the most frequent of the three. The comma wins a tie. A header
+/// of a single cell gets the semicolon, which no number contains.
 fn separator(header: &[u8]) -> u8 {
     let count = |separator: &u8| header.iter().filter(|byte| *byte == separator).count();
     let most = [b'\t', b';', b','].into_iter().max_by_key(count).expect("three");
     if count(&most) == 0 { b';' } else { most }
 }
 
-/// Fails if a row does not end.
+/// A reader that fails if a row does not end.
 struct Bounded<R> {
     input: R,
     /// Bytes read since the row began.
@@ -281,7 +281,7 @@ struct TooLong;
 mod tests {
     use super::*;
 
-    /// The header, its line, and the rows with their lines.
+    /// Returns the header, its line, and the rows with their lines.
     fn read(text: &str, reading: Reading, known: &str) -> (Vec<String>, u64, Vec<(u64, String)>) {
         let of = |record: &ByteRecord| -> Vec<String> {
             record.iter().map(|cell| String::from_utf8_lossy(cell).into_owned()).collect()

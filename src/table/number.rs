@@ -1,4 +1,4 @@
-//! Numbers in the spelling of many tools.
+//! Parses numbers as many tools write them.
 
 /// Decimal signs that a number may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,7 +9,7 @@ pub enum Decimal {
     PointOrComma,
 }
 
-/// Parses the number in a cell, which may be infinite or NaN; `None` if it is not a number.
+/// Parses the number in a cell, which may be infinite or NaN; returns `None` if the cell has no number.
 pub fn number(cell: &[u8], decimal: Decimal) -> Option<f64> {
     let cell = std::str::from_utf8(cell).ok()?.trim();
     let plain = cell.parse().ok();

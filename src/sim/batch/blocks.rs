@@ -1,4 +1,4 @@
-//! Copies stepped in blocks, by the formula files of the methods.
+//! Steps copies in blocks, by the formula files of the methods.
 
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -10,12 +10,13 @@ use crate::sim::integrators::{Construct, Integrator, Method, MethodOf};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
-/// Copies that a thread takes at a time: their state is 64 KiB, which fits the second-level cache of every processor.
-/// A multiple of every block width.
+/// The number of copies that a thread handles at a time. Their state is 64 KiB, which fits the second-level cache of
+/// every processor. The number is a multiple of every block width.
 const GRAIN: usize = cores::GRAIN / 8;
 
-/// Copies that a thread steps through all ticks before it continues with the next ones. Their state of 4 KiB stays in
-/// the first-level cache. Unlike the ticks of one block, their blocks do not wait for each other.
+/// The number of copies that a thread steps through all ticks before it continues with the next ones. Their state of 4
+/// KiB stays in the first-level cache. Unlike the ticks of one block, the blocks of these copies do not wait for each
+/// other.
 const TILE: usize = 256;
 
 /// Builds the block stepper of `copies`; `None` if `method` does not step in blocks.

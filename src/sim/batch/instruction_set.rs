@@ -1,20 +1,20 @@
-//! Instruction sets of a processor that blocks are compiled for.
+//! The instruction sets of a processor for which blocks are compiled.
 
 use multiversion::multiversion;
 use multiversion::target::match_target;
 
-/// Copies in a block: as many numbers as fill one or two registers.
+/// Numbers of copies in a block, enough to fill one or two registers.
 pub(super) const NARROW: usize = 4;
 pub(super) const WIDE: usize = 8;
 
-/// An instruction set for blocks of bodies. All give the same bits: none fuses a product with a sum.
+/// An instruction set for blocks of bodies. All sets give the same bits, because none fuses a product with a sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstructionSet {
-    /// The baseline of the platform: two numbers at once on x86-64 and on ARM.
+    /// The baseline of the platform, which computes two numbers at once on x86-64 and on ARM.
     Portable,
-    /// Four numbers at once.
+    /// Computes four numbers at once.
     Avx2,
-    /// Eight numbers at once.
+    /// Computes eight numbers at once.
     Avx512,
 }
 
@@ -22,7 +22,7 @@ impl InstructionSet {
     /// All sets, narrowest first.
     pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// The widest set that this processor has.
+    /// Returns the widest set that this processor has.
     pub fn widest() -> Self {
         let widest = Self::ALL.into_iter().rev().find(|set| set.is_available());
         widest.unwrap_or(Self::Portable)
@@ -37,7 +37,7 @@ impl InstructionSet {
         }
     }
 
-    /// Number of copies in a block of a compiled method.
+    /// Returns the number of copies in a block of a compiled method.
     pub(super) const fn width(self) -> usize {
         match self {
             Self::Portable | Self::Avx2 => NARROW,
@@ -71,10 +71,10 @@ impl InstructionSet {
 
 /// A loop to be compiled for an instruction set.
 pub(in crate::sim) trait Kernel {
-    /// Number of copies in one of its blocks; `None` if every instruction set can run the loop.
+    /// Number of copies in a block of the loop; `None` if every instruction set can run the loop.
     const WIDTH: Option<usize> = None;
 
-    /// Runs the loop. Always inlined, with everything to be compiled for the same instruction set.
+    /// Runs the loop. It must be inlined, with everything that is to be compiled for the same instruction set.
     fn run(self);
 }
 
@@ -82,7 +82,7 @@ pub(in crate::sim) trait Kernel {
 fn with_avx2<K: Kernel>(kernel: K) {
     match_target! {
         "x86_64+avx+avx2" => kernel.run(),
-        // Chosen only where the processor has it.
+        // Never runs, because the function is chosen only if the processor has the instructions.
         _ => {
             let _ = kernel;
             unreachable!()
@@ -94,7 +94,7 @@ fn with_avx2<K: Kernel>(kernel: K) {
 fn with_avx512<K: Kernel>(kernel: K) {
     match_target! {
         "x86_64+avx+avx2+avx512f+avx512vl" => kernel.run(),
-        // Chosen only where the processor has it.
+        // Never runs, because the function is chosen only if the processor has the instructions.
         _ => {
             let _ = kernel;
             unreachable!()

@@ -2,8 +2,8 @@
 //!
 //! A method that steps each number by itself steps blocks of copies. Its formula file is compiled for `[f64; W]`
 //! instead of `f64`, once per [`InstructionSet`], and the widest set of the processor runs. Other methods step copy by
-//! copy. Both share the work among the threads of rayon's pool. Neither the instruction set nor the number of threads
-//! changes a bit: each copy has the state of a body stepped alone.
+//! copy. All methods share the work among the threads of rayon's pool. Neither the instruction set nor the number of
+//! threads changes a bit, so that each copy has the state of a body stepped alone.
 
 mod blocks;
 mod instruction_set;
@@ -29,7 +29,7 @@ use super::tick_rate::TickRate;
 /// Consecutive ticks of one rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ticks {
-    /// The time of tick 0, if every tick since then had this rate, in seconds.
+    /// The time of tick 0 in seconds, as if every tick since then had this rate.
     pub origin: f64,
     /// Index of the first tick.
     pub first: u64,
@@ -42,7 +42,7 @@ pub struct Ticks {
 }
 
 impl Ticks {
-    /// The first ticks of a run.
+    /// Returns the first `count` ticks of a run.
     ///
     /// # Panics
     /// If the rate or the substeps are 0.
@@ -61,24 +61,24 @@ impl Ticks {
         self
     }
 
-    /// The ticks after these.
+    /// Returns the `count` ticks after these.
     pub fn next(self, count: u64) -> Self {
         Self { first: self.first + self.count, count, ..self }
     }
 
-    /// The time of a tick, in seconds.
+    /// Returns the time of a tick, in seconds.
     #[inline]
     pub fn t(self, tick: u64) -> f64 {
         self.origin + self.hz.seconds(tick)
     }
 
-    /// The length of a tick, in seconds.
+    /// Returns the length of a tick, in seconds.
     #[inline]
     pub fn h(self) -> f64 {
         self.hz.step_s()
     }
 
-    /// The length of a step, in seconds.
+    /// Returns the length of a step, in seconds.
     #[inline]
     fn part(self) -> f64 {
         self.h() / f64::from(self.substeps)
@@ -87,7 +87,7 @@ impl Ticks {
 
 /// Advances the copies of a batch.
 trait Advance: Send {
-    /// Steps the copies with these coordinates and velocities.
+    /// Steps the copies with these coordinates and velocities through `ticks`.
     fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]);
 
     /// Clears the memory of the method.
@@ -116,7 +116,7 @@ trait Advance: Send {
 /// # Ok::<(), std::collections::TryReserveError>(())
 /// ```
 pub struct Batch {
-    /// In whole blocks: the padding repeats the last copy.
+    /// The coordinates in whole blocks. The padding repeats the last copy.
     q: Vec<f64>,
     v: Vec<f64>,
     count: usize,
@@ -126,19 +126,19 @@ pub struct Batch {
 /// A batch, or an error if its copies do not fit into memory.
 pub type NewBatch = Result<Batch, TryReserveError>;
 
-/// Upper bounds on the memory of a copy, in bytes: in a block its state and the method's memory, alone a whole
-/// integrator.
+/// Upper bounds on the memory of a copy, in bytes. A copy in a block needs its state and the method's memory, and a
+/// copy that is stepped alone needs a whole integrator.
 const BLOCK_BYTES: usize = 256;
 const ALONE_BYTES: usize = 2048;
 
-/// A multiple of every block width.
+/// The number of copies is padded to a multiple of this number, which is a multiple of every block width.
 const PADDING: usize = 32;
 
 impl Batch {
-    /// Copies of `system` from these starts.
+    /// Makes one copy of `system` for each of these starts.
     ///
     /// # Errors
-    /// If they do not fit into memory.
+    /// If the copies do not fit into memory.
     pub fn new<S: OneCoordinate>(
         system: &S,
         method: &'static Method,
@@ -147,11 +147,11 @@ impl Batch {
         Self::on(InstructionSet::widest(), system, Solver::Method(method), starts)
     }
 
-    /// As [`Batch::new`], under a method that may override its card, on an instruction set that this processor must
-    /// [have](InstructionSet::is_available).
+    /// Makes copies as [`Batch::new`] does, under a method that may have an override, on an instruction set that this
+    /// processor must [have](InstructionSet::is_available).
     ///
     /// # Errors
-    /// As [`Batch::new`].
+    /// The same as for [`Batch::new`].
     ///
     /// # Panics
     /// If the solver is the truth.
@@ -191,7 +191,7 @@ impl Batch {
     /// Checks that memory suffices for this number of copies under each of these solvers at once. Allocates nothing.
     ///
     /// # Errors
-    /// If it does not suffice.
+    /// If the memory does not suffice.
     pub fn find_room(
         copies: usize,
         solvers: impl IntoIterator<Item = Solver>,
@@ -204,28 +204,28 @@ impl Batch {
         let mut room = Vec::<u8>::new();
         let reserved =
             room.try_reserve_exact(copies.saturating_mul(bytes).min(isize::MAX as usize));
-        // Without this, an optimiser drops the unused reservation.
+        // Without this line, an optimiser drops the unused reservation.
         std::hint::black_box(&mut room);
         reserved
     }
 
     /// Steps every copy through `ticks`. A method with memory continues from the last run.
     ///
-    /// If a copy blows up or its method gives up, its coordinate or velocity is not finite.
+    /// If a copy blows up or its method gives up, the coordinate or the velocity of the copy is not finite.
     ///
     /// # Panics
-    /// As [`Ticks::from_start`].
+    /// The same as for [`Ticks::from_start`].
     #[track_caller]
     pub fn run(&mut self, ticks: Ticks) {
         self.advance.advance(ticks.checked(), &mut self.q, &mut self.v);
     }
 
-    /// The coordinates, in the order of the starts.
+    /// Returns the coordinates, in the order of the starts.
     pub fn q(&self) -> &[f64] {
         &self.q[..self.count]
     }
 
-    /// The velocities, in the order of the starts.
+    /// Returns the velocities, in the order of the starts.
     pub fn v(&self) -> &[f64] {
         &self.v[..self.count]
     }
@@ -245,14 +245,14 @@ pub(in crate::sim) trait Copies: Clone + Send + Sync + 'static {
     /// The system of `W` copies.
     type Block<const W: usize>: System<Vector = [f64; W]>;
 
-    /// `W` copies, on an instruction set.
+    /// Returns the system of `W` copies, on an instruction set.
     fn block<const W: usize>(&self, set: InstructionSet) -> Self::Block<W>;
 
-    /// A single copy.
+    /// Returns the system of a single copy.
     fn alone(&self) -> Problem<f64>;
 }
 
-/// A system that a batch can step: it has one coordinate, and threads can share it.
+/// A system that a batch can step, because it has one coordinate and threads can share it.
 pub trait OneCoordinate: System<Vector = f64> + Clone + Send + Sync + 'static {}
 
 impl<S: System<Vector = f64> + Clone + Send + Sync + 'static> OneCoordinate for S {}

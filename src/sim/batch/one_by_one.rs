@@ -1,4 +1,4 @@
-//! Copies stepped one by one, on all cores, under methods that need a whole body.
+//! Steps copies one by one, on all cores, under methods that need a whole body.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ struct OneByOne<C> {
     integrators: Vec<Box<dyn Integrator<Problem<f64>>>>,
 }
 
-/// Copies that a thread takes at a time: a step of an implicit method takes a microsecond.
+/// The number of copies that a thread handles at a time. A step of an implicit method takes a microsecond.
 const GRAIN: usize = 64;
 
 /// Builds the stepper of `count` copies under `solver`, one by one; `None` for the truth.

@@ -2,15 +2,15 @@
 //!
 //! Each dash-pot is parallel to a spring. The damping matrix is then proportional to the stiffness matrix, so that the
 //! normal modes stay uncoupled and the motion has a closed form. The damping of a mode grows with the square of its
-//! frequency: one chain has modes that oscillate and modes that are overdamped.
+//! frequency, so that one chain can have modes that oscillate and modes that are overdamped.
 
 use std::f64::consts::PI;
 
 use super::oscillator;
 use super::prelude::*;
 
-/// The largest number of masses: more are not distinguishable on a wide stage. The closed form needs about the square
-/// of this number of multiplications per tick.
+/// The maximum number of masses. More could not be distinguished on a wide stage. The closed form needs about the
+/// square of this number of multiplications per tick.
 const MAX_MASSES: u32 = 256;
 
 pub(super) fn kind() -> Kind {
@@ -60,25 +60,25 @@ const PARAMETERS: [Of; 7] = [
         .about("the impulse of one kick"),
 ];
 
-/// A chain of masses. Its coordinates are their displacements, in metres.
+/// A chain of masses. Its coordinates are the displacements of the masses, in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chain {
     /// Number of masses.
     masses: usize,
-    /// m, in kilograms.
+    /// m, each mass, in kilograms.
     mass: f64,
-    /// k, in newtons per metre.
+    /// k, the stiffness of each spring, in newtons per metre.
     stiffness: f64,
-    /// c, in N·s/m.
+    /// c, the damping of each dash-pot, in N·s/m.
     damping: f64,
-    /// The number of the mass to pluck and kick, from 1.
+    /// The number of the mass that is plucked and kicked, counted from 1.
     plucked: usize,
     /// Displacement of the plucked mass at the start, in metres.
     x0: f64,
     /// The impulse of one kick, in newton seconds.
     kick: f64,
-    /// `sin(π i / (N + 1))` for i from 0 to 2 N + 1. The displacement of mass j in mode n is entry j n, modulo the
-    /// length.
+    /// `sin(π i / (N + 1))` for i from 0 to 2 N + 1. The displacement of mass j in mode n is the entry with index j n,
+    /// modulo the number of entries.
     sines: Vec<f64>,
 }
 
@@ -86,13 +86,13 @@ pub struct Chain {
 const HALF_LENGTH: f64 = 2.4;
 
 impl Chain {
-    /// The undamped angular frequency of mode `n`, from 1, in radians per second.
+    /// Returns the undamped angular frequency of mode `n`, counted from 1, in radians per second.
     pub fn angular_frequency(&self, n: usize) -> f64 {
         let half = PI * n as f64 / (2 * (self.masses + 1)) as f64;
         2.0 * (self.stiffness / self.mass).sqrt() * libm::sin(half)
     }
 
-    /// The displacement of each mass in mode `n`, from 1, at amplitude 1.
+    /// Returns the displacement of each mass in mode `n`, counted from 1, at amplitude 1.
     fn shape(&self, n: usize) -> impl Iterator<Item = f64> {
         let mut i = 0;
         (0..self.masses).map(move |_| {
@@ -104,13 +104,13 @@ impl Chain {
         })
     }
 
-    /// The initial displacement of the plucked mass, in metres; 1 if that is 0.
+    /// Returns the magnitude of the initial displacement of the plucked mass, in metres; 1 if the displacement is 0.
     pub fn amplitude(&self) -> f64 {
         if self.x0 == 0.0 { 1.0 } else { self.x0.abs() }
     }
 
-    /// The position in metres of mass `j`, from 1, displaced by `x`: the chain lies along x, and displacements are
-    /// across it. `j` = 0 and `j` = masses + 1 are the walls.
+    /// Returns the position in metres of mass `j`, counted from 1, if its displacement is `x`. The chain lies along the
+    /// x axis, and displacements are across the chain. `j` = 0 and `j` = masses + 1 are the walls.
     pub fn place_of(&self, j: usize, x: f64) -> DVec2 {
         let part = j as f64 / (self.masses + 1) as f64;
         DVec2::new((2.0 * part - 1.0) * HALF_LENGTH * self.amplitude(), x)
@@ -127,7 +127,8 @@ impl System for Chain {
     #[inline]
     fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
         let (k, c) = (self.stiffness / self.mass, self.damping / self.mass);
-        // k q + c v of the mass to the left, of this one and of the one to the right; the walls are at rest.
+        // These are k q + c v of the mass to the left, of this mass and of the mass to the right. The walls are at
+        // rest.
         let mut left = 0.0;
         let mut here = k * q[0] + c * v[0];
         let last = q.len() - 1;
@@ -152,7 +153,7 @@ impl Body for Chain {
         let (masses, plucked) = (self.masses, self.plucked);
         assert!((1..=masses).contains(&plucked), "mass {plucked} of {masses}");
         let sine = |i: usize| libm::sin(PI * i as f64 / (masses + 1) as f64);
-        // Mirrored, so that sines equal by symmetry are equal to the bit.
+        // The sines are mirrored, so that sines equal by symmetry are equal to the bit.
         let quarter = |i: usize| sine(i.min(masses + 1 - i));
         let half = (0..=masses).map(quarter);
         self.sines = half.clone().chain(half.map(|sine| -sine)).collect();
@@ -197,7 +198,7 @@ impl Body for Chain {
         let norm = 2.0 / (self.masses + 1) as f64;
         let mut sum = [0.0; 2];
         for n in 1..=self.masses {
-            // Sums of magnitudes: they bound the rounding even if the sums cancel.
+            // The sums are of magnitudes, which bound the rounding even if the terms cancel.
             let mut mode = State { q: 0.0, v: 0.0 };
             for ((q, v), shape) in from.q.iter().zip(&from.v).zip(self.shape(n)) {
                 mode.q += norm * (shape * q).abs();

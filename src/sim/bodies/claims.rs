@@ -1,8 +1,8 @@
-//! The one checker of the exact solution and the energy that a [law](super::Law) or a [custom body](super::Custom)
-//! claims.
+//! The checker of the exact solution and the energy that a [law](super::Law) or a [custom body](super::Custom) claims.
 //!
-//! It checks a claim against the equation at the start and at a wide range of times, which is cheap enough for every
-//! change of a parameter. When a scene is read, it also checks it against the reference solution at every tick.
+//! The checker compares a claim with the equation at the start and at a wide range of times, which is cheap enough for
+//! every change of a parameter. When a scene is read, it also compares the claim with the reference solution at every
+//! tick.
 
 use std::cell::OnceCell;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,34 +13,35 @@ use crate::sim::numerics::XorShift;
 use crate::sim::reference::Reference;
 use crate::sim::state::State;
 
-/// Times at which claims are checked against the equation, in seconds: the start and a wide range of scales after it.
+/// The times in seconds at which claims are checked against the equation, which are the start and a wide range of
+/// scales after it.
 pub(super) const TIMES: [f64; 12] =
     [0.0, 1e-3, 0.01, 0.07, 0.2, 0.5, 1.0, 1.7, 3.1, 6.3, 11.0, 20.0];
 
-/// Number and spacing (s) of more times to check an exact solution at, for forces that act only for a while. The
-/// spacing is odd, so that no written force begins at one of them.
+/// Number, with the start, and spacing (s) of further times at which an exact solution is checked, because a force may
+/// act only for a while. The spacing is odd, so that no written force begins at one of these times.
 const EVEN_TIMES: u32 = 160;
 const EVEN_TIME_S: f64 = 0.12361;
 
-/// Trial states around the start: enough to rule out a coincidence.
+/// Number of trial states around the start, enough to rule out a coincidence.
 const STATES: usize = 12;
 
-/// Trial states around each later state.
+/// Number of trial states around each later state.
 const LATER_STATES: usize = 3;
 
 /// Prefixes of the names of a coordinate and of its velocity.
 const PREFIXES: [&str; 2] = ["", "v"];
 
-/// The largest relative change of the energy, or distance from an exact solution, after one tick: far above the
-/// accuracy of the reference, and far below what is visible.
+/// The largest relative change of the energy, or distance from an exact solution, after one tick. It is far above the
+/// error of the reference, and far too small to be visible.
 const TICK_TOLERANCE: f64 = 1e-7;
 
 /// The largest relative change of the energy over all ticks.
 const RUN_TOLERANCE: f64 = 1e-6;
 
-/// The most evaluations of the acceleration that the reference spends on one claim. They cover a minute or two at 60
-/// Hz of a motion like those of the built-in scenes, in some hundredths of a second. The rest of the horizon stays
-/// unchecked.
+/// The maximum number of evaluations of the acceleration that the reference spends on one claim. They cover a minute or
+/// two at 60 Hz of a motion like those of the built-in scenes, and take some hundredths of a second. The rest of the
+/// horizon stays unchecked.
 const MAX_EVALUATIONS: u64 = 300_000;
 
 /// The ticks at which a body's claims are checked against the reference solution.
@@ -52,7 +53,8 @@ pub struct ClaimHorizon {
     pub ticks: u64,
 }
 
-/// The claims of a [law](super::Law) or a [custom body](super::Custom) that are false with its present parameters.
+/// The claims of a [law](super::Law) or a [custom body](super::Custom) that are false with the body's present
+/// parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FalseClaims {
     /// The energy is not conserved.
@@ -61,11 +63,11 @@ pub struct FalseClaims {
     pub exact: bool,
 }
 
-/// The number of parameter sets whose findings are kept: some minutes of dragging a slider.
+/// The number of parameter sets whose findings are kept, enough for some minutes of dragging a slider.
 const MAX_FINDINGS: usize = 256;
 
-/// Findings on the bodies of one kind, oldest first: the bits of their parameters, and the claims that are false with
-/// them.
+/// Findings on the bodies of one kind, oldest first. A finding is the bits of the parameters, and the claims that are
+/// false with them.
 type Findings = Mutex<Vec<(Vec<u64>, FalseClaims)>>;
 
 /// The false claims of a body with its present parameters. Copies of a body share the findings, so that each set of
@@ -77,7 +79,7 @@ pub(super) struct Checked {
 }
 
 impl Checked {
-    /// A checker that reports every claim as false, for the body whose claims are being checked.
+    /// Returns a checker that reports every claim as false, for the body whose claims are being checked.
     pub(super) fn without_claims() -> Self {
         let none = FalseClaims { energy: true, exact: true };
         Self { present: OnceCell::from(none), ..Self::default() }
@@ -88,7 +90,7 @@ impl Checked {
         self.present.take();
     }
 
-    /// The false claims of `body`; `values` are its present parameters.
+    /// Returns the false claims of `body`, whose present parameters are `values`.
     pub(super) fn false_claims<B: Claimant>(&self, body: &B, values: &[f64]) -> FalseClaims {
         *self.present.get_or_init(|| {
             let is_of = |(bits, _): &&(Vec<u64>, _)| {
@@ -120,22 +122,23 @@ pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
     /// Names of the start values of a coordinate and of a velocity, for error messages.
     const START_KEYS: [&'static str; 2];
 
-    /// The name of a coordinate.
+    /// Returns the name of a coordinate.
     fn name(&self, coordinate: usize) -> &str;
 
-    /// Overwrites `to` with the claimed state at `t` (s). Returns whether there is one.
+    /// Overwrites `to` with the claimed state at `t` (s). Returns whether the body claims an exact solution.
     fn claimed(&self, t: f64, to: &mut State<Vec<f64>>) -> bool;
 
-    /// The time derivative of the claimed state. Of several finite differences, the one nearest to `wanted`.
+    /// Returns the time derivative of the claimed state. Of several finite differences, returns the one nearest to
+    /// `wanted`.
     fn claimed_slope(&self, t: f64, wanted: &State<Vec<f64>>) -> State<Vec<f64>>;
 
-    /// The claimed energy in joules; `None` if there is none.
+    /// Returns the claimed energy in joules; `None` if the body claims none.
     fn claimed_energy(&self, state: &State<Vec<f64>>) -> Option<f64>;
 
-    /// The rate of change of the energy and the exchanged power, in watts; `None` if one is not finite.
+    /// Returns the rate of change of the energy and the exchanged power, in watts; `None` if one of them is not finite.
     fn power(&self, t: f64, state: &State<Vec<f64>>) -> Option<[f64; 2]>;
 
-    /// The same body at the start of a run, without its claims and its steering.
+    /// Returns the same body at the start of a run, without its claims and its steering.
     fn without_claims(&self) -> Self;
 }
 
@@ -146,7 +149,7 @@ pub(super) struct ClaimFault {
     pub(super) coordinate: Option<usize>,
     /// The error message.
     pub(super) what: String,
-    /// How to mend it.
+    /// How to mend the fault.
     pub(super) remedy: &'static str,
 }
 
@@ -175,12 +178,13 @@ pub(super) fn check<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Result<(), 
     fault.map_or(Ok(()), Err)
 }
 
-/// Whether `a` and `b` differ by at most `most`; a NaN never does.
+/// Whether `a` and `b` differ by at most `most`; false if one is NaN.
 fn is_near(a: f64, b: f64, most: f64) -> bool {
     (a - b).abs() <= most
 }
 
-/// Why the exact solution does not satisfy the equation; `None` if it does, or if there is none.
+/// Returns the reason why the exact solution does not satisfy the equation; `None` if it does, or if there is no exact
+/// solution.
 fn find_unsolved<B: Claimant>(body: &B) -> Option<ClaimFault> {
     let body = body.without_claims();
     let start = body.start();
@@ -228,8 +232,8 @@ fn find_unsolved<B: Claimant>(body: &B) -> Option<ClaimFault> {
     None
 }
 
-/// The first tick at which the motion leaves the exact solution; `None` if there is no such tick, or no exact
-/// solution.
+/// Returns the first tick at which the motion leaves the exact solution; `None` if there is no such tick, or if there
+/// is no exact solution.
 fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<ClaimFault> {
     let body = body.without_claims();
     let mut from = body.start();
@@ -242,7 +246,8 @@ fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<ClaimF
     let h = horizon.tick_hz.step_s();
     for tick in 1..=horizon.ticks {
         let [before, t] = [tick - 1, tick].map(|tick| horizon.tick_hz.seconds(tick));
-        // From the solution itself, so that the error of an unstable motion does not grow.
+        // The reference starts from the exact solution at each tick, so that the error of an unstable motion does not
+        // grow.
         let mut reference = Reference::within(&from, evaluations);
         reference.solve(&body, before, h, &mut from).ok()?;
         evaluations = reference.saved_evaluations();
@@ -269,7 +274,7 @@ fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<ClaimF
     None
 }
 
-/// The first violation of energy conservation around the start; `None` without one, or without an energy.
+/// Returns the first violation of energy conservation around the start; `None` if there is no violation or no energy.
 fn find_energy_defect<B: Claimant>(body: &B) -> Option<ClaimFault> {
     let body = body.without_claims();
     let start = body.start();
@@ -290,7 +295,7 @@ fn find_energy_defect<B: Claimant>(body: &B) -> Option<ClaimFault> {
     })
 }
 
-/// The first violation of energy conservation along the motion; `None` without one, or without an energy.
+/// Returns the first violation of energy conservation along the motion; `None` if there is no violation or no energy.
 fn find_later_energy_defect<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<ClaimFault> {
     let body = body.without_claims();
     let mut there = body.start();
@@ -321,8 +326,8 @@ fn find_later_energy_defect<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Opt
     None
 }
 
-/// The largest power exchanged at `states` states around `state` at time `t` (s). One state is not enough: at a
-/// turning point nothing is exchanged.
+/// Returns the largest power exchanged at `states` states around `state` at time `t` (s). One state is not enough,
+/// because no power is exchanged at a turning point.
 ///
 /// # Errors
 /// The largest leak at one of these states.
@@ -343,7 +348,7 @@ fn find_power<B: Claimant>(
     Ok(exchanged)
 }
 
-/// `state`, then pseudo-random states around it, the same in every run.
+/// Returns `state`, then pseudo-random states around it, which are the same in every run.
 fn states_around(
     state: &State<Vec<f64>>,
     count: usize,

@@ -1,4 +1,4 @@
-//! A custom body: any [`System`] with a start, and its optional properties.
+//! A custom body, which is any [`System`] with a start and optional properties.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ pub use claims::CustomFault;
 pub use kind::custom_kind;
 use motion::{Motion, Typed};
 
-/// A custom body. It erases the type of its system, so that a system needs no code of its own here.
+/// A custom body. It erases the type of its system, so that no system needs code of its own here.
 #[derive(Clone, Debug)]
 pub struct Custom {
     motion: Box<dyn Motion>,
@@ -33,7 +33,7 @@ pub struct Custom {
 }
 
 impl Custom {
-    /// A body that moves as `system` does, without names, parameters and kicks. The claims of `extras` are not
+    /// Returns a body that moves as `system` does, without names, parameters and kicks. The claims of `extras` are not
     /// checked.
     pub(in crate::sim) fn unnamed<S>(system: S, start: &StateOf<S>, extras: &Extras<S>) -> Self
     where
@@ -51,22 +51,22 @@ impl Custom {
         }
     }
 
-    /// Its coordinates, and the plane it is drawn in.
+    /// Returns the coordinates, and the plane in which the body is drawn.
     pub fn info(&self) -> &CustomInfo {
         &self.info
     }
 
-    /// The system with its present parameters, of the type that the body was made from.
+    /// Returns the system with its present parameters, of the type from which the body was made.
     pub fn system(&self) -> &dyn Any {
         self.motion.system()
     }
 
-    /// Claims that do not hold with the present parameters.
+    /// Returns the claims that do not hold with the present parameters.
     pub fn false_claims(&self) -> FalseClaims {
         self.checked.false_claims(self, &self.values)
     }
 
-    /// The present values of its parameters.
+    /// Returns the present values of the body's parameters.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -98,7 +98,7 @@ impl System for Custom {
 impl Body for Custom {
     fn with_parameters(mut self, values: &[f64]) -> Self {
         self.write(values);
-        // Checked before the first tick, which must not allocate.
+        // The claims are checked before the first tick, which must not allocate.
         self.false_claims();
         self
     }
@@ -155,7 +155,7 @@ impl Body for Custom {
         true
     }
 
-    /// The coordinates of the plane; without one, the first coordinate to the right.
+    /// Returns the coordinates of the plane; without a plane, the first coordinate, to the right.
     fn place(&self, q: &Vec<f64>) -> DVec2 {
         match self.info.plane {
             Some([x, y]) => DVec2::new(q[x], q[y]),
@@ -164,23 +164,23 @@ impl Body for Custom {
     }
 }
 
-/// The energy in joules of a system in a state.
+/// A function that returns the energy in joules of a system in a state.
 pub type Energy<S> = fn(&S, &State<<S as System>::Vector>) -> f64;
 
-/// The exact state of a system at a time (s) after the start.
+/// A function that returns the exact state of a system at a time (s) after the start.
 pub type Exact<S> = fn(&S, f64) -> State<<S as System>::Vector>;
 
 /// Optional properties of a custom body. Each has a default.
 #[derive(Clone)]
 pub struct Extras<S: System> {
-    /// The name and the unit of each coordinate, such as `("height", "m")`; an angle has the unit `rad`. If empty: x,
-    /// y and z, or q1, q2 …, in metres.
+    /// The name and the unit of each coordinate, such as `("height", "m")`; an angle has the unit `rad`. If empty, the
+    /// coordinates are x, y and z, or q1, q2 …, in metres.
     pub coordinates: Vec<(&'static str, &'static str)>,
     /// The indices of the coordinates that are x and y of the drawing plane. If `None`, two coordinates in metres make
-    /// a plane, and any others get a rail each.
+    /// a plane, and other coordinates get a rail each.
     pub plane: Option<[usize; 2]>,
     /// Numbers of the system that may change while it moves, made by [`ParameterOf::number`]. The first should be one
-    /// that makes the system stiffer. If empty: `force`, a factor of the acceleration.
+    /// that makes the system stiffer. If empty, the only parameter is `force`, a factor of the acceleration.
     pub parameters: Vec<ParameterOf<S>>,
     /// The energy in joules, which must be conserved. If `None`, the body has no energy to check.
     pub energy: Option<Energy<S>>,
@@ -189,7 +189,7 @@ pub struct Extras<S: System> {
     /// Whether the acceleration is at all times a linear function of coordinates and velocities, plus a constant.
     /// Methods are then judged by the normal modes, for any length of time. The default is no.
     pub is_linear: bool,
-    /// The change of the velocity by one kick. If `None`, 1 per second in the first coordinate.
+    /// The change of the velocity by one kick. If `None`, it is 1 per second in the first coordinate.
     pub kick: Option<S::Vector>,
 }
 

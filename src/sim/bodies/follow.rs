@@ -1,7 +1,7 @@
 //! A camera, or any value, that follows a target.
 //!
-//! A first-order law moves it as `x′ = k (g - x)`, a second-order law as a critically damped spring,
-//! `x″ = ω² (g - x) - 2 ω x′`. The target is `g(t) = s + r t + A sin(2π f t)` from time 0 on.
+//! A first-order law moves the value as `x′ = k (g - x)`, and a second-order law moves it as a critically damped
+//! spring, `x″ = ω² (g - x) - 2 ω x′`. The target is `g(t) = s + r t + A sin(2π f t)` from time 0 on.
 
 use std::f64::consts::TAU;
 
@@ -55,10 +55,11 @@ const PARAMETERS: [Of; 9] = [
 ];
 
 /// The rates of a law, per second. A slower follower would lag so far behind a moving target that the closed form
-/// cancels. A faster one reaches its target within a tick at any tick rate.
+/// cancels. A faster follower reaches its target within a tick at any tick rate.
 const RATES: Range = Range::Between(1e-3, 1e6);
 
-/// The highest frequency of the target in hertz: above it the phase is lost to rounding within a day.
+/// The highest frequency of the target in hertz. Above this frequency, the phase would be lost to rounding within a
+/// day.
 const MAX_SINE_HZ: f64 = 1e4;
 
 /// A follower. Its coordinate is its place, in metres.
@@ -66,7 +67,7 @@ const MAX_SINE_HZ: f64 = 1e4;
 pub struct Follow {
     /// The order of the law: 1 or 2.
     pub order: usize,
-    /// k or ω, per second.
+    /// k or ω, the rate of the law, per second.
     pub rate: f64,
     /// s, the target's place, in metres.
     pub step: f64,
@@ -78,19 +79,19 @@ pub struct Follow {
     pub sine_hz: f64,
     /// Place at the start, in metres.
     pub x0: f64,
-    /// Velocity at the start, in metres per second. Under a first-order law it follows from the place.
+    /// Velocity at the start, in metres per second. Under a first-order law, the velocity follows from the place.
     pub v0: f64,
-    /// How far one kick displaces it, in metres.
+    /// How far one kick displaces the follower, in metres.
     pub kick: f64,
 }
 
 impl Follow {
-    /// The place of the target at time `t` (s), in metres.
+    /// Returns the place of the target at time `t` (s), in metres.
     pub fn target(&self, t: f64) -> f64 {
         self.step + self.ramp * t + self.sine * libm::sin(TAU * self.sine_hz * t)
     }
 
-    /// The velocity of the target at time `t` (s), in metres per second.
+    /// Returns the velocity of the target at time `t` (s), in metres per second.
     pub fn target_velocity(&self, t: f64) -> f64 {
         let omega = TAU * self.sine_hz;
         self.ramp + self.sine * omega * libm::cos(omega * t)
@@ -101,11 +102,11 @@ impl Follow {
         self.ramp == 0.0 && (self.sine == 0.0 || self.sine_hz == 0.0)
     }
 
-    /// The steady motion at time `t` (s), which every other motion approaches. It lags a ramp by a constant distance,
-    /// and follows a sine with a smaller amplitude and a delay.
+    /// Returns the steady motion at time `t` (s), which every other motion approaches. The steady motion lags a ramp by
+    /// a constant distance, and follows a sine with a smaller amplitude and a delay.
     fn steady(&self, t: f64) -> State<f64> {
         let omega = TAU * self.sine_hz;
-        // 1 / (1 + iβ), squared for the second-order law.
+        // The response to a sine is 1 / (1 + iβ), squared for the second-order law.
         let beta = omega / self.rate;
         let size = 1.0 / (1.0 + beta * beta);
         let once = (size, -beta * size);
@@ -121,8 +122,8 @@ impl Follow {
         }
     }
 
-    /// Bounds on the coordinate and the velocity of the terms of [`Follow::steady`] at time `t`, in units of the
-    /// rounding of 1. They include the rounding of the phase.
+    /// Returns bounds on the rounding errors of the coordinate and the velocity of [`Follow::steady`] at time `t`, in
+    /// units of the rounding of 1. The bounds include the rounding of the phase.
     fn steady_size(&self, t: f64) -> [f64; 2] {
         let omega = TAU * self.sine_hz;
         let phase = 8.0 + 2.0 * (omega * t).abs();
@@ -135,8 +136,8 @@ impl Follow {
 impl System for Follow {
     type Vector = f64;
 
-    /// The first-order law, differentiated once, with its defect `v - k (g - x)` decaying at the rate k:
-    /// `x″ = k g′ - k x′ - k (x′ - k (g - x))`. The homogeneous part is that of the second-order law.
+    /// For a first-order law, this is the law differentiated once, `x″ = k g′ - k x′ - k (x′ - k (g - x))`. The last
+    /// term lets the defect `v - k (g - x)` decay at the rate k. The homogeneous part is that of the second-order law.
     #[inline]
     fn acceleration(&self, t: f64, x: &f64, v: &f64, a: &mut f64) {
         let k = self.rate;
@@ -192,7 +193,7 @@ impl Body for Follow {
         true
     }
 
-    /// Under a first-order law a displacement changes the velocity too.
+    /// Under a first-order law, a displacement changes the velocity too.
     fn input(&mut self, input: Input, state: &mut State<f64>) -> bool {
         let Input::Kick(times) = input else { return false };
         state.q += times * self.kick;

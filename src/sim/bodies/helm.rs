@@ -1,8 +1,9 @@
-//! A steered ship: surge and sway of its centre of mass, and yaw. Its thrust is interpolated from a table over speed.
+//! A steered ship, with surge and sway of its centre of mass, and yaw. The thrust is interpolated from a table over
+//! speed.
 //!
-//! Written in the frame of the water, where the equation is of second order in the coordinates:
-//! `m (vx, vy)′ = (δₜ T(u) - C u) bow - S w port` and `I r′ = δᵣ L u - D r`, with the surge speed `u` along the bow
-//! and the sway speed `w` to port.
+//! The motion is described in the frame of the water, where the equation is of second order in the coordinates: `m (vx,
+//! vy)′ = (δₜ T(u) - C u) bow - S w port` and `I r′ = δᵣ L u - D r`, with the surge speed `u` along the bow and the
+//! sway speed `w` to port.
 
 use glam::DVec3;
 
@@ -59,23 +60,23 @@ const PARAMETERS: [Of; 12] = [
 /// A steered ship. Its coordinates are x and y in metres and the heading ψ, in radians counter-clockwise from x.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Helm {
-    /// m, in kilograms.
+    /// m, the mass, in kilograms.
     pub mass: f64,
-    /// I, in kilogram square metres.
+    /// I, the moment of inertia about the upright axis, in kilogram square metres.
     pub inertia: f64,
-    /// C, in N·s/m.
+    /// C, the drag ahead, in N·s/m.
     pub drag: f64,
-    /// S, in N·s/m.
+    /// S, the drag sideways, in N·s/m.
     pub side_drag: f64,
-    /// D, in N·m·s.
+    /// D, the damping of turning, in N·m·s.
     pub yaw_drag: f64,
-    /// L, in N·s.
+    /// L, the moment of the full rudder per speed ahead, in N·s.
     pub rudder_moment: f64,
-    /// T in newtons, over the speed ahead in m/s.
+    /// T, the thrust in newtons, over the speed ahead in m/s.
     pub thrust: Curve,
-    /// The throttle: the fraction of full thrust, -1 to 1.
+    /// The throttle, which is the fraction of full thrust, from -1 to 1.
     pub throttle: f64,
-    /// The rudder: the fraction of its full angle, -1 to 1; positive turns left.
+    /// The rudder, which is the fraction of its full angle, from -1 to 1. A positive fraction turns left.
     pub rudder: f64,
     /// Place and heading at the start.
     pub q0: DVec3,
@@ -89,19 +90,19 @@ fn bow(heading: f64) -> DVec2 {
     DVec2::new(libm::cos(heading), libm::sin(heading))
 }
 
-/// The speed ahead, in metres per second.
+/// Returns the speed ahead, in metres per second.
 fn surge(state: &State<DVec3>) -> f64 {
     bow(state.q.z).dot(state.v.truncate())
 }
 
 impl Helm {
-    /// The largest magnitude of a speed in the thrust table; 1 if that is 0.
+    /// Returns the largest magnitude of a speed in the thrust table; 1 if all speeds are 0.
     fn fastest(&self) -> f64 {
         let fastest = self.thrust.points().iter().map(|[speed, _]| speed.abs()).fold(0.0, f64::max);
         if fastest > 0.0 { fastest } else { 1.0 }
     }
 
-    /// The acceleration, where `thrust` gives the thrust at a surge speed.
+    /// Returns the acceleration, given a function that returns the full thrust at a surge speed.
     #[inline]
     fn acceleration_under(&self, thrust: impl Fn(f64) -> f64, q: &DVec3, v: &DVec3) -> DVec3 {
         let (bow, r) = (bow(q.z), v.z);

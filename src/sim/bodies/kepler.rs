@@ -1,11 +1,12 @@
-//! The closed form of Kepler's problem: the state on an ellipse, parabola or hyperbola after a given time.
+//! The closed form of Kepler's problem, which gives the state on an ellipse, parabola or hyperbola after a given time.
 //!
-//! One formula serves all three, in the universal variable `s` with `dt = r ds`. Stiefel & Scheifele, *Linear and
-//! Regular Celestial Mechanics* (1971); Wisdom & Hernandez, *Fast and accurate Kepler via universal variables* (2015).
+//! One formula serves all three curves, in the universal variable `s` with `dt = r ds`. Stiefel & Scheifele, *Linear
+//! and Regular Celestial Mechanics* (1971); Wisdom & Hernandez, *Fast and accurate Kepler via universal variables*
+//! (2015).
 //!
-//! On an ellipse `s` is counted from the initial state. On an open path it is counted from the periapsis: a fly-by
-//! from distance r at speed v, counted from its start, would lose (r v² / μ)² to cancellation. Times and positions are
-//! kept in [`DoubleDouble`] until the result is rounded.
+//! On an ellipse `s` is counted from the initial state. On an open path `s` is counted from the periapsis. Counted from
+//! the start of a fly-by, at distance r and speed v, the formula would lose a factor of (r v² / μ)² to cancellation.
+//! Times and positions are kept in [`DoubleDouble`] until the result is rounded.
 
 use std::f64::consts::TAU;
 
@@ -14,27 +15,29 @@ use glam::DVec2;
 use crate::sim::State;
 use crate::sim::double_double::{DoubleDouble, TWO_PI};
 
-/// The largest number of steps to the root before it is refined: more than bisection of a bracket needs down to the
-/// last digit.
+/// The maximum number of steps to the root before it is refined. Bisection of a bracket down to the last digit needs
+/// fewer.
 const MAX_STEPS: u32 = 200;
 
-/// The largest number of doublings of the bracket of an open path: from the smallest number to beyond the largest.
+/// The maximum number of doublings of the bracket of an open path, enough to go from the smallest number beyond the
+/// largest.
 const MAX_DOUBLINGS: u32 = 2100;
 
-/// This close to the root, relative to it, Newton's method doubles the digits at every step and needs no bracket.
+/// The distance from the root, relative to the root, within which Newton's method needs no bracket, because it doubles
+/// the digits at every step.
 const NEAR: f64 = 1e-5;
 
-/// The largest number of Newton steps in double-double arithmetic. Near a collision the root is triple, and each step
+/// The maximum number of Newton steps in double-double arithmetic. Near a collision the root is triple, and each step
 /// leaves two thirds of the error.
 const MAX_REFINEMENTS: u32 = 80;
 
 /// The relative size of a step after which the root is accepted.
 const REFINED_TO: f64 = 1e-30;
 
-/// `r v² / μ` above which the path is straight to the precision of [`DoubleDouble`].
+/// The `r v² / μ` above which the path is straight to the precision of [`DoubleDouble`].
 const UNBENT: f64 = 1e60;
 
-/// Stumpff's functions `Gₖ = sᵏ cₖ(β s²)`, with `G₀″ = -β G₀`: for β = 1 they are cos s, sin s, 1 - cos s, s - sin s.
+/// Stumpff's functions `Gₖ = sᵏ cₖ(β s²)`, with `G₀″ = -β G₀`. For β = 1 they are cos s, sin s, 1 - cos s, s - sin s.
 struct Stumpff {
     g1: f64,
     g2: f64,
@@ -45,8 +48,8 @@ impl Stumpff {
     fn new(beta: f64, s: f64) -> Self {
         let z = beta * s * s;
         if z.abs() <= 4.0 {
-            // The series, where the closed forms would cancel:
-            // Σ (-z)ⁿ 2 / (2n + 2)! and Σ (-z)ⁿ 6 / (2n + 3)!; the first omitted terms are below 1e-19.
+            // Here the closed forms would cancel, and the series serve instead: Σ (-z)ⁿ 2 / (2n + 2)! and Σ (-z)ⁿ 6 /
+            // (2n + 3)!. The first omitted terms are below 1e-19.
             let (mut c2, mut c3) = (1.0, 1.0);
             for n in (1..13).rev() {
                 let n = 2.0 * f64::from(n);
@@ -106,14 +109,15 @@ impl PreciseStumpff {
     }
 }
 
-/// The initial state, in units where the distance from the centre is 1 to 2 and the gravitational parameter 1 to 8.
+/// The initial state, in units where the distance from the centre is about 1 to 2 and the gravitational parameter is 1
+/// to 8.
 struct Path {
     mu: DoubleDouble,
     q: [DoubleDouble; 2],
     v: [DoubleDouble; 2],
     /// Distance from the centre.
     r: DoubleDouble,
-    /// q · v.
+    /// The product q · v.
     eta: DoubleDouble,
     /// Twice the binding energy per kilogram; positive on an ellipse.
     beta: DoubleDouble,
@@ -122,7 +126,7 @@ struct Path {
 /// A position and a velocity.
 type PositionAndVelocity = ([DoubleDouble; 2], [DoubleDouble; 2]);
 
-/// The state `dt` seconds after `from`, about a centre at the origin with acceleration `mu` / r².
+/// Returns the state `dt` seconds after `from`, about a centre at the origin with acceleration `mu` / r².
 ///
 /// The result is not finite if the path starts at the centre or hits it.
 pub(super) fn flow(mu: f64, dt: f64, from: &State<DVec2>) -> State<DVec2> {
@@ -133,7 +137,7 @@ pub(super) fn flow(mu: f64, dt: f64, from: &State<DVec2>) -> State<DVec2> {
     if reach == 0.0 || !from.q.is_finite() || !from.v.is_finite() {
         return State { q: DVec2::NAN, v: DVec2::NAN };
     }
-    // Scaled by powers of two, which are exact, and one factor at a time so that none overflows.
+    // The units are powers of two, so that scaling is exact. Each factor is applied by itself, so that none overflows.
     let metre = libm::ilogb(reach);
     let second = (3 * metre - libm::ilogb(mu)).div_euclid(2);
     let by = |x: f64, power: i32| DoubleDouble::from(libm::scalbn(x, power));
@@ -164,7 +168,7 @@ impl Path {
         if self.beta.high > 0.0 { self.on_an_ellipse(dt) } else { self.on_an_open_path(dt) }
     }
 
-    /// By Lagrange's coefficients from the initial state.
+    /// Computes the state by Lagrange's coefficients from the initial state.
     fn on_an_ellipse(&self, dt: DoubleDouble) -> PositionAndVelocity {
         let Self { mu, q, v, r: r0, eta, beta } = *self;
         let period = TWO_PI * mu / (beta * beta.sqrt());
@@ -190,7 +194,8 @@ impl Path {
         ([0, 1].map(|i| f * q[i] + g * v[i]), [0, 1].map(|i| f_dot * q[i] + g_dot * v[i]))
     }
 
-    /// From the periapsis, where nothing cancels: there all terms of Kepler's equation have the same sign.
+    /// Computes the state from the periapsis, where nothing cancels because all terms of Kepler's equation have the
+    /// same sign.
     fn on_an_open_path(&self, dt: DoubleDouble) -> PositionAndVelocity {
         let Self { mu, q, v, eta, beta, .. } = *self;
         let momentum = q[0] * v[1] - q[1] * v[0];
@@ -198,7 +203,7 @@ impl Path {
         let e = (DoubleDouble::ONE - beta * (size * size)).sqrt();
         let nearest = momentum * momentum / (mu * (DoubleDouble::ONE + e));
         let pull = mu * e;
-        // In the frame whose x axis points to the periapsis.
+        // Computes the state in the frame whose x axis points to the periapsis.
         let place = |s: DoubleDouble| {
             let PreciseStumpff { g0, g1, g2, .. } = PreciseStumpff::new(beta, s);
             let r = nearest + pull * g2;
@@ -225,7 +230,7 @@ impl Path {
             (nearest * g1 + mu * g3 - time, nearest + pull * g2)
         });
 
-        // Rotated by the angle of the initial state.
+        // The result is rotated by the angle of the initial state.
         let ([x0, y0], _) = place(begin);
         let size = x0 * x0 + y0 * y0;
         let cos = (q[0] * x0 + q[1] * y0) / size;
@@ -240,14 +245,14 @@ fn dot(a: [DoubleDouble; 2], b: [DoubleDouble; 2]) -> DoubleDouble {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// The root near `s` of an increasing function, by Newton's method in double-double arithmetic from a root accurate to
-/// `f64`. `f` returns a value and a slope.
+/// Returns the root near `s` of an increasing function, whose value and slope `f` returns. The search is Newton's
+/// method in double-double arithmetic, from a root `s` accurate to `f64`.
 fn refined(s: f64, f: impl Fn(DoubleDouble) -> (DoubleDouble, DoubleDouble)) -> DoubleDouble {
     let mut s = DoubleDouble::from(s);
     let mut last = f64::INFINITY;
     for _ in 0..MAX_REFINEMENTS {
         let (value, slope) = f(s);
-        // An `f64` step is accurate enough. Steps grow again at the rounding level of `f`.
+        // An `f64` step is accurate enough. At the rounding level of `f`, steps grow again.
         let step = (value.high / slope.high).abs();
         if step <= REFINED_TO * s.high.abs() || step >= last || step.is_nan() {
             break;
@@ -258,14 +263,14 @@ fn refined(s: f64, f: impl Fn(DoubleDouble) -> (DoubleDouble, DoubleDouble)) -> 
     s
 }
 
-/// The orbital period in seconds, for a binding energy of `beta` / 2 per kilogram; `None` on an open path.
+/// Returns the orbital period in seconds, for a binding energy of `beta` / 2 per kilogram; `None` on an open path.
 pub(super) fn period(mu: f64, beta: f64) -> Option<f64> {
     let period = TAU * mu / (beta * beta.sqrt());
     (beta > 0.0 && period.is_finite()).then_some(period)
 }
 
-/// The `s` at which the time `late` is 0. That time increases with `s` from `-dt` at 0, with the distance from the
-/// centre as its slope.
+/// Returns the `s` at which the time that `late` returns is 0. That time is `-dt` at `s` = 0 and increases with `s`.
+/// Its slope, which `late` returns too, is the distance from the centre.
 fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64 {
     // `dt` is too small to be halved.
     if guess == 0.0 {
@@ -274,7 +279,8 @@ fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64
     let sign = dt.signum();
     // An overflow means that `s` is far beyond the root.
     let is_beyond = |time: f64| time.is_nan() || time * sign >= 0.0;
-    // Less than one period away; on an open path, doubled until it brackets the root.
+    // On an ellipse, the root is less than one period away. On an open path, `far` is doubled until it is beyond the
+    // root.
     let mut far = if beta > 0.0 { sign * TAU / beta.sqrt() } else { guess };
     for _ in 0..MAX_DOUBLINGS {
         if beta > 0.0 || is_beyond(late(far).0) {
@@ -294,8 +300,8 @@ fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64
         } else {
             near = s;
         }
-        // Newton's step if it is at most half of the last step; otherwise bisection, because Newton's method converges
-        // slowly far out on a hyperbola.
+        // Newton's step is taken if it is at most half of the last step. Otherwise the bracket is bisected, because
+        // Newton's method converges slowly far out on a hyperbola.
         let newton = time / distance;
         let is_fast = is_between(s - newton, near, far) && 2.0 * newton.abs() <= last_step;
         let next = if is_fast { s - newton } else { near + (far - near) / 2.0 };

@@ -15,7 +15,7 @@ use crate::sim::state::State;
 use crate::sim::stepper::{Solver, Stepper};
 use crate::sim::system::{BodyClass, EngineSettings};
 
-/// The kind of solution to compare methods with.
+/// The kind of solution with which methods are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Truth {
     /// A closed form, evaluated at every tick.
@@ -27,7 +27,7 @@ pub enum Truth {
 }
 
 impl Truth {
-    /// The name of the truth's lane in output.
+    /// Returns the name of the truth's lane in the output.
     pub fn id(self) -> &'static str {
         match self {
             Truth::Exact => "exact",
@@ -35,7 +35,7 @@ impl Truth {
         }
     }
 
-    /// The caption of a run without this truth.
+    /// Returns the caption of a run without this truth.
     pub fn missing(self) -> &'static str {
         match self {
             Truth::Exact => "no exact solution",
@@ -43,7 +43,7 @@ impl Truth {
         }
     }
 
-    /// The error that a reference solution aims at, [`REFERENCE_ACCURACY`]; `None` for an exact truth.
+    /// Returns the error that a reference solution aims at, [`REFERENCE_ACCURACY`]; `None` for an exact truth.
     ///
     /// [`REFERENCE_ACCURACY`]: crate::sim::REFERENCE_ACCURACY
     pub fn aimed_accuracy(self) -> Option<f64> {
@@ -54,43 +54,46 @@ impl Truth {
     }
 }
 
-/// Builds a body from the values of its parameters, under a solver.
+/// A function that builds a body from the values of its parameters, under a solver.
 pub type Build = dyn Fn(&[f64], Solver) -> Box<dyn Stepper> + Send + Sync;
 
-/// Checks combinations of values, each of which is in range.
+/// A function that checks combinations of values, each of which is in range.
 pub type Check = dyn Fn(&[f64]) -> Result<(), Fault> + Send + Sync;
 
-/// Makes copies of a body from these starts, on an instruction set; `None` if the body has no batch.
+/// A function that makes copies of a body from these starts, on an instruction set. It returns `None` if the body has
+/// no batch.
 pub type BatchFn = fn(&dyn Any, InstructionSet, Solver, Vec<State<f64>>) -> Option<NewBatch>;
 
 /// The card of a kind of body: its name, its coordinates, and its keys in a scene.
 pub struct Kind {
-    /// The name of its table array in a scene.
+    /// The name of the table array in a scene.
     pub id: &'static str,
-    /// Its equation of motion, in one line.
+    /// The equation of motion, in one line.
     pub about: Text,
     /// All coordinates that such a body can have, in state order.
     pub all_coordinates: Coordinates,
     /// Whether the first parameter is the number of coordinates; otherwise a body has all of them.
     pub is_counted: bool,
-    /// The keys of its table, in the order of the values that [`Kind::build`] expects.
+    /// The keys of the table in a scene, in the order of the values that [`Kind::build`] expects.
     pub parameters: Vec<Parameter>,
-    /// The inputs that it accepts: `throttle`, `rudder`, `kick`.
+    /// The inputs that the body accepts, from `throttle`, `rudder` and `kick`.
     pub inputs: &'static [&'static str],
-    /// The key of the parameter that makes it stiffer: larger values make the motion faster in relation to the tick.
+    /// The key of the parameter that makes the body stiffer. Larger values make the motion faster in relation to the
+    /// tick.
     pub leading: Text,
-    /// Whether its truth is a closed form or a reference solution.
+    /// Whether the truth of the body is a closed form or a reference solution.
     pub truth: Truth,
     /// Checks combinations of values, each of which is in range.
     pub check: Box<Check>,
-    /// Builds a body from these parameter values (see [`Body::with_parameters`](super::Body::with_parameters)), at its
-    /// start under a solver.
+    /// Builds a body from these parameter values (see [`Body::with_parameters`](super::Body::with_parameters)), at the
+    /// body's start under a solver.
     pub build: Box<Build>,
-    /// Its class, for methods that step only some bodies.
+    /// The class of the bodies, for methods that step only some bodies.
     pub class: BodyClass,
-    /// The source of its equations.
+    /// The source of the equations.
     pub origin: Origin,
-    /// Makes copies of a body with its present parameters and inputs; `None` for several coordinates.
+    /// Makes copies of a body with its present parameters and inputs. Returns `None` if the body has several
+    /// coordinates.
     pub batch: BatchFn,
 }
 
@@ -107,16 +110,16 @@ pub enum Origin {
     Net(Arc<NetPlan>),
 }
 
-/// The coordinates of a custom body, and the plane it is drawn in.
+/// The coordinates of a custom body, and the plane in which it is drawn.
 #[derive(Debug)]
 pub struct CustomInfo {
-    /// Its coordinates, in state order.
+    /// The coordinates, in state order.
     pub coordinates: Vec<Coordinate>,
-    /// The indices of the coordinates that are x and y of the drawing plane; `None` without one.
+    /// The indices of the coordinates that are x and y of the drawing plane; `None` if there is no plane.
     pub plane: Option<[usize; 2]>,
 }
 
-/// Equal if both describe the same bodies: by the same text or plan, or as clones of one custom body.
+/// Two origins are equal if both describe the same bodies, by the same text or plan, or as clones of one custom body.
 impl PartialEq for Origin {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
@@ -129,7 +132,7 @@ impl PartialEq for Origin {
     }
 }
 
-/// Equal if both describe the same bodies.
+/// Two kinds are equal if both describe the same bodies.
 impl PartialEq for Kind {
     fn eq(&self, other: &Self) -> bool {
         self.id == other.id && self.origin == other.origin
@@ -143,18 +146,18 @@ impl fmt::Debug for Kind {
 }
 
 impl Kind {
-    /// The kind of bodies like `blank`, with the fields that most kinds share, and still without a name, coordinates
-    /// and a leading parameter.
+    /// Returns the kind of bodies like `blank`. It has the fields that most kinds share, but no name, coordinates and
+    /// leading parameter yet.
     pub(super) fn of<B: Body>(blank: B) -> Self {
         Self::checked(blank, |_, _| Ok(()))
     }
 
-    /// As [`Kind::of`]; checks combinations of values on a copy of `blank`.
+    /// Returns a kind as [`Kind::of`] does, but with a check of combinations of values, which gets a copy of `blank`.
     pub(super) fn checked<B: Body>(
         blank: B,
         check: impl Fn(B, &[f64]) -> Result<(), Fault> + Send + Sync + 'static,
     ) -> Self {
-        // A body need not be `Sync`: each thread gets a copy.
+        // A body need not be `Sync`, so that each thread gets a copy.
         let template = Arc::new(Mutex::new(blank));
         let copy = move || template.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let copy_to_check = copy.clone();
@@ -175,7 +178,7 @@ impl Kind {
         }
     }
 
-    /// As [`Kind::of`], for bodies of one coordinate whose copies are stepped in blocks.
+    /// Returns a kind as [`Kind::of`] does, for bodies of one coordinate whose copies are stepped in blocks.
     pub(super) fn of_one<B: Body<Vector = f64> + Sync>(blank: B) -> Self {
         let batch: BatchFn = |body, set, solver, starts| {
             Some(Batch::on(set, body.downcast_ref::<B>()?, solver, starts.into_iter()))
@@ -183,7 +186,7 @@ impl Kind {
         Self { batch, ..Self::of(blank) }
     }
 
-    /// The coordinates of a body with these parameter values, in state order.
+    /// Returns the coordinates of a body with these parameter values, in state order.
     pub fn coordinates(&self, values: &[f64]) -> Coordinates {
         match values {
             [count, ..] if self.is_counted => self.all_coordinates.first(*count as usize),
@@ -191,37 +194,37 @@ impl Kind {
         }
     }
 
-    /// The default of each parameter, or 1 if it has none.
+    /// Returns the default of each parameter, or 1 if the parameter has no default.
     pub fn plain_values(&self) -> Vec<f64> {
         self.parameters.iter().map(|parameter| parameter.default.unwrap_or(1.0)).collect()
     }
 
-    /// The equations, if this is the kind of a law.
+    /// Returns the equations, if this is the kind of a law.
     pub fn law(&self) -> Option<&Arc<Equations>> {
         if let Origin::Law(equations) = &self.origin { Some(equations) } else { None }
     }
 
-    /// The plan, if this is the kind of a net.
+    /// Returns the plan, if this is the kind of a net.
     pub fn net(&self) -> Option<&Arc<NetPlan>> {
         if let Origin::Net(plan) = &self.origin { Some(plan) } else { None }
     }
 
-    /// Splits a coordinate name of a net into its symbol and its node number: `vx11` into `vx` and `11`. `None` for
-    /// other kinds.
+    /// Splits a coordinate name of a net into the symbol and the node number, for example `vx11` into `vx` and `11`.
+    /// Returns `None` for other kinds.
     pub fn node<'n>(&self, name: &'n str) -> Option<(&'n str, &'n str)> {
         let symbol = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
         self.net().map(|_| name.split_at(symbol.len()))
     }
 
-    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass, of the engine joint that equals this body. `None`
-    /// if the body is no spring, or has other forces too.
+    /// Returns the stiffness in 1/s² and the damping in 1/s, each per unit of mass, of the engine joint that equals
+    /// this body. Returns `None` if the body is no spring, or has other forces too.
     pub fn joint(&self, body: &dyn Stepper) -> Option<[f64; 2]> {
         let EngineSettings { stiffness, damping, drag } = body.engine_settings(0.0);
         let is_joint = self.class == BodyClass::Joint && stiffness > 0.0 && drag == 0.0;
         is_joint.then_some([stiffness, damping])
     }
 
-    /// The parameter with this key, and its index in [`Kind::parameters`].
+    /// Returns the parameter with this key, and its index in [`Kind::parameters`].
     pub fn parameter(&self, key: &str) -> Option<(usize, &Parameter)> {
         self.parameters.iter().enumerate().find(|(_, parameter)| parameter.key == key)
     }
@@ -230,11 +233,11 @@ impl Kind {
 /// One coordinate of a body.
 #[derive(Clone, Debug)]
 pub struct Coordinate {
-    /// Its name, as in the `coordinate` column of the CSV: ASCII, easy to type.
+    /// The name of the coordinate, as in the `coordinate` column of the CSV. It is ASCII, and easy to type.
     pub name: Arc<str>,
-    /// The name of its velocity.
+    /// The name of the coordinate's velocity.
     pub velocity: Arc<str>,
-    /// Its unit.
+    /// The unit of the coordinate.
     pub unit: &'static str,
 }
 
@@ -245,7 +248,7 @@ pub struct Coordinates {
     named: Named,
 }
 
-/// Names a coordinate and its velocity by the coordinate's index.
+/// A function that names a coordinate and its velocity by the coordinate's index.
 type Naming = dyn Fn(usize) -> [String; 2] + Send + Sync;
 
 #[derive(Clone)]
@@ -261,28 +264,28 @@ impl From<Vec<Coordinate>> for Coordinates {
 }
 
 impl Coordinates {
-    /// `count` coordinates of one unit, each named with its velocity by `naming`.
+    /// Returns `count` coordinates of one unit; `naming` names each coordinate and its velocity.
     pub(super) fn by_rule(count: usize, unit: &'static str, naming: Arc<Naming>) -> Self {
         Self { count, named: Named::Computed { naming, unit } }
     }
 
-    /// The first `count` coordinates, or all if there are fewer.
+    /// Returns the first `count` coordinates, or all coordinates if there are fewer.
     #[must_use]
     pub fn first(&self, count: usize) -> Self {
         Self { count: count.min(self.count), named: self.named.clone() }
     }
 
-    /// Number of coordinates.
+    /// Returns the number of coordinates.
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// Whether there are none, as for a blank kind.
+    /// Whether there are no coordinates, as in a blank kind.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
 
-    /// The coordinate with this index, if there is one.
+    /// Returns the coordinate with this index, if there is one.
     pub fn get(&self, index: usize) -> Option<Coordinate> {
         (index < self.count).then(|| match &self.named {
             Named::List(list) => list[index].clone(),
@@ -293,10 +296,10 @@ impl Coordinates {
         })
     }
 
-    /// The coordinate with this index.
+    /// Returns the coordinate with this index.
     ///
     /// # Panics
-    /// If there is none.
+    /// If there is no coordinate with this index.
     pub fn at(&self, index: usize) -> Coordinate {
         self.get(index).expect("an index of a coordinate")
     }
@@ -306,7 +309,7 @@ impl Coordinates {
         (0..self.count).map(|index| self.at(index))
     }
 
-    /// The unit of each coordinate.
+    /// Returns the unit of each coordinate.
     pub fn units(&self) -> impl Iterator<Item = &'static str> + Clone + '_ {
         (0..self.count).map(|index| match &self.named {
             Named::List(list) => list[index].unit,
@@ -324,7 +327,7 @@ impl Coordinate {
         Self { name: name.into(), velocity: velocity.into(), unit }
     }
 
-    /// The unit as people read it: empty for a pure number.
+    /// Returns the unit as people read it, which is empty for a pure number.
     pub fn shown_unit(&self) -> &'static str {
         shown_unit(self.unit)
     }

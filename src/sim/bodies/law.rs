@@ -21,14 +21,14 @@ pub struct Law {
     equations: Arc<Equations>,
     /// The values of [`law_kind`]'s parameters.
     values: Vec<f64>,
-    /// Throttle and rudder: from -1 to 1.
+    /// Throttle and rudder, from -1 to 1.
     steering: [f64; 2],
     registers: RefCell<Registers>,
     checked: Checked,
 }
 
 impl Law {
-    /// A body with full throttle, the rudder amidships, and these values of [`law_kind`]'s parameters.
+    /// Returns a body with full throttle, the rudder amidships, and these values of [`law_kind`]'s parameters.
     ///
     /// # Panics
     /// If the number of values is wrong.
@@ -46,23 +46,23 @@ impl Law {
         }
     }
 
-    /// The law.
+    /// Returns the law.
     pub fn equations(&self) -> &Arc<Equations> {
         &self.equations
     }
 
-    /// The present values of its parameters.
+    /// Returns the present values of the body's parameters.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// Claims of the text that do not hold with the present constants.
+    /// Returns the claims of the text that do not hold with the present parameters.
     pub fn false_claims(&self) -> FalseClaims {
         self.checked.false_claims(self, &self.values)
     }
 
-    /// The drawing positions for coordinates `q`, in metres, in the order of the coordinates. Coordinates without a
-    /// position are left out.
+    /// Returns the drawing positions for coordinates `q`, in metres, in the order of the coordinates. Coordinates
+    /// without a position are left out.
     pub fn places(&self, q: &[f64]) -> Vec<DVec2> {
         let mut places = Vec::new();
         let registers = &mut self.registers.borrow_mut();
@@ -80,7 +80,7 @@ impl Law {
         self.equations.text().coordinates.len()
     }
 
-    /// The starts of the coordinates, the starts of the velocities, and the kicks.
+    /// Returns the starts of the coordinates, the starts of the velocities, and the kicks.
     fn starts(&self) -> [&[f64]; 3] {
         let n = self.coordinates();
         let (starts, rest) = self.values[self.equations.text().constants.len()..].split_at(n);
@@ -93,7 +93,7 @@ impl Law {
     }
 }
 
-/// The values that expressions may use: all but the kicks.
+/// Returns the values that expressions may use, which are all values but the kicks.
 fn known<'v>(equations: &Equations, values: &'v [f64]) -> &'v [f64] {
     &values[..values.len() - equations.text().coordinates.len()]
 }
@@ -110,7 +110,7 @@ impl System for Law {
 impl Body for Law {
     fn with_parameters(mut self, values: &[f64]) -> Self {
         self.write(values);
-        // Checked before the first tick, which must not allocate.
+        // The claims are checked before the first tick, which must not allocate.
         self.false_claims();
         self
     }
@@ -209,7 +209,8 @@ impl Body for Law {
         true
     }
 
-    /// The first declared position, else the coordinates of the plane, else the first coordinate to the right or up.
+    /// Returns the first declared position, or else the coordinates of the plane, or else the first coordinate, to the
+    /// right or up.
     fn place(&self, q: &Vec<f64>) -> DVec2 {
         let text = self.equations.text();
         if self.equations.has_places() {

@@ -1,8 +1,9 @@
-//! The bodies, one file and one line of the table below each; and the bodies that each method steps.
+//! The bodies, each with a file of its own and a line in the table below. This file also finds the bodies that a method
+//! steps.
 //!
-//! A body is a closed system with natural coordinates, and with an exact flow if it has a closed form. Its [`Kind`]
-//! card says how a scene describes it; [`Look`](crate::look::Look) says how it is drawn. To add one, copy
-//! `pendulum.rs`, declare it, and name it in [`BODIES`].
+//! A body is a closed system with natural coordinates, and with an exact flow if it has a closed form. The [`Kind`]
+//! card of a body explains how a scene describes the body, and [`Look`](crate::look::Look) how the body is drawn. To
+//! add a body, copy `pendulum.rs`, declare the copy, and name it in [`BODIES`].
 
 use std::sync::{Arc, LazyLock};
 
@@ -61,14 +62,14 @@ pub static BODIES: LazyLock<Vec<Arc<Kind>>> = LazyLock::new(|| {
     kinds.map(Arc::new).into()
 });
 
-/// The kind with this id. The kinds of a [law](law_kind), a [net](net_kind) and a [custom body](custom_kind) are not
-/// in the table.
+/// Returns the kind with this id. The kinds of a [law](law_kind), a [net](net_kind) and a [custom body](custom_kind)
+/// are not in the table.
 pub fn kind(id: &str) -> Option<&'static Arc<Kind>> {
     BODIES.iter().find(|kind| kind.id == id)
 }
 
-/// Why `method` does not step a body of `kind` with these parameter values, by its
-/// [card](crate::sim::integrators::Only) or the body's [class](Kind::class); `None` if it does.
+/// Returns the reason why `method` does not step a body of `kind` with these parameter values; `None` if it does. The
+/// method's [card](crate::sim::integrators::Only) or the body's [class](Kind::class) gives the reason.
 pub fn incompatibility(method: &Method, kind: &Kind, values: &[f64]) -> Option<&'static str> {
     let only = method.only?;
     let is_of = |order: u32| {
@@ -79,7 +80,7 @@ pub fn incompatibility(method: &Method, kind: &Kind, values: &[f64]) -> Option<&
     other_law.then_some(only.reason).or_else(|| only.incompatibility(kind.class))
 }
 
-/// Lists the kinds of bodies that `method` steps, for people; `None` if it steps all.
+/// Lists the kinds of bodies that `method` steps, for people; `None` if it steps all kinds.
 pub fn stepped_kinds(method: &Method) -> Option<String> {
     let only = method.only?;
     let others = [("law", Law::CLASS), ("custom", Custom::CLASS), ("net", Net::CLASS)];

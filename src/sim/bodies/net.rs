@@ -1,8 +1,8 @@
-//! Masses joined by springs in the plane: a rope, a cloth, a bridge.
+//! Masses joined by springs in the plane, for example a rope, a cloth or a bridge.
 //!
-//! The coordinates are those of the free nodes. The forces on a node are summed in the order of the plan's springs:
-//! first the springs to free nodes, then those to fixed ones. That order is part of the definition: a large grid,
-//! whose nodes are summed side by side, has the same bits as a net given as lists.
+//! The coordinates are those of the free nodes. The forces on a node are summed in the order of the plan's springs,
+//! first the springs to free nodes, then those to fixed nodes. That order is part of the definition, so that a large
+//! grid, whose nodes are summed side by side, has the same bits as a net given as lists.
 
 use std::array::from_fn;
 use std::sync::{Arc, LazyLock};
@@ -56,21 +56,21 @@ const PARAMETERS: [Of; 8] = [
 #[derive(Clone, Debug)]
 pub struct Net {
     topology: Arc<Topology>,
-    /// m, in kilograms.
+    /// m, the mass of each node, in kilograms.
     mass: f64,
-    /// k, in newtons per metre.
+    /// k, the stiffness of springs without their own, in newtons per metre.
     stiffness: f64,
-    /// c, in N·s/m.
+    /// c, the damping of springs without their own, in N·s/m.
     damping: f64,
-    /// b, in N·s/m.
+    /// b, the drag of each node, in N·s/m.
     drag: f64,
-    /// g, in metres per second squared.
+    /// g, the gravity, in metres per second squared.
     gravity: f64,
     /// Rest lengths of the springs, relative to their lengths at the start.
     rest_ratio: f64,
     /// The change of velocity by one kick.
     kick: DVec2,
-    /// Shared by all copies until a parameter changes.
+    /// The springs, which all copies share until a parameter changes.
     springs: Arc<Springs>,
 }
 
@@ -81,12 +81,12 @@ struct Springs {
     shared: [f64; 2],
     /// Rest lengths of the springs between free nodes of a grid.
     rest: RestLengths,
-    /// For each spring that the topology [keeps](Topology::kept): stiffness and damping divided by the mass of a node,
-    /// and the rest length.
+    /// The constants of each spring that the topology [keeps](Topology::kept). They are the stiffness and the damping,
+    /// each divided by the mass of a node, and the rest length.
     constants: Vec<[f64; 3]>,
     /// Whether no spring is damped.
     are_elastic: bool,
-    /// See [`Net::fastest_rate`].
+    /// The bound that [`Net::fastest_rate`] returns.
     fastest_rate: f64,
     /// Number of springs.
     count: usize,
@@ -101,7 +101,7 @@ enum End {
     Fixed([f64; 2]),
 }
 
-/// The length of a spring with the free nodes at `q`.
+/// Returns the length of a spring if the free nodes are at `q`.
 fn length(from: usize, to: End, q: &[f64]) -> f64 {
     let at = |index: usize| Net::nodes(q)[index];
     let to = match to {
@@ -126,20 +126,20 @@ impl Net {
         }
     }
 
-    /// The free nodes as pairs of x and y, from a vector of coordinates or of velocities.
+    /// Returns the free nodes as pairs of x and y, from a vector of coordinates or of velocities.
     #[inline]
     pub fn nodes(components: &[f64]) -> &[[f64; 2]] {
         components.as_chunks().0
     }
 
-    /// The free nodes, mutable.
+    /// Returns the free nodes as mutable pairs of x and y, from a vector of coordinates or of velocities.
     #[inline]
     pub fn nodes_mut(components: &mut [f64]) -> &mut [[f64; 2]] {
         components.as_chunks_mut().0
     }
 
-    /// Calls `see` for each spring, in the order of the sums, with the index of a free end, the other end and the
-    /// constants.
+    /// Calls `see` for each spring, in the order of the sums. Its arguments are the index of a free end, the other end,
+    /// and the constants.
     fn each_spring(&self, springs: &Springs, mut see: impl FnMut(usize, End, &[f64; 3])) {
         let Springs { shared: [k, c], rest, constants, .. } = springs;
         let of_anchors = match &self.topology.storage {
@@ -162,18 +162,18 @@ impl Net {
         }
     }
 
-    /// The place of a node, by its number in the plan, with the free nodes at `q`.
+    /// Returns the place of the node with this number in the plan, if the free nodes are at `q`.
     pub fn place_of(&self, node: usize, q: &[f64]) -> DVec2 {
         let index = self.topology.index_of(node);
         DVec2::from(index.map_or_else(|| self.topology.place(node), |index| Self::nodes(q)[index]))
     }
 
-    /// Number of springs.
+    /// Returns the number of springs.
     pub fn springs(&self) -> usize {
         self.springs.count
     }
 
-    /// The length of the shortest spring at the start, in metres.
+    /// Returns the length of the shortest spring at the start, in metres.
     pub fn shortest_spring(&self) -> f64 {
         let start = self.topology.start();
         let mut shortest = f64::INFINITY;
@@ -183,13 +183,13 @@ impl Net {
         shortest
     }
 
-    /// An upper bound on the fastest angular frequency, in radians per second, and on the fastest rate of damping;
-    /// positive.
+    /// Returns an upper bound on the fastest angular frequency, in radians per second, and on the fastest rate of
+    /// damping. The bound is positive.
     pub fn fastest_rate(&self) -> f64 {
         self.springs.fastest_rate.max(f64::MIN_POSITIVE)
     }
 
-    /// The fastest frequency or rate of damping of any node, if its neighbours all move against it.
+    /// Returns the fastest frequency or rate of damping of any node, if all its neighbours move against the node.
     fn fastest(&self, springs: &Springs) -> f64 {
         let mut sums = vec![[0.0; 2]; self.topology.free];
         let mut add = |index: usize, [k, c, _]: &[f64; 3], times: f64| {
@@ -234,7 +234,7 @@ impl Net {
                 outer
             }
         };
-        // `-0.0 - x == -x` for every `x`, ±0 included.
+        // These zeros are negative because `-0.0 - x == -x` for every `x`, including ±0.
         let mut to = [[-0.0; 2]; N];
         for ((i, anchor), constants) in self.topology.anchors.iter().zip(of_anchors) {
             let i = *i as usize;
@@ -338,8 +338,8 @@ impl Body for Net {
     }
 }
 
-/// Evaluations of both solutions of a reference for each radian of the fastest motion, measured on the nets of the
-/// scenes.
+/// Number of evaluations of both solutions of a reference for each radian of the fastest motion, measured on the nets
+/// of the scenes.
 const EVALUATIONS_PER_RADIAN: f64 = 16.0;
 
 impl Net {
@@ -360,7 +360,7 @@ impl Net {
 }
 
 impl Net {
-    /// The parameters of every net.
+    /// Returns the parameters of every net.
     pub fn descriptions() -> &'static [Parameter] {
         static DESCRIPTIONS: LazyLock<Vec<Parameter>> =
             LazyLock::new(|| PARAMETERS.iter().map(ParameterOf::parameter).collect());
@@ -368,7 +368,7 @@ impl Net {
     }
 }
 
-/// The kind of nets with this plan.
+/// Returns the kind of nets with this plan.
 ///
 /// # Errors
 /// All faults of the plan.
@@ -391,8 +391,8 @@ pub fn net_kind(plan: NetPlan) -> Result<Arc<Kind>, Vec<NetFault>> {
     }))
 }
 
-/// The names of the coordinates. A large grid computes them; a smaller net lists them, so that halting allocates
-/// nothing.
+/// Returns the names of the coordinates. A large grid computes the names. A smaller net lists them, so that halting
+/// allocates nothing.
 fn coordinates(topology: &Arc<Topology>) -> Coordinates {
     let (of, count) = (topology.clone(), 2 * topology.free);
     let names = move |index: usize| {

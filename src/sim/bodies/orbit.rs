@@ -48,7 +48,7 @@ const PARAMETERS: [Of; 6] = [
 /// centre, in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Orbit {
-    /// μ, in cubic metres per second squared.
+    /// μ, the pull of the centre times the distance squared, in cubic metres per second squared.
     pub mu: f64,
     /// Position at the start, in metres; not the centre.
     pub q0: DVec2,
@@ -58,25 +58,25 @@ pub struct Orbit {
     pub kick: f64,
 }
 
-/// An ellipse about the centre.
+/// An elliptic orbit about the centre of gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
-    /// Its centre, in metres.
+    /// The centre of the ellipse, in metres.
     pub middle: DVec2,
-    /// Half its extent along x and along y, in metres.
+    /// Half the extent of the ellipse along x and along y, in metres.
     pub half: DVec2,
     /// The orbital period, in seconds.
     pub period_s: f64,
 }
 
 impl Orbit {
-    /// The ellipse of the initial state; `None` on a parabola or hyperbola.
+    /// Returns the ellipse of the initial state; `None` if the satellite is on a parabola or hyperbola.
     pub fn ellipse(&self) -> Option<Ellipse> {
         let Self { mu, q0, v0, .. } = *self;
         let beta = 2.0 * mu / q0.length() - v0.length_squared();
         let period_s = kepler::period(mu, beta)?;
         let semi_major = mu / beta;
-        // The eccentricity vector: towards the periapsis.
+        // The eccentricity vector points to the periapsis.
         let momentum = q0.perp_dot(v0);
         let eccentricity = -v0.perp() * momentum / mu - q0 / q0.length();
         let minor_squared = (1.0 - eccentricity.length_squared()).max(0.0);
@@ -111,7 +111,8 @@ impl Body for Orbit {
         *to = kepler::flow(self.mu, dt, from);
     }
 
-    /// Infinite if the satellite is so close to the centre that the rounding of the time exceeds the time of passage.
+    /// The error is infinite if the satellite is so close to the centre that the rounding of the time exceeds the time
+    /// of passage.
     fn exact_error(&self, _t: f64, dt: f64, _from: &State<DVec2>, to: &State<DVec2>) -> [f64; 2] {
         if 100.0 * f64::EPSILON * dt.abs() * to.v.length() > to.q.length() {
             return [f64::INFINITY; 2];

@@ -44,13 +44,13 @@ const PARAMETERS: [Of; 7] = [
 /// A pendulum. Its coordinate is the angle from hanging down, in radians, counter-clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pendulum {
-    /// l, in metres.
+    /// l, the length from the pivot to the bob, in metres.
     pub length: f64,
-    /// m, in kilograms.
+    /// m, the mass of the bob, in kilograms.
     pub mass: f64,
-    /// g, in metres per second squared.
+    /// g, the gravity, in metres per second squared.
     pub gravity: f64,
-    /// c, in N·m·s.
+    /// c, the damping, in N·m·s.
     pub damping: f64,
     /// Angle at the start, in radians.
     pub theta0: f64,
@@ -61,12 +61,12 @@ pub struct Pendulum {
 }
 
 impl Pendulum {
-    /// m l², in kilogram square metres.
+    /// Returns m l², the moment of inertia, in kilogram square metres.
     fn inertia(&self) -> f64 {
         self.mass * self.length * self.length
     }
 
-    /// The position of the bob relative to the pivot, in metres.
+    /// Returns the position of the bob relative to the pivot, in metres.
     fn bob(&self, theta: f64) -> DVec2 {
         self.length * DVec2::new(libm::sin(theta), -libm::cos(theta))
     }
@@ -98,7 +98,7 @@ impl Body for Pendulum {
 
     fn energy(&self, state: &State<f64>) -> Option<f64> {
         let State { q: theta, v: omega } = *state;
-        // 1 - cos θ, without cancellation.
+        // This is 1 - cos θ, without cancellation.
         let half = libm::sin(theta / 2.0);
         let height = 2.0 * self.length * half * half;
         let energy = self.inertia() * omega * omega / 2.0 + self.mass * self.gravity * height;

@@ -1,4 +1,4 @@
-//! Imports for the file of a body: its card, its parameters, and the traits it implements.
+//! Imports for the file of a body, for its card, its parameters, and the traits that it implements.
 
 pub(super) use glam::DVec2;
 

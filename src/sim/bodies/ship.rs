@@ -1,4 +1,4 @@
-//! The chapter's ship: thrust against drag proportional to speed, `m v′ = T - C v`.
+//! The chapter's ship, which thrust drives against a drag proportional to speed, `m v′ = T - C v`.
 
 use super::prelude::*;
 
@@ -38,11 +38,11 @@ const PARAMETERS: [Of; 6] = [
 pub struct Ship {
     /// T, the full thrust, in newtons.
     pub thrust: f64,
-    /// The throttle: the fraction of full thrust, -1 to 1.
+    /// The throttle, which is the fraction of full thrust, from -1 to 1.
     pub throttle: f64,
-    /// C, in N·s/m.
+    /// C, the drag, in N·s/m.
     pub drag: f64,
-    /// m, in kilograms.
+    /// m, the mass, in kilograms.
     pub mass: f64,
     /// Distance run at the start, in metres.
     pub s0: f64,
@@ -53,7 +53,7 @@ pub struct Ship {
 }
 
 impl Ship {
-    /// Full throttle and all other fields 0, to be set by [`Body::with_parameters`].
+    /// A ship with full throttle and all other fields 0, which [`Body::with_parameters`] then sets.
     pub const BLANK: Self =
         Self { thrust: 0.0, throttle: 1.0, drag: 0.0, mass: 0.0, s0: 0.0, v0: 0.0, kick: 0.0 };
 }
@@ -63,13 +63,13 @@ impl System for Ship {
 
     #[inline]
     fn acceleration(&self, _t: f64, _s: &f64, v: &f64, a: &mut f64) {
-        // Divided first: these quotients are the same at every stage, and a division between two stages would double
-        // the time of a step.
+        // The divisions come first, because these quotients are the same at every stage, and a division between two
+        // stages would double the time of a step.
         let (push, rate) = (self.thrust * self.throttle / self.mass, self.drag / self.mass);
         *a = push - rate * v;
     }
 
-    /// The drag is the damping setting of the body, and the thrust is held.
+    /// Gives the drag to an engine as the damping setting of the body, and the thrust as a force that the engine holds.
     #[inline]
     fn query(&self, _t: f64, query: Query<'_, f64>) -> bool {
         let Query::Engine { settings, force, .. } = query else { return false };
@@ -107,7 +107,7 @@ impl Body for Ship {
         let [phi1, phi2] = [1.0, 0.5].map(|most: f64| most.min(1.0 / z));
         let run = (from.v * dt * phi1).abs() + (push * dt * dt * phi2).abs();
         let gained = (push.abs() + (rate * from.v).abs()) * dt.abs() * phi1;
-        // The largest amplification is just above the limit of the series, where 1 - φ₁ is a twentieth of 1.
+        // The largest amplification is just above the limit of the series, where 1 - φ₁ is about a twentieth.
         [from.q.abs() + 32.0 * run, from.v.abs() + 8.0 * gained].map(|size| f64::EPSILON * size)
     }
 
@@ -139,8 +139,8 @@ fn phi(z: f64) -> (f64, f64) {
     (phi1, (1.0 - phi1) / z)
 }
 
-/// φ₁ and φ₂ by their Taylor series, where the closed forms would cancel. For |z| < 0.1 the first omitted term is
-/// below 1e-20.
+/// Computes φ₁ and φ₂ by their Taylor series, where the closed forms would cancel. For |z| < 0.1 the first omitted term
+/// is below 1e-20.
 fn phi_series(z: f64) -> (f64, f64) {
     let (mut term1, mut term2) = (1.0, 0.5);
     let (mut phi1, mut phi2) = (0.0, 0.0);

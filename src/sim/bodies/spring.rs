@@ -38,11 +38,11 @@ const PARAMETERS: [Of; 6] = [
 /// A mass on a spring. Its coordinate is the stretch, in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spring {
-    /// m, in kilograms.
+    /// m, the mass, in kilograms.
     pub mass: f64,
-    /// k, in newtons per metre.
+    /// k, the stiffness, in newtons per metre.
     pub stiffness: f64,
-    /// c, in N·s/m.
+    /// c, the damping, in N·s/m.
     pub damping: f64,
     /// Stretch at the start, in metres.
     pub x0: f64,
@@ -53,7 +53,7 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// The undamped angular frequency √(k/m), in radians per second.
+    /// Returns the undamped angular frequency √(k/m), in radians per second.
     pub fn angular_frequency(&self) -> f64 {
         (self.stiffness / self.mass).sqrt()
     }
@@ -64,13 +64,13 @@ impl System for Spring {
 
     #[inline]
     fn acceleration(&self, _t: f64, x: &f64, v: &f64, a: &mut f64) {
-        // For speed alone (`--bench step -- spring`): the quotients come before the stages that share them, and adding
-        // 0 keeps the compiler from packing both into one register.
+        // This form is only for speed (`--bench step -- spring`). The quotients come before the stages that share them,
+        // and adding 0 keeps the compiler from packing both into one register.
         let (k, c) = (self.stiffness / self.mass, self.damping / self.mass + 0.0);
         *a = -k * x - c * v;
     }
 
-    /// The settings of an engine joint.
+    /// Gives an engine the settings of a joint that equals the spring.
     #[inline]
     fn query(&self, _t: f64, query: Query<'_, f64>) -> bool {
         let Query::Engine { settings, force, .. } = query else { return false };

@@ -1,4 +1,4 @@
-//! The cost of a step, and the time it advances by.
+//! Measures the cost of a step, and the time by which it advances.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use crate::sim::integrators::{Method, StepFailure, integrator};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::System;
 
-/// The evaluations of the first step, and of each of the `steps` later ones.
+/// Returns the number of evaluations of the first step, and the different numbers of the `steps` later steps.
 fn costs<V: Vector>(
     method: &Method,
     counted: Problem<V>,
@@ -30,7 +30,7 @@ fn costs<V: Vector>(
     Ok((first, others))
 }
 
-/// The evaluations of the first step, and of each later one on several problems.
+/// Returns the number of evaluations of the first step, and the different numbers of later steps on several problems.
 pub(super) fn counts(method: &Method) -> Result<(u64, BTreeSet<u64>), StepFailure> {
     const STEPS: u32 = 100;
     let start = State { q: 1.0, v: 0.0 };
@@ -40,7 +40,8 @@ pub(super) fn counts(method: &Method) -> Result<(u64, BTreeSet<u64>), StepFailur
     Ok((first, counts))
 }
 
-/// Evaluations per step: equal to the card's count at every step, or varying if the card gives none.
+/// Measures the evaluations per step. They must equal the card's count at every step, or vary if the card gives no
+/// count.
 pub(super) fn evaluations(method: &Method) -> Claim {
     let claimed = method.evaluations.map_or("it decides".to_owned(), |count| count.to_string());
     let (measured, holds) = match counts(method) {
@@ -71,7 +72,8 @@ impl System for ClockAndDrag {
     }
 }
 
-/// Whether a step of `h` advances by `h`, or reports the time it leaves out; for a method of order 0, only the report.
+/// Measures whether a step of `h` advances the motion by `h`, or by less if the method reports the rest as left out. A
+/// method of order 0 is judged only by its report.
 pub(super) fn keeps_time(method: &Method) -> Claim {
     let measure = || -> Measured {
         let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(1.0, 0.0) };
@@ -83,7 +85,7 @@ pub(super) fn keeps_time(method: &Method) -> Claim {
         }
         let (clock, lost) = (state.q.x, integrator.lost_time());
         if method.order == 0 {
-            // Without convergence, the motion need not be even, and its coordinate is no clock.
+            // The motion of a method that does not converge need not be even, so that its coordinate is no clock.
             return Ok((lost == 0.0, format!("it reports {lost:.6} s lost of 3 s")));
         }
         let off = (clock + lost - 3.0).abs();
@@ -100,7 +102,7 @@ pub(super) fn keeps_time(method: &Method) -> Claim {
     claim
 }
 
-/// Whether the substeps of a tick add up to it.
+/// Whether the substeps of a tick add up to the tick.
 fn substeps_add_up(method: &Method) -> bool {
     [1, 2, 7, 16].into_iter().all(|n| {
         let still = problem(spring(0.0, 0.0));

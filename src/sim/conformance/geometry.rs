@@ -1,4 +1,4 @@
-//! Phase-space area, and reversibility.
+//! Measures whether a method conserves phase-space area, and whether it is reversible.
 
 use super::problems::{Problem, UnitPendulum, fixed_step, problem, spring};
 use super::{Claim, Measured, yes_or_no};
@@ -6,17 +6,18 @@ use crate::sim::integrators::{Method, StepFailure};
 use crate::sim::numerics::{OFFSETS, fourth_order};
 use crate::sim::state::State;
 
-/// Large enough that a violation is far above round-off.
+/// The length of a step in seconds, large enough that a violation is far above round-off.
 const STEP: f64 = 0.8;
 const FROM: State<f64> = State { q: 1.2, v: 0.5 };
 
-/// A defect below this is rounding: that of the differences is 3e-13.
+/// A defect below this number is rounding. The rounding of the differences is 3e-13.
 const KEPT: f64 = 1e-12;
 
-/// A defect above this is a violation; the method closest to keeping area without doing so, Dormand-Prince, has 5e-5.
+/// A defect above this number is a violation. The smallest violation is that of Dormand-Prince, whose area changes by
+/// 5e-5.
 const LOST: f64 = 1e-5;
 
-/// One step of a fresh method.
+/// Returns the state after one step of a fresh method.
 fn map(
     method: &Method,
     system: &Problem<f64>,
@@ -26,7 +27,7 @@ fn map(
     Ok(state)
 }
 
-/// The determinant of the one-step map's Jacobian, by central differences of fourth order.
+/// Returns the determinant of the one-step map's Jacobian, by central differences of fourth order.
 fn area(method: &Method, system: Problem<f64>) -> Result<f64, StepFailure> {
     let d = 1e-3;
     let column = |dq: f64, dv: f64| {
@@ -41,7 +42,7 @@ fn area(method: &Method, system: Problem<f64>) -> Result<f64, StepFailure> {
     Ok(by_q[0] * by_v[1] - by_q[1] * by_v[0])
 }
 
-/// Whether both defects are zero; an error if one lies between the two thresholds.
+/// Whether both defects are zero. Returns an error if a defect lies between the two thresholds.
 fn both_kept(off: [Result<f64, StepFailure>; 2], what: &str) -> Measured {
     let [straight, curved] = off;
     let off = [straight?, curved?];
@@ -50,7 +51,7 @@ fn both_kept(off: [Result<f64, StepFailure>; 2], what: &str) -> Measured {
     if is_decided { Ok((off.iter().all(|off| *off < KEPT), words)) } else { Err(words.into()) }
 }
 
-/// Whether a step conserves phase-space area, on a linear and on a nonlinear system.
+/// Measures whether a step conserves phase-space area, on a linear and on a nonlinear system.
 pub(super) fn symplectic(method: &Method) -> Claim {
     yes_or_no("symplectic", method.symplectic, keeps_area(method))
 }
@@ -61,7 +62,7 @@ pub(super) fn keeps_area(method: &Method) -> Measured {
     both_kept(off, "area changes by")
 }
 
-/// The distance from its start after a step of `h` and a step of `-h`.
+/// Returns the distance of the state from its start after a step of `h` and a step of `-h`.
 fn there_and_back(method: &Method, system: Problem<f64>) -> Result<f64, StepFailure> {
     let mut integrator = fixed_step(method, &0.0);
     let mut state = FROM;
@@ -70,7 +71,7 @@ fn there_and_back(method: &Method, system: Problem<f64>) -> Result<f64, StepFail
     Ok((state.q - FROM.q).abs().max((state.v - FROM.v).abs()))
 }
 
-/// Whether a step back undoes a step, on a linear and on a nonlinear system.
+/// Measures whether a step back undoes a step, on a linear and on a nonlinear system.
 pub(super) fn reversible(method: &Method) -> Claim {
     yes_or_no("reversible", method.reversible, is_reversible(method))
 }

@@ -1,4 +1,4 @@
-//! Whether a method is exact on linear systems.
+//! Measures whether a method is exact on linear systems.
 
 use super::problems::{SHIP, fresh, problem, spring};
 use super::{Claim, Measured, yes_or_no};
@@ -6,16 +6,16 @@ use crate::sim::body::Body;
 use crate::sim::integrators::{Method, StepFailure};
 use crate::sim::state::nan_is_infinite;
 
-/// An error below this is rounding, summed over all steps.
+/// An error below this number is rounding, summed over all steps.
 const EXACT: f64 = 1e-13;
 
-/// An error above this is not exact; the closest inexact method, Gauss-Legendre 4 on the ship, is 1e-6 off.
+/// An error above this number is not rounding. The smallest such error is 1e-6, of Gauss-Legendre 4 on the ship.
 const INEXACT: f64 = 1e-8;
 
-/// Steps of a run.
+/// Number of steps of a run.
 const STEPS: u32 = 20;
 
-/// The largest error in steps of `h`, relative to the largest position and velocity.
+/// Returns the largest error in steps of `h`, relative to the largest position and velocity.
 fn error<B: Body<Vector = f64> + 'static>(
     method: &Method,
     body: &B,
@@ -37,7 +37,7 @@ fn error<B: Body<Vector = f64> + 'static>(
     Ok((worst[0] / largest[0]).max(worst[1] / largest[1]))
 }
 
-/// Whether the method is exact on springs, with drag and without, and on the ship.
+/// Measures whether the method is exact on springs, with drag and without, and on the ship.
 pub(super) fn exact_if_linear(method: &Method) -> Claim {
     let measure = || -> Measured {
         let errors = [

@@ -1,11 +1,11 @@
-//! Whether a method carries data from step to step.
+//! Measures whether a method carries data from step to step.
 
 use super::problems::{Problem, fresh, problem, spring};
 use super::{Claim, Measured, yes_or_no};
 use crate::sim::integrators::{Integrator, Method, StepFailure, Stepped};
 use crate::sim::state::State;
 
-/// One step of a lively damped spring.
+/// Makes one step of a lively damped spring.
 fn step(integrator: &mut dyn Integrator<Problem<f64>>, state: &mut State<f64>) -> Stepped {
     integrator.step(&problem(spring(20.0, 0.1)), 0.0, 0.03, state)
 }
@@ -40,7 +40,7 @@ fn reset_clears_memory(method: &Method) -> Result<bool, StepFailure> {
     Ok(reset == new)
 }
 
-/// Whether the method has a memory, and a reset clears it.
+/// Measures whether the method has a memory, and whether a reset clears it.
 pub(super) fn restart(method: &Method) -> Claim {
     yes_or_no("restart", method.restart.is_some(), has_memory(method))
 }

@@ -1,4 +1,4 @@
-//! Global order, from how the error falls when the step is halved.
+//! Measures the global order of a method, from how the error falls when the step is halved.
 
 use super::Claim;
 use super::problems::{
@@ -8,43 +8,45 @@ use crate::sim::body::Body;
 use crate::sim::integrators::Method;
 use crate::sim::state::{State, Vector};
 
-/// Halvings that must agree.
+/// Number of halvings that must agree.
 const HALVINGS: usize = 4;
 
-/// Halvings to compare. An order of 5 falls to round-off in three halvings, counted from where the error's next term
-/// is small.
+/// Returns the number of halvings to compare. The error of a method of order 5 falls to round-off in three halvings,
+/// counted from where the error's next term is small.
 fn halvings(order: u32) -> usize {
     if order < 5 { HALVINGS } else { 3 }
 }
 
-/// Steps of the coarsest run.
+/// Number of steps of the coarsest run.
 const MIN_STEPS: u32 = 8;
-/// Steps with which every method must succeed.
+/// Number of steps with which every method must succeed.
 const FINE_ENOUGH: u32 = 128;
 
-/// Extra halvings for an order of 0, whose error settles late: it is a drag that grows with the rate.
+/// Number of extra halvings for a method of order 0. Its error settles late, because the error is a drag that grows
+/// with the rate.
 const MORE_IF_NO_ORDER: usize = 6;
 
-/// Moments at which the error is sampled. The leading term has zeros, near which the next term shows; at some of the
-/// moments it is large.
+/// Number of moments at which the error is sampled. The leading term of the error has zeros, near which the next term
+/// shows. At some of the moments the leading term is large.
 const MOMENTS: u32 = 8;
 
-/// No multiple of the springs' period 2π, of its half or of its quarter.
+/// The time span on springs, in seconds. It is no multiple of the springs' period 2π, of its half or of its quarter.
 const SWING: f64 = 7.7;
 
 /// The tolerance of a measured order.
 const MARGIN: f64 = 0.1;
 
-/// A test problem with its truth.
+/// A test problem with its exact solution.
 struct ConvergenceTest<V> {
     name: &'static str,
     system: Problem<V>,
     span: f64,
     /// The exact states at the start and at each moment of the span.
     truths: Vec<State<V>>,
-    /// The round-off of a value of 1, to be multiplied by the square root of the number of steps.
+    /// The round-off of a step, relative to the values. It grows with the square root of the number of steps.
     round_off: f64,
-    /// Number of halvings: enough for the leading term to show, and too few for round-off.
+    /// The maximum number of runs, each with half the step of the run before, and the number of halvings to compare.
+    /// The runs are enough for the leading term to show, and too few for round-off.
     times: usize,
     halvings: usize,
 }
@@ -62,8 +64,8 @@ impl<V: Vector> ConvergenceTest<V> {
     }
 }
 
-/// The largest errors of position and of velocity in `steps` steps, relative to the largest position and velocity, in
-/// units of round-off.
+/// Returns the largest errors of position and of velocity in `steps` steps, relative to the largest position and
+/// velocity, in units of round-off.
 fn errors<V: Vector>(
     method: &Method,
     course: &ConvergenceTest<V>,
@@ -98,10 +100,10 @@ fn errors<V: Vector>(
     Ok([worst[0] / largest[0] / round_off, worst[1] / largest[1] / round_off])
 }
 
-/// The orders shown by the last halvings above round-off.
+/// Returns the orders that the last halvings above round-off show.
 fn orders(errors: impl Iterator<Item = f64>, halvings: usize) -> Vec<f64> {
     let above: Vec<f64> = errors.take_while(|&error| error > 1.0).collect();
-    // The unit of round-off grows with the root of the steps, which adds half an order.
+    // The unit of round-off grows with the square root of the number of steps, which adds half an order.
     let orders: Vec<f64> = above.windows(2).map(|e| libm::log2(e[0] / e[1]) - 0.5).collect();
     orders[orders.len().saturating_sub(halvings)..].to_vec()
 }
@@ -136,7 +138,7 @@ fn measure<V: Vector>(
 }
 
 impl MeasuredOrders {
-    /// The orders of the last halving.
+    /// Returns the orders of the last halving.
     fn last(&self) -> [f64; 2] {
         self.orders.each_ref().map(|orders| orders.last().copied().unwrap_or(f64::NAN))
     }
@@ -144,7 +146,7 @@ impl MeasuredOrders {
     fn match_expected(&self, expected: u32, method: &Method) -> bool {
         let is_expected = |part: usize, order: f64| {
             let off = order - f64::from(expected);
-            // As printed, the velocity has the order of the method that the listing is meant to be.
+            // In a method as printed, the velocity has the order of the method that the listing is meant to be.
             off.abs() < MARGIN || method.is_as_printed() && part == 1 && off > 0.0
         };
         let mut parts = self.orders.iter().enumerate();
@@ -170,16 +172,16 @@ fn claim(
     Claim { field, claimed: expected.to_string(), measured, holds }
 }
 
-/// Claims the order on an undamped spring and on a Kepler orbit; if the method is exact on the spring, only on the
-/// orbit.
+/// Measures the order on an undamped spring and on a Kepler orbit, or only on the orbit if the method is exact on the
+/// spring.
 pub(super) fn without_drag(method: &Method) -> Claim {
     claim(method, "order", method.order, measured_without_drag(method, method.order))
 }
 
 fn measured_without_drag(method: &Method, expected: u32) -> Vec<Result<MeasuredOrders, String>> {
-    // The approach to the centre magnifies earlier rounding. So the span starts at the farthest point and ends past
-    // the nearest, or half-way there for an order of 5. On the longer arc the next term hides Dormand-Prince's leading
-    // term until both are round-off.
+    // The approach to the centre magnifies earlier rounding. So the span starts at the farthest point from the centre
+    // and ends past the nearest, or half-way to it for an order of 5. On the longer arc the next term hides
+    // Dormand-Prince's leading term until both are round-off.
     let (span, round_off) = if expected < 5 { (4.4, 2e-14) } else { (1.5, 2e-15) };
     let half_a_revolution = std::f64::consts::PI;
     let at = |moment| span * f64::from(moment) / f64::from(MOMENTS) + half_a_revolution;
@@ -200,7 +202,7 @@ fn measured_without_drag(method: &Method, expected: u32) -> Vec<Result<MeasuredO
     measured
 }
 
-/// Claims the order on a damped spring and on the ship; if the method is exact on both, on a body in air.
+/// Measures the order on a damped spring and on the ship, or on a body in air if the method is exact on both.
 pub(super) fn with_drag(method: &Method) -> Claim {
     let expected = method.order_with_drag;
     claim(method, "order_with_drag", expected, measured_with_drag(method, expected))
@@ -229,11 +231,11 @@ fn measured_with_drag(method: &Method, expected: u32) -> Vec<Result<MeasuredOrde
     }
 }
 
-/// The orders of the whole state without drag and with it: the lower of position and velocity, on the problem where it
-/// is lowest.
+/// Returns the orders of the whole state without drag and with drag. Each is the lowest order of the position or the
+/// velocity on any of the problems.
 ///
 /// # Errors
-/// Why an order cannot be measured.
+/// The reason why an order cannot be measured.
 pub fn orders_of(method: &Method) -> [Result<f64, String>; 2] {
     /// The expected order of an unknown method.
     const USUAL: u32 = 4;
@@ -252,7 +254,7 @@ pub fn orders_of(method: &Method) -> [Result<f64, String>; 2] {
     })
 }
 
-/// Describes the orders without drag and with it.
+/// Describes the orders without drag and with drag.
 pub(super) fn in_words(orders: &[Result<f64, String>; 2]) -> String {
     match orders {
         [Ok(order), _] if whole(*order) == 0 => "order 0: it does not converge".into(),
@@ -265,7 +267,7 @@ pub(super) fn in_words(orders: &[Result<f64, String>; 2]) -> String {
     }
 }
 
-/// The nearest whole order.
+/// Returns the nearest whole order.
 pub(super) fn whole(order: f64) -> u32 {
     order.round().max(0.0) as u32
 }

@@ -9,14 +9,15 @@ use crate::sim::system::System;
 
 pub use crate::sim::integrators::{Problem, fresh, problem};
 
-/// A fresh integrator that steps exactly as asked: an adaptive one gets a tolerance too large to bind.
+/// Returns a fresh integrator that steps exactly as asked. If it is adaptive, its tolerance is set so large that it
+/// never shortens a step.
 pub fn fixed_step<V: Vector>(method: &Method, like: &V) -> Box<dyn Integrator<Problem<V>>> {
     let mut integrator = integrator(method, like);
     integrator.set(Override::tolerance(1e100));
     integrator
 }
 
-/// A spring of this angular frequency (rad/s) and damping ratio.
+/// Returns a spring of this angular frequency (rad/s) and damping ratio.
 pub fn spring(omega: f64, damping_ratio: f64) -> Spring {
     Spring {
         mass: 1.0,
@@ -39,7 +40,7 @@ pub const SHIP: Ship = Ship {
     kick: 20_000.0,
 };
 
-/// `q″ = -sin q`.
+/// A pendulum, `q″ = -sin q`.
 #[derive(Clone, Copy, Debug)]
 pub struct UnitPendulum;
 
@@ -61,7 +62,7 @@ impl System for Air {
     }
 }
 
-/// The state of a body in [`Air`] at time `t`, from rest at 0.
+/// Returns the state of a body in [`Air`] at time `t`, from rest at 0.
 pub fn course_in_air(t: f64) -> State<f64> {
     State { q: libm::log(libm::cosh(t)), v: libm::tanh(t) }
 }
@@ -77,11 +78,11 @@ impl System for Kepler {
     }
 }
 
-/// The state on [`Kepler`]'s orbit of half axis 1 and this eccentricity, from 0 to below 1, at time `t` after
-/// periapsis; the period is 2π.
+/// Returns the state on [`Kepler`]'s orbit of half axis 1, at time `t` after periapsis. The eccentricity is from 0 to
+/// below 1, and the period is 2π.
 pub fn kepler_orbit(eccentricity: f64, t: f64) -> State<DVec2> {
     let e = eccentricity;
-    // Kepler's equation E - e sin E = t by Newton's method, which converges from E = π for every e.
+    // Solves Kepler's equation E - e sin E = t by Newton's method, which converges from E = π for every e.
     let mut anomaly = std::f64::consts::PI;
     for _ in 0..50 {
         let (sin, cos) = (libm::sin(anomaly), libm::cos(anomaly));

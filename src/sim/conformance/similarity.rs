@@ -1,4 +1,5 @@
-//! Finds the built-in method closest to another on linear forces, by the powers of the step in the one-step map.
+//! Finds the built-in method that is closest to another method on linear forces. Two methods are compared by the powers
+//! of the step in their one-step maps.
 
 use std::sync::LazyLock;
 
@@ -9,32 +10,33 @@ use crate::sim::number::{significant, superscript};
 use crate::sim::numerics::{XorShift, least_squares};
 use crate::sim::state::State;
 
-/// The highest degree of the map in `k` and `c`: the number of evaluations that depend on each other in a row.
+/// The highest degree of the map in `k` and `c`, which is the number of evaluations in a row that each depend on the
+/// one before.
 const MAX_DEGREE: u32 = 6;
-/// Maps to fit the coefficients to, and more maps to test them on.
+/// Number of maps to which the coefficients are fitted, and number of further maps on which they are tested.
 const SAMPLES: usize = 60;
 const TRIED: usize = 6;
-/// Coefficients that differ by less are equal, and smaller ones are 0.
+/// Coefficients that differ by less than this number are equal, and smaller coefficients are 0.
 const ROUNDING: f64 = 1e-8;
-/// The least rank of a method that counts as near.
+/// The lowest rank of a method that counts as near.
 const NEAR: f64 = 0.5;
-/// The weight of a coefficient with the opposite sign: a slip of a sign keeps the terms.
+/// The weight of a coefficient with the opposite sign. It is positive because a slip of a sign keeps the terms.
 const OTHER_SIGN: f64 = 0.5;
-/// The bonus for the same number of evaluations.
+/// The bonus on the rank for the same number of evaluations.
 const AS_MANY: f64 = 0.1;
-/// Steps over which methods must agree to be the same.
+/// Number of steps over which two methods must agree to be the same.
 const STEPS: u32 = 12;
-/// Steps per swing for the measured energy: a spring of 1 Hz at 60 Hz.
+/// Steps per swing for the measured energy, which is that of a spring of 1 Hz at 60 Hz.
 const STEPS_A_SWING: f64 = 60.0;
 /// The largest denominator of a coefficient written as a fraction.
 const MAX_DENOMINATOR: u32 = 120;
 
-/// A term `kⁱ cʲ` in the map of one step: its contribution to the new `x` or `v`, per old `x` or `v`.
+/// A term `kⁱ cʲ` in the map of one step. It contributes to the new `x` or `v`, in proportion to the old `x` or `v`.
 #[derive(Clone, Copy, PartialEq)]
 struct Term {
     i: u32,
     j: u32,
-    /// 0 for `x`, 1 for `v`.
+    /// The new number (`of`) and the old one (`by`), each 0 for `x` and 1 for `v`.
     of: usize,
     by: usize,
 }
@@ -45,13 +47,13 @@ impl Term {
         entries.flat_map(|[of, by]| monomials().map(move |[i, j]| Term { i, j, of, by }))
     }
 
-    /// The power of the step that multiplies the term.
+    /// Returns the power of the step that multiplies the term.
     fn power(self) -> u32 {
         (2 * self.i + self.j + self.by as u32).saturating_sub(self.of as u32)
     }
 }
 
-/// For example `h² k x in x`.
+/// Writes a text such as `h² k x in x`.
 impl std::fmt::Display for Term {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let factor = |letter: &str, power: u32| match power {
@@ -69,7 +71,8 @@ fn monomials() -> impl Iterator<Item = [u32; 2]> {
     (0..=MAX_DEGREE).flat_map(|i| (0..=MAX_DEGREE - i).map(move |j| [i, j]))
 }
 
-/// The coefficients of the one-step map, in the order of [`Term::all`]; `None` if it is no polynomial of this degree.
+/// Returns the coefficients of the one-step map, in the order of [`Term::all`]; `None` if the map is no polynomial of
+/// degree [`MAX_DEGREE`].
 fn coefficients(method: &Method) -> Option<Vec<f64>> {
     let mut random = XorShift::new(1);
     let forces: Vec<[f64; 2]> =
@@ -121,8 +124,9 @@ fn steps_agree(a: &Method, b: &Method, system: &dyn Fn() -> Problem<f64>) -> boo
     !a.is_empty() && a.len() == b.len() && a.iter().zip(&b).all(near)
 }
 
-/// The similarity of two maps, from 0 to 1: the sum of the smaller of each pair of coefficients over the sum of the
-/// larger. A coefficient of `hᵖ` weighs p!, the number that divides it in the exact motion.
+/// Returns the similarity of two maps, from 0 to 1. It is the sum of the smaller coefficients of all pairs, divided by
+/// the sum of the larger ones. The weight of a coefficient of `hᵖ` is p!, the number by which it is divided in the
+/// exact motion.
 fn similarity(a: &[f64], b: &[f64]) -> f64 {
     let (mut common, mut all) = (0.0, 0.0);
     for (term, (a, b)) in Term::all().zip(a.iter().zip(b)) {
@@ -144,7 +148,7 @@ pub(super) fn nearest(method: &Method, evaluations: Option<u32>) -> String {
     let is_it = |known: &Method| curved.iter().all(|system| steps_agree(method, known, system));
     let rank = |(known, theirs): &(&'static Method, Vec<f64>)| {
         let is_same = !own.iter().zip(theirs).any(is_other);
-        // Among methods equal on linear forces, prefers one that also agrees on others.
+        // Of several methods that are equal on linear forces, one that agrees on other forces too is preferred.
         let as_many = f64::from(u8::from(known.evaluations == evaluations));
         match is_same {
             true => 1.0 + AS_MANY + f64::from(u8::from(is_it(known))),
@@ -179,7 +183,7 @@ pub(super) fn nearest(method: &Method, evaluations: Option<u32>) -> String {
     )
 }
 
-/// A coefficient as a fraction, if it is close to one.
+/// Writes a coefficient as a fraction if it is close to one, or else as a decimal.
 fn fraction(value: f64) -> String {
     let whole = |denominator: u32| (value * f64::from(denominator)).round();
     let is_it = |denominator: &u32| {

@@ -1,4 +1,4 @@
-//! The step beyond which the undamped oscillator is unbounded.
+//! Measures the length of a step beyond which a method's motion of an undamped oscillator is unbounded.
 
 use super::Claim;
 use super::problems::{fresh, problem, spring};
@@ -9,14 +9,15 @@ use crate::sim::stability::{CoupledMotion, SmallMotion};
 use crate::sim::state::{State, nan_is_infinite};
 use crate::sim::{Solver, stepper};
 
-/// The largest amplitude below the limit, from an amplitude of 1: at 0.99 of the limit of a symplectic map the ellipse
-/// is 7 to 14 times as long as wide.
+/// The largest amplitude that counts as bounded, from an amplitude of 1. At 0.99 of the limit of a symplectic map, the
+/// ellipse of the motion is 7 to 14 times as long as it is wide.
 const BOUNDED: f64 = 20.0;
 
-/// The amplitude to reach beyond the limit, from an amplitude of 1.
+/// The amplitude that counts as growth, from an amplitude of 1.
 const GROWN: f64 = 1e3;
 
-/// The largest `√(x² + (v/ω)²)` in `steps` steps of `h` from an amplitude of 1. Stops once it exceeds `enough`.
+/// Returns the largest amplitude `√(x² + (v/ω)²)` in `steps` steps of `h` from an amplitude of 1. Stops once the
+/// amplitude exceeds `enough`.
 fn largest_amplitude(
     method: &Method,
     omega: f64,
@@ -42,16 +43,17 @@ fn largest_amplitude(
     Ok(largest)
 }
 
-/// The largest product to try.
+/// The largest product `h ω` that is tried, and the distance between tried products.
 const MAX_LIMIT: f64 = 6.0;
 const COARSE: f64 = 0.01;
-/// Undamped, some methods grow by `(h ω)⁴/8` a step: below this product too slowly to measure.
+/// The smallest product `h ω` that is tried without damping. Some methods then grow by `(h ω)⁴/8` a step, which is too
+/// slow to measure below this product.
 const UNSEEN: f64 = 0.06;
-/// A spectral radius above 1 by more than this counts as growth.
+/// A spectral radius that exceeds 1 by more than this number counts as growth.
 const SEEN: f64 = 1e-9;
 
-/// The map of one step of a fresh method under `a = -k x - c v`: the new `x` and `v` from an `x` of 1, and from a `v`
-/// of 1.
+/// Returns the map of one step of a fresh method under `a = -k x - c v`. The map has the new `x` and `v` for an `x` of
+/// 1, then those for a `v` of 1.
 pub(super) fn map_of(
     method: &Method,
     [k, c]: [f64; 2],
@@ -67,8 +69,8 @@ pub(super) fn map_of(
     Ok([by_q, by_v].map(|to| [to[0] - from[0], to[1] - from[1]]))
 }
 
-/// The spectral radius of the one-step map on an oscillator of 1 rad/s and this damping ratio; infinite if it is not a
-/// number.
+/// Returns the spectral radius of the one-step map on an oscillator of 1 rad/s and this damping ratio; infinite if the
+/// map has a NaN.
 ///
 /// # Errors
 /// If the method fails.
@@ -81,8 +83,9 @@ pub(super) fn radius(method: &Method, ratio: f64, h: f64) -> Result<f64, StepFai
     }))
 }
 
-/// The products `h ω` at which a method becomes unstable: undamped in the long run, and in one step at each of
-/// [`DAMPING_RATIOS`]. `None` if it is stable at all products tried.
+/// Returns the products `h ω` at which a method becomes unstable. The first is for the undamped oscillator in the long
+/// run, and the others are for one step at each of [`DAMPING_RATIOS`]. A product is `None` if the method is stable at
+/// all tried products.
 ///
 /// # Errors
 /// If the method fails.
@@ -100,13 +103,13 @@ pub fn limits(method: &'static Method) -> Result<[Option<f64>; 4], StepFailure> 
     Ok([undamped, slight, medium, critical])
 }
 
-/// The motion of the undamped oscillator; its map includes the memory of a method.
+/// Returns the motion of the undamped oscillator. The map of a method on this motion includes the method's memory.
 pub(super) fn small_motion() -> Option<CoupledMotion> {
     let body = stepper(spring(1.0, 0.0), Solver::Truth);
     SmallMotion::of(&*body).ok()?.coupled().ok()
 }
 
-/// The first `h` beyond which `stable` ends.
+/// Returns the first `h` beyond which `stable` is false; `None` if it is true for all tried `h`.
 fn first_beyond(stable: impl Fn(f64) -> bool) -> Option<f64> {
     let steps = (MAX_LIMIT / COARSE) as u32;
     let beyond = (1..steps).map(|n| COARSE * f64::from(n)).find(|&h| !stable(h))?;
@@ -114,7 +117,7 @@ fn first_beyond(stable: impl Fn(f64) -> bool) -> Option<f64> {
     Some(within)
 }
 
-/// Evidence against a limit of `h ω`; `None` if there is none.
+/// Returns evidence against a limit of `h ω`; `None` if there is no such evidence.
 fn contradiction(method: &Method, limit: f64) -> Result<Option<String>, StepFailure> {
     let parts = [0.1, 0.3, 0.5, 0.7, 0.9, 0.99];
     for z in parts.map(|part| part * limit).into_iter().filter(|z| *z > 0.0) {
@@ -125,7 +128,7 @@ fn contradiction(method: &Method, limit: f64) -> Result<Option<String>, StepFail
     }
     let beyond = if limit > 0.0 { vec![1.01 * limit] } else { vec![0.1, 0.3, 1.0] };
     for z in beyond {
-        // The slowest growth is that of improved Euler at 0.1: z⁴/8 a step.
+        // The slowest growth is that of improved Euler at 0.1, which grows by z⁴/8 a step.
         let most = largest_amplitude(method, 1.0, z, 1_000_000, GROWN)?;
         if most <= GROWN {
             return Ok(Some(format!("an amplitude of 1 grows to {most:.1} only at h ω = {z:.4}")));
@@ -134,14 +137,15 @@ fn contradiction(method: &Method, limit: f64) -> Result<Option<String>, StepFail
     Ok(None)
 }
 
-/// Evidence against the absence of a limit: a minute of a stiff spring at h ω = 10, five times the usual limit.
+/// Returns evidence against the absence of a limit. It runs a stiff spring for a minute at h ω = 10, which is five
+/// times the usual limit.
 fn contradiction_to_none(method: &Method) -> Result<Option<String>, StepFailure> {
     let most = largest_amplitude(method, 100.0, 0.1, 600, 100.0)?;
     let grows = most >= 2.0;
     Ok(grows.then(|| format!("an amplitude of 1 grows to {most:.1} and more at h ω = 10")))
 }
 
-/// Claims the largest `h ω`: the oscillator stays bounded within it and grows beyond it.
+/// Measures the limit of `h ω`. The oscillator must stay bounded below the limit, and grow beyond it.
 pub(super) fn limit(method: &Method) -> Claim {
     let (claimed, found) = match method.stability_limit {
         Some(limit) => (format!("{limit}"), contradiction(method, limit)),

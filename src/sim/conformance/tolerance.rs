@@ -1,4 +1,4 @@
-//! Whether a method that chooses its steps meets its tolerance, without wasting work.
+//! Measures whether a method that chooses its steps meets its tolerance without wasting work.
 
 use super::problems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
 use super::{Claim, Measured, yes_or_no};
@@ -6,11 +6,11 @@ use crate::sim::body::Body;
 use crate::sim::integrators::{Method, Override, StepFailure, integrator};
 use crate::sim::state::{State, Vector, nan_is_infinite};
 
-/// The accepted error, in units of the tolerance: a smaller one is wasted work.
+/// The accepted range of the error, in units of the tolerance. A smaller error is wasted work.
 const MET: std::ops::Range<f64> = 0.1..3.0;
 
-/// The error after an arc of one time unit that starts on the exact motion, averaged over its starting points, in
-/// units of the allowed error.
+/// Returns the error after an arc of one time unit, in units of the allowed error. The arc starts on the exact motion,
+/// and the error is averaged over several starting points.
 fn error_an_arc<V: Vector>(
     method: &Method,
     system: &Problem<V>,
@@ -48,7 +48,8 @@ fn responds_to_tolerance(method: &Method) -> Result<bool, StepFailure> {
     Ok(run(1e-3)? != run(1e-7)?)
 }
 
-/// The errors on a spring and on an orbit for several tolerances.
+/// Returns whether the errors on a spring and on an orbit fit the tolerance, for several tolerances, and describes the
+/// errors.
 fn arcs(method: &Method) -> Result<(bool, String), StepFailure> {
     let spring = spring(1.0, 0.0);
     let swing = |t| spring.exact(t, &spring.start()).expect("a closed form");
@@ -64,7 +65,8 @@ fn arcs(method: &Method) -> Result<(bool, String), StepFailure> {
     Ok((holds, format!("its error is {least:.2} to {most:.2} times the tolerance")))
 }
 
-/// Whether the method has a tolerance and meets it. A listing of the chapter must only heed it.
+/// Measures whether the method has a tolerance and meets it. A method as printed in the chapter must only respond to
+/// the tolerance.
 pub(super) fn tolerance(method: &Method) -> Claim {
     let measure = || -> Measured {
         let heeds = responds_to_tolerance(method)?;

@@ -1,4 +1,4 @@
-//! Adams-Bashforth 2: extrapolates the slopes here and one step ago to the middle of the step.
+//! Adams-Bashforth 2, which extrapolates the slopes here and one step ago to the middle of the step.
 
 use super::prelude::*;
 use super::shared::LastStep;
@@ -17,8 +17,8 @@ pub(super) const CARD: Method = Method {
     ..EXPLICIT
 };
 
-/// Adams-Bashforth 2, by the [formula](Method::formula) on its card. `f` is the slope here and `g` the slope one step
-/// ago.
+/// Adams-Bashforth 2, by the [formula](Method::formula) on its card. `f` is the slope here, and `g` is the slope one
+/// step ago.
 #[derive(Clone)]
 pub struct AdamsBashforth2<V> {
     f: State<V>,

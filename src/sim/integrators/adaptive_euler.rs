@@ -1,5 +1,5 @@
-//! Adaptive Euler: the difference between one whole step and two half steps is the error, which controls the step
-//! size.
+//! Adaptive Euler. The difference between one whole step and two half steps estimates the error, which controls the
+//! step size.
 
 use super::prelude::*;
 use super::shared::embedded_pair::{EmbeddedPair, Pair};
@@ -21,8 +21,8 @@ pub(super) const CARD: Method = Method {
     ..ADAPTIVE
 };
 
-/// Step doubling as a pair: `y1` is one Euler step of `h`, `y2` two of `h/2`. Their difference is the error; the
-/// method keeps the extrapolated `2 y2 - y1`, which is the midpoint method.
+/// Step doubling as a pair. `y1` is the result of one Euler step of `h`, and `y2` that of two Euler steps of `h/2`.
+/// Their difference estimates the error. The method keeps the extrapolated `2 y2 - y1`, which is the midpoint method.
 pub type AdaptiveEuler<V> = EmbeddedPair<V, Tableau, 3>;
 
 /// The weights of the midpoint method, and their difference from those of `y2`.
@@ -34,7 +34,7 @@ impl Pair<3> for Tableau {
     const C: [f64; 3] = [0.0, 1.0 / 2.0, 1.0];
     const A: [[f64; 3]; 3] = [[0.0; 3], [1.0 / 2.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     const E: [f64; 3] = [-1.0 / 2.0, 1.0 / 2.0, 0.0];
-    /// A millimetre, a millimetre per second, or a thousandth of the value: just visible.
+    /// A millimetre, a millimetre per second, or a thousandth of the value, which are just visible.
     const TOLERANCE: Tolerance = Tolerance { absolute_q: 1e-3, absolute_v: 1e-3, relative: 1e-3 };
 
     #[inline(always)]

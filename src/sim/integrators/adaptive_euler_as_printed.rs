@@ -1,4 +1,4 @@
-//! Adaptive Euler as the chapter prints it: a shortened step still ends the tick.
+//! Adaptive Euler as the chapter prints it, where a shortened step still ends the tick.
 
 use super::prelude::*;
 
@@ -21,13 +21,13 @@ pub(super) const CARD: Method = Method {
     ..AS_PRINTED
 };
 
-/// The listing checks only the velocity, with an absolute tolerance. It prints no value; at this one the chapter's
-/// ship covers 2.55 s in 8.5 s.
+/// The listing checks only the velocity, with an absolute tolerance. It prints no value. With this value, the motion of
+/// the chapter's ship advances by 2.55 s in 8.5 s.
 const TOLERANCE: Tolerance =
     Tolerance { absolute_q: f64::INFINITY, absolute_v: 1e-3, relative: 0.0 };
 
-/// `v1` is one step of `h`, `v2` two of `h/2`, `e = |v1 - v2|`. If `h √(tolerance / e)` is less than `h`, a single
-/// step of that length follows without a check.
+/// `v1` is the velocity after one step of `h`, `v2` that after two steps of `h/2`, and `e = |v1 - v2|`. If `h
+/// √(tolerance / e)` is less than `h`, the method makes a single step of that length, without another check.
 #[derive(Clone)]
 pub struct AdaptiveEulerAsPrinted<V> {
     tolerance: Tolerance,
@@ -38,7 +38,7 @@ pub struct AdaptiveEulerAsPrinted<V> {
 }
 
 impl<V: Vector> AdaptiveEulerAsPrinted<V> {
-    /// The method with this tolerance; only `absolute_v` is used.
+    /// Returns the method with this tolerance; only `absolute_v` is used.
     pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
         Self { tolerance, lost_time: 0.0, a: like.clone(), v1: like.clone(), v2: like.clone() }
     }

@@ -1,4 +1,4 @@
-//! Avian's distance joint: XPBD with explicit damping.
+//! Avian's distance joint, which is XPBD with explicit damping.
 
 use super::joint_mode::JointQuantity::{Compliance, DampingPerMass};
 use super::prelude::*;
@@ -35,11 +35,12 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// Avian: a tick by the [formula](Method::formula) on its card.
+/// Avian, which makes a tick by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Avian;
 
-/// The substep of a tick of `length` (s), in seconds: both are rounded to whole nanoseconds, halves down.
+/// Returns the substep, in seconds, of a tick of `length` (s). Tick and substep are rounded to whole nanoseconds, with
+/// halves rounded down.
 #[inline]
 pub(super) fn substep(length: f64, substeps: u32) -> f64 {
     let whole = |ns: f64| libm::ceil(ns - 0.5);
@@ -76,7 +77,7 @@ mod tests {
         assert_eq!(substep(1.0 / 60.0, 1), 16_666_667e-9);
         assert_eq!(substep(1.0 / 60.0, 6), 2_777_778e-9);
         assert_eq!(substep(1.0 / 64.0, 6), 2_604_167e-9);
-        // Half a nanosecond above 7.
+        // The exact substep is half a nanosecond above 7.
         assert_eq!(substep(15e-9, 2), 7e-9);
     }
 }

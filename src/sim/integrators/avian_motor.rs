@@ -1,4 +1,4 @@
-//! Avian's motor as a spring: implicit, with the corrections of a tick added to the velocity of the next.
+//! Avian's motor as a spring. It is implicit, and adds the corrections of a tick to the velocity of the next tick.
 
 use super::avian::substep;
 use super::joint_mode::JointQuantity::{DampingRatio, Frequency};
@@ -39,7 +39,7 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// Avian, motor: a tick by the [formula](Method::formula) on its card.
+/// Avian, motor, whose tick follows the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct AvianMotor;
 

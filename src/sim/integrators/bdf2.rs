@@ -1,4 +1,4 @@
-//! BDF2: the slope at the end from a parabola through the last two states and the new one.
+//! BDF2, which takes the slope at the end of the step from a parabola through the last two states and the new one.
 
 use super::prelude::*;
 use super::shared::LastStep;
@@ -22,7 +22,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct Bdf2<V> {
     newton: Newton<V, 1>,
-    /// `y"`
+    /// The state `y"`.
     before: State<V>,
     /// A copy of `y`, because `y'` is computed in its place.
     start: State<V>,
@@ -31,7 +31,7 @@ pub struct Bdf2<V> {
     last_step: LastStep,
 }
 
-/// The diagonal of the starting method: `1 - 1/√2` makes it L-stable, as BDF2 is.
+/// The diagonal of the starting method. With `1 - 1/√2` this method is L-stable, as BDF2 is.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 impl<S: System<Vector: Vector>> Integrator<S> for Bdf2<S::Vector> {
@@ -61,7 +61,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for Bdf2<S::Vector> {
         } else {
             stage.assign(y);
             newton.backward_euler(system, t + h * GAMMA, h * GAMMA, stage)?;
-            // y + (1 - γ) h f(stage), with γ h f(stage) = stage - y.
+            // Computes y + (1 - γ) h f(stage), with γ h f(stage) = stage - y.
             y.add_scaled((1.0 - GAMMA) / GAMMA, stage);
             y.add_scaled((GAMMA - 1.0) / GAMMA, start);
             newton.backward_euler(system, t + h, h * GAMMA, y)?;

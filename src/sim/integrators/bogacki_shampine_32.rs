@@ -1,4 +1,5 @@
-//! Bogacki-Shampine 3(2): keeps order 3 and estimates the error by order 2; four slopes, three of them new.
+//! Bogacki-Shampine 3(2), which keeps the result of order 3 and estimates the error by order 2. It has four slopes, of
+//! which three are new in each step.
 
 use super::prelude::*;
 use super::shared::embedded_pair::{EmbeddedPair, Pair};
@@ -37,6 +38,6 @@ impl Pair<4> for Tableau {
         [2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0, 0.0],
     ];
     const E: [f64; 4] = [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0];
-    /// A tenth of a millimetre and of a millimetre per second, or a ten thousandth of the value.
+    /// A tenth of a millimetre, a tenth of a millimetre per second, or a ten thousandth of the value.
     const TOLERANCE: Tolerance = Tolerance::uniform(1e-4);
 }

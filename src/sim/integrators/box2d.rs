@@ -1,4 +1,4 @@
-//! Box2D: every substep solves the soft joint twice.
+//! Box2D, which solves the soft joint twice in every substep.
 
 use super::card;
 use super::joint_mode::JointQuantity::{DampingRatio, Frequency};
@@ -38,10 +38,10 @@ pub(super) const CARD: Method = Method {
     ..card::ENGINE
 };
 
-/// Its speed limit, in metres per second.
+/// The speed limit of the engine, in metres per second.
 const MAX_SPEED: f64 = 400.0;
 
-/// Box2D: a tick by the [formula](Method::formula) on its card. The second solve starts from `p` again.
+/// Box2D, whose tick follows the [formula](Method::formula) on its card. The second solve starts from `p` again.
 #[derive(Clone)]
 pub struct Box2d;
 

@@ -1,4 +1,4 @@
-//! Box3D: the soft step of Box2D, in space.
+//! Box3D, which makes the soft step of Box2D in space.
 
 use super::box2d::{self, Box2d};
 use super::prelude::*;
@@ -18,7 +18,7 @@ pub(super) const CARD: Method = Method {
     ..box2d::CARD
 };
 
-/// Box3D: a tick by the [formula](Method::formula) on its card, which is that of Box2D.
+/// Box3D, whose tick follows the [formula](Method::formula) on its card, which is that of Box2D.
 #[derive(Clone)]
 pub struct Box3d;
 

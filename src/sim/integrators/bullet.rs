@@ -1,4 +1,4 @@
-//! Bullet: an explicit spring whose stiffness and damping are limited for the step.
+//! Bullet, with an explicit spring whose stiffness and damping are limited for the step.
 
 use super::prelude::*;
 
@@ -33,7 +33,7 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// Bullet: a tick by the [formula](Method::formula) on its card.
+/// Bullet, whose tick follows the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Bullet;
 

@@ -47,12 +47,12 @@ impl Family {
         ("engine", Family::Engine),
     ];
 
-    /// The id of the family.
+    /// Returns the id of the family.
     pub fn id(self) -> &'static str {
         super::id_in(&Self::ALL, self)
     }
 
-    /// The base card of the family. It has no name, source, order and evaluations yet.
+    /// Returns the base card of the family. It has no name, source, order and evaluations yet.
     pub const fn card(self) -> Method {
         match self {
             Family::Explicit => EXPLICIT,
@@ -72,7 +72,7 @@ impl Family {
 pub struct Only {
     /// The requirement on a body.
     pub needs: Needs,
-    /// Why it steps no other body: a clause in lower case that follows a colon.
+    /// The reason why it steps no other body, as a clause in lower case that follows a colon.
     pub reason: &'static str,
 }
 
@@ -80,12 +80,12 @@ pub struct Only {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Needs {
-    /// A target followed by a law.
+    /// A target that the body follows by a law.
     Law {
         /// The order of the law: 1 or 2.
         order: u32,
     },
-    /// A force.
+    /// Any force.
     Force,
     /// A force that an engine can express.
     Engine,
@@ -94,7 +94,8 @@ pub enum Needs {
 }
 
 impl Only {
-    /// Why the method steps no body of this class; `None` if it may. The order of a law is checked elsewhere.
+    /// Returns the reason why the method steps no body of this class; `None` if it may step one. The order of a law is
+    /// checked elsewhere.
     pub const fn incompatibility(&self, class: BodyClass) -> Option<&'static str> {
         match (self.needs, class) {
             (Needs::Law { .. }, BodyClass::Follower(_))
@@ -110,23 +111,23 @@ impl Only {
 /// The part of a card that only a physics engine has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Engine {
-    /// Its default tick rate in hertz; 60 if the caller gives the tick.
+    /// The engine's default tick rate in hertz; 60 if its caller sets the tick.
     pub tick_hz: u32,
-    /// The damping ratio that an undamped spring of 1 Hz shows at that rate and the card's substeps; negative if it
-    /// gains energy. `None` if the engine has no spring.
+    /// The damping ratio that an undamped spring of 1 Hz shows at that rate and the card's substeps. It is negative if
+    /// the spring gains energy. `None` if the engine has no spring.
     pub damping_ratio: Option<f64>,
-    /// The meaning of its substeps.
+    /// The meaning of the engine's substeps.
     pub substeps: Substeps,
-    /// How it integrates torque-free rotation in 3D. `None` if unknown or planar: for engines in the plane, for
-    /// pybullet's multibody, for PhysX 5.6 and for a held force.
+    /// How the engine integrates torque-free rotation in space. It is `None` for engines in the plane, for pybullet's
+    /// multibody, for PhysX 5.6 and for a held force.
     pub free_spin: Option<FreeSpin>,
-    /// The version of the source that the formula was read from; empty for a held force, which belongs to no single
+    /// The version of the source from which the formula was read; empty for a held force, which belongs to no single
     /// engine.
     pub version: &'static str,
-    /// The day, as year-month-day, of the logs of that version that tests check the formula against; `None` without
-    /// logs.
+    /// The day, as year-month-day, of the logs of that version against which tests check the formula; `None` if there
+    /// are no logs.
     pub logged: Option<&'static str>,
-    /// The ways to set a spring in it; empty if it has none.
+    /// The ways to set a spring in the engine; empty if it has no spring.
     pub modes: &'static [JointMode],
 }
 
@@ -135,10 +136,10 @@ pub struct Engine {
 pub enum Substeps {
     /// Substeps that the engine makes in a tick.
     Own,
-    /// Position iterations of its solver.
+    /// Position iterations of the engine's solver.
     Iterations,
-    /// Whole ticks that the caller makes, by this line of code: `{n}` is their number per tick, `{hz}` their number
-    /// per second.
+    /// Whole ticks that the caller makes, by this line of code. In the line, `{n}` is their number per tick, and `{hz}`
+    /// is their number per second.
     Ticks(&'static str),
 }
 
@@ -148,7 +149,7 @@ impl Engine {
         !matches!(self.substeps, Substeps::Ticks(_))
     }
 
-    /// Lines of code that explain `n` substeps at this rate in hertz; `None` if they are the engine's own.
+    /// Returns lines of code that explain `n` substeps at this rate in hertz; `None` if no explanation is needed.
     pub fn substeps_code(&self, n: u32, tick_hz: f64) -> Option<String> {
         match self.substeps {
             Substeps::Own => None,
@@ -161,7 +162,7 @@ impl Engine {
         }
     }
 
-    /// The version and the log date that the formula was checked against, in words; `None` for a held force.
+    /// Returns the version and the log date that the formula was checked against, in words; `None` for a held force.
     pub fn checked_against(&self) -> Option<String> {
         match (self.version, self.logged) {
             ("", _) => None,
@@ -171,30 +172,30 @@ impl Engine {
     }
 }
 
-/// The part of a card that only a follower has: how a game sets its speed.
+/// The part of a card that only a follower has. It is the setting by which a game sets the follower's speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FollowerSetting {
-    /// Its name in the game's code.
+    /// The name of the setting in the game's code.
     pub name: &'static str,
-    /// Its quantity.
+    /// The quantity of the setting.
     pub quantity: FollowerQuantity,
-    /// A line of code, with the value in braces.
+    /// A line of code, with braces in place of the value.
     pub code: &'static str,
 }
 
 /// The quantity of a follower's setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FollowerQuantity {
-    /// k or ω of the law, per second.
+    /// The rate k or ω of the law, per second.
     Rate,
     /// The fraction of the remaining way covered in each frame.
     Part,
-    /// 2/ω, in seconds.
+    /// The smoothing time 2/ω, in seconds.
     SmoothTime,
 }
 
 impl FollowerSetting {
-    /// The rate of the law, set by this line of code.
+    /// Returns the setting of a law's rate, with this line of code.
     pub(super) const fn rate(code: &'static str) -> Self {
         Self { name: "rate", quantity: FollowerQuantity::Rate, code }
     }
@@ -203,96 +204,99 @@ impl FollowerSetting {
 /// The damping ratios of [`Method::damped_limits`].
 pub const DAMPING_RATIOS: [f64; 3] = [0.05, 0.2, 1.0];
 
-/// The card of a method: its claims. `tests/library/conformance` measures every field.
+/// The card of a method, which has its claims. `tests/library/conformance` measures every field.
 #[derive(Debug)]
 pub struct Method {
-    /// Kebab-case name in scenes, on the command line and in output.
+    /// Kebab-case name in scenes, on the command line and in the output.
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
-    /// Alternative ids that people use for it. An error about one names this method's id; `regatta show` shows the
-    /// method.
+    /// Alternative ids that people use for the method. An error about such an id names this method's id, and `regatta
+    /// show` shows the method.
     pub also: &'static [&'static str],
-    /// Its behaviour in one line, for people.
+    /// The behaviour of the method in one line, for people.
     pub about: &'static str,
-    /// How it works.
+    /// The family, which tells how the method works.
     pub family: Family,
     /// The formula, line by line; ′ marks values at the end of the step. `tests/library/formulas` documents the
     /// notation, and evaluates every formula beside the method.
     pub formula: &'static [&'static str],
-    /// The weights of the evaluations in `y′ = y + h Σ w k`; empty if the method is no such sum.
+    /// The weights `w` of the evaluations `k` in `y′ = y + h Σ w k`; empty if the method is no such sum.
     pub weights: &'static [f64],
-    /// Its source code for other games, in the language of `assets/methods`; empty if there is none.
+    /// The source code of the method for other games, in the language of `assets/methods`; empty if there is none.
     pub code: &'static str,
-    /// Global order of the error of the whole state if forces depend on position only. In a listing as printed `v` may
-    /// be of higher order than `q`. For a follower: the order while its target moves evenly and is not reached. 0 if
-    /// the error does not shrink with the step.
+    /// Global order of the error of the whole state if forces depend on position only; 0 if the error does not shrink
+    /// with the step. In a listing as printed, `v` may be of higher order than `q`. The order of a follower is that
+    /// while its target moves evenly and is not reached.
     pub order: u32,
     /// Global order if forces also depend on velocity.
     pub order_with_drag: u32,
     /// Evaluations of the acceleration per step, averaged over a long run; `None` if the method decides. A follower
-    /// evaluates its target. A method with a [restart](Method::restart) needs one more at its first step, unless it is
-    /// an engine's.
+    /// evaluates its target instead. A method with a [restart](Method::restart) needs one more evaluation at its first
+    /// step, unless it is an engine.
     pub evaluations: Option<u32>,
     /// The cost of one evaluation and its share of the equations to solve, on a damped spring, in evaluations of a
-    /// method that solves none. It is declared rather than measured, so that advice is the same on every machine.
+    /// method that solves no equations. The cost is declared rather than measured, so that advice is the same on every
+    /// machine.
     pub evaluation_cost: u32,
-    /// Whether it solves a linear system with constant coefficients to rounding, at any step. Its orders are then
-    /// those on nonlinear systems.
+    /// Whether the method solves a linear system with constant coefficients to rounding, at any step. The orders on the
+    /// card are then those on nonlinear systems.
     pub exact_if_linear: bool,
     /// Whether the one-step map conserves phase-space area on a system without drag.
     pub symplectic: bool,
     /// Whether a step of `-h` undoes a step of `h`, up to round-off.
     pub reversible: bool,
-    /// The largest `h ω` at which the undamped oscillator stays bounded. `None` for implicit methods, and for those
-    /// that choose their own substeps. For a follower: the largest product of `h` and its rate at which it stays near
-    /// a still target; `None` if it does at any step.
+    /// The largest `h ω` at which the undamped oscillator stays bounded. It is `None` for implicit methods, and for
+    /// methods that choose their own substeps. For a follower, it is the largest product of `h` and the rate at which
+    /// the body stays near a still target. It is `None` if the body does so at any step.
     pub stability_limit: Option<f64>,
-    /// The largest `h ω` at which the first step of an oscillator, damped by each of [`DAMPING_RATIOS`], does not
-    /// grow. `None` as for the undamped limit. The memory of a method may lower it in a long run.
+    /// The largest `h ω` at which the first step of an oscillator, damped by each of [`DAMPING_RATIOS`], does not grow.
+    /// It is `None` as for the undamped limit. The memory of a method may lower this limit in a long run.
     pub damped_limits: Option<[f64; 3]>,
-    /// The most derivative matrices it keeps for a system of few coordinates; bounds its memory.
+    /// The maximum number of derivative matrices that the method keeps for a system of few coordinates. It bounds the
+    /// memory of the method.
     pub matrices: u32,
     /// The default tolerance of a substep of an adaptive method.
     pub tolerance: Option<Tolerance>,
-    /// How a method with memory starts: at the start, after a kick, a switch or a change of step, and if its state is
-    /// not the one it returned. `None` without memory.
+    /// How a method with memory starts; `None` if the method has no memory. It starts at the beginning, after a kick, a
+    /// switch or a change of step, and if its state is not the one that it returned.
     pub restart: Option<&'static str>,
-    /// Whether a step of `h` always advances by `h`. Otherwise the method reports the rest to
+    /// Whether a step of `h` always advances by `h`. Otherwise the method reports the time that is left out by
     /// [`Integrator::lost_time`](super::Integrator::lost_time).
     pub keeps_time: bool,
-    /// The bodies that it is for; `None` if it steps every body.
+    /// The bodies that the method steps; `None` if it steps every body.
     pub only: Option<Only>,
-    /// The substeps of a lane that sets none.
+    /// The number of substeps of a lane that sets none.
     pub default_substeps: u32,
-    /// The engine whose tick this is; `None` for any other method.
+    /// The engine whose tick the method reproduces; `None` for any other method.
     pub engine: Option<Engine>,
     /// How a game sets the speed of a follower; `None` for any other method.
     pub follower: Option<FollowerSetting>,
-    /// Its publication; for an engine, its version and the files that the formula was read from.
+    /// The publication of the method. For an engine, it is the version and the files from which the formula was read.
     pub source: &'static str,
-    /// Builds a custom method, which is not in [`METHODS`](super::METHODS):
-    /// [`custom_integrator`](super::custom_integrator) of its type. `None` for methods of the table.
+    /// Builds a custom method, which is not in [`METHODS`](super::METHODS), by
+    /// [`custom_integrator`](super::custom_integrator) of the method's type. `None` for methods of the table.
     pub custom: Option<fn(usize) -> Box<dyn AnyIntegrator>>,
-    /// The lines of a method or a rule that a person wrote, which is not in [`METHODS`](super::METHODS) either: see
+    /// The lines of a method or a rule that a person wrote, which is not in [`METHODS`](super::METHODS) either; see
     /// [`own_method`](crate::sim::own_method()) and [`own_rule`](crate::sim::own_rule()).
     #[cfg(feature = "lab")]
     pub own: Option<&'static OwnLines>,
 }
 
 impl Method {
-    /// Accepted spellings, each with its id: the id, the name and the [others](Method::also).
+    /// Returns the accepted spellings of the method, each with the id. They are the id, the name and the
+    /// [others](Method::also).
     pub fn spellings(&'static self) -> impl Iterator<Item = (&'static str, &'static str)> {
         let spellings = [self.id, self.name].into_iter().chain(self.also.iter().copied());
         spellings.map(|spelling| (spelling, self.id))
     }
 
-    /// Whether it is not in the table: [custom](Method::custom), or made of a person's own lines.
+    /// Whether the method is not in the table, because it is [custom](Method::custom) or made of a person's own lines.
     pub fn is_from_outside(&self) -> bool {
         self.custom.is_some() || self.own_text().is_some()
     }
 
-    /// The text of a method or a rule made of a person's own lines; `None` for any other.
+    /// Returns the text of a method or a rule made of a person's own lines; `None` for any other.
     pub fn own_text(&self) -> Option<&'static str> {
         #[cfg(feature = "lab")]
         return self.own.map(|own| own.text().source());
@@ -300,7 +304,7 @@ impl Method {
         None
     }
 
-    /// The frame rate for which a rule was written; `None` for a method.
+    /// Returns the frame rate for which a rule was written; `None` for a method.
     pub fn rule_fps(&self) -> Option<TickRate> {
         #[cfg(feature = "lab")]
         if let Some(OwnLines::Rule(rule)) = self.own {
@@ -314,14 +318,14 @@ impl Method {
         self.family == Family::AsPrinted
     }
 
-    /// Whether a game could implement it. Engine methods, listings as printed and rules run only where a scene or a
-    /// command names them.
+    /// Whether a game could implement the method. Engine methods, listings as printed and rules run only where a scene
+    /// or a command names them.
     pub fn is_for_games(&self) -> bool {
         !self.is_engine() && !self.is_as_printed() && self.rule_fps().is_none()
     }
 
-    /// An upper bound on the numbers that it keeps on the heap besides its own vectors, for `n` coordinates with this
-    /// coupling. A custom method counts as one with sixteen vectors.
+    /// Returns an upper bound on how many numbers the method keeps on the heap besides its own vectors, for `n`
+    /// coordinates with this coupling. A custom method counts as one with sixteen vectors.
     pub(in crate::sim) fn numbers_kept(&self, n: usize, coupling: Coupling) -> usize {
         let matrices = self.matrices as usize;
         match coupling.reach(n) {
@@ -330,21 +334,21 @@ impl Method {
             _ if self.custom.is_some() => 16 * (n + 3),
             // The exponential of a small matrix is a full matrix.
             Some(_) if self.family == Family::Linearised && n <= 32 => matrices * (n + 2) * (n + 2),
-            // The factored band is half as wide again as the matrix.
+            // The band of the factored matrix is one and a half times as wide as the band of the matrix.
             Some(reach) => matrices * (n + 2) * (n + 2).min(3 * reach + 2),
-            // The vectors of an iteration, for at most two stages.
+            // These are the vectors of an iteration, for at most two stages.
             None => 12 * (n + 3) * matrices.min(2),
         }
     }
 
-    /// Evaluations of the acceleration per tick of `substeps` substeps, averaged over a long run; `None` if the method
-    /// decides. An engine that makes its own substeps reads the force once a tick.
+    /// Returns the number of evaluations of the acceleration per tick of `substeps` substeps, averaged over a long run;
+    /// `None` if the method decides. An engine that makes its own substeps reads the force once a tick.
     pub fn evaluations_per_tick(&self, substeps: u32) -> Option<u32> {
         let reads_once = self.engine.is_some_and(|engine| engine.has_substeps());
         Some(self.evaluations? * if reads_once { 1 } else { substeps })
     }
 
-    /// The order of the law that a body must follow its target by; `None` if the method is no follower.
+    /// Returns the order of the law by which a body must follow its target; `None` if the method is no follower.
     pub fn law_order(&self) -> Option<u32> {
         match self.only?.needs {
             Needs::Law { order } => Some(order),
@@ -352,25 +356,25 @@ impl Method {
         }
     }
 
-    /// Whether it reproduces a physics engine. Such a method runs only on request.
+    /// Whether the method reproduces a physics engine. Such a method runs only on request.
     pub fn is_engine(&self) -> bool {
         self.family == Family::Engine
     }
 
-    /// Whether it holds the whole force of any body for a tick, as user code in an engine does; a spring is then no
-    /// joint.
+    /// Whether the method holds the whole force of any body for a tick, as user code in an engine does. A spring is
+    /// then no joint.
     pub fn holds_force(&self) -> bool {
         self.only.is_some_and(|only| only.needs == Needs::Force)
     }
 
-    /// Whether it is an engine with springs as joints, rather than forces of user code.
+    /// Whether the method is an engine in which springs are joints, rather than forces of user code.
     pub fn has_joint(&self) -> bool {
         !self.holds_force() && self.engine.is_some_and(|engine| !engine.modes.is_empty())
     }
 }
 
 impl PartialEq for Method {
-    /// Ids are unique, except for methods made of a person's own lines.
+    /// Compares ids, which are unique except for methods made of a person's own lines.
     fn eq(&self, other: &Self) -> bool {
         self.id == other.id
             && self.own_text() == other.own_text()
@@ -380,11 +384,11 @@ impl PartialEq for Method {
 
 /// A step rule with a card.
 pub trait Carded {
-    /// The card of its method.
+    /// The card of the method.
     const CARD: &'static Method;
 }
 
-/// The common defaults: nothing conserved, no memory, no step size control.
+/// The common defaults of a method that conserves nothing, has no memory and does not control its step size.
 const PLAIN: Method = Method {
     id: "",
     name: "",
@@ -417,11 +421,11 @@ const PLAIN: Method = Method {
     own: None,
 };
 
-/// An explicit method: an undamped oscillator grows at every step.
+/// An explicit method, with which an undamped oscillator grows at every step.
 pub(super) const EXPLICIT: Method =
     Method { family: Family::Explicit, stability_limit: Some(0.0), ..PLAIN };
 
-/// A symplectic method; the limit is that of one kick and one drift per step.
+/// A symplectic method. The limit is that of one kick and one drift per step.
 pub(super) const SYMPLECTIC: Method = Method {
     family: Family::Symplectic,
     symplectic: true,
@@ -441,7 +445,7 @@ pub(super) const ADAPTIVE: Method = Method {
 pub(super) const IMPLICIT: Method =
     Method { family: Family::Implicit, evaluation_cost: 4, matrices: 1, ..PLAIN };
 
-/// A method that differentiates the acceleration: one or two evaluations per coordinate.
+/// A method that differentiates the acceleration, by one or two evaluations per coordinate.
 pub(super) const LINEARISED: Method =
     Method { family: Family::Linearised, evaluation_cost: 2, matrices: 1, ..PLAIN };
 

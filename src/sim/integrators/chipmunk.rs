@@ -1,4 +1,4 @@
-//! Chipmunk: the drift before the kick.
+//! Chipmunk, in which the drift comes before the kick.
 
 use super::prelude::*;
 
@@ -29,7 +29,7 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// Chipmunk: a tick by the [formula](Method::formula) on its card.
+/// Chipmunk, whose tick follows the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Chipmunk;
 

@@ -1,4 +1,4 @@
-//! Critically damped spring: the exact solution for a target that rests during the step.
+//! Critically damped spring, which is the exact solution for a target that rests during the step.
 
 use super::prelude::*;
 

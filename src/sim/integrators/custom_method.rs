@@ -1,5 +1,5 @@
-//! Methods behind a pointer, compiled once for each vector type. Custom methods are in no table, and their cards build
-//! them.
+//! Methods behind a pointer, compiled once for each vector type. Custom methods are in no table, so that their cards
+//! build them.
 
 use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
@@ -10,9 +10,9 @@ use crate::sim::vec_system::{Scratch, VecSystem};
 /// A system of any type. A custom method steps systems with their coordinates in a `Vec`.
 pub type AnySystem<'a, V = Vec<f64>> = &'a (dyn System<Vector = V> + 'a);
 
-/// A method behind a pointer, which steps systems behind a pointer. Every `Clone` [`Integrator`] is one.
+/// A method behind a pointer, which steps systems behind a pointer. Every `Clone` [`Integrator`] is such a method.
 pub trait AnyIntegrator<V = Vec<f64>>: for<'a> Integrator<AnySystem<'a, V>> {
-    /// A copy with the same memory.
+    /// Returns a copy with the same memory.
     fn boxed_clone(&self) -> Box<dyn AnyIntegrator<V>>;
 }
 
@@ -22,8 +22,8 @@ impl<V, I: for<'a> Integrator<AnySystem<'a, V>> + Clone + 'static> AnyIntegrator
     }
 }
 
-/// Builds the integrator `I` for this number of coordinates. It is the value of a custom card's
-/// [`Method::custom`](super::Method::custom):
+/// Builds the integrator `I` for this number of coordinates. This function is the value of
+/// [`Method::custom`](super::Method::custom) on a custom method's card:
 ///
 /// ```
 /// use regatta::prelude::*;
@@ -79,7 +79,7 @@ pub(super) struct CustomMethod<V> {
 }
 
 impl<V: Vector> CustomMethod<V> {
-    /// The method that `build` returns, for coordinates shaped `like` these.
+    /// Returns the method that `build` returns, for coordinates shaped `like` these.
     pub(super) fn new(build: fn(usize) -> Box<dyn AnyIntegrator>, like: &V) -> Self {
         let zero = vec![0.0; like.components().len()];
         Self {
@@ -120,7 +120,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
     }
 }
 
-/// Replaces a method on a system that it cannot step: refuses every step.
+/// Replaces a method on a system that the method cannot step. It refuses every step.
 #[derive(Clone)]
 pub(super) struct Unfit {
     pub(super) reason: &'static str,

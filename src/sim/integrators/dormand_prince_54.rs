@@ -1,4 +1,5 @@
-//! Dormand-Prince 5(4): keeps order 5 and estimates the error by order 4; seven slopes, six of them new.
+//! Dormand-Prince 5(4), which keeps the result of order 5 and estimates the error by order 4. It has seven slopes, of
+//! which six are new in each step.
 
 use super::prelude::*;
 use super::shared::embedded_pair::{EmbeddedPair, Pair};
@@ -42,6 +43,6 @@ impl Pair<7> for Tableau {
     const E: [f64; 7] = [
         71.0 / 57_600.0, 0.0, -71.0 / 16_695.0, 71.0 / 1_920.0, -17_253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0,
     ];
-    /// A micrometre and a micrometre per second, or a millionth of the value.
+    /// A micrometre, a micrometre per second, or a millionth of the value.
     const TOLERANCE: Tolerance = Tolerance::uniform(1e-6);
 }

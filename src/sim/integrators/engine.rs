@@ -1,12 +1,13 @@
 //! A tick of a physics engine, for one body.
 //!
-//! Each file has the formula of one engine, read from its source and checked against logs of the engine itself
+//! Each engine's file has its formula, read from the engine's source and checked against logs of the engine itself
 //! (`tests/library/engines`). All engines read the spring's stiffness and damping as settings of a joint and the drag
 //! as a setting of the body. They read any other force once a tick and hold it for all substeps; see
 //! [`EngineSettings::of`].
 //!
-//! Letters, as in the formulas: `H` a tick, `n` its substeps, `h = H/n`; `K` the stiffness, `c` the damping and `C`
-//! the drag, each per unit of mass; `f` the held force per unit of mass; `D = 1 + h c + h² K`.
+//! The letters are those of the formulas. `H` is a tick, `n` is the number of its substeps, and `h = H/n`. `K` is the
+//! stiffness, `c` the damping and `C` the drag, each per unit of mass. `f` is the held force per unit of mass, and `D =
+//! 1 + h c + h² K`.
 
 use std::marker::PhantomData;
 
@@ -16,23 +17,24 @@ use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{EngineSettings, StateOf, System};
 
-/// A tick of an engine: its settings, and its substeps.
+/// A tick of an engine, with its length, substeps, settings and force.
 #[derive(Debug)]
 pub struct EngineTick<'a, V> {
-    /// H, in seconds.
+    /// H, the length of the tick, in seconds.
     pub(super) length: f64,
-    /// n.
+    /// n, the number of substeps.
     pub(super) substeps: u32,
-    /// K, c and C.
+    /// K, c and C, the settings of the joint and of the body.
     pub(super) settings: EngineSettings,
-    /// f, constant through the tick.
+    /// f, the force per unit of mass, which is constant through the tick.
     pub(super) force: &'a V,
-    /// The engine's memory from tick to tick, 0 at the start; `None` unless its card has a [restart](Method::restart).
+    /// The engine's memory from tick to tick, which is 0 at the start; `None` if the engine's card has no
+    /// [restart](Method::restart).
     pub(super) carried: Option<&'a mut V>,
 }
 
 impl<V> EngineTick<'_, V> {
-    /// h, in seconds.
+    /// Returns h, the length of a substep, in seconds.
     pub(super) fn substep(&self) -> f64 {
         self.length / f64::from(self.substeps)
     }
@@ -44,7 +46,7 @@ pub trait EngineRule: Carded + Clone + Send + Sync + 'static {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V);
 }
 
-/// An engine as a method: it reads the force at the start of a tick, and applies its rule.
+/// An engine as a method, which reads the force at the start of a tick and applies the engine's rule.
 #[derive(Clone)]
 pub struct EngineMethod<V, R> {
     force: V,
@@ -140,7 +142,8 @@ pub(super) fn cap<V: Vector>(v: &mut V, max_speed: f64) {
     }
 }
 
-/// The factor that shortens a velocity with these components to `max_speed`, in metres per second; at most 1.
+/// Returns the factor that shortens a velocity with these components to `max_speed`, in metres per second. The factor
+/// is at most 1.
 #[inline]
 pub(super) fn part_below(max_speed: f64, v: impl Iterator<Item = f64>) -> f64 {
     let square: f64 = v.map(|v| v * v).sum();

@@ -1,4 +1,4 @@
-//! Explicit Euler: follows the tangent at the start for the whole step.
+//! Explicit Euler, which follows the tangent at the start for the whole step.
 
 use super::prelude::*;
 

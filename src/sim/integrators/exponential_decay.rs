@@ -1,4 +1,4 @@
-//! Exponential decay: the exact solution for a target that rests during the step.
+//! Exponential decay, which is the exact solution for a target that rests during the step.
 
 use super::prelude::*;
 

@@ -1,4 +1,5 @@
-//! Exponential Rosenbrock-Euler: linearises the equation at the start of the step and solves that exactly.
+//! Exponential Rosenbrock-Euler, which linearises the equation at the start of the step and solves the linear equation
+//! exactly.
 
 use super::prelude::*;
 use super::shared::jacobian::Jacobian;
@@ -23,10 +24,11 @@ pub(super) const CARD: Method = Method {
     ..LINEARISED
 };
 
-/// `y' = y + h φ1(h J) f + h² φ2(h J) f_t` on the whole state `y = (q, v)`, with `J = ∂f/∂y` and `f_t = ∂f/∂t` at the
-/// start. `y' - y` is the solution at `τ = 1` of `x' = h J x + h f + τ h² f_t` from 0 at `τ = 0`.
+/// Computes `y' = y + h φ1(h J) f + h² φ2(h J) f_t` on the whole state `y = (q, v)`, with `J = ∂f/∂y` and `f_t = ∂f/∂t`
+/// at the start. The change `y' - y` is the solution at `τ = 1` of `x' = h J x + h f + τ h² f_t` from 0 at `τ = 0`.
 ///
-/// `f_t` is the difference over the step, so that a force linear in time is exact too.
+/// The derivative `f_t` is the difference over the step, so that the method is exact too if the force is linear in
+/// time.
 #[derive(Clone)]
 pub struct ExponentialRosenbrockEuler<V> {
     a: V,
@@ -34,14 +36,15 @@ pub struct ExponentialRosenbrockEuler<V> {
     a_later: V,
     jacobian: Jacobian<V>,
     flow: LinearFlow,
-    /// `x`, `h f` and `h² f_t`: coordinates, then velocities multiplied by a time that makes their scale alike.
+    /// `x`, `h f` and `h² f_t`. Each has the coordinates, then the velocities multiplied by a time that gives them the
+    /// scale of the coordinates.
     x: Vec<f64>,
     f: Vec<f64>,
     f_t: Vec<f64>,
 }
 
 impl<V: Vector> ExponentialRosenbrockEuler<V> {
-    /// The step for several coordinates, whose derivatives `jacobian` already has.
+    /// Makes a step of several coordinates. `jacobian` must already have the derivatives.
     fn step_together(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -106,7 +109,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::
         let ([q], [v]) = (q.components_mut(), v.components_mut()) else {
             return self.step_together(system, h, y);
         };
-        // φ1 and φ2 of a 2×2 matrix, from the response of one coordinate to pushes.
+        // Computes φ1 and φ2 of a 2×2 matrix from the response of one coordinate to pushes.
         let [da_dq, da_dv] = jacobian.of_one();
         let [s, s1, s2] = response(h * h * da_dq, h * da_dv);
         let (a, more) = (a.components()[0], a_later.components()[0] - a.components()[0]);

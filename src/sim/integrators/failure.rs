@@ -5,28 +5,28 @@ use std::sync::Arc;
 
 use crate::sim::number::round;
 
-/// The result of a step: nothing, or why it failed.
+/// The result of a step, which is nothing, or the reason why it failed.
 pub type Stepped = Result<(), StepFailure>;
 
-/// Why a body could not be advanced to the end of its tick.
+/// The reason why a body could not be advanced to the end of its tick.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepFailure {
     /// An adaptive method used up its substeps before the end of the tick.
     TooManySubsteps {
-        /// The most attempts in a tick.
+        /// The maximum number of attempts in a tick.
         limit: u32,
     },
     /// The solver of an implicit method did not converge. The equations may still have a solution.
     NewtonFailed {
-        /// The most iterations in a step.
+        /// The maximum number of iterations in a step.
         limit: u32,
     },
-    /// The linear equations of a step were not solved within its budget of work.
+    /// The linear equations of a step were not solved within the step's budget of work.
     LinearSolveFailed,
     /// A reference solution exceeded its budget of evaluations.
     ReferenceFailed {
-        /// Evaluations spent.
+        /// The number of evaluations spent.
         evaluations: u64,
     },
     /// The force jumps back and forth at the present state, so that the motion has no solution in the usual sense.
@@ -35,16 +35,16 @@ pub enum StepFailure {
     ReferenceTooExpensive {
         /// The estimated work, in evaluations of a spring for each simulated second.
         work_per_s: f64,
-        /// The most work for a reference solution, [`MAX_REFERENCE_WORK`].
+        /// The maximum work of a reference solution, [`MAX_REFERENCE_WORK`].
         ///
         /// [`MAX_REFERENCE_WORK`]: crate::sim::MAX_REFERENCE_WORK
         most: f64,
     },
-    /// The caller asked for an invalid step: its times are not finite, or it has no parts.
+    /// The caller asked for an invalid step, whose times are not finite or which has no parts.
     InvalidStep {
-        /// The time at its start in seconds.
+        /// The time at the start of the step, in seconds.
         t: f64,
-        /// Its length in seconds.
+        /// The length of the step, in seconds.
         h: f64,
         /// The number of equal parts.
         substeps: u32,
@@ -58,10 +58,10 @@ pub enum StepFailure {
     NotFinite {
         /// The coordinate's name.
         coordinate: Arc<str>,
-        /// Its value.
+        /// The value of the coordinate.
         value: f64,
     },
-    /// A value left the range of simulated bodies; `run::race::ESCAPE`.
+    /// A value left the range of simulated bodies, which is `run::race::ESCAPE`.
     Escaped {
         /// The coordinate's name.
         coordinate: Arc<str>,
@@ -80,8 +80,8 @@ impl StepFailure {
         Err(Self::InvalidStep { t, h, substeps })
     }
 
-    /// Whether the failure is known before the first step, without any attempt: a reference solution too expensive to
-    /// try.
+    /// Whether the failure is known before the first step, without any attempt. This is so if a reference solution is
+    /// too expensive to try.
     pub fn is_foreseen(&self) -> bool {
         matches!(self, Self::ReferenceTooExpensive { .. })
     }

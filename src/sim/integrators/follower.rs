@@ -10,12 +10,12 @@ use crate::sim::system::{Pursuit, StateOf, System};
 
 /// The rule of a follower.
 pub trait FollowerRule: Carded + Clone + Send + Sync + 'static {
-    /// The coordinate and the velocity a step of `h` (s) after `x` and `v`. The target is at `g` at the end of the
-    /// step, and `rate` is k or ω of the law, per second.
+    /// Returns the coordinate and the velocity after a step of `h` (s) from `x` and `v`. The target is at `g` at the
+    /// end of the step, and `rate` is k or ω of the law, per second.
     fn step(h: f64, rate: f64, g: f64, x: f64, v: f64) -> (f64, f64);
 }
 
-/// A follower as a method: it reads the target at the end of a step, and applies its rule.
+/// A follower as a method, which reads the target at the end of a step and applies the follower's rule.
 #[derive(Clone)]
 pub struct Follower<V, R>(PhantomData<(V, R)>);
 
@@ -39,7 +39,8 @@ impl<S: System<Vector: Vector>, R: FollowerRule> Integrator<S> for Follower<S::V
     }
 }
 
-/// A step that covers this part of the way to the target. It ends with the velocity of a first-order law of rate `k`.
+/// Makes a step that covers this part of the way from `x` to the target `g`. Returns the new coordinate, and its
+/// velocity by a first-order law of rate `k`.
 #[inline]
 pub(super) fn lerp(part: f64, k: f64, g: f64, x: f64) -> (f64, f64) {
     let end = x + part * (g - x);

@@ -1,4 +1,4 @@
-//! Gauss-Legendre of two stages: collocation at the two points of Gauss's quadrature.
+//! Gauss-Legendre of two stages, which is collocation at the two points of Gauss's quadrature.
 
 use super::prelude::*;
 use super::shared::newton::Newton;
@@ -22,11 +22,11 @@ pub(super) const CARD: Method = Method {
     ..IMPLICIT
 };
 
-/// `√3 / 6`
+/// The number r of the formula, `√3 / 6`.
 const R: f64 = 0.288_675_134_594_812_9;
 const C: [f64; 2] = [0.5 - R, 0.5 + R];
 const A: [[f64; 2]; 2] = [[0.25, 0.25 - R], [0.25 + R, 0.25]];
-/// The square of `A`: the weights of accelerations in coordinates.
+/// The square of `A`, which has the weights of the accelerations in the coordinates.
 const A2: [[f64; 2]; 2] = [[1.0 / 24.0, 0.125 - R / 2.0], [0.125 + R / 2.0, 1.0 / 24.0]];
 
 /// Gauss-Legendre 4, by the [formula](Method::formula) on its card.

@@ -21,7 +21,7 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "Engine.physics_ticks_per_second = {hz} # step {n} times with dt / {n}: Godot has no substeps, and whole ticks",
         ),
-        // The value of its bodies in space.
+        // This is the map of Godot's bodies in space.
         free_spin: Some(FreeSpin { default: SpinMap::Constant, opt_in: None }),
         version: "4.x",
         logged: None,
@@ -32,10 +32,10 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// Times per tick that the damping of a spring acts: in every second of 16 iterations.
+/// How many times per tick the damping of a spring acts, which is in every other one of 16 iterations.
 const DAMPINGS: u32 = 8;
 
-/// Godot: a tick by the [formula](Method::formula) on its card.
+/// Godot, whose tick follows the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Godot;
 

@@ -27,7 +27,7 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// Held force: a tick by the [formula](Method::formula) on its card.
+/// Held force, whose tick follows the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct HeldForce;
 

@@ -1,4 +1,4 @@
-//! Implicit Euler: follows the tangent at the end of the step.
+//! Implicit Euler, which follows the tangent at the end of the step.
 
 use super::prelude::*;
 use super::shared::newton::Newton;

@@ -1,4 +1,4 @@
-//! Implicit midpoint: follows the slope at the middle of the chord for the whole step.
+//! Implicit midpoint, which follows the slope at the middle of the chord for the whole step.
 
 use super::prelude::*;
 use super::shared::newton::Newton;
@@ -20,7 +20,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct ImplicitMidpoint<V> {
     newton: Newton<V, 1>,
-    /// `m`
+    /// The middle state `m`.
     middle: State<V>,
 }
 

@@ -1,4 +1,4 @@
-//! Implicit spring: backward Euler of the critically damped spring, solved by hand.
+//! Implicit spring, which is backward Euler of the critically damped spring, solved by hand.
 
 use super::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Improved Euler (Heun): the mean of the slopes at both ends of the step.
+//! Improved Euler (Heun), which follows the mean of the slopes at both ends of the step.
 
 use super::prelude::*;
 
@@ -36,7 +36,8 @@ impl<S: System> Integrator<S> for ImprovedEuler<S::Vector> {
         let Self { k1, k2, end } = self;
         system.derivative(t, y, k1);
         end.assign_sum(y, h, k1);
-        // Added early for speed alone (`--bench step -- improved-euler`), so that each slope keeps its own registers.
+        // The first slope is added early only for speed (`--bench step -- improved-euler`), so that each slope keeps
+        // its own registers.
         y.add_scaled(h / 2.0, k1);
         system.derivative(t + h, end, k2);
         y.add_scaled(h / 2.0, k2);

@@ -1,4 +1,4 @@
-//! Improved Euler as the chapter prints it: only the velocity is improved, and it moves the position.
+//! Improved Euler as the chapter prints it. Only the velocity is improved, and the new velocity moves the position.
 
 use super::prelude::*;
 

@@ -8,9 +8,9 @@ use crate::sim::system::{Coupling, StateOf, System};
 
 /// A method that advances a system by steps.
 ///
-/// The system is a parameter of the trait: the force law is inlined into the method, and `Box<dyn Integrator<Ship>>`
-/// is still swappable at run time. A [clone](CloneIntegrator) has the same memory. A game that goes back to an earlier
-/// tick keeps one beside the state:
+/// The system is a parameter of the trait, so that the force law is inlined into the method, while a `Box<dyn
+/// Integrator<Ship>>` can still be swapped at run time. A [clone](CloneIntegrator) has the same memory. A game that
+/// goes back to an earlier tick keeps a clone beside the state:
 ///
 /// ```
 /// # use regatta::sim::{State, bodies::Spring, integrators::{integrator, method}};
@@ -29,8 +29,8 @@ pub trait Integrator<S: System>: CloneIntegrator<S> + Send + Sync {
     where
         Self: Sized;
 
-    /// As [`Integrator::new`], for systems with this coupling. A method that solves equations chooses its linear
-    /// algebra by it.
+    /// Returns a method as [`Integrator::new`] does, for systems with this coupling. A method that solves equations
+    /// chooses its linear algebra by the coupling.
     fn coupled(like: &S::Vector, _coupling: Coupling) -> Self
     where
         Self: Sized,
@@ -41,17 +41,17 @@ pub trait Integrator<S: System>: CloneIntegrator<S> + Send + Sync {
     /// Advances `state` from `t` to exactly `t + h` (s), unless the card says that the method does not [keep
     /// time](super::Method::keeps_time). Never allocates.
     ///
-    /// Does not report overflow: the caller checks the values. `t` and `h` must be finite; an integrator built by
-    /// [`integrator`](super::integrator) checks this, a bare method does not.
+    /// Does not report overflow, so that the caller must check the values. `t` and `h` must be finite. An integrator
+    /// built by [`integrator`](super::integrator) checks that they are, but a bare method does not.
     ///
     /// # Errors
     /// If the method gives up or does not step this system; `state` is then undefined.
     fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped;
 
-    /// Advances from `t` to `t + h` in `n` equal steps: one dynamic call for a whole tick.
+    /// Advances from `t` to `t + h` in `n` equal steps, by one dynamic call for a whole tick.
     ///
     /// # Errors
-    /// As [`Integrator::step`].
+    /// The same as for [`Integrator::step`].
     fn steps(&mut self, system: &S, t: f64, h: f64, n: u32, state: &mut StateOf<S>) -> Stepped {
         let part = h / f64::from(n);
         for i in 0..n {
@@ -60,14 +60,14 @@ pub trait Integrator<S: System>: CloneIntegrator<S> + Send + Sync {
         Ok(())
     }
 
-    /// Clears the memory of the method. Call it if the state or the forces jump. A method detects a change of the step
-    /// length itself.
+    /// Clears the memory of the method. Must be called if the state or the forces jump. A method detects by itself that
+    /// the length of the step changed.
     fn reset(&mut self) {}
 
-    /// Overrides a setting of the card or the body. A method without this setting ignores it.
+    /// Overrides a setting of the card or the body. A method without this setting ignores the override.
     fn set(&mut self, _override: Override) {}
 
-    /// The time in seconds that the method has left out of its steps since it was built; 0 if it [keeps
+    /// Returns the time in seconds that the method has left out of its steps since it was built; 0 if it [keeps
     /// time](super::Method::keeps_time).
     fn lost_time(&self) -> f64 {
         0.0
@@ -76,7 +76,7 @@ pub trait Integrator<S: System>: CloneIntegrator<S> + Send + Sync {
 
 /// Clones an [`Integrator`] behind a pointer. Implemented for every integrator that is `Clone`.
 pub trait CloneIntegrator<S: System> {
-    /// A copy with the same memory: from equal states both make steps of equal bits.
+    /// Returns a copy with the same memory. From equal states, the original and the copy make steps of equal bits.
     fn clone_boxed(&self) -> Box<dyn Integrator<S>>;
 }
 
@@ -93,7 +93,7 @@ impl<S: System> Clone for Box<dyn Integrator<S>> {
 }
 
 impl<S: System> fmt::Debug for dyn Integrator<S> {
-    /// Neither the type of the method nor its memory is known here.
+    /// Writes only a name, because neither the type of the method nor its memory is known here.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Integrator").finish_non_exhaustive()
     }
@@ -110,13 +110,13 @@ pub enum Override {
 }
 
 impl Override {
-    /// One number for all parts of the tolerance.
+    /// Returns a tolerance with one number for all its parts.
     pub const fn tolerance(bound: f64) -> Self {
         Self::Tolerance(Tolerance::uniform(bound))
     }
 }
 
-/// The allowed error of a substep: `absolute + relative |y|` in every component.
+/// The allowed error of a substep, which is `absolute + relative |y|` in every component.
 ///
 /// An absolute part of `f64::INFINITY` excludes that half of the state from the control.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,12 +130,12 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// One number for all three parts.
+    /// Returns a tolerance with one number for all three parts.
     pub const fn uniform(tolerance: f64) -> Self {
         Self { absolute_q: tolerance, absolute_v: tolerance, relative: tolerance }
     }
 
-    /// The largest component of `h error`, relative to the tolerance at `y`.
+    /// Returns the largest component of `h error`, relative to the tolerance at `y`.
     #[inline]
     pub(in crate::sim::integrators) fn relative_error<V: Vector>(
         &self,
@@ -154,7 +154,8 @@ impl Tolerance {
     }
 }
 
-/// The larger number. Unlike `f64::max` it keeps a NaN, so that a worthless step is rejected.
+/// Returns the larger number. Unlike `f64::max`, it returns NaN if a number is NaN, so that a worthless step is
+/// rejected.
 #[inline]
 fn larger(a: f64, b: f64) -> f64 {
     if b <= a || a.is_nan() { a } else { b }

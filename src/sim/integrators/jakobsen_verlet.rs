@@ -1,4 +1,4 @@
-//! Jakobsen's Verlet: the next position from the last two, with the drag that hides in a factor of 0.99.
+//! Jakobsen's Verlet, which computes the next position from the last two, with a drag that hides in a factor of 0.99.
 
 use super::prelude::*;
 
@@ -10,9 +10,9 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 0,
     evaluations: Some(1),
     symplectic: false,
-    // √(2 + 2 KEPT)
+    // This is √(2 + 2 KEPT).
     stability_limit: Some(1.994_993_734_326_0),
-    // z = √(4 ζ² + 3.98) - 2 ζ
+    // These are z = √(4 ζ² + 3.98) - 2 ζ.
     damped_limits: Some([1.897, 1.635, 0.825]),
     source: "Jakobsen, Advanced Character Physics (2001), with his drag of 0.99",
     formula: &["p = q − h v, q′ = q + 0.99 (q − p) + h² a", "v′ = (q′ − q) / h"],
@@ -22,11 +22,11 @@ pub(super) const CARD: Method = Method {
 /// The fraction of the last step's displacement that is kept.
 const KEPT: f64 = 0.99;
 
-/// `x' = x + 0.99 (x - p) + h² a`, with `p = x - h v` the position one step ago, and the velocity read off the
-/// positions: `v' = (x' - x) / h = 0.99 v + h a`.
+/// Computes `x' = x + 0.99 (x - p) + h² a`, where `p = x - h v` is the position one step ago. The velocity follows from
+/// the positions as `v' = (x' - x) / h = 0.99 v + h a`.
 ///
-/// Positions and velocities agree, so that nothing is carried: after a kick or a change of step, the velocity
-/// determines `p`.
+/// Positions and velocities agree, so that nothing is carried from step to step. After a kick or a change of step, the
+/// velocity determines `p`.
 #[derive(Clone)]
 pub struct JakobsenVerlet<V> {
     a: V,

@@ -13,42 +13,42 @@ pub struct JointMode {
     pub damping: Setting,
     /// Whether the engine computes the spring's force at the start of a substep, like a force of user code.
     pub is_explicit: bool,
-    /// Lines of code that set it, in the engine's own language, with the names of settings in braces.
+    /// Lines of code that set the spring, in the engine's own language, with the names of settings in braces.
     pub code: &'static str,
 }
 
 /// A numerical setting of an engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {
-    /// Its name in the engine.
+    /// The name of the setting in the engine.
     pub name: &'static str,
-    /// Its quantity.
+    /// The quantity of the setting.
     pub quantity: JointQuantity,
 }
 
 /// The quantity of a joint's setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointQuantity {
-    /// k, in N/m.
+    /// The stiffness k, in N/m.
     Stiffness,
-    /// k/m, in 1/s².
+    /// The stiffness per unit of mass, k/m, in 1/s².
     StiffnessPerMass,
-    /// 1/k, in m/N.
+    /// The compliance 1/k, in m/N.
     Compliance,
-    /// √(k/m) / 2π, in Hz.
+    /// The frequency √(k/m) / 2π, in Hz.
     Frequency,
-    /// c, in N s/m.
+    /// The damping c, in N s/m.
     Damping,
-    /// c/m, in 1/s.
+    /// The damping per unit of mass, c/m, in 1/s.
     DampingPerMass,
-    /// c / (2 √(k m)).
+    /// The damping ratio c / (2 √(k m)).
     DampingRatio,
 }
 
 use JointQuantity::*;
 
 impl JointQuantity {
-    /// The unit; empty if it has none.
+    /// Returns the unit; empty if the quantity has no unit.
     pub fn unit(self) -> &'static str {
         match self {
             Stiffness => "N/m",
@@ -61,7 +61,8 @@ impl JointQuantity {
         }
     }
 
-    /// The value for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on a mass in kg.
+    /// Returns the value of the quantity for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of
+    /// mass, on a mass in kg.
     pub fn of(self, [stiffness, damping]: [f64; 2], mass_kg: f64) -> f64 {
         match self {
             Stiffness => stiffness * mass_kg,
@@ -76,19 +77,19 @@ impl JointQuantity {
 }
 
 impl JointMode {
-    /// The settings for the stiffness and for the damping.
+    /// Returns the settings for the stiffness and for the damping.
     pub fn settings(&self) -> [Setting; 2] {
         [self.stiffness, self.damping]
     }
 
-    /// The values of its settings for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on
-    /// a mass in kg.
+    /// Returns the values of the mode's settings for a joint on a mass in kg. The joint is given by its stiffness in
+    /// 1/s² and its damping in 1/s, each per unit of mass.
     pub fn values(&self, joint: [f64; 2], mass_kg: f64) -> [f64; 2] {
         self.settings().map(|setting| setting.quantity.of(joint, mass_kg))
     }
 
-    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, of these values of its settings on a mass
-    /// in kg.
+    /// Returns the joint that these values of the mode's settings make on a mass in kg. The joint is given by its
+    /// stiffness in 1/s² and its damping in 1/s, each per unit of mass.
     pub fn joint(&self, [first, second]: [f64; 2], mass_kg: f64) -> [f64; 2] {
         let stiffness = match self.stiffness.quantity {
             Stiffness => first / mass_kg,
@@ -104,7 +105,7 @@ impl JointMode {
         [stiffness, damping]
     }
 
-    /// Its lines of code with these values; a whole number gets a decimal point.
+    /// Returns the mode's lines of code with these values. A whole number gets a decimal point.
     pub fn code_with(&self, values: [f64; 2]) -> String {
         let mut code = self.code.to_owned();
         for (setting, value) in self.settings().into_iter().zip(values) {
@@ -114,13 +115,13 @@ impl JointMode {
     }
 }
 
-/// A number as code writes it: with a decimal point or an exponent, to nine digits.
+/// Writes a number as in code, with a decimal point or an exponent, to nine digits.
 pub fn in_code(value: f64) -> String {
     let rounded = format!("{value:.8e}").parse::<f64>();
     format!("{:?}", rounded.unwrap_or(value))
 }
 
-/// A mode that is not explicit.
+/// Returns a mode that is not explicit.
 pub(super) const fn mode(
     id: &'static str,
     stiffness: (&'static str, JointQuantity),
@@ -132,7 +133,7 @@ pub(super) const fn mode(
     JointMode { id, stiffness, damping, is_explicit: false, code }
 }
 
-/// A [`mode`] with the settings `stiffness`, in N/m, and `damping`, in N s/m.
+/// Returns a [`mode`] with the settings `stiffness`, in N/m, and `damping`, in N s/m.
 pub(super) const fn si_mode(id: &'static str, code: &'static str) -> JointMode {
     mode(id, ("stiffness", Stiffness), ("damping", Damping), code)
 }

@@ -1,4 +1,4 @@
-//! Jolt: one implicit solve a substep, with drag and speed limit before it.
+//! Jolt, which makes one implicit solve per substep, after the drag and the speed limit.
 
 use super::joint_mode::JointQuantity::{Damping, DampingRatio, Frequency, Stiffness};
 use super::prelude::*;
@@ -43,10 +43,10 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// Its speed limit, in metres per second.
+/// The speed limit of the engine, in metres per second.
 const MAX_SPEED: f64 = 500.0;
 
-/// Jolt: a tick by the [formula](Method::formula) on its card.
+/// Jolt, whose tick follows the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Jolt;
 

@@ -1,4 +1,4 @@
-//! Lerp by the frame's duration: explicit Euler on the first-order law.
+//! Lerp by the frame's duration, which is explicit Euler on the first-order law.
 
 use super::prelude::*;
 

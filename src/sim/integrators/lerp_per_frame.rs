@@ -1,4 +1,4 @@
-//! Lerp per frame: a tenth of the way in every step, whether the step is long or short.
+//! Lerp per frame, which covers a tenth of the way in every step, whether the step is long or short.
 
 use super::prelude::*;
 
@@ -18,7 +18,8 @@ pub(super) const CARD: Method = Method {
     ..FIRST_ORDER_FOLLOWER
 };
 
-/// The fraction of the way that each step covers: a usual value. The higher it is, the faster the chase at every rate.
+/// The fraction of the way that each step covers. This value is usual; a higher fraction makes the chase faster at
+/// every rate.
 const PART: f64 = 0.1;
 
 /// Lerp per frame, by the [formula](Method::formula) on its card.

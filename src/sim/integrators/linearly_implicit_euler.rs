@@ -1,4 +1,4 @@
-//! Linearly implicit Euler: implicit Euler with one Newton iteration, from the start of the step.
+//! Linearly implicit Euler, which is implicit Euler with one Newton iteration from the start of the step.
 
 use super::prelude::*;
 use super::shared::linearisation::Linearisation;
@@ -15,10 +15,10 @@ pub(super) const CARD: Method = Method {
     ..LINEARISED
 };
 
-/// `(I - h ∂f/∂y) (y' - y) = h f(t + h, y)` on the whole state `y = (q, v)`: with `v' = v + h x` and `q' = q + h v'`,
-/// this is `(I - h² ∂a/∂q - h ∂a/∂v) x = a + h ∂a/∂q v`.
+/// Solves `(I - h ∂f/∂y) (y' - y) = h f(t + h, y)` on the whole state `y = (q, v)`. With `v' = v + h x` and `q' = q + h
+/// v'`, this equation is `(I - h² ∂a/∂q - h ∂a/∂v) x = a + h ∂a/∂q v`.
 ///
-/// On a linear system it is implicit Euler.
+/// On a linear system the method is implicit Euler.
 #[derive(Clone)]
 pub struct LinearlyImplicitEuler<V> {
     /// The right-hand side, and then `x`.

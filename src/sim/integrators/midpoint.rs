@@ -1,4 +1,4 @@
-//! Midpoint: follows the slope halfway for the whole step.
+//! Midpoint, which follows the slope at the middle for the whole step.
 
 use super::prelude::*;
 

@@ -1,10 +1,10 @@
-//! The methods: one file each, one line each in the table below.
+//! The methods, each with a file of its own and a line in the table below.
 //!
 //! A method implements [`Integrator`] for every [`System`] and describes itself on a [`Method`] card. If it steps
-//! [only](Only) some bodies, its card says which, and its step fails on others. Menus, command line, help and tests
-//! loop over [`METHODS`]; the conformance suite measures each field of each card, both ways. A
-//! [custom](Method::custom) method needs no place in the table. To add one, copy `midpoint.rs`, declare it, and name
-//! it in `methods!`.
+//! [only](Only) some bodies, its card names them, and its step fails on others. Menus, command line, help and tests
+//! loop over [`METHODS`], and the conformance suite measures each field of each card. A [custom](Method::custom) method
+//! needs no place in the table. To add a method to the table, copy `midpoint.rs`, declare the copy, and name it in
+//! `methods!`.
 
 use super::state::Vector;
 use super::system::{BodyClass, Counted, Coupling, System};
@@ -91,16 +91,16 @@ pub use integrator::{CloneIntegrator, Integrator, Override, Tolerance};
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
 
-/// A system of erased type with coordinates of type `V`, so that methods are compiled only once for all of them. It
-/// counts evaluations.
+/// A system of erased type with coordinates of type `V`, so that methods are compiled only once for all such systems.
+/// It counts evaluations.
 pub type Problem<V> = Counted<Box<dyn System<Vector = V>>>;
 
-/// This system as a problem, with its counter at zero.
+/// Returns this system as a problem, with its counter at zero.
 pub fn problem<S: System<Vector: Vector> + 'static>(system: S) -> Problem<S::Vector> {
     Counted::new(Box::new(system))
 }
 
-/// An integrator of systems of type `S` and, as all methods are, of every other system with the same vector.
+/// An integrator of systems of type `S`. Like all methods, it also steps every other system with the same vector.
 pub trait MethodOf<S: System>:
     Integrator<S> + Integrator<Problem<S::Vector>> + AnyIntegrator<S::Vector> + Clone + 'static
 {
@@ -111,17 +111,18 @@ impl<S: System, I> MethodOf<S> for I where
 {
 }
 
-/// Builds a value from an integrator whose type is chosen at run time; see [`construct`].
+/// Builds a value from an integrator whose type is chosen at run time by [`construct`].
 pub trait Construct<S: System> {
     /// The built value.
     type Output;
-    /// The class of the bodies; `None` if unknown. Methods that refuse this class are not compiled.
+    /// The class of the bodies; `None` if it is unknown. Methods that refuse this class are not compiled.
     const CLASS: Option<BodyClass> = None;
-    /// Builds the value from integrators of type `I`; `new` makes one for coordinate vectors shaped like its argument.
+    /// Builds the value from integrators of type `I`. Each call of `new` makes one for coordinate vectors shaped like
+    /// its argument.
     fn of<I: MethodOf<S>>(self, new: impl FnOnce(&S::Vector) -> I) -> Self::Output;
 }
 
-/// Why a method steps no system that `C` constructs for; `None` if it may step some.
+/// Returns the reason why a method steps no system for which `C` constructs; `None` if it may step some.
 const fn refusal<S: System, C: Construct<S>>(card: &Method) -> Option<&'static str> {
     match (&card.only, C::CLASS) {
         (Some(only), Some(class)) => only.incompatibility(class),
@@ -129,7 +130,7 @@ const fn refusal<S: System, C: Construct<S>>(card: &Method) -> Option<&'static s
     }
 }
 
-/// The type of a method on coordinates of type `V`: its own, or that of its rule's family.
+/// The type of a method on coordinates of type `V`, which is the method's own type, or that of its rule's family.
 macro_rules! method_type {
     ($V:ty, $Type:ident) => { $Type<$V> };
     ($V:ty, $Rule:ident, $Family:ident) => { $Family<$V, $Rule> };
@@ -145,7 +146,7 @@ macro_rules! carded {
     };
 }
 
-/// Returns the result of `construct` if `method` is this one and steps blocks.
+/// Returns the result of `construct` if `method` is this method and steps blocks.
 #[cfg(feature = "batch")]
 macro_rules! construct_in_blocks {
     ($S:ident, $method:ident, $construct:ident, $file:ident, $Type:ident, blocks) => {
@@ -212,8 +213,8 @@ macro_rules! methods {
             construct.of(|_| Unfit { reason })
         }
 
-        /// Calls `construct` with the integrator type of `method` for blocks of bodies. `None` unless the method steps
-        /// each number by itself.
+        /// Calls `construct` with the integrator type of `method` for blocks of bodies. Returns `None` if the method
+        /// does not step each number by itself.
         #[cfg(feature = "batch")]
         pub(in crate::sim) fn construct_in_blocks<S: System, C: Construct<S>>(
             method: &Method,
@@ -285,10 +286,10 @@ methods! {
     held_force::HeldForce as EngineMethod,
 }
 
-/// An integrator of `method` for bodies of this class and coupling, compiled once for each vector type.
+/// Returns an integrator of `method` for bodies of this class and coupling, compiled once for each vector type.
 ///
 /// # Panics
-/// As [`construct`].
+/// The same as for [`construct`].
 pub(in crate::sim) fn any_integrator<V: Vector>(
     method: &Method,
     class: BodyClass,
@@ -309,7 +310,7 @@ pub(in crate::sim) fn any_integrator<V: Vector>(
     }
 }
 
-/// Number of leading [`METHODS`] that step every body.
+/// Number of methods at the beginning of [`METHODS`] that step every body.
 const GENERAL_COUNT: usize = {
     let mut count = 0;
     while count < METHODS.len() && METHODS[count].only.is_none() {
@@ -318,21 +319,23 @@ const GENERAL_COUNT: usize = {
     count
 };
 
-/// The methods that step every body: the part of [`METHODS`] before the first method for [`Only`] some bodies.
+/// The methods that step every body, which are the part of [`METHODS`] before the first method for [`Only`] some
+/// bodies.
 pub static GENERAL_METHODS: &[Method] = METHODS.split_at(GENERAL_COUNT).0;
 
-/// The id of a value in a table of all values.
+/// Returns the id of a value in a table of all values.
 fn id_in<T: PartialEq>(all: &[(&'static str, T)], value: T) -> &'static str {
     all.iter().find(|(_, listed)| *listed == value).expect("the table has every value").0
 }
 
-/// The method with this id.
+/// Returns the method with this id.
 pub fn method(id: &str) -> Option<&'static Method> {
     METHODS.iter().find(|method| method.id == id)
 }
 
-/// A new integrator of `method` for any system with coordinates shaped `like` these. It [resets](Integrator::reset)
-/// itself if its state is not the one it returned; the caller must report a jump of the forces.
+/// Returns a new integrator of `method` for any system with coordinates shaped `like` these. It
+/// [resets](Integrator::reset) itself if its state is not the one that it returned. The caller must report a jump of
+/// the forces.
 ///
 /// ```
 /// # use regatta::sim::{State, bodies::Spring, integrators::{integrator, method}};
@@ -349,8 +352,8 @@ pub fn integrator<S: System<Vector: Vector> + 'static>(
     integrator_for(method, Coupling::All, like)
 }
 
-/// As [`integrator()`], only for systems with this [coupling](System::coupling). A method that solves equations saves
-/// much of the work if each coordinate depends on few others.
+/// Returns an integrator as [`integrator()`] does, but only for systems with this [coupling](System::coupling). A
+/// method that solves equations saves much of its work if each coordinate depends on few others.
 pub fn integrator_for<S: System<Vector: Vector> + 'static>(
     method: &Method,
     coupling: Coupling,
@@ -366,8 +369,8 @@ pub fn integrator_for<S: System<Vector: Vector> + 'static>(
     construct::<S, _>(method, coupling, Boxed(like))
 }
 
-/// A fresh [integrator](integrator()) for problems of one coordinate. Generic functions are compiled again in each
-/// crate that uses them; this one is not.
+/// Returns a fresh [integrator](integrator()) for problems of one coordinate. Generic functions are compiled again in
+/// each crate that uses them, but this function is not.
 pub fn fresh(method: &Method) -> Box<dyn Integrator<Problem<f64>>> {
     integrator(method, &0.0)
 }

@@ -1,4 +1,4 @@
-//! MuJoCo with its Euler integrator: implicit in the damping, explicit in the stiffness.
+//! MuJoCo with its Euler integrator, which is implicit in the damping and explicit in the stiffness.
 
 use super::joint_mode::JointQuantity::{Damping, Stiffness};
 use super::prelude::*;
@@ -47,11 +47,11 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// The largest coordinate, velocity or acceleration in SI units; beyond it MuJoCo warns and resets the model.
+/// The largest coordinate, velocity or acceleration in SI units. Beyond this value, MuJoCo warns and resets the model.
 const MAX_VALUE: f64 = 1e10;
 
-/// Before a step: resets a body with a value out of range to the origin at rest, where the model is defined (`qpos0`).
-/// Returns whether it did. The force of user code is lost with it until the next tick.
+/// Before a step, resets a body with a value out of range to the origin at rest, where the model is defined (`qpos0`).
+/// Returns whether it reset the body. With a reset, the force of user code is lost until the next tick.
 pub(super) fn reset_if_out_of_range<V: Vector>(
     settings: EngineSettings,
     force: &V,
@@ -71,7 +71,7 @@ pub(super) fn reset_if_out_of_range<V: Vector>(
     !is_sound
 }
 
-/// MuJoCo: a tick by the [formula](Method::formula) on its card.
+/// MuJoCo, whose tick follows the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Mujoco;
 

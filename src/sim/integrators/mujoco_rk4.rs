@@ -38,7 +38,7 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// MuJoCo, RK4: a tick by the [formula](Method::formula) on its card.
+/// MuJoCo, RK4, whose tick follows the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct MujocoRk4;
 

@@ -1,4 +1,4 @@
-//! Newmark's method with β = 1/4 and γ = 1/2: the mean of the accelerations at both ends of the step.
+//! Newmark's method with β = 1/4 and γ = 1/2, which uses the mean of the accelerations at both ends of the step.
 
 use super::prelude::*;
 use super::shared::newton::Newton;

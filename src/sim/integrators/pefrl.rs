@@ -1,4 +1,4 @@
-//! PEFRL, position-extended Forest-Ruth-like: one more kick than Yoshida 4, for a far smaller error.
+//! PEFRL, position-extended Forest-Ruth-like. It has one more kick than Yoshida 4, for a far smaller error.
 
 use super::prelude::*;
 use super::shared::compose;

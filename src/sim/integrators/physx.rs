@@ -54,8 +54,8 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// PhysX, PGS: a tick by the [formula](Method::formula) on its card. Its substeps are position iterations, which
-/// change nothing here.
+/// PhysX, PGS, whose tick follows the [formula](Method::formula) on its card. The substeps are position iterations,
+/// which do not change the motion of a single joint.
 #[derive(Clone)]
 pub struct Physx;
 

@@ -30,10 +30,10 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// Its velocity iterations, q.
+/// The number of velocity iterations.
 const VELOCITY_ITERATIONS: u32 = 1;
 
-/// PhysX 5.1, TGS: a tick by the [formula](Method::formula) on its card. Here `n` counts position iterations.
+/// PhysX 5.1, TGS, whose tick follows the [formula](Method::formula) on its card. Here `n` counts position iterations.
 #[derive(Clone)]
 pub struct PhysxTgs;
 

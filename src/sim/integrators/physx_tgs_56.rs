@@ -12,7 +12,7 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.01309),
         substeps: Substeps::Iterations,
-        // There is no log of a tumbling body.
+        // There is no log of a tumbling body in this version.
         free_spin: None,
         version: "5.6.1 in physx-js-webidl 2.7.3",
         logged: Some("2026-11-24"),
@@ -26,8 +26,8 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// PhysX 5.6, TGS: a tick by the [formula](Method::formula) on its card. Here `n` counts position iterations; velocity
-/// iterations change nothing for one spring.
+/// PhysX 5.6, TGS, whose tick follows the [formula](Method::formula) on its card. Here `n` counts position iterations.
+/// Velocity iterations do not change the motion of one spring.
 #[derive(Clone)]
 pub struct PhysxTgs56;
 

@@ -1,4 +1,4 @@
-//! Position Verlet: half a drift, a kick, half a drift.
+//! Position Verlet, which makes half a drift, a kick, and half a drift.
 
 use super::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Imports for the file of a method: its card, its traits, and its vectors.
+//! Imports for the file of a method, for its card, its traits, and its vectors.
 
 pub(super) use super::card::{
     ADAPTIVE, AS_PRINTED, ENGINE, EXPLICIT, Engine, FIRST_ORDER_FOLLOWER, FollowerQuantity,

@@ -1,4 +1,4 @@
-//! The multibody that pybullet loads a model as by default.
+//! The multibody as which pybullet loads a model by default.
 
 use super::prelude::*;
 
@@ -28,8 +28,8 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// pybullet, multibody: a tick by the [formula](Method::formula) on its card. It computes d over a whole second:
-/// `1 - e^(-C·1 s)`.
+/// pybullet, multibody, whose tick follows the [formula](Method::formula) on its card. It computes d over a whole
+/// second, as `1 - e^(-C·1 s)`.
 #[derive(Clone)]
 pub struct Pybullet;
 

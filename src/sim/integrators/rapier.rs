@@ -1,4 +1,4 @@
-//! Rapier: implicit springs in every substep, and the drag once a tick.
+//! Rapier, with implicit springs in every substep, and the drag once a tick.
 
 use super::joint_mode::JointQuantity::{DampingPerMass, StiffnessPerMass};
 use super::prelude::*;
@@ -38,10 +38,10 @@ pub(super) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// Its speed limit, in metres per second.
+/// The speed limit of the engine, in metres per second.
 const MAX_SPEED: f64 = 400.0;
 
-/// Rapier: a tick by the [formula](Method::formula) on its card.
+/// Rapier, whose tick follows the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Rapier;
 

@@ -5,7 +5,7 @@ use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{Coupling, StateOf, System};
 
-/// A method that [resets](Integrator::reset) if its state is not the one it returned.
+/// A method that [resets](Integrator::reset) if its state is not the one that it returned.
 #[derive(Clone)]
 pub(super) struct ResetOnChange<I, V> {
     method: I,
@@ -13,7 +13,7 @@ pub(super) struct ResetOnChange<I, V> {
 }
 
 impl<I, V: Vector> ResetOnChange<I, V> {
-    /// Wraps this method, on states shaped `like` this one.
+    /// Wraps this method, for coordinates shaped `like` these.
     pub(super) fn around(method: I, like: &V) -> Self {
         Self { method, returned: State { q: like.clone(), v: like.clone() } }
     }

@@ -1,4 +1,4 @@
-//! The classical Runge-Kutta method: four slopes, weighted 1 2 2 1.
+//! The classical Runge-Kutta method, which weights four slopes by 1, 2, 2 and 1.
 
 use super::prelude::*;
 
@@ -26,7 +26,7 @@ pub(super) const CARD: Method = Method {
 /// Runge-Kutta 4, by the [formula](Method::formula) on its card.
 ///
 /// A slope `k` is a velocity and an acceleration, here `(v, a1)`, `(v2, a2)`, `(v3, a3)` and `(v4, a4)`. The velocity
-/// of a stage is that of its slope, and is not copied.
+/// of a stage is also the velocity of its slope, and is not copied.
 #[derive(Clone)]
 pub struct Rk4<V> {
     a1: V,
@@ -36,7 +36,7 @@ pub struct Rk4<V> {
     v2: V,
     v3: V,
     v4: V,
-    /// The coordinates of the stage to evaluate.
+    /// The coordinates of the stage that is evaluated next.
     stage: V,
 }
 

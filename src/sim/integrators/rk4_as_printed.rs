@@ -1,4 +1,5 @@
-//! Runge-Kutta 4 as the chapter prints it: four slopes of the velocity alone, which then moves the position.
+//! Runge-Kutta 4 as the chapter prints it. It has four slopes of the velocity alone, and the new velocity moves the
+//! position.
 
 use super::prelude::*;
 
@@ -27,7 +28,7 @@ pub struct Rk4AsPrinted<V> {
     k2: V,
     k3: V,
     k4: V,
-    /// The velocity of the stage to evaluate.
+    /// The velocity of the stage that is evaluated next.
     stage: V,
 }
 

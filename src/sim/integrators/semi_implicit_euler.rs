@@ -1,4 +1,4 @@
-//! Semi-implicit Euler: kick the velocity, then drift with the new velocity.
+//! Semi-implicit Euler, which kicks the velocity, then drifts with the new velocity.
 
 use super::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Semi-implicit Euler with implicit drag: the kick is divided by `1 − h ∂a/∂v`, so that drag cannot overshoot.
+//! Semi-implicit Euler with implicit drag. The kick is divided by `1 − h ∂a/∂v`, so that drag cannot overshoot.
 
 use super::prelude::*;
 use super::shared::linearisation::Linearisation;
@@ -11,7 +11,7 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 1,
     symplectic: true,
     stability_limit: Some(2.0),
-    // z = 2 ζ + 2 √(1 + ζ²)
+    // These are z = 2 ζ + 2 √(1 + ζ²).
     damped_limits: Some([2.102, 2.44, 4.828]),
     source: "Ascher, Ruuth & Wetton, Implicit-explicit methods for time-dependent partial differential equations (1995)",
     formula: &["(I − h ∂a/∂v) (v′ − v) = h a(t, q, v)", "q′ = q + h v′"],

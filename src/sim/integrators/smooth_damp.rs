@@ -1,5 +1,5 @@
-//! Smooth damp, as in Unity: the closed form of the critically damped spring with a rational function for the
-//! exponential, and a clamp of overshoot.
+//! Smooth damp, as in Unity. It is the closed form of the critically damped spring, with a rational function for the
+//! exponential and a clamp of overshoot.
 
 use super::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Strong-stability-preserving Runge-Kutta 3: three Euler steps, averaged.
+//! Strong-stability-preserving Runge-Kutta 3, which averages three Euler steps.
 
 use super::prelude::*;
 
@@ -9,7 +9,7 @@ pub(super) const CARD: Method = Method {
     order: 3,
     order_with_drag: 3,
     evaluations: Some(3),
-    // √3, where z⁴ (z² - 3) / 36, the growth of the squared amplitude in a step, changes sign.
+    // At √3 the growth of the squared amplitude in a step, z⁴ (z² - 3) / 36, changes sign.
     stability_limit: Some(1.732_050_807_568_877_2),
     damped_limits: Some([1.988, 2.369, 2.513]),
     source: "Shu & Osher, Efficient implementation of essentially non-oscillatory shock-capturing schemes (1988)",
@@ -23,15 +23,15 @@ pub(super) const CARD: Method = Method {
     ..EXPLICIT
 };
 
-/// `y1 = y + h f(t, y)`, `y2 = (3 y + y1 + h f(t + h, y1)) / 4`,
-/// `y' = (y + 2 y2 + 2 h f(t + h/2, y2)) / 3`: written with the three slopes
-/// `y2 = y + h (k1 + k2) / 4` and `y' = y + h (k1 + k2 + 4 k3) / 6`.
+/// SSP Runge-Kutta 3. Its Euler steps are `y1 = y + h f(t, y)`, `y2 = (3 y + y1 + h f(t + h, y1)) / 4` and `y' = (y + 2
+/// y2 + 2 h f(t + h/2, y2)) / 3`. Written with the three slopes, they are `y2 = y + h (k1 + k2) / 4` and `y' = y + h
+/// (k1 + k2 + 4 k3) / 6`.
 #[derive(Clone)]
 pub struct SspRk3<V> {
     k1: State<V>,
     k2: State<V>,
     k3: State<V>,
-    /// The state of the stage to evaluate.
+    /// The state of the stage that is evaluated next.
     stage: State<V>,
 }
 

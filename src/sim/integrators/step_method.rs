@@ -7,7 +7,7 @@ use crate::sim::law::{StepRegisters, StepText};
 /// A method made of lines that call the acceleration.
 #[derive(Clone)]
 pub(super) struct StepMethod<V> {
-    /// The lines, and the numbers they carry; `None` refuses every step.
+    /// The lines, and the numbers that they carry. If `None`, the method refuses every step.
     lines: Option<(&'static StepText, StepRegisters)>,
     q: V,
     v: V,
@@ -15,7 +15,7 @@ pub(super) struct StepMethod<V> {
 }
 
 impl<V: Vector> StepMethod<V> {
-    /// The method of these lines, for coordinates shaped `like` these.
+    /// Returns the method of these lines, for coordinates shaped `like` these.
     pub(super) fn of(lines: &'static StepText, like: &V) -> Self {
         let registers = lines.method_registers(like.components().len());
         let [q, v, a] = [(); 3].map(|()| like.clone());

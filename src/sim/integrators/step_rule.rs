@@ -1,14 +1,14 @@
-//! A rule by the lines of a person, which moves a body by itself.
+//! A rule made of a person's own lines, which moves a body by itself.
 
 use super::failure::StepFailure;
 use super::prelude::*;
 use crate::sim::law::{LinearRule, StepRegisters};
 use crate::sim::system::Pursuit;
 
-/// A rule that steps each coordinate of a body towards the target of the body, or else towards 0.
+/// A rule that steps each coordinate of a body towards the body's target, or towards 0 if it has none.
 #[derive(Clone)]
 pub(super) struct StepRule {
-    /// With the registers of its lines; `None` refuses every step.
+    /// The rule, and the registers of its lines. If `None`, every step is refused.
     rule: Option<(&'static LinearRule, StepRegisters)>,
 }
 
@@ -19,7 +19,7 @@ impl StepRule {
 }
 
 impl<S: System<Vector: Vector>> Integrator<S> for StepRule {
-    /// Refuses every step: only its card knows the lines.
+    /// Refuses every step, because only the card knows the lines.
     fn new(_like: &S::Vector) -> Self {
         Self { rule: None }
     }

@@ -1,4 +1,5 @@
-//! Störmer-Verlet: the next position from the last two and the force; the velocity follows from the positions.
+//! Störmer-Verlet, which computes the next position from the last two and the force. The velocity follows from the
+//! positions.
 
 use super::prelude::*;
 use super::shared::LastStep;
@@ -23,8 +24,8 @@ pub(super) const CARD: Method = Method {
 
 /// Störmer-Verlet, by the [formula](Method::formula) on its card. `p` is the position one step ago.
 ///
-/// The plain difference `(q' - q) / h` is the velocity half a step ago, and first order. Half a kick by the force at
-/// the end, which the next step needs anyway, makes it second order.
+/// The plain difference `(q' - q) / h` is the velocity half a step ago, and only first order. Half a kick by the force
+/// at the end, which the next step needs anyway, makes the velocity second order.
 #[derive(Clone)]
 pub struct StormerVerlet<V> {
     p: V,
@@ -52,7 +53,7 @@ impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
         q_end.assign_scaled(2.0, q);
         q_end.add_terms([(-1.0, p), (h * h, a)]);
 
-        // The force at the end uses the slope there of the parabola through all three positions.
+        // The force at the end uses the slope at the end of the parabola through all three positions.
         v.assign_scaled(1.5 / h, q_end);
         v.add_terms([(-2.0 / h, q), (0.5 / h, p)]);
         system.acceleration(t + h, q_end, v, a);

@@ -1,4 +1,4 @@
-//! TR-BDF2: the trapezoidal rule over a part of the step, and BDF2 over the whole of it.
+//! TR-BDF2, which applies the trapezoidal rule over a part of the step, and BDF2 over the whole step.
 
 use super::prelude::*;
 use super::shared::newton::Newton;
@@ -17,22 +17,22 @@ pub(super) const CARD: Method = Method {
     ..IMPLICIT
 };
 
-/// `Y = y + γ/2 h (f(t, y) + f(t + γ h, Y))`, then
-/// `y' = (Y - (1 - γ)² y) / (γ (2 - γ)) + (1 - γ) / (2 - γ) h f(t + h, y')`.
+/// TR-BDF2. It solves `Y = y + γ/2 h (f(t, y) + f(t + γ h, Y))`, then `y' = (Y - (1 - γ)² y) / (γ (2 - γ)) + (1 - γ) /
+/// (2 - γ) h f(t + h, y')`.
 #[derive(Clone)]
 pub struct TrBdf2<V> {
     newton: Newton<V, 1>,
-    /// `f(t, y)`
+    /// The slope `f(t, y)`.
     f: State<V>,
-    /// `Y`
+    /// The stage `Y`.
     stage: State<V>,
 }
 
-/// `2 - √2`, for which the new slope has the same weight in both equations, and the method is L-stable.
+/// The part γ = `2 - √2`. With it, the new slope has the same weight in both equations, and the method is L-stable.
 const GAMMA: f64 = 2.0 - std::f64::consts::SQRT_2;
-/// That weight: `γ/2 = (1 - γ) / (2 - γ)`.
+/// The weight of the new slope, `γ/2 = (1 - γ) / (2 - γ)`.
 const D: f64 = GAMMA / 2.0;
-/// `1 / (γ (2 - γ))`
+/// The weight of `Y`, `1 / (γ (2 - γ))`.
 const W: f64 = 1.0 / (GAMMA * (2.0 - GAMMA));
 
 impl<S: System<Vector: Vector>> Integrator<S> for TrBdf2<S::Vector> {
@@ -50,7 +50,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for TrBdf2<S::Vector> {
         system.derivative(t, y, f);
         stage.assign_sum(y, h * D, f);
         newton.backward_euler(system, t + h * GAMMA, h * D, stage)?;
-        // y + W (Y - y), because W (1 - γ)² = W - 1.
+        // This is y + W (Y - y), because W (1 - γ)² = W - 1.
         f.assign(y);
         y.add_terms([(-W, f), (W, stage)]);
         newton.backward_euler(system, t + h, h * D, y)

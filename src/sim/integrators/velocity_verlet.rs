@@ -1,4 +1,4 @@
-//! Velocity Verlet: half a kick, a drift, half a kick by the force at the end.
+//! Velocity Verlet, which makes half a kick, a drift, and half a kick by the force at the end.
 
 use super::prelude::*;
 use super::shared::LastStep;
@@ -21,14 +21,14 @@ pub(super) const CARD: Method = Method {
 
 /// Velocity Verlet, by the [formula](Method::formula) on its card.
 ///
-/// The force at the end uses the predicted velocity there, which keeps second order under drag; with the half-step
-/// velocity `v½` it would be first order.
+/// The force at the end uses the predicted velocity there, which keeps second order under drag. With the half-step
+/// velocity `v½`, the method would be first order.
 #[derive(Clone)]
 pub struct VelocityVerlet<V> {
     a: V,
-    /// The force at the end, which the next step starts with.
+    /// The force at the end, with which the next step starts.
     a_end: V,
-    /// The velocity predicted for the end.
+    /// The velocity that is predicted for the end of the step.
     v_end: V,
     last_step: LastStep,
 }

@@ -1,4 +1,5 @@
-//! Verlet with exact drag: half a step of exact decay, a step of velocity Verlet, half a step of exact decay.
+//! Verlet with exact drag, which makes half a step of exact decay, a step of velocity Verlet, and half a step of exact
+//! decay.
 
 use super::prelude::*;
 use super::shared::jacobian::Jacobian;
@@ -14,7 +15,7 @@ pub(super) const CARD: Method = Method {
     symplectic: true,
     reversible: true,
     stability_limit: Some(2.0),
-    // The drag shrinks both eigenvalues alike.
+    // The drag shrinks both eigenvalues by the same factor.
     damped_limits: Some([2.0, 2.0, 2.0]),
     source: "Strang, On the construction and comparison of difference schemes (1968); in molecular dynamics Bussi & Parrinello, Accurate sampling using Langevin dynamics (2007)",
     formula: &[
@@ -26,26 +27,26 @@ pub(super) const CARD: Method = Method {
     ..LINEARISED
 };
 
-/// With `D = ∂a/∂v` at the start and `r = a - D v`, the rest of the force: `v1 = exp(h D / 2) v`,
-/// `v½ = v1 + h r(t, q, v1) / 2`, `q' = q + h v½`, `v2 = v½ + h r(t + h, q', v½ + h r / 2) / 2`,
+/// Verlet with exact drag. Let `D = ∂a/∂v` at the start, and let `r = a - D v` be the rest of the force. Then `v1 =
+/// exp(h D / 2) v`, `v½ = v1 + h r(t, q, v1) / 2`, `q' = q + h v½`, `v2 = v½ + h r(t + h, q', v½ + h r / 2) / 2` and
 /// `v' = exp(h D / 2) v2`.
 ///
 /// `D` is the full matrix, including the coupling of coordinates.
 #[derive(Clone)]
 pub struct VerletExactDrag<V> {
-    /// `a`, and then `r`.
+    /// The acceleration `a`, and then the rest `r`.
     a: V,
-    /// The velocity predicted for the end.
+    /// The velocity that is predicted for the end of the step.
     v_end: V,
-    /// `D`
+    /// The matrix `D`.
     drag: Jacobian<V>,
     decay: LinearFlow,
-    /// Zeros, because nothing drives the decay.
+    /// Zeros as the force on the decay, because nothing drives it.
     zeros: Vec<f64>,
 }
 
 impl<V: Vector> VerletExactDrag<V> {
-    /// `v = exp(h D / 2) v` for several coordinates.
+    /// Computes `v = exp(h D / 2) v` for several coordinates.
     fn decay(&mut self, system: &dyn System<Vector = V>, h: f64, v: &mut V) -> Stepped {
         let Self { drag, decay, zeros, .. } = self;
         let [_, rate] = drag.norms(system);
@@ -91,7 +92,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for VerletExactDrag<S::Vector> {
         system.acceleration(t, &y.q, &y.v, &mut self.a);
         self.drag.compute(system, t, h, y, &self.a);
         let State { q, v } = y;
-        // The exponential of a single coordinate, used for both halves.
+        // This is the exponential for a single coordinate, which serves for both halves.
         let alone = (v.components().len() == 1).then(|| libm::exp(h / 2.0 * self.drag.of_one()[1]));
         match alone {
             Some(decay) => v.components_mut()[0] *= decay,

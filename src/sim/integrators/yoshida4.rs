@@ -1,4 +1,5 @@
-//! Yoshida 4: three position Verlet steps, the middle one backwards, chosen so that their third-order errors cancel.
+//! Yoshida 4, which makes three position Verlet steps, the middle one backwards. Their lengths are chosen so that their
+//! third-order errors cancel.
 
 use super::prelude::*;
 use super::shared::compose;
@@ -21,8 +22,8 @@ pub(super) const CARD: Method = Method {
     ..SYMPLECTIC
 };
 
-/// θ = 1 / (2 - ∛2): the length of the outer two steps, relative to the whole.
-/// The middle one has 1 - 2θ < 0.
+/// θ = 1 / (2 - ∛2), the length of each of the outer two steps, relative to the whole step. The length of the middle
+/// step is 1 - 2θ < 0.
 const THETA: f64 = 1.351_207_191_959_657_6;
 /// Drift and kick of each stage, as fractions of the step.
 const STAGES: [(f64, f64); 3] =

@@ -10,7 +10,7 @@ use super::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 use super::token::is_name_start;
 use super::{LawText, T};
 
-/// The most characters of a name, because it labels a marker.
+/// The maximum number of characters of a name. It is small because a name labels a marker.
 const MAX_NAME_CHARS: usize = 24;
 
 /// A tape, or all faults of its text.
@@ -28,8 +28,8 @@ struct PartScope<'t> {
 }
 
 impl PartScope<'_> {
-    /// All names with the slots of their inputs, in the order of lookup: a constant comes before a start of the same
-    /// name.
+    /// Returns all names with the slots of their inputs, in the order of lookup. A constant comes before a start of the
+    /// same name.
     fn all(&self) -> impl Iterator<Item = (String, usize)> {
         let names = self.text.coordinates.iter().map(|coordinate| &coordinate.name);
         ["t", "throttle", "rudder"]
@@ -88,7 +88,7 @@ impl Scope for PartScope<'_> {
 }
 
 impl Compiler<'_> {
-    /// The tape of the accelerations.
+    /// Returns the tape of the accelerations.
     pub(super) fn motion(&self) -> Compiled {
         let rows = self.text.coordinates.iter().enumerate();
         self.tape(rows.map(|(i, row)| (Part::Acceleration(i), &*row.acceleration)).collect())
@@ -98,7 +98,7 @@ impl Compiler<'_> {
         self.tape(self.text.energy.iter().map(|text| (Part::Energy, &**text)).collect())
     }
 
-    /// The tape of the exact solution. If one coordinate has one, all must.
+    /// Returns the tape of the exact solution. If one coordinate has an exact solution, all must have one.
     pub(super) fn exact(&self) -> Compiled {
         let rows = self.text.coordinates.iter().enumerate();
         let missing = rows.clone().filter(|(_, row)| row.exact.is_none());
@@ -117,7 +117,7 @@ impl Compiler<'_> {
         Err(missing.into_iter().chain(tape.err().into_iter().flatten()).collect())
     }
 
-    /// The tape of the drawing positions: x and y of each coordinate that has one.
+    /// Returns the tape of the drawing positions, which are x and y of each coordinate that has a position.
     pub(super) fn places(&self) -> Compiled {
         let rows = self.text.coordinates.iter().enumerate();
         let placed = rows.filter_map(|(i, row)| Some((i, row.at.as_ref()?)));
@@ -154,7 +154,7 @@ impl Compiler<'_> {
     }
 }
 
-/// The faults of the names of constants and coordinates.
+/// Returns the faults of the names of constants and coordinates.
 pub(super) fn check_names(text: &LawText) -> Vec<LawFault> {
     let constants = text.constants.iter().enumerate().map(|(i, name)| (Part::Constant(i), name));
     let coordinates = text.coordinates.iter().map(|coordinate| &coordinate.name);

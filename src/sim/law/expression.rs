@@ -1,4 +1,4 @@
-//! An expression, read from text in one pass: the parser looks up names and checks types as it goes.
+//! An expression, read from text in one pass. The parser looks up names and checks types as it goes.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -11,29 +11,29 @@ use crate::sim::curve::Curve;
 
 mod call;
 
-/// The most bytes of an expression: several lines of a file.
+/// The maximum number of bytes of an expression, which is several lines of a file.
 pub const MAX_BYTES: usize = 4096;
 
-/// The deepest nesting of brackets, signs and functions. The parser calls itself for each, about ten calls deep.
+/// The deepest nesting of brackets, signs and functions. The parser calls itself for each level, about ten calls deep.
 pub const MAX_DEPTH: usize = 64;
 
-/// The largest whole exponent that becomes a product; a larger one is `libm::pow`'s.
+/// The largest whole exponent that becomes a product. A power with a larger exponent is computed by `libm::pow`.
 const MAX_PRODUCT: u32 = 16;
 
-/// One operation of an expression. Its arguments precede it.
+/// One operation of an expression. The nodes of its arguments precede it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) op: Op,
     operands: [usize; 3],
     count: usize,
-    /// The value of a number.
+    /// The value of the node, if it is a number.
     pub(super) number: f64,
     /// The index of an input among the inputs, or of a table among the tables.
     pub(super) index: usize,
 }
 
 impl Node {
-    /// The operation on these nodes.
+    /// Returns an operation on the nodes `arguments`.
     pub(super) fn new(op: Op, arguments: &[usize]) -> Self {
         let mut operands = [0; 3];
         operands[..arguments.len()].copy_from_slice(arguments);
@@ -44,24 +44,24 @@ impl Node {
         Self::new(op, &[])
     }
 
-    /// The value of the input with this index.
+    /// Returns the node for the value of the input with this index.
     pub(super) fn input(index: usize) -> Self {
         Self { index, ..Self::leaf(Op::Input) }
     }
 
-    /// The same operation, for nodes appended after `before` others.
+    /// Returns the same operation, for nodes appended after `before` others.
     pub(super) fn after(self, before: usize) -> Self {
         self.reading(|operand| operand + before)
     }
 
-    /// The same operation, with other nodes as arguments.
+    /// Returns the same operation, with other nodes as arguments.
     pub(super) fn reading(self, other: impl Fn(usize) -> usize) -> Self {
         let mut operands = self.operands;
         operands[..self.count].iter_mut().for_each(|operand| *operand = other(*operand));
         Self { operands, ..self }
     }
 
-    /// The indices of its argument nodes.
+    /// Returns the indices of the nodes that are its arguments.
     pub(super) fn arguments(&self) -> &[usize] {
         &self.operands[..self.count]
     }
@@ -78,17 +78,17 @@ pub(super) struct Expression {
 
 /// The names that an expression may use.
 pub(super) trait Scope {
-    /// The index of a name among the inputs.
+    /// Returns the index of a name among the inputs.
     fn input(&self, name: &str) -> Option<usize>;
-    /// All names.
+    /// Returns all names that the expression may use.
     fn names(&self) -> Vec<String>;
-    /// Why this name, allowed in other expressions, is not allowed here.
+    /// Returns the reason why this name, which other expressions may use, is not allowed here.
     fn why_not(&self, name: &str) -> Option<String>;
     /// Whether a call of this name is a call of the acceleration.
     fn is_acceleration(&self, _name: &str) -> bool {
         false
     }
-    /// The function with this name.
+    /// Returns the function with this name.
     fn function(&self, name: &str) -> Option<&'static Function> {
         Function::named(name)
     }
@@ -154,7 +154,7 @@ impl Parser<'_> {
         self.tokens[self.next].0
     }
 
-    /// The byte range of the next token.
+    /// Returns the byte range of the next token.
     fn span(&self) -> Range<usize> {
         self.tokens[self.next].1.clone()
     }
@@ -190,13 +190,13 @@ impl Parser<'_> {
         fault(self.here(), what, format!("write `{symbol}` after {after}"))
     }
 
-    /// The fault of a token that follows a value without an operator.
+    /// Returns the fault of a token that follows a value without an operator.
     fn juxtaposed(&self) -> ExpressionFault {
         let what = format!("`{}` follows a complete expression", quoted(self.token_text()));
         ExpressionFault::new(self.span(), what, "write an operator before it, such as `*`")
     }
 
-    /// The byte range of the next token; at the end of the text, of the last character.
+    /// Returns the byte range of the next token, or that of the last character at the end of the text.
     fn here(&self) -> Range<usize> {
         match self.peek() {
             Token::End => {
@@ -223,7 +223,7 @@ impl Parser<'_> {
         self.operation(None)
     }
 
-    /// Reads operands joined by operators that bind more tightly than those `outside`.
+    /// Reads operands joined by operators that bind more tightly than the level `outside`.
     fn operation(&mut self, outside: Option<Level>) -> Parsed<usize> {
         let mut left = self.operand(outside)?;
         while let Some(infix) = self.infix().filter(|infix| Some(infix.level) > outside) {
@@ -252,13 +252,13 @@ impl Parser<'_> {
         Ok(left)
     }
 
-    /// The next token as an operator.
+    /// Returns the next token as an operator, if it is one.
     fn infix(&self) -> Option<&'static Infix> {
         let is_sign = matches!(self.peek(), Token::Symbol(_) | Token::Name);
         INFIXES.iter().find(|infix| is_sign && infix.sign == self.token_text())
     }
 
-    /// Reads the first operand of operators that bind more tightly than those `outside`.
+    /// Reads the first operand of operators that bind more tightly than the level `outside`.
     fn operand(&mut self, outside: Option<Level>) -> Parsed<usize> {
         let start = self.span().start;
         if outside <= Some(Level::And) && self.is_word("not") {
@@ -279,7 +279,7 @@ impl Parser<'_> {
         Ok(self.push(Op::Negate, &[operand], start..self.span_of(operand).end))
     }
 
-    /// Reads the power of `base`, starting at its sign. It groups to the right.
+    /// Reads the power of `base`, starting at the sign `^`. Powers group to the right.
     fn raised(&mut self, base: usize) -> Parsed<usize> {
         self.next += 1;
         let base = self.want_number(base)?;
@@ -303,7 +303,7 @@ impl Parser<'_> {
         Ok(product)
     }
 
-    /// The magnitude of a small whole number with or without a sign, and whether it is negative.
+    /// Returns the magnitude of a small whole number, and whether it is negative; `None` if the node is no such number.
     fn whole(&self, node: usize) -> Option<(u32, bool)> {
         let nodes = &self.expression.nodes;
         let (node, is_negative) = match nodes[node].op {

@@ -13,7 +13,7 @@ pub enum Part {
     Acceleration(usize),
     /// The exact solution of the coordinate with this index.
     Exact(usize),
-    /// The drawing position of the coordinate with this index: its x (0) or y (1).
+    /// The x (0) or y (1) of the drawing position of the coordinate with this index.
     Place(usize, usize),
     /// The energy.
     Energy,
@@ -24,11 +24,11 @@ pub enum Part {
 pub struct LawFault {
     /// The part at fault.
     pub part: Part,
-    /// The byte range at fault, within the text of that part.
+    /// The byte range at fault, within the text of the part.
     pub span: Range<usize>,
     /// The error message.
     pub what: String,
-    /// How to fix it.
+    /// How to fix the fault.
     pub remedy: Remedy,
 }
 
@@ -53,7 +53,7 @@ pub struct ExpressionFault {
     pub span: Range<usize>,
     /// The error message.
     pub what: String,
-    /// How to fix it.
+    /// How to fix the fault.
     pub remedy: Remedy,
 }
 
@@ -66,7 +66,7 @@ impl ExpressionFault {
         Self { span, what: what.into(), remedy: Remedy::Words(remedy.into()) }
     }
 
-    /// The same fault, located in this part of a law.
+    /// Returns the same fault, located in this part of a law.
     pub(super) fn of(self, part: Part) -> LawFault {
         let Self { span, what, remedy } = self;
         LawFault { part, span, what, remedy }
@@ -76,7 +76,7 @@ impl ExpressionFault {
 /// The result of reading text.
 pub(super) type Parsed<T> = Result<T, ExpressionFault>;
 
-/// An `Err` with a [fault](ExpressionFault::new).
+/// Returns an `Err` with a [fault](ExpressionFault::new).
 pub(super) fn fault<T>(
     span: Range<usize>,
     what: impl Into<String>,
@@ -85,10 +85,10 @@ pub(super) fn fault<T>(
     Err(ExpressionFault::new(span, what, remedy))
 }
 
-/// The most characters of an expression quoted in a message.
+/// The maximum number of characters of an expression that a message quotes.
 const MAX_QUOTED_CHARS: usize = 40;
 
-/// Text of an expression for a message, shortened.
+/// Shortens the text of an expression for a message.
 pub(super) fn quoted(text: &str) -> String {
     let mut quoted: String = text.chars().take(MAX_QUOTED_CHARS).collect();
     if text.chars().nth(MAX_QUOTED_CHARS).is_some() {

@@ -1,4 +1,4 @@
-//! Finds linearity and angles of a motion from the form of its tape.
+//! Finds from the form of a tape whether its motion is linear and which coordinates are angles.
 
 use super::op::Op;
 use super::tape::Tape;
@@ -56,7 +56,8 @@ pub(super) fn is_linear(
     tape.outputs.iter().all(|&output| of[output as usize] < Dependence::Any)
 }
 
-/// Whether this input is used, and only by sines, cosines and tangents, so that a full turn of it changes nothing.
+/// Whether this input is used, and only by sines, cosines and tangents, so that a full turn of the input changes
+/// nothing.
 pub(super) fn is_angle(tape: &Tape, input: usize) -> bool {
     let is_it = |slot: &u16| usize::from(*slot) == input;
     let mut uses = tape.operations().filter(|(_, operands, ..)| operands.iter().any(is_it));

@@ -1,6 +1,6 @@
-//! The functions of expressions, one row each: name, arguments, value, and derivatives or pieces.
+//! The functions of expressions. Each has a row with its name, arguments and value, and its derivatives or pieces.
 //!
-//! To add a smooth function of one argument, add a `unary!` row here, and its reference to the test below.
+//! To add a smooth function of one argument, add a `unary!` row here, and a reference for it to the test below.
 
 use std::hash::{Hash, Hasher};
 
@@ -27,11 +27,12 @@ pub(super) enum Meaning {
     Table,
     /// `a + (b - a) * part`.
     Between,
-    /// `base ^ exponent` by `pow`, also for whole exponents.
+    /// `base ^ exponent`, computed by `pow` even for whole exponents.
     Power,
 }
 
-/// A function of one or two arguments that is smooth wherever it is defined. Equal only if both are the same row.
+/// A function of one or two arguments that is smooth wherever it is defined. Two functions are equal only if they are
+/// the same row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Smooth {
     /// The value. A function of one argument ignores the second.
@@ -56,7 +57,7 @@ impl Hash for Smooth {
     }
 }
 
-/// A smooth function of one argument: its value `f` at `x`, and its first and second derivative there.
+/// Makes a smooth function of one argument from its value `f` at `x`, and its first and second derivative there.
 macro_rules! unary {
     ($name:literal, |$x:ident| $f:ident = $value:expr, $derivatives:expr) => {
         smooth(
@@ -104,7 +105,7 @@ pub(super) static FUNCTIONS: [Function; 21] = [
         [slope, -2.0 * x * slope * slope]
     }),
     smooth("atan2", &["y", "x"], libm::atan2, |y, x| {
-        // The first and second derivative of the angle.
+        // `slope` has the first and the second derivative of the angle.
         let radius2 = sum(product(y, y), product(x, x));
         let numerator = [x[0] * y[1] - y[0] * x[1], x[0] * y[2] - y[0] * x[2], 0.0];
         let slope = quotient(numerator, [radius2[0], radius2[1], 0.0]);
@@ -129,7 +130,7 @@ pub(super) static STEP_FUNCTIONS: [Function; 2] = [
     function("pow", &["base", "exponent"], Meaning::Power),
 ];
 
-/// Names from other languages, each with ours.
+/// Names from other languages, each with our name.
 const ALIASES: [(&str, &str); 16] = [
     ("mix", "lerp"),
     ("lerpf", "lerp"),
@@ -183,17 +184,17 @@ impl Function {
         self
     }
 
-    /// Its call with named arguments: `min(a, b)`.
+    /// Returns a call of the function with named arguments, such as `min(a, b)`.
     pub(super) fn usage(&self) -> String {
         format!("{}({})", self.name, self.arguments.join(", "))
     }
 
-    /// The function of this name in laws.
+    /// Returns the function of this name in laws.
     pub(super) fn named(name: &str) -> Option<&'static Self> {
         FUNCTIONS.iter().find(|function| function.name == name)
     }
 
-    /// The function of this name in step lines, also by its name in another language.
+    /// Returns the function of this name in step lines. The name may also be that of another language.
     pub(super) fn named_in_steps(name: &str) -> Option<&'static Self> {
         let alias = ALIASES.iter().find(|(alias, _)| *alias == name);
         let name = alias.map_or(name, |(_, name)| name);
@@ -224,7 +225,7 @@ mod tests {
 
     type Reference = fn(f64, f64) -> f64;
 
-    /// A call of every function, with the standard library's value.
+    /// A call of every function, with the value by the standard library.
     const REFERENCES: &[(&str, Reference)] = &[
         ("sqrt(x)", |x, _| x.sqrt()),
         ("abs(x)", |x, _| x.abs()),
@@ -251,7 +252,7 @@ mod tests {
         }),
     ];
 
-    /// Whether both are equal within `most`, or both are NaN.
+    /// Whether `a` and `b` are equal to within `most`, or both are NaN.
     fn is_near(a: f64, b: f64, most: f64) -> bool {
         a.is_nan() && b.is_nan() || (a - b).abs() <= most * (1.0 + b.abs())
     }

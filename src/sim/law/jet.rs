@@ -1,4 +1,4 @@
-//! A value with its first and second derivative with respect to one variable: forward differentiation, exact to
+//! A value with its first and second derivative with respect to one variable. This forward differentiation is exact to
 //! rounding.
 
 /// A value, its derivative and its second derivative.
@@ -43,7 +43,7 @@ pub(super) fn pow(a: Jet, b: Jet) -> Jet {
     chain(exponent, [value; 3])
 }
 
-/// `f` of a jet, given the value of `f` and its first two derivatives there.
+/// Returns the jet of a function of `a`, given the value of the function and its first two derivatives there.
 pub(super) fn chain(a: Jet, [value, slope, bend]: [f64; 3]) -> Jet {
     [value, slope * a[1], bend * a[1] * a[1] + slope * a[2]]
 }

@@ -3,7 +3,7 @@
 use super::function::Smooth;
 use super::switch::{ModeRule, Switch, SwitchValue};
 
-/// One operation. Logic is 0 for false and 1 for true.
+/// One operation. A truth value is 0 for false and 1 for true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Op {
     Number,
@@ -20,7 +20,7 @@ pub(super) enum Op {
     If,
     Smooth(&'static Smooth),
     Switch(Switch),
-    /// The acceleration that a step calls, at a position with a velocity. A third operand guards the call.
+    /// A call of the acceleration by a step, at a position with a velocity. A third operand guards the call.
     Call,
 }
 
@@ -41,7 +41,7 @@ impl Op {
     }
 }
 
-/// How tightly an operator binds, loosest first.
+/// How tightly an operator binds, from loose to tight.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Level {
     Or,

@@ -1,11 +1,11 @@
-//! The registers that a law is evaluated in: for one motion, and for several at once.
+//! The registers in which a law is evaluated, for one motion or for several at once.
 
 use super::jet::Jet;
 use super::tape::Tape;
 use super::{Equations, FIRST_COORDINATE, RUDDER, T, THROTTLE};
 
-/// The registers of one copy of a law, with its values: constants, then the coordinates at the start, then the
-/// velocities at the start.
+/// The registers of one copy of a law, with its values. The values are the constants, then the coordinates at the
+/// start, then the velocities at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Registers {
     pub(super) motion: Vec<f64>,
@@ -15,7 +15,7 @@ pub struct Registers {
 }
 
 impl Registers {
-    /// The registers for these values.
+    /// Returns the registers for these values.
     pub fn new(equations: &Equations, values: &[f64]) -> Self {
         let slots = |tape: Option<&Tape>| tape.map_or(0, |tape| tape.slots);
         let mut registers = Self {
@@ -48,7 +48,7 @@ impl Registers {
         }
     }
 
-    /// Memory on the heap, in bytes.
+    /// Returns the memory on the heap, in bytes.
     pub fn heap_bytes(&self) -> usize {
         let tapes = [&self.motion, &self.energy, &self.places];
         tapes.map(|slots| size_of_val(&slots[..])).iter().sum::<usize>()
@@ -64,7 +64,7 @@ pub(in crate::sim) struct LawLanes<const W: usize> {
 }
 
 impl<const W: usize> LawLanes<W> {
-    /// Motions with the `values` of [`Registers`], and this throttle and rudder.
+    /// Returns registers for motions with the `values` of [`Registers`], and this throttle and rudder.
     pub(in crate::sim) fn new(equations: &Equations, values: &[f64], steering: [f64; 2]) -> Self {
         let mut slots = vec![[0.0; W]; equations.motion.slots];
         [slots[THROTTLE], slots[RUDDER]] = steering.map(|part| [part; W]);

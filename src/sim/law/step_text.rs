@@ -1,8 +1,8 @@
-//! The lines of a step, as in a game: `v += (target - x) * 40 * dt; x += v * dt`.
+//! The lines of a step, as a game has them, such as `v += (target - x) * 40 * dt; x += v * dt`.
 //!
-//! Expressions are those of laws. All lines become one tape, so that a step has the same bits everywhere and allocates
-//! nothing. Both blocks of an `if` are evaluated, and one of them gives the values. A name that is read before the
-//! lines assign it is carried from step to step, like `x` and `v`.
+//! The expressions are those of laws. All lines become one tape, so that a step has the same bits everywhere and
+//! allocates nothing. Both blocks of an `if` are evaluated, and one of them gives the values. A name that is read
+//! before the lines assign it is carried from step to step, like `x` and `v`.
 
 use std::ops::Range;
 
@@ -28,7 +28,7 @@ mod powers;
 mod reader;
 mod statements;
 
-/// The most bytes of a text: a few screens of lines.
+/// The maximum number of bytes of a text, which is a few screens of lines.
 pub const MAX_STEP_BYTES: usize = 1 << 14;
 
 /// Indices of the inputs of the tape; the names that the lines assign follow.
@@ -50,9 +50,9 @@ enum Line {
 /// A number carried from one step to the next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Carried {
-    /// `x`, `v`, or a name of the text.
+    /// The name of the number, which is `x`, `v`, or a name of the text.
     pub name: String,
-    /// Its value before the first step.
+    /// The value of the number before the first step.
     pub start: f64,
     input: usize,
 }
@@ -64,9 +64,9 @@ pub struct StepText {
     names: Vec<String>,
     lines: Vec<Line>,
     carried: Vec<Carried>,
-    /// The outputs are the carried numbers after a step, in their order.
+    /// The operations of a step. The outputs are the carried numbers after the step, in the order of `carried`.
     tape: Tape,
-    /// The bytes of the first call of the acceleration; `None` in a rule, which has no call.
+    /// The byte range of the first call of the acceleration; `None` in a rule, which has no call.
     call: Option<Range<usize>>,
     calls: Vec<StepCall>,
 }
@@ -77,14 +77,14 @@ pub struct StepRegisters {
     /// The slots, coordinate after coordinate.
     slots: Vec<f64>,
     next: Vec<f64>,
-    /// For each coordinate: the position and the velocity of a call, and the acceleration there.
+    /// The positions and the velocities of a call, and the accelerations there, with one number for each coordinate.
     asked: [Vec<f64>; 3],
 }
 
 /// The carried numbers after a step, and their derivatives with respect to each carried number and then the target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepMap {
-    /// The carried numbers, in their order.
+    /// The carried numbers, in the order of [`StepText::carried`].
     pub values: Vec<f64>,
     /// One column of derivatives per carried number, then one for the target.
     pub columns: Vec<Vec<f64>>,
@@ -100,7 +100,7 @@ pub enum OwnLines {
 }
 
 impl OwnLines {
-    /// The lines.
+    /// Returns the lines.
     pub fn text(&self) -> &StepText {
         match self {
             Self::Method(text) => text,
@@ -128,7 +128,8 @@ impl StepText {
         Ok(Self { source: text.to_owned(), ..reader.finish()? })
     }
 
-    /// Reads the text of a rule, which calls no acceleration. The fault of one that does has this remedy.
+    /// Reads the text of a rule, which calls no acceleration. If the text does call the acceleration, the fault has
+    /// this remedy.
     pub(crate) fn read_rule(text: &str, remedy: &str) -> Result<Self, ExpressionFault> {
         let read = Self::read(text)?;
         match read.acceleration_at() {
@@ -137,12 +138,12 @@ impl StepText {
         }
     }
 
-    /// The original text.
+    /// Returns the original text.
     pub fn source(&self) -> &str {
         &self.source
     }
 
-    /// The carried numbers: `x`, `v`, then those of the text.
+    /// Returns the carried numbers, which are `x`, `v`, and then those of the text.
     pub fn carried(&self) -> &[Carried] {
         &self.carried
     }
@@ -163,7 +164,7 @@ impl StepText {
         is_linear(&self.tape, self.names.len(), usize::MAX, |input| input != H)
     }
 
-    /// For each carried number, the indices of the carried numbers that its next value depends on.
+    /// Returns, for each carried number, the indices of the carried numbers on which its next value depends.
     pub fn dependencies(&self) -> Vec<Vec<usize>> {
         let mut sets = vec![0_u64; self.tape.slots];
         (0..self.names.len()).for_each(|input| sets[input] = 1 << input);
@@ -183,7 +184,7 @@ impl StepText {
         usize::from(self.tape.outputs[index]) == self.carried[index].input
     }
 
-    /// A body before its first step, at 0 and at rest.
+    /// Returns the registers of a body before its first step, at 0 and at rest.
     pub fn registers(&self) -> StepRegisters {
         let mut registers = StepRegisters {
             slots: vec![0.0; self.tape.slots],
@@ -213,7 +214,7 @@ impl StepText {
         }
     }
 
-    /// The value of a carried number of a body.
+    /// Returns the value of a carried number of a body.
     pub fn value(&self, registers: &StepRegisters, index: usize) -> f64 {
         registers.slots[self.carried[index].input]
     }
@@ -223,7 +224,7 @@ impl StepText {
         registers.slots[self.carried[index].input] = value;
     }
 
-    /// The map of a step of `h` seconds at these carried numbers and this target, with its exact derivatives.
+    /// Returns the map of a step of `h` seconds at these carried numbers and this target, with its exact derivatives.
     pub fn map(&self, h: f64, at: &[f64], target: f64) -> StepMap {
         let inputs = self.carried.iter().map(|carried| carried.input).chain([TARGET]);
         let mut slots: Vec<Jet> = vec![[0.0; 3]; self.tape.slots];
@@ -255,7 +256,7 @@ mod tests {
         StepText::read(text).unwrap_or_else(|fault| panic!("{text}: {fault:?}"))
     }
 
-    /// x and v after some steps of 1/60 s from 0.25 and 0.5, with the target at 1.
+    /// Returns x and v after some steps of 1/60 s. They start at 0.25 and 0.5, and the target is at 1.
     fn run(text: &str, steps: u32) -> [f64; 2] {
         let text = read(text);
         let mut registers = text.registers();

@@ -1,4 +1,4 @@
-//! The switches of a tape: operations that are smooth only piece by piece, and the mode of each.
+//! The switches of a tape, which are operations that are smooth only piece by piece, and the mode of each.
 
 use super::jet::{Jet, chain, constant};
 use crate::sim::curve::{Curve, above, below};
@@ -21,9 +21,9 @@ pub(super) enum ModeRule {
     LessEqual,
     /// 1 if a > b, else 0.
     Greater,
-    /// The sign of a: -1, 0 or 1.
+    /// The sign of a, which is -1, 0 or 1.
     Sign,
-    /// The sign of a - b: -1, 0 or 1.
+    /// The sign of a - b, which is -1, 0 or 1.
     Order,
     /// The largest whole number up to a.
     Floor,
@@ -65,7 +65,7 @@ impl Switch {
         }
     }
 
-    /// The mode at these operands.
+    /// Returns the mode at these operands.
     #[inline]
     pub(super) fn mode(self, a: f64, b: f64, table: Option<&Curve>) -> i64 {
         match self.pieces {
@@ -75,25 +75,25 @@ impl Switch {
             ModeRule::Greater => i64::from(a > b),
             ModeRule::Sign => i64::from(a > 0.0) - i64::from(a < 0.0),
             ModeRule::Order => i64::from(a > b) - i64::from(a < b),
-            // It saturates at magnitudes where no number has a fraction.
+            // The conversion saturates at magnitudes where no number has a fraction.
             ModeRule::Floor => libm::floor(a) as i64,
             ModeRule::Table => table.map_or(0, |table| table.piece(a)),
         }
     }
 
-    /// The value at these operands.
+    /// Returns the value at these operands.
     #[inline]
     pub(super) fn value(self, a: f64, b: f64, table: Option<&Curve>) -> f64 {
         match self.pieces {
             ModeRule::Floor => libm::floor(a),
-            // No mode distinguishes a NaN, which equals nothing.
+            // The mode does not show a NaN, which equals nothing.
             ModeRule::Order if self.value == SwitchValue::Equal => f64::from(u8::from(a == b)),
             ModeRule::Order if self.value == SwitchValue::NotEqual => f64::from(u8::from(a != b)),
             _ => self.value_on(self.mode(a, b, table), a, b, table),
         }
     }
 
-    /// The value in a mode, continued smoothly beyond the boundaries of the mode.
+    /// Returns the value in a mode, continued smoothly beyond the boundaries of the mode.
     #[inline]
     pub(super) fn value_on(self, mode: i64, a: f64, b: f64, table: Option<&Curve>) -> f64 {
         match self.value {
@@ -109,7 +109,7 @@ impl Switch {
         }
     }
 
-    /// The value with its derivatives at these operands.
+    /// Returns the value with its derivatives at these operands.
     pub(super) fn jet(self, [a, b]: [Jet; 2], table: Option<&Curve>) -> Jet {
         let mode = self.mode(a[0], b[0], table);
         let value = self.value_on(mode, a[0], b[0], table);
@@ -127,7 +127,8 @@ impl Switch {
         }
     }
 
-    /// Signed distances to the lower and the upper boundary of a mode; negative beyond them.
+    /// Returns the signed distances to the lower and the upper boundary of a mode. A distance is negative beyond its
+    /// boundary.
     pub(super) fn distances(self, mode: i64, a: f64, b: f64, table: Option<&Curve>) -> [f64; 2] {
         let one_boundary = |value: f64, end: f64| match mode {
             1 => [above(value, end), f64::INFINITY],
@@ -149,11 +150,11 @@ impl Switch {
         }
     }
 
-    /// The mode beyond the lower (`side` 0) or the upper (1) boundary of a mode.
+    /// Returns the mode beyond the lower boundary (`side` 0) or the upper boundary (`side` 1) of a mode.
     pub(super) fn neighbour(self, mode: i64, side: usize) -> i64 {
         let beyond = 2 * side as i64 - 1;
         match self.pieces {
-            // Equality lasts for no time, unless the motion starts in it.
+            // Equality lasts for no time, unless the motion starts with it.
             ModeRule::Sign | ModeRule::Order => beyond,
             ModeRule::NotNegative | ModeRule::Less | ModeRule::LessEqual | ModeRule::Greater => {
                 mode + beyond

@@ -1,7 +1,7 @@
 //! A flat tape of operations, evaluated from the first to the last.
 //!
 //! Operations that depend only on constants form a prelude, which runs only when a constant changes. Equal operations
-//! on equal operands are evaluated once. Neither changes a bit of the result.
+//! on equal operands are evaluated once. Neither the prelude nor this sharing changes a bit of the result.
 
 use std::array::from_fn;
 use std::collections::HashMap;
@@ -14,13 +14,13 @@ use super::op::Op;
 use super::switch::Switch;
 use crate::sim::curve::Curve;
 
-/// The most operations of a tape: a step of ten microseconds.
+/// The maximum number of operations of a tape, with which a step takes ten microseconds.
 pub const MAX_OPERATIONS: usize = 4096;
 
-/// The most switches of a tape, so that a [`Piece`](crate::sim::bodies::Piece) is small.
+/// The maximum number of switches of a tape. It is small, so that a [`Piece`](crate::sim::bodies::Piece) is small.
 pub(super) use crate::sim::body::MAX_SWITCHES;
 
-/// One operation: reads up to three slots and writes one.
+/// One operation, which reads up to three slots and writes one.
 #[derive(Clone, Copy, Debug)]
 struct Instruction {
     op: Op,
@@ -28,17 +28,17 @@ struct Instruction {
     operands: [u16; 3],
     /// Number of operands.
     count: u8,
-    /// The index of its table.
+    /// The index of the operation's table.
     table: u16,
 }
 
-/// A call among the operations: its index in the main part, and the slots of its operands and its value.
+/// A call among the operations, with its index in the main part, and the slots of its operands and its value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Call {
     pub(super) at: usize,
     pub(super) x: usize,
     pub(super) v: usize,
-    /// The slot of the guard, which is 1 if the call is made; `None` if it always is.
+    /// The slot of the guard, which is 1 if the call is made; `None` if the call is always made.
     pub(super) guard: Option<usize>,
     pub(super) to: usize,
 }
@@ -56,27 +56,28 @@ pub(in crate::sim) struct Tape {
     numbers: Vec<(u16, f64)>,
     prelude: Vec<Instruction>,
     main: Vec<Instruction>,
-    /// The slots of the expressions' values, in their order.
+    /// The slots of the expressions' values, in the order of the expressions.
     pub(super) outputs: Vec<u16>,
     pub(super) slots: usize,
     /// The switches of the main part.
     switches: Vec<(Switch, Instruction)>,
     tables: Vec<Curve>,
-    /// The origin of each operation, by its slot.
+    /// The origin of each operation, by the slot that it writes.
     origins: HashMap<u16, Origin>,
 }
 
-/// The fault of a tape that is too long or has too many switches, from the expression with this index on.
+/// The fault of a tape that is too long or has too many switches. It begins at the expression with this index.
 pub(super) struct TooLong {
     pub(super) expression: usize,
     pub(super) are_switches: bool,
 }
 
-/// The key of common subexpressions: operation and arguments.
+/// The key of common subexpressions, which is an operation and its arguments.
 type Key = (Op, [u16; 3], u64, Vec<[u64; 2]>);
 
 impl Tape {
-    /// The tape of these expressions over `inputs` inputs. Inputs that are `fixed` change only when a parameter does.
+    /// Returns the tape of these expressions over `inputs` inputs. Inputs that are `fixed` change only when a parameter
+    /// changes.
     pub(super) fn new(
         inputs: usize,
         fixed: impl Fn(usize) -> bool,
@@ -118,7 +119,7 @@ impl Tape {
         Ok(tape)
     }
 
-    /// The slot of an operation: that of an equal earlier operation, or a new one.
+    /// Returns the slot of an operation, which is the slot of an equal earlier operation, or a new slot.
     fn place(
         &mut self,
         node: &Node,
@@ -131,7 +132,7 @@ impl Tape {
         let table = node.op.is_table().then(|| &expression.tables[node.index]);
         let points = table.map_or(&[][..], Curve::points);
         let bits = points.iter().map(|point| point.map(f64::to_bits)).collect();
-        // Each call is made, even if the operands are equal.
+        // Each call has a slot of its own, even if the operands are equal.
         let number = if node.op == Op::Call { node.index as u64 } else { node.number.to_bits() };
         let key = (node.op, operands, number, bits);
         if let Some(&slot) = known.get(&key) {
@@ -181,12 +182,12 @@ impl Tape {
         self.run_lanes(&self.main[part], slots, &[], Switch::value);
     }
 
-    /// Number of operations of the main part.
+    /// Returns the number of operations of the main part.
     pub(super) fn length(&self) -> usize {
         self.main.len()
     }
 
-    /// The calls, in the order in which they are made.
+    /// Returns the calls, in the order in which they are made.
     pub(super) fn calls(&self) -> Vec<Call> {
         let call = |(at, instruction): (usize, &Instruction)| {
             let [x, v, guard] = instruction.operands.map(usize::from);
@@ -197,13 +198,14 @@ impl Tape {
         all.filter(|(_, instruction)| instruction.op == Op::Call).map(call).collect()
     }
 
-    /// Evaluates the tape on several motions at once. `alike` is [`Tape::alike`].
+    /// Evaluates the tape on several motions at once. `alike` is the result of [`Tape::alike`].
     #[inline(always)]
     pub(super) fn evaluate_lanes<const W: usize>(&self, slots: &mut [[f64; W]], alike: &[bool]) {
         self.run_lanes(&self.main, slots, alike, Switch::value);
     }
 
-    /// The slots with the same value in all motions, if only inputs that satisfy `differs` differ.
+    /// Returns, for each slot, whether it has the same value in all motions, if only inputs that satisfy `differs`
+    /// differ.
     pub(super) fn alike(&self, differs: impl Fn(usize) -> bool) -> Vec<bool> {
         let mut alike: Vec<bool> = (0..self.slots).map(|slot| !differs(slot)).collect();
         for (_, operands, to, _) in self.operations() {
@@ -236,7 +238,7 @@ impl Tape {
         }
     }
 
-    /// Evaluates the tape with derivatives; the slots of the inputs must be set.
+    /// Evaluates the tape with derivatives. The slots of the inputs must be set.
     pub(super) fn evaluate_jets(&self, slots: &mut [Jet]) {
         for &(slot, number) in &self.numbers {
             slots[slot as usize] = jet::constant(number);
@@ -247,17 +249,17 @@ impl Tape {
         }
     }
 
-    /// Number of switches.
+    /// Returns the number of switches.
     pub(super) fn switches(&self) -> usize {
         self.switches.len()
     }
 
-    /// The mode of the switch with this index beyond a boundary of its mode.
+    /// Returns the mode of the switch with this index beyond a boundary of its mode.
     pub(in crate::sim) fn neighbour(&self, index: usize, mode: i64, side: usize) -> i64 {
         self.switches[index].0.neighbour(mode, side)
     }
 
-    /// The operations of the prelude and of the main part, with their operands, output slot and table.
+    /// Returns the operations of the prelude and of the main part, with their operands, output slot and table.
     pub(super) fn operations(&self) -> impl Iterator<Item = (Op, &[u16], u16, Option<&Curve>)> {
         self.prelude.iter().chain(&self.main).map(|instruction| {
             let operands = &instruction.operands[..usize::from(instruction.count)];
@@ -265,14 +267,14 @@ impl Tape {
         })
     }
 
-    /// Whether an operation reads this slot, or it is an output.
+    /// Whether an operation reads this slot, or the slot is an output.
     pub(super) fn reads(&self, slot: usize) -> bool {
         let is_it = |read: &u16| usize::from(*read) == slot;
         self.operations().any(|(_, operands, ..)| operands.iter().any(is_it))
             || self.outputs.iter().any(is_it)
     }
 
-    /// The origin of the operation that writes this slot; `None` for an input.
+    /// Returns the origin of the operation that writes this slot; `None` for an input.
     pub(super) fn origin(&self, slot: u16) -> Option<&Origin> {
         self.origins.get(&slot)
     }
@@ -290,8 +292,8 @@ impl Tape {
         self.run_lanes::<1>(&self.main, slots.as_chunks_mut().0, &[], switched);
     }
 
-    /// Evaluates instructions on `W` motions at once, each with the same bits as alone. If `alike` is set for a slot,
-    /// all motions have the same value there, so that a function is called only once.
+    /// Evaluates instructions on `W` motions at once. Each motion has the same bits as alone. If `alike` is set for a
+    /// slot, all motions have the same value there, so that a function is called only once.
     #[inline(always)]
     fn run_lanes<const W: usize>(
         &self,
@@ -332,7 +334,7 @@ impl Tape {
 
 fn jet(op: Op, [a, b, c]: [Jet; 3], table: Option<&Curve>) -> Jet {
     match op {
-        // Already in their slots.
+        // These values are in their slots already.
         Op::Number | Op::Input => a,
         // The derivative of a call is unknown.
         Op::Call => [f64::NAN; 3],
@@ -352,7 +354,7 @@ fn jet(op: Op, [a, b, c]: [Jet; 3], table: Option<&Curve>) -> Jet {
     }
 }
 
-/// For each node, whether the value depends on it.
+/// Returns, for each node, whether the value of the expression depends on it.
 fn used(expression: &Expression) -> Vec<bool> {
     let mut used = vec![false; expression.nodes.len()];
     if let Some(last) = used.last_mut() {

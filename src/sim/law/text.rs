@@ -19,19 +19,19 @@ pub struct LawText {
     pub layout: Layout,
 }
 
-/// The slots of the tape's inputs: the time and the steering, then the moving inputs, then the fixed ones.
+/// The slots of the tape's inputs. They are the time and the steering, then the moving inputs, then the fixed inputs.
 impl LawText {
-    /// The coordinates, then the velocities.
+    /// Returns the slots of the coordinates, then of the velocities.
     pub(super) fn slots_of_motion(&self) -> Range<usize> {
         FIRST_COORDINATE..FIRST_COORDINATE + 2 * self.coordinates.len()
     }
 
-    /// The constants, followed by the coordinates and the velocities at the start.
+    /// Returns the slots of the constants. The slots of the coordinates and the velocities at the start follow them.
     pub(super) fn slots_of_constants(&self) -> Range<usize> {
         self.slots_of_motion().end..self.slots_of_motion().end + self.constants.len()
     }
 
-    /// Number of inputs.
+    /// Returns the number of inputs.
     pub(super) fn inputs(&self) -> usize {
         self.slots_of_constants().end + 2 * self.coordinates.len()
     }
@@ -40,29 +40,31 @@ impl LawText {
 /// The text of one coordinate.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct CoordinateText {
-    /// Its name; its velocity has the same name with a `v` before it.
+    /// The name of the coordinate. The velocity has the same name with a `v` before it.
     pub name: String,
-    /// One of [`UNITS`](super::UNITS).
+    /// The unit of the coordinate, which is one of [`UNITS`](super::UNITS).
     pub unit: &'static str,
-    /// Its acceleration.
+    /// The acceleration of the coordinate.
     pub acceleration: String,
-    /// Its value at time `t` if nobody intervenes, as an expression of `t`, constants and starts.
+    /// The value of the coordinate at time `t` if nobody intervenes, as an expression of `t`, constants and starts.
     pub exact: Option<String>,
-    /// Its drawing position as expressions of coordinates and constants: x to the right and y up, in metres.
+    /// The drawing position of the coordinate as expressions of coordinates and constants, with x to the right and y
+    /// up, in metres.
     pub at: Option<[String; 2]>,
 }
 
 /// The placement of a law's first coordinates in space, for drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Layout {
-    /// Each on its own line, to the right.
+    /// Each coordinate is a position to the right, on a line of its own.
     #[default]
     Beads,
-    /// Heights above 0.
+    /// The coordinates are heights above 0.
     Vertical,
-    /// The heights of a carriage and of its wheel, each from its rest.
+    /// The coordinates are the heights of a carriage and of its wheel, each from its place of rest.
     Carriage,
-    /// A position to the right, and the position that it follows, if the second has the same unit.
+    /// The first coordinate is a position to the right. The second is the position that the first one follows, if it
+    /// has the same unit.
     Follower,
 }
 
@@ -75,7 +77,7 @@ impl Layout {
         ("follower", Layout::Follower),
     ];
 
-    /// The name of the layout.
+    /// Returns the name of the layout.
     pub fn id(self) -> &'static str {
         let named = Self::ALL.iter().find(|(_, layout)| *layout == self);
         named.expect("every layout is in the table").0

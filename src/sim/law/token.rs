@@ -17,16 +17,16 @@ pub(super) enum Token {
     End,
 }
 
-/// The operators, brackets and commas; a longer symbol comes before its own prefix.
+/// The operators, brackets and commas. A symbol comes before any other that is a prefix of it.
 const SYMBOLS: [&str; 16] =
     ["<=", ">=", "==", "!=", "+", "-", "*", "/", "^", "(", ")", "[", "]", ",", "<", ">"];
 
-/// The symbols that stand between or before values.
+/// Returns the symbols that stand between or before values.
 pub(super) fn operator_signs() -> impl Iterator<Item = &'static str> {
     SYMBOLS.into_iter().filter(|symbol| !["(", ")", "[", "]", ","].contains(symbol))
 }
 
-/// Signs of other notations, each with ours.
+/// Signs of other notations, each with our sign.
 const FOREIGN: [(&str, &str); 11] = [
     ("**", "^"),
     ("&&", "and"),
@@ -41,7 +41,7 @@ const FOREIGN: [(&str, &str); 11] = [
     ("÷", "/"),
 ];
 
-/// The tokens of `text` with their byte ranges; the last is [`Token::End`].
+/// Returns the tokens of `text` with their byte ranges. The last token is [`Token::End`].
 pub(super) fn tokens(text: &str) -> Parsed<Vec<(Token, Range<usize>)>> {
     let mut tokens = Vec::new();
     let mut at = 0;
@@ -81,12 +81,12 @@ fn foreign(rest: &str) -> Option<(&'static str, &'static str)> {
     FOREIGN.into_iter().find(|(sign, _)| !is_ours && rest.starts_with(sign))
 }
 
-/// The length in bytes of the longest prefix of `text` with only `wanted` characters.
+/// Returns the length in bytes of the longest prefix of `text` with only `wanted` characters.
 fn span_of(text: &str, wanted: impl Fn(char) -> bool) -> usize {
     text.find(|c| !wanted(c)).unwrap_or(text.len())
 }
 
-/// Reads the number at the beginning of `rest`, which starts at byte `at`. Returns it with its length.
+/// Reads the number at the beginning of `rest`, which starts at byte `at`. Returns the number with its length in bytes.
 fn number(rest: &str, at: usize) -> Parsed<(Token, usize)> {
     let mut length = span_of(rest, |c| c.is_ascii_digit() || c == '.');
     if rest[length..].starts_with(['e', 'E']) {

@@ -1,12 +1,13 @@
-//! One step of Bulirsch and Stoer's extrapolation: the midpoint rule with 2, 4, 6 … substeps, extrapolated to step
-//! size zero. Bulirsch & Stoer, *Numerical treatment of ordinary differential equations by extrapolation methods*
-//! (1966); Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.9.
+//! One step of Bulirsch and Stoer's extrapolation. It makes the step by the midpoint rule with 2, 4, 6 … substeps, and
+//! extrapolates the results to a step size of zero. Bulirsch & Stoer, *Numerical treatment of ordinary differential
+//! equations by extrapolation methods* (1966); Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*,
+//! II.9.
 
 use crate::sim::body::{Body, Distances, NO_BOUNDARIES, Piece};
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::System;
 
-/// The number of columns of the extrapolation table; the last has order 16. More gain nothing in `f64`.
+/// The number of columns of the extrapolation table; the last column has order 16. More columns gain nothing in `f64`.
 const COLUMNS: usize = 8;
 
 /// The first column whose intermediate states are checked against the boundaries of the force law's piece.
@@ -30,23 +31,24 @@ impl<B: Body> System for SmoothPiece<'_, B> {
 /// The extrapolation table and the scratch of a step.
 #[derive(Clone, Debug)]
 pub(super) struct Extrapolation<V> {
-    /// The increment of the state by each column, the finest first.
+    /// The increment of the state by each column, with the finest column first.
     table: [State<V>; COLUMNS],
     /// The derivative at the start of the step.
     pub(super) begin: State<V>,
     /// The derivative at an intermediate state.
     d: State<V>,
-    /// The increment one substep ago, and the current one.
+    /// The increment one substep ago, and the current increment.
     before: State<V>,
     now: State<V>,
     stage: State<V>,
-    /// The smallest of [`Body::distances_to_ends`] at the intermediate states.
+    /// The smallest distances of [`Body::distances_to_ends`] at the intermediate states.
     pub(super) min_distances: Distances,
-    /// Evaluations so far.
+    /// Number of evaluations so far.
     pub(super) evaluations: u64,
-    /// The largest coordinate and velocity at the starts of steps so far, of lengths and of angles, for a body with
-    /// [`Body::has_jumps`]. Its force may be the difference of large terms, whose rounding does not shrink as the
-    /// motion settles. A placement keeps these values: the curve between ticks places the body at every tick.
+    /// The largest coordinate and velocity at the starts of steps so far, first of lengths, then of angles. They are
+    /// kept for a body with [`Body::has_jumps`], whose force may be the difference of large terms. The rounding of such
+    /// terms does not shrink as the motion settles. A placement keeps these values, because the curve between ticks
+    /// places the body at every tick.
     pub(super) largest: [[f64; 2]; 2],
 }
 
@@ -66,18 +68,18 @@ impl<V: Vector> Extrapolation<V> {
         }
     }
 
-    /// The increment of the last attempt.
+    /// Returns the increment of the state by the last attempt.
     pub(super) fn added(&self) -> &State<V> {
         &self.table[0]
     }
 
-    /// The final state of the last attempt, from `y`.
+    /// Returns the state after the last attempt, which started from `y`.
     pub(super) fn end(&mut self, y: &State<V>) -> &State<V> {
         self.stage.assign_sum(y, 1.0, &self.table[0]);
         &self.stage
     }
 
-    /// Evaluates the derivative at `y`, the start of the next attempts.
+    /// Evaluates the derivative at `y`, where the next attempts start.
     pub(super) fn begin<B: Body<Vector = V>>(
         &mut self,
         body: &B,
@@ -95,8 +97,8 @@ impl<V: Vector> Extrapolation<V> {
     }
 
     /// Attempts a step of `h` from `y` by the given piece of the force law. Returns the number of columns needed;
-    /// `None` if no column reaches `tolerance`, relative to the largest value of the same unit. The estimated error is
-    /// that of the column before the one returned, so that the actual error is far smaller.
+    /// `None` if no column reaches `tolerance`, relative to the largest value of the same unit. The error is estimated
+    /// for the column before the one whose result is used, so that the actual error is far smaller.
     pub(super) fn attempt<B: Body<Vector = V>>(
         &mut self,
         body: &B,
@@ -109,7 +111,8 @@ impl<V: Vector> Extrapolation<V> {
         self.min_distances = NO_BOUNDARIES;
         for column in 0..COLUMNS {
             self.midpoint(body, piece, t, h, 2 * (column + 1), y);
-            // Aitken and Neville: afterwards `table[0]` has the highest order and `table[1]` the next.
+            // Extrapolates by Aitken and Neville. Afterwards `table[0]` has the highest order, and `table[1]` has the
+            // next.
             for i in (0..column).rev() {
                 let ratio = (column + 1) as f64 / (i + 1) as f64;
                 let (coarse, fine) = self.table.split_at_mut(i + 1);
@@ -122,8 +125,8 @@ impl<V: Vector> Extrapolation<V> {
         None
     }
 
-    /// Writes the increment from `y` by `n` substeps of the midpoint rule to the next entry of the table. It is kept
-    /// separate from `y`, so that round-off is relative to the small increment.
+    /// Writes the increment from `y` by `n` substeps of the midpoint rule to the next entry of the table. The increment
+    /// is kept separate from `y`, so that round-off is relative to the small increment.
     fn midpoint<B: Body<Vector = V>>(
         &mut self,
         body: &B,
@@ -156,7 +159,7 @@ impl<V: Vector> Extrapolation<V> {
             }
         }
         *evaluations += n as u64;
-        // Gragg's smoothing: the mean of the last two increments and of a step along the last slope.
+        // Gragg's smoothing takes the mean of the last two increments, and adds half a substep along the last slope.
         let sum = &mut table[n / 2 - 1];
         fill(sum, 0.0);
         sum.add_scaled(0.5, before);
@@ -171,7 +174,7 @@ impl<V: Vector> Extrapolation<V> {
             let of = |x: &V| largest_of(x, |i| body.is_angle(i) == angles);
             let scale = (of(y) + h.abs() * of(slope)).max(most);
             let mut pairs = last.components().iter().zip(before.components()).enumerate();
-            // Written so that a NaN does not pass.
+            // The comparison is written so that a NaN does not pass.
             pairs
                 .all(|(i, (a, b))| body.is_angle(i) != angles || (a - b).abs() <= tolerance * scale)
         };
@@ -189,7 +192,7 @@ fn fill<V: Vector>(state: &mut State<V>, value: f64) {
     state.v.components_mut().fill(value);
 }
 
-/// `coarse` becomes `fine + (fine - coarse) weight`.
+/// Overwrites `coarse` with `fine + (fine - coarse) weight`.
 fn extrapolate<V: Vector>(coarse: &mut State<V>, fine: &State<V>, weight: f64) {
     let each = |coarse: &mut V, fine: &V| {
         for (coarse, fine) in coarse.components_mut().iter_mut().zip(fine.components()) {
@@ -200,7 +203,7 @@ fn extrapolate<V: Vector>(coarse: &mut State<V>, fine: &State<V>, weight: f64) {
     each(&mut coarse.v, &fine.v);
 }
 
-/// The largest magnitude of the components with these indices.
+/// Returns the largest magnitude of the components with these indices.
 fn largest_of<V: Vector>(vector: &V, is_chosen: impl Fn(usize) -> bool) -> f64 {
     let components = vector.components().iter().enumerate();
     largest(components.filter(|&(i, _)| is_chosen(i)).map(|(_, component)| component))

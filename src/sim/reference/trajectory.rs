@@ -1,64 +1,65 @@
-//! A numerical solution in double-double precision, and its step size control.
+//! A numerical solution in double-double precision, and the control of its step size.
 
 use super::extrapolation::Extrapolation;
 use crate::sim::body::{Body, Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 use crate::sim::double_double::{DoubleDouble, TWO_PI};
 use crate::sim::state::{State, Vector};
 
-/// A step accepted with at most this many columns was too short: the next is twice as long.
+/// If a step is accepted with at most this number of columns, it was too short, and the next step is twice as long.
 const FEW_COLUMNS: usize = 6;
 
 /// The factor that shortens a rejected step.
 const REJECTED_FACTOR: f64 = 0.25;
 
-/// The largest magnitude of an angle before full turns are removed: slightly more than half a turn, so that a motion
-/// about half a turn does not alternate.
+/// The largest magnitude of an angle before full turns are removed. It is slightly more than half a turn, so that a
+/// motion about half a turn does not alternate.
 const MAX_ANGLE: f64 = 3.3;
 
 /// The largest distance from the boundary of a piece at which a step may end, relative to the distances at both ends.
-/// The error of the state is of second order in this.
+/// The error of the state is of second order in this distance.
 const BOUNDARY_TOLERANCE: f64 = 1e-9;
 
-/// [`BOUNDARY_TOLERANCE`] if the force jumps: the error of the state is of first order in this.
+/// The same as [`BOUNDARY_TOLERANCE`], but if the force jumps. The error of the state is then of first order in this
+/// distance.
 const JUMP_TOLERANCE: f64 = 2e-15;
 
-/// If the force can jump, crossing a boundary by less than this fraction of the switch's extent is rounding. A motion
-/// that comes to rest at a corner would otherwise cross it for ever.
+/// If the force can jump, a crossing of a boundary by less than this fraction of the switch's extent counts as
+/// rounding. A motion that comes to rest at a corner would otherwise cross it for ever.
 const CROSSING_ROUNDING: f64 = 1e-13;
 
-/// The largest number of boundaries crossed one after another without a step. A motion pushed back to a jump of the
-/// force from both sides, such as rest under dry friction, crosses it for ever.
+/// The maximum number of boundaries crossed one after another without a step. A motion that is pushed back to a jump of
+/// the force from both sides would cross it for ever, for example at rest under dry friction.
 const MAX_STANDS: usize = 4 * MAX_SWITCHES;
 
-/// The largest number of attempts to end a step at a boundary; the search converges superlinearly.
+/// The maximum number of attempts to end a step at a boundary. The search converges superlinearly.
 const MAX_SEARCH_STEPS: u32 = 60;
 
-/// A step may cross a boundary by less than this and cross back: the error is far smaller, because the two forces
-/// agree at the corner.
+/// A step may cross a boundary by less than this distance and cross back. The error is far smaller, because the two
+/// forces agree at the corner.
 const IGNORED_CROSSING: f64 = 1e-9;
 
-/// The most halvings of a step that leaves its piece and comes back to it.
+/// The maximum number of halvings of a step that leaves its piece and comes back to it.
 const MAX_HALVINGS: u32 = 8;
 
-/// Evaluations within one call after which the progress is checked. A hopelessly stiff body, such as a ship that turns
-/// in 10⁻¹⁴⁰ s, would otherwise spend all saved evaluations, seconds of work, on each run.
+/// Number of evaluations within one call after which the progress is checked. A hopelessly stiff body, such as a ship
+/// that turns in 10⁻¹⁴⁰ s, would otherwise spend all saved evaluations on each run, which is seconds of work.
 const STRETCH: u64 = 200_000;
 
-/// The factor by which the steps of a stretch may still grow on the rest of the way, as after a near collision.
+/// The factor by which steps may still grow after a stretch of evaluations, for example after a near collision.
 const MAX_LATER_STEP_GROWTH: f64 = 1e3;
 
 /// The step size strategy of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StepControl {
-    /// Steps as long as the tolerance allows.
+    /// Each step is as long as the tolerance allows.
     Long,
-    /// At least two steps of unequal length per call, with a larger tolerance, so that rounding and truncation errors
-    /// differ from those of the other solution.
+    /// Each call makes at least two steps of unequal length, with a larger tolerance. The errors of rounding and of
+    /// truncation then differ from those of the other solution.
     Uneven,
 }
 
 impl StepControl {
-    /// The tolerance of a step, as in [`Extrapolation::attempt`].
+    /// Returns the tolerance of a step, as in [`Extrapolation::attempt`].
     fn tolerance(self) -> f64 {
         match self {
             StepControl::Long => 1e-14,
@@ -67,7 +68,7 @@ impl StepControl {
     }
 }
 
-/// The largest fraction of the remaining time for an uneven first step.
+/// The length of an uneven first step is at most this fraction of the remaining time.
 const FIRST_UNEVEN_STEP: f64 = 0.57;
 
 /// A boundary that a step crosses.
@@ -75,7 +76,7 @@ const FIRST_UNEVEN_STEP: f64 = 0.57;
 struct Crossing {
     /// The switch whose mode changes.
     switch: usize,
-    /// 0 for the mode below, 1 for the mode above.
+    /// The side of the boundary, which is 0 for the mode below and 1 for the mode above.
     side: usize,
     /// The distance to the boundary at the start of the step and at its end.
     begun: f64,
@@ -84,20 +85,20 @@ struct Crossing {
 
 /// The outcome of a trial step.
 enum StepOutcome {
-    /// It was too long for the tolerance.
+    /// The step was too long for the tolerance.
     Rejected,
-    /// It left its piece of the force law and came back.
+    /// The step left its piece of the force law and came back.
     LeftPiece,
-    /// It ended after this fraction, at the boundary of its piece, and the piece changed.
+    /// The step ended after this fraction of its length, at the boundary of its piece, and the piece changed.
     AtBoundary { part: f64 },
-    /// It succeeded with this number of columns.
+    /// The step succeeded with this number of columns.
     Accepted { columns: usize },
 }
 
-/// Why a trajectory ends.
+/// The reason why a trajectory ends.
 #[derive(Debug)]
 pub(super) enum TrajectoryEnd {
-    /// The budget of evaluations is exhausted, or would be long before the end.
+    /// The budget of evaluations is exhausted, or would be exhausted long before the end of the call.
     Budget,
     /// The motion is pushed back to a jump of the force from both sides.
     Sticks,
@@ -109,13 +110,13 @@ pub(super) struct Trajectory<V> {
     at: State<V>,
     /// The low half of `at` in double-double precision.
     low: State<V>,
-    /// The full turns of each coordinate, whole numbers.
+    /// The number of full turns removed from each coordinate; a whole number.
     turns: V,
-    /// The step to try next; `None` for all the remaining time.
+    /// The length of the step to try next; `None` if it is all the remaining time.
     step: Option<f64>,
     /// The current piece of the force law.
     piece: Piece,
-    /// The largest distance of each switch to a boundary so far, if the force can jump; otherwise 0.
+    /// The largest distance of each switch to a boundary so far; 0 if the force cannot jump.
     extents: [f64; MAX_SWITCHES],
     control: StepControl,
 }
@@ -134,7 +135,7 @@ impl<V: Vector> Trajectory<V> {
         }
     }
 
-    /// Starts at `state` at time `t` (s), taken as exact.
+    /// Starts at `state` at time `t` (s). The state is taken as exact.
     pub(super) fn begin<B: Body<Vector = V>>(&mut self, body: &B, t: f64, state: &State<V>) {
         self.at.assign(state);
         for half in [&mut self.low.q, &mut self.low.v, &mut self.turns] {
@@ -162,7 +163,7 @@ impl<V: Vector> Trajectory<V> {
         self.piece = body.piece(t, &self.at);
     }
 
-    /// Writes the current state, rounded once.
+    /// Overwrites `to` with the current state, rounded once.
     pub(super) fn write(&self, to: &mut State<V>) {
         to.assign(&self.at);
         let rows = self.at.q.components().iter().zip(self.low.q.components());
@@ -172,7 +173,7 @@ impl<V: Vector> Trajectory<V> {
         }
     }
 
-    /// Writes this trajectory minus `other`.
+    /// Overwrites `to` with the state of this trajectory minus that of `other`.
     pub(super) fn subtract(&self, other: &Self, to: &mut State<V>) {
         to.assign(&self.at);
         to.add_scaled(-1.0, &other.at);
@@ -249,8 +250,8 @@ impl<V: Vector> Trajectory<V> {
         Err(TrajectoryEnd::Budget)
     }
 
-    /// Tries one step of `h` from `t`, after this many halvings for leaving the piece. Moves the state if the step is
-    /// accepted, and changes the piece at a boundary.
+    /// Tries one step of `h` from `t`, after this number of halvings of steps that left the piece. Moves the state if
+    /// the step is accepted, and changes the piece at a boundary.
     fn try_step<B: Body<Vector = V>>(
         &mut self,
         body: &B,
@@ -289,7 +290,7 @@ impl<V: Vector> Trajectory<V> {
         StepOutcome::Accepted { columns }
     }
 
-    /// Extends the extents by the finite distances of a state.
+    /// Extends the extents to the finite distances of a state.
     fn extend<B: Body<Vector = V>>(&mut self, body: &B, distances: &Distances) {
         if !body.has_jumps() {
             return;
@@ -300,8 +301,8 @@ impl<V: Vector> Trajectory<V> {
         }
     }
 
-    /// The first crossing of a step, as estimated from the distances at both ends. Only boundaries count that the step
-    /// ends beyond, unless it started further beyond.
+    /// Returns the first crossing of a step, as estimated from the distances at both ends. A boundary counts only if
+    /// the step ends beyond it and did not start further beyond it.
     fn first_crossing(
         &self,
         switches: usize,
@@ -324,7 +325,7 @@ impl<V: Vector> Trajectory<V> {
         first.map(|(_, crossing)| crossing)
     }
 
-    /// Whether a step that ends in its piece left it in between, by these least distances.
+    /// Whether a step that ends in its piece left the piece in between, according to these smallest distances.
     fn leaves_piece<B: Body<Vector = V>>(&self, body: &B, least: &Distances) -> bool {
         least.iter().zip(self.extents).take(body.switches()).any(|(least, extent)| {
             let ignored =
@@ -334,8 +335,8 @@ impl<V: Vector> Trajectory<V> {
     }
 
     /// Finds the first boundary within the step `h`, given the distances at the start and the crossing that seems
-    /// first. Returns the fraction of the step there, and the boundary. The last attempt is then the step to that
-    /// boundary, unless the fraction is 0. `None` if an attempt fails.
+    /// first. Returns the fraction of the step at the boundary, and the boundary; `None` if an attempt fails. The last
+    /// attempt is then the step to that boundary, unless the fraction is 0.
     fn find_first_boundary<B: Body<Vector = V>>(
         &self,
         body: &B,
@@ -347,7 +348,7 @@ impl<V: Vector> Trajectory<V> {
     ) -> Option<(f64, Crossing)> {
         let mut whole = 1.0;
         for _ in 0..MAX_SWITCHES {
-            // Already beyond the boundary and moving away: change the piece without a step.
+            // If the state is already beyond the boundary and moves away from it, the piece changes without a step.
             if crossing.begun < 0.0 {
                 return Some((0.0, crossing));
             }
@@ -362,8 +363,8 @@ impl<V: Vector> Trajectory<V> {
         None
     }
 
-    /// The fraction of the step `h` at which it reaches a boundary that it crosses: the Illinois variant of regula
-    /// falsi. The last attempt is then the step to the boundary.
+    /// Returns the fraction of the step `h` at which the step reaches a boundary that it crosses. The search is the
+    /// Illinois variant of regula falsi. The last attempt is then the step to the boundary.
     fn find_boundary<B: Body<Vector = V>>(
         &self,
         body: &B,

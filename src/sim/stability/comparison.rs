@@ -1,4 +1,5 @@
-//! The stability of a method on a motion: the eigenvalues of its one-step map, compared with the true modes.
+//! The stability of a method on a motion. The eigenvalues of the method's one-step map are compared with the true modes
+//! of the motion.
 
 use super::Tick;
 use super::spectrum::{Eigenvalue, eigenvalues, has_memory, linear_maps};
@@ -10,10 +11,11 @@ use crate::sim::integrators::StepFailure;
 pub struct Stability {
     /// The spectral radius of the one-tick map; infinite if the map overflows.
     pub spectral_radius: f64,
-    /// The largest growth rate of a mode in excess of its true growth; for a mode that truly decays, in excess of
-    /// zero. Natural logarithm of the factor per second, negative if all modes decay.
+    /// The largest growth rate of a mode in excess of its true growth, or in excess of zero if the mode truly decays.
+    /// The rate is the natural logarithm of the factor per second, and negative if all modes decay.
     pub growth_per_s: f64,
-    /// The largest decay rate of a mode that is truly conserved: natural logarithm per second, 0 without such a mode.
+    /// The largest decay rate of a mode that is truly conserved, as the natural logarithm of the factor per second; 0
+    /// if there is no such mode.
     pub loss_per_s: f64,
     /// The largest frequency error of a mode, relative to its true frequency. `None` if no mode oscillates, or if the
     /// method turns an oscillation into a real eigenvalue. Also `None` if a mode makes half a turn or more in the
@@ -21,8 +23,8 @@ pub struct Stability {
     pub frequency_error: Option<f64>,
 }
 
-/// An amplitude that takes longer than this to double counts as bounded: a year, in seconds. No game runs as long, and
-/// at 10 000 Hz a smaller growth is indistinguishable from rounding.
+/// A year, in seconds. An amplitude that takes longer than this time to double counts as bounded. No game runs as long,
+/// and at 10 000 Hz a smaller growth is indistinguishable from rounding.
 pub const FOREVER_S: f64 = 365.0 * 86_400.0;
 
 impl Stability {
@@ -39,7 +41,7 @@ impl Stability {
         self.growth_per_s * FOREVER_S < std::f64::consts::LN_2
     }
 
-    /// The time in seconds in which the excess growth doubles an amplitude; `None` if it is bounded.
+    /// Returns the time in seconds in which the excess growth doubles an amplitude; `None` if the amplitude is bounded.
     pub fn doubling_s(&self) -> Option<f64> {
         (!self.is_bounded()).then(|| std::f64::consts::LN_2 / self.growth_per_s)
     }
@@ -48,9 +50,9 @@ impl Stability {
 /// The growth rate and the frequency of a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mode {
-    /// Natural logarithm of the factor per second.
+    /// The growth rate, as the natural logarithm of the factor per second.
     pub(super) growth_per_s: f64,
-    /// Radians per second, not negative.
+    /// The frequency in radians per second; not negative.
     pub(super) frequency: f64,
 }
 
@@ -59,7 +61,7 @@ impl Mode {
         Self { growth_per_s: libm::log(value.modulus) / h, frequency: value.angle / h }
     }
 
-    /// Whether no force acts on it.
+    /// Whether no force acts on the mode.
     pub(super) fn is_still(&self) -> bool {
         self.growth_per_s == 0.0 && self.frequency == 0.0
     }
@@ -68,16 +70,16 @@ impl Mode {
 /// A motion of a linear body whose coordinates a method steps together.
 #[derive(Clone, Debug)]
 pub(super) struct LinearMotion {
-    /// Its shapes, orthogonal and of length 1.
+    /// The shapes of the motion, orthogonal and of length 1.
     pub(super) shapes: Vec<Vec<f64>>,
     pub(super) truth: Vec<Mode>,
-    /// The unit of velocity, per second, in which the fastest mode makes circles; 0 if no force acts.
+    /// The unit of velocity, per second, in which the fastest mode moves on circles; 0 if no force acts.
     pub(super) rate: f64,
 }
 
 impl LinearMotion {
-    /// The stability of a tick made of `times` times `step` of the method of `stepper`, from runs that start at this
-    /// `amplitude`. Also returns whether the method has memory.
+    /// Returns the stability of a tick in which the method of `stepper` repeats `step` for this number of `times`. The
+    /// stability comes from runs that start at this `amplitude`. Also returns whether the method has memory.
     ///
     /// # Errors
     /// The failure of the method in the first steps.
@@ -117,10 +119,11 @@ impl LinearMotion {
 /// The largest shift of a double eigenvalue by rounding.
 const SPLIT: f64 = 1e-6;
 
-/// A growth per tick below this counts as zero: it is the rounding of the differences.
+/// A growth per tick below this number counts as zero, because it is only the rounding of the differences.
 const NO_GROWTH: f64 = 1e-9;
 
-/// A mode that truly grows may grow faster or slower by this fraction: neither rate predicts the long run.
+/// A mode that truly grows may grow faster or slower than in truth by this fraction, because neither rate predicts the
+/// long run.
 const IGNORED_EXCESS: f64 = 0.1;
 
 /// Pairs the eigenvalues of a map over `h` (s) with the true modes and compares them.
@@ -146,12 +149,12 @@ fn compare(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stability {
 /// A mode of the method, with its true mode if it has one.
 type Pair = (Option<Mode>, Mode);
 
-/// The eigenvalues of a map over `h` (s), each with its true mode; those without one belong to the method alone. Also
-/// the [error](Stability::frequency_error) of the frequencies.
+/// Pairs each eigenvalue of a map over `h` (s) with its true mode; eigenvalues without a true mode belong to the method
+/// alone. Also returns the [error](Stability::frequency_error) of the frequencies.
 fn pairs(truth: &[Mode], values: &[Eigenvalue], h: f64) -> (Vec<Pair>, Option<f64>) {
     let (swinging, creeping): (Vec<Mode>, Vec<Mode>) =
         truth.iter().partition(|m| m.frequency > 0.0);
-    // The smallest eigenvalues beyond the number of true modes belong to the memory of the method.
+    // If there are more eigenvalues than true modes, the smallest belong to the memory of the method.
     let mut by_modulus = values.to_vec();
     by_modulus.sort_by(|a, b| b.modulus.total_cmp(&a.modulus));
     let memory = by_modulus.split_off(truth.len().min(by_modulus.len()));
@@ -194,7 +197,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// Modes with these growth rates per second that do not swing.
+    /// Returns modes that do not swing, with these growth rates per second.
     fn creeping<const N: usize>(rates: [f64; N]) -> [Mode; N] {
         rates.map(|growth_per_s| Mode { growth_per_s, frequency: 0.0 })
     }
@@ -211,9 +214,9 @@ mod tests {
     fn an_overdamped_mode_is_compared_with_the_nearest_eigenvalue() {
         let h = 0.1;
         for (case, nearest) in [
-            // Nearer than the pair at a sixth of a turn, whose real part is a quarter.
+            // The real eigenvalue is nearer than the pair at a sixth of a turn, whose real part is a quarter.
             ([(0.5, PI / 3.0), (0.5, PI / 3.0), (0.4, 0.0)], 0.4),
-            // Farther than the pair that hardly turns.
+            // The real eigenvalue is farther than the pair that hardly turns.
             ([(0.9, 0.2), (0.9, 0.2), (0.7, 0.0)], 0.9),
             // A negative eigenvalue is far away, however close its modulus.
             ([(0.99, PI), (0.99, PI), (0.8, 0.0)], 0.8),
@@ -221,7 +224,7 @@ mod tests {
             let found = compare(&creeping([0.0, -1.0, -1.0]), &values(case), h);
             assert!(near(found.loss_per_s, -libm::log(nearest) / h), "{case:?}: {found:?}");
         }
-        // The nearest values to e^0.2 and to e³.
+        // The eigenvalues are compared with e^0.2 and e³.
         let found = compare(&creeping([2.0, 30.0]), &values([(19.0, 0.0), (1.2, 0.0)]), h);
         assert_eq!(found.growth_per_s, 0.0);
     }

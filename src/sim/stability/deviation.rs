@@ -1,4 +1,5 @@
-//! A small deviation of a body from a state, under linearised forces, as a body that any method steps.
+//! A small deviation of a body from a state, under linearised forces. It is presented as a body that any method can
+//! step.
 
 use nalgebra::DMatrix;
 
@@ -8,7 +9,7 @@ use crate::sim::numerics::quotient;
 use crate::sim::state::largest;
 use crate::sim::{Solver, State, Stepper, System, stepper};
 
-/// The acceleration of a body in a state, coordinates first.
+/// Returns the acceleration of a body in a state, coordinates first.
 pub(super) fn acceleration_at(body: &dyn Stepper, t: f64, state: &[f64]) -> Vec<f64> {
     let (q, v) = state.split_at(state.len() / 2);
     let mut a = vec![0.0; q.len()];
@@ -16,8 +17,8 @@ pub(super) fn acceleration_at(body: &dyn Stepper, t: f64, state: &[f64]) -> Vec<
     a
 }
 
-/// The derivative of the acceleration of a body in a direction: a one-sided difference over `part` of it, from the
-/// acceleration `here` in the state `at`.
+/// Returns the derivative of the acceleration of a body in the direction `along`. It is a one-sided difference over
+/// `part` of `along`, from the state `at`, in which the acceleration is `here`.
 fn slope(
     body: &dyn Stepper,
     t: f64,
@@ -32,8 +33,8 @@ fn slope(
     slope
 }
 
-/// The Jacobian of the acceleration of a body with respect to coordinates and velocities, by one-sided differences
-/// over `by`.
+/// Returns the Jacobian of the acceleration of a body with respect to coordinates and velocities, by one-sided
+/// differences over the distance `by`.
 pub(super) fn force_slopes(body: &dyn Stepper, at: &[f64], by: f64, t: f64) -> DMatrix<f64> {
     let here = acceleration_at(body, t, at);
     let column = |j: usize| {
@@ -44,7 +45,8 @@ pub(super) fn force_slopes(body: &dyn Stepper, at: &[f64], by: f64, t: f64) -> D
     DMatrix::from_vec(here.len(), at.len(), (0..at.len()).flat_map(column).collect())
 }
 
-/// A system given by its acceleration on slices: coordinates, velocities, output.
+/// A system given by a function that computes its acceleration. The function takes the coordinates, the velocities and
+/// the output as slices.
 #[derive(Clone)]
 struct SliceSystem<F>(F);
 
@@ -56,7 +58,7 @@ impl<F: Fn(&[f64], &[f64], &mut [f64])> System for SliceSystem<F> {
     }
 }
 
-/// A body of `n` coordinates at 0 with this acceleration, under `method`.
+/// Returns a body with this acceleration, under `method`, with `n` coordinates and velocities of 0.
 fn body_with_acceleration(
     acceleration: impl Fn(&[f64], &[f64], &mut [f64]) + Clone + Send + 'static,
     n: usize,
@@ -67,7 +69,8 @@ fn body_with_acceleration(
     stepper(body, Solver::Method(method))
 }
 
-/// A deviation whose acceleration is `jacobian` times coordinates and velocities, one row per coordinate.
+/// Returns a deviation whose acceleration is `jacobian` times its coordinates and velocities. The Jacobian has one row
+/// per coordinate.
 pub(super) fn linear(jacobian: DMatrix<f64>, method: &'static Method) -> Box<dyn Stepper> {
     let n = jacobian.nrows();
     let acceleration = move |q: &[f64], v: &[f64], a: &mut [f64]| {
@@ -79,8 +82,9 @@ pub(super) fn linear(jacobian: DMatrix<f64>, method: &'static Method) -> Box<dyn
     body_with_acceleration(acceleration, n, method)
 }
 
-/// A deviation from the state of `body` at time `t` (s), under the forces linearised there. Their slopes are
-/// differences along the deviation, over `displacement` times the size of the state. Velocities are scaled by `h`.
+/// Returns a deviation from the state of `body` at time `t` (s), under forces linearised there. The slopes of the
+/// forces are differences along the deviation, over `displacement` times the size of the state. The size of a state is
+/// its largest coordinate, or its largest velocity times `h` if that is larger.
 pub(super) fn deviation_along_forces(
     body: &dyn Stepper,
     t: f64,
@@ -108,13 +112,13 @@ mod tests {
     use crate::sim::bodies::kind;
     use crate::sim::integrators::{GENERAL_METHODS, method};
 
-    /// The largest difference between two states, relative to 1 and their size.
+    /// Returns the largest difference between two states, relative to 1 and their size.
     fn apart(found: &[f64], wanted: &[f64]) -> f64 {
         let apart = found.iter().zip(wanted).map(|(a, b)| (a - b).abs() / (1.0 + b.abs()));
         apart.fold(0.0, f64::max)
     }
 
-    /// The state after three steps in 0.05 s.
+    /// Returns the state after three steps within 0.05 s.
     fn reached(stepper: &mut dyn Stepper, q: f64, v: f64) -> Vec<f64> {
         stepper.set(0.0, &[q], &[v]);
         stepper.advance(0.0, 0.05, 3).unwrap();

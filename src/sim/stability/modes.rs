@@ -1,8 +1,8 @@
 //! The normal modes of a linear body, the stability of a method on each, and the long-term drift of its energy.
 //!
-//! The modes come from the body's acceleration. A method acts on each mode of a linear body separately, so that its
-//! map is found mode by mode from the stepper. Without memory the map has size 2, instead of twice the number of
-//! coordinates.
+//! The modes come from the body's acceleration. A method acts on each mode of a linear body separately, so that its map
+//! is found mode by mode from the stepper. The map of a method without memory then has size 2, instead of twice the
+//! number of coordinates.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -16,32 +16,32 @@ use crate::sim::{Solver, Stepper};
 /// A normal mode of a linear body, `x″ = -ω² x - c x′`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NormalMode {
-    /// The displacement of each coordinate; normalised to length 1.
+    /// The displacement of each coordinate. The shape is normalised to length 1.
     pub shape: Vec<f64>,
-    /// ω², per second squared; not negative.
+    /// ω², the square of the undamped angular frequency, per second squared; not negative.
     pub omega_squared: f64,
-    /// c, per second; not negative.
+    /// c, the damping, per second; not negative.
     pub damping_per_s: f64,
 }
 
 impl NormalMode {
-    /// Its damped angular frequency in radians per second; `None` if it is overdamped.
+    /// Returns the damped angular frequency in radians per second; `None` if the mode is overdamped.
     pub fn swing(&self) -> Option<f64> {
         let squared = self.omega_squared - self.damping_per_s * self.damping_per_s / 4.0;
         (squared > 0.0).then(|| squared.sqrt())
     }
 
-    /// The asymptotic decay rate of its amplitude, per second.
+    /// Returns the asymptotic decay rate of the mode's amplitude, per second.
     pub fn decay_per_s(&self) -> f64 {
         -self.true_modes()[0].growth_per_s
     }
 
-    /// Whether its energy is conserved.
+    /// Whether the energy of the mode is conserved.
     pub fn is_conserved(&self) -> bool {
         self.damping_per_s == 0.0
     }
 
-    /// The projection of `values`, one per coordinate, onto this mode.
+    /// Returns the projection of `values`, one per coordinate, onto this mode.
     pub fn part(&self, values: &[f64]) -> f64 {
         spectrum::part(&self.shape, values)
     }
@@ -58,8 +58,8 @@ impl NormalMode {
         }
     }
 
-    /// Stability of a method with equal steps on this mode of `body`, which must be [`unforced`]. Compares the
-    /// frequency if the mode makes less than half a turn in a step.
+    /// Returns the stability of a method with equal steps on this mode of `body`, which must be [`unforced`]. The
+    /// frequency is compared if the mode makes less than half a turn in a step.
     ///
     /// # Errors
     /// The failure of the method in the first ticks.
@@ -75,7 +75,8 @@ impl NormalMode {
             self.motion().stability(&mut *stepper, (step, times), 1.0)?;
         let is_blurred = (stability.growth_per_s * step.h).abs() <= NEUTRAL_WITH_MEMORY;
         if has_memory && is_blurred && self.is_conserved() && self.omega_squared > 0.0 {
-            // With memory, the map is not accurate enough for a small growth; the energy over many ticks is.
+            // If the method has memory, the map is not accurate enough to show a small growth, but the energy over many
+            // ticks is.
             stepper.set(step.t, &self.shape, &vec![0.0; self.shape.len()]);
             let scale = stepper.energy().unwrap_or(0.0);
             if scale > 0.0 && scale.is_finite() {
@@ -87,11 +88,11 @@ impl NormalMode {
         Ok(stability)
     }
 
-    /// As [`NormalMode::stability`], only from the map of a small motion. It is quick, but with memory a growth of
-    /// less than 1e-9 per step counts as zero.
+    /// Returns the same as [`NormalMode::stability`], but only from the map of a small motion. This is quick, but if
+    /// the method has memory, a growth of less than 1e-9 per step counts as zero.
     ///
     /// # Errors
-    /// As [`NormalMode::stability`].
+    /// The same as for [`NormalMode::stability`].
     pub fn stability_of_small(
         &self,
         body: &dyn Stepper,
@@ -109,22 +110,23 @@ impl NormalMode {
     }
 }
 
-/// The amplitude of a small motion, far below the speed limits of engines. A power of 2, so that the map of a linear
-/// method has the same bits as at amplitude 1.
+/// The amplitude of a small motion, far below the speed limits of engines. It is a power of 2, so that the map of a
+/// linear method has the same bits as at amplitude 1.
 const SMALL: f64 = 1.0 / (1 << 20) as f64;
 
-/// Ticks over which to follow the energy of a mode.
+/// Number of ticks over which the energy of a mode is followed.
 const FOLLOWED_TICKS: u64 = 1 << 14;
 
-/// A copy of `body` with throttle 0. Its equation is then homogeneous except for a target, and deviations obey the
-/// same equation.
+/// Returns a copy of `body` with throttle 0. The equation of the copy is homogeneous except for a target, so that
+/// deviations obey the same equation.
 pub fn unforced(body: &dyn Stepper) -> Box<dyn Stepper> {
     let mut free = body.with_solver(Solver::Truth, 0.0);
     free.input(0.0, Input::Throttle(0.0));
     free
 }
 
-/// The modes of `x″ = A x + B x′` with `jacobian` A, and B to its right; `None` if damping couples them or one grows.
+/// Returns the modes of `x″ = A x + B x′`, where `jacobian` is A with B to its right. Returns `None` if damping couples
+/// the modes or if a mode grows.
 pub(super) fn modes_of(jacobian: &DMatrix<f64>) -> Option<Vec<NormalMode>> {
     let n = jacobian.nrows();
     let [stiffness, damping] = [0, n].map(|first| -jacobian.columns(first, n).into_owned());
@@ -155,15 +157,17 @@ pub(super) fn modes_of(jacobian: &DMatrix<f64>) -> Option<Vec<NormalMode>> {
     Some((0..n).map(mode).collect())
 }
 
-/// Coupling below this fraction of the largest entry is rounding.
+/// A coupling below this fraction of the largest entry is rounding.
 const COUPLING: f64 = 1e-10;
 
-/// The growth rate of the amplitude of `body`, as the natural logarithm of the factor per second, from its energy over
-/// `ticks` ticks of length `tick.h`, starting at `tick.t`. `scale` is its energy in joules above that at rest.
+/// Measures the growth rate of the amplitude of `body`, as the natural logarithm of the factor per second. The
+/// measurement follows the energy of `body` over `ticks` ticks like `tick`. `scale` is that energy in joules, minus the
+/// energy at rest.
 ///
-/// It is half the trend of the energy: the mean over the second half minus that over the first. Both are weighted by a
-/// bump function, whose means of quasiperiodic functions converge faster than any power of the time (Das, Saiki,
-/// Sander & Yorke, Quantitative quasiperiodicity, 2017). Valid for small growth over the stretch.
+/// The rate is half the trend of the energy, from the mean energy over the second half of the ticks minus the mean over
+/// the first half. Both means are weighted by a bump function. Such means of quasiperiodic functions converge faster
+/// than any power of the time (Das, Saiki, Sander & Yorke, Quantitative quasiperiodicity, 2017). The result is valid if
+/// the growth over all ticks is small.
 ///
 /// # Errors
 /// The failure of the method; [`StepFailure::NotFinite`] if the energy is not finite.
@@ -183,7 +187,7 @@ fn growth_of_energy(
     Ok((last - first) / seconds / scale / 2.0)
 }
 
-/// The weighted mean energy over the next `ticks` ticks.
+/// Returns the weighted mean energy over the next `ticks` ticks.
 fn mean_energy(
     body: &mut dyn Stepper,
     Tick { t, h, substeps }: Tick,
@@ -203,7 +207,7 @@ fn mean_energy(
     Ok(sum / weights)
 }
 
-/// A bump function on 0 to 1: all its derivatives vanish at both ends.
+/// Computes a bump function on 0 to 1, all of whose derivatives vanish at both ends.
 fn bump(part: f64) -> f64 {
     libm::exp(-1.0 / (part * (1.0 - part)))
 }
@@ -266,7 +270,7 @@ mod tests {
                 assert!((mode.omega_squared / (wanted * 400.0) - 1.0).abs() < 1e-12, "{mode:?}");
                 let decay = wanted * damping / 0.5;
                 assert!((mode.damping_per_s - decay).abs() < 1e-12, "{mode:?}");
-                // The projection of a wave of amplitude 1 onto a shape of length 1.
+                // `length` is the projection of a wave of amplitude 1 onto a shape of length 1.
                 let wave: Vec<f64> =
                     (1..=MASSES).map(|j| libm::sin(2.0 * half * j as f64)).collect();
                 let length = ((MASSES + 1) as f64 / 2.0).sqrt();
@@ -377,7 +381,8 @@ mod tests {
         assert_eq!(found.loss_per_s, 0.0);
     }
 
-    /// The growth rate of an undamped spring of 1 kg and ω = 6 rad/s, released at 1 m: 18 J.
+    /// Measures the growth rate of an undamped spring of 1 kg and ω = 6 rad/s, which is released at 1 m, with an energy
+    /// of 18 J.
     fn growth(id: &str, h: f64, seconds: f64) -> Result<f64, StepFailure> {
         let build = &kind("spring").unwrap().build;
         let mut spring =

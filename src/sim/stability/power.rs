@@ -1,5 +1,5 @@
-//! The spectral radius of the one-tick map of a body of many coordinates, by power iteration: without the map, from
-//! differences of the stepper itself.
+//! The spectral radius of the one-tick map of a body of many coordinates, by power iteration. The map is never formed;
+//! the iteration uses differences between steps of the stepper itself.
 
 use super::{Tick, deviation};
 use crate::sim::integrators::{Method, StepFailure};
@@ -7,15 +7,18 @@ use crate::sim::numerics::{XorShift, quotient};
 use crate::sim::state::largest;
 use crate::sim::{Solver, Stepper};
 
-/// The most iterations: enough for a radius accurate to a thousandth.
+/// The maximum number of iterations, enough for a radius accurate to a thousandth.
 const MAX_ITERATIONS: usize = 2048;
-/// The fewest iterations with a usable result.
+/// The minimum number of iterations for a usable result.
 const MIN_ITERATIONS: usize = 64;
-/// The largest difference between the radius after three quarters of the iterations and that after all.
+/// The largest relative difference between the radius after three quarters of the iterations and the radius after all
+/// of them, if the iteration has settled.
 const SETTLED: f64 = 5e-3;
-/// The displacement of the state, relative to its size: between rounding and the curvature of the forces.
+/// The displacement of the state, relative to its size. It is large compared with rounding, and small compared with the
+/// curvature of the forces.
 const DISPLACEMENT: f64 = 1e-7;
-/// The initial size of a deviation in a continued run: from here it may grow by 450 decades and shrink by 150.
+/// The initial size of a deviation in a continued run. From this size the deviation may grow by 450 decades and shrink
+/// by 150.
 const START: f64 = 1e-150;
 
 /// The power iteration for the spectral radius of a tick, one tick at a time.
@@ -28,9 +31,9 @@ pub struct PowerIteration {
 type TickOfDeviation = dyn FnMut() -> Result<Option<f64>, StepFailure> + Send;
 
 impl PowerIteration {
-    /// The iteration with ticks of `solver` on `body`, linearised about its current state. For a method with memory,
-    /// it iterates the map of state and memory. `None` if `max_evaluations` is too small, for a method that chooses
-    /// its substeps, and for an implicit one with memory.
+    /// Returns the iteration with ticks of `solver` on `body`, linearised about the body's current state. If the method
+    /// has memory, the iterated map is that of state and memory. Returns `None` if `max_evaluations` is too small, if
+    /// the method chooses its substeps, or if it is implicit and has memory.
     ///
     /// # Errors
     /// The failure of the method.
@@ -60,7 +63,8 @@ impl PowerIteration {
         Ok(Some(Self { tick, logs: Vec::with_capacity(MAX_ITERATIONS) }))
     }
 
-    /// Runs a tick. Returns whether the iteration continues, which it does while the deviation is finite.
+    /// Runs a tick. Returns whether the iteration continues, which it does while the deviation is finite and ticks are
+    /// left.
     ///
     /// # Errors
     /// The failure of the method.
@@ -73,17 +77,17 @@ impl PowerIteration {
         Ok(log.is_some())
     }
 
-    /// The spectral radius; `None` if the iteration has not settled.
+    /// Returns the spectral radius; `None` if the iteration has not settled.
     ///
-    /// Up to rounding, n iterations grow like ρⁿ nᵖ (p > 0 for a drifting body); a second difference of the logarithm
-    /// removes p.
+    /// Up to rounding, the length after n iterations grows like ρⁿ nᵖ, with p > 0 for a drifting body. A second
+    /// difference of the logarithm of the length removes the part with p.
     pub fn radius(&self) -> Option<f64> {
         settled_radius(&self.logs)
     }
 }
 
-/// Power iteration for a method without memory. Each tick starts from the state of `body` plus the deviation, and the
-/// iteration ends if the deviation vanishes or overflows.
+/// Returns the ticks of the iteration for a method without memory. Each tick starts from the state of `body` plus the
+/// deviation, and the iteration ends if the deviation vanishes or overflows.
 fn displaced_ticks(
     body: &dyn Stepper,
     solver: Solver,
@@ -101,7 +105,7 @@ fn displaced_ticks(
     let size = largest(q.iter().chain(&image[0]));
     let distance = DISPLACEMENT * if size > 0.0 { size } else { 1.0 };
 
-    // Coordinates, then velocities times the tick, so that both have one unit.
+    // The direction has the coordinates, then the velocities times the length of the tick, so that all have one unit.
     let mut direction = start_vector(2 * n);
     let mut log = 0.0;
     Ok(move || -> Result<Option<f64>, StepFailure> {
@@ -125,14 +129,14 @@ fn displaced_ticks(
         quotient(along_v, &image[1], part / h);
         let pushed = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
         log += libm::log(pushed / length);
-        // Scaled, because a long product would overflow.
+        // The direction is scaled, because a long product would overflow.
         direction.iter_mut().for_each(|x| *x /= pushed);
         Ok(Some(log))
     })
 }
 
-/// At most `max_ticks` ticks of one run of the deviation under the linearised forces, in which the method keeps its
-/// memory. They end if the method fails.
+/// Returns at most `max_ticks` ticks of one run, in which the method keeps its memory. The run steps the deviation
+/// under the linearised forces, and ends if the method fails.
 fn continued_run(
     body: &dyn Stepper,
     method: &'static Method,
@@ -154,20 +158,20 @@ fn continued_run(
         let mut state = [deviation.q(), deviation.v()].concat();
         state[n..].iter_mut().for_each(|v| *v *= h);
         let longest = largest(&state);
-        // Relative to the largest component, whose square may overflow.
+        // The sum is relative to the largest component, whose square may overflow.
         let square: f64 = state.iter().map(|x| (x / longest) * (x / longest)).sum();
         Ok(Some(libm::log(longest) + libm::log(square) / 2.0))
     }
 }
 
-/// The radius, if more iterations would not change it.
+/// Returns the spectral radius; `None` if the radius still changes with more iterations.
 fn settled_radius(logs: &[f64]) -> Option<f64> {
     let [earlier, all] = [logs.len() * 3 / 4, logs.len()].map(|count| radius(&logs[..count]));
     let (earlier, all) = (earlier?, all?);
     ((earlier / all - 1.0).abs() <= SETTLED).then_some(all)
 }
 
-/// The radius from the logarithms of the lengths after each iteration.
+/// Returns the spectral radius, from the logarithms of the deviation's length after each iteration.
 fn radius(logs: &[f64]) -> Option<f64> {
     let count = logs.len() / 8 * 8;
     if count < MIN_ITERATIONS || !logs[count - 1].is_finite() {
@@ -176,14 +180,14 @@ fn radius(logs: &[f64]) -> Option<f64> {
     let peak = |window: std::ops::Range<usize>| {
         logs[window].iter().fold(f64::NEG_INFINITY, |most, log| most.max(*log))
     };
-    // Windows of equal length, so that a trend moves their peaks equally.
+    // The windows have equal length, so that a trend moves their peaks equally.
     let [first, middle, last] = [count / 4, count / 2, count].map(|end| peak(end - count / 8..end));
-    // For a length of ρⁿ nᵖ, both differences have the same part from nᵖ.
+    // If the length is ρⁿ nᵖ, both differences have the same part from nᵖ.
     let rate = ((last - middle) - (middle - first)) / (count / 4) as f64;
     Some(libm::exp(rate))
 }
 
-/// A vector with a component in every mode, the same on every run.
+/// Returns a vector with a component in every mode, the same on every run.
 fn start_vector(components: usize) -> Vec<f64> {
     let mut random = XorShift::new(0x9E37_79B9_7F4A_7C15);
     (0..components).map(|_| random.next()).collect()
@@ -203,7 +207,7 @@ mod tests {
         iteration.radius()
     }
 
-    /// The radius of a method on a chain of ω² = 800, whose fastest mode has ω² = 3200 sin²(5π/22).
+    /// Returns the spectral radius of a method on a chain of ω² = 800, whose fastest mode has ω² = 3200 sin²(5π/11).
     fn radius_on_chain(id: &str, h: f64) -> Option<f64> {
         let chain =
             (kind("chain").unwrap().build)(&[10.0, 1.0, 800.0, 0.0, 3.0, 1.0, 1.0], Solver::Truth);
@@ -245,12 +249,12 @@ mod tests {
 
     #[test]
     fn the_spectral_radius_of_a_multistep_method_includes_its_memory() {
-        // ω² = 3200 sin²(5π/22) and a damping ratio of 0.2 in the fastest mode.
+        // The fastest mode has ω² = 3200 sin²(5π/11) and a damping ratio of 0.2.
         let c = 0.4 * fastest() * 800.0 / (fastest() * fastest());
         let values = [10.0, 1.0, 800.0, c, 3.0, 1.0, 1.0];
         let chain = (kind("chain").unwrap().build)(&values, Solver::Truth);
         for id in ["velocity-verlet", "adams-bashforth-2", "stormer-verlet"] {
-            // The limit of velocity Verlet at this damping ratio is 1.354, without damping 2.
+            // The limit of velocity Verlet is 1.354 at this damping ratio, and 2 without damping.
             for z in [0.5, 1.2, 1.7, 3.0] {
                 let tick = Tick { t: 0.0, h: z / fastest(), substeps: 1 };
                 let coupled = SmallMotion::of(&*chain).unwrap().coupled().unwrap();

@@ -1,16 +1,17 @@
 //! A search for the slowest whole tick rate that passes a test.
 
-/// The rates to search, in Hz.
+/// The rates that a search covers, in Hz.
 pub const RATES_HZ: std::ops::RangeInclusive<u32> = 1..=10_000;
 
-/// Number of rungs above the first passing one that must pass too. Each is about 1.4 times the one before.
+/// Number of rungs above the first passing rung that must pass too. The rate of a rung is about 1.4 times that of the
+/// rung before.
 const CONFIRMATIONS: u32 = 2;
 
-/// Searches [`RATES_HZ`], one rate per call, for the slowest that passes a test.
+/// A search of [`RATES_HZ`], one rate per call, for the slowest rate that passes a test.
 ///
-/// It climbs a ladder of two rates per octave until one rung and the next two pass, then bisects the gap below. The
-/// rate found passes, and the rate one hertz slower fails. Neither stability nor error need be monotone in the rate:
-/// the search misses a failing gap between the rungs above.
+/// The search climbs a ladder of two rates per octave until one rung and the next two pass. Then it bisects the gap
+/// below that rung. The found rate passes, and the rate one hertz slower fails. Stability and error need not be
+/// monotone in the rate, so that the search can miss a failing gap between the rungs above.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateSearch {
     state: SearchState,
@@ -18,8 +19,8 @@ pub struct RateSearch {
 
 #[derive(Clone, Debug, PartialEq)]
 enum SearchState {
-    /// Trying this rung. `held` is the first of the rungs in a row that passed, with the number of confirmations;
-    /// `fails` is the last rate that failed.
+    /// The search tries this rung next. `held` is the rate of the first of the latest rungs that all passed, and the
+    /// number of its confirmations. `fails` is the last rate that failed.
     Climbing {
         rung: u32,
         held: Option<(u32, u32)>,
@@ -33,12 +34,12 @@ enum SearchState {
 }
 
 impl RateSearch {
-    /// A search before its first rate.
+    /// Starts a search.
     pub fn new() -> Self {
         Self { state: SearchState::Climbing { rung: 0, held: None, fails: 0 } }
     }
 
-    /// The slowest rate that passes, or `Some(None)` if none does; `None` while the search continues.
+    /// Returns the slowest rate that passes, or `Some(None)` if none does; `None` while the search continues.
     pub fn slowest_rate(&self) -> Option<Option<u32>> {
         match self.state {
             SearchState::Found(hz) => Some(hz),
@@ -95,7 +96,7 @@ fn halving(fails: u32, holds: u32) -> SearchState {
     }
 }
 
-/// The rungs: 1, 2, 3, 4, 6, 8, 12 … 8192, and the fastest rate.
+/// Returns the rate of a rung. The rates are 1, 2, 3, 4, 6, 8, 12 … 8192 Hz, and the fastest rate.
 fn rate(rung: u32) -> u32 {
     let hz = match rung {
         0 => 1,

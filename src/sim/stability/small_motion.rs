@@ -1,5 +1,5 @@
-//! Small motions of a body about rest, with all coordinates together. They also cover a body without normal modes,
-//! whose damping couples them.
+//! Small motions of a body about rest, with all coordinates together. They also cover a body whose damping couples its
+//! modes, so that it has no normal modes.
 
 use std::fmt;
 
@@ -13,27 +13,27 @@ use super::spectrum::{self, Eigenvalue};
 use crate::sim::Stepper;
 use crate::sim::integrators::{Method, StepFailure};
 
-/// The equation of small deviations of a body from rest, `x″ = A x + B x′`, without throttle. On a linear body it is
-/// valid for deviations of any size.
+/// The equation of small deviations of a body from rest, `x″ = A x + B x′`, without throttle. On a linear body, the
+/// equation is valid for deviations of any size.
 #[derive(Clone, Debug)]
 pub struct SmallMotion {
-    /// A, and B to its right.
+    /// The matrix A, with B to its right.
     jacobian: DMatrix<f64>,
 }
 
-/// A [`SmallMotion`] with its true modes; a method steps its coordinates together.
+/// A [`SmallMotion`] with its true modes. A method steps all coordinates of the motion together.
 #[derive(Clone, Debug)]
 pub struct CoupledMotion {
     jacobian: DMatrix<f64>,
     motion: LinearMotion,
 }
 
-/// Why a body has no small motions about rest.
+/// The reason why a body has no small motions about rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoSmallMotion {
     /// The body rests neither at its origin nor near its start.
     NoRest,
-    /// The force has a corner or a jump at rest, so that no linear equation describes it there.
+    /// The force has a corner or a jump where the body rests, so that no linear equation describes the force there.
     Corner,
     /// The stiffness or the damping changes in time.
     Unsteady,
@@ -43,7 +43,7 @@ pub enum NoSmallMotion {
     TooManyCoordinates,
 }
 
-/// A clause: `the stiffness or the damping of this body changes in time`.
+/// Writes a clause, such as `the stiffness or the damping of this body changes in time`.
 impl fmt::Display for NoSmallMotion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -62,15 +62,16 @@ impl fmt::Display for NoSmallMotion {
     }
 }
 
-/// The most coordinates to step together: the work for a point grows as their cube.
+/// The maximum number of coordinates that are stepped together. The work for one point of a plot grows with the cube of
+/// this number.
 const MAX_COUPLED: usize = 16;
 
 impl SmallMotion {
-    /// The small motions of `body` about its origin if it rests there, or else about a place of rest near its start. A
-    /// linear body needs no place of rest.
+    /// Returns the small motions of `body` about its origin if the body rests there, or else about a place of rest near
+    /// its start. A linear body needs no place of rest.
     ///
     /// # Errors
-    /// Why the body has no small motions.
+    /// The reason why the body has no small motions.
     pub fn of(body: &dyn Stepper) -> Result<Self, NoSmallMotion> {
         if body.is_sparse() {
             return Err(NoSmallMotion::TooManyCoordinates);
@@ -82,7 +83,7 @@ impl SmallMotion {
             let rest = place_of_rest(&*free)?;
             let jacobian = smooth_jacobian(&*free, &rest, 0.0)?;
             for t in LATER_S {
-                // A corner that appears at rest later is brought there by a drive.
+                // If a corner appears at rest only later, a drive has brought it there.
                 let later =
                     smooth_jacobian(&*free, &rest, t).map_err(|_| NoSmallMotion::Unsteady)?;
                 if !agree(&jacobian, &later) {
@@ -97,15 +98,15 @@ impl SmallMotion {
         Ok(Self { jacobian })
     }
 
-    /// Its normal modes; `None` if damping couples them, or if a mode grows.
+    /// Returns the normal modes; `None` if damping couples them, or if a mode grows.
     pub fn normal_modes(&self) -> Option<Vec<NormalMode>> {
         modes_of(&self.jacobian)
     }
 
-    /// The motion of all coordinates together.
+    /// Returns the motion of all coordinates together.
     ///
     /// # Errors
-    /// If there are too many, or if overflowing rates prevent finding their modes.
+    /// If there are too many coordinates, or if their modes cannot be found because a rate overflows.
     pub fn coupled(self) -> Result<CoupledMotion, NoSmallMotion> {
         if self.jacobian.nrows() > MAX_COUPLED {
             return Err(NoSmallMotion::TooManyCoordinates);
@@ -117,14 +118,14 @@ impl SmallMotion {
     }
 }
 
-/// The normal modes of `body`. `None` if it is not [linear](crate::sim::PlacedBody::is_linear), if damping couples the
-/// modes, or if a mode grows.
+/// Returns the normal modes of `body`. Returns `None` if `body` is not [linear](crate::sim::PlacedBody::is_linear), if
+/// damping couples the modes, or if a mode grows.
 pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
     if body.is_linear() { SmallMotion::of(body).ok()?.normal_modes() } else { None }
 }
 
 impl CoupledMotion {
-    /// Number of coordinates.
+    /// Returns the number of coordinates.
     pub fn coordinates(&self) -> usize {
         self.jacobian.nrows()
     }
@@ -134,8 +135,8 @@ impl CoupledMotion {
         self.motion.truth.iter().any(|mode| mode.growth_per_s > 0.0)
     }
 
-    /// Stability of `method` with equal steps on this motion, from the map of all coordinates over a step. It ignores
-    /// growth that the true motion shares, and frequencies beyond half a turn in a step.
+    /// Returns the stability of `method` with equal steps on this motion, from the map of all coordinates over a step.
+    /// The stability ignores growth that the true motion shares, and frequencies beyond half a turn in a step.
     ///
     /// # Errors
     /// The failure of the method in the first steps.
@@ -151,17 +152,18 @@ impl CoupledMotion {
     }
 }
 
-/// Times in seconds at which the derivatives of the force must equal those of the start.
+/// Times in seconds at which the derivatives of the force must equal the derivatives at the start.
 const LATER_S: [f64; 2] = [0.37, 2.9];
 
-/// Rates below this fraction of the largest count as zero. It is above √ε, by which rounding splits a double
-/// eigenvalue.
+/// Rates below this fraction of the largest rate count as zero. The fraction is above √ε, by which rounding splits a
+/// double eigenvalue.
 const FORCE_FREE: f64 = 1e-7;
 
 /// A true growth below this fraction of the largest rate is rounding.
 const ROUNDED_GROWTH: f64 = 1e-10;
 
-/// The modes of `x″ = A x + B x′`, and the unit of velocity.
+/// Returns the modes of `x″ = A x + B x′`, and the unit of velocity, per second, in which the fastest mode moves on
+/// circles.
 fn true_modes(jacobian: &DMatrix<f64>) -> Option<(Vec<Mode>, f64)> {
     let n = jacobian.nrows();
     let stiffness = jacobian.columns(0, n).amax();
@@ -189,8 +191,8 @@ fn true_modes(jacobian: &DMatrix<f64>) -> Option<(Vec<Mode>, f64)> {
     Some((values.iter().map(mode).collect(), largest))
 }
 
-/// A place where `free` rests at any time: the origin, if it rests there at the start, or else the result of Newton's
-/// iteration from the start.
+/// Returns a place where `free` rests at any time. This is the origin if `free` rests there at the start, or else the
+/// result of Newton's iteration from the start.
 fn place_of_rest(free: &dyn Stepper) -> Result<Vec<f64>, NoSmallMotion> {
     let n = free.q().len();
     let origin = vec![0.0; n];
@@ -211,7 +213,7 @@ fn place_of_rest(free: &dyn Stepper) -> Result<Vec<f64>, NoSmallMotion> {
         let is_near = step.iter().zip(&q).all(|(step, q)| step.abs() <= AT_REST * (1.0 + q.abs()));
         q.iter_mut().zip(step.iter()).for_each(|(q, step)| *q -= step);
         if is_near {
-            // Under a drive it may be a place of rest only for a moment.
+            // If there is a drive, this may be a place of rest only for a moment.
             let still = LATER_S.iter().all(|&t| (push(&q, t) - push(&q, 0.0)).amax() == 0.0);
             return if still { Ok(q) } else { Err(NoSmallMotion::NoRest) };
         }
@@ -219,14 +221,15 @@ fn place_of_rest(free: &dyn Stepper) -> Result<Vec<f64>, NoSmallMotion> {
     Err(NoSmallMotion::NoRest)
 }
 
-/// The most steps of Newton's iteration: from a start with the right stiffness about 5 are enough.
+/// The maximum number of steps of Newton's iteration. About 5 are enough from a start with the right stiffness.
 const MAX_ITERATIONS: u32 = 30;
 
-/// The size of the last step of Newton's iteration, relative to the coordinate: the next would be at rounding level.
+/// The largest size of the last step of Newton's iteration, relative to the coordinate. The step after it would be at
+/// rounding level.
 const AT_REST: f64 = 1e-9;
 
-/// The Jacobian of the force at rest at `q`. Its differences over two distances and on either side must agree, or
-/// converge as the distances shrink.
+/// Returns the Jacobian of the force at rest at `q`, by differences. The differences over two distances and on either
+/// side must agree, or converge as the distances shrink.
 fn smooth_jacobian(free: &dyn Stepper, q: &[f64], t: f64) -> Result<DMatrix<f64>, NoSmallMotion> {
     let n = q.len();
     let at = [q, &vec![0.0; n]].concat();
@@ -251,7 +254,7 @@ fn smooth_jacobian(free: &dyn Stepper, q: &[f64], t: f64) -> Result<DMatrix<f64>
     Err(NoSmallMotion::Corner)
 }
 
-/// The largest difference between Jacobians in a row.
+/// Returns the largest difference between the entries of these Jacobians in a row.
 fn spread(found: &[DMatrix<f64>; 4], row: usize) -> f64 {
     let off = |other: &DMatrix<f64>| (found[0].row(row) - other.row(row)).amax();
     found.iter().map(off).fold(0.0, f64::max)
@@ -267,7 +270,8 @@ fn agree(a: &DMatrix<f64>, b: &DMatrix<f64>) -> bool {
     rows.into_iter().all(|(a, b)| (a - b).amax() <= SMOOTH * a.amax().max(b.amax()))
 }
 
-/// The largest relative difference between agreeing slopes of a row: far above their rounding, and far below a corner.
+/// The largest relative difference between slopes of a row that agree. It is far above the rounding of slopes, and far
+/// below a corner.
 const SMOOTH: f64 = 1e-3;
 
 #[cfg(test)]
@@ -287,7 +291,7 @@ mod tests {
         let modes = SmallMotion::of(&*pendulum).unwrap().normal_modes().unwrap();
         assert_eq!(modes.len(), 1);
         assert!((modes[0].omega_squared / (9.81 / 2.0) - 1.0).abs() < 1e-6, "{modes:?}");
-        // c / (m l²), with l = 2 m and m = 3 kg.
+        // The damping is c / (m l²), with l = 2 m and m = 3 kg.
         assert!((modes[0].damping_per_s / (0.6 / 12.0) - 1.0).abs() < 1e-6, "{modes:?}");
         let orbit = SmallMotion::of(&*body("orbit", &[1000.0, 9.0, 2.0, 1.5, 10.0, 0.3]));
         assert_eq!(orbit.err(), Some(NoSmallMotion::NoRest));
@@ -328,7 +332,7 @@ mod tests {
         let motion = motion.coupled().unwrap();
         assert!(motion.grows());
         let euler = method("explicit-euler").unwrap();
-        // x″ = 4 x grows as e^2t in truth, and by 1 + 2 h per step of explicit Euler.
+        // x″ = 4 x truly grows as e^2t, and each step of explicit Euler multiplies it by 1 + 2 h.
         for (h, excess) in [(0.05, 0.0), (0.5, libm::log(2.0) / 0.5 - 2.0)] {
             let found = motion.stability(euler, h, 1).unwrap();
             assert!((found.growth_per_s - excess).abs() < 1e-9, "{h}: {found:?}");

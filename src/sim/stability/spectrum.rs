@@ -1,4 +1,4 @@
-//! Eigenvalues of the one-tick map from its Jacobians, also for methods with memory.
+//! The eigenvalues of the one-tick map, from its Jacobians. They include those of a method's memory.
 
 use nalgebra::{ColPivQR, DMatrix, Schur};
 
@@ -7,11 +7,11 @@ use super::deviation::acceleration_at;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 
-/// An eigenvalue; the upper half represents a conjugate pair.
+/// An eigenvalue. Both eigenvalues of a conjugate pair are represented by the one in the upper half plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Eigenvalue {
     pub(super) modulus: f64,
-    /// 0 to π.
+    /// The angle, from 0 to π.
     pub(super) angle: f64,
 }
 
@@ -20,13 +20,13 @@ impl Eigenvalue {
         Self { modulus: libm::hypot(re, im), angle: libm::atan2(im.abs(), re) }
     }
 
-    /// Its distance from a real number.
+    /// Returns the distance of the eigenvalue from a real number.
     pub(super) fn distance_from(self, real: f64) -> f64 {
         let re = self.modulus * libm::cos(self.angle);
         libm::hypot(re - real, self.modulus * libm::sin(self.angle))
     }
 
-    /// Whether it is not real.
+    /// Whether the eigenvalue is not real.
     pub(super) fn is_complex(self) -> bool {
         self.angle > 0.0 && self.angle < std::f64::consts::PI
     }
@@ -35,9 +35,9 @@ impl Eigenvalue {
 /// The maps of the state over 1, 2 and 3 ticks after a fresh start.
 pub(super) type Maps = [DMatrix<f64>; 3];
 
-/// The maps of a linear body over 1, 2 and 3 ticks, in the span of `shapes`, which must be orthogonal and of length 1.
-/// The displacements along the shapes come first, then the velocities in units of `rate` per second. Each run starts
-/// at `amplitude` in one of them.
+/// Returns the maps of a linear body over 1, 2 and 3 ticks, in the span of `shapes`, which must be orthogonal and of
+/// length 1. The rows have the displacements along the shapes first, then the velocities in units of `rate` per second.
+/// Each run starts with `amplitude` in one of these numbers.
 ///
 /// # Errors
 /// The failure of the method in one of the ticks.
@@ -50,7 +50,7 @@ pub(super) fn linear_maps(
     let (n, count) = (body.q().len(), shapes.len());
     let rest = vec![0.0; 2 * n];
     let stays_at_rest = stays_at_rest(body, tick.t);
-    // The components along the shapes after each tick from a state.
+    // Returns the components along the shapes after each of three ticks from a state.
     let mut run = |state: &[f64]| {
         body.set(tick.t, &state[..n], &state[n..]);
         let mut after = |k: u32| {
@@ -61,7 +61,7 @@ pub(super) fn linear_maps(
         };
         Ok([after(0)?, after(1)?, after(2)?])
     };
-    // The effect of a target on the body at rest is no part of the map.
+    // The effect of a target on the body at rest is not part of the map.
     let driven = if stays_at_rest { [(); 3].map(|()| vec![0.0; 2 * count]) } else { run(&rest)? };
     let unit = |index: usize| if index < count { 1.0 } else { rate };
     let from = |column: usize| {
@@ -79,7 +79,7 @@ pub(super) fn linear_maps(
     }))
 }
 
-/// The component of `values` along a shape of length 1.
+/// Returns the component of `values` along a shape of length 1.
 pub(super) fn part(shape: &[f64], values: &[f64]) -> f64 {
     shape.iter().zip(values).map(|(shape, value)| shape * value).sum()
 }
@@ -95,30 +95,31 @@ pub(super) fn has_memory(maps: &Maps) -> bool {
     memory_defect(maps).1
 }
 
-/// The defect of the two-tick map against the product of two one-tick maps, and whether it shows memory.
+/// Returns the largest difference of the two-tick map from the product of two one-tick maps, and whether it shows
+/// memory.
 fn memory_defect([once, twice, _]: &Maps) -> (f64, bool) {
     let off = (twice - once * once).amax();
     (off, off > MEMORY * (1.0 + twice.amax()))
 }
 
-/// A defect above this shows memory: well above the rounding of the differences, and well below the contribution of a
-/// multistep method at any useful step.
+/// A relative defect above this number shows memory. The number is well above the rounding of the differences, and well
+/// below the contribution of a multistep method at any useful step.
 const MEMORY: f64 = 1e-10;
-/// Pivots below this fraction of the largest are rounding.
+/// Pivots below this fraction of the largest pivot are rounding.
 const RANK: f64 = 1e-10;
-/// The largest number of QR sweeps per row; about 3 are usual.
+/// The maximum number of QR sweeps per row. About 3 are usual.
 const SWEEPS_PER_ROW: usize = 60;
 
-/// Eigenvalues of the map: of the state alone if the method has no memory, otherwise of state and memory together,
-/// reconstructed from successive states.
+/// Returns the eigenvalues of the one-tick map. If the method has memory, the map is that of state and memory together,
+/// reconstructed from successive states; otherwise it is that of the state alone.
 ///
-/// `None` if they are not finite or the iteration does not converge.
+/// Returns `None` if a map is not finite or the iteration does not converge.
 pub(super) fn eigenvalues(maps: &Maps) -> Option<Vec<Eigenvalue>> {
     if maps.iter().any(|map| map.iter().any(|x| !x.is_finite())) {
         return None;
     }
-    // Strongly connected components are solved separately: exact zeros keep neutral eigenvalues exactly neutral, while
-    // an iteration over the whole would perturb double eigenvalues.
+    // Strongly connected components are solved separately. Exact zeros then keep neutral eigenvalues exactly neutral,
+    // while an iteration over the whole map would perturb double eigenvalues.
     let mut values = Vec::new();
     for part in strongly_connected_components(&maps.each_ref()) {
         let maps =
@@ -137,7 +138,7 @@ pub(super) fn eigenvalues(maps: &Maps) -> Option<Vec<Eigenvalue>> {
     Some(values)
 }
 
-/// Eigenvalues of a map without memory.
+/// Returns the eigenvalues of a map without memory.
 pub(super) fn eigenvalues_of_map(map: &DMatrix<f64>) -> Option<Vec<Eigenvalue>> {
     if map.iter().any(|x| !x.is_finite()) {
         return None;
@@ -149,7 +150,8 @@ pub(super) fn eigenvalues_of_map(map: &DMatrix<f64>) -> Option<Vec<Eigenvalue>> 
     Some(values)
 }
 
-/// The strongly connected components of the indices, coupled by nonzero entries of any of the matrices.
+/// Returns the strongly connected components of the indices. A nonzero entry in any of the matrices couples two
+/// indices.
 fn strongly_connected_components(matrices: &[&DMatrix<f64>]) -> Vec<Vec<usize>> {
     let n = matrices[0].nrows();
     let couples = |i: usize, j: usize| matrices.iter().any(|matrix| matrix[(i, j)] != 0.0);
@@ -190,12 +192,13 @@ fn eigenvalues_of_two_rows(matrix: &DMatrix<f64>) -> [Eigenvalue; 2] {
     }
 }
 
-/// With memory, a modulus this close to 1 counts as 1.
+/// If the method has memory, a modulus this close to 1 counts as 1.
 pub(super) const NEUTRAL_WITH_MEMORY: f64 = 1e-9;
-/// Without memory, the tolerance in units of the two-tick defect, which is the rounding of the differences. It is
-/// large for a method that computes velocities from differences of positions.
+/// The tolerance of a modulus of 1 for a method without memory, in units of the two-tick defect. That defect is the
+/// rounding of the differences, which is large if a method computes velocities from differences of positions.
 const NEUTRAL_IN_DEFECTS: f64 = 10.0;
-/// A modulus further from 1 never counts as 1: the defect of a map that grows without limit is no measure of rounding.
+/// A modulus further from 1 than this number never counts as 1, because the defect of a map that grows without limit
+/// does not measure rounding.
 const MAX_NEUTRAL: f64 = 1e-3;
 
 fn snapped_to_neutral(value: Eigenvalue, tolerance: f64) -> Eigenvalue {
@@ -203,9 +206,9 @@ fn snapped_to_neutral(value: Eigenvalue, tolerance: f64) -> Eigenvalue {
     Eigenvalue { modulus: if neutral { 1.0 } else { value.modulus }, ..value }
 }
 
-/// The map of (state, state one tick ago), restricted to the reachable subspace. Its action on two pairs of states
-/// after a fresh start, one and two ticks later, is known. A method's memory follows from two successive states,
-/// whether it consists of forces, slopes or an older state.
+/// Returns the map of pairs (state, state one tick ago), restricted to the reachable subspace. The map is found from
+/// the pairs one and two ticks after a fresh start, and the pairs a tick after each of these. Two successive states
+/// determine a method's memory, whether it consists of forces, slopes or an older state.
 fn with_memory([once, twice, thrice]: &Maps) -> Option<DMatrix<f64>> {
     let n = once.nrows();
     let identity = DMatrix::identity(n, n);
@@ -218,14 +221,14 @@ fn with_memory([once, twice, thrice]: &Maps) -> Option<DMatrix<f64>> {
     let factors = ColPivQR::new(reached);
     let (q, r) = (factors.q(), factors.r());
     let rank = (0..2 * n).take_while(|&i| r[(i, i)].abs() > RANK * r[(0, 0)].abs()).count();
-    // `once` has a NaN or overflows.
+    // This happens if `once` has a NaN or overflows.
     if rank == 0 {
         return None;
     }
     factors.p().permute_columns(&mut next);
     let basis = q.columns(0, rank);
     let square = r.view((0, 0), (rank, rank)).into_owned();
-    // basisᵀ next square⁻¹, by the transposed triangle.
+    // Computes basisᵀ next square⁻¹ by solving with the transposed triangle.
     let image = basis.transpose() * next.columns(0, rank);
     let solved = square.transpose().solve_lower_triangular(&image.transpose())?;
     Some(solved.transpose())
@@ -243,7 +246,7 @@ mod tests {
             &[1.0, 0.1, 0.0, 0.0, 0.0, 0.9, 0.0, 0.2, 0.3, 0.0, 1.0, 0.0, 0.0, 0.5, 0.0, 1.0],
         );
         assert_eq!(strongly_connected_components(&[&map]), [vec![0], vec![1, 3], vec![2]]);
-        // Two neutral coordinates, one driving the other, stay neutral to the bit.
+        // Two neutral coordinates, of which one drives the other, stay neutral to the bit.
         let values = eigenvalues_of_map(&map).unwrap();
         assert_eq!(values.iter().filter(|value| value.modulus == 1.0).count(), 2);
     }
@@ -271,8 +274,8 @@ mod tests {
 
     #[test]
     fn a_direction_at_rounding_level_is_no_memory() {
-        // The first coordinate has memory, x' = 1.2 x + 0.3 x_before; the second has none, x' = 0.8 x.
-        // Both are rotated and perturbed.
+        // The first coordinate has memory, x' = 1.2 x + 0.3 x_before; the second has none, x' = 0.8 x. Both coordinates
+        // are rotated and perturbed.
         for size in [1.0, 30.0] {
             let one = [1.5, 2.1, 2.97].map(|x| x * size);
             let other = [0.8, 0.64, 0.512].map(|x| x * size);

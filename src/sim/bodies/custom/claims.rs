@@ -1,4 +1,4 @@
-//! The claims of a custom body, for the [checker](crate::sim::bodies::claims).
+//! Gives the claims of a custom body to the [checker](crate::sim::bodies::claims).
 
 use super::Custom;
 use crate::sim::bodies::claims::{self, Checked, ClaimFault, ClaimHorizon, Claimant, TIMES};
@@ -10,18 +10,19 @@ use crate::sim::system::System;
 /// A false claim about a custom body. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CustomFault {
-    /// The field of [`Extras`](super::Extras), `start`, or `acceleration`.
+    /// The name of a field of [`Extras`](super::Extras), or `start` or `acceleration`.
     pub field: &'static str,
     /// The error message.
     pub what: String,
-    /// How to mend it.
+    /// How to mend the fault.
     pub remedy: &'static str,
 }
 
-/// The relative tolerance of a claim: the error of differences.
+/// The relative tolerance of a claim, which allows for the error of differences.
 const TOLERANCE: f64 = 1e-6;
 
-/// Steps of finite differences, in seconds. Over one of them a motion of any pace is smooth and well above rounding.
+/// Steps of finite differences, in seconds. For a motion of any pace, one of these steps is so short that the motion
+/// over it is smooth, but so long that rounding is small.
 const STEPS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 impl Claimant for Custom {
@@ -65,7 +66,7 @@ impl Claimant for Custom {
     fn power(&self, t: f64, State { q, v }: &State<Vec<f64>>) -> Option<[f64; 2]> {
         let mut a = v.clone();
         self.acceleration(t, q, v, &mut a);
-        // The energy some seconds later if only the place changes, only the velocity, or both.
+        // Computes the energy some seconds later, if only the place changes, only the velocity, or both.
         let energy = |moved: f64, turned: f64| {
             let q: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + moved * v).collect();
             let v: Vec<f64> = v.iter().zip(&a).map(|(v, a)| v + turned * a).collect();
@@ -101,7 +102,8 @@ impl From<ClaimFault> for CustomFault {
     }
 }
 
-/// The first nonlinearity of a body that is declared linear; `None` without one, or if it is not declared linear.
+/// Returns the first nonlinearity of a body that is declared linear; `None` if there is none, or if the body is not
+/// declared linear.
 fn find_nonlinearity(body: &Custom) -> Option<CustomFault> {
     if !body.is_linear {
         return None;
@@ -116,7 +118,7 @@ fn find_nonlinearity(body: &Custom) -> Option<CustomFault> {
     let mut random = XorShift::new(0x2545_F491_4F6C_DD1D);
     let still = vec![0.0; 2 * n];
     for t in TIMES {
-        // From far inside to far outside the motion: beyond any corners of the force.
+        // The states are from far inside to far outside the motion, beyond any corners of the force.
         for reach in [1e-3, 0.03, 1.0, 30.0, 1e3] {
             let mut state = || (0..2 * n).map(|_| reach * random.next()).collect::<Vec<_>>();
             let [one, other] = [state(), state()];
@@ -155,7 +157,7 @@ pub(super) fn check_start(body: &Custom) -> Result<(), CustomFault> {
     Ok(())
 }
 
-/// Checks the start and the claims of a custom body; the claims at the ticks of the horizon too.
+/// Checks the start and the claims of a custom body. The claims are checked at the ticks of the horizon too.
 pub(super) fn check(body: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFault> {
     check_start(body)?;
     claims::check(body, horizon)?;

@@ -1,4 +1,4 @@
-//! The kind of a custom body, and the batch of its copies.
+//! The kind of a custom body, and batches of copies of it.
 
 use std::any::Any;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -17,11 +17,11 @@ use crate::sim::system::{StateOf, System};
 /// The key of the only parameter of a body without parameters of its own.
 const FORCE: &str = "force";
 
-/// The largest number of coordinates. A larger system needs a sparse Jacobian, and so a body of its own.
+/// The maximum number of coordinates. A larger system needs a sparse Jacobian, and therefore a body type of its own.
 const MAX_COORDINATES: usize = 256;
 
-/// The kind of bodies that move as `system` does, from `start`. Checks the claims of `extras` against the motion at
-/// the ticks of `horizon`. The defaults of its parameters are the numbers of `system`.
+/// Returns the kind of bodies that move as `system` does, from `start`. Checks the claims of `extras` against the
+/// motion at the ticks of `horizon`. The defaults of the kind's parameters are the numbers of `system`.
 ///
 /// # Errors
 /// If the start, a name or a unit is unfit, or if a claim of `extras` does not hold.
@@ -72,7 +72,7 @@ where
     Ok(Arc::new(kind(body, parameters)))
 }
 
-/// The parameter, with the number of `system` as its default.
+/// Returns the parameter, with the number of `system` as its default.
 fn with_default<S: System<Vector: Vector> + Clone>(
     parameter: &ParameterOf<S>,
     system: &S,
@@ -111,7 +111,7 @@ fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {
     }
 }
 
-/// The names and units of `n` coordinates.
+/// Returns the names and units of `n` coordinates.
 fn coordinates(
     given: &[(&'static str, &'static str)],
     n: usize,
@@ -147,7 +147,7 @@ fn is_name(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_letter)
 }
 
-/// The given plane, or else the plane of two coordinates in metres.
+/// Returns the given plane, or else the plane of two coordinates in metres.
 fn plane(
     given: Option<[usize; 2]>,
     coordinates: &[Coordinate],
@@ -187,11 +187,11 @@ fn check_keys(parameters: &[Parameter]) -> Result<(), CustomFault> {
     Ok(())
 }
 
-/// Copies of a custom body of one coordinate. Threads do not share a motion: each copy has its own.
+/// Copies of a custom body of one coordinate. Threads do not share a motion, so that each copy has its own.
 #[derive(Clone)]
 struct CustomCopies(Arc<Mutex<Box<dyn Motion>>>);
 
-/// A batch of copies of a custom body; `None` if its coordinate vector is not one `f64`.
+/// Returns a batch of copies of a custom body; `None` if its coordinate vector is not one `f64`.
 fn batch(
     body: &dyn Any,
     set: InstructionSet,

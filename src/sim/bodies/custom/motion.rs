@@ -11,16 +11,18 @@ use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::{Coupling, EngineSettings, Query, System};
 use crate::sim::vec_system::{Scratch, VecSystem};
 
-/// The motion of a custom body. It answers no query for a target: a body that follows one has its own kind.
+/// The motion of a custom body. It answers no query for a target, because a body that follows a target has a kind of
+/// its own.
 pub(super) trait Motion: System<Vector = Vec<f64>> + Send {
-    /// The energy of a state, or at rest if `v` is `None`; `None` if the body has no energy function.
+    /// Returns the energy of a state, which is at rest if `v` is `None`. Returns `None` if the body has no energy
+    /// function.
     fn energy(&self, q: &[f64], v: Option<&[f64]>) -> Option<f64>;
     /// Overwrites `to` with the exact state at time `t` (s). Returns whether the body has an exact solution.
     fn exact(&self, t: f64, to: &mut State<Vec<f64>>) -> bool;
     /// Sets the parameter with this index.
     fn set(&mut self, index: usize, value: f64);
     fn system(&self) -> &dyn Any;
-    /// The bare system, if its coordinate vector is one `f64`.
+    /// Returns the bare system; `None` if its coordinate vector is not one `f64`.
     fn alone(&self) -> Option<Problem<f64>>;
     fn boxed_clone(&self) -> Box<dyn Motion>;
 }
@@ -41,7 +43,7 @@ impl fmt::Debug for dyn Motion {
 #[derive(Clone)]
 struct Scaled<S> {
     system: S,
-    /// 1 for a system with parameters of its own.
+    /// The factor on the force; 1 for a system with parameters of its own.
     force: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The claims of a law, for the [checker](crate::sim::bodies::claims).
+//! Gives the claims of a law to the [checker](crate::sim::bodies::claims).
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::sim::state::State;
 use crate::sim::system::System;
 
 impl Claimant for Law {
-    // Rounding, with room for terms that cancel.
+    // The tolerance is for rounding, with room for terms that cancel.
     const TOLERANCE: f64 = 1e-9;
     const START_KEYS: [&'static str; 2] = ["start", "start_velocity"];
 
@@ -49,8 +49,8 @@ impl Claimant for Law {
     }
 }
 
-/// Checks a law with these parameter values: the accelerations are finite at the start, and the text's claims hold,
-/// also at every tick of the horizon.
+/// Checks that, with these parameter values, the accelerations are finite at the start and the text's claims hold. The
+/// claims are checked at every tick of the horizon too.
 ///
 /// # Errors
 /// The first violation, with its position in the text.
@@ -76,7 +76,7 @@ pub(super) fn check_start(law: &Law) -> Result<(), LawFault> {
     law.equations.not_finite(&law.registers.borrow()).map_or(Ok(()), Err)
 }
 
-/// The key that a fault of the whole text points to: the first parameter.
+/// Returns the key to which a fault of the whole text points, which is the first parameter.
 pub(super) fn first_key(text: &[CoordinateText], constants: &[String]) -> String {
     constants.first().cloned().unwrap_or_else(|| format!("{}.start", text[0].name))
 }

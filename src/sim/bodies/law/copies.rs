@@ -23,7 +23,7 @@ struct LawCopies {
     steering: [f64; 2],
 }
 
-/// A batch of copies of a law; `None` if it has several coordinates.
+/// Returns a batch of copies of a law; `None` if the law has several coordinates.
 pub(super) fn batch(
     body: &dyn Any,
     set: InstructionSet,
@@ -66,7 +66,7 @@ impl<const W: usize> System for LawBlock<W> {
     }
 }
 
-/// The evaluation of a block. It is long, so it is compiled apart from the methods.
+/// The evaluation of a block. It is compiled apart from the methods, because its code is long.
 struct Evaluation<'a, const W: usize> {
     equations: &'a Equations,
     lanes: &'a mut LawLanes<W>,
@@ -82,7 +82,7 @@ impl<const W: usize> Kernel for Evaluation<'_, W> {
     }
 }
 
-/// A single copy, as a block of one.
+/// A single copy, as a block with one copy.
 struct LawAlone(LawBlock<1>);
 
 impl System for LawAlone {

@@ -11,8 +11,8 @@ use crate::sim::numerics::quotient;
 use crate::sim::parameter::{Fault, Parameter, Range, TakesEffect, Text};
 use crate::sim::system::System;
 
-/// The kind of bodies that move by this law. Its parameters are the constants, then for each coordinate its start
-/// `x.start`, its start velocity `x.start_velocity` and its kick `x.kick`.
+/// Returns the kind of bodies that move by this law. The parameters of the kind are the constants, then the starts
+/// `x.start` of all coordinates, their start velocities `x.start_velocity`, and their kicks `x.kick`.
 ///
 /// # Errors
 /// All faults of the text.
@@ -81,7 +81,8 @@ fn parameters(text: &LawText) -> Vec<Parameter> {
     parameters
 }
 
-/// The index of the constant that ∂a/∂q grows most with, with all constants about 1; `None` if it grows with none.
+/// Returns the index of the constant with which ∂a/∂q grows most, if all constants are about 1. Returns `None` if ∂a/∂q
+/// grows with no constant.
 fn leading(equations: &Arc<Equations>) -> Option<usize> {
     let text = equations.text();
     let (n, constants) = (text.coordinates.len(), text.constants.len());
@@ -109,6 +110,6 @@ fn leading(equations: &Arc<Equations>) -> Option<usize> {
     let plain = stiffness(None);
     let growths = (0..constants).map(|index| (index, stiffness(Some(index)) - plain));
     let growing = growths.filter(|(_, growth)| *growth > 1e-9 * plain && growth.is_finite());
-    // The first of equal growths.
+    // Of equal growths, the first counts.
     growing.reduce(|most, next| if next.1 > most.1 { next } else { most }).map(|(index, _)| index)
 }

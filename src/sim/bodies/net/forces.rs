@@ -1,12 +1,13 @@
-//! The forces in a net: on a node by itself, and along a spring.
+//! The forces in a net, which act on a node by itself or along a spring.
 
-/// A sum of forces on each node of a net, from `N` vectors of pairs of numbers at the nodes.
+/// The terms of a sum of forces on each node of a net. They depend on `N` vectors, each of which has a pair of numbers
+/// for each node.
 pub(super) trait Forces<const N: usize>: Copy + Send + Sync {
-    /// The force on a node by itself.
+    /// Returns the force on a node by itself.
     fn on_node(&self, node: [[f64; 2]; N]) -> [f64; 2];
 
-    /// The force on the first end of a spring; the other end gets its negative. The constants are stiffness and
-    /// damping divided by the mass of a node, and the rest length.
+    /// Returns the force on the first end of a spring; the force on the other end is its negative. The constants are
+    /// the stiffness and the damping, each divided by the mass of a node, and the rest length.
     fn spring_force(
         &self,
         constants: &[f64; 3],
@@ -15,7 +16,7 @@ pub(super) trait Forces<const N: usize>: Copy + Send + Sync {
     ) -> [f64; 2];
 }
 
-/// Accelerations of nodes at a state: places and velocities.
+/// Accelerations of nodes at a state. The two vectors are places and velocities.
 #[derive(Clone, Copy)]
 pub(super) struct Accelerations {
     /// Drag divided by the mass of a node.
@@ -23,8 +24,8 @@ pub(super) struct Accelerations {
     pub(super) gravity: f64,
 }
 
-/// Derivatives of the accelerations at a state in the direction of another. The four vectors are places, velocities,
-/// and those of the direction.
+/// Derivatives of the accelerations at a state in a direction. The four vectors are the places and the velocities of
+/// the state, then those of the direction.
 #[derive(Clone, Copy)]
 pub(super) struct Derivatives {
     /// Drag divided by the mass of a node.
@@ -76,7 +77,7 @@ impl Forces<4> for Derivatives {
     }
 }
 
-/// The numbers of the second node minus those of the first.
+/// Returns the numbers of the second node minus those of the first.
 #[inline(always)]
 fn difference<const N: usize>(from: [[f64; 2]; N], to: [[f64; 2]; N]) -> [[f64; 2]; N] {
     let mut apart = to;
@@ -86,7 +87,7 @@ fn difference<const N: usize>(from: [[f64; 2]; N], to: [[f64; 2]; N]) -> [[f64; 
     apart
 }
 
-/// The length of a spring, its inverse, and its unit direction.
+/// Returns the length of a spring, the inverse of the length, and the spring's unit direction.
 #[inline(always)]
 fn direction(d: [f64; 2]) -> (f64, f64, [f64; 2]) {
     let length = (d[0] * d[0] + d[1] * d[1]).sqrt();

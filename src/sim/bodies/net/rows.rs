@@ -1,4 +1,4 @@
-//! A grid of springs, evaluated row by row: springs of one direction side by side, on all cores.
+//! A grid of springs, evaluated row by row. Springs of one direction are evaluated side by side, on all cores.
 //!
 //! The sum on a node follows the order of the plan, so that it has the same bits as the net given as lists. First
 //! comes the force on the node alone. Then come the springs to up left, up, up right, left, down left, right, down and
@@ -16,16 +16,18 @@ use crate::sim::net_plan::{Grid, SpringDirection, distance};
 /// A vector over the nodes, as pairs of x and y.
 pub(super) type Nodes<'a> = &'a [[f64; 2]];
 
-/// Columns evaluated at a time. Their buffers, also those of a slope, fit into the first-level cache.
+/// Number of columns evaluated at a time. Their buffers fit into the first-level cache, even those of a slope.
 const TILE: usize = 63;
 
-/// Springs of one direction evaluated side by side.
+/// Number of springs of one direction that are evaluated side by side.
 const WIDTH: usize = 8;
 
-/// Lanes of a tile's buffer: its nodes and one more on either side, rounded up to whole blocks, and one more.
+/// Number of lanes in a tile's buffer. It has room for the tile's nodes and one more on either side, rounded up to
+/// whole blocks.
 const LANES: usize = TILE + 1 + WIDTH;
 
-/// Nodes that a thread takes at a time: some ten microseconds of work. One thread steps a smaller net.
+/// Number of nodes that a thread handles at a time, which is some ten microseconds of work. One thread steps a smaller
+/// net.
 const GRAIN: usize = cores::GRAIN / 4;
 
 /// One number for each node of a part of a row.
@@ -34,8 +36,8 @@ type Lanes = [f64; LANES];
 /// A part of a row of `N` vectors, as x and y.
 type Row<const N: usize> = [[Lanes; 2]; N];
 
-/// The index of each free node of a grid in a vector. The shown node comes first, and all others follow by their
-/// number.
+/// The order of a grid's free nodes in a vector. The shown node comes first, and all others follow in the order of
+/// their numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rows {
     pub(super) grid: Grid,
@@ -46,11 +48,11 @@ pub(super) struct Rows {
 /// Rest lengths of the springs of a grid, by direction.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RestLengths {
-    /// Springs to the right of each column, after a dummy entry.
+    /// Lengths of the springs to the right of each column, after a dummy entry.
     across: Vec<f64>,
-    /// Springs below each row.
+    /// Lengths of the springs below each row.
     down: Vec<f64>,
-    /// Both diagonals of each square, indexed as `across`, for each distinct row distance.
+    /// Lengths of the diagonals of each square, indexed as `across`, for each distinct distance between rows.
     diagonal: Vec<Vec<f64>>,
     /// The index into `diagonal` for the squares below each row.
     diagonal_of: Vec<u32>,
@@ -83,7 +85,7 @@ impl RestLengths {
         Self { across, down, diagonal, diagonal_of }
     }
 
-    /// Rest length of the spring that begins at a column of a row.
+    /// Returns the rest length of the spring that begins at a column of a row.
     pub(super) fn of(&self, row: usize, column: usize, way: SpringDirection) -> f64 {
         match way {
             SpringDirection::Right => self.across[column + 1],
@@ -103,18 +105,18 @@ impl Rows {
         Self { grid, first: kicked.unwrap_or_else(|| grid.free_node(last)) }
     }
 
-    /// Number of free nodes.
+    /// Returns the number of free nodes.
     pub(super) fn len(&self) -> usize {
         self.grid.free_before(self.grid.nodes())
     }
 
-    /// The index of a free node in a vector.
+    /// Returns the index of a free node in a vector.
     #[inline]
     pub(super) fn index_of(&self, node: usize) -> usize {
         if node == self.first { 0 } else { 1 + self.rank(node) }
     }
 
-    /// The number of the node at an index of a vector.
+    /// Returns the number of the node at an index of a vector.
     pub(super) fn node_at(&self, index: usize) -> usize {
         if index == 0 {
             return self.first;
@@ -123,13 +125,13 @@ impl Rows {
         self.grid.free_node(free)
     }
 
-    /// Number of free nodes before a node, without the first one.
+    /// Returns the number of free nodes before a node, not counting the shown node.
     fn rank(&self, node: usize) -> usize {
         self.grid.free_before(node) - usize::from(node > self.first)
     }
 
-    /// Overwrites `sums` with the force on each node, by itself and by the springs to free nodes. `vectors` are over
-    /// the free nodes. This processor must have the instruction set.
+    /// Overwrites `sums` with the force on each node by itself and by its springs to free nodes. `vectors` are over the
+    /// free nodes. This processor must have the instruction set.
     pub(super) fn sum<const N: usize>(
         &self,
         set: InstructionSet,
@@ -146,8 +148,8 @@ impl Rows {
         split(all, Band::halve, |band| set.run(band));
     }
 
-    /// Calls `see` for each spring between free nodes, in the order of the plan, with the indices of its ends, and its
-    /// row, column and direction.
+    /// Calls `see` for each spring between free nodes, in the order of the plan. Its arguments are the indices of the
+    /// spring's ends, and the spring's row, column and direction.
     pub(super) fn each_spring(
         &self,
         mut see: impl FnMut([usize; 2], (usize, usize, SpringDirection)),
@@ -162,8 +164,8 @@ impl Rows {
         }
     }
 
-    /// The free nodes among these columns of a row, as runs that are contiguous in a vector, each with the index of
-    /// its first node. The runs are those before the shown node, that node, and those after it.
+    /// Returns the free nodes among these columns of a row, as runs that are contiguous in a vector, each with the
+    /// index of its first node. One run is before the shown node, one is that node, and one is after it.
     fn runs(&self, row: usize, columns: Range<usize>) -> [(Range<usize>, usize); 3] {
         let free = self.grid.free_columns(row);
         let start = columns.start.max(free.start);
@@ -181,7 +183,7 @@ impl Rows {
     }
 }
 
-/// The forces of a grid, and the vectors they are evaluated on.
+/// The forces of a grid, and the vectors from which they are evaluated.
 #[derive(Clone, Copy)]
 struct GridForces<'a, F, const N: usize> {
     rows: Rows,
@@ -194,9 +196,9 @@ struct GridForces<'a, F, const N: usize> {
 
 /// The destination of the sums on some nodes.
 struct Sink<'a> {
-    /// The sum on the shown node, if it is among them.
+    /// The sum on the shown node, if it is one of these nodes.
     first: Option<&'a mut [f64; 2]>,
-    /// The sums on all other nodes.
+    /// The sums on all others of these nodes.
     others: &'a mut [[f64; 2]],
 }
 
@@ -209,8 +211,8 @@ struct Band<'a, F, const N: usize> {
 }
 
 impl<F: Forces<N>, const N: usize> Band<'_, F, N> {
-    /// Splits the band into halves: by rows, or by columns if it is one row. `Err(self)` if it is small enough for one
-    /// thread.
+    /// Splits the band into halves, by rows, or by columns if it has one row. Returns `Err(self)` if it is small enough
+    /// for one thread.
     fn halve(self) -> Result<[Self; 2], Self> {
         let (across, down) = (self.columns.len(), self.rows.len());
         if across * down <= GRAIN || self.rows.is_empty() {
@@ -267,16 +269,16 @@ impl<F: Forces<N>, const N: usize> Kernel for Band<'_, F, N> {
     }
 }
 
-/// Some columns, evaluated from the top row down. Lane 0 is the column before the first of them.
+/// Some columns, evaluated from the top row down. Lane 0 is the column before the first of these columns.
 struct Tile<'a, F, const N: usize> {
     part: GridForces<'a, F, N>,
     columns: Range<usize>,
-    /// The nodes of the current row and of the one below, in turn.
+    /// The nodes of the current row and of the row below, in turn.
     nodes: [Row<N>; 2],
     /// The forces on the first end of the springs to the right in the current row.
     right: [Lanes; 2],
-    /// The forces of the springs that go down from the current row and from the one above, in turn: straight, falling
-    /// and rising.
+    /// The forces of the springs that go down from the current row and from the row above, in turn. Each row has the
+    /// straight, the falling and the rising springs.
     down: [[[Lanes; 2]; 3]; 2],
 }
 
@@ -287,7 +289,7 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
         Self { part, columns, nodes: [[none; N]; 2], right: none, down: [[none; 3]; 2] }
     }
 
-    /// Prepares the first row.
+    /// Prepares the evaluation of the first row.
     #[inline(always)]
     fn begin(&mut self, row: usize) {
         self.load(row);
@@ -305,12 +307,12 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
             self.load(row + 1);
             self.evaluate_springs_below(row);
         } else {
-            // The bottom row: zeros that change no sum.
+            // This is the bottom row. Its forces are zeros that change no sum.
             self.down[row % 2].as_flattened_mut().iter_mut().for_each(|lanes| lanes.fill(-0.0));
         }
     }
 
-    /// The sums on nodes of the current row, from this lane on.
+    /// Overwrites `to` with the sums on nodes of the current row, from this lane on.
     #[inline(always)]
     fn sum(&self, row: usize, lane: usize, to: &mut [[f64; 2]]) {
         let (forces, count) = (self.part.forces, to.len());
@@ -342,14 +344,15 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
         }
     }
 
-    /// Number of lanes to evaluate: whole blocks with all columns, and the springs to the first of them.
+    /// Returns the number of lanes to evaluate, in whole blocks. They cover all columns, and the springs that join the
+    /// first column to the one before.
     #[inline(always)]
     fn lanes(&self) -> usize {
         (self.columns.len() + 1).next_multiple_of(WIDTH).min(TILE + 1)
     }
 
-    /// Loads the nodes of a row, with one more column on either side. Leaves fixed nodes and those beyond the border
-    /// unchanged.
+    /// Loads the nodes of a row, with one more column on either side. Leaves the lanes of fixed nodes, and those beyond
+    /// the border, unchanged.
     #[inline(always)]
     fn load(&mut self, row: usize) {
         let Range { start, end } = self.columns;
@@ -371,7 +374,7 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
         }
     }
 
-    /// Evaluates the springs from a row to the one below; both must be loaded.
+    /// Evaluates the springs from a row to the row below. Both rows must be loaded.
     #[inline(always)]
     fn evaluate_springs_below(&mut self, row: usize) {
         self.evaluate_springs(row, SpringDirection::Down);
@@ -411,7 +414,7 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
                     forces.spring_force(&constants, node(&ends[0], i), node(&ends[1], i));
             }
         }
-        // Missing and anchored springs contribute a zero whose sign leaves every sum unchanged.
+        // A spring that is missing or has a fixed end contributes a zero whose sign leaves every sum unchanged.
         let last = self.columns.len();
         let is_free = |lane: usize, row: usize| {
             let column = (self.columns.start + lane).wrapping_sub(1);
@@ -427,19 +430,19 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
     }
 }
 
-/// Numbers of neighbouring lanes.
+/// Returns the numbers of neighbouring lanes.
 #[inline(always)]
 fn lane_range(pairs: &[Lanes; 2], from: usize, count: usize) -> [&[f64]; 2] {
     pairs.each_ref().map(|numbers| &numbers[from..from + count])
 }
 
-/// Numbers of neighbouring lanes of every vector.
+/// Returns the numbers of neighbouring lanes of every vector.
 #[inline(always)]
 fn lane_ranges<const N: usize>(row: &Row<N>, from: usize, count: usize) -> [[&[f64]; 2]; N] {
     row.each_ref().map(|vector| lane_range(vector, from, count))
 }
 
-/// The numbers of one node.
+/// Returns the numbers of one node.
 #[inline(always)]
 fn node<const N: usize>(nodes: &[[&[f64]; 2]; N], i: usize) -> [[f64; 2]; N] {
     let mut node = [[0.0; 2]; N];

@@ -1,4 +1,4 @@
-//! A grid by rows has the same bits as the net given as lists, for all sizes, pins and vector widths.
+//! Tests that a grid by rows has the same bits as the net given as lists, for all sizes, pins and vector widths.
 
 use super::*;
 use crate::sim::batch::InstructionSet;
@@ -11,7 +11,7 @@ fn net(plan: &NetPlan, by_rows: bool) -> Net {
     Net::blank(Arc::new(topology)).with_parameters(&VALUES)
 }
 
-/// Numbers about zero, with some zeros of both signs.
+/// Returns numbers about zero, with some zeros of both signs.
 fn noise(count: usize, seed: u64) -> Vec<f64> {
     let mut bits = seed;
     let mut next = || {
@@ -29,7 +29,7 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
 
-/// The start, where many numbers are zeros, and states around it, each with a direction.
+/// Returns the start, where many numbers are zeros, and states around the start. Each state has a direction.
 fn states(net: &Net) -> Vec<[State<Vec<f64>>; 2]> {
     let State { q, v } = net.start();
     let state = |(seed, size): (u64, f64)| {

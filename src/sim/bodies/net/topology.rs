@@ -1,4 +1,4 @@
-//! A plan prepared for stepping: the free nodes, and the index of each in a vector.
+//! A plan prepared for stepping, with the free nodes and the index of each in a vector.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::sim::net_plan::{Lists, NetLayout, NetPlan, PlannedSpring};
 /// The index of a fixed node, which has no coordinates.
 const FIXED: u32 = u32::MAX;
 
-/// The fewest nodes of a grid that is stepped by rows: lists are as fast for smaller ones.
+/// The minimum number of nodes of a grid that is stepped by rows. Lists are as fast for a smaller grid.
 const MIN_ROWS_NODES: usize = 2048;
 
 /// The data that all bodies of one plan share.
@@ -18,14 +18,14 @@ pub(super) struct Topology {
     pub(super) storage: Storage,
     /// Number of free nodes.
     pub(super) free: usize,
-    /// For each spring with a fixed end: index of its free node, position of its anchor.
+    /// For each spring with a fixed end, the index of its free node and the position of its fixed end.
     pub(super) anchors: Vec<(u32, [f64; 2])>,
-    /// Whether a kick hits only the first free node, rather than all of them.
+    /// Whether a kick hits only the first free node, rather than all free nodes.
     pub(super) kicks_first: bool,
 }
 
-/// The order of the free nodes in a vector. The kicked node, or else the last one, comes first, because plots show the
-/// first coordinate; the others follow by their numbers.
+/// The order of the free nodes in a vector. The kicked node, or else the last free node, comes first, because plots
+/// show the first coordinate. The others follow in the order of their numbers.
 #[derive(Debug)]
 pub(super) enum Storage {
     /// A large grid.
@@ -39,7 +39,7 @@ pub(super) enum Storage {
 pub(super) struct Arrays {
     /// The number of each free node.
     free: Vec<u32>,
-    /// The index of each node among the free ones, or [`FIXED`].
+    /// The index of each node among the free nodes, or [`FIXED`].
     index_of: Vec<u32>,
     /// The indices of the ends of each spring between free nodes.
     pub(super) ends: Vec<[u32; 2]>,
@@ -52,7 +52,7 @@ impl Topology {
         Self::laid_out(plan, by_rows)
     }
 
-    /// Prepares a plan; a grid by rows, or as lists.
+    /// Prepares a plan. A grid is stored by rows if `by_rows` is true, and otherwise as lists.
     pub(super) fn laid_out(plan: Arc<NetPlan>, by_rows: bool) -> Self {
         let storage = match &plan.form {
             NetLayout::Grid(grid) if by_rows => Storage::Rows(Rows::new(*grid, plan.kicked)),
@@ -76,15 +76,15 @@ impl Topology {
         topology
     }
 
-    /// The springs whose constants are kept, in the order of the sums: all springs of lists, or those of rows with a
-    /// fixed end.
+    /// Returns the springs whose constants are kept, in the order of the sums. These are all springs of lists, or the
+    /// springs of rows that have a fixed end.
     pub(super) fn kept_springs(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
         let is_kept = |_: &PlannedSpring| matches!(self.storage, Storage::Arrays(_));
         let inner = self.plan.springs().filter(is_kept).filter(|it| !self.is_anchored(it));
         inner.chain(self.anchored())
     }
 
-    /// The springs with a fixed end, in the order of the plan.
+    /// Returns the springs with a fixed end, in the order of the plan.
     fn anchored(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
         self.plan.springs().filter(|spring| self.is_anchored(spring))
     }
@@ -94,7 +94,7 @@ impl Topology {
         spring.between.iter().any(|&node| self.index_of(node).is_none())
     }
 
-    /// The place of a node at the start.
+    /// Returns the place of a node at the start.
     pub(super) fn place(&self, node: usize) -> [f64; 2] {
         match &self.plan.form {
             NetLayout::Grid(grid) => grid.place(node),
@@ -102,7 +102,7 @@ impl Topology {
         }
     }
 
-    /// The index of a node among the free ones; `None` if it is fixed.
+    /// Returns the index of a node among the free nodes; `None` if the node is fixed.
     #[inline]
     pub(super) fn index_of(&self, node: usize) -> Option<usize> {
         match &self.storage {
@@ -113,7 +113,7 @@ impl Topology {
         }
     }
 
-    /// The number of the free node with this index.
+    /// Returns the number of the free node with this index.
     pub(super) fn node_at(&self, index: usize) -> usize {
         match &self.storage {
             Storage::Rows(rows) => rows.node_at(index),
@@ -121,7 +121,7 @@ impl Topology {
         }
     }
 
-    /// The places of the free nodes at the start.
+    /// Returns the places of the free nodes at the start.
     pub(super) fn start(&self) -> Vec<f64> {
         (0..self.free).flat_map(|index| self.place(self.node_at(index))).collect()
     }

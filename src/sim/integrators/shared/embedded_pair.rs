@@ -1,5 +1,5 @@
-//! Embedded Runge-Kutta pairs: two solutions of neighbouring orders from the same stages. The method keeps the more
-//! accurate one, and their difference is the error estimate.
+//! Embedded Runge-Kutta pairs, which are two solutions of neighbouring orders from the same stages. The method keeps
+//! the more accurate solution, and the difference of the two estimates the error.
 
 use std::marker::PhantomData;
 
@@ -10,8 +10,8 @@ use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::{StateOf, System};
 
 /// The tableau of a pair of `N` stages. The last stage is at the kept solution, so that its slope is the first of the
-/// next step. It is evaluated if the error needs it or another step follows; in the first case it is carried to the
-/// next tick.
+/// next step. This slope is evaluated if the error needs it or another step follows. If the error needs it, it is also
+/// carried to the next tick.
 pub trait Pair<const N: usize>: Clone + Send + Sync + 'static {
     /// The order of the kept solution.
     const ORDER: u32;
@@ -19,12 +19,12 @@ pub trait Pair<const N: usize>: Clone + Send + Sync + 'static {
     const C: [f64; N];
     /// The weights of the stages; the last row gives the kept solution.
     const A: [[f64; N]; N];
-    /// The weights of the kept solution minus those of the other.
+    /// The weights of the kept solution minus those of the other solution.
     const E: [f64; N];
     /// The default tolerance.
     const TOLERANCE: Tolerance;
 
-    /// The factor for the next step after one with this error, relative to the tolerance.
+    /// Returns the factor for the length of the next step, after a step with this error relative to the tolerance.
     #[inline(always)]
     fn factor(error: f64) -> f64 {
         steady_factor(error, Self::ORDER)
@@ -35,16 +35,16 @@ pub trait Pair<const N: usize>: Clone + Send + Sync + 'static {
 #[derive(Clone)]
 pub struct EmbeddedPair<V, P, const N: usize> {
     step_size: StepSize,
-    /// The slopes at the stages; the first may carry over to the next tick.
+    /// The slopes at the stages. The first slope may carry over to the next tick.
     k: [State<V>; N],
-    /// The state of the stage to evaluate.
+    /// The state of the stage that is evaluated next.
     stage: State<V>,
     error: State<V>,
     pair: PhantomData<P>,
 }
 
 impl<V: Vector, P: Pair<N>, const N: usize> EmbeddedPair<V, P, N> {
-    /// The method with a tolerance that overrides its card's.
+    /// Returns the method with a tolerance that overrides its card's.
     pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
         let state = State { q: like.clone(), v: like.clone() };
         Self {
@@ -56,7 +56,7 @@ impl<V: Vector, P: Pair<N>, const N: usize> EmbeddedPair<V, P, N> {
         }
     }
 
-    /// Substeps accepted and rejected since construction or reset.
+    /// Returns the numbers of substeps accepted and rejected since construction or reset.
     pub fn attempts(&self) -> (u64, u64) {
         self.step_size.attempts
     }
@@ -112,7 +112,7 @@ impl<S: System<Vector: Vector>, P: Pair<N>, const N: usize> Integrator<S>
     }
 }
 
-/// `sum += h Σ weights k`.
+/// Computes `sum += h Σ weights k`.
 #[inline(always)]
 fn add_weighted<V: Vector>(sum: &mut State<V>, h: f64, weights: &[f64], k: &[State<V>]) {
     for (weight, k) in weights.iter().zip(k) {

@@ -1,13 +1,14 @@
 //! The derivatives of the acceleration with respect to coordinates and velocities, and their products with vectors.
 //!
-//! Stored as matrices; for [`Coupling::Few`], computed as directional derivatives on demand.
+//! The derivatives are stored as matrices. For [`Coupling::Few`], directional derivatives are computed on demand
+//! instead.
 
 use super::linearisation::alternate;
 use super::slopes::{Slopes, comb};
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Coupling, System};
 
-/// Safety factor that turns max|J·(±1, …)| into a bound on ‖J‖∞.
+/// The safety factor that turns max|J·(±1, …)| into a bound on ‖J‖∞.
 const SPARSE_NORM: f64 = 2.0;
 
 /// `∂a/∂q` and `∂a/∂v` at a state.
@@ -20,12 +21,12 @@ pub(in crate::sim::integrators) struct Jacobian<V> {
     slope: V,
     /// The largest distance of an entry from the diagonal; `None` if no matrix is kept.
     reach: Option<usize>,
-    /// Column by column, the [rows](rows()) kept of each column. `da_dq` is empty for a Jacobian by velocity alone.
+    /// The [rows](rows()) kept of each column, column by column. `da_dq` is empty for a Jacobian by velocity alone.
     da_dq: Vec<f64>,
     da_dv: Vec<f64>,
 }
 
-/// The first row and the number of rows kept in column `j` of `n`.
+/// Returns the first row and the number of rows kept in column `j` of `n`.
 #[inline]
 fn rows(j: usize, reach: usize, n: usize) -> (usize, usize) {
     let height = n.min(2 * reach + 1);
@@ -33,13 +34,13 @@ fn rows(j: usize, reach: usize, n: usize) -> (usize, usize) {
 }
 
 impl<V: Vector> Jacobian<V> {
-    /// A Jacobian with both derivatives.
+    /// Returns a Jacobian with both derivatives.
     pub(in crate::sim::integrators) fn new(like: &V, coupling: Coupling) -> Self {
         let by_v = Self::by_velocity(like, coupling);
         Self { da_dq: by_v.da_dv.clone(), ..by_v }
     }
 
-    /// A Jacobian with `∂a/∂v` alone.
+    /// Returns a Jacobian with `∂a/∂v` alone.
     pub(in crate::sim::integrators) fn by_velocity(like: &V, coupling: Coupling) -> Self {
         let n = like.components().len();
         let reach = coupling.reach(n);
@@ -94,13 +95,13 @@ impl<V: Vector> Jacobian<V> {
         }
     }
 
-    /// `∂a/∂q` and `∂a/∂v` of a system of one coordinate.
+    /// Returns `∂a/∂q` and `∂a/∂v` of a system of one coordinate.
     #[inline]
     pub(in crate::sim::integrators) fn of_one(&self) -> [f64; 2] {
         [self.da_dq.first().copied().unwrap_or(0.0), self.da_dv[0]]
     }
 
-    /// `∂a/∂q q + ∂a/∂v v`. An empty `q` counts as 0.
+    /// Returns `∂a/∂q q + ∂a/∂v v`. An empty `q` counts as 0.
     #[inline]
     pub(in crate::sim::integrators) fn times(
         &mut self,
@@ -133,7 +134,7 @@ impl<V: Vector> Jacobian<V> {
         slope
     }
 
-    /// Bounds on the largest row sums of `∂a/∂q` and of `∂a/∂v`.
+    /// Returns bounds on the largest row sums of `∂a/∂q` and of `∂a/∂v`.
     pub(in crate::sim::integrators) fn norms(
         &mut self,
         system: &dyn System<Vector = V>,

@@ -1,32 +1,32 @@
-//! Linear equations without a matrix: BiCGSTAB(2) in storage allocated once. Sleijpen & Fokkema, *BiCGstab(ℓ) for
-//! linear equations involving unsymmetric matrices with complex spectrum* (1993).
+//! Solves linear equations without a matrix, by BiCGSTAB(2) in storage allocated once. Sleijpen & Fokkema, *BiCGstab(ℓ)
+//! for linear equations involving unsymmetric matrices with complex spectrum* (1993).
 //!
 //! The matrix is not symmetric for damped springs, and indefinite for compressed ones, which rules out conjugate
-//! gradients. That of several stages has complex eigenvalues, at which BiCGSTAB stalls. GMRES keeps a vector for each
-//! iteration, and these vectors would be in every snapshot. The solver is written out because nalgebra-sparse has none
-//! for such a matrix. faer is many times the size of this layer and chooses its sums by the processor, while ours have
-//! the same bits everywhere.
+//! gradients. The matrix of several stages has complex eigenvalues, at which BiCGSTAB stalls. GMRES keeps a vector for
+//! each iteration, and these vectors would be in every snapshot. The solver is written out because nalgebra-sparse has
+//! no solver for such a matrix. faer is many times the size of this layer and chooses its sums by the processor, while
+//! ours have the same bits everywhere.
 
 use crate::sim::state::largest;
 
-/// The most products of matrix and vector in one step of a method. A soft net needs tens and a stiff one hundreds;
-/// without a limit, equations without a solution would never end.
+/// The maximum number of products of matrix and vector in one step of a method. A soft net needs tens and a stiff net
+/// hundreds. If there were no limit, the iteration on equations without a solution would never end.
 const MAX_PRODUCTS: u32 = 12_000;
-/// Products per iteration.
+/// Number of products per iteration.
 const PRODUCTS: u32 = 4;
 /// The relative residual of the linear equations of a descent.
 const DESCENT_TOLERANCE: f64 = 1e-2;
-/// Right-hand sides below this are scaled up. At this size, the fourth power of a residual at a tolerance of 1e-10 is
-/// still a normal number, and products of inner products are of that order.
+/// Right-hand sides below this size are scaled up. At this size, the fourth power of a residual at a tolerance of 1e-10
+/// is still a normal number, and products of inner products are of that order.
 const TINY: f64 = f64::from_bits((1023 - 200) << 52);
 
-/// A matrix: overwrites its second argument with the product of the matrix and the first.
+/// A matrix, as a function that overwrites its second argument with the product of the matrix and the first.
 pub(super) type Matrix<'a> = dyn FnMut(&[f64], &mut [f64]) + 'a;
 
 /// Scratch of the iterations.
 #[derive(Clone)]
 pub(super) struct Krylov {
-    /// Products left in this step.
+    /// Number of products left in this step.
     products_left: u32,
     pub(super) x: Vec<f64>,
     r: Vec<f64>,
@@ -53,8 +53,8 @@ impl Krylov {
         self.products_left < PRODUCTS
     }
 
-    /// Overwrites the right-hand side `b` with the solution, to a residual of `tolerance` times `b`, or as near as the
-    /// products left allow.
+    /// Overwrites the right-hand side `b` with the solution. The residual is at most `tolerance` times the length of
+    /// `b`, unless no products are left.
     pub(super) fn solve(&mut self, matrix: &mut Matrix<'_>, tolerance: f64, b: &mut [f64]) {
         let unit = unit(b);
         self.r.iter_mut().zip(&*b).for_each(|(r, b)| *r = b / unit);
@@ -64,10 +64,10 @@ impl Krylov {
         b.iter_mut().zip(&self.x).for_each(|(b, x)| *b = x * unit);
     }
 
-    /// Overwrites the residual `b` with a descent direction of the energy whose gradient it is. The direction is the
-    /// solution by conjugate gradients, for as long as the energy curves upwards (Steihaug, *The conjugate gradient
-    /// method and trust regions in large scale optimization*, 1983). Returns whether it curved upwards along every
-    /// direction tried.
+    /// Overwrites the residual `b` with a descent direction of the energy. The residual is the negative gradient of
+    /// that energy. The direction is the solution by conjugate gradients, for as long as the energy curves upwards
+    /// (Steihaug, *The conjugate gradient method and trust regions in large scale optimization*, 1983). Returns whether
+    /// the energy curved upwards along every direction tried.
     pub(super) fn descend(&mut self, matrix: &mut Matrix<'_>, b: &mut [f64]) -> bool {
         let Self { products_left, x, r, u: p, v: product, .. } = self;
         let unit = unit(b);
@@ -92,7 +92,7 @@ impl Krylov {
             assign_sum(p, r, next / size);
             size = next;
         }
-        // If the energy curves downwards at once, takes the steepest direction.
+        // If the energy curves downwards at once, the result is the steepest direction.
         if dot(x, x) == 0.0 {
             x.copy_from_slice(r);
         }
@@ -100,8 +100,8 @@ impl Krylov {
         curves_upwards
     }
 
-    /// The iteration with its textbook letters: `x` the solution, `r` the residual, `u` a direction, and `v`, `s`, `w`
-    /// and `t` their products.
+    /// Runs the iteration with its textbook letters. `x` is the solution, `r` the residual, and `u` a direction; `v`,
+    /// `s`, `w` and `t` are products of these with the matrix.
     fn iterate(&mut self, matrix: &mut Matrix<'_>, enough: f64) {
         let Self { products_left, x, r, shadow, u, v, s, w, t } = self;
         let mut multiply = |products_left: &mut u32, x: &[f64], y: &mut [f64]| {
@@ -145,11 +145,11 @@ impl Krylov {
             }
             multiply(products_left, s, t);
 
-            // Minimises the residual along its two products.
+            // This minimises the residual along its two products with the matrix.
             let (along, across, both) = (dot(s, s), dot(s, t), dot(t, t));
             let first = dot(r, s);
             let apart = both - across * across / along;
-            // If they are parallel, as for equal separate bodies, the first product alone solves it.
+            // If both products are parallel, as for equal separate bodies, the first product alone suffices.
             if apart <= 0.0 {
                 add(x, first / along, r);
                 return;
@@ -166,23 +166,24 @@ impl Krylov {
     }
 }
 
-/// `to = x + times to`
+/// Computes `to = x + times to`.
 fn assign_sum(to: &mut [f64], x: &[f64], times: f64) {
     to.iter_mut().zip(x).for_each(|(to, x)| *to = x + times * *to);
 }
 
-/// `to += times x`
+/// Computes `to += times x`.
 pub(super) fn add(to: &mut [f64], times: f64, x: &[f64]) {
     to.iter_mut().zip(x).for_each(|(to, x)| *to += times * x);
 }
 
-/// The length of a vector, computed so that squares do not underflow.
+/// Returns the length of a vector, computed so that squares do not underflow.
 pub(super) fn length(x: &[f64]) -> f64 {
     let unit = unit(x);
     unit * x.iter().fold(0.0, |sum, x| sum + (x / unit) * (x / unit)).sqrt()
 }
 
-/// A power of 2, so that dividing by it is exact: near the largest component if that is [tiny](TINY), else 1.
+/// Returns a power of 2, so that dividing by it is exact. The power is near the largest component if that is
+/// [tiny](TINY), and 1 otherwise.
 fn unit(x: &[f64]) -> f64 {
     let largest = largest(x);
     if largest >= TINY || largest.is_nan() {
@@ -191,7 +192,7 @@ fn unit(x: &[f64]) -> f64 {
     f64::from_bits(largest.to_bits() & f64::INFINITY.to_bits()).max(f64::MIN_POSITIVE)
 }
 
-/// The inner product, summed in order.
+/// Returns the inner product, summed in order.
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b)
 }

@@ -1,32 +1,35 @@
-//! The flow of a linear equation, by the exponential of its matrix applied to a vector.
+//! The flow of a linear equation, which is the exponential of the equation's matrix applied to a vector.
 //!
-//! The Taylor series acts on the vector. It cuts the step into pieces, more of them for a larger matrix (Al-Mohy &
-//! Higham, *Computing the action of the matrix exponential*, 2011). If that takes too many pieces and the
-//! matrix is small, scaling and squaring replaces it. Both use products and sums only.
+//! The Taylor series acts on the vector. The step is cut into pieces, and a larger matrix needs more of them (Al-Mohy &
+//! Higham, *Computing the action of the matrix exponential*, 2011). If there are too many pieces and the matrix is
+//! small, scaling and squaring replaces the series. Both use products and sums only.
 
 use crate::sim::integrators::failure::{StepFailure, Stepped};
 use crate::sim::state::largest;
 use crate::sim::system::Coupling;
 
-/// The degree of the Taylor polynomial. Over a piece of norm 1 it omits 1/19!, less than a unit of round-off.
+/// The degree of the Taylor polynomial. Over a piece of norm 1 the polynomial omits 1/19!, which is less than a unit of
+/// round-off.
 const DEGREE: u32 = 18;
-/// Beyond this many pieces, scaling and squaring is cheaper.
+/// The number of pieces beyond which scaling and squaring is cheaper.
 const MAX_PIECES_IF_SMALL: f64 = 8.0;
-/// The most pieces in a step: without a limit a stiff net would never end.
+/// The maximum number of pieces in a step. Without a limit, a step of a stiff net would never end.
 const MAX_PIECES: f64 = 1000.0;
-/// The largest system to scale and square; three matrices of this size are 28 kB.
+/// The number of equations in the largest system for scaling and squaring. Its three matrices have 28 kB.
 const SMALL: usize = 32;
 
-/// The terms of the series of a [`response`]: the omitted terms are below a unit of round-off.
+/// The number of terms in the series of a [`response`]. The omitted terms are below a unit of round-off.
 const TERMS: usize = 12;
-/// The largest root of a response's equation for which the series is summed; longer times are doubled from there.
+/// The largest root of a response's equation for which the series is summed. Longer times are reached by doubling from
+/// there.
 const SHORT: f64 = 0.25;
 
-/// The response of `x″ = y x + z x′` at time 1 to a push at time 0: the displacement `s(1)` from a unit of velocity,
-/// its integral, and the integral of that. It is the exponential of one coordinate.
+/// Returns the response of `x″ = y x + z x′` at time 1 to a push at time 0. The response is the displacement `s(1)`
+/// from a unit of velocity, its integral, and the integral of that integral. It takes the place of the matrix
+/// exponential for one coordinate.
 ///
-/// Uses products and sums only: the series over a part of the time, doubled until it is the whole. For a decaying
-/// motion, no term cancels another.
+/// The function uses products and sums only. It sums the series over a part of the time, and doubles the part until it
+/// is the whole time. For a decaying motion, no term cancels another.
 #[inline]
 pub(in crate::sim::integrators) fn response(y: f64, z: f64) -> [f64; 3] {
     let (mut y, mut z, mut doublings) = (y, z, 0);
@@ -36,7 +39,7 @@ pub(in crate::sim::integrators) fn response(y: f64, z: f64) -> [f64; 3] {
         }
         (y, z, doublings) = (y / 4.0, z / 2.0, doublings + 1);
     }
-    // s = Σ u / n!, with u = 1, z, z² + y … from n = 1.
+    // The series is s = Σ u / n!, with u = 1, z, z² + y … from n = 1.
     let (mut s1, mut s2) = (0.0, 0.0);
     let (mut u, mut last) = (1.0, 0.0);
     for [once, twice] in INVERSE_FACTORIALS {
@@ -46,7 +49,7 @@ pub(in crate::sim::integrators) fn response(y: f64, z: f64) -> [f64; 3] {
     }
     let mut s = 1.0 + y * s2 + z * s1;
     for _ in 0..doublings {
-        // The displacement from a unit of displacement, and the velocity from a unit of velocity, halfway.
+        // These are the displacement from a unit of displacement, and the velocity from a unit of velocity, halfway.
         let (p, v) = (1.0 + y * s1, 1.0 + y * s1 + z * s);
         s2 = (s2 + s1 + s * (s1 - z * s2) + v * s2) / 8.0;
         s1 = (s1 + s * (s - z * s1) + v * s1) / 4.0;
@@ -56,7 +59,7 @@ pub(in crate::sim::integrators) fn response(y: f64, z: f64) -> [f64; 3] {
     [s, s1, s2]
 }
 
-/// `1 / (n + 1)!` and `1 / (n + 2)!` from n = 1.
+/// The numbers `1 / (n + 1)!` and `1 / (n + 2)!` from n = 1.
 const INVERSE_FACTORIALS: [[f64; 2]; TERMS] = {
     let mut table = [[0.0; 2]; TERMS];
     let (mut n, mut factorial) = (0, 1.0);
@@ -68,7 +71,7 @@ const INVERSE_FACTORIALS: [[f64; 2]; TERMS] = {
     table
 };
 
-/// Scratch for a system of `size` equations.
+/// Scratch for the flow of a system of linear equations.
 #[derive(Clone)]
 pub(in crate::sim::integrators) struct LinearFlow {
     term: Vec<f64>,
@@ -77,15 +80,15 @@ pub(in crate::sim::integrators) struct LinearFlow {
 }
 
 impl LinearFlow {
-    /// Scratch for `size` equations of coordinates with this coupling.
+    /// Returns scratch for `size` equations of coordinates with this coupling.
     pub(in crate::sim::integrators) fn new(size: usize, coupling: Coupling) -> Self {
         let is_small = coupling != Coupling::Few && size <= SMALL;
         let squaring = is_small.then(|| Box::new(Squaring::new(size + 2)));
         Self { term: vec![0.0; size], next: vec![0.0; size], squaring }
     }
 
-    /// Advances `x` by `x' = A x + b + t c` from `t = 0` to 1, where `product` overwrites its second argument with `A`
-    /// times its first, and `norm` bounds the largest row sum of `A`.
+    /// Advances `x` by `x' = A x + b + t c` from `t = 0` to 1. `product` must overwrite its second argument with `A`
+    /// times its first, and `norm` must bound the largest row sum of `A`.
     ///
     /// # Errors
     /// [`StepFailure::TooManySubsteps`] if a large matrix needs too many pieces.
@@ -122,7 +125,7 @@ impl LinearFlow {
             for k in 2..=DEGREE {
                 x.iter_mut().zip(&*term).for_each(|(x, term)| *x += term);
                 product(term, next);
-                // The force that grows with time enters once.
+                // The part of the force that grows with time enters once.
                 let grown = if k == 2 { part } else { 0.0 };
                 for ((term, next), c) in term.iter_mut().zip(&*next).zip(c) {
                     *term = part / f64::from(k) * (next + grown * c);
@@ -178,7 +181,7 @@ impl Squaring {
         scaled[(n + 1) * size + n] = 1.0;
         scaled.iter_mut().for_each(|entry| *entry *= part);
 
-        // By Horner's rule: I + M (I + M/2 (I + M/3 …)).
+        // The polynomial is evaluated by Horner's rule, as I + M (I + M/2 (I + M/3 …)).
         power.fill(0.0);
         (0..size).for_each(|i| power[i * size + i] = 1.0);
         for k in (1..=DEGREE).rev() {
@@ -200,7 +203,7 @@ impl Squaring {
     }
 }
 
-/// `product = a b`, column by column.
+/// Computes `product = a b`, column by column.
 fn multiply(size: usize, a: &[f64], b: &[f64], product: &mut [f64]) {
     for (column, b) in product.chunks_exact_mut(size).zip(b.chunks_exact(size)) {
         column.fill(0.0);
@@ -215,7 +218,7 @@ mod tests {
     use super::*;
     use Coupling::{All, Few};
 
-    /// `x' = A x + b + t c` for the matrix `[[0, w], [-w, -d]]`, from 0.
+    /// Solves `x' = A x + b + t c` for the matrix `[[0, w], [-w, -d]]`, from 0.
     fn flow(
         coupling: Coupling,
         [w, d]: [f64; 2],
@@ -242,7 +245,7 @@ mod tests {
         for (coupling, w) in [(Few, 0.6), (Few, 40.0), (All, 0.6), (All, 40.0)] {
             let found = flow(coupling, [w, 0.0], [0.0, w], [0.0, 0.0]).unwrap();
             near(found, [1.0 - libm::cos(w), libm::sin(w)], 40.0);
-            // A growing push: x = t - sin(wt)/w, x' = (1 - cos(wt))/w.
+            // For a growing push, x = t - sin(wt)/w, x' = (1 - cos(wt))/w.
             let found = flow(coupling, [w, 0.0], [0.0; 2], [0.0, w]).unwrap();
             near(found, [1.0 - libm::sin(w) / w, (1.0 - libm::cos(w)) / w], 40.0);
         }
@@ -258,7 +261,7 @@ mod tests {
 
     #[test]
     fn the_response_matches_oscillation_decay_and_growth() {
-        // s = e^(αt) sin(ωt)/ω with z = 2α and y = -α² - ω², and its integrals from the equation.
+        // The displacement is s = e^(αt) sin(ωt)/ω with z = 2α and y = -α² - ω², and its integrals from the equation.
         for alpha in [0.0, -0.3, -4.0, 0.5] {
             for w in [1e-3, 0.2, 1.7, 30.0] {
                 let (y, z) = (-alpha * alpha - w * w, 2.0 * alpha);
@@ -267,7 +270,7 @@ mod tests {
                 let (s, v) = (e * sin / w, e * (cos + alpha * sin / w));
                 let s1 = (v - 1.0 - z * s) / y;
                 let wanted = [s, s1, (s - 1.0 - z * s1) / y];
-                // Room for the cancellation in `wanted`, whose integrals come from the equation.
+                // The tolerance leaves room for the cancellation in `wanted`, whose integrals come from the equation.
                 for (i, (found, wanted)) in found.into_iter().zip(wanted).enumerate() {
                     let room = 1e-14 * (1.0 + w) * [1.0, 1.0 / y.abs(), 1.0 / (y * y)][i];
                     assert!(
@@ -277,7 +280,7 @@ mod tests {
                 }
             }
         }
-        // Decay alone, from very slow to very fast: s = (e^z - 1)/z.
+        // For decay alone, from very slow to very fast, s = (e^z - 1)/z.
         for z in [-1e-9, -0.1, -3.0, -50.0, -1e9] {
             let [s, s1, s2] = response(0.0, z);
             let wanted = libm::expm1(z) / z;

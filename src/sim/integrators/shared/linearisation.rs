@@ -1,8 +1,8 @@
 //! Linearises the forces of a step at its stages, and solves the linear equations `X - ∂a/∂A X = b` for the
-//! accelerations there.
+//! accelerations at the stages.
 //!
-//! The matrix is factored, as a band if each coordinate depends only on its neighbours. If each depends on
-//! [few](Coupling::Few) others at any index, the matrix is never formed, and iteration solves its equations. A method
+//! The matrix is factored, as a band if each coordinate depends only on its neighbours. If each coordinate depends on
+//! [few](Coupling::Few) others at any index, the matrix is never formed, and iteration solves the equations. A method
 //! learns the derivatives of a force only as [slopes](Slopes) along directions.
 
 use super::krylov::{Krylov, add};
@@ -19,14 +19,14 @@ const TOLERANCE: f64 = 1e-10;
 /// The states at the stages of a step, and the slopes of the forces there.
 #[derive(Clone)]
 pub(in crate::sim::integrators) struct Linearisation<V, const S: usize> {
-    /// The states to linearise the forces at.
+    /// The states at which the forces are linearised.
     pub(in crate::sim::integrators) at: [State<V>; S],
     pub(in crate::sim::integrators) slopes: Slopes<V>,
     along: State<V>,
     slope: V,
     /// The matrix of a single equation.
     alone: f64,
-    /// The factored matrix; `None` if it is not formed, or a single number.
+    /// The factored matrix; `None` if the matrix is not formed, or is a single number.
     matrix: Option<StageLu>,
     /// The solver without a matrix.
     krylov: Option<Box<Krylov>>,
@@ -54,8 +54,8 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
     }
 
     /// Forms and factors the matrix. If `forward` gives the forces evaluated at the stages and a displacement in units
-    /// of `A`, its slopes are [forward](Forward) differences from them. Calls `see` with the row and value of each
-    /// entry of `∂a/∂A` that may be nonzero.
+    /// of `A`, the slopes are [forward](Forward) differences from these forces. Calls `see` with the row and value of
+    /// each entry of `∂a/∂A` that may be nonzero.
     #[inline(always)]
     pub(super) fn factor(
         &mut self,
@@ -78,7 +78,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
             *alone = 1.0 - slope;
             return;
         };
-        // Coordinates that act on different ones are displaced together.
+        // Coordinates that act on different coordinates are displaced together.
         let apart = matrix.independent_stride();
         matrix.clear_matrix();
         for s in 0..S {
@@ -114,7 +114,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         self.krylov.as_ref().is_some_and(|krylov| krylov.is_spent())
     }
 
-    /// Overwrites the right-hand side `b` with the solution by iteration, as [`Krylov::solve`].
+    /// Overwrites the right-hand side `b` with the solution by iteration, as [`Krylov::solve`] does.
     pub(super) fn iterate(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -125,7 +125,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         self.with_products(system, stages, |krylov, matrix| krylov.solve(matrix, tolerance, b));
     }
 
-    /// Overwrites the residual `b` with a descent direction of the energy, as [`Krylov::descend`].
+    /// Overwrites the residual `b` with a descent direction of the energy, as [`Krylov::descend`] does.
     pub(super) fn descend(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -162,8 +162,8 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         })
     }
 
-    /// The largest acceleration at the first stage when neighbours are displaced by ±`distance`: an estimate of the
-    /// stiffest mode.
+    /// Returns the largest change of an acceleration at the first stage when neighbours are displaced by ±`distance`.
+    /// This estimates the stiffness of the stiffest mode.
     pub(super) fn largest_change(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -220,7 +220,7 @@ impl<V: Vector> Linearisation<V, 1> {
         self.solve_together(system, &stages, x)
     }
 
-    /// [`Self::solve_at`] for several coordinates, compiled once for all systems.
+    /// Solves as [`Self::solve_at`] does, for several coordinates. It is compiled once for all systems.
     fn solve_together(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -250,7 +250,7 @@ mod tests {
     use super::*;
     use crate::sim::integrators::{Family, METHODS, integrator};
 
-    /// Separate springs, all equal or each stiffer than the last.
+    /// Separate springs, which are all equal, or each stiffer than the one before.
     struct Apart {
         stiffness: f64,
         stiffer: f64,

@@ -1,33 +1,33 @@
 //! LU factorisation of a dense or a banded matrix with partial pivoting, in storage allocated once.
 //!
-//! Written out because nalgebra allocates in every factorisation of dynamic size and has none for bands, and faer
-//! would be many times the size of this layer.
+//! The factorisation is written out because nalgebra allocates in every factorisation of dynamic size and has none for
+//! bands. faer would be many times the size of this layer.
 
-/// A square matrix, replaced by its triangular factors in [`Lu::factor`].
+/// A square matrix, which [`Lu::factor`] replaces by its triangular factors.
 #[derive(Clone)]
 pub(super) struct Lu {
     size: usize,
     /// The largest distance of a band's entry from the diagonal; `None` if all entries are stored.
     band: Option<usize>,
-    /// Rows stored per column. For a band they start twice the reach above the diagonal, because pivoting moves
-    /// entries that far; some may lie outside the matrix.
+    /// Number of rows stored per column. For a band, the rows start twice the reach above the diagonal, because
+    /// pivoting moves entries that far. Some of these rows may lie outside the matrix.
     height: usize,
-    /// Column by column.
+    /// The stored entries, column by column.
     entries: Vec<f64>,
     /// The row swapped with each row in turn.
     swaps: Vec<usize>,
 }
 
 impl Lu {
-    /// A matrix of `size` rows whose entries lie at most `reach` from the diagonal. Stores all entries if a band would
-    /// not be smaller.
+    /// Returns a matrix of `size` rows whose entries lie at most `reach` from the diagonal. All entries are stored if a
+    /// band would not be smaller.
     pub(super) fn new(size: usize, reach: usize) -> Self {
         let band = Some(reach).filter(|reach| 3 * reach + 1 < size);
         let height = band.map_or(size, |reach| 3 * reach + 1);
         Self { size, band, height, entries: vec![0.0; size * height], swaps: vec![0; size] }
     }
 
-    /// The stored entries of column `j` from this row on.
+    /// Returns the stored entries of column `j` from this row on.
     #[inline]
     fn column_from(&mut self, j: usize, row: usize) -> &mut [f64] {
         let (diagonal, _) = self.stored(j, self.band);
@@ -56,8 +56,8 @@ impl Lu {
         }
     }
 
-    /// The index of the diagonal in the stored entries of column `j`, and the end of the rows that may have entries
-    /// below it.
+    /// Returns the index of the diagonal in the stored entries of column `j`, and the end of the rows that may have
+    /// entries below it.
     #[inline(always)]
     fn stored(&self, j: usize, band: Option<usize>) -> (usize, usize) {
         match band {
@@ -82,7 +82,7 @@ impl Lu {
                 }
             }
             self.swaps[k] = k + largest;
-            // Behind a branch that is seldom taken: a swap in memory would delay each column.
+            // The swap is behind a branch that is seldom taken, because a swap in memory would delay each column.
             if largest > 0 {
                 column.swap(0, largest);
             }
@@ -130,8 +130,8 @@ impl Lu {
     }
 }
 
-/// The factored equations of several stages of `n` coordinates each: an [`Lu`] whose unknowns are ordered stage by
-/// stage, or coordinate by coordinate if that keeps the band narrow.
+/// The factored equations of several stages of `n` coordinates each. The unknowns of the [`Lu`] are ordered stage by
+/// stage, or coordinate by coordinate if that order keeps the band narrow.
 #[derive(Clone)]
 pub(super) struct StageLu {
     pub(super) lu: Lu,
@@ -140,7 +140,7 @@ pub(super) struct StageLu {
     reach: usize,
     /// The distances between the unknowns of neighbouring coordinates and of neighbouring stages.
     strides: [usize; 2],
-    /// The right-hand side in the order of the unknowns; empty if that is stage by stage.
+    /// The right-hand side in the order of the unknowns; empty if that order is stage by stage.
     ordered: Vec<f64>,
 }
 
@@ -156,21 +156,21 @@ impl StageLu {
         }
     }
 
-    /// Coordinates at least this far apart act on different ones.
+    /// Returns a distance between two coordinates from which on they act on different coordinates.
     #[inline]
     pub(super) fn independent_stride(&self) -> usize {
         (2 * self.reach + 1).min(self.n)
     }
 
-    /// Clears the matrix before it is filled: swaps of the last factorisation leave entries outside its band.
+    /// Clears the matrix before it is filled, because swaps of the last factorisation leave entries outside the band.
     #[inline]
     pub(super) fn clear_matrix(&mut self) {
         self.lu.entries.fill(0.0);
     }
 
-    /// Stores the `slopes` at stage `i` as entries of `I - slopes`. They are along coordinate `first` at stage `s`,
-    /// and along all coordinates some [strides](Self::independent_stride) from it, each in its own column. Calls `see`
-    /// with each slope and its row of the matrix ordered stage by stage.
+    /// Stores the `slopes` at stage `i` as entries of `I - slopes`. The slopes are along coordinate `first` at stage
+    /// `s`, and along all coordinates some [strides](Self::independent_stride) from it, each in its own column. Calls
+    /// `see` with each slope and its row of the matrix ordered stage by stage.
     #[inline]
     pub(super) fn add_slopes(
         &mut self,
@@ -180,7 +180,7 @@ impl StageLu {
         see: &mut impl FnMut(usize, f64),
     ) {
         let (reach, apart, [stride, _]) = (self.reach, self.independent_stride(), self.strides);
-        // A loop by hand, because `step_by` divides.
+        // The loop is written by hand, because `step_by` divides.
         let mut j = first;
         while j < self.n {
             let rows = j.saturating_sub(reach)..(j + reach + 1).min(self.n);
@@ -269,13 +269,13 @@ mod tests {
             let (size, mut random) = (12, XorShift::new(5));
             let (mut band, mut full) = (Lu::new(size, reach), Lu::new(size, size));
             let b: Vec<f64> = (0..size).map(|_| random.next()).collect();
-            // Twice, to test for leftovers of the first factors.
+            // The matrices are factored twice, to test for leftovers of the first factors.
             for _ in 0..2 {
                 band.entries.fill(0.0);
                 full.entries.fill(0.0);
                 for j in 0..size {
                     for row in j.saturating_sub(reach)..(j + reach + 1).min(size) {
-                        // A small diagonal, so that rows are swapped.
+                        // The diagonal is small, so that rows are swapped.
                         let entry = if row == j { 1e-3 } else { random.next() };
                         band.column_from(j, row)[0] = entry;
                         full.column_from(j, row)[0] = entry;
@@ -294,13 +294,13 @@ mod tests {
 
     #[test]
     fn row_swaps_of_one_matrix_do_not_affect_the_next() {
-        // Bands stored as such, and one so small that it is stored whole.
+        // The larger matrix is stored as a band, and the smaller one is stored whole.
         for n in [4, 9] {
             let mut matrix = StageLu::new(1, n, 1);
             let [once, again] = [(); 2].map(|()| {
                 matrix.clear_matrix();
                 for first in 0..matrix.independent_stride() {
-                    // A small diagonal of `I - slopes`, so that rows are swapped.
+                    // The diagonal of `I - slopes` is small, so that rows are swapped.
                     let slope = |row: usize| if row % 3 == first { 0.999 } else { -1.0 };
                     let slopes: Vec<f64> = (0..n).map(slope).collect();
                     matrix.add_slopes([0, first], 0, &slopes, &mut |_, _| ());

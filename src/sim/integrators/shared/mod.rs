@@ -1,4 +1,4 @@
-//! Building blocks shared by several methods: the two smallest here, the others in a file each.
+//! Building blocks that several methods share. The two smallest are here, and each of the others has its own file.
 
 use crate::sim::state::{Elementwise, State};
 use crate::sim::system::{StateOf, System};
@@ -14,12 +14,12 @@ mod slopes;
 pub(super) mod stages;
 pub(super) mod step_size;
 
-/// Composition of drifts and kicks, for symplectic methods of higher order.
+/// Composes a step of drifts and kicks, for symplectic methods of higher order.
 ///
-/// For each `(c, d)` of `stages`: a drift `q += c h v` and a kick `v += d h a`. Then the `last` drift.
+/// For each `(c, d)` of `stages`, makes a drift `q += c h v` and a kick `v += d h a`. Then makes the `last` drift.
 ///
-/// Time advances with the drifts, and a kick uses the current velocity: forces that depend on velocity reduce the
-/// order.
+/// Time advances with the drifts, and a kick uses the current velocity, so that forces that depend on velocity reduce
+/// the order.
 #[inline(always)]
 pub(in crate::sim::integrators) fn compose<S: System>(
     system: &S,
@@ -42,21 +42,21 @@ pub(in crate::sim::integrators) fn compose<S: System>(
 
 /// The length of the last step of a method with memory, which is valid only for a next step of the same length.
 ///
-/// A method compares step lengths itself. The caller reports a jump of the state or the forces by
-/// [`Integrator::reset`](crate::sim::integrators::Integrator::reset): detecting it would cost a copy of the state and
-/// a comparison per step.
+/// A method compares the lengths of steps itself. The caller reports a jump of the state or the forces by
+/// [`Integrator::reset`](crate::sim::integrators::Integrator::reset), because detecting a jump would cost a copy of the
+/// state and a comparison per step.
 #[derive(Clone)]
 pub(in crate::sim::integrators) struct LastStep {
-    /// In seconds; NaN, which equals nothing, without valid memory.
+    /// The length in seconds. Without valid memory it is NaN, which equals nothing.
     h: f64,
 }
 
 impl LastStep {
-    /// No memory: the state before the first step and after a jump.
+    /// No valid memory, as before the first step and after a jump.
     pub(in crate::sim::integrators) const NONE: Self = Self { h: f64::NAN };
 
-    /// Whether a step of `h` is as long as the last one. Forgets the last step until the next [ends](Self::end), so
-    /// that a failed step leaves no memory.
+    /// Whether a step of `h` is as long as the last step. Forgets the last step until the next step [ends](Self::end),
+    /// so that a failed step leaves no memory.
     #[inline(always)]
     pub(in crate::sim::integrators) fn is_continued_by(&mut self, h: f64) -> bool {
         std::mem::replace(&mut self.h, f64::NAN) == h

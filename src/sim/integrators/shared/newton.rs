@@ -1,12 +1,12 @@
 //! Newton's iteration for the accelerations at the stages of an implicit method.
 //!
-//! Coordinates and velocities of a stage are sums of known terms and of the accelerations, which are therefore the
-//! only unknowns. The Jacobian is computed once per step, and again if convergence is slow. The iteration continues to
-//! round-off, because a method conserves a quantity only as well as its equations are solved. If it does not converge,
-//! continuation from a shorter step replaces it.
+//! The coordinates and velocities of a stage are sums of known terms and of accelerations, so that the accelerations
+//! are the only unknowns. The Jacobian is computed once per step, and again if convergence is slow. The iteration
+//! continues to round-off, because a method conserves a quantity only as well as its equations are solved. If the
+//! iteration does not converge, continuation from a shorter step replaces it.
 //!
-//! For a body of many coordinates that depend on [few](crate::sim::Coupling::Few) others each, no matrix is formed:
-//! its linear equations are solved roughly, and a correction that increases the residual is shortened.
+//! For a body of many coordinates that depend on [few](crate::sim::Coupling::Few) others each, no matrix is formed. The
+//! linear equations are then solved roughly, and a correction that increases the residual is shortened.
 
 use super::linearisation::Linearisation;
 use super::stages::{Stages, largest_of};
@@ -19,39 +19,40 @@ use continuation::SolutionCurve;
 mod continuation;
 mod sparse;
 
-/// The largest number of iterations in one step. 2 to 5 are usual; without a limit a discontinuous force would never
-/// end.
+/// The maximum number of iterations in one step. 2 to 5 are usual. Without a limit, the iteration on a discontinuous
+/// force would never end.
 const MAX_ITERATIONS: u32 = 30;
 /// An iteration that reduces the error by less than this factor needs a new Jacobian, or has reached the limit of
 /// rounding.
 const SLOW_CONVERGENCE: f64 = 0.1;
-/// The residual at rounding level, relative to the rounding scale: the growth of a unit of round-off in the force law.
+/// The residual at rounding level, relative to the rounding scale. It is the growth of a unit of round-off in the force
+/// law.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
-/// Relative differences for the Jacobian: of accelerations and velocities, and of coordinates. The first is the cube
-/// root of round-off, which balances truncation and rounding. The second is much smaller because a coordinate may be
-/// far from the centre of its force.
+/// The relative differences for the Jacobian, first of accelerations and velocities, then of coordinates. The first is
+/// the cube root of round-off, which balances truncation and rounding. The second is much smaller because a coordinate
+/// may be far from the centre of its force.
 const RELATIVE_DIFFERENCES: (f64, f64) = (6e-6, 1e-11);
-/// Bounds on a difference: below the first it underflows, above the second it overflows.
+/// The bounds on a difference. Below the first bound the difference underflows, and above the second it overflows.
 const EXTREMES: (f64, f64) = (1e-150, 1e150);
 
 /// Solves `A_i = a(t_i, Q_i, V_i)` for all `S` stages at once, where `Q_i = q_i + Σ α_ij A_j` and
 /// `V_i = v_i + Σ β_ij A_j`.
 #[derive(Clone)]
 pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
-    /// `q_i` and `v_i`, set before solving.
+    /// `q_i` and `v_i`, which the caller sets before solving.
     pub(in crate::sim::integrators) base: [State<V>; S],
-    /// `A_i`, after solving.
+    /// `A_i`, the solution of the equations.
     pub(in crate::sim::integrators) a: [V; S],
     /// The force law evaluated at `A`.
     evaluated: [V; S],
     linearisation: Linearisation<V, S>,
-    /// `evaluated - A`
+    /// The difference `evaluated - A`.
     residual: Vec<f64>,
     /// The last correction of `A`.
     correction: Vec<f64>,
     /// The `A` at the start of an attempt that may fail.
     kept: Vec<f64>,
-    /// The scale of the rounding error of `evaluated`, in units of round-off; empty without a matrix.
+    /// The scale of the rounding error of `evaluated`, in units of round-off; empty if no matrix is formed.
     rounding_scale: Vec<f64>,
     /// The solution curve for steps at which the iteration alone fails.
     curve: SolutionCurve<V, S>,
@@ -59,7 +60,7 @@ pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
 
 /// The convergence of an iteration.
 struct Convergence {
-    /// The size of the last correction; NaN before the first, when no rate is known.
+    /// The size of the last correction. It is NaN before the first correction, when no rate is known.
     last: f64,
 }
 
@@ -78,8 +79,8 @@ enum Progress {
 impl Convergence {
     const BEGUN: Self = Self { last: f64::NAN };
 
-    /// Judges a correction after which the largest unknown is `size`. `is_at_rounding`: whether its residual was at
-    /// rounding level.
+    /// Judges a correction after which the largest unknown is `size`. `is_at_rounding` is whether the residual of the
+    /// correction was at rounding level.
     #[inline]
     fn judge(&mut self, correction: f64, size: f64, is_at_rounding: bool) -> Progress {
         let rate = correction / self.last;
@@ -164,7 +165,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         stages.evaluate(system, base, a, &mut linearisation.at, evaluated);
     }
 
-    /// Iterates from the current `A`. Returns whether it converged.
+    /// Iterates from the current `A`. Returns whether the iteration converged.
     #[inline(always)]
     fn iterate(&mut self, system: &(impl System<Vector = V> + ?Sized), stages: &Stages<S>) -> bool {
         let mut is_stale = true;
@@ -189,7 +190,8 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     }
 
     /// Computes and factors the Jacobian at the current `A`, by differences suited to the weights of `whole`.
-    // Called from two places, so that without `inline(always)` it would leave the loop, at a fourteenth of a step.
+    // Two places call this function, so that without `inline(always)` it would not be inlined in the loop, which costs
+    // a fourteenth of a step.
     #[inline(always)]
     fn factor(
         &mut self,
@@ -219,7 +221,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         });
     }
 
-    /// Overwrites the residual with that of the last evaluation.
+    /// Overwrites the residual with the residual of the last evaluation.
     #[inline]
     fn compute_residual(&mut self) {
         let Self { a, evaluated, residual, .. } = self;
@@ -237,7 +239,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         rows.all(|(residual, scale)| residual.abs() <= ROUND_OFF * scale + EXTREMES.0)
     }
 
-    /// Adds the correction to `A`. Returns the largest components of both.
+    /// Adds the correction to `A`. Returns the largest component of the correction and that of `A`.
     #[inline]
     fn correct(&mut self) -> (f64, f64) {
         self.add_correction(1.0);

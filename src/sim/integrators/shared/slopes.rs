@@ -1,25 +1,25 @@
-//! The derivative of the acceleration in a direction: by the system's formula, or by a difference.
+//! The derivative of the acceleration in a direction, by the system's formula or by a difference.
 //!
-//! A difference is central if the result of a step depends on it. It then reaches about as far as the step will move
-//! the state. The rounding of the acceleration changes a step by a few units of round-off, so that the derivative of a
-//! linear force is exact in effect. That of a curved force is off by `O(h²)`, which keeps second order. A difference
-//! that only steers an iteration is a forward one, from the known force, and so short that a corner of the force is
-//! seldom within its reach.
+//! A difference is central if the result of a step depends on it. It then reaches a part of the way that the step will
+//! move the state. The rounding of the acceleration changes a step by a few units of round-off, so that the derivative
+//! of a linear force is exact in effect. The derivative of a curved force is off by `O(h²)`, which keeps second order.
+//! A difference that only steers an iteration is a forward difference from the known force. It is so short that a
+//! corner of the force is seldom within its reach.
 
 use crate::sim::cores::assert_length;
 use crate::sim::numerics::quotient;
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Query, System};
 
-/// The reach of a difference, as a fraction of the motion of a step. If larger, curvature distorts the slope more; if
-/// smaller, rounding does.
+/// The reach of a difference, as a fraction of the motion of a step. With a larger fraction, curvature would distort
+/// the slope more. With a smaller one, rounding would.
 const PART: f64 = 1.0 / 16.0;
 
-/// The least reach, in metres or radians and per second, and relative to the state: the root of round-off. Without it,
-/// the slope of a body at rest would be rounding.
+/// The smallest reach, in metres or radians and per second, and relative to the state. It is the square root of
+/// round-off. Without it, the slope of a body at rest would be rounding.
 const MIN_REACH: f64 = 1.5e-8;
 
-/// Base value and step of a forward difference.
+/// The base value of a forward difference, and its step as a part of the direction.
 pub(in crate::sim::integrators) struct Forward<'a, V> {
     pub(in crate::sim::integrators) from: &'a V,
     pub(in crate::sim::integrators) part: f64,
@@ -68,7 +68,7 @@ impl<V: Vector> Slopes<V> {
     }
 
     /// Overwrites `slope` with the derivative of the acceleration at `y` in the direction `along`. A difference is
-    /// central unless a forward one is given.
+    /// central if `forward` is `None`.
     #[inline]
     pub(in crate::sim::integrators) fn differentiate(
         &mut self,

@@ -3,7 +3,8 @@
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::System;
 
-/// The times of the stages, and the weights α and β of the accelerations in their coordinates and velocities.
+/// The times of the stages, and the weights α and β of the accelerations in the coordinates and velocities of the
+/// stages.
 #[derive(Clone, Copy)]
 pub(in crate::sim::integrators) struct Stages<const S: usize> {
     pub(in crate::sim::integrators) t: [f64; S],
@@ -12,13 +13,13 @@ pub(in crate::sim::integrators) struct Stages<const S: usize> {
 }
 
 impl<const S: usize> Stages<S> {
-    /// The stages with all weights multiplied by `factor`.
+    /// Returns the stages with all weights multiplied by `factor`.
     pub(super) fn scaled(&self, factor: f64) -> Self {
         let scaled = |weights: [[f64; S]; S]| weights.map(|row| row.map(|weight| factor * weight));
         Self { t: self.t, alpha: scaled(self.alpha), beta: scaled(self.beta) }
     }
 
-    /// Overwrites `at` with the states at the stages, and `evaluated` with the forces there.
+    /// Overwrites `at` with the states at the stages, and `evaluated` with the forces at these states.
     #[inline]
     pub(super) fn evaluate<V: Vector>(
         &self,
@@ -40,7 +41,7 @@ impl<const S: usize> Stages<S> {
     }
 }
 
-/// The largest magnitude over all stages; NaN if a component is NaN.
+/// Returns the largest magnitude over all stages; NaN if a component is NaN.
 #[inline]
 pub(super) fn largest_of<V: Vector, const S: usize>(vectors: &[V; S]) -> f64 {
     let bits = vectors.iter().map(|vector| largest(vector.components()).to_bits());

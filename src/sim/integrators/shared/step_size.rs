@@ -1,5 +1,5 @@
-//! Step size control of an adaptive method: which substep of a tick to try, whether to accept it, and which to try
-//! next. The step size carries over from tick to tick.
+//! Step size control of an adaptive method. It decides which substep of a tick to try, whether to accept it, and which
+//! substep to try next. The step size carries over from tick to tick.
 //!
 //! The control compares the error of a substep with the tolerance, without dividing it by the step. All pairs here
 //! propagate the better of their two solutions, so that the error per second is proportional to the tolerance, and a
@@ -10,27 +10,29 @@ use crate::sim::integrators::failure::StepFailure;
 use crate::sim::integrators::integrator::Tolerance;
 use crate::sim::state::{State, Vector};
 
-/// Aims below the tolerance, so that few attempts are rejected.
+/// The factor by which a step is shortened to aim below the tolerance, so that few attempts are rejected.
 const SAFETY: f64 = 0.9;
-/// The smallest and the largest change of the step in one attempt.
+/// The smallest and the largest factor of the step in one attempt.
 const FACTORS: (f64, f64) = (0.2, 5.0);
-/// A step that could grow by less than this keeps its size, which saves a power. If larger, steps stay shorter than
-/// necessary.
+/// A step that could grow by less than this factor keeps its size, which saves the computation of a power. With a
+/// larger factor, steps would stay shorter than necessary.
 const MIN_GROWTH: f64 = 1.25;
-/// A step keeps its size up to this error, relative to the tolerance. If larger, the next step is often rejected.
+/// A step keeps its size up to this error, relative to the tolerance. With a larger limit, the next step would often be
+/// rejected.
 const MAX_STEADY_ERROR: f64 = 0.8;
-/// The largest number of attempts in one tick. Ticks usually take 1 to 50; without a limit a discontinuous force would
-/// never end.
+/// The maximum number of attempts in one tick. Ticks usually take 1 to 50. Without a limit, a tick with a discontinuous
+/// force would never end.
 const MAX_ATTEMPTS: u32 = 10_000;
 
-/// The factor for the next step; `root` is the error relative to the tolerance, to the power 1 / p.
+/// Returns the factor for the length of the next step. `root` is the error relative to the tolerance, to the power 1 /
+/// p.
 #[inline]
 pub(in crate::sim::integrators) fn factor(root: f64) -> f64 {
     let factor = (SAFETY / root).clamp(FACTORS.0, FACTORS.1);
     if factor.is_nan() { FACTORS.0 } else { factor }
 }
 
-/// As [`factor`] for an error of order p, but 1 if the step is accepted and could hardly grow.
+/// Returns [`factor`] for an error of order p, or 1 if the step is accepted and could hardly grow.
 #[inline]
 pub(super) fn steady_factor(error: f64, order: u32) -> f64 {
     let steady = (0..order).fold(1.0, |product, _| product * (SAFETY / MIN_GROWTH));
@@ -47,9 +49,9 @@ pub(super) struct StepSize {
     pub(super) tolerance: Tolerance,
     /// The length of the last tick.
     last_step: LastStep,
-    /// The first substep to try in a tick of the same length.
+    /// The length of the first substep to try in a tick of the same length.
     next: f64,
-    /// Substeps accepted and rejected since construction or reset.
+    /// The numbers of substeps accepted and rejected since construction or reset.
     pub(super) attempts: (u64, u64),
 }
 
@@ -62,8 +64,8 @@ impl StepSize {
         *self = Self::new(self.tolerance);
     }
 
-    /// Begins a tick of `h`: with the substep carried from the last tick, or with a single substep if that tick had
-    /// another length.
+    /// Begins a tick of `h`. The first substep is carried from the last tick, or covers the whole tick if the last tick
+    /// had another length.
     #[inline]
     pub(super) fn begin_tick(&mut self, h: f64) -> TickProgress<'_> {
         let continues = self.last_step.is_continued_by(h);
@@ -75,7 +77,7 @@ impl StepSize {
 /// The progress through a tick.
 pub(super) struct TickProgress<'a> {
     size: &'a mut StepSize,
-    /// Whether memory from the last tick is valid in this one.
+    /// Whether memory from the last tick is valid in this tick.
     pub(super) continues: bool,
     h: f64,
     left: f64,
@@ -85,19 +87,19 @@ pub(super) struct TickProgress<'a> {
 }
 
 impl TickProgress<'_> {
-    /// The substep to try next; the last one ends exactly with the tick.
+    /// Returns the length of the substep to try next. The last substep ends exactly with the tick.
     #[inline]
     pub(super) fn trial(&mut self) -> Result<f64, StepFailure> {
         if self.attempts == MAX_ATTEMPTS {
             return Err(StepFailure::TooManySubsteps { limit: MAX_ATTEMPTS });
         }
         self.attempts += 1;
-        // By magnitude, so that a negative `h` steps back.
+        // The comparison is by magnitude, so that a negative `h` steps back.
         self.trial = if self.carried.abs() < self.left.abs() { self.carried } else { self.left };
         Ok(self.trial)
     }
 
-    /// The time from the start of the tick to the start of the substep.
+    /// Returns the time from the start of the tick to the start of the substep.
     #[inline]
     pub(super) fn elapsed(&self) -> f64 {
         self.h - self.left
@@ -109,8 +111,8 @@ impl TickProgress<'_> {
     }
 
     /// Accepts or rejects a substep from `y` whose error is its length times `error`. `factor` maps the error relative
-    /// to the tolerance to the factor for the next step. It is not called after a substep cut short by the end of the
-    /// tick.
+    /// to the tolerance to the factor for the next step. It is not called after a substep that the end of the tick cut
+    /// short.
     #[inline]
     pub(super) fn accepts<V: Vector>(
         &mut self,

@@ -1,4 +1,4 @@
-//! Calls of functions, and the points of tables.
+//! Reads calls of functions, and the points of tables.
 
 use std::ops::Range;
 
@@ -74,7 +74,7 @@ impl Parser<'_> {
         })
     }
 
-    /// Reads a call of the acceleration after its name: at a position, with a velocity, at a time.
+    /// Reads a call of the acceleration after its name. Its arguments are a position, a velocity and a time.
     pub(super) fn acceleration(&mut self, name: Range<usize>) -> Parsed<usize> {
         self.next += 1;
         let mut arguments = vec![self.nested(Self::any)?];

@@ -1,4 +1,4 @@
-//! Translates the lines to the language of `assets/methods`, which has a printer for other languages.
+//! Translates the lines of a step to the language of `assets/methods`, which has a printer for other languages.
 
 use super::reader::FIELD;
 use super::{BUILT_IN, Carried, H, Line, StepText, V};
@@ -9,11 +9,11 @@ use crate::sim::law::op::{INFIXES, Level, Op};
 /// The lines of a step, as code.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepCode {
-    /// Functions that the lines call and some languages lack.
+    /// Functions that the lines call and that some languages lack.
     pub functions: Vec<&'static str>,
     /// The fields of `memory`, each with its first value.
     pub memory: Vec<(String, f64)>,
-    /// The lines. Carried numbers of the text are fields of `memory`; the length of a step is called
+    /// The lines. The carried numbers of the text are fields of `memory`, and the length of a step is called
     /// [`STEP`](Self::STEP).
     pub lines: Vec<String>,
 }
@@ -22,7 +22,7 @@ impl StepCode {
     /// The name of the step length in a rule.
     pub const STEP: &str = "step_s";
 
-    /// The code of a method in the language of `assets/methods`.
+    /// Returns the code of a method in the language of `assets/methods`.
     pub(in crate::sim) fn method(&self) -> String {
         let Self { functions, memory, lines } = self;
         let mut text = "takes a(x, v): the acceleration at position x and velocity v\n".to_owned();
@@ -36,7 +36,7 @@ impl StepCode {
     }
 }
 
-/// The most bytes of an expression.
+/// The maximum number of bytes of an expression.
 const MAX_CODE_BYTES: usize = 4096;
 
 /// Functions that some languages lack, written out.
@@ -102,7 +102,7 @@ const TAKEN: [&str; 45] = [
 type LevelledCode = (String, Option<Level>);
 
 impl Carried {
-    /// Its name in code: a field of `memory` unless it is `x` or `v`.
+    /// Returns the name of the number in code, which is a field of `memory` unless the number is `x` or `v`.
     pub fn field(&self) -> String {
         unreserved_name(self.name.strip_prefix(FIELD).unwrap_or(&self.name))
     }
@@ -227,7 +227,7 @@ impl StepText {
     }
 }
 
-/// Code as an operand of an operator of level `outside`, in brackets if needed.
+/// Returns code as an operand of an operator of level `outside`, in brackets if needed.
 fn bracketed((text, level): &LevelledCode, outside: Option<Level>) -> String {
     match level {
         Some(level) if Some(*level) <= outside => format!("({text})"),
@@ -235,7 +235,7 @@ fn bracketed((text, level): &LevelledCode, outside: Option<Level>) -> String {
     }
 }
 
-/// The name of the function that an operation calls.
+/// Returns the name of the function that an operation calls.
 fn name_of(op: Op) -> Option<&'static str> {
     let is_it = |meaning: &Meaning| match (op, meaning) {
         (Op::Smooth(called), Meaning::Smooth(smooth)) => called == smooth,
@@ -245,7 +245,7 @@ fn name_of(op: Op) -> Option<&'static str> {
     FUNCTIONS.iter().find(|function| is_it(&function.meaning)).map(|function| function.name)
 }
 
-/// A name of the text, changed if a language already uses it.
+/// Returns a name of the text. The name is changed if a language already uses it.
 fn unreserved_name(name: &str) -> String {
     if TAKEN.contains(&name) { format!("{name}_own") } else { name.to_owned() }
 }

@@ -1,4 +1,4 @@
-//! Rules of up to two carried numbers: a frame as a map, and a linear rule as the motion of a body.
+//! Rules of up to two carried numbers. A frame of such a rule is a map, and a linear rule is the motion of a body.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -6,14 +6,15 @@ use super::powers::Powers;
 use super::{StepRegisters, StepText};
 use crate::sim::TickRate;
 
-/// An eigenvalue this close to 1 means that a rule stays wherever it is.
+/// If an eigenvalue is this close to 1, the rule stays wherever it is.
 pub(crate) const NO_RETURN: f64 = 1e-13;
-/// A rest within this share of the target is the target, up to rounding.
+/// A rest this close to the target, relative to the target, is the target up to rounding.
 pub(crate) const AT_TARGET: f64 = 1e-11;
-/// A logarithmic decay per frame below this is rounding.
+/// A logarithmic decay per frame below this number is rounding.
 const NO_DECAY: f64 = 1e-14;
 
-/// One frame of up to two numbers: `map` of them, and what the target and constants add.
+/// One frame of up to two numbers. The new numbers are `map` times the old ones, plus `by_target` times the target,
+/// plus `offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Frame {
     pub(crate) map: Matrix2<f64>,
@@ -22,25 +23,26 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// The two numbers at rest, per unit of the target and without it; `None` if they have no rest.
+    /// Returns the values of the two numbers at rest, first per unit of the target, then for a target of 0. Returns
+    /// `None` if the numbers have no rest.
     pub(crate) fn rests(&self) -> Option<[Vector2<f64>; 2]> {
         let inverse = (Matrix2::identity() - self.map).try_inverse()?;
         Some([inverse * self.by_target, inverse * self.offset])
     }
 
-    /// Whether an eigenvalue is 1, so that the motion ends wherever it is.
+    /// Whether an eigenvalue is 1, so that the motion can end at any place.
     pub(crate) fn keeps_place(&self) -> bool {
         (1.0 - self.map.trace() + self.map.determinant()).abs() <= NO_RETURN
     }
 }
 
-/// Whether the second number of this map is the first of the frame before.
+/// Whether the second number of this map is the first number of the frame before.
 pub(crate) fn remembers_place(map: &Matrix2<f64>) -> bool {
     map.m21 == 1.0 && map.m22 == 0.0
 }
 
 impl StepText {
-    /// The indices of these carried numbers and of all that they depend on.
+    /// Returns the indices of these carried numbers and of all carried numbers on which they depend.
     pub(crate) fn with_causes(&self, mut state: Vec<usize>) -> Vec<usize> {
         let (reads, mut next) = (self.dependencies(), 0);
         while let Some(&index) = state.get(next) {
@@ -54,8 +56,8 @@ impl StepText {
         state
     }
 
-    /// A frame of `h` seconds as a map of up to two carried numbers, linearised about 0. `None` for more numbers, or if
-    /// a coefficient is not finite.
+    /// Returns a frame of `h` seconds as a map of up to two carried numbers, linearised about 0. Returns `None` if
+    /// there are more numbers, or if a coefficient is not finite.
     pub(crate) fn frame(&self, state: &[usize], h: f64) -> Option<Frame> {
         if state.len() > 2 {
             return None;
@@ -77,12 +79,12 @@ impl StepText {
     }
 }
 
-/// The body that a linear rule moves like, per kilogram.
+/// The body like which a linear rule moves, per kilogram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RuleBody {
     /// A follower of first order.
     Follower {
-        /// Its rate, per second.
+        /// The rate of the follower, per second.
         rate: f64,
     },
     /// A mass on a spring.
@@ -94,35 +96,37 @@ pub enum RuleBody {
     },
     /// A mass that friction alone slows.
     Coasting {
-        /// The drag, in N·s/m per kg; negative if it speeds up.
+        /// The drag, in N·s/m per kg; negative if the mass speeds up.
         drag: f64,
     },
 }
 
 /// A linear rule that steps a body.
 ///
-/// One smooth motion passes through the places of the rule at its author's frame rate: the exact motion of its
-/// [body](LinearRule::body). Its velocity is a linear combination of the rule's two numbers, and serves as the velocity
-/// of the body at any frame rate. So the rule is exact at its author's rate, and needs no memory besides the state.
+/// At its author's frame rate, the places of the rule lie on one smooth motion, which is the exact motion of its
+/// [body](LinearRule::body). The velocity of that motion is a linear combination of the rule's two numbers, and serves
+/// as the velocity of the body at any frame rate. So the rule is exact at its author's rate, and needs no memory
+/// besides the state.
 #[derive(Debug)]
 pub struct LinearRule {
     text: StepText,
     fps: TickRate,
-    /// The carried number that decides the motion beside `x`.
+    /// The carried number that decides the motion besides `x`.
     second: Option<usize>,
-    /// Where `x` and the second number rest, from the target: a part of the target, and a constant.
+    /// Where `x` and the second number rest. Each rest is a part of the target plus a constant; that of `x` is relative
+    /// to the target.
     rest: [[f64; 2]; 2],
-    /// The velocity per unit of each number's distance from its rest, per second.
+    /// The velocity per unit of each number's distance from rest, per second.
     gains: [f64; 2],
     body: RuleBody,
     remembers_place: bool,
 }
 
 impl LinearRule {
-    /// The rule of these lines, written for this many frames per second.
+    /// Returns the rule of these lines, written for this many frames per second.
     ///
     /// # Errors
-    /// The reason why no body moves like it, and the remedy.
+    /// The reason why no body moves like the rule, and the remedy.
     pub fn new(text: StepText, fps: TickRate) -> Result<Self, [String; 2]> {
         let refused = |why: &str, remedy: &str| Err([why.to_owned(), remedy.to_owned()]);
         let ask = "`regatta rule` says what it does, and prints code for any frame rate";
@@ -176,7 +180,7 @@ impl LinearRule {
         let at_target = |part: f64| if (part - 1.0).abs() <= AT_TARGET { 0.0 } else { part - 1.0 };
         Ok(Self {
             second: state.get(1).copied(),
-            // From the target, which is where the body rests.
+            // The rest of `x` is relative to the target, which is where the body rests.
             rest: [[at_target(by_target.x), offset.x], [by_target.y, offset.y]],
             gains,
             body,
@@ -186,17 +190,17 @@ impl LinearRule {
         })
     }
 
-    /// The text as it was written.
+    /// Returns the text as it was written.
     pub fn text(&self) -> &StepText {
         &self.text
     }
 
-    /// The frame rate of its author.
+    /// Returns the frame rate of the rule's author.
     pub fn fps(&self) -> TickRate {
         self.fps
     }
 
-    /// The body that it moves like at its author's frame rate.
+    /// Returns the body like which the rule moves at its author's frame rate.
     pub fn body(&self) -> RuleBody {
         self.body
     }
@@ -206,8 +210,8 @@ impl LinearRule {
         self.text.takes_target()
     }
 
-    /// Start velocity in m/s of a body at distance `x` (m) from its rest. The second number starts at its declared
-    /// value, or at `x` if it remembers the place of the previous frame.
+    /// Returns the velocity in m/s with which a body starts at distance `x` (m) from rest. The rule's second number
+    /// starts at its declared value, or at `x` if it remembers the place of the previous frame.
     pub fn start_velocity(&self, x: f64) -> f64 {
         let second = match self.second {
             Some(_) if self.remembers_place => x,
@@ -217,7 +221,7 @@ impl LinearRule {
         self.gains[0] * x + self.gains[1] * second
     }
 
-    /// Steps a body by a frame of `h` seconds; the body rests at `target`. Never allocates.
+    /// Steps a body by a frame of `h` seconds. The body's place of rest is `target`. Never allocates.
     pub fn step(&self, registers: &mut StepRegisters, h: f64, target: f64, [q, v]: [&mut f64; 2]) {
         let [shift, rest] = self.rest.map(|[part, constant]| part * target + constant);
         let [by_place, by_second] = self.gains;
@@ -236,7 +240,7 @@ impl LinearRule {
 }
 
 impl Powers {
-    /// The spring whose motion has these powers at `hz` steps per second.
+    /// Returns the spring whose motion has these powers at `hz` steps per second.
     fn spring(&self, hz: f64) -> RuleBody {
         let Self { log_scale, apart, swings } = *self;
         let decay = if log_scale.abs() <= NO_DECAY { 0.0 } else { log_scale };
@@ -247,7 +251,7 @@ impl Powers {
         }
     }
 
-    /// The derivatives of [`Powers::at`] at 0.
+    /// Returns the derivatives of the two numbers of [`Powers::at`] at 0 steps.
     fn rates(&self) -> [f64; 2] {
         let Self { log_scale, apart, swings } = *self;
         let turn = match apart {
@@ -267,7 +271,7 @@ mod tests {
         LinearRule::new(StepText::read(text).unwrap(), TickRate::whole(fps))
     }
 
-    /// Places of the lines by themselves and of the body that they step, from 1 m off the rest.
+    /// Returns the places of the lines by themselves and of the body that they step. Both start 1 m from rest.
     fn both(text: &str, fps: u32, target: f64) -> Vec<[f64; 2]> {
         let (rule, lines) = (rule(text, fps).unwrap(), StepText::read(text).unwrap());
         let [mut alone, mut registers] = [(); 2].map(|()| lines.registers());
@@ -306,7 +310,7 @@ mod tests {
 
     #[test]
     fn a_rule_is_recognised_as_the_body_it_moves_like() {
-        // Semi-implicit Euler of ω² = 100 at 60 Hz: cos(θ) = 1 - ω²h²/2.
+        // Semi-implicit Euler of ω² = 100 at 60 Hz has cos(θ) = 1 - ω²h²/2.
         let theta = f64::acos(1.0 - 100.0 / 7200.0) * 60.0;
         let RuleBody::Spring { stiffness, damping } =
             rule("v += (target - x) * 100 * dt; x += v * dt", 60).unwrap().body()

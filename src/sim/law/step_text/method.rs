@@ -1,4 +1,4 @@
-//! The lines of a method, which call the acceleration: a step advances all coordinates of a body together.
+//! The lines of a method, which call the acceleration. A step advances all coordinates of a body together.
 
 use std::ops::Range;
 
@@ -14,8 +14,8 @@ pub struct StepCall {
 }
 
 impl StepCall {
-    /// The calls of a text in the order in which they are made, given the slots of their times. The time of a call is
-    /// the value of its slot in a step of 1 s from 0, with a velocity of 1 and without a force.
+    /// Returns the calls of a text in the order in which they are made, given the slots of their times. The time of a
+    /// call is the value of its slot in a step of 1 s from 0, with a velocity of 1 and without a force.
     pub(super) fn all(text: &StepText, times: Vec<u16>) -> Vec<Self> {
         let mut slots = text.registers().slots;
         (slots[X], slots[V], slots[H]) = (0.0, 1.0, 1.0);
@@ -28,22 +28,23 @@ impl StepCall {
 }
 
 impl StepText {
-    /// The bytes of the first call of the acceleration, which makes the lines those of a method; `None` for a rule.
+    /// Returns the byte range of the first call of the acceleration, which makes the lines those of a method; `None`
+    /// for a rule.
     pub fn acceleration_at(&self) -> Option<Range<usize>> {
         self.call.clone()
     }
 
-    /// The calls of the acceleration, in order.
+    /// Returns the calls of the acceleration, in order.
     pub fn calls(&self) -> &[StepCall] {
         &self.calls
     }
 
-    /// Numbers per coordinate.
+    /// Returns how many numbers a step needs per coordinate.
     pub fn slots(&self) -> usize {
         self.tape.slots
     }
 
-    /// The registers of a body with this many coordinates, before its first step by a method.
+    /// Returns the registers of a body with this many coordinates, before its first step by a method.
     pub fn method_registers(&self, coordinates: usize) -> StepRegisters {
         let one = self.registers();
         StepRegisters {
@@ -62,9 +63,9 @@ impl StepText {
         }
     }
 
-    /// Steps all coordinates by `h` seconds, and replaces positions and velocities. The arguments of `acceleration`
-    /// are the time since the start of the step in seconds, positions, velocities and the output. A call in a block is
-    /// made if the block runs for any coordinate. Never allocates.
+    /// Steps all coordinates by `h` seconds, and replaces positions and velocities. The arguments of `acceleration` are
+    /// the time since the start of the step in seconds, positions, velocities and the output. A call in a block is made
+    /// if the block runs for at least one coordinate. Never allocates.
     pub fn step_method(
         &self,
         registers: &mut StepRegisters,

@@ -1,7 +1,7 @@
-//! Blanks the parts of a text that only its own language needs: comments, the `f` of `0.2f`, the `Mathf.` of
+//! Blanks the parts of a text that only its own language needs, such as comments, the `f` of `0.2f`, or the `Mathf.` of
 //! `Mathf.Exp`.
 
-/// Prefixes of names in other languages, without meaning here.
+/// Prefixes of names in other languages, which have no meaning here.
 const PREFIXES: [&str; 10] =
     ["Mathf.", "MathF.", "Math.", "math.", "Time.", "std::", "f32::", "f64::", "self.", "this."];
 
@@ -9,7 +9,7 @@ const PREFIXES: [&str; 10] =
 const HEADINGS: [&str; 6] =
     ["takes a(", "order: ", "stability: ", "symplectic: ", "several: ", "held: "];
 
-/// The prefix of a carried number, if a name without it means another number.
+/// The prefix of a carried number, if a name without the prefix means another number.
 const MEMORY: &str = "memory";
 
 /// Suffixes of numbers in other languages.
@@ -20,7 +20,8 @@ pub(super) fn is_name_part(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// The text with blanks in place of parts without meaning here, so that all other bytes keep their positions.
+/// Returns the text with blanks in place of the parts that have no meaning here, so that all other bytes keep their
+/// positions.
 pub(super) fn plain(text: &str) -> String {
     let mut plain = text.as_bytes().to_vec();
     if text.starts_with('\u{feff}') {
@@ -60,7 +61,7 @@ pub(super) fn plain(text: &str) -> String {
                     None => {
                         let length = rest.iter().take_while(|byte| is_name_part(**byte)).count();
                         if &rest[..length] == MEMORY.as_bytes() && rest.get(length) == Some(&b'.') {
-                            // Joins both into one name of the same length.
+                            // Joins `memory` and the name after it into one name of the same length.
                             plain[at + length] = b'_';
                             length + 1
                         } else {
@@ -72,7 +73,7 @@ pub(super) fn plain(text: &str) -> String {
             _ => 1,
         };
     }
-    // Blanks only whole characters, so that the text stays valid UTF-8.
+    // Only whole characters were blanked, so that the text is still valid UTF-8.
     String::from_utf8(plain).unwrap_or_default()
 }
 
@@ -80,7 +81,7 @@ fn line_length(rest: &[u8]) -> usize {
     rest.iter().take_while(|byte| **byte != b'\n').count()
 }
 
-/// The lengths of a number and of its suffix.
+/// Returns the lengths of a number and of its suffix.
 fn number_length(rest: &[u8]) -> (usize, usize) {
     let digits = |from: usize| {
         rest[from..].iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.').count()
@@ -100,7 +101,7 @@ fn number_length(rest: &[u8]) -> (usize, usize) {
     (length.max(1), suffix.map_or(0, |suffix| suffix.len()))
 }
 
-/// Lower-cases the name at the start to the spelling of functions here: `Lerp` to `lerp`, `PI` to `pi`.
+/// Lower-cases the name at the start to the spelling of names here, for example `Lerp` to `lerp`, and `PI` to `pi`.
 fn lower_name(plain: &mut [u8]) {
     let length = plain.iter().take_while(|byte| is_name_part(**byte)).count();
     let name = &mut plain[..length];

@@ -1,21 +1,23 @@
 //! Powers of a map of two numbers, with exponents that need not be whole.
 
-/// Eigenvalues whose logarithms are closer than this count as a double one: the difference is rounding.
+/// Two eigenvalues whose logarithms are closer than this number count as a double eigenvalue, because the difference is
+/// rounding.
 const SAME: f64 = 1e-7;
 
 /// Powers of a map of two numbers whose eigenvalues are a complex pair, or real and positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Powers {
-    /// The logarithm of the root of the determinant, by which a step scales.
+    /// The logarithm of the square root of the determinant, by which a step scales.
     pub(crate) log_scale: f64,
     /// The eigenvalues are exp(log_scale ± apart), or exp(log_scale ± i apart) if the motion swings.
     pub(crate) apart: f64,
-    /// Whether the eigenvalues are a pair.
+    /// Whether the eigenvalues are a complex pair.
     pub(crate) swings: bool,
 }
 
 impl Powers {
-    /// Of a map with this trace and determinant; `None` if it changes sides at every step.
+    /// Returns the powers of a map with this trace and determinant; `None` if the map loses a part of the motion in one
+    /// step, or changes its sign.
     pub(crate) fn of(trace: f64, determinant: f64) -> Option<Self> {
         let half = trace / 2.0;
         let square = half * half - determinant;
@@ -28,7 +30,7 @@ impl Powers {
         Some(Self { log_scale: libm::log(determinant) / 2.0, apart, swings })
     }
 
-    /// The numbers e and o by which the power is e + o (M - ½ trace M) / √(determinant).
+    /// Returns the numbers e and o with which the power of the map M is e + o (M - ½ trace M) / √(determinant).
     pub(crate) fn at(&self, steps: f64) -> [f64; 2] {
         let &Self { log_scale, apart, swings } = self;
         let of = |log: f64| libm::exp(steps * log);

@@ -1,4 +1,4 @@
-//! Translates the statements of a step to operations: finds the current value of each name that is read.
+//! Translates the statements of a step to operations, and finds the current value of each name that is read.
 
 use std::ops::Range;
 
@@ -11,13 +11,13 @@ use crate::sim::law::function::Function;
 use crate::sim::law::op::{OPERATOR_WORDS, Op};
 use crate::sim::law::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 
-/// The most names of a text, so that one word can represent a set of them.
+/// The maximum number of names of a text. It is so small that the bits of one word can represent a set of names.
 const MAX_STEP_NAMES: usize = 64;
 
 /// The deepest nesting of blocks.
 const MAX_BLOCKS: usize = 32;
 
-/// The most calls of the acceleration in a step.
+/// The maximum number of calls of the acceleration in a step.
 const MAX_CALLS: usize = 64;
 
 /// Other names of the length of a step.
@@ -33,7 +33,7 @@ const OTHER_NAMES: [(usize, &[&str]); 3] = [
 /// Names for the call of the acceleration.
 const ACCELERATION: [&str; 3] = ["a", "accel", "acceleration"];
 
-/// The prefix of a field of `memory` after it is joined into one name.
+/// The prefix of a field of `memory` after both are joined into one name.
 pub(super) const FIELD: &str = "memory_";
 
 /// The node of each name's current value.
@@ -43,11 +43,11 @@ type Values = Vec<Option<usize>>;
 struct Block {
     condition: usize,
     before: Values,
-    /// The values at the end of the first branch, while the second is open.
+    /// The values at the end of the first branch, while the second branch is open.
     first: Option<Values>,
-    /// The guard of the lines around it.
+    /// The guard of the lines around the block.
     outside: Option<usize>,
-    /// Whether it ends with the block around it, as an `else if` does.
+    /// Whether the block ends with the block around it, as an `else if` does.
     is_chained: bool,
 }
 
@@ -59,7 +59,7 @@ pub(super) struct Reader<'t> {
     is_carried: Vec<bool>,
     starts: Vec<f64>,
     lines: Vec<Line>,
-    /// The operations of all lines. An input's node is the number before the step.
+    /// The operations of all lines. The node of an input is the number before the step.
     nodes: Expression,
     values: Values,
     carried: Vec<usize>,
@@ -77,7 +77,7 @@ fn has_word(text: &str, word: &str) -> bool {
     text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|found| found == word)
 }
 
-/// The bytes of the name of the first call of the acceleration.
+/// Returns the byte range of the name in the first call of the acceleration.
 fn first_call(text: &str) -> Option<Range<usize>> {
     let name = |at: usize| {
         let is_part = |byte: &u8| is_name_part(*byte);
@@ -118,7 +118,7 @@ impl Scope for Reader<'_> {
 }
 
 impl<'t> Reader<'t> {
-    /// A reader that already knows which names the text assigns.
+    /// Returns a reader that already knows the names that the text assigns.
     pub(super) fn new(text: &'t str) -> Parsed<Self> {
         let mut reader = Reader {
             text,
@@ -157,7 +157,8 @@ impl<'t> Reader<'t> {
         other.map(|(index, _)| *index).or_else(known)
     }
 
-    /// The name that a statement declares. If the lines read a memory as `memory.name`, its name includes that prefix.
+    /// Returns the name that a statement declares. If the lines read a memory as `memory.name`, the name includes that
+    /// prefix.
     fn declared(&self, span: Range<usize>, is_memory: bool) -> String {
         let name = &self.text[span];
         let field = format!("{FIELD}{name}");
@@ -199,7 +200,7 @@ impl<'t> Reader<'t> {
     pub(super) fn read_statement(&mut self, statement: Statement) -> Parsed<()> {
         match statement {
             Statement::Assign { name, joins, value, is_declared } => {
-                // A game declares the initial value above the lines of its frames.
+                // A game declares the initial value of `x` or `v` above the lines of its frames.
                 let index = self.index(&self.text[name.clone()]).filter(|index| *index <= V);
                 let is_first = index.is_some_and(|index| self.values[index].is_none());
                 let start = match is_declared && is_first && self.blocks.is_empty() {
@@ -215,7 +216,8 @@ impl<'t> Reader<'t> {
                 Ok(())
             }
             Statement::Memory { name, value } => {
-                // NaN equals no step length, so that the lines can recognise the first step.
+                // A memory may start as NaN, which equals no step length, so that the lines can recognise the first
+                // step.
                 let start = match self.text[value.clone()].trim() {
                     "nan" => f64::NAN,
                     _ => self.constant_value(&self.expression(value.clone(), false)?, value)?,
@@ -274,7 +276,7 @@ impl<'t> Reader<'t> {
         read.map_err(in_text)
     }
 
-    /// The value of an expression made only of numbers.
+    /// Returns the value of an expression made only of numbers.
     fn constant_value(&self, expression: &Expression, span: Range<usize>) -> Parsed<f64> {
         let reads = expression.nodes.iter().any(|node| matches!(node.op, Op::Input | Op::Call));
         let tape = Tape::new(0, |_| false, &[(Part::Energy, expression)]).ok().filter(|_| !reads);
@@ -344,7 +346,7 @@ impl<'t> Reader<'t> {
         Ok(())
     }
 
-    /// The node that tells whether the lines within a block of this condition run.
+    /// Returns the node whose value is whether the lines within a block of this condition run.
     fn nested_guard(
         &mut self,
         outside: Option<usize>,
@@ -357,7 +359,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Closes a block: chooses the values of the branch taken.
+    /// Closes a block. The values after the block are those of the branch taken.
     fn close(&mut self, block: Block, brace: &Range<usize>) {
         let Block { condition, before, first, outside, is_chained: _ } = block;
         self.guard = outside;
@@ -373,7 +375,7 @@ impl<'t> Reader<'t> {
                 self.values[index] = branches[0];
                 continue;
             }
-            // A number that only one branch declares ends with that branch.
+            // A number that only one branch declares does not exist after that branch.
             if branches.contains(&None) && !self.is_carried[index] {
                 continue;
             }
@@ -383,12 +385,12 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// The node of a name's current number.
+    /// Returns the node of a name's current number.
     fn value(&mut self, index: usize, at: &Range<usize>) -> usize {
         self.values[index].unwrap_or_else(|| self.before_step(index, at))
     }
 
-    /// The node of a name's number before the step.
+    /// Returns the node of a name's number before the step.
     fn before_step(&mut self, index: usize, at: &Range<usize>) -> usize {
         if index >= BUILT_IN.len() && !self.carried.contains(&index) {
             self.carried.push(index);
@@ -402,7 +404,8 @@ impl<'t> Reader<'t> {
         self.nodes.nodes.len() - 1
     }
 
-    /// Adds the operations of an expression, which read the current numbers of its names.
+    /// Adds the operations of an expression, which read the current numbers of the names. Returns the node of its
+    /// value.
     fn splice(&mut self, expression: &Expression, at: usize) -> usize {
         let at = at..at;
         let mut read: Vec<(usize, usize)> = Vec::new();
@@ -418,7 +421,7 @@ impl<'t> Reader<'t> {
             if node.op.is_table() {
                 node.index += tables;
             }
-            // A placeholder: operations read the name's current number instead.
+            // A zero is a placeholder for an input, because operations read the name's current number instead.
             self.push(if node.op == Op::Input { zero } else { node }, &at);
         }
         self.nodes.tables.extend(expression.tables.iter().cloned());
@@ -435,7 +438,7 @@ impl<'t> Reader<'t> {
         number_of(self.nodes.nodes.len() - 1)
     }
 
-    /// The node of a call of the acceleration, guarded if these lines are in a block.
+    /// Returns the node of a call of the acceleration. The call is guarded if the current lines are in a block.
     fn guarded_call(&mut self, call: &Node, node: usize) -> Node {
         let &[x, v, ref time @ ..] = call.arguments() else { return *call };
         let index = self.calls.len();
@@ -458,7 +461,7 @@ impl<'t> Reader<'t> {
         fault(at, what, "write fewer")
     }
 
-    /// The parsed lines, after all statements.
+    /// Returns the parsed lines, after all statements.
     pub(super) fn finish(mut self) -> Parsed<StepText> {
         if !self.blocks.is_empty() {
             let end = self.text.trim_end().len();
@@ -474,7 +477,7 @@ impl<'t> Reader<'t> {
         let mut carried = self.carried.clone();
         carried.sort_unstable();
         let ends: Vec<usize> = carried.iter().map(|index| self.value(*index, &last)).collect();
-        // Calls in the order written, including calls without effect.
+        // The calls come first, in the order written, including calls without effect.
         let asked = [0, 1].map(|of| self.calls.iter().map(move |call| call[of]));
         let outputs: Vec<usize> = asked.into_iter().flatten().chain(ends).collect();
         let whole = |node: usize| Expression {

@@ -9,7 +9,7 @@ use crate::sim::law::token::is_name_start;
 /// A statement with the byte ranges of its parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Statement {
-    /// `name = value`, with the operator that combines the value with the previous number; empty for `=`.
+    /// `name = value`. `joins` is the operator that combines the value with the previous number; it is empty for `=`.
     Assign { name: Range<usize>, joins: &'static str, value: Range<usize>, is_declared: bool },
     /// `memory name = value`.
     Memory { name: Range<usize>, value: Range<usize> },
@@ -25,7 +25,7 @@ pub(super) enum Statement {
 const DECLARERS: [&str; 10] =
     ["let", "var", "const", "float", "double", "auto", "local", "mut", "final", "static"];
 
-/// Words that begin a line that no step can have, each with a remedy.
+/// Words that begin a line which no step can have, each with a remedy.
 const REFUSED: [(&str, &str); 8] = [
     ("while", "write the lines of one step, which has no loops"),
     ("for", "write the lines of one step, which has no loops"),
@@ -37,7 +37,7 @@ const REFUSED: [(&str, &str); 8] = [
     ("function", "write the lines inside the function"),
 ];
 
-/// Words that begin such a line in `assets/methods`, unless an operator follows.
+/// Words that begin such a line in `assets/methods`, unless an operator follows the word. Each has a remedy.
 const REFUSED_ALONE: [(&str, &str); 5] = [
     ("takes", "a method takes `a(x, v)` alone"),
     ("use", "write the lines inside the functions"),
@@ -50,7 +50,7 @@ const REFUSED_ALONE: [(&str, &str); 5] = [
 const ASSIGNMENTS: [(&str, &str); 6] =
     [("+=", "+"), ("-=", "-"), ("*=", "*"), ("/=", "/"), (":=", ""), ("=", "")];
 
-/// The statements of a text without comments.
+/// Returns the statements of a text without comments.
 pub(super) fn statements(text: &str) -> Parsed<Vec<Statement>> {
     let mut reader = Reader { text, at: 0 };
     let mut statements = Vec::new();
@@ -74,7 +74,7 @@ impl Reader<'_> {
         self.at += self.rest().len() - self.rest().trim_start_matches(blank).len();
     }
 
-    /// The bytes of the next name; an empty range if the next token is none.
+    /// Returns the byte range of the next name; the range is empty if the next token is no name.
     fn name(&self) -> Range<usize> {
         let is_name = self.rest().starts_with(is_name_start);
         let length = self.rest().bytes().take_while(|byte| is_name && is_name_part(*byte)).count();
@@ -115,7 +115,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The condition of the next `if`, up to the brace that opens its block.
+    /// Returns the condition of the next `if`, up to the brace that opens its block.
     fn condition(&mut self) -> Parsed<Range<usize>> {
         let word = self.name();
         self.at = word.end;
@@ -135,7 +135,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The end of the statement: at `;`, at a brace, or at the end of a line that does not continue.
+    /// Returns the end of the statement, which is at `;`, at a brace, or at the end of a line that does not continue.
     fn end(&self) -> usize {
         let mut depth = 0_i32;
         for (at, sign) in self.rest().char_indices() {

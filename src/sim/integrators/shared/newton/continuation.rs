@@ -1,13 +1,14 @@
-//! Continuation, for steps at which Newton's iteration does not converge: follows the solution from a step of length
-//! zero, at which it is known.
+//! Continuation, for steps at which Newton's iteration does not converge. It follows the solution from a step of length
+//! zero, where the solution is known.
 //!
-//! A factor λ multiplies the weights α and β. At λ = 0 the solution is the force at the known terms; at λ = 1 it is
-//! that of the step. The solutions in between form a curve, which turns back at folds, where two solutions meet.
-//! Parametrised by arc length (Keller, *Numerical solution of bifurcation and nonlinear eigenvalue problems*, 1977),
-//! the curve can be followed through such folds. If the force is bounded and smooth, it cannot end before λ = 1.
+//! A factor λ multiplies the weights α and β. At λ = 0 the solution is the force at the known terms, and at λ = 1 it is
+//! the solution of the step. The solutions in between form a curve, which turns back at folds, where two solutions
+//! meet. Parametrised by arc length (Keller, *Numerical solution of bifurcation and nonlinear eigenvalue problems*,
+//! 1977), the curve can be followed through such folds. If the force is bounded and smooth, the curve cannot end before
+//! λ = 1.
 //!
-//! No built-in scene needs this at its own rate. At 1 to 3 Hz the scene `pendulum` does, and at 1 to 8 Hz
-//! `kicked-rotor`: without it an implicit method halts within minutes.
+//! No built-in scene needs continuation at its own rate. The scene `pendulum` needs it at 1 to 3 Hz, and `kicked-rotor`
+//! at 1 to 8 Hz. Without continuation, an implicit method halts within minutes there.
 
 use super::Newton;
 use crate::sim::integrators::shared::krylov::dot;
@@ -17,32 +18,33 @@ use crate::sim::state::Vector;
 use crate::sim::system::System;
 
 /// The longest arc length of a step, in each of three attempts. Longer steps can jump to a nearby curve that leads
-/// nowhere; shorter ones take longer.
+/// nowhere, and shorter steps take more work.
 const MAX_STEP_LENGTHS: [f64; 3] = [0.25, 0.05, 0.01];
-/// The shortest arc length of a step: the attempt fails for a force that is not smooth at this scale.
+/// The shortest arc length of a step. The attempt fails if the force is not smooth at this scale.
 const MIN_STEP_LENGTH: f64 = 1e-7;
-/// Growth factor of a converged step, and shrink factor of a failed one.
+/// The factor by which the step grows if it converged, and the factor by which it shrinks if it failed.
 const STEP_FACTORS: (f64, f64) = (1.5, 0.3);
-/// The largest number of steps of an attempt.
+/// The maximum number of steps of an attempt.
 const MAX_STEPS: u32 = 1000;
-/// The largest number of corrector iterations of a step.
+/// The maximum number of corrector iterations of a step.
 const MAX_CORRECTIONS: u32 = 6;
-/// The size of the last correction. It can be coarse, because the end of the curve is solved to round-off.
+/// The largest size of the last correction. This tolerance can be coarse, because the end of the curve is solved to
+/// round-off.
 const CORRECTOR_TOLERANCE: f64 = 1e-6;
-/// The change of λ for the derivative with respect to it.
+/// The change of λ by which the derivative with respect to λ is computed.
 const LAMBDA_DIFFERENCE: f64 = 1e-6;
 
 /// The current point on the curve of solutions, and its tangent.
 #[derive(Clone, Debug)]
 pub(super) struct SolutionCurve<V, const S: usize> {
     lambda: f64,
-    /// The unit of accelerations: the largest force found on the curve.
+    /// The unit of accelerations, which is the largest force found on the curve.
     scale: f64,
     /// The forces at a slightly larger λ.
     further: [V; S],
     /// The derivative of the solution with respect to λ.
     slope_by_lambda: Vec<f64>,
-    /// The unit tangent: accelerations in units of `scale`, and λ.
+    /// The unit tangent, whose components are accelerations in units of `scale`, and λ.
     tangent: Vec<f64>,
     tangent_lambda: f64,
 }
@@ -61,7 +63,7 @@ impl<V: Vector, const S: usize> SolutionCurve<V, S> {
 }
 
 impl<V: Vector, const S: usize> Newton<V, S> {
-    /// Solves the equations. Returns whether it succeeded.
+    /// Solves the equations. Returns whether the solution was found.
     #[cold]
     pub(super) fn solve_by_continuation(
         &mut self,
@@ -71,7 +73,8 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         MAX_STEP_LENGTHS.iter().any(|&longest| self.continue_by(system, stages, longest))
     }
 
-    /// Follows the curve by steps of at most `longest`, in units of λ, and of the force for accelerations.
+    /// Follows the curve by steps of at most `longest`. Their length is measured in units of λ, and in units of the
+    /// force for accelerations. Returns whether the solution was found.
     fn continue_by(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -100,7 +103,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             self.save_unknowns();
             let begun = self.curve.lambda;
             if self.predict_and_correct(system, stages, step) {
-                // The curve has only its start at λ = 0; with λ < 0 this is another curve.
+                // Only the start of the curve is at λ = 0, so that a point with λ < 0 is on another curve.
                 if self.curve.lambda < 0.0 {
                     return false;
                 }
@@ -142,8 +145,8 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         *tangent_lambda = 1.0 / length;
     }
 
-    /// One step: predicts along the tangent by `step`, then corrects perpendicular to it. Returns whether it converged
-    /// to the curve.
+    /// Makes one step along the curve. It predicts along the tangent by `step`, then corrects perpendicular to the
+    /// tangent. Returns whether the corrections converged to the curve.
     fn predict_and_correct(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -177,7 +180,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
                 size = size.max(correction.abs() / *scale);
             }
             *lambda += more;
-            // Written so that a NaN fails. A correction longer than the step leads to another curve.
+            // The condition is written so that a NaN fails. A correction longer than the step leads to another curve.
             if !(size < last && size <= step) {
                 return false;
             }

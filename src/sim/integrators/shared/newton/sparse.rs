@@ -1,9 +1,9 @@
-//! Newton's iteration without a matrix: it solves its linear equations roughly, and shortens a correction that
+//! Newton's iteration without a matrix. It solves its linear equations roughly, and shortens a correction that
 //! increases the residual.
 //!
 //! If a step strongly turns and compresses springs, the iteration can stall between solutions. The equations of
 //! implicit Euler on springs are those of a minimum of an energy (Martin, Thomaszewski, Grinspun & Gross,
-//! *Example-based elastic materials*, 2011), and those of the other methods nearly are. A descent then comes near a
+//! *Example-based elastic materials*, 2011). The equations of the other methods nearly are. A descent then comes near a
 //! solution, from which Newton's iteration continues.
 
 use super::{Convergence, MAX_ITERATIONS, Newton, Progress, ROUND_OFF};
@@ -12,34 +12,34 @@ use crate::sim::integrators::shared::stages::{Stages, largest_of};
 use crate::sim::state::{Vector, largest};
 use crate::sim::system::System;
 
-/// The relative residual of the linear equations of an iteration. The next iteration reduces the rest.
+/// The relative residual of the linear equations of an iteration. The next iteration reduces the residual further.
 const LINEAR_TOLERANCE: f64 = 1e-4;
-/// The smallest fraction of a correction to try.
+/// The smallest fraction of a correction that is tried.
 const MIN_PART: f64 = 1.0 / 64.0;
-/// The most descent steps.
+/// The maximum number of descent steps.
 const MAX_DESCENTS: u32 = 200;
-/// The smallest fraction of a descent step.
+/// The smallest fraction of a descent step that is tried.
 const MIN_DESCENT: f64 = 1e-9;
 /// The steepest uphill slope at the end of a descent step, relative to the slope at its start.
 const UPHILL: f64 = 0.5;
 /// The fraction of the residual that a full correction must remove.
 const MIN_PROGRESS: f64 = 1e-4;
 
-/// Residuals below this are rounding: near it forces lose digits to underflow.
+/// Residuals below this number are rounding, because forces near this number lose digits to underflow.
 const UNDERFLOW: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// The outcome of a descent step.
 enum Descent {
-    /// No direction leads down, or the budget is spent.
+    /// No direction leads downhill, or the budget is spent.
     Stuck,
-    /// The energy curves downwards, or is far from a parabola.
+    /// The energy curves downwards, or is not close to a parabola.
     Curved,
-    /// A full step succeeded: Newton's iteration may converge from here.
+    /// A full step succeeded, so that Newton's iteration may converge from here.
     Near,
 }
 
 impl<V: Vector, const S: usize> Newton<V, S> {
-    /// Iterates from the current `A`. Returns whether it converged.
+    /// Iterates from the current `A`. Returns whether the iteration converged.
     pub(super) fn iterate_sparsely(
         &mut self,
         system: &dyn System<Vector = V>,
@@ -73,7 +73,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         self.compute_residual();
     }
 
-    /// Takes a step down the energy whose gradient is the residual.
+    /// Makes a step down the energy, whose negative gradient is the residual.
     fn descend(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) -> Descent {
         self.evaluate_residual(system, stages);
         self.correction.copy_from_slice(&self.residual);
@@ -90,7 +90,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             self.add_correction(part - moved);
             moved = part;
             self.evaluate_residual(system, stages);
-            // Not far beyond the lowest point in this direction.
+            // The step ends not far beyond the lowest point in this direction.
             if downhill(self) >= -UPHILL * steep {
                 let is_near = curves_upwards && part == 1.0;
                 return if is_near { Descent::Near } else { Descent::Curved };
@@ -100,7 +100,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         Descent::Stuck
     }
 
-    /// Newton's iteration from the current `A`. Returns whether it converged.
+    /// Runs Newton's iteration from the current `A`. Returns whether the iteration converged.
     fn correct_sparsely(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) -> bool {
         let mut rounding = 0.0;
         let (mut norm, mut part) = (f64::INFINITY, 1.0);
@@ -137,8 +137,8 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         false
     }
 
-    /// The scale of the forces' rounding: the forces at the stages, and their change from the rounding of the
-    /// coordinates.
+    /// Returns the scale of the rounding error of the forces, in units of round-off. It is the size of the forces at
+    /// the stages, plus their change if coordinates change by as much as the largest of them.
     fn rounding_of_forces(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) -> f64 {
         let distances = self.base.iter().map(|base| largest(base.q.components()));
         let distance = distances.fold(0.0, f64::max);
