@@ -20,7 +20,9 @@ const GROWN: f64 = 3.0;
 /// Greatest and least length of a landmark, relative to the width; near both it fades.
 const LENGTHS: [f32; 2] = [0.42, 0.035];
 /// Largest extent up and down, relative to the height of the cell.
-const HEIGHT: f32 = 0.2;
+const HEIGHT: f32 = 0.15;
+/// Least distance of a landmark from its measure, in points.
+const ABOVE_MEASURE: f32 = 8.0;
 /// Least height of a trail above landmarks, in points.
 const LEAST_TRAIL: f32 = 24.0;
 /// Distance (points) of landmarks from the middle, where the true body is; and heights of their middles, their
@@ -40,7 +42,7 @@ pub(super) fn is_shown(moment: &DrawContext<'_>, view: &BodyView, camera: &Camer
 /// A camera whose paper ends above the landmarks, so that no trail crosses them.
 pub(super) fn with_short_paper(camera: &Camera) -> Camera {
     let height = camera.rect.max[1] - camera.rect.min[1];
-    let bottom = camera.rect.max[1] - FEET[0] - HEIGHT * height;
+    let bottom = camera.rect.max[1] - FEET[1] - ABOVE_MEASURE - 2.0 * HEIGHT * height;
     // On a low stage they meet, but a trail of no height would show no swing.
     let least = camera.at[1] + PEN * camera.block + LEAST_TRAIL;
     Camera { paper: f64::from(bottom.max(least) - camera.at[1]).min(camera.paper), ..*camera }
@@ -74,6 +76,7 @@ fn draw_landmark(
 ) {
     let (length, clip) = (camera.length(landmark.length_m), camera.rect);
     let [y, below, _] = FEET.map(|foot| clip.max[1] - foot);
+    let y = y.min(below - ABOVE_MEASURE - landmark.half_height() * length);
     let tone = fade(mix(palette.chart, palette.sea[1], 0.25), 0.5 * strength);
     let pen = &mut picture.pen(clip);
     let point = |[across, up]: &[f32; 2]| [left + length * across, y - length * up];

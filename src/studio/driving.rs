@@ -19,6 +19,9 @@ const MAX_ZOOM: f64 = 6.0;
 const MIN_THOUSANDTHS: u32 = 10;
 /// Width of a stage on which a landmark stands out, relative to the landmark's size.
 const STANDS_OUT: f64 = 4.0;
+/// Least time (s) from one landmark to the next, and fastest zoom beyond the last, in powers of ten per second.
+const LANDMARK_S: f64 = 1.6;
+const MAX_ZOOM_BEYOND: f64 = 3.0;
 /// Number of newest samples over which a motion's growth is measured, and time (s) for which its past reach counts. The
 /// time is longer than any swing that people wait for.
 const MEASURED: usize = 4;
@@ -137,7 +140,7 @@ pub(super) fn slow_motion(deck: &Deck, viewer: &Viewer) -> u32 {
         }
         let (decades_per_s, reach_m) = growth(history, base_m);
         let most = match has_landmarks {
-            true => decades_to_next(2.0 * reach_m / STANDS_OUT).min(MAX_ZOOM),
+            true => (decades_to_next(2.0 * reach_m / STANDS_OUT) / LANDMARK_S).min(MAX_ZOOM_BEYOND),
             false => MAX_ZOOM,
         };
         decades_per_s / most

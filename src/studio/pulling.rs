@@ -44,13 +44,13 @@ fn push(deck: &Deck, pulled: &PulledBody) -> Option<Action> {
     let pull = Pull { handle: pulled.handle, to: pulled.to, velocity: DVec2::ZERO };
     Look::of(body).pull(&mut target, &mut still, pull);
     let h = deck.race().tick_hz().step_s();
-    let (stiffness, damping) = (PULL_RAD_PER_S * PULL_RAD_PER_S, 2.0 * PULL_RAD_PER_S);
-    // The step is implicit: at a low tick rate an explicit one would throw the body away.
-    let share = h / (1.0 + damping * h + stiffness * h * h);
+    // At a low tick rate a stiffer spring would throw the body away.
+    let rad_per_s = PULL_RAD_PER_S.min(1.0 / h);
+    let (stiffness, damping) = (rad_per_s * rad_per_s, 2.0 * rad_per_s);
     let by = (0..q.len()).map(|i| match target[i] == q[i] && still[i] == v[i] {
         // A coordinate that the handle does not move is free.
         true => 0.0,
-        false => share * (stiffness * (target[i] - q[i]) - damping * v[i]),
+        false => h * stiffness * (target[i] - q[i]) - damping * h / (1.0 + damping * h) * v[i],
     });
     Some(Action::Push { body: pulled.body, by: by.collect() })
 }
