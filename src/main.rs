@@ -11,8 +11,8 @@ use std::process::ExitCode;
 
 use regatta::commands::{self, Cli};
 
-/// Log filter: these libraries report errors only, EGL and the frames of Wayland windows nothing. EGL tries drivers that are not installed, and any
-/// failure that matters comes back as an error value. `RUST_LOG` overrides it.
+/// Log filter: these libraries report errors only, EGL and the frames of Wayland windows nothing. EGL tries drivers
+/// that are not installed, and any failure that matters comes back as an error value. `RUST_LOG` overrides it.
 const LOG_FILTER: &str = "warn,arboard=error,wgpu_core=error,wgpu_hal=error,wgpu_hal::gles::egl=off,naga=error,\
      sctk_adwaita=off";
 

@@ -3,11 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use super::deck::HeldBody;
+use super::deck::{HeldBody, PulledBody};
 use super::display::{DriverRequest, Splits};
 use super::instrument::Instrument;
 use super::my_spring::MySpring;
-use super::pulling::PulledBody;
 use super::step::Step;
 use super::zoom_pan::ZoomPan;
 use crate::loops::loop_lab::LoopCommand;

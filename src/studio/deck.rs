@@ -7,7 +7,6 @@ use glam::DVec2;
 use super::compared::Compared;
 use super::display::{Display, View};
 use super::notices::Notices;
-use super::pulling::PulledBody;
 use super::scene_list::SceneList;
 use crate::measure::cloud::MAX_CLOUDS;
 use crate::run::past::Past;
@@ -395,4 +394,19 @@ pub struct HeldBody {
     pub hand: DVec2,
     /// Place (m) of the point at which the body is held. It is as near to the pointer as the body can be.
     pub handle: DVec2,
+}
+
+/// A body on a spring to the pointer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PulledBody {
+    /// Lane in whose cell it is pulled. The other lanes and the truth get the same impulses.
+    pub lane: LaneId,
+    /// Index of the body in the scene.
+    pub body: usize,
+    /// Index of the pulled handle among the body's handles.
+    pub handle: usize,
+    /// Place (m) to which the spring pulls the handle.
+    pub to: DVec2,
+    /// Place of the pointer, in metres.
+    pub hand: DVec2,
 }

@@ -62,7 +62,7 @@ pub use command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,
 };
 pub use compared::Compared;
-pub use deck::{Deck, HeldBody};
+pub use deck::{Deck, HeldBody, PulledBody};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, View};
 pub use driving::{shown_s, shown_state, shown_tick, shown_truth, slowed_in_words};
 pub use file_names::{instrument_file_name, picture_file_name};
@@ -86,7 +86,6 @@ pub use opening::{
     show_clouds_of_scene, show_comparison, show_mistakes,
 };
 pub use pace::{LiveFrame, LiveLoop, PaceMeter};
-pub use pulling::PulledBody;
 pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
 pub use spring_field::SpringField;

@@ -3,28 +3,13 @@
 
 use glam::DVec2;
 
-use super::deck::Deck;
+use super::deck::{Deck, PulledBody};
 use super::viewer::Viewer;
 use crate::look::{Look, Pull};
-use crate::scene::{Action, LaneId};
+use crate::scene::Action;
 
 /// Angular frequency of the spring between hand and body, in radians per second. It is critically damped.
 const PULL_RAD_PER_S: f64 = 8.0;
-
-/// A body on a spring to the pointer.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PulledBody {
-    /// Lane in whose cell it is pulled. The other lanes and the truth get the same impulses.
-    pub lane: LaneId,
-    /// Index of the body in the scene.
-    pub body: usize,
-    /// Index of the pulled handle among the body's handles.
-    pub handle: usize,
-    /// Place (m) to which the spring pulls the handle.
-    pub to: DVec2,
-    /// Place of the pointer, in metres.
-    pub hand: DVec2,
-}
 
 /// Pushes the body that the person pulls, before the next tick.
 pub(super) fn pull(deck: &mut Deck, viewer: &mut Viewer) {

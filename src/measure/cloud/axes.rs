@@ -20,7 +20,7 @@ const MAX_STRAY_WIDTHS: f64 = 3.0;
 /// Largest widths by which other clouds may widen the axes of a run, and the axes at one moment, relative to the width
 /// of the exact cloud.
 const MAX_WIDENING: f64 = 0.1;
-const MAX_WIDENING_AT_ONCE: f64 = 0.5;
+const MAX_WIDENING_AT_ONCE: f64 = 0.25;
 
 /// The moments that a picture covers, which are `times` moments spread evenly over the first `ticks` of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,7 +109,14 @@ impl CloudAxes {
             _ => clouds.concat().into_iter().filter(is_in_whole).collect(),
         };
         let widening = if is_alone { f64::INFINITY } else { MAX_WIDENING_AT_ONCE };
-        let near = PlaneView::around(border, &seen, widening, false);
+        // A cloud that mostly stays in the region stays in view: the corners of its middle half are.
+        let stays = |cloud: &&Vec<[f64; 2]>| {
+            !is_alone && 2 * cloud.iter().filter(|point| is_in_whole(point)).count() >= cloud.len()
+        };
+        let middles = clouds.iter().filter(stays).map(|cloud| quartiles(cloud));
+        let corners = middles.flat_map(|[q, v]| [[q[0], v[0]], [q[1], v[1]]]);
+        let fitted: Vec<_> = border.iter().copied().chain(corners).collect();
+        let near = PlaneView::around(&fitted, &seen, widening, false);
         for (i, (range, [low, high])) in
             [(&mut view.q, near.q), (&mut view.v, near.v)].into_iter().enumerate()
         {
@@ -125,15 +132,20 @@ impl CloudAxes {
 
 /// Returns the points within a few widths of the cloud's middle half. The other points fly off.
 fn without_strays(cloud: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let ranges = [0, 1].map(|i| {
-        let mut values: Vec<f64> = cloud.iter().map(|point| point[i]).collect();
-        values.retain(|value| value.is_finite());
-        values.sort_by(f64::total_cmp);
-        let at = |part: usize| values.get(part * values.len() / 4).copied().unwrap_or_default();
-        let (low, high) = (at(1), at(3));
+    let ranges = quartiles(cloud).map(|[low, high]| {
         let wide = MAX_STRAY_WIDTHS * (high - low);
         low - wide..=high + wide
     });
     let keeps = |point: &&[f64; 2]| (0..2).all(|i| ranges[i].contains(&point[i]));
     cloud.iter().filter(keeps).copied().collect()
+}
+
+/// Returns the first and the third quartile of a cloud along each axis.
+fn quartiles(cloud: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    [0, 1].map(|i| {
+        let mut values: Vec<f64> = cloud.iter().map(|point| point[i]).collect();
+        values.retain(|value| value.is_finite());
+        values.sort_by(f64::total_cmp);
+        [1, 3].map(|part| values.get(part * values.len() / 4).copied().unwrap_or_default())
+    })
 }
