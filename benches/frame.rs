@@ -9,7 +9,8 @@ use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::stage;
 use regatta::studio::{RunCommand, StageCommand, Studio};
 use regatta::view::{
-    AdapterPreference, FrameRenderer, Gpu, Offscreen, OffscreenRenderer, Panels, Readback, png,
+    AdapterPreference, FrameRenderer, Gpu, GpuExecutor, Offscreen, OffscreenRenderer, Panels,
+    Readback, png,
 };
 
 /// A frame at 60 a second.
@@ -112,7 +113,8 @@ fn frames(
     studio: &mut Studio,
 ) -> impl Iterator<Item = [Duration; STAGES]> {
     let canvas = Offscreen::new(gpu, SIZE_PX).expect("1280x720 is within any limit");
-    let mut renderer = FrameRenderer::new(gpu, Offscreen::FORMAT).with_panels(panels);
+    let mut renderer = FrameRenderer::new(gpu.max_texture_side_px).with_panels(panels);
+    let mut executor = GpuExecutor::new(gpu, Offscreen::FORMAT);
     let (mut readback, mut rgba) = (Readback::default(), Vec::new());
     (0..FRAMES).map(move |_| {
         let mut ends = vec![Instant::now()];
@@ -124,10 +126,10 @@ fn frames(
         black_box(stage::compose(studio, STAGE_POINTS));
         lap();
         let input = egui::RawInput { time: Some(studio.race().t()), ..Default::default() };
-        let (_, layout) = renderer.lay_out(gpu, SIZE_PX, 1.0, input, studio);
+        let (_, layout) = renderer.lay_out(SIZE_PX, 1.0, input, studio);
         lap();
-        let output = renderer.paint(gpu, &canvas.view, SIZE_PX, layout);
-        gpu.queue.submit(output.drawing);
+        let output = renderer.paint(SIZE_PX, layout);
+        gpu.queue.submit(executor.encode(gpu, &output.drawing, &canvas.view));
         lap();
         let wait = wgpu::PollType::Wait { submission_index: None, timeout: None };
         gpu.device.poll(wait).expect("the device is there");

@@ -1,8 +1,9 @@
 //! Frames without a window: the frame renderer on its own texture, for captures, screenshots and tests.
 
-use super::textures::texture;
+use super::gpu_executor::new_texture;
 use super::{
-    AdapterPreference, Figure, FrameRenderer, Gpu, GpuError, Panels, Readback, ReadbackError,
+    AdapterPreference, Drawing, Figure, FrameRenderer, Gpu, GpuError, GpuExecutor, Panels,
+    Readback, ReadbackError,
 };
 use crate::studio::Studio;
 
@@ -11,7 +12,7 @@ use crate::studio::Studio;
 pub struct Offscreen {
     /// For [`Readback`](super::Readback).
     pub texture: wgpu::Texture,
-    /// For [`FrameRenderer::draw`](super::FrameRenderer::draw).
+    /// For [`GpuExecutor::encode`](super::GpuExecutor::encode).
     pub view: wgpu::TextureView,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
@@ -31,7 +32,7 @@ impl Offscreen {
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
             | wgpu::TextureUsages::COPY_SRC
             | wgpu::TextureUsages::COPY_DST;
-        let texture = texture(gpu, "offscreen", size_px, Self::FORMAT, usage);
+        let texture = new_texture(gpu, "offscreen", size_px, Self::FORMAT, usage);
         if pollster::block_on(scope.pop()).is_some() {
             let [width, height] = size_px;
             return Err(GpuError::OutOfMemory { width, height });
@@ -45,6 +46,7 @@ impl Offscreen {
 pub struct OffscreenRenderer {
     gpu: Gpu,
     renderer: FrameRenderer,
+    executor: GpuExecutor,
     canvas: Offscreen,
     readback: Readback,
     scale: f32,
@@ -57,8 +59,9 @@ impl OffscreenRenderer {
     /// [`GpuError::TooLarge`], [`GpuError::Empty`] or [`GpuError::OutOfMemory`].
     pub fn new(gpu: Gpu, size_px: [u32; 2], scale: f32) -> Result<Self, GpuError> {
         let canvas = Offscreen::new(&gpu, size_px)?;
-        let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
-        Ok(Self { gpu, renderer, canvas, readback: Readback::default(), scale })
+        let renderer = FrameRenderer::new(gpu.max_texture_side_px);
+        let executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
+        Ok(Self { gpu, renderer, executor, canvas, readback: Readback::default(), scale })
     }
 
     /// Like [`OffscreenRenderer::new`], on the best device that needs no display. Blocks until the device is found.
@@ -104,11 +107,10 @@ impl OffscreenRenderer {
     /// # Errors
     /// A [`ReadbackError`] if the device is lost.
     pub fn submit(&mut self, studio: &Studio) -> Result<(), ReadbackError> {
-        let Self { gpu, renderer, canvas, readback, scale } = self;
         let input = egui::RawInput { time: Some(studio.race().t()), ..Default::default() };
         // Without a pointer, panels issue no commands.
-        let (_, output) = renderer.draw(gpu, &canvas.view, canvas.size_px, *scale, input, studio);
-        readback.begin(gpu, output.drawing, &canvas.texture)
+        let (_, output) = self.renderer.draw(self.canvas.size_px, self.scale, input, studio);
+        self.execute(&output.drawing)
     }
 
     /// Number of frames submitted and not yet collected.
@@ -136,9 +138,15 @@ impl OffscreenRenderer {
         figure: &Figure,
         rgba: &mut Vec<u8>,
     ) -> Result<(), ReadbackError> {
-        let Self { gpu, renderer, canvas, readback, scale } = self;
-        let drawing = renderer.draw_figure(gpu, &canvas.view, canvas.size_px, *scale, figure);
-        readback.read(gpu, drawing, &canvas.texture, rgba)
+        let drawing = self.renderer.draw_figure(self.canvas.size_px, self.scale, figure);
+        self.execute(&drawing)?;
+        self.collect(rgba)
+    }
+
+    fn execute(&mut self, drawing: &Drawing) -> Result<(), ReadbackError> {
+        let Self { gpu, executor, canvas, readback, .. } = self;
+        let commands = executor.encode(gpu, drawing, &canvas.view);
+        readback.begin(gpu, commands, &canvas.texture)
     }
 }
 

@@ -1,31 +1,14 @@
 //! The shapes of a picture, in painting order: lines through points, and filled outlines.
 
-use std::ops::Range;
-
 use egui::Rect;
 
-use super::gpu::Gpu;
+use super::drawing::{Draw, DrawKind, Drawing, Place};
 use super::lines::{Joint, visible_runs};
 use super::screen_transform::ScreenTransform;
-use super::strokes::{StrokeMesh, StrokePipeline};
+use super::strokes::StrokeMesh;
 use super::theme::colour;
 use crate::stage;
 use crate::stage::{PathPoint, Shape};
-
-/// Draws the shapes of a picture.
-#[derive(Debug)]
-pub(super) struct ShapeRenderer {
-    strokes: StrokePipeline,
-    draws: Vec<Draw>,
-}
-
-/// Consecutive shapes with the same clip.
-#[derive(Debug)]
-struct Draw {
-    /// Left, top, width and height of their visible area on the target.
-    scissor_px: [u32; 4],
-    indices: Range<u32>,
-}
 
 fn clip(shape: &Shape) -> stage::Rect {
     match shape {
@@ -34,47 +17,15 @@ fn clip(shape: &Shape) -> stage::Rect {
     }
 }
 
-impl ShapeRenderer {
-    pub(super) fn new(
-        gpu: &Gpu,
-        layout: &wgpu::PipelineLayout,
-        format: wgpu::TextureFormat,
-    ) -> Self {
-        Self { strokes: StrokePipeline::new(gpu, layout, format), draws: Vec::new() }
-    }
-
-    /// Removes all shapes.
-    pub(super) fn clear(&mut self) {
-        self.draws.clear();
-        self.strokes.clear();
-    }
-
-    /// Adds shapes over the others. Returns the range of their draws.
-    pub(super) fn add(&mut self, shapes: &[Shape], transform: &ScreenTransform) -> Range<usize> {
-        let first = self.draws.len();
-        for run in shapes.chunk_by(|a, b| clip(a) == clip(b)) {
-            let scissor_px = transform.scissor_px(clip(&run[0]));
-            if scissor_px[2] == 0 || scissor_px[3] == 0 {
-                continue;
-            }
-            let mut mesh = StrokeMesh::default();
-            run.iter().for_each(|shape| add(&mut mesh, shape, transform));
-            self.draws.push(Draw { scissor_px, indices: self.strokes.add(&mesh) });
-        }
-        first..self.draws.len()
-    }
-
-    /// Uploads all added shapes.
-    pub(super) fn upload(&mut self, gpu: &Gpu) {
-        self.strokes.upload(gpu);
-    }
-
-    /// Paints a range of the draws.
-    pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>, draws: Range<usize>) {
-        for Draw { scissor_px: [left, top, width, height], indices } in &self.draws[draws] {
-            pass.set_scissor_rect(*left, *top, *width, *height);
-            self.strokes.draw(pass, indices.clone());
-        }
+/// Adds shapes of the stage over everything in the drawing.
+pub(super) fn draw_shapes(drawing: &mut Drawing, shapes: &[Shape], transform: &ScreenTransform) {
+    for run in shapes.chunk_by(|a, b| clip(a) == clip(b)) {
+        let Some(scissor_px) = transform.scissor_px(clip(&run[0])) else { continue };
+        let first = drawing.strokes.indices.len() as u32;
+        run.iter().for_each(|shape| add(&mut drawing.strokes, shape, transform));
+        let indices = first..drawing.strokes.indices.len() as u32;
+        let (place, kind) = (Place::Stage, DrawKind::Stroke);
+        drawing.draws.push(Draw { scissor_px, place, kind, indices });
     }
 }
 
@@ -104,8 +55,8 @@ fn joint(point: &PathPoint) -> Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stage;
     use crate::stage::{Fill, Path, Picture};
+    use crate::view::Gpu;
     use crate::view::testing::{EVERYWHERE, Pixels, draw_picture, gpu_or_skip};
 
     const SOLID: [f32; 2] = [1.0, 0.0];

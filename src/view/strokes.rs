@@ -1,22 +1,12 @@
-//! Strokes: every line, dot, fill and curve of a plot, as triangles for one pipeline.
+//! Strokes: every line, dot, fill and curve of a plot, as triangles of one kind.
 //!
-//! A vertex has the width of its line there, and its place across and along the line, in pixels. From these a shader
-//! computes how much of a pixel is covered.
+//! A vertex has the width of its line there, and its place across and along the line, in pixels. From these an
+//! executor computes how much of a pixel is covered.
 
-use std::ops::Range;
-
-use bytemuck::{Pod, Zeroable};
 use egui::{Color32, Pos2, Vec2, vec2};
 
-use super::gpu::Gpu;
+use super::drawing::{Mesh, StrokeVertex};
 use super::lines::Joint;
-use super::mesh_buffer::MeshBuffer;
-use super::screen_transform::pipeline;
-
-const SHADER: &str = concat!(
-    include_str!("../../shaders/screen_transform.wgsl"),
-    include_str!("../../shaders/strokes.wgsl")
-);
 
 /// Minimum cosine of the turn at a mitred corner. At a sharper corner the tip would stick out.
 const MIN_MITRE_COSINE: f32 = 0.0;
@@ -26,29 +16,8 @@ const MARGIN_PX: f32 = 1.0;
 /// Distance between the dashes of a line that has only one, in pixels: longer than any line.
 const FAR_PX: f32 = 1e9;
 
-/// A vertex in `shaders/strokes.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-struct StrokeVertex {
-    /// In points.
-    at: [f32; 2],
-    /// Half the line's width here, and the distance from its middle.
-    across_px: [f32; 2],
-    /// Distance along the line from the middle of its first dash; distance from the middle of a dash to its round
-    /// end; and distance between dashes.
-    along_px: [f32; 3],
-    colour: Color32,
-}
-
-const ATTRIBUTES: [wgpu::VertexAttribute; 4] =
-    wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Float32x3, 3 => Unorm8x4];
-
 /// Lines and fills as triangles.
-#[derive(Clone, Debug, Default)]
-pub(super) struct StrokeMesh {
-    vertices: Vec<StrokeVertex>,
-    indices: Vec<u32>,
-}
+pub(super) type StrokeMesh = Mesh<StrokeVertex>;
 
 impl StrokeMesh {
     /// Adds a filled outline, with its edge blurred over a pixel. The whole outline must be visible from the mean of
@@ -170,53 +139,12 @@ fn mitre(before: Vec2, after: Vec2) -> Option<Vec2> {
     (turn > MIN_MITRE_COSINE).then(|| (before + after) / (1.0 + turn))
 }
 
-/// Draws strokes on targets of one format.
-#[derive(Debug)]
-pub(super) struct StrokePipeline {
-    pipeline: wgpu::RenderPipeline,
-    triangles: MeshBuffer<StrokeVertex>,
-}
-
-impl StrokePipeline {
-    /// Creates a pipeline that draws at the place in the bind group of `layout`.
-    pub(super) fn new(
-        gpu: &Gpu,
-        layout: &wgpu::PipelineLayout,
-        format: wgpu::TextureFormat,
-    ) -> Self {
-        let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-        let names = ["strokes", SHADER, "stroke"];
-        let pipeline = pipeline::<StrokeVertex>(gpu, layout, format, names, &ATTRIBUTES, blend);
-        Self { pipeline, triangles: MeshBuffer::new(gpu, "strokes") }
-    }
-
-    /// Removes all strokes.
-    pub(super) fn clear(&mut self) {
-        self.triangles.clear();
-    }
-
-    /// Adds strokes. Returns the range of their indices.
-    pub(super) fn add(&mut self, mesh: &StrokeMesh) -> Range<u32> {
-        self.triangles.add(&mesh.vertices, &mesh.indices)
-    }
-
-    /// Uploads all added strokes.
-    pub(super) fn upload(&mut self, gpu: &Gpu) {
-        self.triangles.upload(gpu);
-    }
-
-    /// Draws a range of the strokes.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, indices: Range<u32>) {
-        pass.set_pipeline(&self.pipeline);
-        self.triangles.draw(pass, indices);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::look::palette::Rgba;
     use crate::stage::{Path, PathPoint, Picture, Rect, Shape};
+    use crate::view::Gpu;
     use crate::view::testing::{EVERYWHERE, Pixels, draw_picture, gpu_or_skip};
 
     const SOLID: [f32; 2] = [1.0, 0.0];

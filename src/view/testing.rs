@@ -7,11 +7,11 @@ use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2};
 
 use super::panels::RING;
 use super::stage::Stage;
-use super::{AdapterPreference, Gpu, Offscreen, Readback, panels, theme};
+use super::{AdapterPreference, Drawing, Gpu, GpuExecutor, Offscreen, Readback, panels, theme};
 use crate::stage::{Picture, Rect};
 use crate::studio::{Command, Studio};
-use crate::view::stage::StageRenderer;
-use crate::view::textures::begin_pass;
+use crate::view::backdrop::BackdropFinder;
+use crate::view::stage::draw_stage;
 
 /// A software device. Without one, writes the name of the skipped test and the reason to stderr.
 pub(super) fn gpu_or_skip(test: &str) -> Option<Gpu> {
@@ -46,27 +46,28 @@ impl Pixels {
 
 /// Draws a picture alone on black, with a stage that fills the target at `scale` pixels per point.
 pub(super) fn draw_picture(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
-    draw_next(gpu, &mut StageRenderer::new(gpu, Offscreen::FORMAT), size_px, scale, picture)
+    let drawing = stage_alone(&mut BackdropFinder::default(), size_px, scale, picture);
+    execute(gpu, &mut GpuExecutor::new(gpu, Offscreen::FORMAT), &drawing)
 }
 
-/// The same with a renderer that has drawn other pictures before.
-pub(super) fn draw_next(
-    gpu: &Gpu,
-    renderer: &mut StageRenderer,
+/// The drawing of a picture alone, with a stage that fills the target at `scale` pixels per point.
+pub(super) fn stage_alone(
+    backdrops: &mut BackdropFinder,
     size_px: [u32; 2],
     scale: f32,
     picture: &Picture,
-) -> Pixels {
-    let target = Offscreen::new(gpu, size_px).expect("tests ask for small targets");
-    let rect = egui::Rect::from_min_size(
-        Pos2::ZERO,
-        egui::vec2(size_px[0] as f32, size_px[1] as f32) / scale,
-    );
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let stage = Stage { rect, picture: picture.clone() };
-    let start = renderer.prepare(gpu, &mut encoder, &target.texture, stage, scale);
-    renderer.paint(&mut begin_pass(&mut encoder, "picture", &target.view, start));
-    read(gpu, Some(encoder.finish()), &target)
+) -> Drawing {
+    let size = egui::vec2(size_px[0] as f32, size_px[1] as f32) / scale;
+    let rect = egui::Rect::from_min_size(Pos2::ZERO, size);
+    let mut drawing = Drawing { size_px, ..Drawing::default() };
+    draw_stage(&mut drawing, backdrops, Stage { rect, picture: picture.clone() }, scale);
+    drawing
+}
+
+/// The pixels of a drawing.
+pub(super) fn execute(gpu: &Gpu, executor: &mut GpuExecutor, drawing: &Drawing) -> Pixels {
+    let target = Offscreen::new(gpu, drawing.size_px).expect("tests ask for small targets");
+    read(gpu, executor.encode(gpu, drawing, &target.view), &target)
 }
 
 /// Pixels of the target after `drawing`.

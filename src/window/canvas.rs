@@ -11,13 +11,14 @@ use winit::window::Window;
 use super::clipboard::Clipboard;
 use super::{Event, WindowError};
 use crate::studio::{Command, Studio};
-use crate::view::{FrameRenderer, Gpu, Screen};
+use crate::view::{FrameRenderer, Gpu, GpuExecutor, Screen};
 
 pub(super) struct Canvas {
     pub(super) window: Arc<Window>,
     pub(super) egui: egui_winit::State,
     pub(super) gpu: Gpu,
     pub(super) renderer: FrameRenderer,
+    executor: GpuExecutor,
     /// The display's refresh rate in millihertz, if it is known.
     pub(super) refresh_mhz: Option<u32>,
     /// `None` only if the surface could not be created again.
@@ -49,13 +50,15 @@ impl Canvas {
         let screen = block_on(Screen::new(display, Arc::clone(&window)))?;
         let gpu = block_on(screen.gpu())?;
         log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
-        let renderer = FrameRenderer::new(&gpu, screen.format(&gpu));
+        let renderer = FrameRenderer::new(gpu.max_texture_side_px);
+        let executor = GpuExecutor::new(&gpu, screen.format(&gpu));
         let egui = translator(&renderer, &window, &gpu);
         let mut canvas = Self {
             window,
             egui,
             gpu,
             renderer,
+            executor,
             refresh_mhz: None,
             screen: Some(screen),
             surface_is_lost: false,
@@ -105,11 +108,8 @@ impl Canvas {
         let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let input = self.egui.take_egui_input(&self.window);
         let scale = self.window.scale_factor() as f32;
-        let (commands, output) =
-            self.renderer.draw(&self.gpu, &view, size_px, scale, input, studio);
-        if let Some(drawing) = output.drawing {
-            self.gpu.queue.submit([drawing]);
-        }
+        let (commands, output) = self.renderer.draw(size_px, scale, input, studio);
+        self.gpu.queue.submit(self.executor.encode(&self.gpu, &output.drawing, &view));
         clipboard.set_copied(&output.platform.commands);
         self.egui.handle_platform_output(&self.window, output.platform);
         self.window.pre_present_notify();
@@ -157,7 +157,8 @@ impl Canvas {
             if self.gpu.is_lost() || !self.gpu.adapter.is_surface_supported(screen.surface()) {
                 self.gpu = block_on(screen.gpu())?;
                 // This needs a new context: the old one assumes that its fonts are on the device.
-                self.renderer = FrameRenderer::new(&self.gpu, screen.format(&self.gpu));
+                self.renderer = FrameRenderer::new(self.gpu.max_texture_side_px);
+                self.executor = GpuExecutor::new(&self.gpu, screen.format(&self.gpu));
                 let egui = translator(&self.renderer, &self.window, &self.gpu);
                 let lost = mem::replace(&mut self.egui, egui);
                 #[cfg(feature = "accessibility")]

@@ -12,7 +12,7 @@ use egui::{
 };
 use regatta::scene::Scene;
 use regatta::studio::{KEYS, Studio, ViewCommand, open_file};
-use regatta::view::{AdapterPreference, FrameRenderer, Gpu, Offscreen};
+use regatta::view::{AdapterPreference, FrameRenderer, Gpu, GpuExecutor, Offscreen};
 
 use crate::dice::Dice;
 
@@ -61,18 +61,19 @@ struct Program {
     gpu: Gpu,
     canvas: Offscreen,
     renderer: FrameRenderer,
+    executor: GpuExecutor,
     time_s: f64,
 }
 
 impl Program {
     /// Shows a frame with these events in it, and performs its commands.
     fn frame(&mut self, events: Vec<Event>) {
-        let Self { studio, gpu, canvas, renderer, time_s } = self;
+        let Self { studio, gpu, canvas, renderer, executor, time_s } = self;
         *time_s += 1.0 / 60.0;
         studio.advance(16_666_667);
         let input = RawInput { time: Some(*time_s), events, ..RawInput::default() };
-        let (commands, output) = renderer.draw(gpu, &canvas.view, SIZE_PX, SCALE, input, studio);
-        gpu.queue.submit(output.drawing);
+        let (commands, output) = renderer.draw(SIZE_PX, SCALE, input, studio);
+        gpu.queue.submit(executor.encode(gpu, &output.drawing, &canvas.view));
         let wait = wgpu::PollType::Wait { submission_index: None, timeout: None };
         gpu.device.poll(wait).expect("the device is there");
         for command in commands {
@@ -144,8 +145,9 @@ fn hundreds_of_random_events_leak_at_most_a_few_megabytes() {
     let mut studio = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
     studio.deck.set_rewind_bytes(REWIND_MB << 20);
     let canvas = Offscreen::new(&gpu, SIZE_PX).expect("640x360 is within any limit");
-    let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
-    let mut program = Program { studio, gpu, canvas, renderer, time_s: 0.0 };
+    let renderer = FrameRenderer::new(gpu.max_texture_side_px);
+    let executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
+    let mut program = Program { studio, gpu, canvas, renderer, executor, time_s: 0.0 };
     let mut dice = Dice::new(12);
     let mut held = Vec::new();
     for event in 1..=EVENTS {

@@ -4,7 +4,9 @@ use egui::accesskit::{Action, Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect};
 use image::RgbaImage;
 use regatta::studio::{Command, Pace, Studio, run_loops};
-use regatta::view::{AdapterPreference, FrameOutput, FrameRenderer, Gpu, Offscreen, Readback};
+use regatta::view::{
+    AdapterPreference, FrameRenderer, Gpu, GpuExecutor, Offscreen, Readback, wgpu,
+};
 
 use crate::desk::Desk;
 
@@ -19,6 +21,7 @@ pub(crate) struct Twin {
     gpu: Gpu,
     target: Offscreen,
     renderer: FrameRenderer,
+    executor: GpuExecutor,
     /// The accessible widgets of the last frame.
     nodes: Vec<Node>,
 }
@@ -30,23 +33,24 @@ impl Twin {
         let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
             .expect("the window has an adapter too");
         let target = Offscreen::new(&gpu, SIZE_PX).unwrap();
-        let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+        let renderer = FrameRenderer::new(gpu.max_texture_side_px);
+        let executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
         renderer.context().enable_accesskit();
-        Self { studio, gpu, target, renderer, nodes: Vec::new() }
+        Self { studio, gpu, target, renderer, executor, nodes: Vec::new() }
     }
 
     /// Shows a frame with this event, and applies its commands.
-    fn frame(&mut self, event: Option<Event>) -> FrameOutput {
+    fn frame(&mut self, event: Option<Event>) -> Option<wgpu::CommandBuffer> {
         let events = event.into_iter().collect();
         let input = RawInput { events, focused: true, ..RawInput::default() };
-        let Self { studio, gpu, target, renderer, .. } = self;
-        let (commands, mut output) = renderer.draw(gpu, &target.view, SIZE_PX, 1.0, input, studio);
+        let Self { studio, gpu, target, renderer, executor, .. } = self;
+        let (commands, mut output) = renderer.draw(SIZE_PX, 1.0, input, studio);
         let update = output.platform.accesskit_update.take().expect("it is enabled");
         self.nodes = update.nodes.into_iter().map(|(_, node)| node).collect();
         for command in commands {
             self.studio.apply(command);
         }
-        output
+        executor.encode(gpu, &output.drawing, &target.view)
     }
 
     fn show(&mut self, events: impl IntoIterator<Item = Event>) {
@@ -184,7 +188,7 @@ impl Twin {
         self.move_aside(desk);
         self.studio.viewer.pass_time(i64::MAX);
         self.settle();
-        let drawing = self.frame(None).drawing;
+        let drawing = self.frame(None);
         let mut rgba = Vec::new();
         Readback::default().read(&self.gpu, drawing, &self.target.texture, &mut rgba).unwrap();
         let picture = RgbaImage::from_raw(SIZE_PX[0], SIZE_PX[1], rgba).unwrap();

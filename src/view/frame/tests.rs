@@ -3,9 +3,9 @@ use crate::scene::Scene;
 use crate::stage::{Fill, Picture, Shape};
 use crate::studio::StageCommand;
 use crate::view::chart::{self, LineStyle, Primitive, ScreenCurve};
-use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
-use crate::view::textures::texture;
-use crate::view::{AdapterPreference, Offscreen};
+use crate::view::gpu_executor::new_texture;
+use crate::view::testing::{EVERYWHERE, Pixels, execute, gpu_or_skip, read};
+use crate::view::{AdapterPreference, Gpu, GpuExecutor, Offscreen};
 
 fn red_everywhere() -> Picture {
     let corners = [[-1e3, -1e3], [1e3, -1e3], [1e3, 1e3], [-1e3, 1e3]];
@@ -22,12 +22,11 @@ fn show(ui: &mut egui::Ui, picture: &Picture) -> Option<Stage> {
 }
 
 fn draw(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
-    let target = Offscreen::new(gpu, size_px).unwrap();
-    let mut renderer = FrameRenderer::new(gpu, Offscreen::FORMAT);
+    let mut renderer = FrameRenderer::new(gpu.max_texture_side_px);
     let input = egui::RawInput::default();
-    let layout = renderer.lay_out_with(gpu, size_px, scale, input, |ui| show(ui, picture));
-    let output = renderer.paint(gpu, &target.view, size_px, layout);
-    read(gpu, output.drawing, &target)
+    let layout = renderer.lay_out_with(size_px, scale, input, |ui| show(ui, picture));
+    let output = renderer.paint(size_px, layout);
+    execute(gpu, &mut GpuExecutor::new(gpu, Offscreen::FORMAT), &output.drawing)
 }
 
 #[test]
@@ -80,11 +79,10 @@ fn labels_are_written_on_the_stage() {
 fn a_curve_is_drawn_dashed_and_clipped() {
     let test = "a_curve_is_drawn_dashed_and_clipped";
     let Some(gpu) = gpu_or_skip(test) else { return };
-    let target = Offscreen::new(&gpu, [128, 64]).unwrap();
-    let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+    let mut renderer = FrameRenderer::new(gpu.max_texture_side_px);
     let style = |dash| LineStyle { dash, ..LineStyle::solid(egui::Color32::RED, 4.0) };
     let input = egui::RawInput::default();
-    let layout = renderer.lay_out_with(&gpu, [128, 64], 1.0, input, |ui| {
+    let layout = renderer.lay_out_with([128, 64], 1.0, input, |ui| {
         let clip = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(100.0, 64.0));
         let painter = ui.painter().with_clip_rect(clip);
         for (y, dash) in [(20.0, [8.0, 6.0]), (40.0, [8.0, 0.0])] {
@@ -94,8 +92,8 @@ fn a_curve_is_drawn_dashed_and_clipped() {
         }
         None
     });
-    let output = renderer.paint(&gpu, &target.view, [128, 64], layout);
-    let pixels = read(&gpu, output.drawing, &target);
+    let drawing = renderer.paint([128, 64], layout).drawing;
+    let pixels = execute(&gpu, &mut GpuExecutor::new(&gpu, Offscreen::FORMAT), &drawing);
     for x in 10..128 {
         let [dashed, solid] = [20, 40].map(|y| pixels.at(x, y)[0]);
         assert_eq!(solid > 250, x < 100, "{x}");
@@ -121,14 +119,15 @@ fn a_lost_device_does_not_panic_and_a_new_one_draws() {
     let test = "a_lost_device_does_not_panic_and_a_new_one_draws";
     let Some(gpu) = gpu_or_skip(test) else { return };
     let target = Offscreen::new(&gpu, [64, 64]).unwrap();
-    let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+    let mut renderer = FrameRenderer::new(gpu.max_texture_side_px);
+    let mut executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
     gpu.device.destroy();
     let picture = red_everywhere();
     let input = egui::RawInput::default();
-    let layout = renderer.lay_out_with(&gpu, [64, 64], 1.0, input, |ui| show(ui, &picture));
-    let output = renderer.paint(&gpu, &target.view, [64, 64], layout);
+    let layout = renderer.lay_out_with([64, 64], 1.0, input, |ui| show(ui, &picture));
+    let output = renderer.paint([64, 64], layout);
     assert!(gpu.is_lost());
-    assert!(output.drawing.is_none());
+    assert!(executor.encode(&gpu, &output.drawing, &target.view).is_none());
 
     let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly)).unwrap();
     assert_eq!(draw(&gpu, [64, 64], 1.0, &picture).at(60, 60), [255, 0, 0, 255]);
@@ -136,15 +135,12 @@ fn a_lost_device_does_not_panic_and_a_new_one_draws() {
 
 #[test]
 fn the_first_frame_of_any_size_is_laid_out_like_the_next() {
-    let Some(gpu) = gpu_or_skip("the_first_frame_of_any_size_is_laid_out_like_the_next") else {
-        return;
-    };
     let studio = Studio::new(Scene::built_in("spring").unwrap());
-    let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+    let mut renderer = FrameRenderer::new(8192);
     for size_px in [[1280, 720], [1920, 1080], [3840, 2160], [800, 600]] {
         let [first, second] = [0, 1].map(|_| {
             let input = egui::RawInput::default();
-            let (_, mut layout) = renderer.lay_out(&gpu, size_px, 1.0, input, &studio);
+            let (_, mut layout) = renderer.lay_out(size_px, 1.0, input, &studio);
             layout.panels.textures_delta.clear();
             layout.stage.expect("a studio has a stage").rect
         });
@@ -153,15 +149,25 @@ fn the_first_frame_of_any_size_is_laid_out_like_the_next() {
     }
 }
 
+/// A renderer and the target of its drawings.
+struct Painter {
+    renderer: FrameRenderer,
+    executor: GpuExecutor,
+    target: Offscreen,
+}
+
 /// Two targets with a renderer each. The second target does not accept copies, so its renderer draws every frame in
 /// full.
-fn with_and_without_copies(gpu: &Gpu, size_px: [u32; 2]) -> [(FrameRenderer, Offscreen); 2] {
+fn with_and_without_copies(gpu: &Gpu, size_px: [u32; 2]) -> [Painter; 2] {
     let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
-    let texture = texture(gpu, "plain", size_px, Offscreen::FORMAT, usage);
+    let texture = new_texture(gpu, "plain", size_px, Offscreen::FORMAT, usage);
     let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
     let plain = Offscreen { texture, view, size_px };
-    [Offscreen::new(gpu, size_px).unwrap(), plain]
-        .map(|target| (FrameRenderer::new(gpu, Offscreen::FORMAT), target))
+    [Offscreen::new(gpu, size_px).unwrap(), plain].map(|target| Painter {
+        renderer: FrameRenderer::new(gpu.max_texture_side_px),
+        executor: GpuExecutor::new(gpu, Offscreen::FORMAT),
+        target,
+    })
 }
 
 #[test]
@@ -179,15 +185,16 @@ fn cached_panels_change_no_pixel() {
             _ => {}
         }
         studio.advance(if n % 3 == 0 { 0 } else { 40_000_000 });
-        let [kept, drawn] = renderers.each_mut().map(|(renderer, target)| {
+        let [kept, drawn] = renderers.each_mut().map(|Painter { renderer, executor, target }| {
             let input = egui::RawInput { time: Some(0.1 * f64::from(n)), ..Default::default() };
             if n % 7 == 5 {
                 // A frame that is painted and never shown.
-                let (_, layout) = renderer.lay_out(&gpu, size_px, 1.0, input.clone(), &studio);
-                _ = renderer.paint(&gpu, &target.view, size_px, layout);
+                let (_, layout) = renderer.lay_out(size_px, 1.0, input.clone(), &studio);
+                let drawing = renderer.paint(size_px, layout).drawing;
+                executor.encode(&gpu, &drawing, &target.view);
             }
-            let (_, output) = renderer.draw(&gpu, &target.view, size_px, 1.0, input, &studio);
-            read(&gpu, output.drawing, target)
+            let (_, output) = renderer.draw(size_px, 1.0, input, &studio);
+            read(&gpu, executor.encode(&gpu, &output.drawing, &target.view), target)
         });
         assert!(kept.rows == drawn.rows, "frame {n}");
     }
@@ -201,15 +208,15 @@ fn a_cached_tile_shows_no_trace_of_its_former_content() {
     let size_px = [100, 70];
     let mut renderers = with_and_without_copies(&gpu, size_px);
     for n in 0..20 {
-        let [kept, drawn] = renderers.each_mut().map(|(renderer, target)| {
+        let [kept, drawn] = renderers.each_mut().map(|Painter { renderer, executor, target }| {
             let input = egui::RawInput::default();
-            let layout = renderer.lay_out_with(&gpu, size_px, 1.0, input, |ui| {
+            let layout = renderer.lay_out_with(size_px, 1.0, input, |ui| {
                 let fill = egui::Color32::from_rgba_unmultiplied(90, 200, 40 * (n / 7), 120);
                 ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
                 None
             });
-            let output = renderer.paint(&gpu, &target.view, size_px, layout);
-            read(&gpu, output.drawing, target)
+            let output = renderer.paint(size_px, layout);
+            read(&gpu, executor.encode(&gpu, &output.drawing, &target.view), target)
         });
         assert!(kept.rows == drawn.rows, "frame {n}");
     }
@@ -224,9 +231,10 @@ fn an_unchanged_quad_is_redrawn_when_its_texture_changes() {
     let mut handles: [Option<egui::TextureHandle>; 2] = [None, None];
     for n in 0..20 {
         let shade = egui::ColorImage::filled([4, 4], egui::Color32::from_gray(40 * (n / 7)));
-        let mut of = renderers.iter_mut().zip(&mut handles).map(|((renderer, target), handle)| {
+        let mut of = renderers.iter_mut().zip(&mut handles).map(|(painter, handle)| {
+            let Painter { renderer, executor, target } = painter;
             let input = egui::RawInput::default();
-            let layout = renderer.lay_out_with(&gpu, size_px, 1.0, input, |ui| {
+            let layout = renderer.lay_out_with(size_px, 1.0, input, |ui| {
                 let options = egui::TextureOptions::NEAREST;
                 match handle {
                     Some(known) if n % 7 == 0 => known.set_partial([0, 0], shade.clone(), options),
@@ -238,8 +246,8 @@ fn an_unchanged_quad_is_redrawn_when_its_texture_changes() {
                 ui.painter().image(id, ui.max_rect(), uv, egui::Color32::WHITE);
                 None
             });
-            let output = renderer.paint(&gpu, &target.view, size_px, layout);
-            read(&gpu, output.drawing, target)
+            let output = renderer.paint(size_px, layout);
+            read(&gpu, executor.encode(&gpu, &output.drawing, &target.view), target)
         });
         let [kept, drawn] = [of.next(), of.next()].map(Option::unwrap);
         assert!(kept.rows == drawn.rows && kept.at(50, 30)[0] == 40 * (n / 7), "frame {n}");
