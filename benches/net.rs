@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use regatta::sim::Solver;
-use regatta::sim::bodies::{Form, Grid, NetPlan, Pin, net_kind};
+use regatta::sim::bodies::{Grid, NetLayout, NetPlan, Pin, net_kind};
 use regatta::sim::integrators::method;
 
 /// How long each row is measured, five times; the fastest counts.
@@ -17,7 +17,7 @@ fn main() {
     println!("method                nodes   springs  million node-steps/s  evaluations/step");
     for (columns, rows) in [(24, 16), (100, 100), (400, 250)] {
         let form = Grid { columns, rows, spacing: 0.1, shear: true, pin: Some(Pin::Corners) };
-        let plan = NetPlan { form: Form::Grid(form), kicked: None };
+        let plan = NetPlan { form: NetLayout::Grid(form), kicked: None };
         let lists = form.lists();
         let (nodes, springs) = (lists.nodes.len(), lists.springs.len());
         let kind = net_kind(plan).expect("a net");

@@ -6,7 +6,7 @@ use std::path::Path;
 use clap::error::{ContextKind, ContextValue};
 
 use crate::regular_file::is_link;
-use crate::scene::{clip, cut};
+use crate::scene::{clip, truncate};
 
 /// Most characters of an argument in a message: longer than a person types, yet only a few lines.
 const MAX_SHOWN_CHARS: usize = 300;
@@ -14,14 +14,14 @@ const MAX_SHOWN_CHARS: usize = 300;
 /// A path for a message. A link is unreadable, so only its first characters appear.
 pub(super) fn brief(path: &Path) -> String {
     let written = path.display().to_string();
-    if is_link(path) { clip(&written) } else { cut(MAX_SHOWN_CHARS, &written) }
+    if is_link(path) { clip(&written) } else { truncate(MAX_SHOWN_CHARS, &written) }
 }
 
 /// Shortens long arguments in a command line error.
 pub(super) fn with_brief_arguments(mut error: clap::Error) -> clap::Error {
     let shorter = |(kind, value): (ContextKind, &ContextValue)| match value {
         ContextValue::String(text) => {
-            let shown = cut(MAX_SHOWN_CHARS, text);
+            let shown = truncate(MAX_SHOWN_CHARS, text);
             (shown != *text).then_some((kind, ContextValue::String(shown)))
         }
         _ => None,

@@ -30,7 +30,7 @@ pub(super) fn record(
     let interrupted = watch_for_interrupt();
     folder.clear()?;
 
-    let mut studio = capture.dress(studio);
+    let mut studio = capture.prepare_studio(studio);
     let mut state_log = StateLog::new(capture.mark_every, studio.race());
     let mut entries = Vec::new();
     let run = Pipeline {
@@ -48,10 +48,10 @@ pub(super) fn record(
             Ok(())
         });
     let (done, frames, whole) = (drawn?, schedule.frames, folder.range());
-    if done < frames && !folder.takes_a_part() {
+    if done < frames && !folder.keeps_partial_capture() {
         return Err(interrupted_after(done, frames, "the old frames"));
     }
-    let settings = settings::written(experiment, &capture);
+    let settings = settings::settings_for_manifest(experiment, &capture);
     let manifest = Manifest {
         schema: SCHEMA,
         regatta: env!("CARGO_PKG_VERSION").to_owned(),

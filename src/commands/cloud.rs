@@ -120,7 +120,7 @@ fn format(out: &Path) -> Result<RowFormat, Error> {
 }
 
 /// Most area measurements in a run.
-const MAX_LOOKS: u64 = 100;
+const MAX_MEASUREMENTS: u64 = 100;
 
 /// The longest default run, in seconds.
 const USUAL_SECONDS: f64 = 60.0;
@@ -136,12 +136,12 @@ struct MethodCloud {
 
 impl MethodCloud {
     /// Describes the change of the area.
-    fn words(&self, area_ratio: Option<f64>) -> String {
+    fn measured_text(&self, area_ratio: Option<f64>) -> String {
         self.cloud.in_words(area_ratio, self.areas.iter().copied())
     }
 
     /// Steps to `tick` and measures the area there.
-    fn go_to(&mut self, tick: u64) {
+    fn step_to(&mut self, tick: u64) {
         let begun = Instant::now();
         self.cloud.go_to(tick);
         self.stepping += begun.elapsed();
@@ -222,11 +222,11 @@ fn rows(
     };
     let mut runs = specs.iter().map(cloud).collect::<Result<Vec<_>, _>>().map_err(no_cloud)?;
     let ticks = args.ticks(scene);
-    let every = ticks.div_ceil(MAX_LOOKS);
+    let every = ticks.div_ceil(MAX_MEASUREMENTS);
     let mut done = 0;
     while done < ticks {
         done = (done + every).min(ticks);
-        runs.iter_mut().for_each(|run| run.go_to(done));
+        runs.iter_mut().for_each(|run| run.step_to(done));
         reached.store(done, Ordering::Relaxed);
     }
     let is_read = args.out == Path::new(STDOUT);
@@ -251,7 +251,7 @@ fn row(run: &MethodCloud, specs: &[LaneSpec], points: usize, ticks: u64, is_read
     };
     let how = cloud.measured_in_words();
     if !is_read || !lost.is_empty() {
-        print_status(&format!("{method} {} ({how}){lost}", run.words(measure.area_ratio)));
+        print_status(&format!("{method} {} ({how}){lost}", run.measured_text(measure.area_ratio)));
     }
     let steps = points as f64 * ticks as f64 * f64::from(spec.substeps);
     Row { method, measure, body_steps_per_s: steps / stepping.as_secs_f64().max(1e-9) }

@@ -9,7 +9,7 @@ use super::argument::number_that;
 use super::error::Error;
 use super::help::flowing;
 use super::output::table::TableFormat;
-use super::scene_file::shown;
+use super::scene_file::name_in_messages;
 use super::visible::visible_in_a_line;
 use crate::run::diff::{Chosen, Comparison, Difference, LEVELS, MAX_WAITING, Tolerance, diff};
 use crate::scene::clip_list;
@@ -111,14 +111,14 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Error> {
         ignored: args.ignore.clone(),
     };
     let found = diff(&mut a, &mut b, tolerance, &chosen).map_err(|error: Error| {
-        error.and(format!("a is {}, b is {}", shown(&args.a), shown(&args.b)))
+        error.and(format!("a is {}, b is {}", name_in_messages(&args.a), name_in_messages(&args.b)))
     })?;
     let text = match args.format {
-        TableFormat::Text => words(&found, &args.a, &args.b),
+        TableFormat::Text => report_text(&found, &args.a, &args.b),
         TableFormat::Json => object(&found),
     };
     args.format.print(&text).map_err(Error::into_mistake)?;
-    let names = format!("{} and {}", shown(&args.a), shown(&args.b));
+    let names = format!("{} and {}", name_in_messages(&args.a), name_in_messages(&args.b));
     match (found.is_comparable(), found.is_same()) {
         (false, _) if found.is_cut_off => Err(Error::mistake(format!(
             "rows of one name stand more than {MAX_WAITING} rows apart, or 64 MiB, in {names}; sort both alike"
@@ -136,8 +136,9 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Error> {
     }
 }
 
-fn words(found: &Comparison, a: &Path, b: &Path) -> String {
-    let mut lines = vec![format!("a: {}", shown(a)), format!("b: {}", shown(b))];
+fn report_text(found: &Comparison, a: &Path, b: &Path) -> String {
+    let mut lines =
+        vec![format!("a: {}", name_in_messages(a)), format!("b: {}", name_in_messages(b))];
     match &found.first {
         _ if !found.is_comparable() => lines.push("nothing to compare".into()),
         None if found.is_same() => lines.push("the same".into()),

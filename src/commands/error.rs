@@ -8,7 +8,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::argument::brief;
 use super::visible::visible;
-use crate::scene::{Mistake, SceneErrors};
+use crate::scene::{SceneErrors, ShownError};
 #[cfg(feature = "view")]
 use crate::view::{GpuError, ReadbackError};
 
@@ -177,13 +177,13 @@ impl Error {
     /// The message, with the lines of the scene file that it refers to.
     pub fn report(&self, renderer: &Renderer) -> String {
         let mistakes = self.mistakes(renderer).into_iter();
-        let parts = mistakes.flat_map(|Mistake { message, quoted }| [message, quoted]);
+        let parts = mistakes.flat_map(|ShownError { message, quoted }| [message, quoted]);
         parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
     }
 
     /// The messages, each with its lines of the scene file. Shows control characters as visible signs, except those
     /// of the renderer's colours.
-    pub(super) fn mistakes(&self, renderer: &Renderer) -> Vec<Mistake> {
+    pub(super) fn mistakes(&self, renderer: &Renderer) -> Vec<ShownError> {
         let Some(errors) = &self.scene else {
             let title = Level::ERROR.primary_title(visible(&self.message));
             return vec![renderer.render(&[Group::with_title(title)]).into()];
@@ -200,7 +200,7 @@ impl Error {
                 let snippet = Snippet::source(&*text).annotation(annotation);
                 renderer.render(&[Group::with_level(Level::ERROR).element(snippet)])
             });
-            Mistake { message, quoted: quoted.unwrap_or_default() }
+            ShownError { message, quoted: quoted.unwrap_or_default() }
         };
         errors.messages().map(mistake).collect()
     }

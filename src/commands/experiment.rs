@@ -81,7 +81,7 @@ impl ExperimentArgs {
 
     /// Applies the tick rate and the methods to a scene.
     fn applied_to(&self, scene: Scene) -> Result<Scene, Error> {
-        let tick_hz = self.tick_rate.given().unwrap_or(scene.tick_hz);
+        let tick_hz = self.tick_rate.tick_rate().unwrap_or(scene.tick_hz);
         let scene = scene.at_tick_hz(tick_hz);
         self.methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
         Ok(scene.with_methods(&self.methods))
@@ -99,8 +99,9 @@ impl ExperimentArgs {
 
     /// The same options with `scene`, unless they already choose a scene, methods or a tick rate.
     pub(super) fn or_scene(&self, scene: &Path) -> Self {
-        let is_chosen =
-            self.names_a_scene() || !self.methods.is_empty() || self.tick_rate.given().is_some();
+        let is_chosen = self.names_a_scene()
+            || !self.methods.is_empty()
+            || self.tick_rate.tick_rate().is_some();
         let scene = if is_chosen { self.scene.clone() } else { Some(scene.to_owned()) };
         Self { scene, ..self.clone() }
     }

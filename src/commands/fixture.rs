@@ -8,7 +8,7 @@ use super::experiment::{self, ExperimentArgs};
 use super::help::flowing;
 use super::output::{print, print_json};
 use super::terminal::print_status;
-use super::trace::Reached;
+use super::trace::TruthAccuracy;
 use crate::run::race::Mode;
 use crate::scene::Scene;
 use crate::studio::Studio;
@@ -118,7 +118,7 @@ const ROUNDING: [f64; 2] = [1e-12, 1e-6];
 #[derive(Default)]
 struct States {
     rows: Vec<(u64, Vec<f64>, Vec<f64>)>,
-    reached: Reached,
+    reached: TruthAccuracy,
 }
 
 pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
@@ -160,7 +160,7 @@ pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
         ));
     }
     match args.format.language() {
-        Some(language) => print(written(&language, args, &scene, &states, &studio, least)),
+        Some(language) => print(test_source(&language, args, &scene, &states, &studio, least)),
         None => print_json(format!("{}\n", in_json(args, &scene, &states, &studio, least))),
     }
 }
@@ -206,7 +206,7 @@ fn quoted(name: &str) -> String {
     format!("\"{}\"", escaped.replace(char::is_control, " "))
 }
 
-fn written(
+fn test_source(
     language: &Language,
     args: &FixtureArgs,
     scene: &Scene,

@@ -68,7 +68,7 @@ impl FrameFolder {
             || Error::mistake(format!("{} is not a directory; give another --out", brief(path)));
         match fs::metadata(path) {
             Ok(entry) if !entry.is_dir() => Err(no_directory()),
-            Ok(_) => folder.look().map(|()| folder),
+            Ok(_) => folder.lock_and_read().map(|()| folder),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(folder),
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(no_directory()),
             Err(error) => Err(Error::of_place("read", path, place)(error)),
@@ -76,7 +76,7 @@ impl FrameFolder {
     }
 
     /// The first of `name`, `name-2`, `name-3` … that is new or an empty directory.
-    pub(super) fn beside(name: &str) -> Result<Self, Error> {
+    pub(super) fn new_sibling(name: &str) -> Result<Self, Error> {
         let siblings = (2..).map(|n: u32| format!("{name}-{n}"));
         for sibling in std::iter::once(name.to_owned()).chain(siblings) {
             let place = PlaceOf::Option("working directory");
@@ -89,7 +89,7 @@ impl FrameFolder {
     }
 
     /// Locks the folder and reads its entries.
-    fn look(&mut self) -> Result<(), Error> {
+    fn lock_and_read(&mut self) -> Result<(), Error> {
         let (path, place) = (&self.path, self.place);
         let lock = DirectoryLock::exclusive(path).map_err(Error::of_place("lock", path, place))?;
         if lock.is_none() {
@@ -131,7 +131,7 @@ impl FrameFolder {
     }
 
     /// Whether an incomplete set of frames is worth keeping.
-    pub(super) fn takes_a_part(&self) -> bool {
+    pub(super) fn keeps_partial_capture(&self) -> bool {
         self.existing != FolderPolicy::Bless
     }
 
@@ -149,7 +149,7 @@ impl FrameFolder {
                 &self.path,
                 self.place,
             ))?;
-            self.look()?;
+            self.lock_and_read()?;
         }
         let fail = |path: &Path| Error::of_place("replace", path, self.place);
         for name in self.entries.our_directories.drain(..) {
@@ -198,7 +198,7 @@ impl FrameFolder {
     /// The error for a file that could not be written.
     fn unwritten(&self, name: &str, error: io::Error) -> Error {
         let error = Error::of_place("write", &self.path.join(name), self.place)(error);
-        if !self.takes_a_part() {
+        if !self.keeps_partial_capture() {
             return error;
         }
         let whole = self.range();

@@ -172,7 +172,7 @@ pub(super) struct LoopArgs {
 pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let (scene, _) = scene_file::load(&args.scene)?;
     scene_file::check_method(&scene, args.method)?;
-    let scene = Scene { tick_hz: args.tick_rate.given().unwrap_or(scene.tick_hz), ..scene };
+    let scene = Scene { tick_hz: args.tick_rate.tick_rate().unwrap_or(scene.tick_hz), ..scene };
     let limits = args.limits()?;
     let traces = traces(&args.traces, args.display_hz, args.fps)?;
     let format = row_format(&args.out, args.format)?;
@@ -225,7 +225,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
                 return Err(Error::nothing_written());
             }
         }
-        advice::tell_of(&rows[from..], args.latency_ms, limits);
+        advice::print_advice(&rows[from..], args.latency_ms, limits);
     }
     write_measured(out, format, &rows)?;
     if let Some(frames) = frames {

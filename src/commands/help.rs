@@ -74,7 +74,7 @@ pub(super) fn overview(examples: &str) -> String {
 }
 
 /// A chapter for a terminal. Its table of keys is too wide, so `keys` replaces it.
-fn shown(chapter: &Chapter, keys: &str) -> String {
+fn chapter_text(chapter: &Chapter, keys: &str) -> String {
     let is_row = |line: &&str| line.starts_with('|');
     match chapter.text.lines().find(is_row).filter(|_| chapter.id == KEYS) {
         None => chapter.text.to_owned(),
@@ -90,7 +90,7 @@ fn shown(chapter: &Chapter, keys: &str) -> String {
 pub(super) fn run(args: &HelpArgs, cli: Command, keys: &str) -> Result<(), Error> {
     let topic = args.topic.as_deref();
     if let Some(chapter) = topic.and_then(chapter) {
-        return print(shown(chapter, keys));
+        return print(chapter_text(chapter, keys));
     }
     if let Some(topic) = topic
         && cli.find_subcommand(topic).is_none()

@@ -15,7 +15,7 @@ use crate::tools::identify::{ColumnNames, Log, LogError, LogSetting, LoggedBody,
 
 mod findings;
 
-use findings::{object, words};
+use findings::{object, report_text};
 
 const ABOUT: &str = "\
 LOG.csv has a header and a row for each tick, or for some of them: t in seconds, x in metres and v, if
@@ -184,7 +184,7 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
     let log = args.read.read(&args.log, tick_hz)?;
     let found = identify(&log, &args.read.body(args.mass), tick_hz);
     let text = match (args.format, &found) {
-        (TableFormat::Text, Some(found)) => words(found, &log, args.mass),
+        (TableFormat::Text, Some(found)) => report_text(found, &log, args.mass),
         (TableFormat::Text, None) => NOTHING_RUNS.to_owned(),
         (TableFormat::Json, found) => format!("{:#}\n", object(found.as_ref(), args.mass)),
     };

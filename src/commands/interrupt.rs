@@ -9,15 +9,15 @@ use super::error::Error;
 use super::jobs;
 
 /// The flag and the callback of the signal handler.
-struct Watched {
+struct SignalState {
     interrupted: Arc<AtomicBool>,
-    tell: Arc<Mutex<Tell>>,
+    tell: Arc<Mutex<InterruptCallback>>,
 }
 
 /// Callback for each signal.
-type Tell = Option<Box<dyn Fn() + Send>>;
+type InterruptCallback = Option<Box<dyn Fn() + Send>>;
 
-static WATCHED: OnceLock<Watched> = OnceLock::new();
+static SIGNAL_STATE: OnceLock<SignalState> = OnceLock::new();
 
 /// Time that a blocked stream still has after an interrupt.
 const GRACE: Duration = Duration::from_millis(100);
@@ -25,13 +25,13 @@ const GRACE: Duration = Duration::from_millis(100);
 /// A flag that is set once Ctrl-C is pressed or the system asks the process to end. Call this before beginning a
 /// file: an unhandled signal would leave the file's temporary name behind.
 pub(super) fn watch_for_interrupt() -> Arc<AtomicBool> {
-    Arc::clone(&watch().interrupted)
+    Arc::clone(&signal_state().interrupted)
 }
 
 /// Calls `tell` at each of these signals, and at once if one came earlier.
 #[cfg(feature = "window")]
-pub(super) fn tell_of_interrupt(tell: Box<dyn Fn() + Send>) {
-    let Watched { interrupted, tell: told } = watch();
+pub(super) fn on_interrupt(tell: Box<dyn Fn() + Send>) {
+    let SignalState { interrupted, tell: told } = signal_state();
     let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
     if interrupted.load(Ordering::SeqCst) {
         tell();
@@ -39,10 +39,10 @@ pub(super) fn tell_of_interrupt(tell: Box<dyn Fn() + Send>) {
     *told = Some(tell);
 }
 
-fn watch() -> &'static Watched {
-    WATCHED.get_or_init(|| {
+fn signal_state() -> &'static SignalState {
+    SIGNAL_STATE.get_or_init(|| {
         let interrupted = Arc::new(AtomicBool::new(false));
-        let tell = Arc::new(Mutex::new(Tell::None));
+        let tell = Arc::new(Mutex::new(InterruptCallback::None));
         let (set, told) = (Arc::clone(&interrupted), Arc::clone(&tell));
         let heed = move || {
             set.store(true, Ordering::SeqCst);
@@ -53,7 +53,7 @@ fn watch() -> &'static Watched {
         if let Err(error) = ctrlc::set_handler(heed) {
             log::warn!("Ctrl-C will stop the run at once: {error}");
         }
-        Watched { interrupted, tell }
+        SignalState { interrupted, tell }
     })
 }
 
@@ -77,7 +77,7 @@ pub(super) fn wait_for<T: Send + 'static>(
     wait: impl FnOnce() -> io::Result<T> + Send + 'static,
 ) -> io::Result<T> {
     // Without a handler, a signal ends the process wherever it waits.
-    let Some(Watched { interrupted, .. }) = WATCHED.get() else { return wait() };
+    let Some(SignalState { interrupted, .. }) = SIGNAL_STATE.get() else { return wait() };
     let done = jobs::result_within(GRACE, interrupted, wait);
     done.unwrap_or_else(|| Err(io::Error::other(Error::interrupted_while_waiting_for(name))))
 }

@@ -287,7 +287,7 @@ const POLICY: &[Column<PolicyCard>] = &[
     Column::shown("formula", "RULE", |policy| json!(policy.formula)),
     Column::new("constants", |policy| json!(policy.constants)),
     Column::new("odd_frames", |policy| json!(policy.odd_frames)),
-    Column::shown("drawing", "DRAWING", |p| json!(p.drawn())),
+    Column::shown("drawing", "DRAWING", |p| json!(p.drawing_name())),
     Column::shown("has_fixed_tick", "FIXED", |p| json!(p.has_fixed_tick)),
     Column::new("usual", |policy| json!(policy.is_usual)),
     Column::new("users", |policy| json!(policy.users)),

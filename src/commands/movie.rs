@@ -42,7 +42,7 @@ pub(super) fn record(
     let Schedule { frames, .. } = capture.schedule;
     let mut movie = begin(&mut output, &capture)?;
     let interrupted = watch_for_interrupt();
-    let mut studio = capture.dress(studio);
+    let mut studio = capture.prepare_studio(studio);
     let mut state_log = StateLog::new(u64::MAX, studio.race());
     let run = Pipeline {
         renderer: &mut renderer,

@@ -71,13 +71,13 @@ impl Pipeline<'_> {
         let processors = thread::available_parallelism().map_or(1, NonZero::get);
         // Leave one processor for drawing.
         let encoders = (processors - 1).clamp(1, MAX_ENCODERS);
-        let drawn = self.draw_beside(encoders, interrupted, encode, take);
+        let drawn = self.draw_with_encoders(encoders, interrupted, encode, take);
         progress.finish_and_clear();
         drawn
     }
 
     /// [`draw_all`](Self::draw_all) with this number of encoder threads.
-    fn draw_beside<T: Send>(
+    fn draw_with_encoders<T: Send>(
         self,
         encoders: usize,
         interrupted: &AtomicBool,
@@ -92,7 +92,7 @@ impl Pipeline<'_> {
         }
         thread::scope(|threads| {
             let taker = thread::Builder::new()
-                .spawn_scoped(threads, move || take_in_order(&encoded, &emptied, take))
+                .spawn_scoped(threads, move || deliver_in_order(&encoded, &emptied, take))
                 .map_err(jobs::no_threads)?;
             let drawn = pool.in_place_scope_fifo(|jobs| {
                 self.draw(&buffers, interrupted, |drawn| {
@@ -147,7 +147,7 @@ impl Pipeline<'_> {
 
 /// Passes encoded frames to `take` in order, from frame 0, and returns their buffers. Stops at the first
 /// error of `take`. Resumes the panic of an encoder.
-fn take_in_order<T>(
+fn deliver_in_order<T>(
     encoded: &Receiver<Encoded<T>>,
     emptied: &Sender<Vec<u8>>,
     mut take: impl FnMut(&DrawnFrame, T) -> Result<(), Error>,
@@ -251,7 +251,7 @@ mod tests {
             thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
             drawn.frame
         };
-        run.draw_beside(3, interrupted, encode, |drawn, encoded| {
+        run.draw_with_encoders(3, interrupted, encode, |drawn, encoded| {
             assert_eq!(encoded, drawn.frame);
             take(drawn)
         })
@@ -282,7 +282,7 @@ mod tests {
             schedule: SCHEDULE,
         };
         let encode = |drawn: &DrawnFrame| assert_ne!(drawn.frame, 4, "a bug");
-        let run = || run.draw_beside(3, &AtomicBool::new(false), encode, |_, ()| Ok(()));
+        let run = || run.draw_with_encoders(3, &AtomicBool::new(false), encode, |_, ()| Ok(()));
         assert!(panic::catch_unwind(AssertUnwindSafe(run)).is_err());
     }
 
@@ -307,7 +307,7 @@ mod tests {
             }
             thread::sleep(Duration::from_millis(if drawn.frame == 0 { 100 } else { 0 }));
         };
-        let done = run.draw_beside(3, &AtomicBool::new(false), encode, |_, ()| {
+        let done = run.draw_with_encoders(3, &AtomicBool::new(false), encode, |_, ()| {
             on_their_way.fetch_sub(1, Ordering::SeqCst);
             Ok(())
         });

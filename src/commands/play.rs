@@ -11,7 +11,7 @@ use super::error::Error;
 use super::experiment::{self, Experiment, ExperimentArgs, ThemeName, known_trace};
 use super::frame_folder::FrameFolder;
 use super::help::flowing;
-use super::interrupt::tell_of_interrupt;
+use super::interrupt::on_interrupt;
 use super::output::{Destination, Output};
 use super::schedule::{FPS, Schedule, frames_in};
 use super::settings::CaptureSettings;
@@ -125,7 +125,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     // Open the file before the run, which could otherwise turn out impossible to save. Begin it again after the run,
     // so that a killed program leaves only the unfinished recording beside it.
     let opened = record.map(Destination::open_for_text).transpose()?;
-    let unfinished = opened.as_ref().and_then(Output::file).map(UnfinishedRecording::beside);
+    let unfinished = opened.as_ref().and_then(Output::file).map(UnfinishedRecording::for_recording);
     let stream = opened.filter(|output| output.file().is_none());
     for told in unfinished::left_behind() {
         print_status(&told);
@@ -136,7 +136,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         seconds: args.seconds,
         tick: scene_file::tick_of(options.scene()).map(|tick| tick.min(last_tick(studio.scene()))),
         size: preferences.size,
-        on_interrupt: record.map(|_| tell_of_interrupt as _),
+        on_interrupt: record.map(|_| on_interrupt as _),
     };
     let keep = unfinished.as_ref().map(UnfinishedRecording::keeper);
     let files = SceneFiles { keep, ..files(&options, &experiment) };
@@ -195,7 +195,7 @@ fn without_display(
         Some(seconds) => frames_in(seconds, FPS)?,
         None => FRAMES,
     };
-    let folder = FrameFolder::beside(FRAMES_DIR)?;
+    let folder = FrameFolder::new_sibling(FRAMES_DIR)?;
     print_status(&format!(
         "no display to open a window on ({reason}); drawing {} s of it into {} instead",
         f64::from(frames) / f64::from(FPS),

@@ -14,14 +14,14 @@ use crate::regular_file;
 use crate::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{METHODS, Method};
 use crate::tools::port::{
-    DIALECTS, Dialect, DriveLimits, Ported, Setup, Wish, drive_limits, followers, setups,
+    DriveLimits, Ported, Setup, UI_SPRINGS, UiSpring, Wish, drive_limits, followers, setups,
 };
 use crate::tools::{identify, port};
 
-mod from;
 mod report;
+mod wish_source;
 
-use from::From;
+use wish_source::WishSource;
 
 const ABOUT: &str = "\
 For each engine, port finds the settings with which its ticks show the wish:
@@ -132,8 +132,8 @@ pub(super) struct PortArgs {
 enum Target {
     Engines,
     Engine(&'static Method),
-    Dialects,
-    Dialect(&'static Dialect),
+    UiSprings,
+    UiSpring(&'static UiSpring),
 }
 
 /// Whether the method belongs to an engine whose spring has settings.
@@ -150,9 +150,9 @@ const TARGET: Id<Target> = Id {
     thing: "engine or user interface with a spring",
     lists: &[],
     all: || {
-        let dialects = DIALECTS.iter().flat_map(|it| it.ids().map(move |id| (id, it)));
-        let dialects = dialects.map(|(id, it)| (id.into(), Target::Dialect(it)));
-        let all = [("all".into(), Target::Engines), ("ui".into(), Target::Dialects)];
+        let dialects = UI_SPRINGS.iter().flat_map(|it| it.ids().map(move |id| (id, it)));
+        let dialects = dialects.map(|(id, it)| (id.into(), Target::UiSpring(it)));
+        let all = [("all".into(), Target::Engines), ("ui".into(), Target::UiSprings)];
         let engines = engines().map(|it| (it.id.into(), Target::Engine(it)));
         all.into_iter().chain(engines).chain(dialects).collect()
     },
@@ -167,11 +167,11 @@ impl PortArgs {
 }
 
 fn about() -> String {
-    let with_version = |dialect: &Dialect| match dialect.version {
+    let with_version = |dialect: &UiSpring| match dialect.version {
         "" => dialect.id.to_owned(),
         version => format!("{} ({version})", dialect.id),
     };
-    let dialects: Vec<String> = DIALECTS.iter().map(with_version).collect();
+    let dialects: Vec<String> = UI_SPRINGS.iter().map(with_version).collect();
     ABOUT.replace("{dialects}", &dialects.join(", "))
 }
 
@@ -189,35 +189,35 @@ struct Drive {
 
 pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     let from = args.from.as_deref().map(|written| {
-        From::parse(written, args.tick_hz(), args.mass)
+        WishSource::parse(written, args.tick_hz(), args.mass)
             .map_err(|fault| Error::mistake(format!("--from {}: {fault}", brief(written.as_ref()))))
     });
     let from = from.transpose()?;
     let usual = match from {
-        Some(From::Dialect { .. }) if !args.drive => Target::Dialects,
+        Some(WishSource::UiSpring { .. }) if !args.drive => Target::UiSprings,
         _ => Target::Engines,
     };
     let wish = match from {
-        Some(From::Approach(..) | From::Friction(_)) if args.drive => {
+        Some(WishSource::Approach(..) | WishSource::Friction(_)) if args.drive => {
             return Err(Error::mistake(
                 "--drive is for a spring; give --frequency, or settings of an engine in --from",
             ));
         }
-        Some(From::Approach(approach, fps)) => {
+        Some(WishSource::Approach(approach, fps)) => {
             let ports = followers(approach, fps);
             return args.format.print(&report::followers(approach, &ports, args.format));
         }
-        Some(From::Friction(friction)) => {
+        Some(WishSource::Friction(friction)) => {
             return args.format.print(&report::friction(&friction, args.format));
         }
-        Some(From::Engine(settings)) if args.drive => settings.as_given(),
-        Some(From::Engine(settings)) => settings.shown().map_err(|fault| {
+        Some(WishSource::Engine(settings)) if args.drive => settings.as_given(),
+        Some(WishSource::Engine(settings)) => settings.as_visible().map_err(|fault| {
             let written = args.from.as_deref().unwrap_or_default();
             Error::mistake(format!("--from {}: {fault}", brief(written.as_ref())))
         })?,
-        Some(From::Dialect { as_given, .. }) if args.drive => as_given,
-        Some(From::Dialect { shown, .. }) => shown,
-        Some(From::Log(path)) => {
+        Some(WishSource::UiSpring { as_given, .. }) if args.drive => as_given,
+        Some(WishSource::UiSpring { shown, .. }) => shown,
+        Some(WishSource::Log(path)) => {
             let log = args.read.read(&path, args.tick_hz())?;
             let found = identify(&log, &args.read.body(args.mass), args.tick_hz());
             let seen = found.and_then(|found| found.effective).filter(|seen| seen.omega > 0.0);
@@ -240,18 +240,18 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         let asks = |asked: &Target| match asked {
             Target::Engines => true,
             Target::Engine(asked) => asked == method,
-            Target::Dialects | Target::Dialect(_) => false,
+            Target::UiSprings | Target::UiSpring(_) => false,
         };
         asked.iter().any(asks)
     };
     let methods: Vec<&Method> = engines().filter(is_asked).collect();
     let setups = setups(Some(&methods), args.tick_hz(), args.substeps);
     let asked = asked.iter().flat_map(|asked| match asked {
-        Target::Dialects => DIALECTS,
-        Target::Dialect(dialect) => std::slice::from_ref(*dialect),
+        Target::UiSprings => UI_SPRINGS,
+        Target::UiSpring(dialect) => std::slice::from_ref(*dialect),
         Target::Engines | Target::Engine(_) => &[],
     });
-    let mut dialects: Vec<&Dialect> = Vec::new();
+    let mut dialects: Vec<&UiSpring> = Vec::new();
     for dialect in asked {
         if !dialects.iter().any(|known| std::ptr::eq(*known, dialect)) {
             dialects.push(dialect);

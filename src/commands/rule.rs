@@ -18,8 +18,8 @@ use crate::scene::SceneErrors;
 use crate::sim::law::MAX_STEP_BYTES;
 use crate::sim::number::significant;
 use crate::tools::Rule;
-use crate::tools::port::{DIALECTS, Reach, Wish, followers};
-use crate::tools::rule::{SeenRule, rule_scene};
+use crate::tools::port::{PortOutcome, UI_SPRINGS, Wish, followers};
+use crate::tools::rule::{VisibleMotion, rule_scene};
 use crate::tools::source_code::Language;
 
 const ABOUT: &str = "\
@@ -112,12 +112,12 @@ pub(super) fn run(args: &RuleArgs) -> Result<(), Error> {
         .map_err(|fault| Error::from(SceneErrors::of_step(&name, &written, fault)))?;
     args.format.print(&match args.format {
         TableFormat::Json => format!("{:#}\n", object(&rule, &written)),
-        TableFormat::Text => words(&rule, &written, args.language),
+        TableFormat::Text => report_text(&rule, &written, args.language),
     })
 }
 
 fn object(rule: &Rule, written: &str) -> Value {
-    let seen = |seen: SeenRule| {
+    let seen = |seen: VisibleMotion| {
         json!({
             "fps": seen.fps,
             "hz": seen.hz,
@@ -136,7 +136,7 @@ fn object(rule: &Rule, written: &str) -> Value {
         "rule": written,
         "fps": rule.fps(),
         "linear": rule.is_linear(),
-        "seen": rule.seen().into_iter().map(seen).collect::<Vec<_>>(),
+        "seen": rule.motions().into_iter().map(seen).collect::<Vec<_>>(),
         "rings_below_fps": rule.rings_below_fps(),
         "explodes_below_fps": rule.explodes_below_fps(),
         "spring": rule.spring().map(spring),
@@ -150,12 +150,12 @@ fn digits(value: Option<f64>, digits: usize) -> Value {
 }
 
 /// The undamped frequency, if it differs from the visible one by more than a hundredth.
-fn undamped(seen: &SeenRule) -> Option<f64> {
+fn undamped(seen: &VisibleMotion) -> Option<f64> {
     let undamped = seen.spring?.undamped_hz();
     seen.hz.is_none_or(|hz| (hz / undamped - 1.0).abs() > 0.01).then_some(undamped)
 }
 
-const COLUMNS: &[Column<SeenRule>] = &[
+const COLUMNS: &[Column<VisibleMotion>] = &[
     Column::shown("fps", "FPS", |seen| seen.fps.to_string().into()),
     Column::shown("hz", "SWINGS Hz", |seen| digits(seen.hz, 4)),
     Column::shown("undamped", "UNDAMPED Hz", |seen| digits(undamped(seen), 4)),
@@ -168,14 +168,14 @@ const COLUMNS: &[Column<SeenRule>] = &[
     Column::shown("grows", "GROWS", |seen| seen.grows.into()),
 ];
 
-fn words(rule: &Rule, written: &str, language: Language) -> String {
+fn report_text(rule: &Rule, written: &str, language: Language) -> String {
     let fps = rule.fps();
     let kind = match rule.is_linear() {
         true => "linear",
         false => "not linear: below are small motions about a rest at 0, where it has one",
     };
     let mut said = format!("{kind}; of {}\n\n", rule.state().collect::<Vec<_>>().join(" and "));
-    said += &text(COLUMNS, &rule.seen(), "  ");
+    said += &text(COLUMNS, &rule.motions(), "  ");
     said += "\n";
     if !rule.takes_step() {
         said +=
@@ -202,9 +202,10 @@ fn words(rule: &Rule, written: &str, language: Language) -> String {
         said += &format!(
             "\nat {fps} frames per second it is a spring of {hz} Hz, damping ratio {ratio}:\n"
         );
-        let ports = DIALECTS.iter().map(|dialect| (dialect.id, dialect.port(&wish, fps)));
-        let told =
-            ports.filter(|(_, port)| port.reach != Reach::Unreachable && wish.damping_ratio >= 0.0);
+        let ports = UI_SPRINGS.iter().map(|dialect| (dialect.id, dialect.port(&wish, fps)));
+        let told = ports.filter(|(_, port)| {
+            port.outcome != PortOutcome::Unreachable && wish.damping_ratio >= 0.0
+        });
         for (id, port) in told.filter(|(_, port)| port.error.is_none()) {
             said += &format!("  {id:18}  {}\n", port.code);
         }

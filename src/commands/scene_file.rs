@@ -31,7 +31,8 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
         return Ok((scene, text));
     }
     let bytes = read(path)?;
-    let scene = Scene::from_bytes(&name_in_link(path).unwrap_or_else(|| shown(path)), &bytes)?;
+    let scene =
+        Scene::from_bytes(&name_in_link(path).unwrap_or_else(|| name_in_messages(path)), &bytes)?;
     let outdated = scene.outdated.iter().flat_map(|outdated| outdated.messages());
     outdated.for_each(|message| print_status(&format!("warning: {message}")));
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
@@ -94,7 +95,7 @@ pub(super) fn input(path: &Path) -> Option<Input<'_>> {
 }
 
 /// The path for messages. A link is too long to show: it contains its run.
-pub(super) fn shown(path: &Path) -> String {
+pub(super) fn name_in_messages(path: &Path) -> String {
     if is_link(path) { "the link".into() } else { brief(path) }
 }
 

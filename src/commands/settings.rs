@@ -36,7 +36,7 @@ pub(super) struct CaptureSettings {
 
 impl CaptureSettings {
     /// Prepares an experiment's studio for drawing.
-    pub(super) fn dress(&self, mut studio: Studio) -> Studio {
+    pub(super) fn prepare_studio(&self, mut studio: Studio) -> Studio {
         studio.viewer.preferences.display.motion =
             if self.motion { Motion::Recorded } else { Motion::Reduced };
         studio.viewer.preferences.choose_theme(self.theme);
@@ -54,7 +54,10 @@ impl CaptureSettings {
 const LIGHT: &str = "light";
 
 /// Settings of a run, for its manifest.
-pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Settings {
+pub(super) fn settings_for_manifest(
+    experiment: &Experiment,
+    capture: &CaptureSettings,
+) -> Settings {
     let scene = &experiment.scene;
     let lane = |lane: &LaneSpec| LaneEntry {
         method: lane.method.id.to_owned(),
@@ -98,7 +101,7 @@ pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Set
 ///
 /// # Errors
 /// The reason why this program cannot run it.
-pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings), String> {
+pub(super) fn from_manifest(settings: &Settings) -> Result<(Experiment, CaptureSettings), String> {
     let SceneText { name, text, .. } = &settings.scene;
     let made = |entry: &OwnEntry| {
         let refused = |why| format!("this program cannot read the method {:?}: {why}", entry.id);

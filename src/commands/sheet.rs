@@ -52,7 +52,8 @@ pub(super) fn draw(
             mode: Mode::Solo,
             loop_trace: None,
         };
-        let (mut studio, mut clouds) = (capture.dress(alone.studio()), CloudWorker::default());
+        let (mut studio, mut clouds) =
+            (capture.prepare_studio(alone.studio()), CloudWorker::default());
         for column in 0..columns {
             capture.schedule.advance(&mut studio, column, &mut ());
             if !complete_analysis(&mut studio, &renderer, &mut clouds, &interrupted) {

@@ -35,15 +35,15 @@ pub(super) struct ShowArgs {
     /// A method, by its id or another name, or a game loop
     ///
     /// `regatta list methods` and `regatta list policies` have them. A file that ends in .step is a method of your own.
-    #[arg(value_name = "METHOD|POLICY|FILE", value_parser = ASKED_OR_FILE, hide_possible_values = true)]
-    asked: Asked,
+    #[arg(value_name = "METHOD|POLICY|FILE", value_parser = ITEM_OR_FILE, hide_possible_values = true)]
+    asked: ShownItem,
 
     /// The language: rust, c, cpp, csharp or gdscript
     ///
     /// Methods have all of them, with the same code in cpp and c. Loops have rust, and some cpp and csharp.
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
-    #[arg(value_parser = WRITTEN, hide_possible_values = true)]
-    language: Written,
+    #[arg(value_parser = CODE_LANGUAGE, hide_possible_values = true)]
+    language: CodeLanguage,
 
     /// Use single precision, as Unity and Godot do
     #[arg(long)]
@@ -52,7 +52,7 @@ pub(super) struct ShowArgs {
 
 /// The method or game loop to show.
 #[derive(Clone, Copy, Debug)]
-enum Asked {
+enum ShownItem {
     Method {
         method: &'static Method,
         /// The [other id](Method::also) that the user gave, if it was not the method's own.
@@ -62,21 +62,21 @@ enum Asked {
 }
 
 /// Parser for all of these ids, or for a `.step` file.
-const ASKED_OR_FILE: OrStepFile<Asked> =
-    OrStepFile { id: ASKED, of: |method| Asked::Method { method, alias: None } };
+const ITEM_OR_FILE: OrStepFile<ShownItem> =
+    OrStepFile { id: SHOWN_ITEM, of: |method| ShownItem::Method { method, alias: None } };
 
 /// Parser for the id of a method, one of its other ids, or the id of a game loop.
-const ASKED: Id<Asked> = Id {
+const SHOWN_ITEM: Id<ShownItem> = Id {
     thing: "method or policy",
     lists: &["methods", "policies"],
     all: || {
-        let own = METHODS.iter().map(|it| (it.id, Asked::Method { method: it, alias: None }));
+        let own = METHODS.iter().map(|it| (it.id, ShownItem::Method { method: it, alias: None }));
         let others = METHODS.iter().flat_map(|method| {
-            let with = |alias| (alias, Asked::Method { method, alias: Some(alias) });
+            let with = |alias| (alias, ShownItem::Method { method, alias: Some(alias) });
             method.also.iter().copied().map(with)
         });
         let methods = own.chain(others).map(|(id, asked)| (id.to_owned(), asked));
-        let loops = (POLICY.all)().into_iter().map(|(id, card)| (id, Asked::Loop(card)));
+        let loops = (POLICY.all)().into_iter().map(|(id, card)| (id, ShownItem::Loop(card)));
         methods.chain(loops).collect()
     },
     spellings: || [(METHOD.spellings)(), (POLICY.spellings)()].concat(),
@@ -84,25 +84,25 @@ const ASKED: Id<Asked> = Id {
 
 /// A language of methods or of game loops.
 #[derive(Clone, Copy, Debug)]
-enum Written {
+enum CodeLanguage {
     /// A language of methods.
     Of(Language),
     /// C++, the language of some loops but of no method.
     Cpp,
 }
 
-const WRITTEN: Id<Written> = Id {
+const CODE_LANGUAGE: Id<CodeLanguage> = Id {
     thing: LANGUAGE.thing,
     lists: &[],
     all: || {
         let methods =
-            (LANGUAGE.all)().into_iter().map(|(id, language)| (id, Written::Of(language)));
-        methods.chain([("cpp".into(), Written::Cpp)]).collect()
+            (LANGUAGE.all)().into_iter().map(|(id, language)| (id, CodeLanguage::Of(language)));
+        methods.chain([("cpp".into(), CodeLanguage::Cpp)]).collect()
     },
     spellings: || vec![("c++", "cpp"), ("c#", "csharp")],
 };
 
-impl Written {
+impl CodeLanguage {
     /// Name of the language on a loop's card.
     fn of_loops(self) -> &'static str {
         match self {
@@ -115,18 +115,18 @@ impl Written {
 
 pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     let (method, alias) = match args.asked {
-        Asked::Method { method, alias } => (method, alias),
-        Asked::Loop(_) if args.float => {
+        ShownItem::Method { method, alias } => (method, alias),
+        ShownItem::Loop(_) if args.float => {
             return Err(Error::mistake(
                 "--float is for methods; a loop has no precision to choose",
             ));
         }
-        Asked::Loop(card) => return print(snippet(card, args.language)?),
+        ShownItem::Loop(card) => return print(snippet(card, args.language)?),
     };
     let language = match args.language {
-        Written::Of(language) => language,
+        CodeLanguage::Of(language) => language,
         // C++ compiles the C code.
-        Written::Cpp => Language::C,
+        CodeLanguage::Cpp => Language::C,
     };
     let precision = if args.float { Precision::Single } else { Precision::Double };
     let code = source_code(method, language, precision).map_err(Error::mistake)?;
@@ -137,13 +137,14 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
 }
 
 /// The source of a loop in a language.
-fn snippet(card: &PolicyCard, language: Written) -> Result<&'static str, Error> {
-    let found = |written: Written| {
+fn snippet(card: &PolicyCard, language: CodeLanguage) -> Result<&'static str, Error> {
+    let found = |written: CodeLanguage| {
         let mut snippets = card.snippets.iter();
         snippets.find(|snippet| snippet.language == written.of_loops())
     };
     found(language).map(|snippet| snippet.source).ok_or_else(|| {
-        let known = (WRITTEN.all)().into_iter().filter(|(_, written)| found(*written).is_some());
+        let known =
+            (CODE_LANGUAGE.all)().into_iter().filter(|(_, written)| found(*written).is_some());
         let known: Vec<String> = known.map(|(id, _)| id).collect();
         let asked = language.of_loops();
         Error::mistake(format!(

@@ -179,7 +179,7 @@ impl SweepArgs {
         };
         let mut scenes: Vec<(String, Scene)> = spring.into_iter().collect();
         for path in paths {
-            let name = scene_file::shown(&path);
+            let name = scene_file::name_in_messages(&path);
             if scenes.iter().all(|(other, _)| *other != name) {
                 scenes.push((name, scene_file::load(&path)?.0));
             }
@@ -188,7 +188,7 @@ impl SweepArgs {
             [] => method.is_for_games() || method.rule_fps().is_some(),
             named => named.contains(method),
         };
-        let rates = self.tick_rates.given();
+        let rates = self.tick_rates.tick_rates();
         let of_scenes = scenes.iter().flat_map(|(_, scene)| scene.own_methods.iter());
         let own = self.methods.iter().filter(|method| method.own_text().is_some());
         let mut methods: Vec<&'static Method> = Vec::new();

@@ -24,7 +24,7 @@ pub(super) struct TickRateArgs {
 
 impl TickRateArgs {
     /// The given rate, if any.
-    pub(super) fn given(&self) -> Option<TickRate> {
+    pub(super) fn tick_rate(&self) -> Option<TickRate> {
         self.tick_hz.or(self.step)
     }
 }
@@ -49,7 +49,7 @@ pub(super) struct TickRatesArgs {
 
 impl TickRatesArgs {
     /// The given rates, ascending and without duplicates.
-    pub(super) fn given(&self) -> Vec<TickRate> {
+    pub(super) fn tick_rates(&self) -> Vec<TickRate> {
         let mut rates = [&self.tick_hz[..], &self.step[..]].concat();
         rates.sort_unstable();
         rates.dedup();

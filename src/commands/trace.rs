@@ -71,7 +71,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     let mut trace = Trace::begin(args)?;
     trace.tick(&studio)?;
     let last = studio.race().nearest_tick(seconds);
-    let mut reached = vec![Reached::default(); experiment.scene.bodies.len()];
+    let mut reached = vec![TruthAccuracy::default(); experiment.scene.bodies.len()];
     while studio.race().tick() < last {
         studio.tick();
         reached
@@ -82,7 +82,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
         halts.note(&studio);
     }
     trace.rows.end()?.close()?;
-    tell_accuracy(&experiment.scene.bodies, &at_start, &reached, studio.race().truth());
+    print_accuracy(&experiment.scene.bodies, &at_start, &reached, studio.race().truth());
     halts.lines.iter().for_each(|line| print_status(line));
     Ok(())
 }
@@ -120,12 +120,12 @@ impl<'a> Trace<'a> {
 
 /// Accuracy of a body's truth on a run: the largest coordinate and velocity, and their errors.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Reached {
+pub(super) struct TruthAccuracy {
     pub(super) largest: [f64; 2],
     error: [f64; 2],
 }
 
-impl Reached {
+impl TruthAccuracy {
     pub(super) fn note(&mut self, truth: &LaneBody) {
         let most = |so_far: f64, values: &[f64]| {
             values.iter().fold(so_far, |so_far, x| so_far.max(x.abs()))
@@ -146,7 +146,12 @@ impl Reached {
 
 /// Reports the accuracy of each body whose truth is a reference solution at the end. `at_start` has the truths at the
 /// start.
-fn tell_accuracy(bodies: &[SceneBody], at_start: &[Truth], reached: &[Reached], truth: &Lane) {
+fn print_accuracy(
+    bodies: &[SceneBody],
+    at_start: &[Truth],
+    reached: &[TruthAccuracy],
+    truth: &Lane,
+) {
     for (((SceneBody { name, .. }, at_start), reached), truth) in
         bodies.iter().zip(at_start).zip(reached).zip(truth.bodies())
     {

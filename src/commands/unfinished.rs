@@ -57,7 +57,7 @@ enum RecordingState {
 
 impl UnfinishedRecording {
     /// An unfinished recording beside the file that will contain the whole one.
-    pub(super) fn beside(recording: &Path) -> Self {
+    pub(super) fn for_recording(recording: &Path) -> Self {
         let stem = match recording.extension() {
             Some(ending) if ending == "toml" => recording.file_stem(),
             _ => recording.file_name(),
@@ -74,7 +74,7 @@ impl UnfinishedRecording {
         let state = Arc::clone(&self.state);
         Box::new(move |text| {
             let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
-            state.keep(text).map_err(|error| format!("cannot write it yet: {error}"))
+            state.save(text).map_err(|error| format!("cannot write it yet: {error}"))
         })
     }
 
@@ -93,7 +93,7 @@ impl UnfinishedRecording {
 }
 
 impl RecordingState {
-    fn keep(&mut self, text: &str) -> io::Result<()> {
+    fn save(&mut self, text: &str) -> io::Result<()> {
         match self {
             RecordingState::Wanted(path) => {
                 let path = begin_file(path)?.write_whole(text.as_bytes(), IfExists::Beside)?;
@@ -181,8 +181,8 @@ impl Notes {
     }
 }
 
-/// Whether the name may belong to an [unfinished](UnfinishedRecording::beside) recording: `x.unfinished.toml`, or
-/// `x.unfinished-2.toml` if that was taken.
+/// Whether the name may belong to an [unfinished](UnfinishedRecording::for_recording) recording: `x.unfinished.toml`,
+/// or `x.unfinished-2.toml` if that was taken.
 fn is_unfinished(recording: &Path) -> bool {
     let name = recording.file_name().and_then(OsStr::to_str).unwrap_or_default();
     let stem = name.strip_suffix(ENDING).unwrap_or_default();
@@ -208,7 +208,7 @@ mod tests {
         fs::write(&older, "kept").unwrap();
         let mut state = RecordingState::Wanted(older.clone());
         for text in ["some", "some more"] {
-            state.keep(text).unwrap();
+            state.save(text).unwrap();
             assert_eq!(fs::read_to_string(&file).unwrap(), text);
         }
         let unfinished = UnfinishedRecording { state: Arc::new(Mutex::new(state)) };
@@ -288,7 +288,7 @@ mod tests {
             ("run", "run.unfinished.toml"),
             ("run.v1", "run.v1.unfinished.toml"),
         ] {
-            let unfinished = UnfinishedRecording::beside(Path::new(recording));
+            let unfinished = UnfinishedRecording::for_recording(Path::new(recording));
             let state = unfinished.state.lock().unwrap();
             assert!(matches!(&*state, RecordingState::Wanted(path) if path == Path::new(name)));
         }

@@ -177,7 +177,7 @@ struct Frames {
 impl Rerun {
     /// The studio at the start of the run, and a log of its states.
     fn begin(&self) -> (Studio, StateLog) {
-        let studio = self.capture.dress(self.experiment.studio());
+        let studio = self.capture.prepare_studio(self.experiment.studio());
         let state_log = StateLog::new(self.capture.mark_every, studio.race());
         (studio, state_log)
     }

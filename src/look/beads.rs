@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 
 /// Radius of a bead, on a rail and in a plane, in halves of the picture's width.
 const BEAD: f64 = 0.055;
@@ -92,7 +92,7 @@ impl Beads<'_> {
     }
 }
 
-impl Drawn for Beads<'_> {
+impl BodyPicture for Beads<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         if let Some(plane) = self.plane {
             let [_, half] = self.plane_room(plane);

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Chain;
 
 /// Radius of each bead of a chain, in metres.
@@ -11,7 +11,7 @@ fn bead(chain: &Chain, beads: usize) -> f64 {
     (0.28 * room).min(0.11 * chain.amplitude())
 }
 
-impl Drawn for Chain {
+impl BodyPicture for Chain {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let unit = self.amplitude();
         let half_wall = DVec2::Y * 0.5 * unit;

@@ -1,7 +1,7 @@
 //! Draws a custom body with its author's drawing function, or else as beads on rails or in a plane.
 
 use super::beads::Beads;
-use super::{Drawn, Framing, Handle, Outline, Pull, typed};
+use super::{BodyPicture, Framing, Handle, Outline, Pull, typed};
 use crate::run::race::LaneBody;
 use crate::sim::bodies::Custom;
 
@@ -11,7 +11,7 @@ struct CustomPicture<'a> {
     beads: Beads<'a>,
 }
 
-pub(super) fn picture(body: &LaneBody) -> Box<dyn Drawn + '_> {
+pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
     let custom = typed::<Custom>(body.stepper.body());
     let info = custom.info();
     let coordinates = info.coordinates.iter().map(|of| [&*of.name, of.unit]).collect();
@@ -19,7 +19,7 @@ pub(super) fn picture(body: &LaneBody) -> Box<dyn Drawn + '_> {
     Box::new(CustomPicture { body, custom, beads })
 }
 
-impl Drawn for CustomPicture<'_> {
+impl BodyPicture for CustomPicture<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         match self.body.drawing() {
             Some(draw) => outline.marks.extend(draw(self.custom.system(), q)),

@@ -1,6 +1,6 @@
 //! Draws a cloud: the number of points on each pixel sets the tone of the method's colour.
 
-use super::palette::{Rgba, Theme, mixed};
+use super::palette::{Rgba, Theme, mix};
 use crate::measure::cloud::Density;
 
 /// Tones are precomputed up to a count of `USUAL`, in steps of 1/`PARTS` of a point.
@@ -26,8 +26,8 @@ fn shaded(
     let tone = |count: f32| {
         let part = libm::log1pf(count) / whole;
         match part < 0.7 {
-            true => mixed(palette.plot, colour, 0.25 * count.min(1.0) + 0.75 * part / 0.7),
-            false => mixed(colour, palette.text, (part - 0.7) / 0.5),
+            true => mix(palette.plot, colour, 0.25 * count.min(1.0) + 0.75 * part / 0.7),
+            false => mix(colour, palette.text, (part - 0.7) / 0.5),
         }
     };
     let usual: Vec<Rgba> =

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Follow;
 
 /// Largest distance of the camera or the target from 0 at the start, in metres; 1 if both stay at 0.
@@ -17,7 +17,7 @@ const CAMERA: f64 = 0.09;
 const TARGET: f64 = 0.045;
 const HALF_POST: f64 = 0.16;
 
-impl Drawn for Follow {
+impl BodyPicture for Follow {
     fn draw(&self, _q: &[f64], outline: &mut Outline) {
         let (reach, at) = (reach(self), DVec2::new(self.target(outline.t), 0.0));
         let half_post = DVec2::Y * HALF_POST * reach;

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Helm;
 
 /// Width of the view in metres: it shows a turning circle.
@@ -11,7 +11,7 @@ const WIDTH_M: f64 = 150.0;
 /// Length of the hull, in metres.
 const LENGTH_M: f64 = 0.15 * WIDTH_M;
 
-impl Drawn for Helm {
+impl BodyPicture for Helm {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let bow = DVec2::new(libm::cos(q[2]), libm::sin(q[2]));
         outline.marks.push(Mark::Hull { bow, length: LENGTH_M });

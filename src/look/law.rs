@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::beads::Beads;
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull, typed};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull, typed};
 use crate::run::race::LaneBody;
 use crate::sim::bodies::Law;
 use crate::sim::law::Layout;
@@ -16,7 +16,7 @@ mod carriage;
 mod places;
 mod vertical;
 
-pub(super) fn picture(body: &LaneBody) -> Box<dyn Drawn + '_> {
+pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
     let law = typed::<Law>(body.stepper.body());
     let (text, preview) = (law.equations().text(), body.preview());
     if law.equations().has_places() {
@@ -65,7 +65,7 @@ impl Follower {
     }
 }
 
-impl Drawn for Follower {
+impl BodyPicture for Follower {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let farthest = self.farthest();
         let at = |x: f64| DVec2::new(x, 0.0);

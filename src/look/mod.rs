@@ -18,6 +18,7 @@ mod custom;
 mod density;
 mod follow;
 mod helm;
+pub(crate) mod landmarks;
 mod law;
 mod net;
 mod orbit;
@@ -79,7 +80,7 @@ pub struct Pull {
 }
 
 /// The picture of one kind of body with its current parameters.
-trait Drawn {
+trait BodyPicture {
     /// Draws the body at the coordinates `q`, in metres, x right and y up. [`Outline::at`] is its position and
     /// [`Outline::t`] the time.
     fn draw(&self, q: &[f64], outline: &mut Outline);
@@ -92,7 +93,7 @@ trait Drawn {
     }
 
     /// The true motion from this state on in a few words, if it is simple.
-    fn promise(&self, _q: &[f64], _v: &[f64]) -> Option<String> {
+    fn describe_motion(&self, _q: &[f64], _v: &[f64]) -> Option<String> {
         None
     }
 
@@ -119,7 +120,7 @@ struct LookCard {
     /// Id of the kind.
     kind: &'static str,
     place: fn(&dyn Any, &[f64]) -> DVec2,
-    picture: for<'a> fn(&'a LaneBody) -> Box<dyn Drawn + 'a>,
+    picture: for<'a> fn(&'a LaneBody) -> Box<dyn BodyPicture + 'a>,
 }
 
 /// The looks of all built-in kinds, in the order of [`BODIES`](crate::sim::bodies::BODIES).
@@ -150,13 +151,13 @@ pub(crate) fn drawn_unit(kind: &Kind) -> &'static str {
 }
 
 impl LookCard {
-    const fn plain<B: Body + Drawn>(kind: &'static str) -> Self {
+    const fn plain<B: Body + BodyPicture>(kind: &'static str) -> Self {
         Self::of::<B>(kind, |body| Box::new(typed::<B>(body.stepper.body()).clone()))
     }
 
     const fn of<B: Body>(
         kind: &'static str,
-        picture: for<'a> fn(&'a LaneBody) -> Box<dyn Drawn + 'a>,
+        picture: for<'a> fn(&'a LaneBody) -> Box<dyn BodyPicture + 'a>,
     ) -> Self {
         let place = |body: &dyn Any, q: &[f64]| {
             let body = typed::<B>(body);
@@ -181,7 +182,7 @@ impl LookCard {
 pub struct Look<'a> {
     body: &'a LaneBody,
     card: &'static LookCard,
-    picture: Box<dyn Drawn + 'a>,
+    picture: Box<dyn BodyPicture + 'a>,
 }
 
 impl<'a> Look<'a> {
@@ -210,8 +211,8 @@ impl<'a> Look<'a> {
     }
 
     /// The true motion from this state on in a few words, if it is simple.
-    pub fn promise(&self, q: &[f64], v: &[f64]) -> Option<String> {
-        self.picture.promise(q, v)
+    pub fn describe_motion(&self, q: &[f64], v: &[f64]) -> Option<String> {
+        self.picture.describe_motion(q, v)
     }
 
     /// Amplitude of the true motion from this state on, in metres, if it is simple.

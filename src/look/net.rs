@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull, typed};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull, typed};
 use crate::run::race::LaneBody;
 use crate::scene::{Preview, Thread};
 use crate::sim::bodies::Net;
@@ -31,11 +31,11 @@ struct NetPicture<'a> {
     preview: Arc<Preview>,
 }
 
-pub(super) fn picture(body: &LaneBody) -> Box<dyn Drawn + '_> {
+pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
     Box::new(NetPicture { net: typed(body.stepper.body()), preview: body.preview() })
 }
 
-impl Drawn for NetPicture<'_> {
+impl BodyPicture for NetPicture<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let Self { net, preview } = self;
         let [low, high] = preview.corners;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::{Ellipse, Orbit};
 
 /// Radius of the satellite and of the planet, in units.
@@ -19,7 +19,7 @@ fn unit(orbit: &Orbit) -> f64 {
     orbit.ellipse().map_or(orbit.q0.length(), |ellipse| ellipse.half.max_element())
 }
 
-impl Drawn for Orbit {
+impl BodyPicture for Orbit {
     fn draw(&self, _q: &[f64], outline: &mut Outline) {
         let unit = unit(self);
         let (centre, at) = (DVec2::ZERO, outline.at);

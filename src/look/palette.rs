@@ -51,7 +51,7 @@ impl Theme {
     /// Colour and dash pattern of a method. The pattern is the length of a dash and of a gap in points; a gap of 0 is
     /// solid.
     pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
-        self.drawn(indices(method))
+        self.resolve_style(indices(method))
     }
 
     /// Colour and dash pattern of a lane among `lanes`. The first lane of a method has the method's style; each
@@ -60,10 +60,10 @@ impl Theme {
     /// No two of the first nine lanes share their dash together with colours that some people confuse. A lane whose
     /// colour is taken gets a free one while there is one. Only explicit Euler has explicit Euler's colour.
     pub fn lane_style(self, lanes: &[LaneSpec], lane: &LaneSpec) -> (Rgba, [f32; 2]) {
-        self.drawn(lane_places(lanes, lane))
+        self.resolve_style(lane_places(lanes, lane))
     }
 
-    fn drawn(self, (colour, dash): (usize, usize)) -> (Rgba, [f32; 2]) {
+    fn resolve_style(self, (colour, dash): (usize, usize)) -> (Rgba, [f32; 2]) {
         (self.palette().methods[colour], DASHES[dash])
     }
 
@@ -219,7 +219,7 @@ const ENGINE_DASHES: [usize; 3] = [4, 1, 2];
 const HUES: [usize; 7] = [0, 1, 2, 0, 2, 0, 1];
 
 /// Number of lanes at the head of a list, those with keys. No two of them share hue and dash.
-const TOLD_APART: usize = 9;
+const DISTINCT_LANES: usize = 9;
 
 /// Indices of the colours of game loops. No two warm ones are adjacent.
 const LOOPS: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
@@ -262,11 +262,11 @@ fn classic(method: &Method) -> Option<(usize, usize)> {
 fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
     let is_first = |end: usize| lanes[..end].iter().all(|other| other.method != lanes[end].method);
     let end = match lanes.iter().position(|other| other == lane) {
-        Some(end) if end < TOLD_APART || !is_first(end) => end,
+        Some(end) if end < DISTINCT_LANES || !is_first(end) => end,
         _ => return indices(lane.method),
     };
     let (colours, dashes) = (DARK.methods.len(), DASHES.len());
-    let kept = lanes.iter().take(TOLD_APART).filter_map(|lane| classic(lane.method));
+    let kept = lanes.iter().take(DISTINCT_LANES).filter_map(|lane| classic(lane.method));
     let mut taken: Vec<(usize, usize)> = Vec::new();
     for (i, next) in lanes[..=end].iter().enumerate() {
         let (colour, dash) = indices(next.method);
@@ -277,7 +277,7 @@ fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
         let unshared = |pair: &(usize, usize)| others().all(|other| other.0 != pair.0);
         let unused = |pair: &(usize, usize)| !taken.contains(pair);
         let own = || pairs.clone().find(unlike).or_else(|| pairs.clone().find(unshared));
-        let is_shared = i < TOLD_APART && !unshared(&(colour, dash));
+        let is_shared = i < DISTINCT_LANES && !unshared(&(colour, dash));
         let other = match classic(next.method) {
             _ if !is_first(i) => own().or_else(|| pairs.clone().find(unused)),
             None if is_shared => own(),
@@ -290,7 +290,7 @@ fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
             let looks = |of: (usize, usize)| (HUES[of.0], of.1);
             taken.iter().all(|other| looks(*other) != looks(*pair))
         };
-        let told = dashed.chain(pairs.clone()).find(is_told).filter(|_| i < TOLD_APART);
+        let told = dashed.chain(pairs.clone()).find(is_told).filter(|_| i < DISTINCT_LANES);
         taken.push(told.unwrap_or(wanted));
     }
     taken[end]
@@ -333,7 +333,7 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
 });
 
 /// The opaque colour at the fraction `part` of the way from the first to the second.
-pub fn mixed(from: Rgba, to: Rgba, part: f32) -> Rgba {
+pub fn mix(from: Rgba, to: Rgba, part: f32) -> Rgba {
     let mix = |i: usize| {
         f32::from(from[i]) + part.clamp(0.0, 1.0) * (f32::from(to[i]) - f32::from(from[i]))
     };
@@ -341,7 +341,7 @@ pub fn mixed(from: Rgba, to: Rgba, part: f32) -> Rgba {
 }
 
 /// The same colour with its alpha scaled by `part`.
-pub(crate) fn faded([r, g, b, a]: Rgba, part: f32) -> Rgba {
+pub(crate) fn fade([r, g, b, a]: Rgba, part: f32) -> Rgba {
     [r, g, b, (f32::from(a) * part.clamp(0.0, 1.0)) as u8]
 }
 

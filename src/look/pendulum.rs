@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::{Body, Pendulum};
 
 /// Radius of the bob, in lengths of the rod.
 const BOB: f64 = 0.12;
 
-impl Drawn for Pendulum {
+impl BodyPicture for Pendulum {
     fn draw(&self, _q: &[f64], outline: &mut Outline) {
         let (pivot, bob, unit) = (DVec2::ZERO, outline.at, self.length);
         outline.marks.push(Mark::Rod { from: pivot, to: bob });

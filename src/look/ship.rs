@@ -2,14 +2,14 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Ship;
 use crate::sim::number::round;
 
 /// Length of the hull, in metres.
 const LENGTH_M: f64 = 9.0;
 
-impl Drawn for Ship {
+impl BodyPicture for Ship {
     fn draw(&self, _q: &[f64], outline: &mut Outline) {
         outline.marks.push(Mark::Hull { bow: DVec2::X, length: LENGTH_M });
     }
@@ -18,7 +18,7 @@ impl Drawn for Ship {
         Framing::Follow { width_m: 38.0, height_m: 9.0, wake_s: 3.0 }
     }
 
-    fn promise(&self, _q: &[f64], v: &[f64]) -> Option<String> {
+    fn describe_motion(&self, _q: &[f64], v: &[f64]) -> Option<String> {
         let last = self.throttle * self.thrust / self.drag;
         let way = if v[0].abs() < last.abs() { "speeds up" } else { "slows down" };
         last.is_finite().then(|| format!("{way} to {} m/s", round(last, 3)))

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Spring;
 use crate::sim::number::round;
 
@@ -15,7 +15,7 @@ fn amplitude(spring: &Spring) -> f64 {
 /// Half the side of the block, in amplitudes.
 const HALF_BLOCK: f64 = 0.16;
 
-impl Drawn for Spring {
+impl BodyPicture for Spring {
     fn draw(&self, _q: &[f64], outline: &mut Outline) {
         outline.marks.push(Mark::Sprung);
     }
@@ -24,7 +24,7 @@ impl Drawn for Spring {
         Framing::Recorder { half_width_m: 2.0 * amplitude(self) }
     }
 
-    fn promise(&self, q: &[f64], v: &[f64]) -> Option<String> {
+    fn describe_motion(&self, q: &[f64], v: &[f64]) -> Option<String> {
         if self.damping > 0.0 {
             return Some("should come to rest".into());
         }

@@ -145,11 +145,11 @@ impl LoopLab {
         }
         self.body = at_start(&self.scene);
         self.now_ns = 0;
-        self.ask();
+        self.request_loops();
     }
 
     /// Requests all loops again and discards the lanes of the previous choice.
-    fn ask(&mut self) {
+    fn request_loops(&mut self) {
         self.request = Arc::new(LoopRequest {
             scene: self.scene.clone(),
             method: self.method,
@@ -326,7 +326,7 @@ impl LoopLab {
             self.on_stage = ids.map(index_of).into();
             self.selected = self.on_stage[0];
         }
-        self.ask();
+        self.request_loops();
     }
 
     /// Adds traces and chooses the first of them.
@@ -339,13 +339,13 @@ impl LoopLab {
     /// Sets the tick rate, clamped to [`Clock::TICK_HZ`](crate::sim::Clock::TICK_HZ).
     pub fn set_tick_hz(&mut self, tick_hz: impl Into<TickRate>) {
         Arc::make_mut(&mut self.scene).tick_hz = tick_hz.into().clamp(TickRate::MIN, TickRate::MAX);
-        self.ask();
+        self.request_loops();
     }
 
     /// Restarts all loops with this method.
     pub fn set_method(&mut self, method: &'static Method) {
         self.method = method;
-        self.ask();
+        self.request_loops();
     }
 
     /// Sets the slow-motion factor, clamped to the range of [`SLOWNESS`].

@@ -4,7 +4,7 @@ use super::metrics::{FrameRecord, PacingMeter, PacingReport};
 use super::paced_lane::PacedLane;
 use super::pacer::Pacer;
 use super::policy::{FrameLimits, PolicyCard, Steps};
-use super::scripted_truth::{Furthest, ScriptedTruth, TimedScript};
+use super::scripted_truth::{MaxDistances, ScriptedTruth, TimedScript};
 use super::time_base::TimeBase;
 use super::trace::{Frame, FrameTrace, Frames};
 use crate::run::race::{Lane, LaneBody};
@@ -123,7 +123,7 @@ impl LoopRun {
         Some(FrameRecord {
             number: self.meter.frames() - 1,
             frame,
-            shown_ms: base.milliseconds(pacer.shown()),
+            shown_ms: base.milliseconds(pacer.drawn_moment()),
             steps,
             dropped_ms: base.milliseconds(steps.dropped),
             animation_error_ms,
@@ -159,7 +159,7 @@ impl LoopRun {
         mut seen: impl FnMut(&Self, &FrameRecord),
     ) -> PacingReport {
         let mut half = self.clone().at_half_the_rate();
-        let mut furthest = Furthest::default();
+        let mut furthest = MaxDistances::default();
         let mut report = None;
         while (half.began_ns() < until_ns || half.last.is_none()) && !stop() {
             if half.next_frame().is_none() {
@@ -171,7 +171,7 @@ impl LoopRun {
                 report = Some(self.report());
                 self.run_until(common_ns, stop, |_, _| {});
             }
-            self.truth.widen(&mut furthest, self.lane.lane(), half.lane.lane());
+            self.truth.update_max_distances(&mut furthest, self.lane.lane(), half.lane.lane());
         }
         let [simulated, at_half] = [&self, &half].map(|run| run.lane.pacer().simulated());
         let time_difference = self.lane.pacer().base().milliseconds(simulated - at_half);

@@ -215,7 +215,7 @@ impl PacingMeter {
         self.frames += 1;
         self.max_owed = self.max_owed.max(pacer.owed());
         let base = pacer.base();
-        let (displayed, shown) = (base.nanoseconds(frame.displayed_ns?), pacer.shown());
+        let (displayed, shown) = (base.nanoseconds(frame.displayed_ns?), pacer.drawn_moment());
         self.displayed += 1;
         let latency = displayed - shown;
         self.latency += latency;

@@ -61,7 +61,8 @@ impl PacedLane {
             self.steps += 1;
             self.last_step_s = h;
         }
-        let (t, owed) = (self.pacer.simulated(), self.pacer.shown() - self.pacer.simulated());
+        let (t, owed) =
+            (self.pacer.simulated(), self.pacer.drawn_moment() - self.pacer.simulated());
         let has_ahead = self.pacer.card().has_render_tick && owed > 0;
         self.ahead = has_ahead.then(|| {
             let mut ahead = self.lane.clone();
@@ -73,7 +74,7 @@ impl PacedLane {
     }
 
     /// Coordinates in the picture of the body with this index.
-    pub fn drawn(&self, body: usize) -> Vec<f64> {
+    pub fn drawn_coordinates(&self, body: usize) -> Vec<f64> {
         let drawing = self.pacer.card().drawing;
         let lane = self.ahead.as_ref().unwrap_or(&self.lane);
         drawing.coordinates(&lane.bodies()[body], self.pacer.alpha(), self.last_step_s)

@@ -71,7 +71,7 @@ impl Pacer {
     }
 
     /// Simulated moment in the picture. With interpolation it begins one tick before the start.
-    pub fn shown(&self) -> i128 {
+    pub fn drawn_moment(&self) -> i128 {
         let now = self.simulated + self.policy.owed();
         match self.card.drawing {
             Interpolation::Raw if !self.card.has_render_tick => self.simulated,

@@ -97,7 +97,7 @@ pub struct PolicyCard {
 
 impl PolicyCard {
     /// Name of the interpolation between ticks, for people.
-    pub fn drawn(&self) -> &'static str {
+    pub fn drawing_name(&self) -> &'static str {
         if self.has_render_tick { "a copy stepped on" } else { self.drawing.name() }
     }
 

@@ -18,7 +18,7 @@ pub(super) struct ScriptedTruth {
 
 /// Largest distance so far of each body between two lanes, in the unit of its first coordinate.
 #[derive(Default)]
-pub(super) struct Furthest(Vec<f64>);
+pub(super) struct MaxDistances(Vec<f64>);
 
 /// Errors of a body's pictures.
 #[derive(Clone, Copy)]
@@ -61,7 +61,7 @@ impl ScriptedTruth {
                 continue;
             }
             let exact = body.stepper.q();
-            let largest = distance(body, exact, &paced.drawn(index));
+            let largest = distance(body, exact, &paced.drawn_coordinates(index));
             error.squares += largest * largest;
             error.count += 1;
             error.range = [error.range[0].min(exact[0]), error.range[1].max(exact[0])];
@@ -74,7 +74,12 @@ impl ScriptedTruth {
     }
 
     /// Updates `furthest` with the distances between the bodies of two lanes.
-    pub(super) fn widen(&self, furthest: &mut Furthest, one: &Lane, other: &Lane) {
+    pub(super) fn update_max_distances(
+        &self,
+        furthest: &mut MaxDistances,
+        one: &Lane,
+        other: &Lane,
+    ) {
         furthest.0.resize(one.bodies().len(), 0.0);
         let bodies = one.bodies().iter().zip(other.bodies()).zip(&mut furthest.0);
         for ((one, other), most) in bodies {
@@ -83,7 +88,7 @@ impl ScriptedTruth {
     }
 
     /// Largest distance of the worst body, in amplitudes.
-    pub(super) fn in_amplitudes(&self, furthest: &Furthest) -> Option<f64> {
+    pub(super) fn in_amplitudes(&self, furthest: &MaxDistances) -> Option<f64> {
         let bodies = furthest.0.iter().zip(&self.errors);
         let shares = bodies.filter_map(|(most, error)| Some(most / error.amplitude()?));
         shares.reduce(f64::max)

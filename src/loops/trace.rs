@@ -37,12 +37,12 @@ enum Clocks {
     /// Only the beginnings are known, and count as times of display too.
     OfFrames,
     /// As `OfFrames`, because times in the log contradict each other.
-    Parted(Parting),
+    Conflicting(ClockConflict),
 }
 
 /// Contradictory times of a log. They differ by more than 1 %, or by a quarter for the averaged frames per second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Parting {
+pub(super) enum ClockConflict {
     /// Display times against frame times.
     Display,
     /// The log's own time against frame times.
@@ -146,8 +146,8 @@ impl FrameTrace {
         self.clocks != Clocks::Two
     }
     /// The same frames, without display times because the log contradicts itself.
-    pub(super) fn with_parted_clocks(self, parting: Parting) -> Self {
-        Self { clocks: Clocks::Parted(parting), ..self }
+    pub(super) fn with_conflicting_clocks(self, parting: ClockConflict) -> Self {
+        Self { clocks: Clocks::Conflicting(parting), ..self }
     }
     /// The same frames, where the first one took `lead_ns` nanoseconds until it began.
     pub(super) fn with_lead(self, lead_ns: i64) -> Self {
@@ -160,15 +160,15 @@ impl FrameTrace {
             Clocks::OfFrames => {
                 Some("the log has no display times; each frame counts as shown when it begins")
             }
-            Clocks::Parted(Parting::Display) => Some(
+            Clocks::Conflicting(ClockConflict::Display) => Some(
                 "the log's frame and display clocks part by more than 1 %, so its display times are ignored; each \
                  frame counts as shown when it begins",
             ),
-            Clocks::Parted(Parting::Time) => Some(
+            Clocks::Conflicting(ClockConflict::Time) => Some(
                 "the log's own time and the sum of its frames part by more than 1 %, so one of them is wrong; each \
                  frame counts as shown when it begins",
             ),
-            Clocks::Parted(Parting::Rate) => Some(
+            Clocks::Conflicting(ClockConflict::Rate) => Some(
                 "the log's frame rates contradict its frame times, so one of them is wrong; each frame counts as \
                  shown when it begins",
             ),

@@ -19,7 +19,7 @@ use std::collections::{HashMap, HashSet};
 
 use csv::{ByteRecord, StringRecord};
 
-use super::trace::{FrameTrace, Parting};
+use super::trace::{ClockConflict, FrameTrace};
 use columns::{Cells, Columns};
 use durations::{Unit, Unreadable};
 use stream::Stream;
@@ -141,7 +141,7 @@ fn of_table(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError>
 #[derive(Default)]
 struct Checks {
     /// Whether the log names its unit.
-    is_said: bool,
+    names_unit: bool,
     /// Whether rows have the log's own time instead of frame times.
     is_own_time: bool,
     /// Frame times as if in milliseconds, and their products with frames per second where the log has these.
@@ -178,7 +178,7 @@ impl Checks {
                 [(Unit::Milliseconds, 1.0), (Unit::Microseconds, 1e-3), (Unit::Seconds, 1e3)];
             return units.into_iter().find_map(|(unit, wanted)| near(unit, wanted, ratio));
         }
-        let median_ms = median(&self.frames_ms).filter(|_| !self.is_said)?;
+        let median_ms = median(&self.frames_ms).filter(|_| !self.names_unit)?;
         match median_ms {
             // The limits are 5000 frames per second and one frame in two seconds.
             ..0.2 if median_ms > 0.0 => Some(Unit::Seconds),
@@ -240,8 +240,8 @@ fn read_in(
     let columns = found.map_err(|fault| at(header_line, fault))?;
     let mut record = ByteRecord::new();
     let in_unit = unit.or(columns.unit).unwrap_or(Unit::Milliseconds);
-    let (is_said, is_own_time) = (columns.unit.is_some(), columns.is_since_start());
-    let mut checks = Checks { is_said, is_own_time, ..Checks::default() };
+    let (names_unit, is_own_time) = (columns.unit.is_some(), columns.is_since_start());
+    let mut checks = Checks { names_unit, is_own_time, ..Checks::default() };
 
     let (mut streams, mut numbers) = (Vec::<Stream>::new(), HashMap::<String, usize>::new());
     let mut key = String::new();
@@ -296,7 +296,7 @@ fn read_in(
     let is_of_capframex = is_of_capframex(bytes) && columns.has_display();
     let format = if is_of_capframex { "CapFrameX" } else { columns.format };
     let format = format!("{format}{in_words}");
-    let known = Some(Parting::Rate).filter(|_| checks.is_rate_wrong());
+    let known = Some(ClockConflict::Rate).filter(|_| checks.is_rate_wrong());
     let trace = |(name, stream): (String, Stream)| {
         let lead_ns = if columns.counts_first() { stream.lead_ns() } else { 0 };
         let trace = stream.into_trace(name, columns.is_sure_of_time(), known);

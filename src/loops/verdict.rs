@@ -27,7 +27,7 @@ pub struct LoopVerdict {
 impl LoopVerdict {
     /// The verdict on a loop from its report, at a tick rate in Hz.
     pub fn of(card: &PolicyCard, report: &PacingReport, tick_hz: impl Into<TickRate>) -> Self {
-        let mut verdict = Self::seen(report, tick_hz.into());
+        let mut verdict = Self::of_picture(report, tick_hz.into());
         let differs = report.keeps_speed() != Some(false) && report.other_motion().is_some();
         if differs && !card.has_fixed_tick {
             verdict.parts.push("physics varies with the rate".into());
@@ -53,7 +53,7 @@ impl LoopVerdict {
     }
 
     /// The verdict on the picture as a viewer sees it.
-    fn seen(report: &PacingReport, tick_hz: TickRate) -> Self {
+    fn of_picture(report: &PacingReport, tick_hz: TickRate) -> Self {
         let said = |severity, words: &str| Self::new(severity, [Some(words.into())]);
         if report.keeps_speed() == Some(false) && report.animation_error_rms_ms.is_some() {
             return said(Severity::Bad, "speed depends on the frame rate");

@@ -166,7 +166,7 @@ impl Adviser {
         loop {
             let met = judged.iter().map(|(spec, met)| (spec.method, met)).enumerate();
             let ranking = Ranking::new(met);
-            let (first, undecided) = (ranking.first(), ranking.undecided());
+            let (first, undecided) = (ranking.recommended_index(), ranking.undecided());
             let most = match undecided.is_empty() {
                 true => ranking.most_cost_of_a_rival(),
                 false => ranking.least_cost().unwrap_or(f64::INFINITY),
@@ -222,7 +222,7 @@ impl Adviser {
     }
 
     /// Searches margins until the recommendation is certain.
-    pub fn decide(&self, advised: &mut [MethodAdvice]) {
+    pub fn search_until_decided(&self, advised: &mut [MethodAdvice]) {
         loop {
             let undecided = self.undecided_margins(advised);
             if undecided.is_empty() {
@@ -354,12 +354,12 @@ impl Adviser {
     async fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> Option<(f64, String)> {
         let (mut held, mut last_miss) = (0, None);
         let has_hairs = criterion == Criterion::Accurate && self.judge.has_bumps();
-        let mut is_by_a_hair = has_hairs && !self.spares(spec, 0).await;
+        let mut is_by_a_hair = has_hairs && !self.is_accurate_with_margin(spec, 0).await;
         while held + 1 < FACTORS.len() && last_miss.is_none() && !self.is_spent() {
             let next = (held + 1) * PARTS_OF_STRIDE;
             let Some(judge) = self.stiffer(next).await else { break };
             let was_by_a_hair = is_by_a_hair;
-            is_by_a_hair = has_hairs && !self.spares(spec, next).await;
+            is_by_a_hair = has_hairs && !self.is_accurate_with_margin(spec, next).await;
             if is_by_a_hair || !has_hairs {
                 last_miss = judge.misses(criterion, spec, self.tick_hz).await;
             }
@@ -415,7 +415,7 @@ impl Adviser {
     }
 
     /// Whether a lane is accurate on the scene with this factor, with a margin.
-    async fn spares(&self, spec: LaneSpec, factor: usize) -> bool {
+    async fn is_accurate_with_margin(&self, spec: LaneSpec, factor: usize) -> bool {
         match self.stiffer(factor).await {
             Some(judge) => judge.is_accurate_sparing(SPARE_WHEN_STIFFER, spec, self.tick_hz).await,
             None => false,
@@ -444,7 +444,7 @@ fn ranking(advised: &[MethodAdvice], criterion: usize) -> Ranking<'_> {
 
 /// Index in `advised` of the method recommended for a criterion. Margins that are not searched count as no reserve.
 pub fn recommended(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
-    ranking(advised, criterion).first()
+    ranking(advised, criterion).recommended_index()
 }
 
 /// Indices in `advised` of the methods that meet a criterion: the [`recommended`] one, then the others by increasing

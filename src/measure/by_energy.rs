@@ -55,10 +55,10 @@ pub(super) async fn follow_energy(
         let gain = body.energy() - body.base_j;
         let [kinetic, _] = body.energies();
         (fastest, lost, gained) = (fastest.max(kinetic), lost.max(-gain), gained.max(gain));
-        means.take_in(tick, gain);
+        means.add(tick, gain);
         ControlFlow::Continue(())
     };
-    let stop = truth.go_on(&mut followed, horizon, see).await;
+    let stop = truth.run_until(&mut followed, horizon, see).await;
     let mut finding = EnergyFinding {
         change: 0.0,
         trend: Trend::None,

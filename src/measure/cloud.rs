@@ -451,6 +451,22 @@ impl Cloud {
         self.points_left().saturating_sub(picture.points())
     }
 
+    /// Number of points left on each side of a view: left, right, below and above. A point counts for the side that it
+    /// is furthest beyond.
+    pub fn beyond(&self, view: PlaneView) -> [usize; 4] {
+        let mut beyond = [0; 4];
+        for [q, v] in self.present() {
+            let [x, y] = view.place(q, v);
+            let sides = [-x, x - 1.0, -y, y - 1.0];
+            let (side, by) = sides
+                .into_iter()
+                .enumerate()
+                .fold((0, f64::MIN), |most, side| if side.1 > most.1 { side } else { most });
+            beyond[side] += usize::from(by > 0.0);
+        }
+        beyond
+    }
+
     /// The points that have not blown up.
     fn present(&self) -> impl Iterator<Item = [f64; 2]> {
         let is_there = |state: &[f64; 2]| state.iter().all(|number| number.abs() <= ESCAPE);

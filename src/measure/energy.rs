@@ -38,13 +38,13 @@ impl Energy {
     }
 
     /// Adds the state after `tick` ticks and returns its drift.
-    pub(super) fn take_in(&mut self, stepper: &dyn Stepper, tick: u64) -> Option<f64> {
+    pub(super) fn add(&mut self, stepper: &dyn Stepper, tick: u64) -> Option<f64> {
         let drift = (stepper.energy()? - self.start) / self.scale?;
         if !drift.is_finite() {
             return None;
         }
-        self.horizon.take_in(tick, drift);
-        self.long.take_in(tick, drift);
+        self.horizon.add(tick, drift);
+        self.long.add(tick, drift);
         Some(drift)
     }
 }
@@ -60,7 +60,7 @@ impl Means {
         Self { end, sums: [(0.0, 0.0); 4] }
     }
 
-    pub(super) fn take_in(&mut self, tick: u64, value: f64) {
+    pub(super) fn add(&mut self, tick: u64, value: f64) {
         if tick > self.end {
             return;
         }

@@ -29,7 +29,7 @@ pub struct FutureMoment {
 
 /// The future of a body under one method, or in truth.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Future {
+pub struct FutureCurve {
     /// Index of the method on the menu; `None` for the truth.
     pub entry: Option<usize>,
     /// A moment for each tick, and more for the truth, until the method fails.
@@ -46,7 +46,7 @@ pub(crate) fn futures(
     held: Option<(&[f64], &[f64])>,
     plotted: usize,
     methods: &[LaneSpec],
-) -> Vec<Future> {
+) -> Vec<FutureCurve> {
     let is_dear = of.coordinates().len() > MAX_COORDINATES || of.stepper.is_beyond_reference();
     if of.halted().is_some() || is_dear {
         return Vec::new();
@@ -78,11 +78,10 @@ pub(crate) fn futures(
         moments
     };
     let h = tick_hz.step_s();
-    let of_methods = methods.iter().take(MAX_METHODS).enumerate().map(|(entry, spec)| Future {
-        entry: Some(entry),
-        moments: follow(spec.solver(), h, spec.substeps),
+    let of_methods = methods.iter().take(MAX_METHODS).enumerate().map(|(entry, spec)| {
+        FutureCurve { entry: Some(entry), moments: follow(spec.solver(), h, spec.substeps) }
     });
     let finer = h / (f64::from(EXACT_STEPS) / tick_hz.hz()).ceil();
-    let exact = Future { entry: None, moments: follow(Solver::Truth, finer, 1) };
+    let exact = FutureCurve { entry: None, moments: follow(Solver::Truth, finer, 1) };
     of_methods.chain([exact]).collect()
 }

@@ -3,7 +3,7 @@
 //!
 //! A [`Judge`] runs a scene under a method and gives a [`Verdict`]. An [`Adviser`] searches for the fewest substeps
 //! that meet a [`Criterion`]. Both are pure functions of the scene. A [`cloud`] steps many starts, [`OneStep`] is the
-//! anatomy of a tick, and a [`Future`] the next second of a body. [`advise`] reports on a custom body. An
+//! anatomy of a tick, and a [`FutureCurve`] the next second of a body. [`advise`] reports on a custom body. An
 //! [`AnalysisWorker`] does all of this beside a run, in slices.
 
 mod advice;
@@ -43,14 +43,14 @@ pub use chase_finding::ChaseFinding;
 pub use criterion::{CRITERIA, Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 pub use energy_finding::EnergyFinding;
 pub(crate) use futures::futures;
-pub use futures::{Future, FutureMoment};
+pub use futures::{FutureCurve, FutureMoment};
 pub use judge::{Judge, MAX_HORIZON_S};
 pub use one_step::{OneStep, Slope};
 pub(crate) use one_step::{one_step, orbit};
 pub use outcome::{Outcome, Severity, Sign};
 pub use report::{Criteria, MethodReport, PassedOver, Recommendation, Report, advise, try_advise};
 pub use run::MAX_WORK;
-pub use stability_map::{Coverage, Here, MapRequest, Region, SeenLine, StabilityMap};
+pub use stability_map::{Coverage, DampingLine, MapRequest, PointStability, Region, StabilityMap};
 pub use truth::LONG_RUN;
 pub use verdict::{
     Comparison, Finding, LongTerm, NoTruth, NotJudged, RunFailure, Verdict, VerdictNumber,

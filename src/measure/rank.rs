@@ -28,7 +28,7 @@ struct Ranked<'a> {
 
 impl Ranked<'_> {
     /// Whether another has a larger reserve at little more cost.
-    fn is_outdone_by(&self, other: &Self) -> bool {
+    fn loses_to(&self, other: &Self) -> bool {
         self.reserve < LITTLE_RESERVE
             && other.reserve > self.reserve
             && other.met.cost_per_s <= TIMES_ITS_COST * self.met.cost_per_s
@@ -63,14 +63,14 @@ impl<'a> Ranking<'a> {
     }
 
     /// Index of the recommended method.
-    pub(super) fn first(&self) -> Option<usize> {
-        let is_outdone = |one: &Ranked| self.all.iter().any(|other| one.is_outdone_by(other));
+    pub(super) fn recommended_index(&self) -> Option<usize> {
+        let is_outdone = |one: &Ranked| self.all.iter().any(|other| one.loses_to(other));
         self.all.iter().find(|one| !is_outdone(one)).map(|one| one.index)
     }
 
     /// All indices: the recommended method, then the others in order.
     pub(super) fn indices(&self) -> Vec<usize> {
-        let first = self.first();
+        let first = self.recommended_index();
         let rest = self.all.iter().map(|it| it.index).filter(|&index| Some(index) != first);
         first.into_iter().chain(rest).collect()
     }
@@ -78,12 +78,12 @@ impl<'a> Ranking<'a> {
     /// Index of the cheapest method, if it is passed over.
     pub(super) fn passed_over(&self) -> Option<usize> {
         let cheapest = self.all.first()?.index;
-        (self.first() != Some(cheapest)).then_some(cheapest)
+        (self.recommended_index() != Some(cheapest)).then_some(cheapest)
     }
 
     /// Highest cost at which another method could still become the recommended one.
     pub(super) fn most_cost_of_a_rival(&self) -> f64 {
-        let first = self.first();
+        let first = self.recommended_index();
         let taken = self.all.iter().find(|it| Some(it.index) == first);
         taken.map_or(f64::INFINITY, |taken| {
             let is_little = taken.reserve < LITTLE_RESERVE;
@@ -115,7 +115,7 @@ impl<'a> Ranking<'a> {
                 let most = TIMES_ITS_COST * cost(best);
                 self.all.iter().filter(move |it| cost(it) > cost(best) && cost(it) <= most)
             };
-            if rivals().any(|rival| best.is_outdone_by(rival)) {
+            if rivals().any(|rival| best.loses_to(rival)) {
                 continue;
             }
             let Some(next) = rivals().find(is_open).map(cost) else { return Vec::new() };

@@ -216,7 +216,7 @@ impl Report {
         let adviser = Adviser::within(max_work, scene, scene.tick_hz);
         let mut judged: Vec<MethodAdvice> =
             scene.advised_lanes().into_iter().map(|spec| adviser.judged(spec)).collect();
-        adviser.decide(&mut judged);
+        adviser.search_until_decided(&mut judged);
         for (row, i) in adviser.worth_margins(&judged) {
             judged[row].search_margins(&adviser, i);
         }

@@ -114,7 +114,7 @@ pub(super) async fn follow(
         let amplitudes = truth.amplitudes[..truth.centres.len()].to_vec();
         Swings::new(swing.coordinate, truth.centres.clone(), amplitudes, stepper)
     });
-    let mut measured = Measured {
+    let mut measured = RunMeter {
         chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.at_s),
         energy: Energy::of(stepper, truth, horizon, end),
         run: JudgedRun {
@@ -127,23 +127,23 @@ pub(super) async fn follow(
         tick_hz,
     };
     followed.body.swings = swings;
-    let see = |body: &FollowedBody, tick| measured.take_in(truth, body, tick);
-    let mut stop = truth.go_on(&mut followed, end, see).await;
+    let see = |body: &FollowedBody, tick| measured.add(truth, body, tick);
+    let mut stop = truth.run_until(&mut followed, end, see).await;
     if stop == StopReason::End && end > horizon {
         // The truth is not needed beyond the horizon.
         measured.run.is_losing = measured.energy.is_losing() && truth.swing.is_some();
         let stepper = &*followed.body.stepper;
         if measured.run.is_losing && measured.run.is_undecided(stepper, truth) {
-            let see = |body: &FollowedBody, tick| measured.take_in(truth, body, tick);
-            stop = truth.go_on(&mut followed, FOLLOWED_ON * end, see).await;
+            let see = |body: &FollowedBody, tick| measured.add(truth, body, tick);
+            stop = truth.run_until(&mut followed, FOLLOWED_ON * end, see).await;
         }
     }
     measured.run.swings = followed.body.swings.take();
-    measured.end(stop, followed.ticks(), followed.t())
+    measured.complete(stop, followed.ticks(), followed.t())
 }
 
 /// Measurements of a run in progress.
-struct Measured {
+struct RunMeter {
     run: JudgedRun,
     energy: Energy,
     series: Option<Arc<TruthSeries>>,
@@ -154,9 +154,9 @@ struct Measured {
     chased_s: f64,
 }
 
-impl Measured {
+impl RunMeter {
     /// Adds the body's state after `tick` ticks, and stops the run when the rest is not needed.
-    fn take_in(&mut self, truth: &BodyTruth, body: &FollowedBody, tick: u64) -> ControlFlow<()> {
+    fn add(&mut self, truth: &BodyTruth, body: &FollowedBody, tick: u64) -> ControlFlow<()> {
         let (stepper, horizon) = (&*body.stepper, self.horizon);
         let t = self.tick_hz.seconds(tick);
         let run = &mut self.run;
@@ -183,7 +183,7 @@ impl Measured {
                 }
             }
         }
-        let drift = self.energy.take_in(stepper, tick);
+        let drift = self.energy.add(stepper, tick);
         if tick <= horizon
             && let Some((drift, part)) = drift.zip(self.energy.percent)
         {
@@ -201,7 +201,7 @@ impl Measured {
     }
 
     /// Completes the run, which has stopped after `ticks` at time `t` (s).
-    fn end(self, stop: StopReason, ticks: u64, t: f64) -> JudgedRun {
+    fn complete(self, stop: StopReason, ticks: u64, t: f64) -> JudgedRun {
         let Self { mut run, energy, horizon, .. } = self;
         (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
         run.is_too_much = stop == StopReason::TooMuchWork;

@@ -52,7 +52,7 @@ impl Meter {
     }
 
     /// Work left in the slice.
-    pub(super) fn left(&self) -> u64 {
+    pub(super) fn work_left(&self) -> u64 {
         let passed = self.passed.load(Ordering::Relaxed);
         self.end.load(Ordering::Relaxed).saturating_sub(passed)
     }
@@ -66,7 +66,7 @@ impl Meter {
     /// Adds work outside the budget, and pauses if the slice is over.
     pub(super) async fn yield_after(&self, work: u64) {
         self.passed.fetch_add(work, Ordering::Relaxed);
-        if self.left() == 0 {
+        if self.work_left() == 0 {
             pause().await;
         }
     }
@@ -137,28 +137,28 @@ impl<T> Default for Once<T> {
 }
 
 impl<T> Once<T> {
-    pub(super) fn found(&self) -> Option<&T> {
+    pub(super) fn get_if_known(&self) -> Option<&T> {
         self.found.get()
     }
 
     /// The value, which `find` computes if it is unknown.
     pub(super) async fn get(&self, find: impl Future<Output = T>) -> &T {
-        while self.found().is_none() && self.is_sought.swap(true, Ordering::Acquire) {
+        while self.get_if_known().is_none() && self.is_sought.swap(true, Ordering::Acquire) {
             pause().await;
         }
-        if let Some(found) = self.found() {
+        if let Some(found) = self.get_if_known() {
             return found;
         }
-        let _turn = Turn(self);
+        let _turn = ComputeClaim(self);
         let found = find.await;
         self.found.get_or_init(|| found)
     }
 }
 
 /// Marks the caller that computes the value. Dropping it gives up the claim, also when the work is cancelled.
-struct Turn<'a, T>(&'a Once<T>);
+struct ComputeClaim<'a, T>(&'a Once<T>);
 
-impl<T> Drop for Turn<'_, T> {
+impl<T> Drop for ComputeClaim<'_, T> {
     fn drop(&mut self) {
         self.0.is_sought.store(false, Ordering::Release);
     }
@@ -189,7 +189,7 @@ mod tests {
         };
         assert_eq!((found, passed, meter.counted()), ("found", vec![6, 12, 22, 22], 12));
         block_on(meter.count(7));
-        assert_eq!(meter.left(), u64::MAX - 29);
+        assert_eq!(meter.work_left(), u64::MAX - 29);
     }
 
     #[test]
@@ -206,7 +206,7 @@ mod tests {
             })
         };
         let mut given_up = seek(1);
-        assert_eq!((given_up.resume(1), once.found()), (None, None));
+        assert_eq!((given_up.resume(1), once.get_if_known()), (None, None));
         drop(given_up);
         assert_eq!([2, 3].map(|value| seek(value).resume(9)), [Some(2); 2]);
         assert_eq!(meter.counted(), 2);

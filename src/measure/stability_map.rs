@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use contour::{Corners, contour};
 
-pub use seen::SeenLine;
-use seen::seen_lines;
+pub use seen::DampingLine;
+use seen::damping_lines;
 
 use super::modes::STEPS_PER_MODE;
 use super::slices::{Meter, Sliced};
@@ -127,7 +127,7 @@ pub struct Region {
     /// The ω h of a tick at the boundary, if the method's card states it and no motion on the map is damped.
     pub limit: Option<f64>,
     /// Lines of equal damping as a player sees it, for an engine that models the body as its joint.
-    pub seen: Vec<SeenLine>,
+    pub seen: Vec<DampingLine>,
 }
 
 impl Region {
@@ -155,7 +155,7 @@ pub enum Coverage {
 
 /// Stability of a method at the current point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Here {
+pub enum PointStability {
     /// It is stable.
     Stable,
     /// It grows: the swing doubles in this many seconds.
@@ -172,7 +172,7 @@ pub struct StabilityMap {
     /// Regions of the request's methods, from the first; later ones are not known yet.
     pub regions: Vec<Region>,
     /// Stability of each method of the request at the current point; empty until known.
-    pub here: Vec<Here>,
+    pub here: Vec<PointStability>,
     /// Why the body cannot be mapped, if it is neither linear nor linearisable about rest.
     pub refused: Option<NoSmallMotion>,
     /// Whether the body is linear, so that the map holds at any amplitude.
@@ -212,7 +212,7 @@ impl TestProblem {
     }
 
     /// The modes on which a method is tried, or else the coupled motion.
-    fn tried(&self, spec: &LaneSpec) -> (&[NormalMode], Option<&CoupledMotion>) {
+    fn test_motions(&self, spec: &LaneSpec) -> (&[NormalMode], Option<&CoupledMotion>) {
         match self {
             Self::Uncoupled(Uncoupled { held: Some(held), .. }) if spec.method.is_engine() => {
                 (&[], Some(held))
@@ -223,12 +223,12 @@ impl TestProblem {
     }
 
     /// Stability of a method on each mode or on the coupled motion; `None` where the method fails.
-    fn under<'a>(
+    fn stabilities<'a>(
         &'a self,
         spec: &'a LaneSpec,
         hz: f64,
     ) -> impl Iterator<Item = Option<Stability>> + 'a {
-        let (modes, coupled) = self.tried(spec);
+        let (modes, coupled) = self.test_motions(spec);
         let has_joint = match self {
             Self::Uncoupled(Uncoupled { settings, .. }) => settings.has_spring(),
             Self::Coupled(_) => false,
@@ -240,7 +240,8 @@ impl TestProblem {
     }
 
     fn is_stable(&self, spec: &LaneSpec, hz: f64) -> bool {
-        self.under(spec, hz).all(|found| found.is_some_and(|stability| stability.is_bounded()))
+        self.stabilities(spec, hz)
+            .all(|found| found.is_some_and(|stability| stability.is_bounded()))
     }
 
     /// Approximate work of a point under a method: steps from two states per coordinate, and the roots of their map.
@@ -250,7 +251,7 @@ impl TestProblem {
             let evaluations = STEPS_PER_MODE * n * evaluations * u64::from(spec.substeps);
             work_of(evaluations, n, spec.solver()) + work_of_roots(n)
         };
-        let (modes, coupled) = self.tried(spec);
+        let (modes, coupled) = self.test_motions(spec);
         let together = coupled.map_or(0, |coupled| steps(coupled.coordinates() as u64));
         modes.len() as u64 * steps(1) + together
     }
@@ -291,12 +292,17 @@ impl Plane {
     }
 
     /// Stability of each method at a value and a rate, and whether the true motion grows there.
-    async fn here(&self, specs: &[(usize, LaneSpec)], value: f64, hz: f64) -> (Vec<Here>, bool) {
+    async fn stability_at_point(
+        &self,
+        specs: &[(usize, LaneSpec)],
+        value: f64,
+        hz: f64,
+    ) -> (Vec<PointStability>, bool) {
         let motion = self.motion_at(value);
         self.meter.yield_after(self.work_of_motion()).await;
         let mut found = Vec::with_capacity(specs.len());
         for (_, spec) in specs {
-            found.push(here(spec, motion.as_ref(), hz));
+            found.push(stability_at_point(spec, motion.as_ref(), hz));
             self.meter.yield_after(motion.as_ref().map_or(0, |motion| motion.work(spec))).await;
         }
         (found, motion.is_some_and(|motion| motion.grows()))
@@ -339,7 +345,7 @@ impl Plane {
         let of_step = spec.method.stability_limit.filter(|limit| is_undamped && *limit > 0.0);
         let limit = of_step.map(|limit| limit * f64::from(spec.substeps));
         let joint_at = |value| self.kind.joint(&*self.body_at(value));
-        let seen = seen_lines(&spec, &self.corners, joint_at, &self.meter).await;
+        let seen = damping_lines(&spec, &self.corners, joint_at, &self.meter).await;
         Region { limit, seen, ..region }
     }
 }
@@ -352,13 +358,13 @@ pub(super) struct MapWork {
     map: StabilityMap,
     rows: Option<Arc<Rows>>,
     /// Work in progress on the current point, and on the rows or a region.
-    here: Option<Sliced<(Vec<Here>, bool)>>,
-    part: Option<Sliced<Part>>,
+    here: Option<Sliced<(Vec<PointStability>, bool)>>,
+    part: Option<Sliced<MapPart>>,
     /// Whether the last slice ended without a new result.
     is_within_a_part: bool,
 }
 
-enum Part {
+enum MapPart {
     Rows(Rows),
     Region(Region),
 }
@@ -437,7 +443,7 @@ impl MapWork {
             let new = || {
                 let (plane, specs) = (self.plane.clone(), request.specs.clone());
                 let (value, hz) = (request.value(), f64::from(request.tick_hz));
-                let find = async move { plane.here(&specs, value, hz).await };
+                let find = async move { plane.stability_at_point(&specs, value, hz).await };
                 Sliced::new(self.plane.meter.clone(), find)
             };
             let mut finding = self.here.take().unwrap_or_else(new);
@@ -450,22 +456,22 @@ impl MapWork {
         }
         let mut part = self.part.take().unwrap_or_else(|| self.next_part());
         match part.resume(work) {
-            Some(Part::Rows(rows)) => self.rows = Some(rows.into()),
-            Some(Part::Region(region)) => self.map.regions.push(region),
+            Some(MapPart::Rows(rows)) => self.rows = Some(rows.into()),
+            Some(MapPart::Region(region)) => self.map.regions.push(region),
             None => self.part = Some(part),
         }
         self.is_within_a_part = self.part.is_some();
     }
 
     /// The work for the next region, or for the rows that it needs first.
-    fn next_part(&self) -> Sliced<Part> {
+    fn next_part(&self) -> Sliced<MapPart> {
         let (plane, meter) = (self.plane.clone(), self.plane.meter.clone());
         let (_, spec) = self.map.request.specs[self.map.regions.len()];
         match self.rows.clone() {
             Some(rows) => {
-                Sliced::new(meter, async move { Part::Region(plane.region(spec, &rows).await) })
+                Sliced::new(meter, async move { MapPart::Region(plane.region(spec, &rows).await) })
             }
-            None => Sliced::new(meter, async move { Part::Rows(plane.rows().await) }),
+            None => Sliced::new(meter, async move { MapPart::Rows(plane.rows().await) }),
         }
     }
 }
@@ -501,16 +507,20 @@ fn stability(spec: &LaneSpec, has_joint: bool, mode: &NormalMode, hz: f64) -> Op
     NormalMode { shape: vec![1.0], ..*mode }.stability_of_small(&*body, spec.solver(), tick).ok()
 }
 
-fn here(spec: &LaneSpec, motion: Option<&TestProblem>, hz: f64) -> Here {
+fn stability_at_point(spec: &LaneSpec, motion: Option<&TestProblem>, hz: f64) -> PointStability {
     if chooses_steps(spec) {
-        return Here::OwnSteps;
+        return PointStability::OwnSteps;
     }
-    let growths = motion.into_iter().flat_map(|motion| motion.under(spec, hz)).map(|found| {
+    let growths = motion.into_iter().flat_map(|motion| motion.stabilities(spec, hz)).map(|found| {
         let doubling = |stability: Stability| stability.doubling_s().unwrap_or(f64::INFINITY);
         found.map_or(0.0, doubling)
     });
     let doubling_s = growths.fold(f64::INFINITY, f64::min);
-    if doubling_s.is_finite() { Here::Doubles(doubling_s) } else { Here::Stable }
+    if doubling_s.is_finite() {
+        PointStability::Doubles(doubling_s)
+    } else {
+        PointStability::Stable
+    }
 }
 
 #[cfg(test)]

@@ -70,7 +70,7 @@ impl Ranges {
     }
 
     /// Extends the ranges by the motion between two moments.
-    pub(super) fn take_in(&mut self, from: &TruthNode, to: &TruthNode) {
+    pub(super) fn extend(&mut self, from: &TruthNode, to: &TruthNode) {
         for (i, range) in self.0.iter_mut().enumerate() {
             let turns = from.slope[i] * to.slope[i] < 0.0;
             let steps = if turns { 1..=BETWEEN } else { BETWEEN..=BETWEEN };

@@ -127,7 +127,7 @@ impl Swings {
     }
 
     /// Ends the motion before an input.
-    pub(super) fn end(&mut self, stepper: &dyn Stepper) {
+    pub(super) fn finish_before_input(&mut self, stepper: &dyn Stepper) {
         for i in 0..self.centres.len() {
             if self.has_before {
                 self.find_peak(stepper, 0, i);
@@ -136,7 +136,7 @@ impl Swings {
     }
 
     /// Continues from the state after an input, at time `t` (s).
-    pub(super) fn go_on(&mut self, stepper: &dyn Stepper, t: f64) {
+    pub(super) fn resume_after_input(&mut self, stepper: &dyn Stepper, t: f64) {
         self.nodes[2].set(stepper, t, self.half_turns.len() - 1);
         self.divide();
         self.nodes.rotate_left(1);

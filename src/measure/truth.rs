@@ -194,8 +194,10 @@ impl BodyTruth {
         let mut seen = (self.body.kind.truth == Truth::Reference).then(Vec::new);
         let see = |from: &TruthNode, to: &TruthNode| {
             has_moved = true;
-            seen.iter_mut().for_each(|seen| seen.push((from.clone(), to.clone())));
-            reach.take_in(from, to);
+            if let Some(seen) = &mut seen {
+                seen.push((from.clone(), to.clone()));
+            }
+            reach.add(from, to);
             for moment in fastest(from, to).into_iter().filter(|_| conserves) {
                 there.set(0.0, &moment.x[..n], &moment.x[n..]);
                 let now = there.kinetic_energy();
@@ -213,7 +215,7 @@ impl BodyTruth {
         let middle = |range: &(f64, f64)| range.0 + (range.1 - range.0) / 2.0;
         self.centres = reach.ranges.0[..n].iter().map(middle).collect();
         if self.failure.is_none() && self.energy_scale.is_some() {
-            self.swing = self.watch(&self.centres, seen.as_deref(), most).await;
+            self.swing = self.measure_swing(&self.centres, seen.as_deref(), most).await;
         }
         let returns = self.swing.as_ref().is_some_and(|swing| swing.crossings.len() > 2);
         let mut first_swings_s = self.first_swings_of_modes_s();
@@ -238,7 +240,7 @@ impl BodyTruth {
         // A body that is knocked away from a fixed target does not swing about it.
         let is_chase = body.pursuit(0.0).is_some_and(|pursuit| pursuit.is_still);
         if self.failure.is_none() && self.energy_scale.is_none() && !is_chase {
-            self.swing = self.watch(&self.centres, seen.as_deref(), most).await;
+            self.swing = self.measure_swing(&self.centres, seen.as_deref(), most).await;
         }
         self.reach = reach.reach(&self.body, &self.centres, &self.amplitudes);
         let is_short = !self.swing.as_ref().is_some_and(Swing::has_a_frequency);
@@ -268,7 +270,7 @@ impl BodyTruth {
         let mut turns = vec![0; n];
         let mut first_swings_s = None;
         let see = |from: &TruthNode, to: &TruthNode| {
-            reach.take_in(from, to);
+            reach.add(from, to);
             for (i, turns) in turns.iter_mut().enumerate() {
                 *turns += u32::from((from.x[n + i] < 0.0) != (to.x[n + i] < 0.0));
                 if *turns >= 2 * FOLLOWED_SWINGS {

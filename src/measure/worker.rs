@@ -79,6 +79,8 @@ pub struct Findings {
     pub(crate) request: AnalysisRequest,
     /// The last verdict on each method of the list. It may answer an earlier request about the same scene.
     pub(crate) verdicts: Vec<Option<Verdict>>,
+    /// Number of verdicts, from the first, that answer this request.
+    pub(crate) judged: usize,
     pub(crate) advice: Option<Advice>,
     pub(crate) map: Option<StabilityMap>,
     /// Whether the request is answered in full.
@@ -125,11 +127,11 @@ pub struct AnalysisWorker {
     /// The last requested map.
     mapping: Option<MapWork>,
     /// The part of the answer in progress.
-    part: Option<Sliced<Part>>,
+    part: Option<Sliced<AnswerPart>>,
 }
 
 /// A part of the answer, computed in slices.
-enum Part {
+enum AnswerPart {
     Judge(Arc<Judge>),
     Verdict(Box<Verdict>),
     Adviser(AdvisedBodies, Arc<Adviser>),
@@ -160,20 +162,20 @@ impl AdviceInProgress {
     }
 
     /// The next method to judge, or else the next margin to search.
-    fn next(&mut self) -> Option<Sliced<Part>> {
+    fn next(&mut self) -> Option<Sliced<AnswerPart>> {
         let adviser = self.adviser.clone();
         let meter = adviser.judge().meter().clone();
         let row = self.advised.len();
         if let Some(&spec) = self.lanes.get(row) {
             return Some(Sliced::new(meter, async move {
-                Part::Advised(row, adviser.advice_on(spec).await.into())
+                AnswerPart::Advised(row, adviser.advice_on(spec).await.into())
             }));
         }
         let (row, criterion) = *self.margins.as_ref()?.last()?;
         let mut advice = self.advised[row].clone();
         Some(Sliced::new(meter, async move {
             adviser.search_margins(&mut advice, criterion).await;
-            Part::Advised(row, advice.into())
+            AnswerPart::Advised(row, advice.into())
         }))
     }
 
@@ -285,7 +287,7 @@ impl AnalysisWorker {
     }
 
     /// The next part of the answer, if one is missing.
-    fn next_part(&mut self) -> Option<Sliced<Part>> {
+    fn next_part(&mut self) -> Option<Sliced<AnswerPart>> {
         let AnalysisRequest { scene, by_hand, entries, first, tick_hz, advice, .. } = &self.request;
         let (tick_hz, meter) = (*tick_hz, Arc::<Meter>::default());
         if let Some(&spec) = entries.get(self.judged) {
@@ -293,7 +295,7 @@ impl AnalysisWorker {
                 let scene = by_hand.applied_to(scene);
                 return Some(Sliced::new(meter.clone(), async move {
                     let horizon_s = horizon_s(&scene);
-                    Part::Judge(Judge::find(&scene, 1.0, horizon_s, meter).await.into())
+                    AnswerPart::Judge(Judge::find(&scene, 1.0, horizon_s, meter).await.into())
                 }));
             };
             // Work that earlier verdicts did not use is left for later ones.
@@ -301,7 +303,7 @@ impl AnalysisWorker {
             let sharers = if self.judged < *first { *first } else { entries.len() };
             let share = (left / (sharers - self.judged) as u64).min(MAX_WORK);
             return Some(Sliced::new(judge.meter().clone(), async move {
-                Part::Verdict(judge.verdict_within(share, spec, tick_hz).await.into())
+                AnswerPart::Verdict(judge.verdict_within(share, spec, tick_hz).await.into())
             }));
         }
         let bodies = (*advice)?;
@@ -310,22 +312,22 @@ impl AnalysisWorker {
         }
         let scene = bodies.of(by_hand.applied_to(scene));
         Some(Sliced::new(meter.clone(), async move {
-            Part::Adviser(bodies, Adviser::find(scene, 1.0, tick_hz, meter).await.into())
+            AnswerPart::Adviser(bodies, Adviser::find(scene, 1.0, tick_hz, meter).await.into())
         }))
     }
 
-    fn accept(&mut self, found: Part) {
+    fn accept(&mut self, found: AnswerPart) {
         match found {
-            Part::Judge(judge) => self.judge = Some(judge),
-            Part::Verdict(verdict) => {
+            AnswerPart::Judge(judge) => self.judge = Some(judge),
+            AnswerPart::Verdict(verdict) => {
                 let starts_at_s = self.request.by_hand.starts_at_s();
                 self.verdicts[self.judged] = Some(verdict.starting_at(starts_at_s));
                 self.judged += 1;
             }
-            Part::Adviser(bodies, adviser) => {
+            AnswerPart::Adviser(bodies, adviser) => {
                 self.advising = Some(AdviceInProgress::new(bodies, adviser));
             }
-            Part::Advised(row, advice) => {
+            AnswerPart::Advised(row, advice) => {
                 if let Some(advising) = &mut self.advising {
                     advising.accept(row, *advice);
                 }
@@ -369,6 +371,7 @@ impl AnalysisWorker {
         Findings {
             request: self.request.clone(),
             verdicts: self.verdicts.clone(),
+            judged: self.judged,
             advice,
             map: self.mapping.as_ref().filter(|_| self.request.map.is_some()).map(MapWork::map),
             complete: self.is_done(),

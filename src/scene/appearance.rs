@@ -113,7 +113,7 @@ impl Preview {
     }
 
     /// Adds a moment: the coordinates, and the nodes or places there.
-    fn take_in(&mut self, q: &[f64], places: impl IntoIterator<Item = DVec2>) {
+    fn add_moment(&mut self, q: &[f64], places: impl IntoIterator<Item = DVec2>) {
         for ((low, high), &q) in self.ranges.iter_mut().zip(q) {
             (*low, *high) = (low.min(q), high.max(q));
         }
@@ -131,7 +131,7 @@ impl Preview {
         let mut solver = <SemiImplicitEuler<Vec<f64>> as Integrator<Net>>::new(&state.q);
         for step in 0..=steps {
             let free = Net::nodes(&state.q).iter().map(|&node| DVec2::from(node));
-            preview.take_in(&state.q, free.chain(fixed.iter().copied()));
+            preview.add_moment(&state.q, free.chain(fixed.iter().copied()));
             if solver.step(net, step as f64 * h, h, &mut state).is_err() {
                 break;
             }
@@ -144,7 +144,7 @@ impl Preview {
     fn of<B: Body<Vector = Vec<f64>>>(body: &B, places: impl Fn(&[f64]) -> Vec<DVec2>) -> Self {
         let mut state = body.start();
         let mut preview = Self::new(state.q.len());
-        preview.take_in(&state.q, places(&state.q));
+        preview.add_moment(&state.q, places(&state.q));
         let body = Counted::new(body.clone());
         let mut solver = <DormandPrince54<Vec<f64>> as Integrator<Counted<B>>>::new(&state.q);
         let mut near = vec![f64::INFINITY; state.q.len()];
@@ -157,7 +157,7 @@ impl Preview {
             {
                 break;
             }
-            preview.take_in(&state.q, places(&state.q));
+            preview.add_moment(&state.q, places(&state.q));
             if tick == 60 {
                 let most = |(low, high): &(f64, f64)| RUNAWAY * low.abs().max(high.abs()).max(1e-9);
                 near = preview.ranges.iter().map(most).collect();

@@ -19,7 +19,7 @@ pub(crate) fn clip_list<'a>(names: impl Iterator<Item = &'a str>) -> String {
 }
 
 /// The first characters of a text, with a sign if more follow.
-pub(crate) fn cut(max_chars: usize, text: &str) -> String {
+pub(crate) fn truncate(max_chars: usize, text: &str) -> String {
     match text.char_indices().nth(max_chars) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),
@@ -28,7 +28,7 @@ pub(crate) fn cut(max_chars: usize, text: &str) -> String {
 
 fn clip_to(max_chars: usize, text: &str) -> String {
     let mut shown = String::new();
-    for character in cut(max_chars, text).chars() {
+    for character in truncate(max_chars, text).chars() {
         match character {
             '"' | '\'' | '\\' => shown.push(character),
             _ => shown.extend(character.escape_debug()),

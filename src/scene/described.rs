@@ -43,7 +43,7 @@ pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Bod
     rows.sort_by_key(|(_, row)| row.header.start);
     if let Some((_, row)) = rows.get(MAX_BODIES) {
         let what = format!("the scene has {} bodies", rows.len());
-        top.complain(row.header.clone(), what, format!("keep at most {MAX_BODIES}"));
+        top.report_fault(row.header.clone(), what, format!("keep at most {MAX_BODIES}"));
     }
     let mut bodies = Vec::new();
     for (id, mut row) in rows.into_iter().take(MAX_BODIES) {
@@ -61,10 +61,10 @@ pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Bod
             && let Err(fault) = (kind.check)(values)
             && kind.law().is_none()
         {
-            row.complain_of(row.span(&fault.key), fault.into());
+            row.add_fault(row.span(&fault.key), fault.into());
         }
         bodies.push(BodyDraft { kind, id, name, name_at, values });
-        top.adopt(row);
+        top.add_faults_of(row);
     }
     bodies
 }
@@ -97,7 +97,7 @@ pub(super) fn check_names(text: &str, bodies: &[BodyDraft], top: &mut Table<'_>)
         if let Some(first) = bodies[..n].iter().find(|earlier| earlier.name == body.name) {
             let (line, _) = position(text, first.name_at.start);
             let what = format!("the name {name:?} is taken by the body on line {line}");
-            top.complain(body.name_at.clone(), what, "give it another");
+            top.report_fault(body.name_at.clone(), what, "give it another");
         }
     }
 }
@@ -119,7 +119,7 @@ pub(super) fn name_the_nameless(bodies: &mut [BodyDraft]) {
 }
 
 /// The bodies with all their parameters.
-pub(super) fn finish_bodies(bodies: Vec<BodyDraft>) -> Vec<SceneBody> {
+pub(super) fn complete_bodies(bodies: Vec<BodyDraft>) -> Vec<SceneBody> {
     let finish = |BodyDraft { kind, name, values, .. }| {
         Some(SceneBody::new(name.expect("each has one by now"), kind?, values?))
     };
@@ -143,7 +143,7 @@ pub(super) fn check_method(
     if let Some(refusal) = refused {
         let remedy =
             "name another method, or change the body; `regatta list methods` has what each is for";
-        table.complain(span, format!("`{key}`: {refusal}"), remedy);
+        table.report_fault(span, format!("`{key}`: {refusal}"), remedy);
     }
 }
 

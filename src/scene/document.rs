@@ -5,12 +5,14 @@ use std::ops::Range as Span;
 use toml::de::DeTable;
 
 use super::described::{
-    BodyDraft, check_method, check_names, every_lane, finish_bodies, name_the_nameless, read_bodies,
+    BodyDraft, check_method, check_names, complete_bodies, every_lane, name_the_nameless,
+    read_bodies,
 };
 use super::errors::{SceneError, position};
 use super::fault::{FaultKind, SceneFault};
 use super::keys::{
-    Key, METHOD, STEP_S, TICK_HZ, keep, list, number, quoted, read_lane_spec, step_s, tick_hz,
+    Key, METHOD, STEP_S, TICK_HZ, list, number, quoted, read_lane_spec, replace_if_read, step_s,
+    tick_hz,
 };
 use super::nearest::{listed, nearest, offer};
 use super::own::{OWN, read_own};
@@ -66,12 +68,12 @@ pub(super) static TOP: [Key<Draft, Scene>; 10] = [
             "the scene's name for people",
             Wanted::Text(MAX_TITLE_CHARS),
         ),
-        read: |draft, top, field| keep(&mut draft.scene.title, top.text(field)),
+        read: |draft, top, field| replace_if_read(&mut draft.scene.title, top.text(field)),
         write: |scene| Some(quoted(&scene.title)),
     },
     Key {
         field: Field::optional("about", "what it shows", Wanted::Text(MAX_ABOUT_CHARS)),
-        read: |draft, top, field| keep(&mut draft.scene.about, top.text(field)),
+        read: |draft, top, field| replace_if_read(&mut draft.scene.about, top.text(field)),
         write: |scene| (!scene.about.is_empty()).then(|| quoted(&scene.about)),
     },
     Key {
@@ -87,7 +89,7 @@ pub(super) static TOP: [Key<Draft, Scene>; 10] = [
         field: TICK_HZ,
         read: |draft, top, field| {
             if top.has(field.key) || !top.has(STEP_S.key) {
-                keep(&mut draft.scene.tick_hz, top.tick_rate(field));
+                replace_if_read(&mut draft.scene.tick_hz, top.tick_rate(field));
             }
         },
         write: |scene| tick_hz(scene.tick_hz),
@@ -95,10 +97,10 @@ pub(super) static TOP: [Key<Draft, Scene>; 10] = [
     Key {
         field: STEP_S,
         read: |draft, top, field| {
-            keep(&mut draft.scene.tick_hz, top.tick_rate(field));
+            replace_if_read(&mut draft.scene.tick_hz, top.tick_rate(field));
             if top.has(field.key) && top.has(TICK_HZ.key) {
                 let what = format!("`{}` and `{}` both give the tick rate", TICK_HZ.key, field.key);
-                top.complain(top.span(field.key), what, "keep one of them");
+                top.report_fault(top.span(field.key), what, "keep one of them");
             }
         },
         write: |scene| step_s(scene.tick_hz),
@@ -109,7 +111,7 @@ pub(super) static TOP: [Key<Draft, Scene>; 10] = [
             "its length; by default 20",
             Wanted::Number(Range::Between(MIN_SECONDS, MAX_SECONDS)),
         ),
-        read: |draft, top, field| keep(&mut draft.scene.seconds, top.number(field)),
+        read: |draft, top, field| replace_if_read(&mut draft.scene.seconds, top.number(field)),
         write: |scene| Some(number(scene.seconds)),
     },
     Key {
@@ -144,7 +146,7 @@ pub(super) static TOP: [Key<Draft, Scene>; 10] = [
             let method = top.method(field);
             if top.has(field.key) && draft.scene.opening_method.is_some() {
                 let what = format!("`{OWN}` and `{}` both name a method", field.key);
-                top.complain(top.span(field.key), what, "keep one of them");
+                top.report_fault(top.span(field.key), what, "keep one of them");
             }
             draft.scene.opening_method = method.or(draft.scene.opening_method);
         },
@@ -165,7 +167,7 @@ fn read_clouds(top: &mut Table<'_>, field: &Field) -> Option<CloudKind> {
     if found.is_none() {
         let names = CloudKind::ALL.map(CloudKind::name);
         let remedy = offer(nearest(&written, names.iter().map(|it| (*it, *it))), &names, '"');
-        top.complain(top.span(field.key), format!("unknown clouds {written:?}"), remedy);
+        top.report_fault(top.span(field.key), format!("unknown clouds {written:?}"), remedy);
     }
     found
 }
@@ -178,12 +180,12 @@ pub(super) static RACE: [Key<Scene, Scene>; 2] = [
             "gives each lane the substeps that bring its cost nearest to the highest",
             Wanted::Boolean,
         ),
-        read: |scene, race, field| keep(&mut scene.equal_cost, race.boolean(field)),
+        read: |scene, race, field| replace_if_read(&mut scene.equal_cost, race.boolean(field)),
         write: |scene| scene.equal_cost.then(|| "true".into()),
     },
     Key {
         field: Field::optional("open", "opens the scene as a race", Wanted::Boolean),
-        read: |scene, race, field| keep(&mut scene.opens_as_race, race.boolean(field)),
+        read: |scene, race, field| replace_if_read(&mut scene.opens_as_race, race.boolean(field)),
         write: |scene| scene.opens_as_race.then(|| "true".into()),
     },
 ];
@@ -242,7 +244,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
     check_opening_method(&scene, &mut top);
     if let Some(mut race) = top.table(&RACE_TABLE) {
         Key::read_all(&RACE, &mut scene, &mut race);
-        top.adopt(race);
+        top.add_faults_of(race);
     }
     let context = SceneContext { bodies: &bodies, lanes: &scene.lanes, tick_hz: scene.tick_hz };
     let (script, outdated) = script::read(&context, &mut top);
@@ -260,7 +262,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
     if !errors.is_empty() {
         return Err(errors);
     }
-    scene.bodies = finish_bodies(bodies);
+    scene.bodies = complete_bodies(bodies);
     Ok((scene, outdated))
 }
 
@@ -277,17 +279,17 @@ fn read_lanes(
     let rows = top.rows(LANE);
     if let (true, Some(row)) = (is_listed, rows.first()) {
         let what = "lanes are given twice, as `methods` and as `[[lane]]`";
-        top.complain(row.header.clone(), what, "keep one of them");
+        top.report_fault(row.header.clone(), what, "keep one of them");
     }
     if let Some(row) = rows.get(MAX_LANES) {
         let what = format!("the scene has {} lanes", rows.len());
-        top.complain(row.header.clone(), what, format!("keep at most {MAX_LANES}"));
+        top.report_fault(row.header.clone(), what, format!("keep at most {MAX_LANES}"));
     }
     let is_given = is_listed || !rows.is_empty();
     for mut row in rows.into_iter().take(MAX_LANES) {
         let span = row.span(METHOD.key);
         lanes.extend(read_lane_spec(&mut row).map(|spec| (span, spec)));
-        top.adopt(row);
+        top.add_faults_of(row);
     }
 
     let key = if is_listed { METHOD_LIST.key } else { METHOD.key };
@@ -299,7 +301,7 @@ fn read_lanes(
             let is_adaptive = lane.method.tolerance.is_some();
             let or = if is_adaptive { " or another `tolerance`" } else { "" };
             let remedy = format!("remove one, or give it other `substeps`{or} in a `[[lane]]`");
-            top.complain(span.clone(), what, remedy);
+            top.report_fault(span.clone(), what, remedy);
         }
     }
     if is_given {
@@ -334,6 +336,6 @@ fn check_opening_method(Scene { lanes, opening_method, .. }: &Scene, top: &mut T
         let id = method.id;
         let remedy = format!("write one of {}, or give it a lane", listed(&known, '"', ", "));
         let what = format!("`{key}` is {id:?}, which no lane of this scene has");
-        top.complain(top.span(key), what, remedy);
+        top.report_fault(top.span(key), what, remedy);
     }
 }

@@ -35,7 +35,7 @@ pub fn edited_values(
     value: f64,
 ) -> Result<Vec<f64>, EditError> {
     let Parameter { key, range, .. } = &kind.parameters[index];
-    let (wanted, written) = (Wanted::of(*range), written(value));
+    let (wanted, written) = (Wanted::of(*range), typed_number(value));
     if let Range::Curve { .. } = range {
         let found = format!("the number {written}");
         return Err(SceneFault::wrong_type(&format!("`{key}`"), &found, &wanted).into());
@@ -68,7 +68,7 @@ pub fn check_entered(name: &str, value: f64, range: Range) -> Result<(), String>
     let is = match value {
         _ if value.is_nan() => "would be no number".to_owned(),
         _ if value.is_infinite() => "would be too large for a number".to_owned(),
-        _ => format!("would be {}", written(short)),
+        _ => format!("would be {}", typed_number(short)),
     };
     match range.contains(value) {
         true => Ok(()),
@@ -87,7 +87,7 @@ pub fn entered_tick_rate(hz: f64) -> Result<TickRate, String> {
 }
 
 /// Formats a number as a person would type it.
-fn written(value: f64) -> String {
+fn typed_number(value: f64) -> String {
     let exact = format!("{value:?}");
     exact.strip_suffix(".0").map_or(exact.clone(), str::to_owned)
 }
@@ -112,7 +112,7 @@ mod tests {
             let Parameter { key, default, range, .. } = parameter;
             match (edit, range) {
                 (Some((edited, value)), _) if edited == index => {
-                    format!("{key} = {}\n", written(value))
+                    format!("{key} = {}\n", typed_number(value))
                 }
                 (_, Range::Curve { .. }) => format!("{key} = [[0, 1], [1, 1]]\n"),
                 _ if default.is_some() => String::new(),

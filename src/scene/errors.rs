@@ -29,23 +29,23 @@ pub struct SceneErrors {
 
 /// An error of a file, as shown to people.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mistake {
+pub struct ShownError {
     /// The error message, with its place.
     pub message: String,
     /// The lines of the file at fault, with marks; empty if there are none.
     pub quoted: String,
 }
 
-/// A mistake without lines of a file.
-impl<T: Into<String>> From<T> for Mistake {
+/// A shown error without lines of a file.
+impl<T: Into<String>> From<T> for ShownError {
     fn from(message: T) -> Self {
         Self { message: message.into(), quoted: String::new() }
     }
 }
 
-impl From<SceneErrors> for Vec<Mistake> {
+impl From<SceneErrors> for Vec<ShownError> {
     fn from(errors: SceneErrors) -> Self {
-        errors.messages().map(Mistake::from).collect()
+        errors.messages().map(ShownError::from).collect()
     }
 }
 
@@ -60,7 +60,7 @@ pub struct SceneError {
 
 impl SceneError {
     /// The fault, in lower case: the title of a longer message.
-    pub fn what(&self) -> &str {
+    pub fn fault(&self) -> &str {
         &self.fault.what
     }
 

@@ -34,7 +34,7 @@ impl<D, T> Key<D, T> {
 }
 
 /// Replaces a value if a new one could be read.
-pub(super) fn keep<T>(value: &mut T, read: Option<T>) {
+pub(super) fn replace_if_read<T>(value: &mut T, read: Option<T>) {
     if let Some(read) = read {
         *value = read;
     }
@@ -177,10 +177,10 @@ fn check_joint(row: &mut Table<'_>, method: Option<&'static Method>) {
             "`{key}` does not apply to the method {id:?}, which takes no settings of a spring"
         );
         let remedy = format!("remove it, or choose an engine: {}", methods(Method::has_joint));
-        row.complain(row.span(key), what, remedy);
+        row.report_fault(row.span(key), what, remedy);
     } else if !row.has(JOINT_HZ.key) {
         let remedy = format!("remove it, or write `{}` too", JOINT_HZ.key);
-        row.complain(row.span(key), format!("`{key}` stands alone"), remedy);
+        row.report_fault(row.span(key), format!("`{key}` stands alone"), remedy);
     }
 }
 
@@ -192,7 +192,11 @@ pub(super) fn read_tolerance(row: &mut Table<'_>, method: Option<&'static Method
     {
         let (key, id) = (TOLERANCE.key, method.id);
         let remedy = format!("remove it, or choose an adaptive method: {}", adaptive_methods());
-        row.complain(row.span(key), format!("`{key}` does not apply to the method {id:?}"), remedy);
+        row.report_fault(
+            row.span(key),
+            format!("`{key}` does not apply to the method {id:?}"),
+            remedy,
+        );
     }
     tolerance
 }

@@ -85,11 +85,11 @@ impl LaneSpec {
         let within =
             self.tolerance.filter(|_| alike().any(|other| other.tolerance != self.tolerance));
         let within = within.map(|tolerance| format!(" {tolerance:e}")).unwrap_or_default();
-        format!("{name}{times}{within}{}", self.told(lanes))
+        format!("{name}{times}{within}{}", self.joint_suffix(lanes))
     }
 
     /// The joint's frequency as a suffix, if another of `lanes` with this method has another joint.
-    fn told(&self, lanes: &[LaneSpec]) -> String {
+    fn joint_suffix(&self, lanes: &[LaneSpec]) -> String {
         let mut alike = lanes.iter().filter(|other| other.method == self.method);
         let told = self.joint.filter(|_| alike.any(|other| other.joint != self.joint));
         told.map(|it| format!(", set to {} Hz", round(it.frequency_hz, 3))).unwrap_or_default()
@@ -99,7 +99,7 @@ impl LaneSpec {
     pub fn name_with_substeps(&self, lanes: &[LaneSpec]) -> String {
         let mut others = lanes.iter().filter(|other| other.method == self.method);
         let name = self.method.name;
-        let told = self.told(lanes);
+        let told = self.joint_suffix(lanes);
         match self.substeps > 1 || others.any(|other| other.substeps != self.substeps) {
             true => format!("{name} ×{}{told}", self.substeps),
             false => format!("{name}{told}"),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::SceneBody;
 use super::keys::{Key, list, number, quoted};
 use super::nearest::{self, nearest};
-use super::table::{Named, Table, Written};
+use super::table::{Named, Table, TextBlock};
 use super::wanted::{Field, Wanted};
 use crate::sim::bodies::{ClaimHorizon, Kind, Range, check_law, law_kind};
 use crate::sim::law::{
@@ -72,7 +72,7 @@ pub(super) static LAW_KEYS: [Key<WrittenLaw, SceneBody>; 5] = [
 ];
 
 /// A coordinate with its start, its velocity at the start, and its kick.
-pub(super) struct SetCoordinate {
+pub(super) struct CoordinateValues {
     text: CoordinateText,
     start: f64,
     start_velocity: f64,
@@ -80,7 +80,7 @@ pub(super) struct SetCoordinate {
 }
 
 /// The keys of a coordinate.
-pub(super) static COORDINATE_KEYS: [Key<WrittenCoordinate, SetCoordinate>; 7] = [
+pub(super) static COORDINATE_KEYS: [Key<WrittenCoordinate, CoordinateValues>; 7] = [
     Key {
         field: UNIT,
         read: |coordinate, table, field| coordinate.unit = read_unit(table, field),
@@ -88,7 +88,7 @@ pub(super) static COORDINATE_KEYS: [Key<WrittenCoordinate, SetCoordinate>; 7] = 
     },
     Key {
         field: Field::optional("start", "where it starts; 0 if left out", Wanted::ANY),
-        read: |coordinate, table, field| set(&mut coordinate.start, table, field),
+        read: |coordinate, table, field| read_number_into(&mut coordinate.start, table, field),
         write: |coordinate| Some(number(coordinate.start)),
     },
     Key {
@@ -97,7 +97,9 @@ pub(super) static COORDINATE_KEYS: [Key<WrittenCoordinate, SetCoordinate>; 7] = 
             "its velocity at the start; 0 if left out",
             Wanted::ANY,
         ),
-        read: |coordinate, table, field| set(&mut coordinate.start_velocity, table, field),
+        read: |coordinate, table, field| {
+            read_number_into(&mut coordinate.start_velocity, table, field)
+        },
         write: |coordinate| Some(number(coordinate.start_velocity)),
     },
     Key {
@@ -127,13 +129,13 @@ pub(super) static COORDINATE_KEYS: [Key<WrittenCoordinate, SetCoordinate>; 7] = 
             "how much a kick changes its velocity; 1 for the first coordinate, 0 for others",
             Wanted::ANY,
         ),
-        read: |coordinate, table, field| set(&mut coordinate.kick, table, field),
+        read: |coordinate, table, field| read_number_into(&mut coordinate.kick, table, field),
         write: |coordinate| Some(number(coordinate.kick)),
     },
 ];
 
 /// Replaces a number if its key is present; by `None` if the value has a fault.
-fn set(number: &mut Option<f64>, table: &mut Table<'_>, field: &Field) {
+fn read_number_into(number: &mut Option<f64>, table: &mut Table<'_>, field: &Field) {
     let read = table.number(field);
     if table.has(field.key) {
         *number = read;
@@ -150,7 +152,7 @@ pub(super) struct WrittenLaw {
     /// Values of the constants; `None` if one has a fault.
     numbers: Option<Vec<f64>>,
     coordinates: Option<Vec<WrittenCoordinate>>,
-    energy: Option<Written>,
+    energy: Option<TextBlock>,
     plane: Option<[usize; 2]>,
     layout: Layout,
 }
@@ -159,8 +161,8 @@ pub(super) struct WrittenCoordinate {
     name: String,
     span: Span<usize>,
     unit: &'static str,
-    acceleration: Option<Written>,
-    exact: Option<Written>,
+    acceleration: Option<TextBlock>,
+    exact: Option<TextBlock>,
     at: Option<[WrittenName; 2]>,
     start: Option<f64>,
     start_velocity: Option<f64>,
@@ -180,7 +182,7 @@ pub(super) fn read_law(
     let kind = match law_kind(text) {
         Ok(kind) => kind,
         Err(refusals) => {
-            refusals.into_iter().for_each(|refusal| law.complain(row, refusal));
+            refusals.into_iter().for_each(|refusal| law.report_fault(row, refusal));
             return (None, None);
         }
     };
@@ -189,7 +191,7 @@ pub(super) fn read_law(
         && row.is_faultless()
         && let Err(refusal) = check_law(equations, values, horizon)
     {
-        law.complain(row, refusal);
+        law.report_fault(row, refusal);
     }
     (Some(kind), values)
 }
@@ -207,7 +209,7 @@ fn read_constants(row: &mut Table<'_>, field: &Field) -> (Vec<WrittenName>, Opti
 fn check_count(row: &mut Table<'_>, what: &str, entries: &[Named<'_>], most: usize) {
     if let Some(entry) = entries.get(most) {
         let what = format!("the law has {} {what}", entries.len());
-        row.complain(entry.span.clone(), what, format!("keep at most {most}"));
+        row.report_fault(entry.span.clone(), what, format!("keep at most {most}"));
     }
 }
 
@@ -215,7 +217,7 @@ fn read_coordinates(row: &mut Table<'_>, field: &Field) -> Option<Vec<WrittenCoo
     let entries = row.entries(field)?;
     check_count(row, "coordinates", &entries, MAX_COORDINATES);
     if entries.is_empty() {
-        row.complain(row.span(field.key), "the law has no coordinate", field.wanted.remedy());
+        row.report_fault(row.span(field.key), "the law has no coordinate", field.wanted.remedy());
         return None;
     }
     let mut coordinates = Vec::new();
@@ -234,7 +236,7 @@ fn read_coordinates(row: &mut Table<'_>, field: &Field) -> Option<Vec<WrittenCoo
         };
         Key::read_all(&COORDINATE_KEYS, &mut coordinate, &mut table);
         coordinates.push(coordinate);
-        row.adopt(table);
+        row.add_faults_of(table);
     }
     Some(coordinates)
 }
@@ -244,7 +246,7 @@ fn read_at(table: &mut Table<'_>, field: &Field) -> Option<[WrittenName; 2]> {
     let pair = <[_; 2]>::try_from(written);
     if pair.is_err() {
         let remedy = field.wanted.remedy();
-        table.complain(table.span(field.key), "`at` is not an x and a y", remedy);
+        table.report_fault(table.span(field.key), "`at` is not an x and a y", remedy);
     }
     Some(pair.ok()?.map(|(span, text)| (text.to_owned(), span)))
 }
@@ -256,7 +258,7 @@ fn read_unit(table: &mut Table<'_>, field: &Field) -> &'static str {
     }
     let what = format!("unknown unit {written:?}");
     let remedy = offer(&written, &UNITS);
-    table.complain(table.span(field.key), what, remedy);
+    table.report_fault(table.span(field.key), what, remedy);
     UNITS[0]
 }
 
@@ -266,7 +268,7 @@ fn read_plane(
     coordinates: Option<&[WrittenCoordinate]>,
 ) -> Option<[usize; 2]> {
     let Some(coordinates) = coordinates else {
-        row.knows(field.key);
+        row.allow_key(field.key);
         return None;
     };
     let names = row.names(field)?;
@@ -277,7 +279,7 @@ fn read_plane(
             Some(index) => indices.push(index),
             None => {
                 let what = format!("no coordinate is called {name:?}");
-                row.complain(span.clone(), what, offer(name, &known));
+                row.report_fault(span.clone(), what, offer(name, &known));
                 return None;
             }
         }
@@ -286,7 +288,7 @@ fn read_plane(
         [x, y] if x != y => Some([x, y]),
         _ => {
             let what = "`plane` does not name two coordinates";
-            row.complain(row.span(field.key), what, field.wanted.remedy());
+            row.report_fault(row.span(field.key), what, field.wanted.remedy());
             None
         }
     }
@@ -309,7 +311,7 @@ fn read_layout(row: &mut Table<'_>, field: &Field, coordinates: &[WrittenCoordin
         ),
         Some((_, layout)) => return *layout,
     };
-    row.complain(row.span(field.key), what, remedy);
+    row.report_fault(row.span(field.key), what, remedy);
     Layout::default()
 }
 
@@ -319,7 +321,7 @@ fn check_one_picture(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) {
     let other = [PLANE, DRAW].into_iter().find(|field| row.has(field.key));
     if let (true, Some(Field { key, .. })) = (has_places, other) {
         let what = format!("the law has a `{key}`, and a coordinate has an `at`");
-        row.complain(row.span(key), what, "leave one of them out");
+        row.report_fault(row.span(key), what, "leave one of them out");
     }
 }
 
@@ -334,7 +336,10 @@ pub(super) fn coordinate_tables(SceneBody { values, .. }: &SceneBody, law: &LawT
         let text = text.clone();
         let [start, start_velocity, kick] = [rest[i], rest[n + i], rest[2 * n + i]];
         let head = format!("\n[{LAW}.{}.{}]\n", COORDINATES.key, text.name);
-        head + &Key::lines(&COORDINATE_KEYS, &SetCoordinate { text, start, start_velocity, kick })
+        head + &Key::lines(
+            &COORDINATE_KEYS,
+            &CoordinateValues { text, start, start_velocity, kick },
+        )
     };
     law.coordinates.iter().enumerate().map(table).collect()
 }
@@ -346,7 +351,7 @@ impl WrittenLaw {
 
     /// The text of the law; `None` if it has no coordinate or lacks an acceleration.
     fn text(&self) -> Option<LawText> {
-        let text = |written: &Written| written.text.clone();
+        let text = |written: &TextBlock| written.text.clone();
         let coordinate = |of: &WrittenCoordinate| {
             Some(CoordinateText {
                 name: of.name.clone(),
@@ -380,10 +385,10 @@ impl WrittenLaw {
     }
 
     /// Reports a fault of the law at its place in the file.
-    fn complain(&self, row: &mut Table<'_>, refusal: LawFault) {
+    fn report_fault(&self, row: &mut Table<'_>, refusal: LawFault) {
         let LawFault { part, span, what, remedy } = refusal;
-        let within = |written: &Option<Written>| {
-            written.as_ref().map_or(row.header.clone(), |written| written.within(&span))
+        let within = |written: &Option<TextBlock>| {
+            written.as_ref().map_or(row.header.clone(), |written| written.span_in_file(&span))
         };
         let at = match part {
             Part::Constant(i) => self.constants[i].1.clone(),
@@ -396,6 +401,6 @@ impl WrittenLaw {
             }
             Part::Energy => within(&self.energy),
         };
-        row.complain(at, what, nearest::words(remedy));
+        row.report_fault(at, what, nearest::words(remedy));
     }
 }

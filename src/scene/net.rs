@@ -3,12 +3,12 @@
 use std::ops::Range as Span;
 use std::sync::Arc;
 
-use super::keys::{Key, keep, list, number, numbers, quoted};
+use super::keys::{Key, list, number, numbers, quoted, replace_if_read};
 use super::nearest::nearest;
 use super::table::Table;
 use super::wanted::{Field, Wanted};
 use crate::sim::bodies::{
-    Form, Grid, Kind, Lists, MAX_NODES, NetFault, NetPart, NetPlan, Pin, PlannedSpring, Range,
+    Grid, Kind, Lists, MAX_NODES, NetFault, NetLayout, NetPart, NetPlan, Pin, PlannedSpring, Range,
     net_kind,
 };
 
@@ -40,17 +40,21 @@ const OWN: &str = "its own, in place of the net's";
 pub(super) static GRID_KEYS: [Key<Grid, Grid>; 5] = [
     Key {
         field: COLUMNS,
-        read: |grid, row, field| keep(&mut grid.columns, row.whole::<u32>(field).map(index)),
+        read: |grid, row, field| {
+            replace_if_read(&mut grid.columns, row.whole::<u32>(field).map(index))
+        },
         write: |grid| Some(grid.columns.to_string()),
     },
     Key {
         field: Field::required("rows", "how many rows there are", COUNT),
-        read: |grid, row, field| keep(&mut grid.rows, row.whole::<u32>(field).map(index)),
+        read: |grid, row, field| {
+            replace_if_read(&mut grid.rows, row.whole::<u32>(field).map(index))
+        },
         write: |grid| Some(grid.rows.to_string()),
     },
     Key {
         field: SPACING,
-        read: |grid, row, field| keep(&mut grid.spacing, row.number(field)),
+        read: |grid, row, field| replace_if_read(&mut grid.spacing, row.number(field)),
         write: |grid| Some(number(grid.spacing)),
     },
     Key {
@@ -59,7 +63,7 @@ pub(super) static GRID_KEYS: [Key<Grid, Grid>; 5] = [
             "springs across each square too; false if left out",
             Wanted::Boolean,
         ),
-        read: |grid, row, field| keep(&mut grid.shear, row.boolean(field)),
+        read: |grid, row, field| replace_if_read(&mut grid.shear, row.boolean(field)),
         write: |grid| Some(grid.shear.to_string()),
     },
     Key {
@@ -75,7 +79,7 @@ pub(super) static LIST_KEYS: [Key<(Lists, Spans), Lists>; 3] = [
         field: NODES,
         read: |(lists, _), row, field| {
             let field = Field { is_required: true, ..field.clone() };
-            keep(&mut lists.nodes, row.points(&field));
+            replace_if_read(&mut lists.nodes, row.points(&field));
         },
         write: |lists| Some(list(lists.nodes.iter().map(|node| numbers(node)))),
     },
@@ -95,7 +99,7 @@ pub(super) static LIST_KEYS: [Key<(Lists, Spans), Lists>; 3] = [
                 let mut spring = PlannedSpring::default();
                 Key::read_all(&SPRING_KEYS, &mut spring, &mut table);
                 lists.springs.push(spring);
-                row.adopt(table);
+                row.add_faults_of(table);
             }
         },
         write: |lists| {
@@ -110,7 +114,7 @@ pub(super) static LIST_KEYS: [Key<(Lists, Spans), Lists>; 3] = [
 pub(super) static SPRING_KEYS: [Key<PlannedSpring, PlannedSpring>; 4] = [
     Key {
         field: BETWEEN,
-        read: |spring, table, field| keep(&mut spring.between, read_ends(table, field)),
+        read: |spring, table, field| replace_if_read(&mut spring.between, read_ends(table, field)),
         write: |spring| Some(list(spring.between.iter().map(usize::to_string))),
     },
     Key {
@@ -146,23 +150,23 @@ pub(super) fn read_net(row: &mut Table<'_>) -> Option<Arc<Kind>> {
     let of_grid: Vec<&str> = GRID_KEYS.iter().map(|it| it.field.key).collect();
     let of_lists: Vec<&str> = LIST_KEYS.iter().map(|it| it.field.key).collect();
     let all = of_grid.iter().chain(&of_lists).chain([&KICKED.key]);
-    all.for_each(|key| row.knows(key));
+    all.for_each(|key| row.allow_key(key));
     let given = |keys: &[&'static str]| keys.iter().find(|key| row.has(key)).copied();
     let list = given(&of_lists);
     if let (Some(list), Some(of_grid)) = (list, given(&of_grid)) {
         let what = format!("the net is given twice, by `{list}` and by `{of_grid}`");
         let remedy = "keep the grid, whose fixed nodes `pin` names, or the lists `nodes`, `fixed` and `springs`";
-        row.complain(row.span(of_grid), what, remedy);
+        row.report_fault(row.span(of_grid), what, remedy);
         return None;
     }
     let (form, spans) = if list.is_some() {
         let mut read = (Lists::default(), Spans::default());
         Key::read_all(&LIST_KEYS, &mut read, row);
-        (Form::Lists(read.0), read.1)
+        (NetLayout::Lists(read.0), read.1)
     } else {
         let mut grid = Grid { columns: 1, rows: 1, spacing: 1.0, shear: false, pin: None };
         Key::read_all(&GRID_KEYS, &mut grid, row);
-        (Form::Grid(grid), Spans::default())
+        (NetLayout::Grid(grid), Spans::default())
     };
     let plan = NetPlan { form, kicked: row.whole::<u32>(&KICKED).map(index) };
     if !row.is_faultless() {
@@ -171,7 +175,7 @@ pub(super) fn read_net(row: &mut Table<'_>) -> Option<Arc<Kind>> {
     match net_kind(plan) {
         Ok(kind) => Some(kind),
         Err(faults) => {
-            faults.into_iter().for_each(|fault| complain(row, &spans, list.is_some(), fault));
+            faults.into_iter().for_each(|fault| report_fault(row, &spans, list.is_some(), fault));
             None
         }
     }
@@ -187,7 +191,7 @@ fn read_pin(row: &mut Table<'_>, field: &Field) -> Option<Pin> {
             Some(id) => format!("did you mean {id:?}?"),
             None => format!("write {}, or remove it and no node is fixed", Wanted::Pin),
         };
-        row.complain(row.span(field.key), what, remedy);
+        row.report_fault(row.span(field.key), what, remedy);
     }
     pin
 }
@@ -197,12 +201,12 @@ fn read_ends(spring: &mut Table<'_>, field: &Field) -> Option<[usize; 2]> {
         return Some([a, b]);
     }
     let what = "`between` does not name two nodes";
-    spring.complain(spring.span(field.key), what, field.wanted.remedy());
+    spring.report_fault(spring.span(field.key), what, field.wanted.remedy());
     None
 }
 
 /// Reports a fault of the plan at its place in the file.
-fn complain(row: &mut Table<'_>, spans: &Spans, are_lists: bool, fault: NetFault) {
+fn report_fault(row: &mut Table<'_>, spans: &Spans, are_lists: bool, fault: NetFault) {
     let NetFault { part, what, remedy } = fault;
     let at = match part {
         NetPart::Nodes if are_lists => row.span(NODES.key),
@@ -216,5 +220,5 @@ fn complain(row: &mut Table<'_>, spans: &Spans, are_lists: bool, fault: NetFault
         }
         NetPart::Kicked => row.span(KICKED.key),
     };
-    row.complain(at, what, remedy);
+    row.report_fault(at, what, remedy);
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::errors::{SceneErrors, position};
 use super::keys::{Key, quoted, rate};
 use super::nearest::words;
-use super::table::{Table, Written};
+use super::table::{Table, TextBlock};
 use super::wanted::{Field, Wanted};
 use super::{LaneSpec, MAX_LANES};
 use crate::sim::integrators::Method;
@@ -22,7 +22,7 @@ const ID: Field =
 #[derive(Default)]
 pub(super) struct OwnDraft {
     id: Option<String>,
-    step: Option<Written>,
+    step: Option<TextBlock>,
     fps: Option<TickRate>,
 }
 
@@ -44,7 +44,7 @@ pub(super) static OWN_KEYS: [Key<OwnDraft, Method>; 3] = [
     },
     Key {
         field: Field::required("step", "its lines (`regatta help step`)", Wanted::Lines),
-        read: |own, row, field| own.step = row.written(field),
+        read: |own, row, field| own.step = row.text_block(field),
         write: |method| method.own_text().map(lines),
     },
 ];
@@ -113,7 +113,7 @@ pub(super) fn read_own(text: &str, top: &mut Table<'_>) {
     let rows = top.rows(OWN);
     if let Some(row) = rows.get(MAX_LANES) {
         let what = format!("the scene has {} methods of its own", rows.len());
-        top.complain(row.header.clone(), what, format!("keep at most {MAX_LANES}"));
+        top.report_fault(row.header.clone(), what, format!("keep at most {MAX_LANES}"));
     }
     let mut ids: Vec<(String, usize)> = Vec::new();
     for mut row in rows.into_iter().take(MAX_LANES) {
@@ -124,27 +124,31 @@ pub(super) fn read_own(text: &str, top: &mut Table<'_>) {
             let first = ids.iter().find(|(other, _)| *other == id);
             let method = match (check_own_id(&id), first, draft.step) {
                 (Err([what, remedy]), ..) => {
-                    row.complain(at.clone(), what, remedy);
+                    row.report_fault(at.clone(), what, remedy);
                     None
                 }
                 (_, Some((_, first)), _) => {
                     let (line, _) = position(text, *first);
                     let what = format!("the method on line {line} is called {id:?} already");
-                    row.complain(at.clone(), what, "give it another `id`");
+                    row.report_fault(at.clone(), what, "give it another `id`");
                     None
                 }
                 (.., None) => None,
                 (.., Some(step)) => match own(&id, &step.text, draft.fps) {
                     Ok(method) => Some(method),
                     Err(fault) => {
-                        row.complain(step.within(&fault.span), fault.what, words(fault.remedy));
+                        row.report_fault(
+                            step.span_in_file(&fault.span),
+                            fault.what,
+                            words(fault.remedy),
+                        );
                         None
                     }
                 },
             };
-            top.bring(&id, method);
+            top.add_own_method(&id, method);
             ids.push((id, at.start));
         }
-        top.adopt(row);
+        top.add_faults_of(row);
     }
 }

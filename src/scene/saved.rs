@@ -7,7 +7,7 @@ use super::document::{LANE, METHOD_LIST};
 use super::script::COMMAND;
 
 /// Table arrays whose rows are rewritten if they change, because a key left out of a row may depend on another.
-const WRITTEN_ANEW: [&str; 2] = [LANE, COMMAND];
+const REWRITTEN_ARRAYS: [&str; 2] = [LANE, COMMAND];
 
 impl Scene {
     /// The text of a scene file that [reads](Scene::parse) as this scene. If the scene was read from a file, the
@@ -27,7 +27,7 @@ impl Scene {
 fn documents(scene: &Scene) -> Option<[DocumentMut; 2]> {
     let source = scene.source.as_deref()?.replace("\r\n", "\n");
     let scene = Scene::parse("", &source).ok()?;
-    let mut documents = [read(&source)?, read(&scene.to_toml())?];
+    let mut documents = [parse_document(&source)?, parse_document(&scene.to_toml())?];
     if scene.outdated.is_some() {
         documents.iter_mut().for_each(|document| _ = document.remove(COMMAND));
     }
@@ -37,22 +37,22 @@ fn documents(scene: &Scene) -> Option<[DocumentMut; 2]> {
 /// The author's text of a scene, with the differences between its own plain text and `plain`.
 fn changed_to(scene: &Scene, plain: &str) -> Option<String> {
     let [mut author, before] = documents(scene)?;
-    let after = read(plain)?;
+    let after = parse_document(plain)?;
     // Plain lanes may also be tables.
     let lanes = METHOD_LIST.key;
     if !is_same(before.get(lanes), after.get(lanes)) {
         author.remove(LANE);
     }
-    change(author.as_table_mut(), before.as_table(), after.as_table());
+    apply_changes(author.as_table_mut(), before.as_table(), after.as_table());
     Some(author.to_string())
 }
 
-fn read(text: &str) -> Option<DocumentMut> {
+fn parse_document(text: &str) -> Option<DocumentMut> {
     text.parse().ok()
 }
 
 /// Applies the changes between two tables to the author's.
-fn change(author: &mut dyn TableLike, before: &dyn TableLike, after: &dyn TableLike) {
+fn apply_changes(author: &mut dyn TableLike, before: &dyn TableLike, after: &dyn TableLike) {
     for (key, _) in before.iter().filter(|(key, _)| !after.contains_key(key)) {
         author.remove(key);
     }
@@ -76,13 +76,13 @@ fn change_item(key: &str, author: &mut Item, before: &Item, after: &Item) {
     } else if let (Some(author), Some(before), Some(after)) =
         (author.as_table_like_mut(), before.as_table_like(), after.as_table_like())
     {
-        change(author, before, after);
+        apply_changes(author, before, after);
     } else if let (Some(author), Some(before), Some(after)) =
         (author.as_array_of_tables_mut(), before.as_array_of_tables(), after.as_array_of_tables())
     {
-        if before.len() == after.len() && !WRITTEN_ANEW.contains(&key) {
+        if before.len() == after.len() && !REWRITTEN_ARRAYS.contains(&key) {
             for (author, (before, after)) in author.iter_mut().zip(before.iter().zip(after)) {
-                change(author, before, after);
+                apply_changes(author, before, after);
             }
         } else {
             *author = with_known_rows(author, before, after);

@@ -7,8 +7,8 @@ use super::described::{BodyDraft, check_method};
 use super::errors::SceneError;
 use super::fault::{FaultKind, SceneFault};
 use super::keys::{
-    JOINT_HZ, Key, METHOD, SPEC, STEP_S, SUBSTEPS, TICK_HZ, TOLERANCE, adaptive_methods, keep,
-    number, numbers, quoted, read_lane_spec, read_tolerance, step_s, tick_hz,
+    JOINT_HZ, Key, METHOD, SPEC, STEP_S, SUBSTEPS, TICK_HZ, TOLERANCE, adaptive_methods, number,
+    numbers, quoted, read_lane_spec, read_tolerance, replace_if_read, step_s, tick_hz,
 };
 use super::nearest::{listed, nearest, offer};
 use super::table::Table;
@@ -19,7 +19,7 @@ use super::{
 };
 use crate::scene::edit::edited_values;
 use crate::sim::TickRate;
-use crate::sim::bodies::{Acts, BODIES, MAX_VALUE, Parameter, Range};
+use crate::sim::bodies::{BODIES, MAX_VALUE, Parameter, Range, TakesEffect};
 use crate::sim::integrators::Method;
 
 /// The name of the table array of a script.
@@ -57,17 +57,19 @@ pub(super) static OF_A_BODY: [(&str, &[Field]); 2] =
 pub(super) static CHECK: [Key<(Check, usize), Check>; 3] = [
     Key {
         field: Field::required("tick", "the tick of the check", Wanted::Whole(0..=LAST_TICK)),
-        read: |(check, _), row, field| keep(&mut check.tick, row.whole(field)),
+        read: |(check, _), row, field| replace_if_read(&mut check.tick, row.whole(field)),
         write: |check| Some(check.tick.to_string()),
     },
     Key {
         field: Field::required("lane", "the lane's number", LANE_NUMBER),
-        read: |(check, lanes), row, field| keep(&mut check.lane, read_number(row, field, *lanes)),
+        read: |(check, lanes), row, field| {
+            replace_if_read(&mut check.lane, read_number(row, field, *lanes))
+        },
         write: |check| Some(check.lane.to_string()),
     },
     Key {
         field: Field::required("hash", "the lane's state then", Wanted::Hash),
-        read: |(check, _), row, field| keep(&mut check.hash, row.hash(field)),
+        read: |(check, _), row, field| replace_if_read(&mut check.hash, row.hash(field)),
         write: |check| Some(format!("\"{:016x}\"", check.hash)),
     },
 ];
@@ -177,7 +179,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
         |context, row, field| {
             let mut set = row.table(field)?;
             let action = read_set(context, &mut set);
-            row.adopt(set);
+            row.add_faults_of(set);
             action
         },
         |scene, action| {
@@ -194,7 +196,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
         |context, row, field| {
             let mut place = row.table(field)?;
             let action = read_place(context, &mut place);
-            row.adopt(place);
+            row.add_faults_of(place);
             action
         },
         |scene, action| {
@@ -294,7 +296,7 @@ pub(super) fn read(
             when_span,
             tolerance_span,
         }));
-        top.adopt(row);
+        top.add_faults_of(row);
     }
     let order = |a: &When, b: &When| a.partial_cmp(b).expect("numbers of scenes are finite");
     commands.sort_by(|a, b| order(&a.when, &b.when));
@@ -325,11 +327,11 @@ pub(super) fn read(
 
 /// Reads the time of a command. Reports a tick if `is_mixed`, that is if other commands have seconds.
 fn read_when(row: &mut Table<'_>, is_mixed: bool) -> Option<When> {
-    [AT_S, TICK].iter().for_each(|field| row.knows(field.key));
+    [AT_S, TICK].iter().for_each(|field| row.allow_key(field.key));
     if is_mixed && row.has(TICK.key) {
         let (tick, at_s) = (TICK.key, AT_S.key);
         let what = format!("`{tick}` gives the time, and other commands have `{at_s}`");
-        row.complain(row.span(tick), what, format!("write `{at_s} = …` in its place: seconds"));
+        row.report_fault(row.span(tick), what, format!("write `{at_s} = …` in its place: seconds"));
         return None;
     }
     match row.has(TICK.key) {
@@ -381,7 +383,7 @@ fn check_tolerances<'s>(
                     let those = adaptive_methods();
                     let remedy =
                         format!("remove it, or give it with an adaptive `method`: {those}");
-                    top.complain(span, what, remedy);
+                    top.report_fault(span, what, remedy);
                 }
             }
             _ => {}
@@ -390,14 +392,14 @@ fn check_tolerances<'s>(
 }
 
 fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action> {
-    row.knows(LANE.key);
+    row.allow_key(LANE.key);
     // Substeps and a tolerance may accompany a method.
     let goes_with = |key: &str| row.has(METHOD.key) && OF_A_LANE[1..].contains(&key);
     let given = COMMAND_KEYS.iter().filter(|it| row.has(it.field.key) && !goes_with(it.field.key));
     let found: Vec<_> = given.map(|command_key| command_key.field.key).collect();
     let mut action = None;
     for CommandKey { field, is_input, read, .. } in &COMMAND_KEYS {
-        row.knows(field.key);
+        row.allow_key(field.key);
         if !found.contains(&field.key) {
             continue;
         }
@@ -410,7 +412,7 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
             let takers = BODIES.iter().filter(|kind| kind.inputs.contains(&input));
             let takers = listed(&takers.map(|kind| kind.id).collect::<Vec<_>>(), '[', " or ");
             let remedy = format!("remove the command, or add a table {takers}");
-            row.complain(
+            row.report_fault(
                 row.span(field.key),
                 format!("no body of this scene takes `{input}`"),
                 remedy,
@@ -419,7 +421,7 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
     }
     if row.has(LANE.key) && !found.is_empty() && !found.iter().any(|key| OF_A_LANE.contains(key)) {
         let remedy = format!("remove it, or give one of {}", listed(&OF_A_LANE, '`', ", "));
-        row.complain(row.span(LANE.key), "`lane` does not apply to this command", remedy);
+        row.report_fault(row.span(LANE.key), "`lane` does not apply to this command", remedy);
     }
     let header = row.header.clone();
     match found.len() {
@@ -427,12 +429,12 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
             let known: Vec<_> = COMMAND_KEYS.iter().map(|command| command.field.key).collect();
             let remedy = format!("write one of {}", listed(&known, '`', ", "));
             let fault = SceneFault::new("the command does nothing", remedy);
-            row.complain_of(header, fault.of(FaultKind::Missing(known)));
+            row.add_fault(header, fault.of(FaultKind::Missing(known)));
         }
         1 => {}
         many => {
             let what = format!("the command does {many} things: {}", listed(&found, '`', " and "));
-            row.complain(header, what, "write a `[[command]]` with the same `at_s` for each");
+            row.report_fault(header, what, "write a `[[command]]` with the same `at_s` for each");
         }
     }
     action
@@ -449,7 +451,7 @@ fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<LaneId> 
     if !row.has(LANE.key) {
         if context.lanes.len() != 1 {
             let remedy = format!("write `lane = …`: its number, from 1 to {}", context.lanes.len());
-            row.complain(row.header.clone(), "the command names no lane", remedy);
+            row.report_fault(row.header.clone(), "the command names no lane", remedy);
             return None;
         }
         return Some(LaneId(1));
@@ -480,7 +482,7 @@ fn read_body<'d>(
         let known = context.bodies.iter().filter_map(|body| body.name.as_deref());
         let remedy = format!("write one of {}", listed(&known.collect::<Vec<_>>(), '"', ", "));
         let what = format!("no body of this scene is called {:?}", clip(&name));
-        table.complain(table.span(BODY.key), what, remedy);
+        table.report_fault(table.span(BODY.key), what, remedy);
         return None;
     };
     Some((index, &context.bodies[index]))
@@ -489,25 +491,26 @@ fn read_body<'d>(
 fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
     let body = read_body(context, set);
     let key = set.text(&KEY);
-    set.knows(VALUE.key);
+    set.allow_key(VALUE.key);
     let (index, BodyDraft { kind, values, .. }) = body?;
     let (key, kind) = (key?, kind.as_ref()?);
     let Some((parameter, Parameter { key: known, range, acts, .. })) = kind.parameter(&key) else {
         let known: Vec<&str> = kind.parameters.iter().map(|parameter| &*parameter.key).collect();
         let nearest = nearest(&key, known.iter().map(|name| (*name, *name)));
         let what = format!("{:?} is no parameter of this body", clip(&key));
-        set.complain(set.span(KEY.key), what, offer(nearest, &known, '"'));
+        set.report_fault(set.span(KEY.key), what, offer(nearest, &known, '"'));
         return None;
     };
-    if *acts == Acts::AtStart {
-        let at_once = kind.parameters.iter().filter(|parameter| parameter.acts == Acts::AtOnce);
+    if *acts == TakesEffect::AtStart {
+        let at_once =
+            kind.parameters.iter().filter(|parameter| parameter.acts == TakesEffect::AtOnce);
         let settable: Vec<&str> = at_once.map(|parameter| &*parameter.key).collect();
         let remedy = format!(
             "write it in the body's table, move the body by `place`, or set one of {}",
             listed(&settable, '"', ", ")
         );
         let what = format!("`{known}` acts at the start only, and a command comes later");
-        set.complain(set.span(KEY.key), what, remedy);
+        set.report_fault(set.span(KEY.key), what, remedy);
         return None;
     }
     let field = Field { wanted: Wanted::of(*range), ..VALUE };
@@ -520,14 +523,14 @@ fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
         && let Err(error) = edited_values(kind, values, parameter, value)
         && let Some(fault) = error.fault()
     {
-        set.complain_of(set.span(VALUE.key), fault.into());
+        set.add_fault(set.span(VALUE.key), fault.into());
     }
     Some(Action::Set { body: index, parameter, value })
 }
 
 fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Action> {
     let body = read_body(context, place);
-    [Q, V].iter().for_each(|field| place.knows(field.key));
+    [Q, V].iter().for_each(|field| place.allow_key(field.key));
     let (at, BodyDraft { kind, values, .. }) = body?;
     let count = kind.as_ref()?.coordinates(values.as_ref()?).len();
     let mut read = |field| place.coordinates(&Field { wanted: Wanted::Numbers(count), ..field });
@@ -543,7 +546,7 @@ pub(super) fn read_checks(context: &SceneContext<'_>, top: &mut Table<'_>) -> Ve
         let mut draft = (check, context.lanes.len().max(1));
         Key::read_all(&CHECK, &mut draft, &mut row);
         checks.push(draft.0);
-        top.adopt(row);
+        top.add_faults_of(row);
     }
     checks
 }

@@ -17,7 +17,7 @@ use crate::sim::integrators::{METHODS, Method};
 mod lists;
 mod named;
 
-pub(super) use named::{Named, Written};
+pub(super) use named::{Named, TextBlock};
 
 /// A table with the faults found in it so far. A value with a fault is read as `None`.
 pub(super) struct Table<'t> {
@@ -63,21 +63,21 @@ impl<'t> Table<'t> {
     }
 
     /// Another table of this file.
-    fn other(&self, place: Place, header: Range<usize>, entries: &'t DeTable<'t>) -> Self {
+    fn subtable(&self, place: Place, header: Range<usize>, entries: &'t DeTable<'t>) -> Self {
         let (own, faulty) = (self.own.clone(), self.faulty.clone());
         Self { place, header, own, faulty, ..Self::top(self.text, self.at_top, entries) }
     }
 
-    pub(super) fn complain(
+    pub(super) fn report_fault(
         &mut self,
         span: Range<usize>,
         what: impl Into<String>,
         remedy: impl Into<String>,
     ) {
-        self.complain_of(span, SceneFault::new(what, remedy));
+        self.add_fault(span, SceneFault::new(what, remedy));
     }
 
-    pub(super) fn complain_of(&mut self, span: Range<usize>, fault: SceneFault) {
+    pub(super) fn add_fault(&mut self, span: Range<usize>, fault: SceneFault) {
         self.errors.push(SceneError { span, fault });
     }
 
@@ -102,7 +102,7 @@ impl<'t> Table<'t> {
 
     /// Lets keys name a method of the file. If the method has faults, it is `None`, and keys that name it are not
     /// reported.
-    pub(super) fn bring(&mut self, id: &str, method: Option<&'static Method>) {
+    pub(super) fn add_own_method(&mut self, id: &str, method: Option<&'static Method>) {
         match method {
             Some(method) => self.own.push(method),
             None => self.faulty.push(id.to_owned()),
@@ -115,7 +115,7 @@ impl<'t> Table<'t> {
     }
 
     /// Marks a key as allowed here.
-    pub(super) fn knows(&mut self, key: &'static str) {
+    pub(super) fn allow_key(&mut self, key: &'static str) {
         if !self.keys.contains(&key) {
             self.keys.push(key);
         }
@@ -128,13 +128,13 @@ impl<'t> Table<'t> {
         let Some(text) = value.get_ref().as_str() else { return self.wrong_type(field, value) };
         let chars = text.chars().count();
         if text.trim().is_empty() {
-            self.complain(span, format!("`{key}` is empty"), wanted.remedy());
+            self.report_fault(span, format!("`{key}` is empty"), wanted.remedy());
         } else if chars > wanted.max_chars() {
-            self.complain(span, format!("`{key}` has {chars} characters"), wanted.remedy());
+            self.report_fault(span, format!("`{key}` has {chars} characters"), wanted.remedy());
         } else if let Some(character) = text.chars().find(|c| c.is_control()) {
             let code = character as u32;
             let what = format!("`{key}` holds the control character U+{code:04X}");
-            self.complain(span, what, "remove it");
+            self.report_fault(span, what, "remove it");
         } else {
             return Some(text.into());
         }
@@ -145,7 +145,7 @@ impl<'t> Table<'t> {
     pub(super) fn number(&mut self, field: &Field) -> Option<f64> {
         let value = self.value(field)?;
         let Some(number) = number(value) else { return self.wrong_type(field, value) };
-        self.within(field, value, field.wanted.takes(number).then_some(number))
+        self.in_range(field, value, field.wanted.accepts_number(number).then_some(number))
     }
 
     /// A number of [`Wanted::Whole`].
@@ -155,8 +155,8 @@ impl<'t> Table<'t> {
             return self.wrong_type(field, value);
         }
         let whole = integer(value).and_then(|whole| u64::try_from(whole).ok());
-        let whole = whole.filter(|whole| field.wanted.takes_whole(*whole));
-        self.within(field, value, whole.and_then(|whole| T::try_from(whole).ok()))
+        let whole = whole.filter(|whole| field.wanted.accepts_whole(*whole));
+        self.in_range(field, value, whole.and_then(|whole| T::try_from(whole).ok()))
     }
 
     /// A tick rate, from [`Wanted::TickRate`] or from the length of a [`Wanted::Step`]. A ratio of numbers is a
@@ -178,10 +178,10 @@ impl<'t> Table<'t> {
         });
         if rate.is_err() && is_in_range {
             let what = format!("`{}` has more than nine digits after the point", field.key);
-            self.complain(value.span(), what, field.wanted.remedy());
+            self.report_fault(value.span(), what, field.wanted.remedy());
             return None;
         }
-        self.within(field, value, rate.ok())
+        self.in_range(field, value, rate.ok())
     }
 
     pub(super) fn method(&mut self, field: &Field) -> Option<&'static Method> {
@@ -197,11 +197,11 @@ impl<'t> Table<'t> {
         let (value, entries) = self.list(field)?;
         if entries.is_empty() {
             let remedy = "name a method, or remove the line and all of them race";
-            self.complain(value.span(), format!("`{}` is empty", field.key), remedy);
+            self.report_fault(value.span(), format!("`{}` is empty", field.key), remedy);
         }
         if let Some(first_too_many) = entries.get(MAX_LANES) {
             let what = format!("the scene has {} lanes", entries.len());
-            self.complain(first_too_many.span(), what, format!("keep at most {MAX_LANES}"));
+            self.report_fault(first_too_many.span(), what, format!("keep at most {MAX_LANES}"));
         }
         let mut methods = Vec::new();
         for entry in entries.iter().take(MAX_LANES) {
@@ -222,7 +222,7 @@ impl<'t> Table<'t> {
         };
         let table = |entry: &'t Spanned<DeValue<'t>>| {
             let entries = entry.get_ref().as_table()?;
-            Some(self.other(Place::Table(name), entry.span(), entries))
+            Some(self.subtable(Place::Table(name), entry.span(), entries))
         };
         let rows: Option<Vec<_>> = array.iter().map(table).collect();
         if rows.is_none() {
@@ -235,7 +235,7 @@ impl<'t> Table<'t> {
     pub(super) fn table(&mut self, field: &Field) -> Option<Table<'t>> {
         let value = self.value(field)?;
         match value.get_ref().as_table() {
-            Some(entries) => Some(self.other(Place::Within(field.key), value.span(), entries)),
+            Some(entries) => Some(self.subtable(Place::Within(field.key), value.span(), entries)),
             None => self.wrong_type(field, value),
         }
     }
@@ -256,13 +256,13 @@ impl<'t> Table<'t> {
         let hash = is_hex.then(|| u64::from_str_radix(text, 16).ok()).flatten();
         if hash.is_none() {
             let what = format!("`{key}` is {:?}, not a hash", clip(text));
-            self.complain(span, what, Wanted::Hash.remedy());
+            self.report_fault(span, what, Wanted::Hash.remedy());
         }
         hash
     }
 
     /// Collects the faults of a table below this one.
-    pub(super) fn adopt(&mut self, row: Table<'t>) {
+    pub(super) fn add_faults_of(&mut self, row: Table<'t>) {
         self.below.extend(row.finish());
     }
 
@@ -313,14 +313,14 @@ impl<'t> Table<'t> {
 
     fn value(&mut self, field: &Field) -> Option<&'t Spanned<DeValue<'t>>> {
         let Field { key, is_required, about, wanted } = field;
-        self.knows(key);
+        self.allow_key(key);
         let value = self.entries.get(*key);
         if value.is_none() && *is_required {
             let place = self.place;
             let above = if place == Place::Top { " above the first table" } else { "" };
             let remedy = format!("write `{key} = …`{above}: {about}, {wanted}");
             let fault = SceneFault::new(format!("missing key `{key}` {place}"), remedy);
-            self.complain_of(self.header.clone(), fault.of(FaultKind::Missing(vec![key])));
+            self.add_fault(self.header.clone(), fault.of(FaultKind::Missing(vec![key])));
         }
         value
     }
@@ -353,12 +353,12 @@ impl<'t> Table<'t> {
             let nearest = nearest(id, spellings);
             let known: Vec<_> = all().map(|method| method.id).collect();
             let what = format!("unknown method {:?} in `{key}`", clip(id));
-            self.complain(value.span(), what, offer(nearest, &known, '"'));
+            self.report_fault(value.span(), what, offer(nearest, &known, '"'));
         }
         method
     }
 
-    fn within<T>(
+    fn in_range<T>(
         &mut self,
         field: &Field,
         value: &Spanned<DeValue<'_>>,
@@ -375,7 +375,7 @@ impl<'t> Table<'t> {
         wanted: &Wanted,
     ) -> Option<T> {
         let written = clip(&self.text[value.span()]);
-        self.complain_of(value.span(), SceneFault::out_of_range(subject, &written, wanted));
+        self.add_fault(value.span(), SceneFault::out_of_range(subject, &written, wanted));
         None
     }
 
@@ -400,7 +400,7 @@ impl<'t> Table<'t> {
             DeValue::Array(_) => "a list".into(),
             DeValue::Table(_) => "a table".into(),
         };
-        self.complain_of(value.span(), SceneFault::wrong_type(&subject, &found, wanted));
+        self.add_fault(value.span(), SceneFault::wrong_type(&subject, &found, wanted));
         None
     }
 }

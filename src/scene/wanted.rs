@@ -127,12 +127,12 @@ impl Wanted {
     }
 
     /// Whether a number is in the range.
-    pub(super) fn takes(&self, number: f64) -> bool {
+    pub(super) fn accepts_number(&self, number: f64) -> bool {
         matches!(self, Wanted::Number(range) if range.contains(number))
     }
 
     /// Whether a whole number is in the range.
-    pub(super) fn takes_whole(&self, whole: u64) -> bool {
+    pub(super) fn accepts_whole(&self, whole: u64) -> bool {
         matches!(self, Wanted::Whole(range) if range.contains(&whole))
     }
 

@@ -11,7 +11,7 @@ use super::own::own_table;
 use super::script::{CHECK, CHECKS, command_tables, parameter_value};
 use super::{Check, Scene, SceneBody};
 use crate::scene::LaneSpec;
-use crate::sim::bodies::{Form, NetPlan, Range};
+use crate::sim::bodies::{NetLayout, NetPlan, Range};
 
 impl Scene {
     /// Replaces the hashes in the checks of a scene file's `text`, in the order of the file. The rest of the text
@@ -95,8 +95,8 @@ fn body_table(body: &SceneBody) -> String {
 /// The nodes and springs of a net.
 fn net_lines(NetPlan { form, kicked }: &NetPlan) -> String {
     let lines = match form {
-        Form::Grid(grid) => Key::lines(&GRID_KEYS, grid),
-        Form::Lists(lists) => Key::lines(&LIST_KEYS, lists),
+        NetLayout::Grid(grid) => Key::lines(&GRID_KEYS, grid),
+        NetLayout::Lists(lists) => Key::lines(&LIST_KEYS, lists),
     };
     let kicked = kicked.map(|node| format!("{} = {node}\n", KICKED.key));
     lines + &kicked.unwrap_or_default()

@@ -11,11 +11,11 @@ use super::integrators::{Family, METHODS, Method};
 
 mod cost;
 mod geometry;
-mod likeness;
 mod linear;
 mod memory;
 mod order;
 pub mod problems;
+mod similarity;
 mod stability;
 mod tolerance;
 
@@ -132,8 +132,8 @@ pub fn measured(card: &'static Method) -> Method {
     let about = format!(
         "{}; {}; {}",
         order::in_words(&orders),
-        likeness::energy(card),
-        likeness::nearest(card, evaluations)
+        similarity::energy(card),
+        similarity::nearest(card, evaluations)
     );
     Method {
         about: about.leak(),
@@ -142,7 +142,7 @@ pub fn measured(card: &'static Method) -> Method {
         order_with_drag,
         evaluations,
         symplectic,
-        reversible: is_so(geometry::returns(card)),
+        reversible: is_so(geometry::is_reversible(card)),
         stability_limit: undamped,
         damped_limits: match damped {
             [Some(slight), Some(medium), Some(critical)] => Some([slight, medium, critical]),

@@ -50,7 +50,9 @@ pub use numerics::least_squares;
 pub(crate) use own_method::MAX_OWN_ID_CHARS;
 #[cfg(feature = "lab")]
 pub use own_method::{check_own_id, own_method, own_method_id, own_rule};
-pub use parameter::{Acts, Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, Text};
+pub use parameter::{
+    Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, TakesEffect, Text,
+};
 pub use reference::{MAX_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use state::{Elementwise, State, Vector};
 pub use stepper::{Change, PlacedBody, RecordedTick, Solver, Stepper};

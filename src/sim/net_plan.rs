@@ -16,14 +16,14 @@ pub const MAX_SPRINGS: usize = 8 * MAX_NODES;
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetPlan {
     /// Its nodes and springs.
-    pub form: Form,
+    pub form: NetLayout,
     /// The node that a kick hits; `None` if it hits every free node.
     pub kicked: Option<usize>,
 }
 
 /// Nodes and springs, laid out by a rule or one by one.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Form {
+pub enum NetLayout {
     /// A grid.
     Grid(Grid),
     /// Lists.
@@ -127,35 +127,35 @@ impl NetPlan {
     /// The nodes and the springs as lists.
     pub fn lists(&self) -> Lists {
         match &self.form {
-            Form::Grid(grid) => grid.lists(),
-            Form::Lists(lists) => lists.clone(),
+            NetLayout::Grid(grid) => grid.lists(),
+            NetLayout::Lists(lists) => lists.clone(),
         }
     }
 
     /// The springs, in the order in which they act.
     pub fn springs(&self) -> Box<dyn Iterator<Item = PlannedSpring> + '_> {
         match &self.form {
-            Form::Grid(grid) => Box::new(grid.planned_springs()),
-            Form::Lists(lists) => Box::new(lists.springs.iter().copied()),
+            NetLayout::Grid(grid) => Box::new(grid.planned_springs()),
+            NetLayout::Lists(lists) => Box::new(lists.springs.iter().copied()),
         }
     }
 
     /// The places of the fixed nodes, in metres.
     pub fn fixed_places(&self) -> Box<dyn Iterator<Item = [f64; 2]> + '_> {
         match &self.form {
-            Form::Grid(grid) => {
+            NetLayout::Grid(grid) => {
                 let fixed = (0..grid.columns).filter(|&node| grid.is_fixed(node));
                 Box::new(fixed.map(|node| grid.place(node)))
             }
-            Form::Lists(lists) => Box::new(lists.fixed.iter().map(|&node| lists.nodes[node])),
+            NetLayout::Lists(lists) => Box::new(lists.fixed.iter().map(|&node| lists.nodes[node])),
         }
     }
 
     /// One fault of the net as a whole, or else the faults of all its entries; empty if a net can be built.
     pub fn faults(&self) -> Vec<NetFault> {
         let faults = match &self.form {
-            Form::Grid(grid) => grid.fault().into_iter().collect(),
-            Form::Lists(lists) => lists.faults(),
+            NetLayout::Grid(grid) => grid.fault().into_iter().collect(),
+            NetLayout::Lists(lists) => lists.faults(),
         };
         match self.kicked {
             Some(kicked) if faults.is_empty() => self.fault_of_kick(kicked).into_iter().collect(),
@@ -165,8 +165,8 @@ impl NetPlan {
 
     fn fault_of_kick(&self, kicked: usize) -> Option<NetFault> {
         let (nodes, is_fixed) = match &self.form {
-            Form::Grid(grid) => (grid.nodes(), grid.is_fixed(kicked)),
-            Form::Lists(lists) => (lists.nodes.len(), lists.fixed.contains(&kicked)),
+            NetLayout::Grid(grid) => (grid.nodes(), grid.is_fixed(kicked)),
+            NetLayout::Lists(lists) => (lists.nodes.len(), lists.fixed.contains(&kicked)),
         };
         let (what, remedy) = if kicked >= nodes {
             unknown(kicked, nodes)
@@ -286,28 +286,35 @@ impl Grid {
         before + fixed
     }
 
-    /// The springs that begin in a row, each with the column that it starts [right or below](Way) of. Leaves out
-    /// springs between fixed nodes.
-    pub(super) fn springs(&self, row: usize) -> impl Iterator<Item = (usize, Way)> + use<> {
+    /// The springs that begin in a row, each with the column that it starts [right or below](SpringDirection) of.
+    /// Leaves out springs between fixed nodes.
+    pub(super) fn springs(
+        &self,
+        row: usize,
+    ) -> impl Iterator<Item = (usize, SpringDirection)> + use<> {
         let grid = *self;
         let ways = move |column: usize| {
             let (right, down) = (column + 1 < grid.columns, row + 1 < grid.rows);
-            let is_there = move |way: &Way| match way {
-                Way::Right => right,
-                Way::Down => down,
-                Way::Falling | Way::Rising => right && down && grid.shear,
+            let is_there = move |way: &SpringDirection| match way {
+                SpringDirection::Right => right,
+                SpringDirection::Down => down,
+                SpringDirection::Falling | SpringDirection::Rising => right && down && grid.shear,
             };
-            let moves = move |way: &Way| {
+            let moves = move |way: &SpringDirection| {
                 row > 0 || grid.ends(row, column, *way).iter().any(|&end| !grid.is_fixed(end))
             };
-            Way::ALL.into_iter().filter(is_there).filter(moves).map(move |way| (column, way))
+            SpringDirection::ALL
+                .into_iter()
+                .filter(is_there)
+                .filter(moves)
+                .map(move |way| (column, way))
         };
         (0..self.columns).flat_map(ways)
     }
 
     /// The nodes that a spring joins.
     #[inline]
-    pub(super) fn ends(&self, row: usize, column: usize, way: Way) -> [usize; 2] {
+    pub(super) fn ends(&self, row: usize, column: usize, way: SpringDirection) -> [usize; 2] {
         let ([from, to], down) = way.ends();
         [row * self.columns + column + from, (row + down) * self.columns + column + to]
     }
@@ -315,7 +322,7 @@ impl Grid {
 
 /// The directions of the springs of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum SpringDirection {
     /// Right.
     Right,
     /// Down.
@@ -326,7 +333,7 @@ pub(super) enum Way {
     Rising,
 }
 
-impl Way {
+impl SpringDirection {
     /// All directions, in the order of a plan's springs.
     const ALL: [Self; 4] = [Self::Right, Self::Down, Self::Falling, Self::Rising];
 

@@ -35,12 +35,17 @@ pub struct Parameter {
     /// The allowed values.
     pub range: Range,
     /// When a change takes effect on a moving body.
-    pub acts: Acts,
+    pub acts: TakesEffect,
 }
 
 impl Parameter {
     /// A parameter without a letter, a unit and a default.
-    pub(super) const fn new(key: Text, about: &'static str, range: Range, acts: Acts) -> Self {
+    pub(super) const fn new(
+        key: Text,
+        about: &'static str,
+        range: Range,
+        acts: TakesEffect,
+    ) -> Self {
         let unit = Cow::Borrowed("");
         Self { key, name: None, symbol: None, about, unit, default: None, range, acts }
     }
@@ -62,19 +67,19 @@ impl Parameter {
 
 /// When a change of a parameter takes effect on a moving body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Acts {
+pub enum TakesEffect {
     /// At once: it changes the forces, or the size of a kick.
     AtOnce,
     /// At the next start: it is part of the initial state, or a count or a curve.
     AtStart,
 }
 
-impl Acts {
+impl TakesEffect {
     /// The name in output.
     pub fn id(self) -> &'static str {
         match self {
-            Acts::AtOnce => "at-once",
-            Acts::AtStart => "at-start",
+            TakesEffect::AtOnce => "at-once",
+            TakesEffect::AtStart => "at-start",
         }
     }
 }
@@ -169,13 +174,13 @@ enum Slot<B> {
 }
 
 impl<B> ParameterOf<B> {
-    const fn new(key: &'static str, range: Range, acts: Acts, slot: Slot<B>) -> Self {
+    const fn new(key: &'static str, range: Range, acts: TakesEffect, slot: Slot<B>) -> Self {
         Self { parameter: Parameter::new(Cow::Borrowed(key), "", range, acts), slot }
     }
 
     /// A number without a default that acts at once.
     pub const fn number(key: &'static str, range: Range, field: fn(&mut B) -> &mut f64) -> Self {
-        Self::new(key, range, Acts::AtOnce, Slot::Number(field))
+        Self::new(key, range, TakesEffect::AtOnce, Slot::Number(field))
     }
 
     /// A number of any sign that is part of the initial state, with its default.
@@ -185,7 +190,7 @@ impl<B> ParameterOf<B> {
 
     /// A whole number from 1 to `most`, without a default, that acts at the start.
     pub const fn count(key: &'static str, most: u32, field: fn(&mut B) -> &mut usize) -> Self {
-        Self::new(key, Range::Count(most), Acts::AtStart, Slot::Count(field))
+        Self::new(key, Range::Count(most), TakesEffect::AtStart, Slot::Count(field))
     }
 
     /// A curve through points in the units `x` and `y`, without a default, that acts at the start. `write` stores
@@ -195,7 +200,7 @@ impl<B> ParameterOf<B> {
         [x, y]: [&'static str; 2],
         write: fn(&mut B, &[[f64; 2]]),
     ) -> Self {
-        Self::new(key, Range::Curve { x, y }, Acts::AtStart, Slot::Curve(write))
+        Self::new(key, Range::Curve { x, y }, TakesEffect::AtStart, Slot::Curve(write))
     }
 
     /// Sets the name in words.
@@ -224,7 +229,7 @@ impl<B> ParameterOf<B> {
 
     /// Makes the number part of the initial state, so that it acts at the start.
     pub const fn at_start(mut self) -> Self {
-        self.parameter.acts = Acts::AtStart;
+        self.parameter.acts = TakesEffect::AtStart;
         self
     }
 
@@ -237,7 +242,7 @@ impl<B> ParameterOf<B> {
     /// The field of a parameter that acts at once; `None` for other parameters.
     pub(super) fn acting_at_once(&self) -> Option<fn(&mut B) -> &mut f64> {
         match self.slot {
-            Slot::Number(field) if self.parameter.acts == Acts::AtOnce => Some(field),
+            Slot::Number(field) if self.parameter.acts == TakesEffect::AtOnce => Some(field),
             Slot::Number(_) | Slot::Count(_) | Slot::Curve(_) => None,
         }
     }

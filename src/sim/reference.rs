@@ -11,7 +11,7 @@ use super::state::{State, Vector, largest, nan_is_infinite};
 use super::system::{Counted, StateOf};
 
 use extrapolation::Extrapolation;
-use trajectory::{Ended, StepControl, Trajectory};
+use trajectory::{StepControl, Trajectory, TrajectoryEnd};
 
 mod extrapolation;
 mod trajectory;
@@ -159,11 +159,11 @@ impl<V: Vector> Reference<V> {
         allowance.saved = allowance.saved.saturating_sub(work.evaluations);
         if let Err(ended) = solved {
             let failure = match ended {
-                Ended::Budget => {
+                TrajectoryEnd::Budget => {
                     allowance.saved = 0;
                     StepFailure::ReferenceFailed { evaluations: work.evaluations }
                 }
-                Ended::Sticks => StepFailure::Sticks,
+                TrajectoryEnd::Sticks => StepFailure::Sticks,
             };
             self.failed = Some(failure.clone());
             return Err(failure);

@@ -99,8 +99,8 @@ impl dyn Stepper + '_ {
 
     /// Sets a parameter of the body at time `t` (s), by its index in the kind's
     /// [`parameters`](super::bodies::Kind::parameters). The state is unchanged. Returns whether the body changed: it
-    /// does not if the value equals the old one, or if the parameter [acts at the start](super::bodies::Acts). `value`
-    /// must be in the parameter's range and pass the kind's check.
+    /// does not if the value equals the old one, or if the parameter [acts at the start](super::bodies::TakesEffect).
+    /// `value` must be in the parameter's range and pass the kind's check.
     pub fn set_parameter(&mut self, t: f64, index: usize, value: f64) -> bool {
         self.change(t, Change::Parameter { index, value })
     }

@@ -4,7 +4,7 @@ use super::coil::{Span, coil, silhouette, strut};
 use super::hull::{self, ShipPose};
 use super::sketch::{Camera, LaneStyle, SOLID};
 use super::{Align, Label, Picture, captions, mass};
-use crate::look::palette::{Palette, Rgba, faded, is_bright, mixed};
+use crate::look::palette::{Palette, Rgba, fade, is_bright, mix};
 use crate::scene::{Mark, Outline, Thread};
 
 /// Width of a net's threads in front, in points: on the border, and within it.
@@ -85,12 +85,12 @@ impl OutlineView<'_> {
     pub(super) fn draw_below_exact(&self, picture: &mut Picture, style: LaneStyle) {
         let camera = self.camera;
         let pen = &mut picture.pen(camera.rect);
-        let still = mixed(self.palette.chart, self.palette.sea[1], 0.35);
-        let thread = mixed(style.colour, self.palette.text, 0.15);
+        let still = mix(self.palette.chart, self.palette.sea[1], 0.35);
+        let thread = mix(style.colour, self.palette.text, 0.15);
         for Thread { points, is_border } in &self.outline.threads {
             let points = points.iter().map(|point| camera.points(*point));
             let width = if *is_border { BORDER } else { THREAD };
-            pen.path(points, width, faded(thread, if *is_border { 1.0 } else { 0.75 }));
+            pen.path(points, width, fade(thread, if *is_border { 1.0 } else { 0.75 }));
         }
         for mark in &self.outline.marks {
             match *mark {
@@ -100,11 +100,11 @@ impl OutlineView<'_> {
                 }
                 Mark::Rail { from, to } => {
                     let ends = [from, to].map(|end| camera.points(end));
-                    pen.line(ends[0], ends[1], 1.6, faded(still, 0.7));
+                    pen.line(ends[0], ends[1], 1.6, fade(still, 0.7));
                 }
                 Mark::Rod { from, to } => {
                     let ends = [from, to].map(|end| camera.points(end));
-                    pen.line(ends[0], ends[1], 2.6, mixed(style.colour, self.palette.text, 0.3));
+                    pen.line(ends[0], ends[1], 2.6, mix(style.colour, self.palette.text, 0.3));
                 }
                 Mark::Sprung => coil(pen, self.span(), self.palette),
                 Mark::Anchor { centre, radius } => {
@@ -181,13 +181,11 @@ impl OutlineView<'_> {
         let short = LaneStyle { dash, ..style };
         for Thread { points, .. } in self.outline.threads.iter().filter(|it| it.is_border) {
             let points = points.iter().map(|point| camera.points(*point));
-            pen.dashed(points, 1.4, faded(style.colour, 0.7), style.dash);
+            pen.dashed(points, 1.4, fade(style.colour, 0.7), style.dash);
         }
         for part in self.parts() {
             match part {
-                MovingPart::Rod(ends) => {
-                    pen.dashed(ends, 1.4, faded(style.colour, 0.7), style.dash)
-                }
+                MovingPart::Rod(ends) => pen.dashed(ends, 1.4, fade(style.colour, 0.7), style.dash),
                 MovingPart::Disc(at, radius) => pen.hollow(&mass::round(at, radius), 1.8, short),
                 MovingPart::Sprung(span) => {
                     let side = camera.block;
@@ -208,18 +206,18 @@ impl OutlineView<'_> {
         let pen = &mut picture.pen(camera.rect);
         if !self.outline.course.is_empty() {
             let course = self.outline.course.iter().map(|at| camera.points(*at));
-            pen.dashed(course, 1.3, faded(palette.exact, 0.6), [2.5, 4.0]);
+            pen.dashed(course, 1.3, fade(palette.exact, 0.6), [2.5, 4.0]);
         }
         for Thread { points, .. } in self.outline.threads.iter().filter(|it| it.is_border) {
             let points = points.iter().map(|point| camera.points(*point));
-            pen.path(points.clone(), 3.6, faded(palette.sea[1], 0.6));
-            pen.path(points, 1.4, faded(palette.exact, 0.8));
+            pen.path(points.clone(), 3.6, fade(palette.sea[1], 0.6));
+            pen.path(points, 1.4, fade(palette.exact, 0.8));
         }
         for part in self.parts() {
             match part {
                 MovingPart::Rod(ends) => {
-                    pen.path(ends, 3.6, faded(palette.sea[1], 0.6));
-                    pen.path(ends, 1.4, faded(palette.exact, 0.8));
+                    pen.path(ends, 3.6, fade(palette.sea[1], 0.6));
+                    pen.path(ends, 1.4, fade(palette.exact, 0.8));
                 }
                 MovingPart::Disc(at, radius) => pen.ghost(&mass::round(at, radius + 1.5), palette),
                 MovingPart::Sprung(span) => silhouette(pen, span, palette),

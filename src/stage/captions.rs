@@ -6,14 +6,16 @@ use super::moment::{DrawContext, has_several_coordinates};
 use super::sketch::{Camera, rounded};
 use super::{Align, Label, Picture, Rect, breakpoints};
 use crate::look::Look;
-use crate::look::palette::{Palette, Rgba, faded};
+use crate::look::palette::{Palette, Rgba, fade};
 use crate::measure::{Outcome, Severity};
 use crate::run::race::{Entrant, Halt, LaneBody};
 use crate::scene::Mark;
 use crate::sim::number::{round, significant};
 use crate::studio::Studio;
-use crate::studio::{shown_state, shown_truth};
+use crate::studio::{shown_state, shown_truth, slowed_in_words};
 
+/// Opacity of the sign of a verdict at a former tick rate.
+const STALE: f32 = 0.35;
 /// Room of a scale bar at the right of a cell, in points.
 const BAR_MARGIN: f32 = 130.0;
 /// Height of a chip, in points.
@@ -222,7 +224,9 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
         None => {
             let truth = &studio.race().truth().bodies()[index];
             let (q, v) = shown_truth(&studio.deck, &studio.viewer, index);
-            Look::of(truth).promise(&q, &v).unwrap_or_default()
+            let motion = Look::of(truth).describe_motion(&q, &v);
+            let slowed = slowed_in_words(&studio.deck, &studio.viewer).filter(|_| index == 0);
+            motion.into_iter().chain(slowed).collect::<Vec<_>>().join(" · ")
         }
     };
     (words, palette.dim)
@@ -301,9 +305,15 @@ impl Chip {
         }
         // The run on the screen differs from the judged one.
         let is_other = moment.studio.deck.is_judged_apart();
+        let viewer = &moment.studio.viewer;
+        let is_current = viewer.is_judged_at(entry, moment.studio.clock().tick_hz());
+        let tone = palette.of_severity(severity);
         Some(Self {
             sign: outcome.sign().glyph(),
-            colours: [palette.of_severity(severity), moment.style(entry).0],
+            colours: [
+                if is_current || halt.is_some() { tone } else { fade(tone, STALE) },
+                moment.style(entry).0,
+            ],
             verdict: match halt {
                 Some(halt) => halt.fate(),
                 None if is_other => verdict.wordings_of_another_run(false)[0].clone(),
@@ -397,7 +407,7 @@ pub(super) fn ghost_name(
 pub(super) fn course(picture: &mut Picture, camera: &Camera, beam: f32, palette: &Palette) {
     let Rect { min, max } = camera.rect;
     let y = camera.points(DVec2::new(0.0, camera.centre_m.y))[1];
-    let chart = faded(palette.chart, 0.45);
+    let chart = fade(palette.chart, 0.45);
     picture.pen(camera.rect).dashed([[min[0], y], [max[0], y]], 1.0, chart, [8.0, 5.0]);
     if max[0] - min[0] < breakpoints::MARKS || max[1] - min[1] < breakpoints::SCALE_BAR {
         return;
@@ -440,7 +450,7 @@ pub(super) fn plate(
 ) {
     let shape = rounded(min, max, 7.0);
     let pen = &mut picture.pen(clip);
-    pen.fill(&shape, faded(palette.panel, 0.94));
+    pen.fill(&shape, fade(palette.panel, 0.94));
     pen.ring(&shape, 1.6, rim);
 }
 

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::sketch::{Camera, Pen, SOLID};
 use super::{Align, Label, Picture, Rect, Sea};
-use crate::look::palette::{Palette, faded, mixed};
+use crate::look::palette::{Palette, fade, mix};
 use crate::sim::number::round;
 
 /// Height of the ruler along the top of the stage, in points.
@@ -48,7 +48,7 @@ fn contours(pen: &mut Pen<'_>, stage: Rect, palette: &Palette) {
     for (n, contour) in CONTOURS.iter().enumerate() {
         let points = contour.iter().map(|[x, y]| [middle[0] + width * x, middle[1] + width * y]);
         let dash = if n % 2 == 0 { SOLID } else { [1.5, 5.0] };
-        pen.dashed(points, 1.0, faded(palette.chart, 0.13), dash);
+        pen.dashed(points, 1.0, fade(palette.chart, 0.13), dash);
     }
 }
 
@@ -86,7 +86,7 @@ fn waves(pen: &mut Pen<'_>, stage: Rect, palette: &Palette) {
     for wave in WAVES.iter().take(count as usize) {
         let [x, y] = [0, 1].map(|axis| stage.min[axis] + size[axis] * wave.at[axis]);
         let crest = [x + wave.length / 2.0, y - 1.6];
-        let colour = faded(palette.chart, wave.strength);
+        let colour = fade(palette.chart, wave.strength);
         pen.line([x, y], crest, 1.0, colour);
         pen.line(crest, [x + wave.length, y], 1.0, colour);
     }
@@ -109,7 +109,7 @@ pub(super) fn quay(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     let water = [[edge, top], [reach, top], [reach, bottom], [edge, bottom]];
     pen.shaded(&water, shadow);
     pen.fill(&[[left, top], [edge, top], [edge, bottom], [left, bottom]], stone);
-    let joint = mixed(stone, [0, 0, 0, 255], 0.35);
+    let joint = mix(stone, [0, 0, 0, 255], 0.35);
     let first = (top / SLAB).floor() * SLAB;
     for i in 0..=((bottom - first) / SLAB) as u16 {
         let y = first + f32::from(i) * SLAB;
@@ -125,9 +125,9 @@ pub(super) fn mooring(picture: &mut Picture, camera: &Camera, palette: &Palette)
     let radius = 0.17 * camera.block;
     let at = [x - 1.7 * radius, y];
     let rim = palette.quay[1];
-    pen.disc(at, radius, mixed(rim, [0, 0, 0, 255], 0.5));
+    pen.disc(at, radius, mix(rim, [0, 0, 0, 255], 0.5));
     pen.disc(at, 0.72 * radius, rim);
-    pen.line(at, [x + 2.0, y], 0.4 * radius, mixed(rim, palette.text, 0.4));
+    pen.line(at, [x + 2.0, y], 0.4 * radius, mix(rim, palette.text, 0.4));
 }
 
 /// Draws a ruler along the top of the stage, in the metres of the camera below it.
@@ -135,13 +135,13 @@ pub(super) fn ruler(picture: &mut Picture, strip: Rect, camera: &Camera, palette
     let Rect { min, max } = strip;
     picture.pen(strip).fill(
         &[min, [max[0], min[1]], max, [min[0], max[1]]],
-        mixed(palette.panel, palette.background, 0.4),
+        mix(palette.panel, palette.background, 0.4),
     );
     let step_m = camera.round_length_m(NAMED_APART * f64::from(max[0] - min[0]));
     let (left, right) = camera.span_m();
     let [top, bottom] = [max[1] - STRIPES, max[1]];
     let x = |i: i64| camera.points(DVec2::new(i as f64 * step_m / 2.0, 0.0))[0];
-    let light = mixed(palette.panel, palette.text, 0.75);
+    let light = mix(palette.panel, palette.text, 0.75);
     let first = libm::floor(2.0 * left / step_m) as i64;
     let last = libm::ceil(2.0 * right / step_m) as i64;
     // Beyond 10¹⁸ marks, both ends saturate at the last whole number.

@@ -3,7 +3,7 @@
 use std::f32::consts::{PI, TAU};
 
 use super::sketch::{Pen, rounded};
-use crate::look::palette::{Palette, Rgba, faded};
+use crate::look::palette::{Palette, Rgba, fade};
 
 /// Turns of the wire. Their number is fixed; the pitch stretches.
 const TURNS: u16 = 13;
@@ -47,7 +47,7 @@ pub(super) fn coil(pen: &mut Pen<'_>, span: Span, palette: &Palette) {
     let Some(ends) = span.ends() else { return };
     let thick = (span.size / 60.0).clamp(0.25, 1.0);
     let [edge, shade, light, gleam] = palette.wire;
-    let dark = faded(edge, 0.75);
+    let dark = fade(edge, 0.75);
     let y = span.block[1];
     for (from, to) in [(span.quay, ends.0), (ends.1, span.block[0])] {
         pen.path([[from, y], [to, y]], 5.0 * thick, shade);
@@ -85,7 +85,7 @@ pub(super) fn strut(pen: &mut Pen<'_>, [from, to]: [[f32; 2]; 2], radius: f32, p
     };
     let thick = (radius / 12.0).clamp(0.3, 1.0);
     let [edge, _, light, _] = palette.wire;
-    for (width, colour) in [(6.0, faded(edge, 0.75)), (3.4, light)] {
+    for (width, colour) in [(6.0, fade(edge, 0.75)), (3.4, light)] {
         pen.path((0..=BENDS).map(bend), width * thick, colour);
     }
 }
@@ -95,7 +95,7 @@ pub(super) fn silhouette(pen: &mut Pen<'_>, span: Span, palette: &Palette) {
     let half = span.size / 2.0 + 1.5;
     let [x, y] = span.block;
     let block = rounded([x - half, y - half], [x + half, y + half], 0.15 * span.size);
-    let veil = faded(palette.exact, 0.12);
+    let veil = fade(palette.exact, 0.12);
     pen.fill(&block, veil);
     let mut round = block;
     if let Some((from, _)) = span.ends() {

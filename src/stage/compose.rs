@@ -14,7 +14,7 @@ use super::{
     Cell, Picture, Rect, Whose, apex, breakpoints, captions, chart, futures, hull, loop_stage,
     loupe, universe,
 };
-use crate::look::palette::{Rgba, faded};
+use crate::look::palette::{Rgba, fade};
 use crate::look::{Framing, Look};
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{Mark, Outline};
@@ -95,7 +95,10 @@ fn overlay(
     }
     for (index, ((ghost, view), cell)) in ghosts.iter().zip(&views).zip(&cells).enumerate() {
         let camera = moment.camera(*cell, index, view);
-        let of_body = BodyCell { moment, index, ghost, view, camera, lanes: entrants, front };
+        let mut of_body = BodyCell { moment, index, ghost, view, camera, lanes: entrants, front };
+        if of_body.has_outgrown() {
+            of_body.camera = universe::with_short_paper(&camera);
+        }
         of_body.draw(picture);
         captions::name(picture, *cell, moment, index);
         if moment.studio.mode() == Mode::Solo {
@@ -139,7 +142,7 @@ fn side_by_side(
             chart::quay(picture, &camera, moment.palette);
         }
         BodyCell { moment, index, ghost, view, camera, lanes, front: entrant }.draw(picture);
-        frame(picture, cell, faded(moment.palette.chart, 0.3));
+        frame(picture, cell, fade(moment.palette.chart, 0.3));
         if entrant.id == entrants[entrants.len() - 1].id {
             captions::scale_bar(picture, &camera, moment.palette);
         }
@@ -195,10 +198,7 @@ impl BodyCell<'_> {
         let truth = &studio.race().truth().bodies()[index];
         let shows_ghost = studio.display().ghost && truth.halted().is_none();
         self.ground(picture, shows_ghost);
-        let has_outgrown = studio.mode() == Mode::Solo
-            && view.zoomed_as == index
-            && !self.shows_futures()
-            && universe::is_shown(moment, view, camera);
+        let has_outgrown = self.has_outgrown();
         if has_outgrown {
             universe::landmarks(picture, camera, palette);
         }
@@ -231,7 +231,7 @@ impl BodyCell<'_> {
             let at = camera.points(outline.at);
             let flag = Flag { at, number: entry + 1, colour };
             let is_front = self.is_front(lane);
-            let colour_of_body = faded(colour, if is_front { 1.0 } else { BODY_BEHIND });
+            let colour_of_body = fade(colour, if is_front { 1.0 } else { BODY_BEHIND });
             let style = LaneStyle { colour: colour_of_body, dash, fill: self.fill() };
             let seen = OutlineView { outline: &outline, camera, palette };
             let whose = Whose::Lane { lane: lane.id, entry };
@@ -258,8 +258,7 @@ impl BodyCell<'_> {
             let in_hand = held.map(|held| look.outline(moment.t, &held.q));
             let shown = OutlineView { outline: in_hand.as_ref().unwrap_or(&outline), ..seen };
             if held.is_some() {
-                let left =
-                    LaneStyle { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };
+                let left = LaneStyle { colour: fade(colour, LEFT_BEHIND), dash, fill: self.fill() };
                 seen.draw_behind(picture, left);
             }
             shown.draw_below_exact(picture, style);
@@ -357,6 +356,14 @@ impl BodyCell<'_> {
         lane.id == self.front.id
     }
 
+    /// Whether the body has outgrown the stage, so that landmarks show its scale.
+    fn has_outgrown(&self) -> bool {
+        self.moment.studio.mode() == Mode::Solo
+            && self.view.zoomed_as == self.index
+            && !self.shows_futures()
+            && universe::is_shown(self.moment, self.view, &self.camera)
+    }
+
     /// Whether the cell shows the body's futures instead of its trail.
     fn shows_futures(&self) -> bool {
         let is_afloat = matches!(self.view.framing, Framing::Follow { .. });
@@ -379,7 +386,7 @@ impl BodyCell<'_> {
             Framing::Recorder { .. } => {
                 chart::mooring(picture, camera, moment.palette);
                 if let Some(swing_m) = ghost.swing_m {
-                    envelope(picture, camera, swing_m, faded(moment.palette.exact, 0.6));
+                    envelope(picture, camera, swing_m, fade(moment.palette.exact, 0.6));
                 }
             }
             Framing::Follow { .. } | Framing::Fixed { .. } => {}
@@ -452,7 +459,7 @@ impl BodyCell<'_> {
         }
         for leg in &mut legs {
             if !is_front {
-                leg.iter_mut().for_each(|place| place.colour = faded(place.colour, FAINT));
+                leg.iter_mut().for_each(|place| place.colour = fade(place.colour, FAINT));
             }
             moment.trail(
                 picture,

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::sketch::{Camera, rounded};
 use super::{Align, Label, Picture, Rect};
-use crate::look::palette::{Palette, Rgba, faded, mixed};
+use crate::look::palette::{Palette, Rgba, fade, mix};
 use crate::sim::number::{significant, superscript};
 
 /// Height and least width of a flag, and least gap between two, in points.
@@ -173,7 +173,7 @@ fn draw_board(
     let [wide, high] = [width / 2.0, FLAG / 2.0];
     let shape = rounded([x - wide, y - high], [x + wide, y + high], 0.22 * FLAG);
     let pen = &mut picture.pen(clip);
-    pen.fill(&shape, faded(palette.panel, 0.94));
+    pen.fill(&shape, fade(palette.panel, 0.94));
     pen.ring(&shape, 1.5, colour);
     picture.labels.push(Label::new([x, y], Align::Centre, 0.68 * FLAG, colour, text).strong());
 }
@@ -312,11 +312,10 @@ pub(super) fn badges(
             let shoulder = tip + inwards * if badge.is_beside { 9.0 * scale } else { 0.0 };
             let shape =
                 [[tip, middle], [shoulder, y], [far, y], [far, y + high], [shoulder, y + high]];
-            picture.pen(clip).fill(&shape, faded(palette.panel, 0.94));
+            picture.pen(clip).fill(&shape, fade(palette.panel, 0.94));
             picture.pen(clip).ring(&shape, 1.6, badge.flag.colour);
             let at = [if is_wide { far - inwards * 14.0 } else { (far + shoulder) / 2.0 }, middle];
-            let (colour, dark) =
-                (badge.flag.colour, mixed(palette.background, [0, 0, 0, 255], 0.2));
+            let (colour, dark) = (badge.flag.colour, mix(palette.background, [0, 0, 0, 255], 0.2));
             let number = badge.flag.number.to_string();
             let half = [if number.len() > 1 { 10.0 } else { 7.5 }, 7.5].map(|half| half * scale);
             let corner = |sign: f32| [0, 1].map(|axis| at[axis] + sign * half[axis]);

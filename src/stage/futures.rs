@@ -5,7 +5,7 @@ use super::moment::DrawContext;
 use super::sketch::Camera;
 use super::{Align, Picture, captions};
 use crate::look::Framing;
-use crate::measure::{Future, FutureMoment};
+use crate::measure::{FutureCurve, FutureMoment};
 use crate::studio::futures;
 
 /// Half the width of a thread, and of the exact one, in points.
@@ -14,8 +14,11 @@ const EXACT: f32 = 1.5;
 /// Radius of a dot, and least distance between dots, in points.
 const DOT: f32 = 2.6;
 const APART: f32 = 7.0;
-/// Least distance between the digits at the ends of threads, in points.
-const DIGITS: f32 = 15.0;
+/// Room for a digit at the end of a thread, and for the word at the end of the exact one, in points.
+const DIGIT: f32 = 15.0;
+const WORD: f32 = 40.0;
+/// Least distance of a digit from the edge of the stage, in points.
+const MARGIN: f32 = 10.0;
 
 /// Draws the futures of a body.
 pub(super) fn draw(
@@ -26,8 +29,12 @@ pub(super) fn draw(
     body: usize,
 ) {
     let (palette, clip) = (moment.palette, camera.rect);
-    let mut ends: Vec<([f32; 2], usize)> = Vec::new();
-    for Future { entry, moments } in futures(&moment.studio.deck, body).iter().rev() {
+    let mut ends: Vec<([f32; 2], Option<usize>)> = Vec::new();
+    let mut futures = futures(&moment.studio.deck, body);
+    // The truth comes last, over the others, and below it the first method.
+    let methods = futures.len().saturating_sub(1);
+    futures[..methods].reverse();
+    for FutureCurve { entry, moments } in &futures {
         let now_s = moments[0].t;
         let place = |at: &FutureMoment| match framing {
             Framing::Recorder { .. } => camera.paper_point(at.at, at.t - now_s),
@@ -41,7 +48,18 @@ pub(super) fn draw(
         if places.len() > 1 {
             picture.pen(clip).path(places.iter().copied(), width, colour);
         }
-        let Some(entry) = entry else { continue };
+        // A thread that leaves the stage ends at its edge.
+        if let Some(end) =
+            places.iter().position(|at| !clip.contains(*at)).or(places.len().checked_sub(1))
+        {
+            let at = [0, 1].map(|axis| {
+                places[end][axis].clamp(clip.min[axis] + MARGIN, clip.max[axis] - MARGIN)
+            });
+            ends.push((at, *entry));
+        }
+        if entry.is_none() {
+            continue;
+        }
         let mut last = places[0];
         for at in &places[1..] {
             if libm::hypotf(at[0] - last[0], at[1] - last[1]) >= APART {
@@ -49,17 +67,19 @@ pub(super) fn draw(
                 last = *at;
             }
         }
-        ends.push((places[places.len() - 1], *entry));
     }
-    ends.retain(|(at, _)| clip.contains(*at));
     ends.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
     let mut free = f32::NEG_INFINITY;
     for ([x, y], entry) in ends {
-        free = x.max(free + DIGITS);
-        let at = [free, (y + 11.0).min(clip.max[1] - 7.0)];
-        let colour = moment.style(entry).0;
-        let digit =
-            captions::text(palette, at, Align::Centre, 12.0, colour, format!("{}", entry + 1));
-        picture.labels.push(digit.strong());
+        let (words, colour, size) = match entry {
+            Some(entry) => (format!("{}", entry + 1), moment.style(entry).0, DIGIT),
+            None => ("exact".to_owned(), palette.exact, WORD),
+        };
+        let half = size / 2.0;
+        let middle = x.max(free + half);
+        free = middle + half;
+        let at = [middle, (y + 11.0).min(clip.max[1] - 7.0)];
+        let label = captions::text(palette, at, Align::Centre, 12.0, colour, words);
+        picture.labels.push(label.strong());
     }
 }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::framed::BodyView;
 use super::moment::{DrawContext, has_several_coordinates};
 use super::trails::Place;
-use crate::look::palette::{Rgba, faded};
+use crate::look::palette::{Rgba, fade};
 use crate::look::{Framing, Look};
 use crate::run::past::{TruthCurve, TruthSample};
 use crate::scene::Outline;
@@ -68,7 +68,7 @@ impl Ghost {
         tolerance_m: f64,
     ) -> Vec<Place> {
         let curve = &moment.studio.past().truth_curves()[index];
-        let colour = faded(moment.palette.exact, 0.55);
+        let colour = fade(moment.palette.exact, 0.55);
         thinned(past(curve, self.outline.at, moment.t, trail_s, colour), tolerance_m)
     }
 }

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use super::breakpoints;
 use super::sketch::{Pen, rounded};
-use crate::look::palette::{BLACK, Palette, Rgba, WHITE, faded, mixed};
+use crate::look::palette::{BLACK, Palette, Rgba, WHITE, fade, mix};
 
 /// Planks of the deck, in the light and in the shade.
 const DECK: [Rgba; 2] = [[236, 220, 184, 255], [206, 186, 146, 255]];
@@ -72,28 +72,28 @@ pub(super) fn ship(pen: &mut Pen<'_>, pose: ShipPose, colour: Rgba, palette: &Pa
         pen.path(
             crest[bow - reach..bow + reach].iter().copied(),
             3.0 * part,
-            faded(palette.chart, 2.0 * alpha),
+            fade(palette.chart, 2.0 * alpha),
         );
     }
     let shadow = ShipPose { at: [pose.at[0] + 2.0 * part, pose.at[1] + 4.0 * part], ..pose };
-    pen.fill(&shadow.hull(-2.0 * part), faded(BLACK, 0.22));
+    pen.fill(&shadow.hull(-2.0 * part), fade(BLACK, 0.22));
     let hull = pose.hull(0.0);
-    pen.fill(&hull, mixed(colour, BLACK, 0.08));
-    pen.ring(&hull, (1.6 * part).max(0.8), mixed(colour, BLACK, 0.5));
+    pen.fill(&hull, mix(colour, BLACK, 0.08));
+    pen.ring(&hull, (1.6 * part).max(0.8), mix(colour, BLACK, 0.5));
     if pose.length < breakpoints::DECK {
         return;
     }
     let deck = pose.hull(5.5 * part);
     let plank = |[_, y]: [f32; 2]| {
         let low = (y - pose.at[1]) / (BEAM * pose.length) + 0.5;
-        mixed(DECK[0], DECK[1], low)
+        mix(DECK[0], DECK[1], low)
     };
     pen.shaded(&deck, plank);
     if pose.length >= breakpoints::PLANKS {
         planks(pen, pose, &deck);
     }
     let house = pose.block((-0.36, -0.1), 0.078, 0.02);
-    pen.fill(&pose.block((-0.35, -0.075), 0.085, 0.02), faded(BLACK, 0.25));
+    pen.fill(&pose.block((-0.35, -0.075), 0.085, 0.02), fade(BLACK, 0.25));
     pen.fill(&house, [222, 230, 236, 255]);
     pen.ring(&house, 1.2 * part, [70, 84, 98, 255]);
     let bridge = pose.block((-0.13, -0.085), 0.092, 0.012);
@@ -104,7 +104,7 @@ pub(super) fn ship(pen: &mut Pen<'_>, pose: ShipPose, colour: Rgba, palette: &Pa
     pen.disc(funnel, 0.034 * pose.length, colour);
     pen.disc(funnel, 0.015 * pose.length, [20, 24, 30, 255]);
     let stem = [pose.place(0.33, 0.0), pose.place(0.45, 0.0)];
-    pen.line(stem[0], stem[1], 1.2 * part, faded(WHITE, 0.6));
+    pen.line(stem[0], stem[1], 1.2 * part, fade(WHITE, 0.6));
 }
 
 /// Draws the seams of the deck, its rail and its hatches.
@@ -115,12 +115,12 @@ fn planks(pen: &mut Pen<'_>, pose: ShipPose, deck: &[[f32; 2]]) {
         let ends = 0.42 - 0.06 * libm::fabsf(f32::from(seam)) - 0.02;
         let ends = (-0.43, ends.max(0.1));
         let seam = [pose.place(ends.0, aside), pose.place(ends.1, aside)];
-        pen.line(seam[0], seam[1], 0.6 * part, faded(BLACK, 0.16));
+        pen.line(seam[0], seam[1], 0.6 * part, fade(BLACK, 0.16));
     }
-    pen.ring(deck, 1.0 * part, faded(BLACK, 0.35));
+    pen.ring(deck, 1.0 * part, fade(BLACK, 0.35));
     for from in [0.03, 0.135] {
         let hatch = pose.block((from, from + 0.085), 0.05, 0.008);
         pen.fill(&hatch, HATCH);
-        pen.ring(&hatch, 1.0 * part, mixed(HATCH, BLACK, 0.5));
+        pen.ring(&hatch, 1.0 * part, mix(HATCH, BLACK, 0.5));
     }
 }

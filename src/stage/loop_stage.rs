@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::body::OutlineView;
 use super::sketch::{Camera, LaneStyle, SOLID};
 use super::{Align, Label, Picture, Rect, breakpoints, captions, chart};
-use crate::look::palette::{Palette, Rgba, faded};
+use crate::look::palette::{Palette, Rgba, fade};
 use crate::look::{Framing, Look};
 use crate::loops::loop_lab::{LoopFrame, LoopLab, LoopLane};
 use crate::scene::Outline;
@@ -70,7 +70,7 @@ fn side_by_side(
         let from = ground.min[1] + height * row as f32;
         let rect = Rect { min: [0.0, from], max: [ground.max[0], from + height] };
         if row > 0 {
-            let edge = faded(palette.chart, 0.35);
+            let edge = fade(palette.chart, 0.35);
             picture.pen(rect).line([0.0, from], [ground.max[0], from], 1.0, edge);
         }
         let band = LoopBand::new(studio, loops, place, rect, FOOT);
@@ -254,7 +254,7 @@ impl<'a> LoopBand<'a> {
     fn before(&self, picture: &mut Picture, camera: &Camera, frames: &[LoopFrame]) {
         for (strength, before) in distinct_before(frames) {
             let outline = self.shown_outline(before);
-            let style = LaneStyle { colour: faded(self.colour, strength), dash: SOLID, fill: 0.12 };
+            let style = LaneStyle { colour: fade(self.colour, strength), dash: SOLID, fill: 0.12 };
             self.outline_view(camera, &outline).draw_behind(picture, style);
         }
     }
@@ -294,7 +294,7 @@ impl<'a> LoopBand<'a> {
         }
         held.extend(frames.last().map(|frame| [x(&frame.q), y(frame.displayed_ns)]));
         let ideal = frames.iter().map(|frame| [x(&frame.exact), y(frame.displayed_ns)]);
-        let faint = faded(self.palette.exact, 0.75);
+        let faint = fade(self.palette.exact, 0.75);
         picture.pen(self.rect).path(ideal, 1.3, faint);
         picture.pen(self.rect).path(held, 2.2, self.colour);
     }

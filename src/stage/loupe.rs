@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::moment::DrawContext;
 use super::sketch::{Camera, circle, demote};
 use super::{Align, Label, Picture, Rect};
-use crate::look::palette::{Rgba, faded};
+use crate::look::palette::{Rgba, fade};
 use crate::run::Metric;
 use crate::run::past::History;
 use crate::run::race::Entrant;
@@ -83,10 +83,10 @@ pub(super) fn draw(
     let [x, y] = at;
     let rim = circle(at, RADIUS, ROUND);
     let pen = &mut picture.pen(camera.rect);
-    pen.fill(&rim, faded(palette.panel, 0.94));
+    pen.fill(&rim, fade(palette.panel, 0.94));
     // The number is below.
     let middle = y - 5.0;
-    let hair = faded(palette.exact, 0.45);
+    let hair = fade(palette.exact, 0.45);
     let reach = RADIUS - 12.0;
     pen.line([x - reach, middle], [x + reach, middle], 1.0, hair);
     pen.line([x, middle - reach], [x, middle + reach], 1.0, hair);

@@ -29,12 +29,12 @@ mod universe;
 pub use compose::compose;
 pub use grasp::{Cell, Grasp, Grip, Whose};
 
-use crate::look::palette::{Palette, Rgba, faded};
+use crate::look::palette::{Palette, Rgba, fade};
 
 // The items of `sim` that the view names; it has no other access to `sim`.
 #[cfg(feature = "view")]
 pub(crate) use crate::sim::{
-    bodies::{Acts, Coordinate, Parameter, Range},
+    bodies::{Coordinate, Parameter, Range, TakesEffect},
     number,
 };
 
@@ -188,6 +188,6 @@ impl Label {
 
     /// The same label with a halo that separates it from the water.
     fn on_water(self, palette: &Palette) -> Self {
-        Self { halo: faded(palette.sea[1], 0.85), ..self }
+        Self { halo: fade(palette.sea[1], 0.85), ..self }
     }
 }

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use glam::DVec2;
 
 use super::{FAR, Fill, Path, PathPoint, Picture, Rect, Shape};
-use crate::look::palette::{Palette, Rgba, faded};
+use crate::look::palette::{Palette, Rgba, fade};
 use crate::studio::ZoomPan;
 
 /// From the middle of a block to the tip of the pen under it, in blocks.
@@ -230,20 +230,20 @@ impl Pen<'_> {
 
     /// Draws the outline of a body in a lane behind.
     pub(super) fn hollow(&mut self, outline: &[[f32; 2]], width: f32, style: LaneStyle) {
-        self.fill(outline, faded(style.colour, style.fill));
+        self.fill(outline, fade(style.colour, style.fill));
         self.dashed_ring(outline, width, style.colour, style.dash);
     }
 
     /// Draws the outline of a body of the exact solution.
     pub(super) fn ghost(&mut self, outline: &[[f32; 2]], palette: &Palette) {
-        self.fill(outline, faded(palette.exact, 0.12));
+        self.fill(outline, fade(palette.exact, 0.12));
         self.ghost_rim(outline, palette);
     }
 
     /// Draws the line around a body of the exact solution.
     pub(super) fn ghost_rim(&mut self, outline: &[[f32; 2]], palette: &Palette) {
-        self.ring(outline, 4.0, faded(palette.sea[1], 0.6));
-        self.ring(outline, 1.8, faded(palette.exact, 0.95));
+        self.ring(outline, 4.0, fade(palette.sea[1], 0.6));
+        self.ring(outline, 1.8, fade(palette.exact, 0.95));
     }
 }
 

@@ -6,7 +6,7 @@ use super::moment::DrawContext;
 use super::sketch::{Camera, PEN, SOLID, demote};
 use super::{PathPoint, Picture};
 use crate::look::Framing;
-use crate::look::palette::{Rgba, faded, mixed};
+use crate::look::palette::{Rgba, fade, mix};
 use crate::run::past::{History, Sample};
 use crate::studio::Motion;
 
@@ -100,7 +100,7 @@ impl DrawContext<'_> {
                 let point = |place: &Place| PathPoint {
                     at: self.on_paper(camera, place),
                     radius,
-                    colour: faded(place.colour, self.fade(place.age, self.paper_s)),
+                    colour: fade(place.colour, self.fade(place.age, self.paper_s)),
                 };
                 pen.course(places.iter().map(point), SOLID);
             }
@@ -108,7 +108,7 @@ impl DrawContext<'_> {
                 let point = |place: &Place| {
                     // Opaque, since where a trail crosses itself one piece covers the other.
                     let part = self.fade(place.age, trail_s) * f32::from(place.colour[3]) / 255.0;
-                    let colour = mixed(self.palette.sea[1], place.colour, part);
+                    let colour = mix(self.palette.sea[1], place.colour, part);
                     PathPoint { at: camera.points(place.at), radius, colour }
                 };
                 pen.course(places.iter().map(point), SOLID);
@@ -138,7 +138,7 @@ impl DrawContext<'_> {
         for place in leg {
             let older = Vec2::from(at(place));
             if newer.replace(older).is_some_and(|newer| newer.distance(older) >= SPARSE) {
-                let colour = faded(place.colour, self.fade(place.age, trail_s));
+                let colour = fade(place.colour, self.fade(place.age, trail_s));
                 picture.pen(camera.rect).disc(older.into(), DOT_RADIUS, colour);
             }
         }
@@ -165,7 +165,7 @@ impl DrawContext<'_> {
             let point = |place: &Place| PathPoint {
                 at: camera.points(place.at),
                 radius: camera.size(spread * half_width(place.age)),
-                colour: faded(mixed(foam, place.colour, 0.35), part * self.fade(place.age, wake_s)),
+                colour: fade(mix(foam, place.colour, 0.35), part * self.fade(place.age, wake_s)),
             };
             picture.pen(camera.rect).course(course.iter().map(point), SOLID);
         }
@@ -185,7 +185,7 @@ impl DrawContext<'_> {
                 let aside = 0.9 * (2.0 * dice(78.233) - 1.0) * half_width(older.age);
                 let at = older.at + aside * ahead.perp() + unit * dice(37.719) * ahead;
                 let ends = [at, at - unit * (0.5 + dice(11.137)) * ahead];
-                let colour = faded(self.palette.text, 0.42 * self.fade(older.age, wake_s));
+                let colour = fade(self.palette.text, 0.42 * self.fade(older.age, wake_s));
                 let [tip, tail] = ends.map(|end| camera.points(end));
                 picture.pen(camera.rect).taper([(tip, 1.1), (tail, 0.3)], colour);
             }
@@ -221,11 +221,11 @@ impl DrawContext<'_> {
             while due < to && left.next().is_some() {
                 let at = near.lerp(far, ((due - from) / (to - from)).clamp(0.0, 1.0));
                 let out = unit * ahead.perp();
-                let fade = self.fade(place.age, wake_s);
+                let strength = self.fade(place.age, wake_s);
                 let foot = at + 0.9 * unit.abs() * ahead - 0.25 * out;
                 let bend = at + 0.1 * out;
                 let tip = at - 0.8 * unit.abs() * ahead + 0.6 * out;
-                let colour = faded(self.palette.chart, 0.85 * fade);
+                let colour = fade(self.palette.chart, 0.85 * strength);
                 let points = [(foot, 0.4), (bend, 1.2), (tip, 0.2)];
                 let points = points.map(|(at, radius)| (camera.points(at), radius));
                 picture.pen(camera.rect).taper(points, colour);

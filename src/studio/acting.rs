@@ -9,7 +9,7 @@ use super::viewer::Viewer;
 use crate::run::race::{Mode, equal_cost};
 use crate::run::{MenuIndex, StartSettings};
 use crate::scene::{Action, LaneId, LaneSpec};
-use crate::sim::bodies::Acts;
+use crate::sim::bodies::TakesEffect;
 use crate::sim::integrators::Method;
 use crate::sim::number::round;
 
@@ -17,12 +17,12 @@ use crate::sim::number::round;
 pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {
     if let Action::Set { body, parameter, value } = action
         && let Some(of) = deck.scene().bodies.get(body)
-        && of.kind.parameters.get(parameter).is_some_and(|it| it.acts == Acts::AtStart)
+        && of.kind.parameters.get(parameter).is_some_and(|it| it.acts == TakesEffect::AtStart)
     {
         let set = |start: &mut StartSettings| start.set(body, parameter, value);
         return deck.set_start("the start value", set);
     }
-    if action.clone().checked().is_none() {
+    if action.clone().clamped_in_range().is_none() {
         return viewer.set_notice(out_of_range(action.noun()));
     }
     let was_past = deck.run.is_in_past();

@@ -4,7 +4,7 @@ use super::Studio;
 use super::deck::Deck;
 use super::viewer::Viewer;
 use crate::measure;
-use crate::measure::{Future, OneStep};
+use crate::measure::{FutureCurve, OneStep};
 use crate::sim::stability::Tick;
 
 /// The anatomy of the next tick of the displayed body in the selected lane. `None` if the body has halted. While a
@@ -34,16 +34,20 @@ pub fn orbit(
     measure::orbit(body, deck.race().t(), through, range)
 }
 
-/// Whether the stage shows futures: while a person drags the tick rate, or on request while time stands still.
+/// Whether the stage shows futures: while a person holds or drags the tick rate, for a second after a key has changed
+/// it, or on request while time stands still.
 pub fn shows_futures(studio: &Studio) -> bool {
     let is_dragged = studio.viewer.hz_at_press.is_some_and(|hz| hz != studio.deck.race().tick_hz());
     studio.loop_lab().is_none()
-        && (is_dragged || studio.viewer.display().futures && !studio.deck.time_runs())
+        && (studio.deck.is_tick_rate_held()
+            || is_dragged
+            || studio.viewer.futures_left_ns > 0
+            || studio.viewer.display().futures && !studio.deck.time_runs())
 }
 
 /// The next second of the body with this index in the scene, in the selected lane; the truth comes last. Empty if the
 /// body has halted, or has too many coordinates.
-pub fn futures(deck: &Deck, body: usize) -> Vec<Future> {
+pub fn futures(deck: &Deck, body: usize) -> Vec<FutureCurve> {
     let of = &deck.selected().lane.bodies()[body];
     let held = deck.held().filter(|held| held.body == body);
     let held = held.map(|held| (&*held.q, &*held.v));

@@ -67,7 +67,9 @@ impl Studio {
             ViewCommand::TogglePause => self.deck.running = !self.deck.running,
             ViewCommand::PointerDown(is_down) => {
                 self.viewer.hz_at_press = is_down.then(|| self.deck.race().tick_hz());
+                self.deck.tick_rate_is_held &= is_down;
             }
+            ViewCommand::HoldTickRate => self.deck.tick_rate_is_held = !is_in_loop_lab,
             ViewCommand::ToggleFutures => {
                 display.futures = !display.futures;
                 self.deck.running &= !display.futures;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::Studio;
 use super::deck::Deck;
+use super::display::Motion;
 use super::instrument::Instrument;
 use super::viewer::Viewer;
 use crate::measure::cloud::{CloudKind, CloudRequest, CloudWorker, FoundCloud, NoCloud};
@@ -53,6 +54,32 @@ pub fn cloud_refusal(deck: &Deck, viewer: &Viewer) -> Option<NoCloud> {
 pub fn shown_cloud(studio: &Studio) -> Option<&FoundCloud> {
     let wanted = cloud_request(studio)?;
     studio.viewer.cloud.as_ref().filter(|found| found.request.is_alike(&wanted))
+}
+
+/// Time for which the clouds with which a scene opens show their start, and the longest wait for them, in nanoseconds.
+const START_NS: i64 = 1_000_000_000;
+const MAX_WAIT_NS: i64 = 3_000_000_000;
+
+/// Whether time waits at the start of a scene that opens with clouds, so that a person sees them whole before they
+/// move. Counts this frame.
+pub(super) fn wait_for_cloud(studio: &mut Studio, frame_ns: i64) -> bool {
+    let is_watched = studio.display().motion != Motion::Recorded;
+    let is_at_start = studio.race().tick() == 0 && studio.scene().clouds.is_some();
+    if !is_watched || !is_at_start || !studio.deck.time_runs() || cloud_request(studio).is_none() {
+        return false;
+    }
+    let shown_ns = studio.viewer.start_shown_ns;
+    match shown_cloud(studio).is_some() {
+        true => {
+            studio.viewer.start_shown_ns = shown_ns.max(0).saturating_add(frame_ns);
+            shown_ns < START_NS
+        }
+        // Time without a picture counts below nought.
+        false => {
+            studio.viewer.start_shown_ns = shown_ns.min(0).saturating_sub(frame_ns);
+            shown_ns > -MAX_WAIT_NS
+        }
+    }
 }
 
 /// Accepts clouds, unless they belong to another run.

@@ -140,6 +140,8 @@ pub enum ViewCommand {
     TogglePause,
     /// The pointer's button goes down or up. Undo treats all edits while it is down as one.
     PointerDown(bool),
+    /// Holds the tick rate: time waits, and the stage shows futures, until the pointer's button goes up.
+    HoldTickRate,
     /// Opens a field for the path of a scene file.
     AskForPath,
     /// Opens the same field for a recording to compare with the run.

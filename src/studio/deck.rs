@@ -25,6 +25,8 @@ pub struct Deck {
     pub(super) running: bool,
     /// The body that the person holds.
     pub(super) held: Option<HeldBody>,
+    /// Whether the person holds the tick rate.
+    pub(super) tick_rate_is_held: bool,
     /// Lane selected in a race; it stays selected through switches of method.
     pub(super) selected: LaneId,
     /// Whether a person, a script or a verdict has selected it.
@@ -61,6 +63,7 @@ impl Deck {
             clock,
             running: true,
             held: None,
+            tick_rate_is_held: false,
             selected,
             is_selected: false,
             met: 0,
@@ -160,9 +163,14 @@ impl Deck {
         self.running
     }
 
-    /// Whether time runs: the run is not paused, and no body is in hand.
+    /// Whether time runs: the run is not paused, and neither a body nor the tick rate is in hand.
     pub fn time_runs(&self) -> bool {
-        self.running && self.held.is_none()
+        self.running && self.held.is_none() && !self.tick_rate_is_held
+    }
+
+    /// Whether the person holds the tick rate, by the last [`ViewCommand::HoldTickRate`](super::ViewCommand).
+    pub fn is_tick_rate_held(&self) -> bool {
+        self.tick_rate_is_held
     }
 
     /// Simulated time (s) including the pending part of a tick. It advances evenly with real time, while the race

@@ -16,6 +16,9 @@ use crate::run::METRICS;
 use crate::run::race::Mode;
 use crate::scene::Action;
 
+/// Time for which futures show a tick rate that a key has set, in nanoseconds.
+const FUTURES_NS: i64 = 1_000_000_000;
+
 pub(super) fn carry_out_on_run(deck: &mut Deck, viewer: &mut Viewer, command: RunCommand) {
     let race = deck.race();
     match command {
@@ -68,6 +71,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
         StageCommand::TickRate(step) => {
             if let Some(hz) = step.next_rung(&TICK_LADDER, race.tick_hz()) {
                 act(deck, viewer, Action::TickHz(hz.into()));
+                viewer.futures_left_ns = FUTURES_NS;
             }
         }
         StageCommand::Speed(step) => {

@@ -5,15 +5,19 @@ use super::Motion;
 use super::deck::Deck;
 use super::pace::LiveFrame;
 use super::viewer::Viewer;
+use crate::look::landmarks::decades_to_next;
 use crate::look::{Framing, Look};
 use crate::loops::Due;
 use crate::run::past::History;
 use crate::run::race::{Interpolation, LaneBody, Mode, Observer};
+use crate::sim::number::significant;
 
 /// Fastest zoom that people can follow, in powers of ten per second of real time.
 const MAX_ZOOM: f64 = 6.0;
-/// Slowest slow motion, in percent of the speed.
-const MIN_PERCENT: u32 = 6;
+/// Slowest slow motion, in thousandths of the speed.
+const MIN_THOUSANDTHS: u32 = 10;
+/// Width of a stage, relative to a landmark that stands out on it.
+const STANDS_OUT: f64 = 4.0;
 /// Number of newest samples that measure a motion's growth, and time (s) for which its past reach counts: longer than
 /// any swing that people wait for.
 const MEASURED: usize = 4;
@@ -32,8 +36,8 @@ pub(super) fn advance(
     // A tick rate that the script sets at this tick applies to the time from here on.
     let ((), told) = deck.with_notices(|run, notices| run.catch_up(&mut (notices, &mut *observer)));
     viewer.set_notice_parts(told);
-    let percent = slow_motion_percent(deck, viewer);
-    let mut due = deck.clock.advance(frame_ns.saturating_mul(i64::from(percent)) / 100);
+    let thousandths = slow_motion(deck, viewer);
+    let mut due = deck.clock.advance(frame_ns.saturating_mul(i64::from(thousandths)) / 1000);
     for made in 1..=due.ticks {
         if deck.race().tick() >= last {
             break;
@@ -70,8 +74,8 @@ pub(super) fn make_tick(deck: &mut Deck, viewer: &mut Viewer, observer: &mut dyn
 
 fn note_frame(deck: &mut Deck, viewer: &mut Viewer, duration_ns: i64, due: Due) {
     let shown_s = shown_s(deck, viewer);
-    let percent = deck.clock.speed_percent() * slow_motion_percent(deck, viewer);
-    let speed = f64::from(percent) / 1e4;
+    let slowed = f64::from(slow_motion(deck, viewer)) / 1e3;
+    let speed = slowed * f64::from(deck.clock.speed_percent()) / 100.0;
     let Due { ticks, dropped } = due;
     let frame = LiveFrame { duration_ns, ticks, dropped, animation_error_ms: 0.0 };
     viewer.live.add(frame, shown_s, speed);
@@ -110,37 +114,55 @@ pub fn shown_truth(deck: &Deck, viewer: &Viewer, body: usize) -> (Vec<f64>, Vec<
     deck.past().truth_between(deck.race(), body, 1.0 + shown_ticks(deck, viewer))
 }
 
-/// Speed at which a person can follow a lane that outgrows the stage, in percent of the speed set.
-pub(super) fn slow_motion_percent(deck: &Deck, viewer: &Viewer) -> u32 {
-    if viewer.display().motion == Motion::Recorded || deck.mode() != Mode::Solo {
-        return 100;
+/// Speed at which a person can follow a lane that outgrows the stage, in thousandths of the speed set: a landmark
+/// passes each second.
+pub(super) fn slow_motion(deck: &Deck, viewer: &Viewer) -> u32 {
+    if viewer.display().motion != Motion::Live || deck.mode() != Mode::Solo || !deck.time_runs() {
+        return 1000;
     }
     let selected = deck.selected();
-    let decades = deck.past().histories(selected.id).iter().zip(selected.lane.bodies());
-    let decades = decades.map(|(history, body)| {
-        let base_m = match Look::of(body).framing() {
-            Framing::Recorder { half_width_m } => half_width_m,
-            Framing::Fixed { half_m, .. } => half_m.max_element(),
-            Framing::Follow { width_m, .. } => width_m,
+    let zooms = deck.past().histories(selected.id).iter().zip(selected.lane.bodies());
+    let zooms = zooms.map(|(history, body)| {
+        let (base_m, has_landmarks) = match Look::of(body).framing() {
+            Framing::Recorder { half_width_m } => (half_width_m, true),
+            Framing::Fixed { half_m, .. } => (half_m.max_element(), false),
+            Framing::Follow { width_m, .. } => (width_m, false),
         };
-        if body.halted().is_some() { 0.0 } else { decades_per_s(history, base_m) }
+        if body.halted().is_some() {
+            return 0.0;
+        }
+        let (decades_per_s, reach_m) = growth(history, base_m);
+        let most = match has_landmarks {
+            true => decades_to_next(2.0 * reach_m / STANDS_OUT).min(MAX_ZOOM),
+            false => MAX_ZOOM,
+        };
+        decades_per_s / most
     });
     let speed = f64::from(deck.clock().speed_percent()) / 100.0;
-    let fastest = speed * decades.fold(0.0, f64::max);
-    match fastest <= MAX_ZOOM {
-        true => 100,
-        false => ((100.0 * MAX_ZOOM / fastest) as u32).max(MIN_PERCENT),
+    let fastest = speed * zooms.fold(0.0, f64::max);
+    match fastest <= 1.0 {
+        true => 1000,
+        false => ((1000.0 / fastest) as u32).max(MIN_THOUSANDTHS),
     }
 }
 
-/// Rate at which a body exceeds both this distance and its own past reach, in powers of ten per simulated second.
-fn decades_per_s(history: &History, base_m: f64) -> f64 {
+/// The slow motion in words; `None` without one.
+pub fn slowed_in_words(deck: &Deck, viewer: &Viewer) -> Option<String> {
+    let thousandths = slow_motion(deck, viewer);
+    let times = significant(f64::from(thousandths) / 1e3, 1);
+    (thousandths < 1000).then(|| format!("slowed ×{times}"))
+}
+
+/// Rate at which a body exceeds both this distance and its own past reach, in powers of ten per simulated second; and
+/// the distance (m) that it has reached.
+fn growth(history: &History, base_m: f64) -> (f64, f64) {
     let newest = history.samples().rev();
-    let Some(now) = newest.clone().next() else { return 0.0 };
-    let Some(then) = newest.clone().nth(MEASURED) else { return 0.0 };
+    let Some(now) = newest.clone().next() else { return (0.0, base_m) };
+    let Some(then) = newest.clone().nth(MEASURED) else { return (0.0, base_m) };
     let reach = |from: usize| {
         let lately = newest.clone().skip(from).take_while(|sample| now.t - sample.t < REMEMBERED_S);
         lately.map(|sample| sample.at.length()).fold(base_m, f64::max)
     };
-    libm::log10(reach(0) / reach(MEASURED)) / (now.t - then.t)
+    let reach_m = reach(0);
+    (libm::log10(reach_m / reach(MEASURED)) / (now.t - then.t), reach_m)
 }

@@ -8,7 +8,7 @@ use super::viewer::Viewer;
 use crate::measure::{AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings, MapRequest};
 use crate::run::race::{Entrant, Interventions, Mode};
 use crate::scene::SceneBody;
-use crate::sim::bodies::{Acts, Parameter, Range};
+use crate::sim::bodies::{Parameter, Range, TakesEffect};
 
 /// The verdicts and the advice that the studio needs now, for an [`AnalysisWorker`]. It judges each
 /// [offered](Deck::offered) method at the present tick rate, in a race also the rest of the menu. Advice is included
@@ -66,7 +66,7 @@ pub fn mappable_parameters(deck: &Deck, viewer: &Viewer) -> impl Iterator<Item =
         let is_constant = kind.law().is_some_and(|law| *index < law.text().constants.len());
         let is_signless = is_constant && values[*index] > 0.0
             || matches!(parameter.range, Range::Positive(_) | Range::NonNegative(_));
-        parameter.acts == Acts::AtOnce && is_signless
+        parameter.acts == TakesEffect::AtOnce && is_signless
     };
     parameters.enumerate().filter(is_mappable).map(|(index, _)| index)
 }

@@ -138,8 +138,9 @@ impl FrameLoop {
         if self.studio.running() || !self.asked.is_empty() {
             return 0;
         }
-        let notice = self.studio.viewer.notice.as_ref();
-        notice.map_or(u64::MAX, |notice| notice.left_ns().unsigned_abs())
+        let notice = self.studio.viewer.notice.as_ref().map(|notice| notice.left_ns());
+        let futures = Some(self.studio.viewer.futures_left_ns).filter(|&left| left > 0);
+        notice.into_iter().chain(futures).min().map_or(u64::MAX, i64::unsigned_abs)
     }
 
     /// Call this if the frame could not be drawn: until the first of a scene is, no time passes in its run.

@@ -17,10 +17,7 @@ pub static GESTURES: &[Gesture] = &[
     },
     Gesture { shown: "Wheel, pinch", about: "zoom the stage, a plot, the timeline" },
     Gesture { shown: "Drag the water", about: "pan; in a plot too" },
-    Gesture {
-        shown: "Double click",
-        about: "fit the view; on a number in the inspector: type a value",
-    },
+    Gesture { shown: "Double click", about: "fit the view; on a number in Edit: type a value" },
     Gesture {
         shown: "Click a lane",
         about: "select it, in the table, on the stage or on its curve; solo: switch to its method",
@@ -30,6 +27,10 @@ pub static GESTURES: &[Gesture] = &[
         about: "its menu: \"Copy as Rust\", \"Copy as C#\", C, GDScript: the method's code; of an engine a spring's settings too",
     },
     Gesture { shown: "Click a heading", about: "sort the table by it" },
+    Gesture {
+        shown: "Drag the tick rate",
+        about: "time waits, and the next second unfolds under each method",
+    },
     Gesture {
         shown: "Drag the cross",
         about: "stability map: set the tick rate and the parameter",

@@ -198,7 +198,7 @@ pub static KEYS: &[Binding] = keys! {
         Enter => View(ViewCommand::ToggleEnlarged);
     once "Ctrl C, Ctrl E" "copy the instrument's values, or on a lane its method, or an engine's settings, as code; save as PNG, SVG and CSV":
         ControlSign('c') => View(ViewCommand::Copy), ControlSign('e') => Ask(DriverRequest::ExportInstrument);
-    once "E" "inspector: parameters, methods and rates, edited while it runs":
+    once "E" "Edit: parameters, methods and rates, while it runs":
         Sign('e') => Run(RunCommand::ToggleInspector);
     once "P, F12" "screenshot; the file's name is shown":
         Sign('p') => Ask(DriverRequest::Screenshot), Function(12) => Ask(DriverRequest::Screenshot);
@@ -218,8 +218,8 @@ pub static KEYS: &[Binding] = keys! {
     once "H, F1, ?" "help":
         Sign('h') => View(ViewCommand::ToggleHelp), Function(1) => View(ViewCommand::ToggleHelp),
         Sign('?') => View(ViewCommand::ToggleHelp);
-    once "Esc" "let go of a body, close the overlay, the guide, the instrument, the inspector, leave the loop lab, or quit: twice where something would be lost"
-        or "let go of a body, close the overlay, the guide, the instrument, the inspector, leave the loop lab; with Tab after it, leave the stage":
+    once "Esc" "let go of a body, close the overlay, the guide, the instrument, Edit, leave the loop lab, or quit: twice where something would be lost"
+        or "let go of a body, close the overlay, the guide, the instrument, Edit, leave the loop lab; with Tab after it, leave the stage":
         Escape => View(ViewCommand::Escape);
 };
 

@@ -14,6 +14,7 @@ use crate::run::{MenuIndex, Run, Session, StartSettings};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::Clock;
 use crate::sim::integrators::Method;
+use clouding::wait_for_cloud;
 use driving::{advance, make_tick};
 use guiding::hint;
 use looping::title_of_loops;
@@ -53,7 +54,7 @@ mod viewer;
 mod work;
 mod zoom_pan;
 
-pub use crate::measure::{Future, FutureMoment, OneStep, Slope};
+pub use crate::measure::{FutureCurve, FutureMoment, OneStep, Slope};
 pub use ahead::{futures, one_step, orbit, shows_futures};
 pub use clouding::{accept_cloud, cloud_refusal, cloud_request, complete_clouds, shown_cloud};
 pub use command::{
@@ -62,7 +63,7 @@ pub use command::{
 pub use compared::Compared;
 pub use deck::{Deck, HeldBody};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, View};
-pub use driving::{shown_s, shown_state, shown_tick, shown_truth};
+pub use driving::{shown_s, shown_state, shown_tick, shown_truth, slowed_in_words};
 pub use file_names::{instrument_file_name, picture_file_name};
 pub use findings::{
     accept_findings, analyse_bounded, analysis_request, mappable_parameters, mapped_parameter,
@@ -247,6 +248,7 @@ impl Studio {
         is_time_left: &mut dyn FnMut() -> bool,
         observer: &mut dyn Observer,
     ) -> Due {
+        let waits_for_cloud = wait_for_cloud(self, frame_ns);
         let Self { deck, viewer, loops } = self;
         if !deck.time_runs() {
             viewer.live.jump();
@@ -255,6 +257,9 @@ impl Studio {
         viewer.pass_time(frame_ns);
         if let Some(loops) = loops {
             loops.advance(frame_ns);
+            return Due::default();
+        }
+        if waits_for_cloud {
             return Due::default();
         }
         advance(deck, viewer, last, frame_ns, is_time_left, observer)

@@ -253,7 +253,7 @@ mod tests {
             // No more expensive method can be the recommended one.
             let methods = scene.methods_for_games().filter(|it| it.evaluations == Some(1));
             let mut all: Vec<_> = methods.map(|it| adviser.judged(LaneSpec::plain(it))).collect();
-            adviser.decide(&mut all);
+            adviser.search_until_decided(&mut all);
             let looks_right = CRITERIA.iter().position(|it| *it == Criterion::LooksRight).unwrap();
             let best = recommended(&all, looks_right);
             let best = &all[best.expect("some look right")];

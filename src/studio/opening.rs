@@ -15,7 +15,7 @@ use super::viewer::{Dialog, Viewer};
 use crate::run::diff::Comparison;
 use crate::run::race::Mode;
 use crate::run::{Run, StartSettings};
-use crate::scene::{LaneSpec, Mistake, Scene, SceneErrors};
+use crate::scene::{LaneSpec, Scene, SceneErrors, ShownError};
 use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 
@@ -178,7 +178,12 @@ pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
 
 /// Shows why the scene at the typed path, which is that of the file at `path`, cannot be opened. The field for the
 /// path stays open.
-pub fn refuse_typed_path(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: Vec<Mistake>) {
+pub fn refuse_typed_path(
+    deck: &mut Deck,
+    viewer: &mut Viewer,
+    path: &Path,
+    report: Vec<ShownError>,
+) {
     deck.scene_list.mark(path, report.clone());
     let compares = viewer.compares_typed_path();
     viewer.dialog = Some(Dialog::Path { compares, refused: Some(report) });
@@ -228,13 +233,13 @@ pub fn file_is_back(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
 }
 
 /// Shows the errors of a file. The open run continues.
-pub fn show_mistakes(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: Vec<Mistake>) {
+pub fn show_mistakes(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: Vec<ShownError>) {
     deck.scene_list.mark(path, report.clone());
     viewer.dialog = Some(Dialog::Mistakes { file: path.display().to_string(), report });
 }
 
 /// Records the errors of a changed file, and shows them if it is open. The run continues.
-pub fn reload_failed(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: Vec<Mistake>) {
+pub fn reload_failed(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: Vec<ShownError>) {
     if deck.scene_list.open_path() == Some(path) {
         show_mistakes(deck, viewer, path, report);
     } else {

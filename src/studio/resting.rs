@@ -81,7 +81,7 @@ pub(super) fn watch_again(deck: &mut Deck, viewer: &mut Viewer) {
 mod tests {
     use super::*;
     use crate::scene::{Action, Scene};
-    use crate::studio::driving::slow_motion_percent;
+    use crate::studio::driving::slow_motion;
     use crate::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
 
     /// A studio with a person watching.
@@ -107,8 +107,8 @@ mod tests {
         watch(&mut studio, 21);
         assert_eq!((studio.race().t(), studio.running()), (studio.scene().seconds, false));
         assert_eq!(
-            slow_motion_percent(&studio.deck, &studio.viewer),
-            100,
+            slow_motion(&studio.deck, &studio.viewer),
+            1000,
             "a swing that grows by itself is fast enough"
         );
         let hint = studio.hint().expect("what to do");

@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use crate::run::race::{Lane, LaneBody};
-use crate::scene::{BuiltIn, Mistake, SCENES, Scene};
+use crate::scene::{BuiltIn, SCENES, Scene, ShownError};
 use crate::sim::Solver;
 use crate::sim::bodies::Origin;
 
@@ -24,7 +24,7 @@ pub(super) struct SceneFile {
     /// The scene as last read without errors.
     pub(super) scene: Scene,
     /// Errors of the file's present text, if it has any.
-    pub(super) mistakes: Option<Vec<Mistake>>,
+    pub(super) mistakes: Option<Vec<ShownError>>,
 }
 
 impl SceneFile {
@@ -122,7 +122,7 @@ impl SceneList {
     }
 
     /// Records the errors of a file on the list.
-    pub(super) fn mark(&mut self, path: &Path, mistakes: Vec<Mistake>) {
+    pub(super) fn mark(&mut self, path: &Path, mistakes: Vec<ShownError>) {
         if let Some(file) = self.files.iter_mut().find(|file| file.path == path) {
             file.mistakes = Some(mistakes);
         }

@@ -4,7 +4,7 @@ use super::command::ViewCommand;
 use super::my_spring::MySpring;
 use crate::scene::entered_tick_rate;
 use crate::sim::TickRate;
-use crate::tools::port::{Dialect, Key, Wish};
+use crate::tools::port::{Key, UiSpring, Wish};
 
 /// A number of a spring, or its tick rate.
 pub struct SpringField {
@@ -61,7 +61,7 @@ impl SpringField {
     }
 
     /// The numbers of a library's joint. If it has no mass, the spring keeps its own.
-    pub fn of_dialect(dialect: &'static Dialect, values: &[f64], spring: MySpring) -> Vec<Self> {
+    pub fn of_dialect(dialect: &'static UiSpring, values: &[f64], spring: MySpring) -> Vec<Self> {
         let number = |(index, key): (usize, &'static Key)| {
             let (value, values) = (values[index], values.to_vec());
             let set = move |value| {

@@ -15,7 +15,7 @@ use crate::measure::cloud::{CloudChoice, FoundCloud};
 use crate::measure::{Advice, Findings, StabilityMap, Verdict};
 use crate::run::MenuIndex;
 use crate::run::race::{Interpolation, Mode};
-use crate::scene::{LaneSpec, Mistake, Scene};
+use crate::scene::{LaneSpec, Scene, ShownError};
 use crate::sim::TickRate;
 use crate::tools::source_code::Language;
 
@@ -32,14 +32,14 @@ pub enum Dialog {
         /// Whether the file is a recording to compare with the run.
         compares: bool,
         /// Why the scene at the typed path could not be opened; `None` once the path is edited.
-        refused: Option<Vec<Mistake>>,
+        refused: Option<Vec<ShownError>>,
     },
     /// The errors of a scene file.
     Mistakes {
         /// Name of the file.
         file: String,
         /// The errors.
-        report: Vec<Mistake>,
+        report: Vec<ShownError>,
     },
 }
 
@@ -153,10 +153,14 @@ pub struct Viewer {
     /// The last frames of the studio's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
+    /// Time for which the clouds of the scene have shown their start, in nanoseconds.
+    pub(super) start_shown_ns: i64,
     /// The latest clouds.
     pub(super) cloud: Option<FoundCloud>,
     /// Tick rate (Hz) when the pointer's button went down, while it is down.
     pub(super) hz_at_press: Option<TickRate>,
+    /// Time for which the stage still shows futures after a key has changed the tick rate, in nanoseconds.
+    pub(super) futures_left_ns: i64,
     pub(super) dialog: Option<Dialog>,
     pub(super) hints: Hints,
     /// Hints of the run that the person left for the guide.
@@ -237,6 +241,13 @@ impl Viewer {
         self.judged(entry).filter(|_| !self.is_asked())
     }
 
+    /// Whether the verdict on the method with this menu index was found at this tick rate. After a change of the rate,
+    /// verdicts at the former one stay until the next are found.
+    pub fn is_judged_at(&self, entry: MenuIndex, tick_hz: TickRate) -> bool {
+        let found = self.findings.as_ref();
+        found.is_some_and(|found| found.request.tick_hz == tick_hz && entry < found.judged)
+    }
+
     /// The same verdict, also while a person is asked.
     pub(super) fn judged(&self, entry: MenuIndex) -> Option<&Verdict> {
         self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
@@ -264,6 +275,7 @@ impl Viewer {
 
     /// Lets `ns` nanoseconds of real time pass, and removes an expired notice.
     pub fn pass_time(&mut self, ns: i64) {
+        self.futures_left_ns = self.futures_left_ns.saturating_sub(ns).max(0);
         if let Some(notice) = &mut self.notice {
             notice.pass_time(ns);
         }

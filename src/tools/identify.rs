@@ -15,7 +15,7 @@ mod motion;
 mod swing;
 
 use candidates::candidates;
-pub use candidates::{Candidate, SpringAs};
+pub use candidates::{Candidate, SpringForm};
 use decision::{Decision, NO_FIT, decide, rounding};
 pub use effective::Effective;
 pub(crate) use effective::SLOW;
@@ -176,7 +176,7 @@ fn identify_with(
 
 /// Signed distance of the last row from the exact motion of the fitted start, in metres, and the row's time.
 fn from_exact(log: &Log, fit: &Fit, tick_s: f64) -> Option<(f64, f64)> {
-    let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringAs::Acceleration };
+    let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringForm::Acceleration };
     let last = log.rows().last()?;
     let states = run(exact, &fit.body, fit.start, tick_s, [0, last.tick].into_iter())?;
     Some((last.x - states.last()?[0], last.t_s))
@@ -218,7 +218,7 @@ fn recommended(
     let mut found: Vec<_> = own
         .filter(|method| !method.is_as_printed())
         .filter_map(|method| {
-            let candidate = Candidate { method, substeps: 1, spring: SpringAs::Acceleration };
+            let candidate = Candidate { method, substeps: 1, spring: SpringForm::Acceleration };
             let effective = Effective::of(candidate, body, tick_s)?;
             effective.is_near(&exact).then_some((method, effective))
         })
@@ -252,7 +252,7 @@ fn search(
     queue.sort_by(|(_, a), (_, b)| a.squares().total_cmp(&b.squares()));
     let (mut fits, mut squares): (Vec<(Candidate, Fit)>, Vec<f64>) = (Vec::new(), Vec::new());
     for (candidate, of_head) in queue {
-        if of_head.squares() > enough(&squares, log) {
+        if of_head.squares() > max_head_squares(&squares, log) {
             break;
         }
         let fit = if is_whole { Some(of_head) } else { fit_to(log, candidate) };
@@ -264,7 +264,7 @@ fn search(
 }
 
 /// Largest sum of squares on the head that is worth a fit to the whole log.
-fn enough(squares: &[f64], log: &Log) -> f64 {
+fn max_head_squares(squares: &[f64], log: &Log) -> f64 {
     let numbers = log.numbers() as f64;
     let nearest = squares.iter().copied().fold(f64::INFINITY, f64::min);
     let rounding = rounding((nearest / numbers).sqrt(), log.is_double());
@@ -284,7 +284,7 @@ fn nearest(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Effective> {
         Some(_) => free.spring = None,
         None => free.drag = seen.decay,
     }
-    let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringAs::Acceleration };
+    let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringForm::Acceleration };
     let fit = fit(log, &free, exact, (tick_hz, None))?;
     let is_near = fit.residual() <= NO_FIT;
     is_near.then(|| Effective::exact(&fit.body))?

@@ -1,26 +1,26 @@
 //! Finds the settings with which a spring moves the same in every engine.
 //!
-//! [`Setup::sees`] measures an engine's map of a tick on its stepper. Inverting that map gives the stiffness and
-//! damping under which the engine shows a wished motion. The body is on a line and has no drag; the anchor of the
+//! [`Setup::visible_motion`] measures an engine's map of a tick on its stepper. Inverting that map gives the stiffness
+//! and damping under which the engine shows a wished motion. The body is on a line and has no drag; the anchor of the
 //! spring rests.
 
 use super::identify::Effective;
 use crate::scene::Swing;
 use crate::sim::integrators::{METHODS, Method};
 
-mod dialect;
 mod drive;
 mod follow;
 mod friction;
 mod inverse;
 pub(super) mod seen;
+mod ui_spring;
 
-pub use dialect::{DIALECTS, Departure, Dialect, DialectPort, Key, Switch};
 pub use drive::{DriveLimits, GainRange, drive_limits};
 pub use follow::{Approach, FollowerPort, followers};
 pub use friction::Friction;
-use inverse::{Found, invert, min_damping};
+use inverse::{EvaluatedJoint, invert, min_damping};
 pub use seen::Setup;
+pub use ui_spring::{Departure, Key, Switch, UI_SPRINGS, UiSpring, UiSpringPort};
 
 /// The motion that a player should see of a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,14 +175,14 @@ impl Wish {
                 2.0 * (1.0 + kept) / kept
             ));
         }
-        let seen = seen::seen(trace, determinant, 1.0 / fps);
+        let seen = seen::spring_of_map(trace, determinant, 1.0 / fps);
         let seen =
             seen.ok_or("so set it jumps to the other side in each frame, as no spring does")?;
         Ok(Self::of(seen, mass_kg))
     }
 
     /// The wished motion.
-    fn seen(&self) -> Effective {
+    fn effective(&self) -> Effective {
         Effective { omega: self.omega(), decay: self.damping_ratio * self.omega() }
     }
 
@@ -195,7 +195,7 @@ impl Wish {
 
 /// Whether an engine shows a wish.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reach {
+pub enum PortOutcome {
     /// It does, to rounding.
     Reached,
     /// It does not; the settings come nearest.
@@ -204,13 +204,13 @@ pub enum Reach {
     Unreachable,
 }
 
-impl Reach {
+impl PortOutcome {
     /// The word used in output.
     pub fn id(self) -> &'static str {
         match self {
-            Reach::Reached => "reached",
-            Reach::Nearest => "nearest",
-            Reach::Unreachable => "unreachable",
+            PortOutcome::Reached => "reached",
+            PortOutcome::Nearest => "nearest",
+            PortOutcome::Unreachable => "unreachable",
         }
     }
 }
@@ -233,7 +233,7 @@ pub struct Ported {
     /// The engine with its mode, tick rate and substeps.
     pub setup: Setup,
     /// Whether the settings show the wish.
-    pub reach: Reach,
+    pub outcome: PortOutcome,
     /// Values of the mode's settings.
     pub values: [f64; 2],
     /// The visible motion with these values.
@@ -278,16 +278,16 @@ pub fn setups(
 ///
 /// The wish must pass its [check](Wish::check) at the tick rate.
 pub fn port(wish: &Wish, setup: Setup) -> Option<Ported> {
-    let wanted = wish.seen();
-    let sees = |joint| setup.sees(joint);
-    let Found { joint, seen, missed } = invert(&sees, &wanted)?;
+    let wanted = wish.effective();
+    let sees = |joint| setup.visible_motion(joint);
+    let EvaluatedJoint { joint, seen, missed } = invert(&sees, &wanted)?;
     let least = min_damping(&sees, wanted.omega).map(|(_, ratio)| ratio);
     let floor = least.filter(|ratio| *ratio > REACHED);
     let is_below = floor.is_some_and(|floor| wish.damping_ratio < floor);
-    let reach = match missed <= REACHED {
-        true => Reach::Reached,
-        false if is_below => Reach::Unreachable,
-        false => Reach::Nearest,
+    let outcome = match missed <= REACHED {
+        true => PortOutcome::Reached,
+        false if is_below => PortOutcome::Unreachable,
+        false => PortOutcome::Nearest,
     };
     let own_force = || {
         let found = invert(&|joint| setup.sees_held(joint, 1), &wanted)?;
@@ -295,18 +295,23 @@ pub fn port(wish: &Wish, setup: Setup) -> Option<Ported> {
     };
     Some(Ported {
         setup,
-        reach,
+        outcome,
         values: setup.mode.values(joint, wish.mass_kg),
         sees: seen,
         floor,
-        relief: if reach == Reach::Unreachable { relief(wish, setup, floor) } else { None },
-        own_force: if reach == Reach::Reached { None } else { own_force() },
+        relief: if outcome == PortOutcome::Unreachable {
+            damping_relief(wish, setup, floor)
+        } else {
+            None
+        },
+        own_force: if outcome == PortOutcome::Reached { None } else { own_force() },
     })
 }
 
 /// The change that lowers `floor`: twice the substeps or, if they do not help, twice the tick rate.
-fn relief(wish: &Wish, setup: Setup, floor: Option<f64>) -> Option<Relief> {
-    let least = |setup: Setup| Some(min_damping(&|joint| setup.sees(joint), wish.omega())?.1);
+fn damping_relief(wish: &Wish, setup: Setup, floor: Option<f64>) -> Option<Relief> {
+    let least =
+        |setup: Setup| Some(min_damping(&|joint| setup.visible_motion(joint), wish.omega())?.1);
     let by = |times: u32| Setup { substeps: setup.substeps * times, ..setup };
     let lower = least(by(2)).filter(|ratio| floor.is_some_and(|floor| *ratio < 0.99 * floor));
     let Some(damping_ratio) = lower else {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::port::seen::{seen, spectral_radius};
+use super::port::seen::{spectral_radius, spring_of_map};
 use super::port::{Approach, Wish};
 use crate::sim::law::{ExpressionFault, Frame, Powers, StepText, remembers_place};
 use crate::sim::numerics::bisect;
@@ -59,7 +59,7 @@ pub struct Rule {
 
 /// The visible motion of a rule at a frame rate.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SeenRule {
+pub struct VisibleMotion {
     /// Frames per second.
     pub fps: f64,
     /// Frequency of the swing in hertz; `None` if it does not swing.
@@ -96,7 +96,7 @@ impl Rule {
         let remedy = "give lines that call one in a file, as a method: `--method my.step`, `regatta show my.step`";
         let text = StepText::read_rule(text, remedy)?;
         // The visible number is the place or, if the rule changes no place, the velocity.
-        let seen = usize::from(text.keeps(0));
+        let seen = usize::from(text.leaves_unchanged(0));
         Ok(Self::with_state(Arc::new(text), fps, vec![seen]))
     }
 
@@ -110,7 +110,7 @@ impl Rule {
 
     /// The rule as a map of all numbers that a game reads, including `x` and `v` if its lines change them.
     fn whole(&self) -> Self {
-        let changed = (0..2).filter(|index| !self.text.keeps(*index));
+        let changed = (0..2).filter(|index| !self.text.leaves_unchanged(*index));
         let mut state = self.state.clone();
         for index in changed {
             if !state.contains(&index) {
@@ -172,16 +172,16 @@ impl Rule {
     }
 
     /// The visible motion at the usual frame rates and at the author's, the lowest rate first.
-    pub fn seen(&self) -> Vec<SeenRule> {
+    pub fn motions(&self) -> Vec<VisibleMotion> {
         let mut rates: Vec<f64> = FRAME_RATES.into_iter().chain([self.fps]).collect();
         rates.sort_by(f64::total_cmp);
         rates.dedup();
-        rates.into_iter().map(|fps| self.seen_at(fps)).collect()
+        rates.into_iter().map(|fps| self.motion_at(fps)).collect()
     }
 
     /// The visible motion at this many frames per second.
-    pub fn seen_at(&self, fps: f64) -> SeenRule {
-        let nothing = SeenRule {
+    pub fn motion_at(&self, fps: f64) -> VisibleMotion {
+        let nothing = VisibleMotion {
             fps,
             hz: None,
             spring: None,
@@ -191,13 +191,13 @@ impl Rule {
             grows: false,
         };
         let Some(motion) = self.motion(fps) else {
-            return SeenRule { grows: self.grows_when_watched(fps), ..nothing };
+            return VisibleMotion { grows: self.grows_when_watched(fps), ..nothing };
         };
         let grows = motion.grows(GROWTH);
         let flips = motion.flips().then_some(fps / 2.0);
         let settles_s = (motion.radius() < 1.0).then(|| motion.frames_to_settle().max(1.0) / fps);
         match motion {
-            Motion::Approach { kept } | Motion::Coast { kept } => SeenRule {
+            Motion::Approach { kept } | Motion::Coast { kept } => VisibleMotion {
                 hz: flips,
                 overshoot: (kept < 0.0 && !self.stays).then_some(-kept),
                 halves_s: (kept > 0.0 && kept < 1.0)
@@ -207,9 +207,16 @@ impl Rule {
                 ..nothing
             },
             Motion::Swing(map) => {
-                let spring = seen(map.trace(), map.determinant(), 1.0 / fps);
+                let spring = spring_of_map(map.trace(), map.determinant(), 1.0 / fps);
                 let hz = spring.and_then(|spring| spring.frequency_hz()).or(flips);
-                SeenRule { hz, spring, overshoot: overshoot(&map), settles_s, grows, ..nothing }
+                VisibleMotion {
+                    hz,
+                    spring,
+                    overshoot: overshoot(&map),
+                    settles_s,
+                    grows,
+                    ..nothing
+                }
             }
         }
     }
@@ -230,7 +237,7 @@ impl Rule {
 
     /// Whether it grows at the author's frame rate.
     pub fn grows(&self) -> bool {
-        self.seen_at(self.fps).grows
+        self.motion_at(self.fps).grows
     }
 
     /// Frame rate below which a property begins that does not hold at `fastest`.
@@ -254,12 +261,12 @@ impl Rule {
 
     /// The spring with the same motion at the author's frame rate, with a mass of 1 kg; `None` if there is none.
     pub fn spring(&self) -> Option<Wish> {
-        Some(Wish::of(self.seen_at(self.fps).spring?, 1.0))
+        Some(Wish::of(self.motion_at(self.fps).spring?, 1.0))
     }
 
     /// The approach to the target, if the rule does nothing else.
     pub fn approach(&self) -> Option<Approach> {
-        let half_life_s = self.seen_at(self.fps).halves_s?;
+        let half_life_s = self.motion_at(self.fps).halves_s?;
         self.text.takes_target().then_some(Approach { half_life_s })
     }
 
@@ -345,7 +352,7 @@ impl Motion {
         let by_radius = -libm::log(OVER) / -libm::log(self.radius());
         let Motion::Swing(map) = self else { return by_radius };
         let Some(powers) = Powers::of(map.trace(), map.determinant()) else { return by_radius };
-        let beside = beside(map);
+        let beside = odd_coefficient(map);
         let left = |frames: f64| {
             let [even, odd] = powers.at(frames);
             (even + beside * odd).abs()
@@ -372,7 +379,7 @@ impl Motion {
 /// Coefficient of the odd power in a motion that starts at rest from 1: the first number after a frame minus half the
 /// trace, over the root of the determinant. The second number also starts at 1 if it echoes the first of a frame
 /// before.
-fn beside(map: &Matrix2<f64>) -> f64 {
+fn odd_coefficient(map: &Matrix2<f64>) -> f64 {
     let first = if remembers_place(map) { map.m11 + map.m12 } else { map.m11 };
     (first - map.trace() / 2.0) / libm::sqrt(map.determinant())
 }
@@ -381,12 +388,12 @@ fn beside(map: &Matrix2<f64>) -> f64 {
 fn overshoot(map: &Matrix2<f64>) -> Option<f64> {
     let powers = Powers::of(map.trace(), map.determinant()).filter(|powers| powers.swings)?;
     let Powers { log_scale, apart, .. } = powers;
-    let slope = beside(map) / libm::sin(apart);
+    let slope = odd_coefficient(map) / libm::sin(apart);
     let first = libm::atan2(log_scale + slope * apart, apart - slope * log_scale);
     let turns = (0..3).map(|n| (first + f64::from(n) * std::f64::consts::PI) / apart);
     let left = |frames: f64| {
         let [even, odd] = powers.at(frames);
-        even + beside(map) * odd
+        even + odd_coefficient(map) * odd
     };
     turns
         .into_iter()

@@ -30,7 +30,7 @@ const NUMBERS: &[(&str, Number)] = &[
     ("jolt-floor", || least_damping_ratio("engine-jolt")),
     ("box2d-sees", || {
         let setup = engine("engine-box2d")?;
-        let seen = setup.sees(setup.mode.joint([1.5, 0.1], 1.0))?;
+        let seen = setup.visible_motion(setup.mode.joint([1.5, 0.1], 1.0))?;
         Some(significant(seen.damping_ratio()?, 4))
     }),
     ("box2d-told", || {
@@ -39,7 +39,7 @@ const NUMBERS: &[(&str, Number)] = &[
     }),
     ("held-force-sees", || {
         let setup = Setup { substeps: 8, ..engine("held-force")? };
-        Some(significant(setup.sees(wish(1.0, 0.0).joint())?.damping_ratio()?, 3))
+        Some(significant(setup.visible_motion(wish(1.0, 0.0).joint())?.damping_ratio()?, 3))
     }),
     ("lerp-at-30", || Some(significant(Approach::of_lerp(0.1, 30.0).half_life_s, 4))),
     ("lerp-at-60", || Some(significant(Approach::of_lerp(0.1, 60.0).half_life_s, 4))),

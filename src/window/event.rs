@@ -8,7 +8,7 @@ use super::App;
 use super::opening::ReadFile;
 #[cfg(feature = "accessibility")]
 use super::screen_reader::{self, Request};
-use crate::scene::{LaneSpec, Mistake, Scene, SceneErrors};
+use crate::scene::{LaneSpec, Scene, SceneErrors, ShownError};
 use crate::studio::{
     Dialog, Found, file_is_back, file_is_gone, open_advised_spring, reload_failed, reload_file,
 };
@@ -31,7 +31,7 @@ pub(super) enum Event {
     /// A requested file has been read.
     FileRead(ReadFile),
     /// A watched scene file has changed; `read` is its new content.
-    FileChanged { path: PathBuf, read: Box<Result<(Scene, String), Vec<Mistake>>> },
+    FileChanged { path: PathBuf, read: Box<Result<(Scene, String), Vec<ShownError>>> },
     /// A watched scene file can no longer be read.
     FileGone(PathBuf),
     /// A missing scene file exists again, unchanged.

@@ -7,14 +7,14 @@ use crate::loops::{FrameTrace, trace_file};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 use crate::run::diff::{Chosen, Comparison, NotComparable, Tolerance, diff};
 use crate::run::trace::{Made, last_tick};
-use crate::scene::{LaneSpec, MAX_FILE_BYTES, Mistake, SCENES, Scene, is_rule};
+use crate::scene::{LaneSpec, MAX_FILE_BYTES, SCENES, Scene, ShownError, is_rule};
 use crate::studio::{
     SceneList, StageCommand, Studio, ViewCommand, open_file, open_traces, race_own_method,
     refuse_typed_path, show_comparison, show_mistakes,
 };
 
 /// Reads a scene file. Returns its scene and its text, or its mistakes as the command line would print them.
-pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), Vec<Mistake>> + Send + Sync>;
+pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), Vec<ShownError>> + Send + Sync>;
 
 /// Saves the recording of a run so far, the text of a scene file, or returns the reason why it cannot. Called every
 /// few seconds on a separate thread, each time with a longer text.
@@ -41,7 +41,7 @@ pub(super) struct RequestedFile {
 /// Content of a requested file, or its mistakes as the command line would print them.
 pub(super) struct ReadFile {
     requested: RequestedFile,
-    content: Result<FileContent, Vec<Mistake>>,
+    content: Result<FileContent, Vec<ShownError>>,
 }
 
 enum FileContent {
@@ -164,14 +164,14 @@ fn has_ending(path: &Path, known: &str) -> bool {
 }
 
 /// Reads a scene, and prepares anything that its first frame would wait for.
-fn scene_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<Mistake>> {
+fn scene_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<ShownError>> {
     let (scene, text) = read(path)?;
     SceneList::prepare_scene(&scene);
     Ok(FileContent::Scene { scene: Box::new(scene), text })
 }
 
 /// Reads a file of lines: a method is a lane of the open scene, a rule a scene of its own.
-fn lines_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<Mistake>> {
+fn lines_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<ShownError>> {
     let lines = regular_file::read(path, MAX_FILE_BYTES)
         .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
     if !is_rule(&lines) {
@@ -186,7 +186,7 @@ fn lines_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<Mistake>> 
     })
 }
 
-fn traces_in(path: &Path) -> Result<Vec<FrameTrace>, Vec<Mistake>> {
+fn traces_in(path: &Path) -> Result<Vec<FrameTrace>, Vec<ShownError>> {
     let bytes = regular_file::read(path, MAX_TABLE_BYTES)
         .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();

@@ -6,7 +6,7 @@ use std::cell::Cell;
 
 use regatta::run::{Observations, Race};
 use regatta::scene::{Action, Options, SCENES, Scene};
-use regatta::sim::bodies::{Follow, Form, Grid, NetPlan, Pin, Ship, Spring, net_kind};
+use regatta::sim::bodies::{Follow, Grid, NetLayout, NetPlan, Pin, Ship, Spring, net_kind};
 use regatta::sim::integrators::{
     GENERAL_METHODS, ImplicitMidpoint, Integrator, METHODS, Method, Rk4, StepFailure,
     custom_integrator, integrator, method,
@@ -237,7 +237,7 @@ fn large_net(columns: usize, rows: usize) -> Box<dyn Stepper> {
 /// A grid of `columns` × `rows` nodes.
 fn net_under(solver: Solver, columns: usize, rows: usize) -> Box<dyn Stepper> {
     let grid = Grid { columns, rows, spacing: 0.1, shear: true, pin: Some(Pin::Corners) };
-    let kind = net_kind(NetPlan { form: Form::Grid(grid), kicked: None }).expect("a net");
+    let kind = net_kind(NetPlan { form: NetLayout::Grid(grid), kicked: None }).expect("a net");
     (kind.build)(&[0.02, 200.0, 0.0, 0.0, 9.81, 1.0, 1.0, 0.0], solver)
 }
 

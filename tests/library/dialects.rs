@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use regatta::tools::port::{DIALECTS, Dialect, Reach, Wish};
+use regatta::tools::port::{PortOutcome, UI_SPRINGS, UiSpring, Wish};
 
 use crate::dice::Dice;
 
-fn dialect(id: &str) -> &'static Dialect {
-    Dialect::of_id(id).unwrap()
+fn dialect(id: &str) -> &'static UiSpring {
+    UiSpring::of_id(id).unwrap()
 }
 
 fn swings(frequency_hz: f64, damping_ratio: f64) -> Wish {
@@ -35,14 +35,14 @@ fn a_swift_ui_spring_has_its_published_numbers() {
 fn conversion_between_any_two_dialects_round_trips() {
     let mut dice = Dice::new(483);
     let mut pairs = 0;
-    for from in DIALECTS.iter().filter(|dialect| dialect.is_read()) {
+    for from in UI_SPRINGS.iter().filter(|dialect| dialect.is_read()) {
         for _ in 0..20 {
             // Whole milliseconds, and a damping that most can express.
             let period = dice.between(50.0, 2000.0).round() / 1e3;
             let drawn = swings(1.0 / period, dice.between(0.06, 1.5));
             let values = from.port(&drawn, 60.0).values;
             let wish = from.read(&values).unwrap();
-            for to in DIALECTS.iter().filter(|dialect| dialect.is_read()) {
+            for to in UI_SPRINGS.iter().filter(|dialect| dialect.is_read()) {
                 let told = to.read(&to.port(&wish, 60.0).values).unwrap();
                 let [a, b] = [wish, told].map(|wish| [wish.frequency_hz, wish.damping_ratio]);
                 let is_expressed = apart(&a, &b) < 1e-9;
@@ -133,32 +133,32 @@ fn css_points_deviate_as_reported_and_hit_both_ends() {
         assert!(told < 0.006 || points == 100.0, "{told}");
     }
     let endless = dialect("css").port(&swings(2.0, 0.0), 60.0);
-    assert!(endless.reach == Reach::Unreachable && endless.code.is_empty(), "{endless:?}");
+    assert!(endless.outcome == PortOutcome::Unreachable && endless.code.is_empty(), "{endless:?}");
 }
 
 #[test]
 fn each_dialect_reports_whether_it_can_show_the_motion() {
-    let reach = |id: &str, ratio| dialect(id).port(&swings(2.0, ratio), 60.0).reach;
+    let reach = |id: &str, ratio| dialect(id).port(&swings(2.0, ratio), 60.0).outcome;
     for (id, ratio, wanted) in [
-        ("compose", 0.0, Reach::Reached),
-        ("flutter-duration", 3.0, Reach::Reached),
-        ("slint", 0.5, Reach::Reached),
-        ("slint", 3.0, Reach::Nearest),
-        ("slint", 0.05, Reach::Unreachable),
-        ("motion-duration", 0.01, Reach::Unreachable),
-        ("motion-duration", 2.0, Reach::Reached),
-        ("motion-duration", 30.0, Reach::Nearest),
-        ("core-animation", 2.0, Reach::Reached),
-        ("unity-smooth-damp", 0.5, Reach::Unreachable),
-        ("unity-smooth-damp", 1.0, Reach::Nearest),
-        ("react-spring", 0.5, Reach::Nearest),
-        ("css", 0.2, Reach::Nearest),
-        ("css", 0.01, Reach::Unreachable),
+        ("compose", 0.0, PortOutcome::Reached),
+        ("flutter-duration", 3.0, PortOutcome::Reached),
+        ("slint", 0.5, PortOutcome::Reached),
+        ("slint", 3.0, PortOutcome::Nearest),
+        ("slint", 0.05, PortOutcome::Unreachable),
+        ("motion-duration", 0.01, PortOutcome::Unreachable),
+        ("motion-duration", 2.0, PortOutcome::Reached),
+        ("motion-duration", 30.0, PortOutcome::Nearest),
+        ("core-animation", 2.0, PortOutcome::Reached),
+        ("unity-smooth-damp", 0.5, PortOutcome::Unreachable),
+        ("unity-smooth-damp", 1.0, PortOutcome::Nearest),
+        ("react-spring", 0.5, PortOutcome::Nearest),
+        ("css", 0.2, PortOutcome::Nearest),
+        ("css", 0.01, PortOutcome::Unreachable),
         // Newton's method has not come to its end.
-        ("motion-duration", 1.0 - 1e-8, Reach::Nearest),
+        ("motion-duration", 1.0 - 1e-8, PortOutcome::Nearest),
         // It decays, and changes sides at every frame.
-        ("per-frame", 4.0, Reach::Nearest),
-        ("per-frame", 0.0, Reach::Nearest),
+        ("per-frame", 4.0, PortOutcome::Nearest),
+        ("per-frame", 0.0, PortOutcome::Nearest),
     ] {
         assert_eq!(reach(id, ratio), wanted, "{id} {ratio}");
     }
@@ -175,8 +175,8 @@ fn each_dialect_reports_whether_it_can_show_the_motion() {
         assert!(fps < 13.0 || (seen / 2.0 - 1.0).abs() < 0.01, "{fps} fps: {seen}");
     }
     let whole = dialect("flutter-duration").port(&swings(3.0, 0.5), 60.0);
-    assert_eq!((whole.reach, whole.values[0]), (Reach::Nearest, 0.333));
-    for Dialect { id, keys, source, version, evidence, .. } in DIALECTS {
+    assert_eq!((whole.outcome, whole.values[0]), (PortOutcome::Nearest, 0.333));
+    for UiSpring { id, keys, source, version, evidence, .. } in UI_SPRINGS {
         assert!(!source.is_empty() && keys.len() <= 4, "{id}");
         // Two lines of your own have no version.
         assert_eq!(version.is_empty(), *id == "per-frame", "{id}");
@@ -228,7 +228,7 @@ fn core_animation_is_critically_damped_unless_it_allows_overdamping() {
     for (ratio, is_on) in [(0.7, false), (1.0, false), (1.4, true), (20.0, true)] {
         let port = of.port(&swings(2.0, ratio), 60.0);
         assert_eq!((port.values[3] == 1.0, port.code.ends_with(switched)), (is_on, is_on));
-        assert_eq!(port.reach, Reach::Reached, "{ratio}");
+        assert_eq!(port.outcome, PortOutcome::Reached, "{ratio}");
     }
     let ratio = |allowed| of.read(&[1.0, 100.0, 40.0, allowed]).unwrap().damping_ratio;
     assert_eq!((ratio(0.0), ratio(1.0)), (1.0, 2.0));

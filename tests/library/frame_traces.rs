@@ -95,7 +95,7 @@ fn by_the_lab(trace: &FrameTrace) -> Vec<(f64, f64)> {
         pacer.frame(frame.began_ns - began_ns);
         began_ns = frame.began_ns;
         if let Some(ns) = frame.displayed_ns {
-            pictures.push((base.milliseconds(pacer.shown()), ns as f64 / 1e6));
+            pictures.push((base.milliseconds(pacer.drawn_moment()), ns as f64 / 1e6));
         }
     }
     pictures

@@ -119,7 +119,7 @@ fn known(card: &'static PolicyCard, rates: Rates, trace: &[i64]) -> Vec<Answer> 
     let each = |&duration_ns: &i64| {
         let steps = pacer.frame(duration_ns);
         let step_s = base.seconds(steps.span) / f64::from(steps.count.max(1));
-        Answer { steps: steps.count, step_s, shown_s: base.seconds(pacer.shown()) }
+        Answer { steps: steps.count, step_s, shown_s: base.seconds(pacer.drawn_moment()) }
     };
     trace.iter().map(each).collect()
 }

@@ -259,11 +259,11 @@ fn motion(id: &str, refresh: RefreshRate, mut late_ns: impl FnMut() -> i64) -> M
     let mut pacer = pacer(id, refresh);
     let [tick, refresh_time] = [pacer.base().tick(), pacer.base().refresh()];
     let (mut repeated, mut double, mut squares, mut latency) = (0, 0, 0.0, 0.0);
-    let (mut before_ns, mut before) = (0, pacer.shown());
+    let (mut before_ns, mut before) = (0, pacer.drawn_moment());
     for n in 1..=FRAMES {
         let began_ns = refresh.refresh_ns(n) + late_ns();
         pacer.frame(began_ns - before_ns);
-        let shown = pacer.shown();
+        let shown = pacer.drawn_moment();
         repeated += u64::from(shown == before);
         double += u64::from(shown == before + 2 * tick);
         let error_ms = pacer.base().milliseconds(shown - before - refresh_time);

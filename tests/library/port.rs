@@ -7,8 +7,8 @@ use regatta::sim::bodies::Follow;
 use regatta::sim::integrators::{Family, METHODS, method};
 use regatta::sim::{State, least_squares};
 use regatta::tools::port::{
-    Approach, FollowerPort, Ported, Reach, Setup, Wish, WishError, drive_limits, followers, port,
-    setups,
+    Approach, FollowerPort, PortOutcome, Ported, Setup, Wish, WishError, drive_limits, followers,
+    port, setups,
 };
 
 use crate::dice::Dice;
@@ -107,7 +107,7 @@ fn fitted(setup: &Setup, joint: [f64; 2]) -> Option<[f64; 2]> {
 
 /// The distance from the target, measured as the program does.
 fn missed(wish: &Wish, setup: &Setup, joint: [f64; 2]) -> f64 {
-    let Some(seen) = setup.sees(joint) else { return f64::INFINITY };
+    let Some(seen) = setup.visible_motion(joint) else { return f64::INFINITY };
     let ratio = seen.decay / seen.omega - wish.damping_ratio;
     (seen.omega / TAU / wish.frequency_hz).ln().abs() + ratio.abs()
 }
@@ -136,12 +136,12 @@ fn a_reached_target_shows_in_the_run_and_a_missed_one_has_no_nearer_setting() {
         for setup in setups(None, tick_hz, Some(substeps)) {
             let what = format!("{wish:?} {tick_hz} Hz, {} ×{substeps}", setup.method.id);
             let found = port(&wish, setup).unwrap_or_else(|| panic!("{what}: nothing"));
-            let Ported { reach, values, sees, .. } = &found;
+            let Ported { outcome, values, sees, .. } = &found;
             let joint = setup.mode.joint(*values, wish.mass_kg);
-            counts[*reach as usize] += 1;
+            counts[*outcome as usize] += 1;
             let fit = fitted(&setup, joint);
             let shown = [sees.omega / TAU, sees.decay / sees.omega];
-            if *reach == Reach::Reached {
+            if *outcome == PortOutcome::Reached {
                 let [hz, ratio] = fit.unwrap_or_else(|| panic!("{what}: no fit"));
                 let off =
                     [(hz / wish.frequency_hz - 1.0).abs(), (ratio - wish.damping_ratio).abs()];
@@ -154,7 +154,7 @@ fn a_reached_target_shows_in_the_run_and_a_missed_one_has_no_nearer_setting() {
             let best = best_of_search(&wish, &setup, joint);
             assert!(best > nearest - 2e-3, "{what}: {values:?} miss {nearest}, not {best}");
             let is_below = found.floor.is_some_and(|floor| wish.damping_ratio < floor);
-            assert_eq!(*reach == Reach::Unreachable, is_below, "{what}: {sees:?}");
+            assert_eq!(*outcome == PortOutcome::Unreachable, is_below, "{what}: {sees:?}");
         }
     }
     println!("reached, nearest, unreachable: {counts:?}; worst fit {worst:?}");
@@ -170,12 +170,12 @@ fn settings_round_trip_through_another_engine() {
         let all = setups(None, tick_hz, Some(substeps));
         let [from, to] = [(); 2].map(|()| all[dice.below(all.len())]);
         let reached = |wish: &Wish, setup: Setup| {
-            port(wish, setup).filter(|ported| ported.reach == Reach::Reached)
+            port(wish, setup).filter(|ported| ported.outcome == PortOutcome::Reached)
         };
         let Some(first) = reached(&wish, from) else { continue };
-        let seen = from.sees(from.mode.joint(first.values, wish.mass_kg)).unwrap();
+        let seen = from.visible_motion(from.mode.joint(first.values, wish.mass_kg)).unwrap();
         let Some(second) = reached(&Wish::of(seen, wish.mass_kg), to) else { continue };
-        let seen = to.sees(to.mode.joint(second.values, wish.mass_kg)).unwrap();
+        let seen = to.visible_motion(to.mode.joint(second.values, wish.mass_kg)).unwrap();
         let Some(back) = reached(&Wish::of(seen, wish.mass_kg), from) else {
             // A damping ratio of 0 may come back as less, by rounding.
             assert!(wish.damping_ratio < 1e-9, "{wish:?}");
@@ -205,7 +205,7 @@ fn the_damping_floor_of_box2d_matches_its_card_and_drops_with_substeps() {
     let box2d = method("engine-box2d").unwrap();
     let [setup] = setups(Some(&[box2d]), 60.0, None)[..] else { panic!("one mode") };
     let found = port(&wish, setup).unwrap();
-    assert_eq!(found.reach, Reach::Unreachable);
+    assert_eq!(found.outcome, PortOutcome::Unreachable);
     let claimed = box2d.engine.unwrap().damping_ratio.unwrap();
     assert!((found.floor.unwrap() - claimed).abs() < 1e-4, "{found:?}");
     let relief = found.relief.unwrap();

@@ -246,7 +246,7 @@ fn generated_c_sharp_matches_its_rule() {
 
 /// The frequency that is seen, the damping ratio, and the seconds to the last hundredth.
 fn seen(rule: &str, fps: f64) -> [Option<f64>; 3] {
-    let seen = Rule::read(rule, FPS).unwrap().seen_at(fps);
+    let seen = Rule::read(rule, FPS).unwrap().motion_at(fps);
     [seen.hz, seen.spring.and_then(|spring| spring.damping_ratio()), seen.settles_s]
 }
 
@@ -265,7 +265,7 @@ fn the_visible_motion_of_a_spring_follows_from_its_eigenvalues() {
     assert!(is_near(Some(wish.frequency_hz), 4.130) && is_near(Some(wish.damping_ratio), 0.1879));
     assert_eq!((rule.rings_below_fps(), rule.explodes_below_fps()), (None, None));
     // The frames overshoot as predicted, up to the position of the peak between two frames.
-    let overshoot = rule.seen_at(FPS).overshoot.unwrap();
+    let overshoot = rule.motion_at(FPS).overshoot.unwrap();
     let text = StepText::read(spring).unwrap();
     let mut registers = text.registers();
     let step = |_| {
@@ -274,7 +274,8 @@ fn the_visible_motion_of_a_spring_follows_from_its_eigenvalues() {
     };
     let farthest = (0..20).map(step).fold(0.0, f64::max);
     assert!((farthest - 1.0 - overshoot).abs() < 0.02, "{farthest} {overshoot}");
-    let grows = |decay: &str| Rule::read(&spring.replace("0.85", decay), FPS).unwrap().seen_at(FPS);
+    let grows =
+        |decay: &str| Rule::read(&spring.replace("0.85", decay), FPS).unwrap().motion_at(FPS);
     assert!(!grows("1.0").grows && grows("1.05").grows);
     assert!(is_near(grows("1.05").spring.unwrap().damping_ratio(), -0.0534));
 }
@@ -282,21 +283,24 @@ fn the_visible_motion_of_a_spring_follows_from_its_eigenvalues() {
 #[test]
 fn chases_and_frictions_are_not_read_as_springs() {
     let chase = Rule::read("x += (target - x) * 20 * dt", 30.0).unwrap();
-    let at_30 = chase.seen_at(30.0);
+    let at_30 = chase.motion_at(30.0);
     assert!(is_near(at_30.halves_s, 0.02103) && at_30.hz.is_none() && !at_30.grows);
     assert!(is_near(at_30.settles_s, 0.1397));
     assert!(is_near(chase.rings_below_fps(), 20.0) && is_near(chase.explodes_below_fps(), 10.0));
-    assert_eq!((chase.seen_at(20.0).settles_s, chase.seen_at(15.0).hz), (Some(0.05), Some(7.5)));
-    assert!(chase.seen_at(9.0).grows && chase.spring().is_none());
+    assert_eq!(
+        (chase.motion_at(20.0).settles_s, chase.motion_at(15.0).hz),
+        (Some(0.05), Some(7.5))
+    );
+    assert!(chase.motion_at(9.0).grows && chase.spring().is_none());
     assert!(is_near(chase.approach().map(|approach| approach.half_life_s), 0.02103));
     let friction = Rule::read("v *= 0.9", FPS).unwrap();
-    assert!(is_near(friction.seen_at(60.0).halves_s, 0.1096));
+    assert!(is_near(friction.motion_at(60.0).halves_s, 0.1096));
     let [after, before] = friction.coasts_s().unwrap()[..] else { panic!() };
     assert!(is_near(Some(after), 0.15) && is_near(Some(before), 0.16667));
     for rule in ["v *= 0.9; x += v * dt", "old = x; x += (x - prev) * 0.9; prev = old"] {
         let friction = Rule::read(rule, FPS).unwrap();
         assert!(friction.spring().is_none() && friction.approach().is_none());
-        assert!(is_near(friction.seen_at(60.0).halves_s, 0.1096), "{rule}");
+        assert!(is_near(friction.motion_at(60.0).halves_s, 0.1096), "{rule}");
     }
 }
 
@@ -306,11 +310,11 @@ fn a_nonlinear_rule_is_described_by_its_small_motions_or_not_at_all() {
     let limited = rule("v += ((target - x) * 40 - v * 2) * dt; v = clamp(v, -3, 3); x += v * dt");
     let free = rule("v += ((target - x) * 40 - v * 2) * dt; x += v * dt");
     assert!(!limited.is_linear() && free.is_linear());
-    assert_eq!(limited.seen_at(60.0), free.seen_at(60.0));
+    assert_eq!(limited.motion_at(60.0), free.motion_at(60.0));
     assert_eq!(limited.explodes_below_fps(), free.explodes_below_fps());
-    let dry = rule("v -= sign(v) * 3 * dt; x += v * dt").seen_at(60.0);
+    let dry = rule("v -= sign(v) * 3 * dt; x += v * dt").motion_at(60.0);
     assert_eq!((dry.hz, dry.settles_s, dry.grows), (None, None, false));
-    assert!(rule("x += x * abs(x) + 0.1").seen_at(60.0).grows);
+    assert!(rule("x += x * abs(x) + 0.1").motion_at(60.0).grows);
 }
 
 #[test]
@@ -346,7 +350,7 @@ fn common_names_and_start_values_of_games_are_read() {
     let declared = StepText::read("float x = 2f;\nx += v;").unwrap();
     assert_eq!(declared.value(&declared.registers(), 0), 2.0);
     let own = StepText::read("let speed = 2; x += speed * v").unwrap();
-    assert!(own.is_linear() && own.keeps(1), "a name of its own beside v");
+    assert!(own.is_linear() && own.leaves_unchanged(1), "a name of its own beside v");
     let fault = Rule::read("x += v; x = x / 0", FPS).unwrap_err();
     assert_eq!((fault.span, &*fault.what), (11..17, "it divides by 0"));
 }

@@ -1,7 +1,7 @@
 //! Bodies grabbed with the mouse, and the stage zoomed and panned.
 
 use image::RgbaImage;
-use regatta::look::palette::{Theme, mixed};
+use regatta::look::palette::{Theme, mix};
 use regatta::sim::integrators::method;
 
 use crate::desk::{Desk, until};
@@ -15,7 +15,7 @@ const HATCH: ([u8; 4], u32) = ([138, 160, 112, 255], 4);
 fn body(sight: &RgbaImage) -> Option<([u32; 2], usize)> {
     let (colour, _) = Theme::Dark.style(method("rk4").unwrap());
     // The face of a block is a little darker than its method's colour.
-    patch(sight, mixed(colour, [0, 0, 0, 255], 0.12), INSIDE)
+    patch(sight, mix(colour, [0, 0, 0, 255], 0.12), INSIDE)
 }
 
 /// The middle of the ship's hatches, in pixels.

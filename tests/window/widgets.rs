@@ -99,7 +99,7 @@ fn the_mouse_works_the_instruments_and_the_inspector() {
     twin.click(&desk, "velocity error");
     // The title of the plot.
     twin.click(&desk, "Spring");
-    twin.click(&desk, "inspector (E)");
+    twin.click(&desk, "edit parameters, methods and rates (E)");
     let stiffness = twin.slider("stiffness");
     twin.drag(&desk, stiffness.center(), stiffness.lerp_inside(egui::vec2(0.8, 0.5)));
     twin.click(&desk, "restore stiffness");

@@ -175,10 +175,10 @@ fn a_file_in_the_way_is_no_folder() {
 fn a_name_in_use_gets_the_next_free_number() {
     let parent = tempfile::tempdir().unwrap();
     let name = parent.path().join("frames").display().to_string();
-    assert_eq!(FrameFolder::beside(&name).unwrap().path(), Path::new(&name));
+    assert_eq!(FrameFolder::new_sibling(&name).unwrap().path(), Path::new(&name));
     fs::create_dir(&name).unwrap();
     fs::write(Path::new(&name).join("mine"), "").unwrap();
     fs::write(format!("{name}-2"), "a file").unwrap();
     let third = format!("{name}-3");
-    assert_eq!(FrameFolder::beside(&name).unwrap().path(), Path::new(&third));
+    assert_eq!(FrameFolder::new_sibling(&name).unwrap().path(), Path::new(&third));
 }

@@ -6,7 +6,7 @@ use crate::loops::{FrameLimits, MeasuredLoops, NoLoop, POLICIES};
 use crate::sim::number::{counted, round};
 
 /// Prints which of the policies measured on one trace to take.
-pub(super) fn tell_of(rows: &[Measured], latency_ms: f64, limits: FrameLimits) {
+pub(super) fn print_advice(rows: &[Measured], latency_ms: f64, limits: FrameLimits) {
     let Some(first) = rows.first() else { return };
     let trace =
         format!("{} ({} Hz display, {:.3} Hz ticks)", first.trace, first.refresh, first.tick_hz);
@@ -20,7 +20,7 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64, limits: FrameLimits) {
             let latency_ms = loops.latency_ms(advised.index);
             print_status(&format!(
                 "{trace}: {among} {}",
-                words(&rows[advised.index], latency_ms, limits)
+                advice_text(&rows[advised.index], latency_ms, limits)
             ));
             if let Some(why) = advised.why {
                 print_status(&format!("  {why}"));
@@ -65,7 +65,7 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64, limits: FrameLimits) {
 }
 
 /// A policy with its measurements and its constants, or the limits set in their place.
-fn words(row: &Measured, latency_ms: Option<f64>, limits: FrameLimits) -> String {
+fn advice_text(row: &Measured, latency_ms: Option<f64>, limits: FrameLimits) -> String {
     // Traces count whole nanoseconds, so anything below a microsecond is rounding.
     let to_microseconds = |ms: f64| (1000.0 * ms).round() / 1000.0;
     let ms = |value: Option<f64>| {

@@ -37,7 +37,7 @@ pub(super) fn figure(scene: &Scene, rows: &[Measured]) -> Figure {
     let several = by_trace.len() > 1;
     let charts = by_trace.iter().flat_map(|rows| {
         let before = if several { format!("{}: ", rows[0].trace) } else { String::new() };
-        [shown(rows, &before), costs(rows, &before)]
+        [chart_of_moments(rows, &before), costs(rows, &before)]
     });
     Figure { title, note, columns: 2, charts: charts.collect() }
 }
@@ -48,7 +48,7 @@ fn curve(index: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> Figu
 }
 
 /// The moment shown against the moment of display. The display holds each picture until the next.
-fn shown(rows: &[Measured], before: &str) -> Chart {
+fn chart_of_moments(rows: &[Measured], before: &str) -> Chart {
     let along = rows.iter().flat_map(|row| &row.drawn).map(|point| point[0]);
     let start = along.clone().reduce(f64::min).unwrap_or(0.0);
     let end = along.fold(start + 1.0, f64::max);

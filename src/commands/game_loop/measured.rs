@@ -95,7 +95,7 @@ fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [
         json!(shown_ms),
         json!(steps.count),
         json!(dropped_ms),
-        json!(run.lane().drawn(0)[0]),
+        json!(run.lane().drawn_coordinates(0)[0]),
     ]
 }
 

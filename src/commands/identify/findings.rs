@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::sim::integrators::Method;
 use crate::sim::number::significant;
 use crate::tools::identify::{
-    Candidate, Conclusion, Effective, Fitted, Identification, Log, SpringAs,
+    Candidate, Conclusion, Effective, Fitted, Identification, Log, SpringForm,
 };
 
 /// Residual beyond which no method is named as the nearest.
@@ -85,7 +85,7 @@ fn named(candidate: &Candidate) -> Value {
 /// Id of the joint's mode, if the spring is a joint.
 fn mode(candidate: &Candidate) -> Option<&'static str> {
     match candidate.spring {
-        SpringAs::Joint(mode) => Some(mode.id),
+        SpringForm::Joint(mode) => Some(mode.id),
         _ => None,
     }
 }
@@ -94,7 +94,7 @@ fn mode(candidate: &Candidate) -> Option<&'static str> {
 fn names(candidates: &[Candidate]) -> String {
     let mut all: Vec<(&str, Option<&str>, Vec<u32>)> = Vec::new();
     for candidate in candidates {
-        let (id, told) = (candidate.method.id, candidate.told());
+        let (id, told) = (candidate.method.id, candidate.spring_label());
         match all.iter_mut().find(|(known, of, _)| *known == id && *of == told) {
             Some((.., counts)) => counts.push(candidate.substeps),
             None => all.push((id, told, vec![candidate.substeps])),
@@ -121,7 +121,7 @@ fn signed(number: f64) -> String {
 }
 
 /// Describes a motion.
-fn seen(effective: &Effective) -> String {
+fn motion_text(effective: &Effective) -> String {
     let ratio = effective.damping_ratio().map(|ratio| {
         let ratio = if ratio.abs() < 5e-7 { 0.0 } else { ratio };
         format!("damping ratio {}", significant(ratio, 3))
@@ -213,7 +213,7 @@ fn verdict(found: &Identification, log: &Log) -> String {
     }
 }
 
-pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
+pub(super) fn report_text(found: &Identification, log: &Log, mass: f64) -> String {
     let Identification { conclusion, runner_up, effective, exact, recommended, .. } = found;
     let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);
     let rival = runner_up.as_ref();
@@ -254,7 +254,7 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
         ));
     }
     if let Some(effective) = effective {
-        lines.push(format!("a player sees: {}", seen(effective)));
+        lines.push(format!("a player sees: {}", motion_text(effective)));
         if let Some(stiffness) = effective.spring_stiffness() {
             lines.push(format!("as stiff as {} N/m", significant(stiffness * mass, 4)));
         }
@@ -262,10 +262,10 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
     if let Some(exact) = exact {
         let fitted =
             if found.is_spring_fitted { "by the spring that fits" } else { "the equation says" };
-        lines.push(format!("{fitted}: {}", seen(exact)));
+        lines.push(format!("{fitted}: {}", motion_text(exact)));
     }
     for (method, effective) in recommended {
-        lines.push(format!("under {}: {}", method.id, seen(effective)));
+        lines.push(format!("under {}: {}", method.id, motion_text(effective)));
     }
     let named: Vec<&Candidate> = match (conclusion, rival) {
         (Conclusion::Identified, _) => makers.into_iter().take(MAX_MAKERS).collect(),
@@ -277,7 +277,7 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
     let mut engines: Vec<&Method> = named.iter().map(|candidate| candidate.method).collect();
     engines.dedup();
     lines.extend(engines.into_iter().filter_map(|method| {
-        let held = method.engine?.held_against()?;
+        let held = method.engine?.checked_against()?;
         Some(format!("{}: {held}", method.id))
     }));
     lines.push(String::new());
@@ -293,7 +293,7 @@ mod tests {
     fn the_first_line_puts_joints_before_held_forces_and_names_equal_maps() {
         let candidate = |id: &str, substeps, is_held| {
             let method = METHODS.iter().find(|method| method.id == id).expect("a method");
-            let spring = if is_held { SpringAs::HeldForce } else { SpringAs::Acceleration };
+            let spring = if is_held { SpringForm::HeldForce } else { SpringForm::Acceleration };
             Candidate { method, substeps, spring }
         };
         let held = candidate("engine-jolt", 1, true);

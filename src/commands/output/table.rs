@@ -138,11 +138,11 @@ pub(crate) fn write_rows<T>(
     columns: &[Column<T>],
     items: &[T],
 ) -> Result<(), Error> {
-    let out = written(out, format, columns, items)?;
+    let out = append_rows(out, format, columns, items)?;
     out.finish(&counted(items.len(), "row"))
 }
 
-fn written<W: Write, T>(
+fn append_rows<W: Write, T>(
     out: W,
     format: RowFormat,
     columns: &[Column<T>],
@@ -224,7 +224,7 @@ mod tests {
 
     #[test]
     fn csv_and_json_have_the_same_rows() {
-        let rows = |format| String::from_utf8(written(vec![], format, COLUMNS, ROWS).unwrap());
+        let rows = |format| String::from_utf8(append_rows(vec![], format, COLUMNS, ROWS).unwrap());
         let csv = "name,limit,half\nα,2.0,1.0\nbeta,,\nc,0.12345,0.061725\n";
         assert_eq!(rows(RowFormat::Csv).unwrap(), csv);
         let json = rows(RowFormat::Json).unwrap();

@@ -7,8 +7,8 @@ use crate::commands::output::table::TableFormat;
 use crate::sim::number::{round, significant};
 use crate::tools::identify::Effective;
 use crate::tools::port::{
-    Approach, Departure, Dialect, DialectPort, DriveLimits, FollowerPort, Friction, GainRange,
-    Ported, Reach, Setup, Wish,
+    Approach, Departure, DriveLimits, FollowerPort, Friction, GainRange, PortOutcome, Ported,
+    Setup, UiSpring, UiSpringPort, Wish,
 };
 
 /// Describes a frequency, a damping ratio and how long the energy lasts.
@@ -44,7 +44,7 @@ fn name(setup: &Setup) -> String {
     format!("{} ×{}, {}", setup.method.id, setup.substeps, setup.mode.id)
 }
 
-fn want(wish: &Wish, tick_hz: f64) -> String {
+fn wish_line(wish: &Wish, tick_hz: f64) -> String {
     let [hz, ratio] = [wish.frequency_hz, wish.damping_ratio].map(|x| significant(x, 4));
     let tick_hz = round(tick_hz, 6);
     format!("{hz} Hz, damping ratio {ratio}, {} kg, at {tick_hz} ticks per second\n", wish.mass_kg)
@@ -69,25 +69,26 @@ pub(super) fn springs(
     wish: &Wish,
     tick_hz: f64,
     all: &[PortedEngine],
-    dialects: &[&Dialect],
+    dialects: &[&UiSpring],
     format: TableFormat,
 ) -> String {
     let dialects = dialects.iter().map(|dialect| (*dialect, dialect.port(wish, tick_hz)));
     match format {
         TableFormat::Json => {
             let engines: Vec<Value> = all.iter().map(row).collect();
-            let dialects: Vec<Value> = dialects.map(|(it, port)| dialect_row(it, &port)).collect();
+            let dialects: Vec<Value> =
+                dialects.map(|(it, port)| ui_spring_row(it, &port)).collect();
             object(wish, tick_hz, json!({ "engines": engines, "dialects": dialects }))
         }
         TableFormat::Text => {
-            let engines = all.iter().map(|engine| block(wish, engine));
-            let dialects = dialects.map(|(it, port)| dialect_block(it, &port, tick_hz));
-            want(wish, tick_hz) + &engines.chain(dialects).collect::<String>()
+            let engines = all.iter().map(|engine| engine_text(wish, engine));
+            let dialects = dialects.map(|(it, port)| ui_spring_text(it, &port, tick_hz));
+            wish_line(wish, tick_hz) + &engines.chain(dialects).collect::<String>()
         }
     }
 }
 
-fn dialect_row(dialect: &Dialect, port: &DialectPort) -> Value {
+fn ui_spring_row(dialect: &UiSpring, port: &UiSpringPort) -> Value {
     let settings: Map<String, Value> = dialect
         .keys
         .iter()
@@ -102,7 +103,7 @@ fn dialect_row(dialect: &Dialect, port: &DialectPort) -> Value {
     json!({
         "id": dialect.id,
         "settings": settings,
-        "word": port.reach.id(),
+        "word": port.outcome.id(),
         "steps": dialect.steps(),
         "explodes_below_hz": port.explodes_below_hz,
         "seen": port.seen.as_ref().map(seen),
@@ -115,22 +116,22 @@ fn dialect_row(dialect: &Dialect, port: &DialectPort) -> Value {
     })
 }
 
-fn dialect_block(dialect: &Dialect, port: &DialectPort, frame_hz: f64) -> String {
+fn ui_spring_text(dialect: &UiSpring, port: &UiSpringPort, frame_hz: f64) -> String {
     let pairs = dialect.keys.iter().zip(&port.values);
     let set = pairs.map(|(key, value)| match key.switch {
         Some(_) => format!("{} = {}", key.name, *value == 1.0),
         None => format!("{} = {}", key.name, round(*value, 6)),
     });
     let set: Vec<String> = set.collect();
-    let mut lines = vec![format!("\n{}: {}", dialect.id, port.reach.id())];
+    let mut lines = vec![format!("\n{}: {}", dialect.id, port.outcome.id())];
     lines.push(format!("  {}", set.join(", ")));
     lines.push(format!("  {}", dialect.at_frame_rates(port, frame_hz)));
-    if port.reach != Reach::Reached {
+    if port.outcome != PortOutcome::Reached {
         lines.extend(port.seen.as_ref().map(|seen| format!("  a player sees: {}", sees(seen))));
     }
     lines.extend(dialect.switched_on(&port.values).map(|switch| format!("  {}", switch.note)));
     lines.extend(port.code.lines().map(|line| format!("    {line}")));
-    lines.extend(dialect.held_against().map(|held| format!("  {held}")));
+    lines.extend(dialect.checked_against().map(|held| format!("  {held}")));
     lines.join("\n") + "\n"
 }
 
@@ -140,7 +141,7 @@ fn row(PortedEngine { setup, ported }: &PortedEngine) -> Value {
         let names = setup.mode.settings().map(|setting| setting.name.to_owned());
         names.into_iter().zip(ported.values.map(Value::from)).collect()
     };
-    let word = ported.as_ref().map_or(Reach::Nearest, |ported| ported.reach).id();
+    let word = ported.as_ref().map_or(PortOutcome::Nearest, |ported| ported.outcome).id();
     let force = |[k, c]: [f64; 2]| json!({"stiffness_n_per_m": k, "damping_n_s_per_m": c});
     json!({
         "method": setup.method.id,
@@ -157,36 +158,36 @@ fn row(PortedEngine { setup, ported }: &PortedEngine) -> Value {
     })
 }
 
-fn block(wish: &Wish, PortedEngine { setup, ported }: &PortedEngine) -> String {
+fn engine_text(wish: &Wish, PortedEngine { setup, ported }: &PortedEngine) -> String {
     let Some(ported) = ported else {
         return format!("\n{}: nothing near\n", name(setup));
     };
-    let mut lines = vec![format!("\n{}: {}", name(setup), ported.reach.id())];
+    let mut lines = vec![format!("\n{}: {}", name(setup), ported.outcome.id())];
     let set = setup.mode.settings().into_iter().zip(ported.values).map(|(setting, value)| {
         let unit = setting.quantity.unit();
         format!("{} = {} {unit}", setting.name, round(value, 6)).trim_end().to_owned()
     });
     lines.push(format!("  {}", set.collect::<Vec<_>>().join(", ")));
     lines.push(format!("  a player sees: {}", sees(&ported.sees)));
-    lines.extend(missed(wish, ported).map(|said| format!("  {said}")));
+    lines.extend(miss_note(wish, ported).map(|said| format!("  {said}")));
     lines.extend(ported.own_force.map(|[k, c]| {
         let [k, c] = [k, c].map(|x| round(x, 6));
         format!("  a force of your own reaches it: stiffness {k} N/m, damping {c} N s/m")
     }));
     lines.extend(ported.code().lines().map(|line| format!("    {line}")));
-    let held = setup.method.engine.and_then(|engine| engine.held_against());
+    let held = setup.method.engine.and_then(|engine| engine.checked_against());
     lines.extend(held.map(|said| format!("  {said}")));
     lines.join("\n") + "\n"
 }
 
 /// How far and why the settings miss the wish.
-fn missed(wish: &Wish, ported: &Ported) -> Option<String> {
+fn miss_note(wish: &Wish, ported: &Ported) -> Option<String> {
     let Setup { method, substeps, tick_hz, .. } = ported.setup;
     let three = |ratio: f64| significant(ratio, 3);
     let [hz, tick_hz] = [round(wish.frequency_hz, 4), round(tick_hz, 6)];
-    match (ported.reach, ported.floor) {
-        (Reach::Reached, _) => None,
-        (Reach::Unreachable, Some(floor)) => {
+    match (ported.outcome, ported.floor) {
+        (PortOutcome::Reached, _) => None,
+        (PortOutcome::Unreachable, Some(floor)) => {
             let mut said = format!(
                 "{} ×{substeps} at {tick_hz} Hz cannot go below a damping ratio of {} at {hz} Hz",
                 method.name,
@@ -274,7 +275,7 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
             };
             let blocks =
                 all.iter().flat_map(|d| d.limits.iter().map(move |limits| said(d, limits)));
-            want(wish, tick_hz) + &gains + &blocks.collect::<String>()
+            wish_line(wish, tick_hz) + &gains + &blocks.collect::<String>()
         }
     }
 }

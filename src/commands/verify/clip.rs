@@ -39,7 +39,7 @@ fn unjudged(dir: &Path) -> impl Fn(String) -> Error {
 pub(super) fn read_run(dir: &Path) -> Result<Rerun, Error> {
     let read = || {
         let manifest = read(&dir.join(FILE_NAME))?;
-        let (experiment, capture) = settings::read(&manifest.settings)?;
+        let (experiment, capture) = settings::from_manifest(&manifest.settings)?;
         Ok(Rerun { manifest, capture, experiment })
     };
     read().map_err(unjudged(dir))

@@ -112,7 +112,7 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
     if scene.checks.is_empty() {
         return Err(Error::mistake(format!(
             "{} has no [[check]] to be judged by; --bless writes one for each second and the end, or fewer if the scene is long",
-            scene_file::shown(path)
+            scene_file::name_in_messages(path)
         )));
     }
     check_ticks(path, &scene)?;
@@ -124,7 +124,7 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
         report.judged(lane.name(), lane.difference.as_ref().map(Difference::line));
     }
     report.field("lanes", lanes.iter().map(JudgedLane::object).collect());
-    let (shown, count) = (scene_file::shown(path), report.differing());
+    let (shown, count) = (scene_file::name_in_messages(path), report.differing());
     let differ = match count {
         1 => format!("1 lane of {shown} differs"),
         _ => format!("{count} lanes of {shown} differ"),
@@ -145,7 +145,7 @@ fn of_no_lane(path: &Path, lane: impl Display, tick: u64) -> String {
     format!(
         "lane {lane} of {} has left the race at tick {tick}, where a [[check]] names it; \
          take that check out, or the `solo` that removes the lane",
-        scene_file::shown(path)
+        scene_file::name_in_messages(path)
     )
 }
 
@@ -156,7 +156,7 @@ pub(in crate::commands) fn refuse_late_checks(path: &Path, scene: &Scene) -> Res
         None => Ok(()),
         Some(tick) => Err(Error::mistake(format!(
             "{} has a [[check]] at tick {tick}, and verify runs {MAX_TICKS} ticks at most; take it out",
-            scene_file::shown(path)
+            scene_file::name_in_messages(path)
         ))),
     }
 }
@@ -169,7 +169,7 @@ pub(in crate::commands) fn end_of(path: &Path, scene: &Scene) -> Result<u64, Err
         true => Ok(last),
         false => Err(Error::mistake(format!(
             "{} runs for {last} ticks, and verify runs {MAX_TICKS} at most; lower its seconds, or its tick_hz",
-            scene_file::shown(path)
+            scene_file::name_in_messages(path)
         ))),
     }
 }
@@ -187,7 +187,7 @@ fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
     };
     print_status(&format!(
         "{count} {are} beyond the end of {} at tick {end} ({} s); the race runs on to tick {last}",
-        scene_file::shown(path),
+        scene_file::name_in_messages(path),
         scene.seconds
     ));
     Ok(())
@@ -240,7 +240,7 @@ fn with_line_ends_of(before: &str, text: &str) -> String {
 struct MethodsSeen(Vec<Vec<&'static str>>);
 
 impl MethodsSeen {
-    fn look(&mut self, race: &Race) {
+    fn record_methods(&mut self, race: &Race) {
         for entrant in race.entrants() {
             let seen = &mut self.0[entrant.id.index()];
             let method = entrant.lane.solver().method().map(|method| method.id);
@@ -251,7 +251,7 @@ impl MethodsSeen {
 
 impl Observer for MethodsSeen {
     fn after(&mut self, race: &Race, _: &PerformedAction) {
-        self.look(race);
+        self.record_methods(race);
     }
 }
 
@@ -264,7 +264,7 @@ fn replay(scene: &Scene, observer: &mut dyn Observer) -> Vec<Reached> {
 /// Runs the race of a scene and compares every lane with its checks.
 fn compare(scene: &Scene) -> Vec<JudgedLane> {
     let mut methods = MethodsSeen(vec![Vec::new(); scene.lanes.len()]);
-    methods.look(&Race::of_scene(scene));
+    methods.record_methods(&Race::of_scene(scene));
     let all_reached = replay(scene, &mut methods);
     let lanes = methods.0.into_iter().zip(1..).map(|(methods, number)| JudgedLane {
         number,

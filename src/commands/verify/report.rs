@@ -10,7 +10,7 @@ use crate::atomic_file::IfExists;
 use crate::commands::error::{Error, PlaceOf};
 use crate::commands::frame_names::not_ours;
 use crate::commands::output::{Destination, Input, Output, print};
-use crate::commands::scene_file::shown;
+use crate::commands::scene_file::name_in_messages;
 use crate::regular_file;
 
 /// The format of a file that holds the result.
@@ -128,7 +128,7 @@ impl Report {
     }
 
     fn to_json(&self) -> String {
-        let path = shown(&self.path);
+        let path = name_in_messages(&self.path);
         let mut object = json!({ self.key: path, "same": self.differing() == 0 });
         for (key, value) in &self.fields {
             object[key] = value.clone();
@@ -140,7 +140,7 @@ impl Report {
     fn to_junit(&self) -> String {
         let mut text = format!(
             "{JUNIT_BEGINS}{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n",
-            escaped(&shown(&self.path)),
+            escaped(&name_in_messages(&self.path)),
             self.cases.len(),
             self.differing(),
         );

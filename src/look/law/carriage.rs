@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use super::reach;
 use crate::sim::System;
 use crate::sim::bodies::Law;
@@ -72,7 +72,7 @@ impl<'a> Carriage<'a> {
     }
 }
 
-impl Drawn for Carriage<'_> {
+impl BodyPicture for Carriage<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let unit = self.unit;
         let (body, hub) = (DVec2::new(0.0, q[0]), self.hub(q[1]));

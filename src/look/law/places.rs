@@ -2,7 +2,7 @@
 
 use glam::{DMat2, DVec2};
 
-use super::super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Law;
 
 /// Radius of a disc, relative to half the picture.
@@ -79,7 +79,7 @@ fn smallest_change(slopes: &[DVec2], by: DVec2) -> Vec<f64> {
     slopes.iter().map(|slope| slope.dot(weights)).collect()
 }
 
-impl Drawn for Places<'_> {
+impl BodyPicture for Places<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let radius = self.radius();
         let discs = self.law.places(q).into_iter().map(|centre| Mark::Disc { centre, radius });

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use super::reach;
 
 /// Radius of a body, distance of two bodies, and half the length of the line at 0, relative to the range of heights.
@@ -28,7 +28,7 @@ impl Vertical {
     }
 }
 
-impl Drawn for Vertical {
+impl BodyPicture for Vertical {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let ([low, high], range) = (reach(&self.ranges), self.range());
         let last = self.at(self.ranges.len() - 1, 0.0);

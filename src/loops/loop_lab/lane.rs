@@ -89,7 +89,7 @@ impl LoopLane {
                 shown_ms: record.shown_ms,
                 ticks: std::mem::take(&mut ticks),
                 animation_error_ms: record.animation_error_ms.unwrap_or_default(),
-                q: run.lane().drawn(0).into(),
+                q: run.lane().drawn_coordinates(0).into(),
                 exact: run.exact(0).into(),
                 stepped: LoopState::of(&run.lane().lane().bodies()[0]),
                 exact_state: LoopState::of(run.exact_body(0)),

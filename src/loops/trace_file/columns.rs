@@ -17,16 +17,21 @@ pub(super) enum Span {
 
 /// Known formats: the tool, the span of a row, the column of frame times, and a column that must occur beside it.
 /// Each name also matches without its `Ms`.
-const FORMATS: [(&str, Span, &str, Beside); 9] = [
-    (PRESENTMON, Span::Before, "MsBetweenPresents", Beside::Until("MsUntilDisplayed")),
-    (PRESENTMON, Span::Before, "MsBetweenPresents", Beside::Display("MsBetweenDisplayChange")),
-    (PRESENTMON, Span::After, "MsFrameTime", Beside::Display("MsDisplayedTime")),
-    (PRESENTMON, Span::After, "MsFrameTime", Beside::Other("CPUBusy")),
-    ("Unreal", Span::Before, "FrameTime", Beside::Other("GameThreadTime")),
-    (FRAPS, Span::Before, "Time (ms)", Beside::Other("Frame")),
-    (MANGOHUD, Span::Before, "frametime", Beside::Other("fps")),
-    (OLD_MANGOHUD, Span::Before, "elapsed", Beside::Other("fps")),
-    (PRESENTMON, Span::Before, "MsBetweenPresents", Beside::Nothing),
+const FORMATS: [(&str, Span, &str, CompanionColumn); 9] = [
+    (PRESENTMON, Span::Before, "MsBetweenPresents", CompanionColumn::Until("MsUntilDisplayed")),
+    (
+        PRESENTMON,
+        Span::Before,
+        "MsBetweenPresents",
+        CompanionColumn::Display("MsBetweenDisplayChange"),
+    ),
+    (PRESENTMON, Span::After, "MsFrameTime", CompanionColumn::Display("MsDisplayedTime")),
+    (PRESENTMON, Span::After, "MsFrameTime", CompanionColumn::Other("CPUBusy")),
+    ("Unreal", Span::Before, "FrameTime", CompanionColumn::Other("GameThreadTime")),
+    (FRAPS, Span::Before, "Time (ms)", CompanionColumn::Other("Frame")),
+    (MANGOHUD, Span::Before, "frametime", CompanionColumn::Other("fps")),
+    (OLD_MANGOHUD, Span::Before, "elapsed", CompanionColumn::Other("fps")),
+    (PRESENTMON, Span::Before, "MsBetweenPresents", CompanionColumn::Nothing),
 ];
 
 /// Tools that write PresentMon's columns, recognized by a column of theirs. The first match counts.
@@ -49,7 +54,7 @@ const TIMES: [(&str, f64, bool); 3] =
 const OF_MANGOHUD: [&str; 3] = ["elapsed", "cpu_load", "gpu_load"];
 
 /// The column expected beside a column of frame times.
-enum Beside {
+enum CompanionColumn {
     /// The times from each frame to its own display, in a log without a column of dropped frames.
     Until(&'static str),
     /// The times between displays.
@@ -186,21 +191,22 @@ impl Columns {
             Some(Column { index, name: header[index].trim().to_owned() })
         };
         let is_dropped_said = index("Dropped").is_some();
-        let times = |(format, span, began, beside): &(&'static str, Span, &str, Beside)| {
-            let (displayed, is_until) = match beside {
-                Beside::Until(_) if is_dropped_said => return None,
-                Beside::Until(name) => (Some(column(name)?), true),
-                Beside::Display(name) => (Some(column(name)?), false),
-                Beside::Other(name) => index(name).map(|_| (None, false))?,
-                Beside::Nothing => (None, false),
+        let times =
+            |(format, span, began, beside): &(&'static str, Span, &str, CompanionColumn)| {
+                let (displayed, is_until) = match beside {
+                    CompanionColumn::Until(_) if is_dropped_said => return None,
+                    CompanionColumn::Until(name) => (Some(column(name)?), true),
+                    CompanionColumn::Display(name) => (Some(column(name)?), false),
+                    CompanionColumn::Other(name) => index(name).map(|_| (None, false))?,
+                    CompanionColumn::Nothing => (None, false),
+                };
+                let unit = match *format {
+                    MANGOHUD => None,
+                    OLD_MANGOHUD => Some(Unit::Nanoseconds),
+                    _ => Some(Unit::Milliseconds),
+                };
+                Some((*format, unit, *span, column(began)?, (displayed, is_until)))
             };
-            let unit = match *format {
-                MANGOHUD => None,
-                OLD_MANGOHUD => Some(Unit::Nanoseconds),
-                _ => Some(Unit::Milliseconds),
-            };
-            Some((*format, unit, *span, column(began)?, (displayed, is_until)))
-        };
         let found = FORMATS.iter().find_map(times).or_else(|| {
             let (began, unit) = of_list(header)?;
             Some((LIST, unit, Span::Before, began, (None, false)))

@@ -3,7 +3,7 @@
 use super::Fault;
 use super::columns::{Cells, Span};
 use crate::loops::time_base::RefreshRate;
-use crate::loops::trace::{Frame, FrameTrace, Parting};
+use crate::loops::trace::{ClockConflict, Frame, FrameTrace};
 
 const YEAR_NS: i64 = 365 * 86_400_000_000_000;
 
@@ -84,7 +84,7 @@ impl Stream {
     /// Adds the frame of a row. A generated frame only lets time pass, since the program's loop has no part in it.
     pub(super) fn push(&mut self, cells: &Cells) -> Result<(), Fault> {
         if cells.is_generated {
-            self.pass(cells);
+            self.skip_generated_frame(cells);
             return Ok(());
         }
         let frame = match cells.span {
@@ -111,7 +111,7 @@ impl Stream {
     }
 
     /// Lets the times of a generated frame pass. Its own beginning may be unknown.
-    fn pass(&mut self, cells: &Cells) {
+    fn skip_generated_frame(&mut self, cells: &Cells) {
         let (began, shown) = (cells.began_ns.as_ref().copied().unwrap_or(0), cells.displayed_ns);
         match cells.span {
             Span::Before => {
@@ -164,7 +164,7 @@ impl Stream {
 
     /// Which times contradict the frame times: the log's own time or the display times. If the unit of the log's own
     /// time is not certain, a factor of a power of 1000 is ignored.
-    fn parting(&self, is_sure: bool) -> Option<Parting> {
+    fn parting(&self, is_sure: bool) -> Option<ClockConflict> {
         let ratio = self.time_ratio().map(|ratio| match is_sure {
             true => ratio,
             false => ratio / libm::pow(1e3, (libm::log10(ratio) / 3.0).round()),
@@ -173,7 +173,7 @@ impl Stream {
         let few = 3.0 / self.frames.len() as f64;
         let is_late = ratio.is_some_and(|ratio| (ratio - 1.0).abs() > PARTED.max(few));
         let are_parted = are_parted(&self.frames, self.shown);
-        is_late.then_some(Parting::Time).or(are_parted.then_some(Parting::Display))
+        is_late.then_some(ClockConflict::Time).or(are_parted.then_some(ClockConflict::Display))
     }
 
     /// The trace of all its frames. If times contradict each other, or `known` is a contradiction, frames count as
@@ -182,7 +182,7 @@ impl Stream {
         mut self,
         name: String,
         is_sure: bool,
-        known: Option<Parting>,
+        known: Option<ClockConflict>,
     ) -> FrameTrace {
         let parting = self.parting(is_sure).or(known);
         if parting.is_some() {
@@ -192,7 +192,7 @@ impl Stream {
         }
         let trace = FrameTrace::recorded(name, nominal_refresh(&self.frames), self.frames);
         match parting {
-            Some(parting) => trace.with_parted_clocks(parting),
+            Some(parting) => trace.with_conflicting_clocks(parting),
             None => trace,
         }
     }

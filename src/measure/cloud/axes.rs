@@ -16,9 +16,10 @@ const MOMENTS: u64 = 60;
 /// Maximum number of ticks that they take into account: at most a second of work.
 const MAX_TICKS: u64 = 3000;
 /// How far a point of a lone cloud may lie beyond the cloud's middle half, in widths of that half.
-const TOGETHER: f64 = 3.0;
-/// How far other clouds may widen the axes, in widths of the exact cloud.
-const BESIDE: f64 = 0.1;
+const MAX_STRAY_WIDTHS: f64 = 3.0;
+/// How far other clouds may widen the axes of a run and those at one moment, in widths of the exact cloud.
+const MAX_WIDENING: f64 = 0.1;
+const MAX_WIDENING_AT_ONCE: f64 = 0.25;
 
 /// The moments that a picture covers: `times` of them, spread evenly over the first `ticks` of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,13 +90,13 @@ impl CloudAxes {
                 others.extend(scout.q().iter().zip(scout.v()).map(|(&q, &v)| [q, v]));
             }
         }
-        let whole = PlaneView::around(&exact, &others, BESIDE, is_angle);
+        let whole = PlaneView::around(&exact, &others, MAX_WIDENING, is_angle);
         Ok(Self { whole, widest })
     }
 
     /// The view at one moment, given the exact border and some points of each cloud. With one cloud, it shows all of
-    /// its points that stay together. With several, it shows those within the whole region, on axes no larger than
-    /// that region.
+    /// its points that stay together. With several, it fits the exact cloud, with a little room for the others, on
+    /// axes no larger than the whole region.
     pub(super) fn around(&self, border: &[[f64; 2]], clouds: &[Vec<[f64; 2]>]) -> PlaneView {
         let mut view = self.whole;
         let is_alone = clouds.len() == 1;
@@ -103,10 +104,11 @@ impl CloudAxes {
             self.whole.place(*q, *v).iter().all(|part| (0.0..=1.0).contains(part))
         };
         let seen: Vec<_> = match clouds {
-            [cloud] => together(cloud),
+            [cloud] => without_strays(cloud),
             _ => clouds.concat().into_iter().filter(is_in_whole).collect(),
         };
-        let near = PlaneView::around(border, &seen, f64::INFINITY, false);
+        let widening = if is_alone { f64::INFINITY } else { MAX_WIDENING_AT_ONCE };
+        let near = PlaneView::around(border, &seen, widening, false);
         for (i, (range, [low, high])) in
             [(&mut view.q, near.q), (&mut view.v, near.v)].into_iter().enumerate()
         {
@@ -121,14 +123,14 @@ impl CloudAxes {
 }
 
 /// The points within a few widths of the cloud's middle half; others fly off.
-fn together(cloud: &[[f64; 2]]) -> Vec<[f64; 2]> {
+fn without_strays(cloud: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let ranges = [0, 1].map(|i| {
         let mut values: Vec<f64> = cloud.iter().map(|point| point[i]).collect();
         values.retain(|value| value.is_finite());
         values.sort_by(f64::total_cmp);
         let at = |part: usize| values.get(part * values.len() / 4).copied().unwrap_or_default();
         let (low, high) = (at(1), at(3));
-        let wide = TOGETHER * (high - low);
+        let wide = MAX_STRAY_WIDTHS * (high - low);
         low - wide..=high + wide
     });
     let keeps = |point: &&[f64; 2]| (0..2).all(|i| ranges[i].contains(&point[i]));

@@ -47,7 +47,7 @@ pub(super) fn copies_of(
 }
 
 /// Stored states of all copies at a tick.
-struct Kept {
+struct StoredState {
     tick: u64,
     q: Vec<f64>,
     v: Vec<f64>,
@@ -62,7 +62,7 @@ pub(super) struct Course {
     ticks: Ticks,
     memory: Memory,
     /// Stored states by tick, the start first; empty if the course never goes back.
-    kept: Vec<Kept>,
+    kept: Vec<StoredState>,
     spacing: u64,
     /// The small areas whose corners the copies are.
     lozenges: Option<Lozenges>,
@@ -87,7 +87,7 @@ impl Course {
 
     /// The same course, storing states so that it can go back.
     pub(super) fn rewindable(mut self) -> Self {
-        self.keep();
+        self.store_state();
         self
     }
 
@@ -122,7 +122,7 @@ impl Course {
     /// Steps to a tick; an earlier one only if the course is [rewindable](Self::rewindable).
     pub(super) fn go_to(&mut self, tick: u64) {
         if tick < self.tick() {
-            self.go_back(tick);
+            self.rewind_to(tick);
         }
         while self.tick() < tick {
             let mark = (self.tick() / SPACING + 1) * SPACING;
@@ -136,15 +136,15 @@ impl Course {
                 place(&mut self.batch, &q, &v);
             }
             if self.tick() == mark {
-                self.mark();
+                self.store_if_due();
             }
         }
     }
 
     /// Returns to the last stored state at or before a tick.
-    fn go_back(&mut self, tick: u64) {
+    fn rewind_to(&mut self, tick: u64) {
         let nearest = self.kept.iter().rfind(|kept| kept.tick <= tick);
-        let Kept { tick, q, v, factors } =
+        let StoredState { tick, q, v, factors } =
             nearest.expect("a course that goes back has kept its start");
         place(&mut self.batch, q, v);
         if let Some(lozenges) = &mut self.lozenges {
@@ -154,13 +154,13 @@ impl Course {
     }
 
     /// Called where a state may be stored: drops the method's memory if necessary, and stores the state if it is due.
-    fn mark(&mut self) {
+    fn store_if_due(&mut self) {
         if self.memory == Memory::Dropped {
             self.batch.change(|_, _| ());
         }
         let is_new = self.kept.last().is_some_and(|last| last.tick < self.tick());
         if is_new && self.memory != Memory::Carried && self.tick().is_multiple_of(self.spacing) {
-            self.keep();
+            self.store_state();
         }
         let bytes = size_of_val(self.q()) * 2;
         if self.kept.len() > 2 && self.kept.len() * bytes > KEPT_BYTES {
@@ -169,10 +169,10 @@ impl Course {
         }
     }
 
-    fn keep(&mut self) {
+    fn store_state(&mut self) {
         let [q, v] = [self.q(), self.v()].map(<[f64]>::to_vec);
         let factors = self.lozenges.as_ref().map_or(Vec::new(), |it| it.factors.clone());
-        self.kept.push(Kept { tick: self.tick(), q, v, factors });
+        self.kept.push(StoredState { tick: self.tick(), q, v, factors });
     }
 }
 

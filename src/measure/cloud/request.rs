@@ -143,6 +143,8 @@ pub struct LaneCloud {
     pub lost: usize,
     /// Number of remaining points beyond the axes; 0 for a section.
     pub hidden: usize,
+    /// Those of them on each side: left, right, below, above.
+    pub beyond: [usize; 4],
     /// Area relative to the start, as [`crate::measure::cloud::Cloud::area_ratio`].
     pub area_ratio: Option<f64>,
     /// The change of the area, in words.

@@ -41,17 +41,17 @@ const SEEN: usize = 1_000;
 pub struct CloudWorker {
     request: Option<Arc<CloudRequest>>,
     /// The run of the last request.
-    run: Option<Result<Running, NoCloud>>,
+    run: Option<Result<CloudInProgress, NoCloud>>,
     is_done: bool,
     /// Stride: every n-th point is stepped.
-    thinned: usize,
+    stride: usize,
     /// Requested and reached tick at the last check of whether the run keeps up.
     looked: Option<[u64; 2]>,
 }
 
 impl Default for CloudWorker {
     fn default() -> Self {
-        Self { request: None, run: None, is_done: false, thinned: 1, looked: None }
+        Self { request: None, run: None, is_done: false, stride: 1, looked: None }
     }
 }
 
@@ -61,14 +61,14 @@ impl CloudWorker {
     pub fn set_request(&mut self, request: Option<Arc<CloudRequest>>) {
         match (&self.request, &request) {
             (Some(old), Some(new)) if old.is_alike(new) => {
-                let thinned = self.thinned_for(old.tick, new);
-                if thinned != self.thinned {
-                    (self.run, self.looked, self.thinned) = (None, None, thinned);
+                let stride = self.stride_for(old.tick, new);
+                if stride != self.stride {
+                    (self.run, self.looked, self.stride) = (None, None, stride);
                 }
             }
             (_, new) => {
-                let thinned = new.as_deref().map_or(1, thinned_at_first);
-                (self.run, self.looked, self.thinned) = (None, None, thinned);
+                let stride = new.as_deref().map_or(1, initial_stride);
+                (self.run, self.looked, self.stride) = (None, None, stride);
             }
         }
         self.is_done = request.is_none();
@@ -76,8 +76,8 @@ impl CloudWorker {
     }
 
     /// The stride to use from now on, when `new` replaces the request for the tick `old`.
-    fn thinned_for(&mut self, old: u64, new: &CloudRequest) -> usize {
-        let Some(Ok(Running::Clouds(run))) = &self.run else { return self.thinned };
+    fn stride_for(&mut self, old: u64, new: &CloudRequest) -> usize {
+        let Some(Ok(CloudInProgress::Clouds(run))) = &self.run else { return self.stride };
         if !new.in_time {
             self.looked = None;
             return 1;
@@ -86,13 +86,13 @@ impl CloudWorker {
         let now = [old, run.tick];
         let [asked, reached] = *self.looked.get_or_insert(now);
         if (asked..=asked + part).contains(&old) {
-            return self.thinned;
+            return self.stride;
         }
         self.looked = Some(now);
         let behind = old.saturating_sub(run.tick);
         let gained = (run.tick.saturating_sub(reached)).saturating_sub(old.saturating_sub(asked));
         let keeps_up = behind <= part || 2 * gained >= behind;
-        if keeps_up { self.thinned } else { thinned_once(new, self.thinned) }
+        if keeps_up { self.stride } else { next_stride(new, self.stride) }
     }
 
     /// Whether nothing remains to do.
@@ -103,14 +103,14 @@ impl CloudWorker {
     /// Steps some ticks towards the requested one, and returns the picture if it is due.
     pub fn work(&mut self) -> Option<FoundCloud> {
         let request = self.request.as_ref().filter(|_| !self.is_done)?;
-        let run = self.run.get_or_insert_with(|| Running::new(request, self.thinned));
+        let run = self.run.get_or_insert_with(|| CloudInProgress::new(request, self.stride));
         let picture = match run {
-            Ok(Running::Section(run)) => {
+            Ok(CloudInProgress::Section(run)) => {
                 run.work();
                 self.is_done = run.is_done();
                 Ok(run.picture())
             }
-            Ok(Running::Clouds(run)) => {
+            Ok(CloudInProgress::Clouds(run)) => {
                 run.work(request.tick);
                 self.is_done = run.tick == request.tick;
                 let is_shown = self.is_done || run.tick.is_multiple_of(run.sampled_every);
@@ -126,33 +126,33 @@ impl CloudWorker {
 }
 
 /// The stride for a tenth of the points, or the same stride if there are too few points.
-fn thinned_once(request: &CloudRequest, thinned: usize) -> usize {
-    if request.choice.points / (10 * thinned) < LEAST_POINTS { thinned } else { 10 * thinned }
+fn next_stride(request: &CloudRequest, stride: usize) -> usize {
+    if request.choice.points / (10 * stride) < LEAST_POINTS { stride } else { 10 * stride }
 }
 
 /// The initial stride of a run. It is larger if the first requested tick is late.
-fn thinned_at_first(request: &CloudRequest) -> usize {
+fn initial_stride(request: &CloudRequest) -> usize {
     let points = request.choice.points as u64;
     let work =
         request.lanes.iter().map(|(_, spec)| cost(spec)).sum::<u64>() * points * request.tick;
-    let mut thinned = 1;
-    while request.in_time && work / thinned as u64 > WORK_AT_FIRST {
-        match thinned_once(request, thinned) {
-            same if same == thinned => break,
-            fewer => thinned = fewer,
+    let mut stride = 1;
+    while request.in_time && work / stride as u64 > WORK_AT_FIRST {
+        match next_stride(request, stride) {
+            same if same == stride => break,
+            fewer => stride = fewer,
         }
     }
-    thinned
+    stride
 }
 
 /// A cloud or a section in progress.
-enum Running {
+enum CloudInProgress {
     Clouds(Box<CloudRun>),
     Section(SectionRun),
 }
 
-impl Running {
-    fn new(request: &CloudRequest, thinned: usize) -> Result<Self, NoCloud> {
+impl CloudInProgress {
+    fn new(request: &CloudRequest, stride: usize) -> Result<Self, NoCloud> {
         let &CloudRequest { ref scene, ref changes, body, ref lanes, tick_hz, choice, .. } =
             request;
         let scene = changes.applied_to(scene).of_one_body(body);
@@ -171,7 +171,7 @@ impl Running {
         };
         match choice.kind {
             CloudKind::Shape(shape) => {
-                let points = choice.points / thinned;
+                let points = choice.points / stride;
                 CloudRun::new(request, shape, points).map(|run| Self::Clouds(Box::new(run)))
             }
             CloudKind::Section => SectionRun::new(request).map(Self::Section),
@@ -276,6 +276,7 @@ impl CloudRun {
                 entry: *entry,
                 lost: cloud.q().len() - cloud.points_left(),
                 hidden: cloud.hidden(&density),
+                beyond: cloud.beyond(view),
                 density: Arc::new(density),
                 area_ratio,
                 words: cloud.in_words(area_ratio, areas.iter().map(|[_, area]| *area)),

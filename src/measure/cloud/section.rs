@@ -112,6 +112,7 @@ impl SectionRun {
             density: lane.section.density.clone().into(),
             lost: STARTS - lane.cloud.points_left(),
             hidden: 0,
+            beyond: [0; 4],
             area_ratio: None,
             words: format!("{STARTS} starts, {} {} each", lane.section.crossings, self.intervals),
             measured: self.strobe.clone(),

@@ -29,7 +29,7 @@ fn with_ranking<T>(mets: &[CriterionMet], see: impl FnOnce(&Ranking) -> T) -> T 
 /// Index of the recommended method, given costs and reserves.
 fn first(costs: &[(f64, f64)]) -> Option<usize> {
     let mets: Vec<_> = costs.iter().map(|&(cost, reserve)| met(cost, Some(reserve))).collect();
-    with_ranking(&mets, |it| it.first())
+    with_ranking(&mets, |it| it.recommended_index())
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn margins_are_searched_only_until_the_first_place_is_known() {
                 mets[index] = met(all[index].0, Some(all[index].1));
             }
         }
-        assert_eq!(with_ranking(&mets, |it| it.first()), Some(wanted), "{all:?}");
+        assert_eq!(with_ranking(&mets, |it| it.recommended_index()), Some(wanted), "{all:?}");
         let found: Vec<usize> = (0..mets.len()).filter(|&i| mets[i].are_margins_searched).collect();
         assert_eq!(found, searched, "{all:?}");
         assert_eq!(first(all), Some(wanted), "all searched: {all:?}");

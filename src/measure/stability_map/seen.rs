@@ -7,7 +7,7 @@ use crate::tools::port::Setup;
 
 /// A line of equal damping ratio on a stability map.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SeenLine {
+pub struct DampingLine {
     /// The damping ratio that a player sees.
     pub damping_ratio: f64,
     /// Points of the line, in the coordinates of a region's boundary.
@@ -24,18 +24,18 @@ const WORK_OF_POINT: u64 = 20;
 
 /// The lines of an engine. `joint_at` returns stiffness in 1/s² and damping in 1/s, each per unit of mass, at a value
 /// of the mapped parameter.
-pub(super) async fn seen_lines(
+pub(super) async fn damping_lines(
     spec: &LaneSpec,
     corners: &Corners,
     joint_at: impl Fn(f64) -> Option<[f64; 2]>,
     meter: &Meter,
-) -> Vec<SeenLine> {
+) -> Vec<DampingLine> {
     let mut modes = spec.method.engine.map_or(&[][..], |engine| engine.modes).iter();
     let Some(mode) = modes.find(|mode| !mode.is_explicit) else { return Vec::new() };
     let seen = |[x, y]: [f64; 2]| {
         let tick_hz = libm::pow(10.0, x);
         let setup = Setup { method: spec.method, mode, tick_hz, substeps: spec.substeps };
-        setup.sees(joint_at(libm::pow(10.0, y))?)?.damping_ratio()
+        setup.visible_motion(joint_at(libm::pow(10.0, y))?)?.damping_ratio()
     };
     let [columns, rows] = corners.counts();
     let row = |j| (0..columns).map(|i| seen(corners.at([i, j]))).collect();
@@ -60,7 +60,7 @@ pub(super) async fn seen_lines(
             pieces.map(<[_]>::to_vec).collect::<Vec<_>>()
         };
         let of_ratio = found.boundary.iter().flat_map(pieces);
-        lines.extend(of_ratio.map(|points| SeenLine { damping_ratio, points }));
+        lines.extend(of_ratio.map(|points| DampingLine { damping_ratio, points }));
     }
     lines
 }

@@ -124,7 +124,7 @@ fn implicit_methods_are_stable_everywhere() {
         for (region, id) in map.regions.iter().zip(ids) {
             assert_eq!(region.coverage, Coverage::Everywhere, "{id}, c = {damping}");
         }
-        assert!(map.here.iter().all(|here| *here == Here::Stable), "{:?}", map.here);
+        assert!(map.here.iter().all(|here| *here == PointStability::Stable), "{:?}", map.here);
     }
 }
 
@@ -155,9 +155,9 @@ fn each_method_reports_its_behaviour_at_the_present_point() {
     // Each step of explicit Euler multiplies the amplitude by √(1 - c h + k h²).
     let h = 1.0 / 20.0;
     let wanted = 2.0_f64.ln() * h / (0.5 * libm::log(1.0 - h + 90.0 * h * h));
-    let Here::Doubles(seconds) = map.here[0] else { panic!("{:?}", map.here) };
+    let PointStability::Doubles(seconds) = map.here[0] else { panic!("{:?}", map.here) };
     assert!((seconds / wanted - 1.0).abs() < 1e-9, "{seconds}, not {wanted}");
-    assert_eq!(map.here[1..], [Here::Stable, Here::OwnSteps]);
+    assert_eq!(map.here[1..], [PointStability::Stable, PointStability::OwnSteps]);
     assert_eq!(map.regions[2].coverage, Coverage::OwnSteps);
 }
 
@@ -319,7 +319,7 @@ fn freely_drifting_masses_are_stable_under_damping_methods() {
     let ids = ["semi-implicit-euler", "velocity-verlet", "rk4", "implicit-euler", "bdf2"];
     let map = map_of(&scene, "k", 60, &ids);
     for (here, id) in map.here.iter().zip(ids) {
-        assert_eq!(*here, Here::Stable, "{id}");
+        assert_eq!(*here, PointStability::Stable, "{id}");
     }
     assert_eq!(map.regions[3].coverage, Coverage::Everywhere);
     assert!(holds(&map.regions[0], 60.0, 30.0) && !holds(&map.regions[0], 3.0, 1e3));
@@ -352,7 +352,7 @@ fn a_nonlinearisable_law_has_a_reason_and_true_growth_does_not_count() {
     // An upright pendulum falls in truth, so its fall under semi-implicit Euler at a high rate does not count.
     let map = map_of(&single("k*sin(x)"), "k", 60, &["semi-implicit-euler"]);
     assert!(map.truth_grows);
-    assert_eq!(map.here[0], Here::Stable);
+    assert_eq!(map.here[0], PointStability::Stable);
     assert!(!map_of(&single("-k*sin(x)"), "k", 60, &["rk4"]).truth_grows);
 }
 
@@ -362,7 +362,7 @@ fn a_law_is_mapped_about_its_rest() {
     let map =
         map_of(&Scene::built_in("lift").unwrap(), "rotor", 30, &["semi-implicit-euler", "rk4"]);
     assert_eq!((map.refused, map.is_linear), (None, false));
-    assert!(map.here.contains(&Here::Stable), "{:?}", map.here);
+    assert!(map.here.contains(&PointStability::Stable), "{:?}", map.here);
     let scene = Scene::built_in("quarter-car").unwrap();
     assert_eq!(map_of(&scene, "kt", 100, &["rk4"]).refused, None);
 }
@@ -397,9 +397,9 @@ fn a_follower_is_mapped_on_a_body_of_its_rate() {
         }
         let map = work.map();
         let [per_frame, by_dt, exact, euler] = map.here[..] else { panic!("{:?}", map.here) };
-        assert_eq!([per_frame, exact], [Here::Stable; 2]);
+        assert_eq!([per_frame, exact], [PointStability::Stable; 2]);
         for here in [by_dt, euler] {
-            assert_eq!(here == Here::Stable, is_stable, "{here:?} at {tick_hz} Hz");
+            assert_eq!(here == PointStability::Stable, is_stable, "{here:?} at {tick_hz} Hz");
         }
         assert_eq!(map.regions[0].coverage, Coverage::Everywhere);
         assert!(holds(&map.regions[1], 12.0, 20.0) && !holds(&map.regions[1], 8.0, 20.0));
@@ -414,7 +414,7 @@ fn visible_damping_is_constant_along_an_engines_line() {
     let mut ratios: Vec<f64> = rapier.seen.iter().map(|line| line.damping_ratio).collect();
     ratios.dedup();
     assert_eq!(ratios, [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5]);
-    for SeenLine { damping_ratio, points } in &rapier.seen {
+    for DampingLine { damping_ratio, points } in &rapier.seen {
         for [x, y] in points {
             // Implicit Euler with four substeps per tick.
             let [hz, stiffness] = [x, y].map(|log| libm::pow(10.0, *log));

@@ -2,21 +2,21 @@
 
 use std::fmt;
 
-use super::{Coverage, Here, StabilityMap};
+use super::{Coverage, PointStability, StabilityMap};
 use crate::measure::duration;
 use crate::scene::LaneSpec;
 use crate::sim::number::counted;
 
 /// `bounded`, `grows ×2 in 3.1 s`, `fails at once`.
-impl fmt::Display for Here {
+impl fmt::Display for PointStability {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Here::Stable => f.write_str("bounded"),
-            Here::Doubles(seconds) if seconds > 0.0 => {
+            PointStability::Stable => f.write_str("bounded"),
+            PointStability::Doubles(seconds) if seconds > 0.0 => {
                 write!(f, "grows ×2 in {}", duration(seconds))
             }
-            Here::Doubles(_) => f.write_str("fails at once"),
-            Here::OwnSteps => f.write_str("chooses its own steps"),
+            PointStability::Doubles(_) => f.write_str("fails at once"),
+            PointStability::OwnSteps => f.write_str("chooses its own steps"),
         }
     }
 }
@@ -36,16 +36,17 @@ impl StabilityMap {
 
     /// Number of methods that are bounded at the current point, and the one that grows fastest.
     pub fn stable_here(&self) -> String {
-        let of = |kind: Here| self.here.iter().filter(|here| **here == kind).count();
-        let (all, stable, own) = (self.here.len(), of(Here::Stable), of(Here::OwnSteps));
+        let of = |kind: PointStability| self.here.iter().filter(|here| **here == kind).count();
+        let (all, stable, own) =
+            (self.here.len(), of(PointStability::Stable), of(PointStability::OwnSteps));
         if stable == all && all > 1 {
             return format!("all {all} methods are bounded.");
         }
         let verb = if stable == 1 { "is" } else { "are" };
         let growing = self.method_names().into_iter().zip(&self.here);
         let growing = growing.filter_map(|(name, here)| match here {
-            Here::Doubles(seconds) => Some((name, here, *seconds)),
-            Here::Stable | Here::OwnSteps => None,
+            PointStability::Doubles(seconds) => Some((name, here, *seconds)),
+            PointStability::Stable | PointStability::OwnSteps => None,
         });
         let fastest = growing.min_by(|a, b| a.2.total_cmp(&b.2));
         let fastest = fastest.map(|(name, here, _)| format!(" {name} {here}."));

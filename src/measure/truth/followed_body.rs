@@ -71,14 +71,14 @@ impl BodyTruth {
     }
 
     /// Continues until `end` ticks are made, or `see` stops the run.
-    pub(in crate::measure) async fn go_on(
+    pub(in crate::measure) async fn run_until(
         &self,
         run: &mut FollowedRun,
         end: u64,
         mut see: impl FnMut(&FollowedBody, u64) -> ControlFlow<()>,
     ) -> StopReason {
         loop {
-            let (left, mut is_paused) = (self.meter.left(), false);
+            let (left, mut is_paused) = (self.meter.work_left(), false);
             let stop = run.run(end, |body, tick| {
                 see(body, tick)?;
                 is_paused = body.has_worked_more(body.counted.saturating_add(left), tick);
@@ -125,11 +125,11 @@ impl Ticked for FollowedBody {
     fn act(&mut self, _: u64, t: f64, action: &Action) {
         let before = self.energy();
         if let Some(swings) = &mut self.swings {
-            swings.end(&*self.stepper);
+            swings.finish_before_input(&*self.stepper);
         }
         action.apply_to(&mut *self.stepper, t);
         if let Some(swings) = &mut self.swings {
-            swings.go_on(&*self.stepper, t);
+            swings.resume_after_input(&*self.stepper, t);
         }
         self.base_j += self.energy() - before;
     }

@@ -48,7 +48,7 @@ fn length(values: &[f64]) -> f64 {
 }
 
 /// Length of the part of `a` perpendicular to `along`, relative to the length of `a`.
-fn across(a: &[f64], along: &[f64]) -> f64 {
+fn perpendicular_share(a: &[f64], along: &[f64]) -> f64 {
     let (dot, square) = a
         .iter()
         .zip(along)
@@ -76,8 +76,8 @@ impl ReachSoFar {
         Self { ranges, is_central, turns: false, distance: 0.0, speed: 0.0 }
     }
 
-    pub(super) fn take_in(&mut self, from: &TruthNode, to: &TruthNode) {
-        self.ranges.take_in(from, to);
+    pub(super) fn add(&mut self, from: &TruthNode, to: &TruthNode) {
+        self.ranges.extend(from, to);
         if !self.is_central {
             return;
         }
@@ -85,8 +85,8 @@ impl ReachSoFar {
             let n = moment.x.len() / 2;
             let (q, v) = moment.x.split_at(n);
             let a = &moment.slope[n..];
-            self.is_central &= length(q) > 0.0 && across(a, q) <= CENTRAL;
-            self.turns |= across(v, q) > TURNS;
+            self.is_central &= length(q) > 0.0 && perpendicular_share(a, q) <= CENTRAL;
+            self.turns |= perpendicular_share(v, q) > TURNS;
             self.distance = self.distance.max(length(q));
             self.speed = self.speed.max(length(v));
         }

@@ -56,7 +56,7 @@ impl BodyTruth {
     pub(in crate::measure) async fn series(&self, tick_hz: TickRate) -> Arc<TruthSeries> {
         let once = {
             let mut series_by_rate = self.series_by_rate.lock().expect("no thread panics with it");
-            let known = series_by_rate.values().filter_map(|once| once.found());
+            let known = series_by_rate.values().filter_map(|once| once.get_if_known());
             let held: usize = known.map(|series| series.values.len()).sum();
             if held > MAX_KEPT && !series_by_rate.contains_key(&tick_hz) {
                 series_by_rate.clear();
@@ -98,7 +98,7 @@ impl BodyTruth {
             series.gaps.push(gap);
             ControlFlow::Continue(())
         };
-        if let StopReason::Failed(failure) = self.go_on(&mut run, ticks, see).await {
+        if let StopReason::Failed(failure) = self.run_until(&mut run, ticks, see).await {
             series.failure = Some(failure);
         }
         series

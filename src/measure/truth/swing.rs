@@ -71,7 +71,7 @@ impl BodyTruth {
     }
 
     /// The swing about `middles`, one per coordinate, using the `seen` moments if they were kept.
-    pub(super) async fn watch(
+    pub(super) async fn measure_swing(
         &self,
         middles: &[f64],
         seen: Option<&[(TruthNode, TruthNode)]>,

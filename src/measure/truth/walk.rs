@@ -70,8 +70,8 @@ impl BodyTruth {
             let check = TruthNode::of_advanced(body, here.t, here.t + CHECKED_AT * (end - here.t))?;
             let there = TruthNode::of_advanced(body, check.t, end)?;
             work.moments += 2;
-            ranges.take_in(&here, &check);
-            ranges.take_in(&check, &there);
+            ranges.extend(&here, &check);
+            ranges.extend(&check, &there);
             see(&here, &check);
             see(&check, &there);
             self.meter.count(work.newly_done(body)).await;

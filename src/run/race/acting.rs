@@ -5,7 +5,7 @@ use super::lane::LaneBody;
 use super::observer::{Observer, PerformedAction, Switch};
 use super::{Mode, Race};
 use crate::scene::{Action, LaneId, LaneSpec, edited_values};
-use crate::sim::bodies::{Acts, incompatibility};
+use crate::sim::bodies::{TakesEffect, incompatibility};
 
 impl Race {
     /// Performs the journal's pending actions at the present tick.
@@ -42,15 +42,15 @@ impl Race {
 
     /// Performs a person's action at the present tick, after the journal's actions there. Adds it to the journal, and
     /// removes the person's later actions. Returns `None`, and leaves the journal alone, if the run cannot take the
-    /// action (see [`Action::checked`]). The same holds if it changes neither the present nor the script's pending
-    /// actions.
+    /// action (see [`Action::clamped_in_range`]). The same holds if it changes neither the present nor the script's
+    /// pending actions.
     pub(crate) fn act(
         &mut self,
         action: Action,
         observer: &mut dyn Observer,
     ) -> Option<PerformedAction> {
         self.catch_up(observer);
-        let action = action.checked()?;
+        let action = action.clamped_in_range()?;
         let planned = self.action_to_perform(&action, Author::Person);
         let control = action.control();
         let takes_over = self.can_take(&action) && self.journal.script_acts_on(control, self.done);
@@ -81,7 +81,7 @@ impl Race {
                     return false;
                 };
                 let acts = kind.parameters.get(*parameter).map(|parameter| parameter.acts);
-                acts == Some(Acts::AtOnce)
+                acts == Some(TakesEffect::AtOnce)
                     && edited_values(kind, &self.values[*body], *parameter, *value).is_ok()
             }
             Action::Place { body, q, v } => self.truth.bodies().get(*body).is_some_and(|body| {

@@ -1,6 +1,6 @@
 //! Draws the springs of a net as lines through many nodes.
 
-use crate::sim::bodies::{Form, Grid, Lists, NetPlan};
+use crate::sim::bodies::{Grid, Lists, NetLayout, NetPlan};
 
 /// A line through nodes that springs join one after the other.
 #[derive(Debug)]
@@ -25,24 +25,24 @@ const MAX_SPRINGS: usize = 20_000;
 /// than pixels can show, every n-th of them and the border.
 pub(super) fn lines(plan: &NetPlan) -> Vec<NodeLine> {
     match &plan.form {
-        Form::Grid(grid) => of_grid(*grid),
-        Form::Lists(lists) => of_lists(lists),
+        NetLayout::Grid(grid) => of_grid(*grid),
+        NetLayout::Lists(lists) => of_lists(lists),
     }
 }
 
 /// Every n-th of `count` indices, and the last; at most `most` + 1.
-fn some(count: usize, most: usize) -> impl Iterator<Item = usize> + Clone {
+fn strided_indices(count: usize, most: usize) -> impl Iterator<Item = usize> + Clone {
     let step = (count - 1).div_ceil(most).max(1);
     (0..count).filter(move |index| index.is_multiple_of(step) || index + 1 == count)
 }
 
 fn of_grid(Grid { columns, rows, .. }: Grid) -> Vec<NodeLine> {
-    let across = some(rows, MAX_LINES).map(|row| NodeLine {
-        nodes: some(columns, MAX_POINTS).map(|column| row * columns + column).collect(),
+    let across = strided_indices(rows, MAX_LINES).map(|row| NodeLine {
+        nodes: strided_indices(columns, MAX_POINTS).map(|column| row * columns + column).collect(),
         is_border: row == 0 || row + 1 == rows,
     });
-    let down = some(columns, MAX_LINES).map(|column| NodeLine {
-        nodes: some(rows, MAX_POINTS).map(|row| row * columns + column).collect(),
+    let down = strided_indices(columns, MAX_LINES).map(|column| NodeLine {
+        nodes: strided_indices(rows, MAX_POINTS).map(|row| row * columns + column).collect(),
         is_border: column == 0 || column + 1 == columns,
     });
     across.chain(down).filter(|line| line.nodes.len() > 1).collect()
@@ -50,7 +50,7 @@ fn of_grid(Grid { columns, rows, .. }: Grid) -> Vec<NodeLine> {
 
 /// Each line continues until no unused spring leaves its last node.
 fn of_lists(lists: &Lists) -> Vec<NodeLine> {
-    let drawn: Vec<usize> = some(lists.springs.len(), MAX_SPRINGS).collect();
+    let drawn: Vec<usize> = strided_indices(lists.springs.len(), MAX_SPRINGS).collect();
     let mut at_node = vec![Vec::new(); lists.nodes.len()];
     for &index in drawn.iter().rev() {
         lists.springs[index].between.iter().for_each(|&end| at_node[end].push(index));

@@ -19,7 +19,7 @@ impl Table<'_> {
         let found = entries.len();
         if !(2..=MAX_POINTS).contains(&found) {
             let what = format!("`{key}` has {}", counted(found, "point"));
-            self.complain(value.span(), what, wanted.remedy());
+            self.report_fault(value.span(), what, wanted.remedy());
         }
         let mut points: Vec<[f64; 2]> = Vec::new();
         for entry in entries.iter().take(MAX_POINTS) {
@@ -28,7 +28,7 @@ impl Table<'_> {
                 let what = format!("`{key}` goes from {before} to {}", point[0]);
                 let remedy =
                     "order the points by their first numbers, each greater than the one before";
-                self.complain(entry.span(), what, remedy);
+                self.report_fault(entry.span(), what, remedy);
             }
             points.push(point);
         }
@@ -113,7 +113,7 @@ impl Table<'_> {
         if field.wanted != Wanted::Numbers(numbers.len()) {
             let (key, found) = (field.key, numbers.len());
             let what = format!("`{key}` has {}", counted(found, "number"));
-            self.complain(value.span(), what, field.wanted.remedy());
+            self.report_fault(value.span(), what, field.wanted.remedy());
             return None;
         }
         let range = Range::Within(MAX_COORDINATE);

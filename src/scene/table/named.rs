@@ -19,7 +19,7 @@ pub(in crate::scene) struct Named<'t> {
 }
 
 /// An expression with its place in the file.
-pub(in crate::scene) struct Written {
+pub(in crate::scene) struct TextBlock {
     pub(in crate::scene) text: String,
     /// The bytes of the string, quotes included.
     span: Range<usize>,
@@ -27,9 +27,9 @@ pub(in crate::scene) struct Written {
     start: Option<usize>,
 }
 
-impl Written {
+impl TextBlock {
     /// Bytes of the file for these bytes of the expression; all of the string if it has escapes.
-    pub(in crate::scene) fn within(&self, span: &Range<usize>) -> Range<usize> {
+    pub(in crate::scene) fn span_in_file(&self, span: &Range<usize>) -> Range<usize> {
         match self.start {
             Some(start) if !span.is_empty() => start + span.start..start + span.end,
             _ => self.span.clone(),
@@ -77,7 +77,7 @@ impl<'t> Table<'t> {
     ) -> Option<Table<'t>> {
         match (entry.value.get_ref().as_table(), wanted) {
             (Some(entries), Wanted::Coordinates(place)) => {
-                Some(self.other(Place::Within(place), entry.span.clone(), entries))
+                Some(self.subtable(Place::Within(place), entry.span.clone(), entries))
             }
             _ => self.wrong_type_of(format!("`{}`", clip(entry.key)), entry.value, wanted),
         }
@@ -91,7 +91,7 @@ impl<'t> Table<'t> {
             match entry.get_ref().as_table() {
                 Some(entries) => {
                     let place = Place::Within(field.key);
-                    rows.push(self.other(place, entry.span(), entries));
+                    rows.push(self.subtable(place, entry.span(), entries));
                 }
                 None => {
                     let subject = format!("an entry of `{}`", field.key);
@@ -103,19 +103,19 @@ impl<'t> Table<'t> {
     }
 
     /// An expression. A line break in it counts as a space.
-    pub(in crate::scene) fn expression(&mut self, field: &Field) -> Option<Written> {
-        let written = self.written(field)?;
+    pub(in crate::scene) fn expression(&mut self, field: &Field) -> Option<TextBlock> {
+        let written = self.text_block(field)?;
         let text = written.text.replace(['\n', '\r', '\t'], " ");
-        Some(Written { text, ..written })
+        Some(TextBlock { text, ..written })
     }
 
     /// A text of several lines.
-    pub(in crate::scene) fn written(&mut self, field: &Field) -> Option<Written> {
+    pub(in crate::scene) fn text_block(&mut self, field: &Field) -> Option<TextBlock> {
         let value = self.value(field)?;
         let Some(text) = value.get_ref().as_str() else { return self.wrong_type(field, value) };
         let span = value.span();
         let start = self.text[span.clone()].find(text).map(|at| span.start + at);
-        Some(Written { text: text.to_owned(), span, start })
+        Some(TextBlock { text: text.to_owned(), span, start })
     }
 
     /// The names in a list of strings, with their bytes.

@@ -47,7 +47,7 @@ impl InstructionSet {
 
     /// Whether a loop over blocks of this width can run on the set. Every set runs a loop without a width, and the
     /// blocks of an interpreted law.
-    const fn takes(self, width: Option<usize>) -> bool {
+    const fn runs_blocks_of(self, width: Option<usize>) -> bool {
         match width {
             Some(width @ (NARROW | WIDE)) => width == self.width(),
             _ => true,
@@ -61,9 +61,9 @@ impl InstructionSet {
     pub(in crate::sim) fn run<K: Kernel>(self, kernel: K) {
         // Compiles a loop only for the sets that it can run on.
         match self {
-            Self::Portable if const { Self::Portable.takes(K::WIDTH) } => kernel.run(),
-            Self::Avx2 if const { Self::Avx2.takes(K::WIDTH) } => with_avx2(kernel),
-            Self::Avx512 if const { Self::Avx512.takes(K::WIDTH) } => with_avx512(kernel),
+            Self::Portable if const { Self::Portable.runs_blocks_of(K::WIDTH) } => kernel.run(),
+            Self::Avx2 if const { Self::Avx2.runs_blocks_of(K::WIDTH) } => with_avx2(kernel),
+            Self::Avx512 if const { Self::Avx512.runs_blocks_of(K::WIDTH) } => with_avx512(kernel),
             _ => unreachable!("{self:?} takes no blocks of {:?}", K::WIDTH),
         }
     }

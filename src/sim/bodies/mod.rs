@@ -41,10 +41,10 @@ pub use spring::Spring;
 pub use super::body::{Body, Distances, Input, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 pub use super::curve::Curve;
 pub use super::net_plan::{
-    Form, Grid, Lists, MAX_NODES, MAX_SPRINGS, NetFault, NetPart, NetPlan, Pin, PlannedSpring,
+    Grid, Lists, MAX_NODES, MAX_SPRINGS, NetFault, NetLayout, NetPart, NetPlan, Pin, PlannedSpring,
 };
 pub use super::parameter::{
-    Acts, Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, Text,
+    Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, TakesEffect, Text,
 };
 
 /// Every kind of body, in menu order.

@@ -227,7 +227,7 @@ impl Net {
                 let (inner, outer) = constants.split_at(arrays.ends.len());
                 for ([i, j], constants) in arrays.ends.iter().zip(inner) {
                     let (i, j) = (*i as usize, *j as usize);
-                    let f = forces.along(constants, at(i), at(j));
+                    let f = forces.spring_force(constants, at(i), at(j));
                     sums[i] = [sums[i][0] + f[0], sums[i][1] + f[1]];
                     sums[j] = [sums[j][0] - f[0], sums[j][1] - f[1]];
                 }
@@ -239,7 +239,7 @@ impl Net {
         for ((i, anchor), constants) in self.topology.anchors.iter().zip(of_anchors) {
             let i = *i as usize;
             to[0] = *anchor;
-            let f = forces.along(constants, at(i), to);
+            let f = forces.spring_force(constants, at(i), to);
             sums[i] = [sums[i][0] + f[0], sums[i][1] + f[1]];
         }
     }
@@ -289,7 +289,7 @@ impl Body for Net {
             Storage::Arrays(_) => RestLengths::default(),
         };
         let [k, c, _] = constants(&PlannedSpring::default(), 0.0);
-        let constants: Vec<[f64; 3]> = self.topology.kept().map(of).collect();
+        let constants: Vec<[f64; 3]> = self.topology.kept_springs().map(of).collect();
         let mut springs = Springs { shared: [k, c], rest, constants, ..Default::default() };
         let (mut count, mut are_elastic) = (0, true);
         self.each_spring(&springs, |_, _, [_, c, _]| {

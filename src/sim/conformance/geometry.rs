@@ -72,10 +72,10 @@ fn there_and_back(method: &Method, system: Problem<f64>) -> Result<f64, StepFail
 
 /// Whether a step back undoes a step, on a linear and on a nonlinear system.
 pub(super) fn reversible(method: &Method) -> Claim {
-    yes_or_no("reversible", method.reversible, returns(method))
+    yes_or_no("reversible", method.reversible, is_reversible(method))
 }
 
-pub(super) fn returns(method: &Method) -> Measured {
+pub(super) fn is_reversible(method: &Method) -> Measured {
     let on = [problem(spring(1.0, 0.0)), problem(UnitPendulum)];
     let off = on.map(|system| there_and_back(method, system));
     both_kept(off, "there and back it is off by")

@@ -11,7 +11,7 @@ fn step(integrator: &mut dyn Integrator<Problem<f64>>, state: &mut State<f64>) -
 }
 
 /// Whether resetting a method before every step changes its motion.
-fn carries(method: &Method) -> Result<bool, StepFailure> {
+fn has_effective_memory(method: &Method) -> Result<bool, StepFailure> {
     let mut left_alone = State { q: -0.3, v: 11.0 };
     let mut interrupted = left_alone;
     let [mut continued, mut restarted] = [fresh(method), fresh(method)];
@@ -24,7 +24,7 @@ fn carries(method: &Method) -> Result<bool, StepFailure> {
 }
 
 /// Whether [`Integrator::reset`] makes a used method equal to a fresh one.
-fn forgets(method: &Method) -> Result<bool, StepFailure> {
+fn reset_clears_memory(method: &Method) -> Result<bool, StepFailure> {
     let (mut used, mut elsewhere) = (fresh(method), State { q: 100.0, v: 3.0 });
     for _ in 0..57 {
         step(&mut *used, &mut elsewhere)?;
@@ -46,9 +46,9 @@ pub(super) fn restart(method: &Method) -> Claim {
 }
 
 pub(super) fn has_memory(method: &Method) -> Measured {
-    let carries = carries(method)?;
+    let carries = has_effective_memory(method)?;
     let words = if carries { "its steps depend on earlier ones" } else { "it has no memory" };
-    if !forgets(method)? {
+    if !reset_clears_memory(method)? {
         return Err("a reset leaves some of its memory".into());
     }
     Ok((carries, words.to_owned()))

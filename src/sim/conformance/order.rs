@@ -36,7 +36,7 @@ const SWING: f64 = 7.7;
 const MARGIN: f64 = 0.1;
 
 /// A test problem with its truth.
-struct Course<V> {
+struct ConvergenceTest<V> {
     name: &'static str,
     system: Problem<V>,
     span: f64,
@@ -49,7 +49,7 @@ struct Course<V> {
     halvings: usize,
 }
 
-impl<V: Vector> Course<V> {
+impl<V: Vector> ConvergenceTest<V> {
     fn of_body<B: Body<Vector = V>>(
         name: &'static str,
         body: B,
@@ -64,8 +64,12 @@ impl<V: Vector> Course<V> {
 
 /// The largest errors of position and of velocity in `steps` steps, relative to the largest position and velocity, in
 /// units of round-off.
-fn errors<V: Vector>(method: &Method, course: &Course<V>, steps: u32) -> Result<[f64; 2], String> {
-    let Course { name, system, span, truths, round_off, .. } = course;
+fn errors<V: Vector>(
+    method: &Method,
+    course: &ConvergenceTest<V>,
+    steps: u32,
+) -> Result<[f64; 2], String> {
+    let ConvergenceTest { name, system, span, truths, round_off, .. } = course;
     let mut state = truths[0].clone();
     let mut integrator = fixed_step(method, &state.q);
     let (mut worst, mut largest) = ([0.0, 0.0], [0.0, 0.0]);
@@ -103,13 +107,17 @@ fn orders(errors: impl Iterator<Item = f64>, halvings: usize) -> Vec<f64> {
 }
 
 /// The orders of position and of velocity on a course.
-struct Found {
+struct MeasuredOrders {
     course: &'static str,
     orders: [Vec<f64>; 2],
 }
 
 /// Measures the orders on a course of a method with this expected order.
-fn measure<V: Vector>(method: &Method, course: &Course<V>, expected: u32) -> Result<Found, String> {
+fn measure<V: Vector>(
+    method: &Method,
+    course: &ConvergenceTest<V>,
+    expected: u32,
+) -> Result<MeasuredOrders, String> {
     let mut table = Vec::new();
     let more = if expected == 0 { MORE_IF_NO_ORDER } else { 0 };
     for times in 0..course.times + more {
@@ -124,16 +132,16 @@ fn measure<V: Vector>(method: &Method, course: &Course<V>, expected: u32) -> Res
     if orders.iter().any(|orders| orders.len() < course.halvings) {
         return Err(format!("on the {} its error is rounding alone", course.name));
     }
-    Ok(Found { course: course.name, orders })
+    Ok(MeasuredOrders { course: course.name, orders })
 }
 
-impl Found {
+impl MeasuredOrders {
     /// The orders of the last halving.
     fn last(&self) -> [f64; 2] {
         self.orders.each_ref().map(|orders| orders.last().copied().unwrap_or(f64::NAN))
     }
 
-    fn are(&self, expected: u32, method: &Method) -> bool {
+    fn match_expected(&self, expected: u32, method: &Method) -> bool {
         let is_expected = |part: usize, order: f64| {
             let off = order - f64::from(expected);
             // As printed, the velocity has the order of the method that the listing is meant to be.
@@ -148,11 +156,11 @@ fn claim(
     method: &Method,
     field: &'static str,
     expected: u32,
-    measured: Vec<Result<Found, String>>,
+    measured: Vec<Result<MeasuredOrders, String>>,
 ) -> Claim {
-    let is_so = |found: &Found| found.are(expected, method);
+    let is_so = |found: &MeasuredOrders| found.match_expected(expected, method);
     let holds = measured.iter().all(|found| found.as_ref().is_ok_and(is_so));
-    let in_words = |found: Found| {
+    let in_words = |found: MeasuredOrders| {
         let [q, v] = found.last();
         format!("{q:.2} and {v:.2} on the {}", found.course)
     };
@@ -168,14 +176,14 @@ pub(super) fn without_drag(method: &Method) -> Claim {
     claim(method, "order", method.order, measured_without_drag(method, method.order))
 }
 
-fn measured_without_drag(method: &Method, expected: u32) -> Vec<Result<Found, String>> {
+fn measured_without_drag(method: &Method, expected: u32) -> Vec<Result<MeasuredOrders, String>> {
     // The approach to the centre magnifies earlier rounding. So the span starts at the farthest point and ends past
     // the nearest, or half-way there for an order of 5. On the longer arc the next term hides Dormand-Prince's leading
     // term until both are round-off.
     let (span, round_off) = if expected < 5 { (4.4, 2e-14) } else { (1.5, 2e-15) };
     let half_a_revolution = std::f64::consts::PI;
     let at = |moment| span * f64::from(moment) / f64::from(MOMENTS) + half_a_revolution;
-    let orbit = Course {
+    let orbit = ConvergenceTest {
         name: "orbit",
         system: problem(Kepler),
         span,
@@ -186,7 +194,7 @@ fn measured_without_drag(method: &Method, expected: u32) -> Vec<Result<Found, St
     };
     let mut measured = vec![measure(method, &orbit, expected)];
     if !method.exact_if_linear {
-        let spring = Course::of_body("undamped spring", spring(1.0, 0.0), SWING, HALVINGS);
+        let spring = ConvergenceTest::of_body("undamped spring", spring(1.0, 0.0), SWING, HALVINGS);
         measured.insert(0, measure(method, &spring, expected));
     }
     measured
@@ -198,13 +206,13 @@ pub(super) fn with_drag(method: &Method) -> Claim {
     claim(method, "order_with_drag", expected, measured_with_drag(method, expected))
 }
 
-fn measured_with_drag(method: &Method, expected: u32) -> Vec<Result<Found, String>> {
+fn measured_with_drag(method: &Method, expected: u32) -> Vec<Result<MeasuredOrders, String>> {
     if method.exact_if_linear {
         let span = 2.2;
         let at = |moment| course_in_air(span * f64::from(moment) / f64::from(MOMENTS));
         let truths = (0..=MOMENTS).map(at).collect();
         let (name, halvings) = ("body in air", halvings(expected));
-        let air = Course {
+        let air = ConvergenceTest {
             name,
             system: problem(Air),
             span,
@@ -215,8 +223,8 @@ fn measured_with_drag(method: &Method, expected: u32) -> Vec<Result<Found, Strin
         };
         vec![measure(method, &air, expected)]
     } else {
-        let spring = Course::of_body("damped spring", spring(1.0, 0.2), SWING, HALVINGS);
-        let ship = Course::of_body("ship", SHIP, 5.5, halvings(expected));
+        let spring = ConvergenceTest::of_body("damped spring", spring(1.0, 0.2), SWING, HALVINGS);
+        let ship = ConvergenceTest::of_body("ship", SHIP, 5.5, halvings(expected));
         vec![measure(method, &spring, expected), measure(method, &ship, expected)]
     }
 }
@@ -232,7 +240,9 @@ pub fn orders_of(method: &Method) -> [Result<f64, String>; 2] {
     [measured_without_drag, measured_with_drag].map(|measured| {
         let lowest = |expected: u32| {
             let found = measured(method, expected).into_iter().collect::<Result<Vec<_>, _>>()?;
-            Ok::<f64, String>(found.iter().flat_map(Found::last).fold(f64::INFINITY, f64::min))
+            Ok::<f64, String>(
+                found.iter().flat_map(MeasuredOrders::last).fold(f64::INFINITY, f64::min),
+            )
         };
         let rough = lowest(USUAL)?;
         match whole(rough) {

@@ -37,7 +37,7 @@ fn error_an_arc<V: Vector>(
 }
 
 /// Whether the tolerance changes the steps of the method.
-fn heeds(method: &Method) -> Result<bool, StepFailure> {
+fn responds_to_tolerance(method: &Method) -> Result<bool, StepFailure> {
     let run = |tolerance: f64| {
         let mut state = State { q: 1.0, v: 0.0 };
         let mut integrator = fresh(method);
@@ -67,7 +67,7 @@ fn arcs(method: &Method) -> Result<(bool, String), StepFailure> {
 /// Whether the method has a tolerance and meets it. A listing of the chapter must only heed it.
 pub(super) fn tolerance(method: &Method) -> Claim {
     let measure = || -> Measured {
-        let heeds = heeds(method)?;
+        let heeds = responds_to_tolerance(method)?;
         if !heeds || method.tolerance.is_none() || method.is_as_printed() {
             let words = if heeds { "it heeds one" } else { "it heeds none" };
             return Ok((heeds, words.to_owned()));

@@ -162,7 +162,7 @@ impl Engine {
     }
 
     /// The version and the log date that the formula was checked against, in words; `None` for a held force.
-    pub fn held_against(&self) -> Option<String> {
+    pub fn checked_against(&self) -> Option<String> {
         match (self.version, self.logged) {
             ("", _) => None,
             (version, Some(day)) => Some(format!("held against version {version} on {day}")),

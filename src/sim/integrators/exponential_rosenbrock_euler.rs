@@ -101,7 +101,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::
         let Self { a, a_later, jacobian, .. } = self;
         system.acceleration(t, &y.q, &y.v, a);
         system.acceleration(t + h, &y.q, &y.v, a_later);
-        jacobian.take(system, t, h, y, a);
+        jacobian.compute(system, t, h, y, a);
         let State { q, v } = y;
         let ([q], [v]) = (q.components_mut(), v.components_mut()) else {
             return self.step_together(system, h, y);

@@ -52,7 +52,7 @@ const MAX_VALUE: f64 = 1e10;
 
 /// Before a step: resets a body with a value out of range to the origin at rest, where the model is defined (`qpos0`).
 /// Returns whether it did. The force of user code is lost with it until the next tick.
-pub(super) fn puts_back<V: Vector>(
+pub(super) fn reset_if_out_of_range<V: Vector>(
     settings: EngineSettings,
     force: &V,
     q: &mut V,
@@ -81,7 +81,7 @@ impl EngineRule for Mujoco {
         let resistance = 1.0 + h * (set.damping + set.drag);
         let mut applied = 1.0;
         for _ in 0..tick.substeps {
-            if puts_back(set, tick.force, q, v) {
+            if reset_if_out_of_range(set, tick.force, q, v) {
                 applied = 0.0;
             }
             each(tick.force, q, v, |x, v, f| {

@@ -1,6 +1,6 @@
 //! MuJoCo with its Runge-Kutta integrator, which holds the force of user code.
 
-use super::mujoco::puts_back;
+use super::mujoco::reset_if_out_of_range;
 use super::prelude::*;
 
 const MODES: [JointMode; 1] = [si_mode(
@@ -48,7 +48,7 @@ impl EngineRule for MujocoRk4 {
         let damping = set.damping + set.drag;
         let mut applied = 1.0;
         for _ in 0..tick.substeps {
-            if puts_back(set, tick.force, q, v) {
+            if reset_if_out_of_range(set, tick.force, q, v) {
                 applied = 0.0;
             }
             each(tick.force, q, v, |x, v, f| {

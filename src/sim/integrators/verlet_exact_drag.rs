@@ -89,7 +89,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for VerletExactDrag<S::Vector> {
 
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         system.acceleration(t, &y.q, &y.v, &mut self.a);
-        self.drag.take(system, t, h, y, &self.a);
+        self.drag.compute(system, t, h, y, &self.a);
         let State { q, v } = y;
         // The exponential of a single coordinate, used for both halves.
         let alone = (v.components().len() == 1).then(|| libm::exp(h / 2.0 * self.drag.of_one()[1]));

@@ -124,7 +124,7 @@ fn parse_as(
     match parser.peek() {
         Token::End => {}
         Token::Symbol(")" | "]") => {
-            let what = format!("`{}` closes nothing", parser.written());
+            let what = format!("`{}` closes nothing", parser.token_text());
             return fault(parser.span(), what, "remove it, or open it before");
         }
         _ => return Err(parser.juxtaposed()),
@@ -159,23 +159,23 @@ impl Parser<'_> {
         self.tokens[self.next].1.clone()
     }
 
-    fn written(&self) -> &str {
+    fn token_text(&self) -> &str {
         &self.text[self.span()]
     }
 
     fn is_word(&self, word: &str) -> bool {
-        self.peek() == Token::Name && self.written() == word
+        self.peek() == Token::Name && self.token_text() == word
     }
 
     /// Consumes the next token if it is this symbol.
-    fn takes(&mut self, symbol: &str) -> bool {
+    fn consume_if(&mut self, symbol: &str) -> bool {
         let is_it = matches!(self.peek(), Token::Symbol(found) if found == symbol);
         self.next += usize::from(is_it);
         is_it
     }
 
     fn expect(&mut self, symbol: &'static str, after: &str) -> Parsed<()> {
-        if self.takes(symbol) {
+        if self.consume_if(symbol) {
             return Ok(());
         }
         if let Token::Name | Token::Number(_) | Token::Symbol("(") = self.peek()
@@ -185,14 +185,14 @@ impl Parser<'_> {
         }
         let what = match self.peek() {
             Token::End => format!("the text ends where `{symbol}` is missing"),
-            _ => format!("`{}` stands where `{symbol}` is missing", self.written()),
+            _ => format!("`{}` stands where `{symbol}` is missing", self.token_text()),
         };
         fault(self.here(), what, format!("write `{symbol}` after {after}"))
     }
 
     /// The fault of a token that follows a value without an operator.
     fn juxtaposed(&self) -> ExpressionFault {
-        let what = format!("`{}` follows a complete expression", quoted(self.written()));
+        let what = format!("`{}` follows a complete expression", quoted(self.token_text()));
         ExpressionFault::new(self.span(), what, "write an operator before it, such as `*`")
     }
 
@@ -255,7 +255,7 @@ impl Parser<'_> {
     /// The next token as an operator.
     fn infix(&self) -> Option<&'static Infix> {
         let is_sign = matches!(self.peek(), Token::Symbol(_) | Token::Name);
-        INFIXES.iter().find(|infix| is_sign && infix.sign == self.written())
+        INFIXES.iter().find(|infix| is_sign && infix.sign == self.token_text())
     }
 
     /// Reads the first operand of operators that bind more tightly than those `outside`.
@@ -267,8 +267,8 @@ impl Parser<'_> {
             let operand = self.want_truth(operand)?;
             return Ok(self.push(Op::Not, &[operand], start..self.span_of(operand).end));
         }
-        let is_negated = self.takes("-");
-        if !is_negated && !self.takes("+") {
+        let is_negated = self.consume_if("-");
+        if !is_negated && !self.consume_if("+") {
             return self.primary();
         }
         let operand = self.nested(|parser| parser.operation(Some(Level::Product)))?;
@@ -342,7 +342,7 @@ impl Parser<'_> {
 
     /// Reads a name, a function or a word.
     fn named(&mut self) -> Parsed<usize> {
-        let (span, name) = (self.span(), self.written().to_owned());
+        let (span, name) = (self.span(), self.token_text().to_owned());
         self.next += 1;
         if self.peek() == Token::Symbol("(") && self.scope.is_acceleration(&name) {
             return self.acceleration(span);

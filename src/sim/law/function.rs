@@ -5,7 +5,7 @@
 use std::hash::{Hash, Hasher};
 
 use super::jet::{Jet, chain, product, quotient, root, sum};
-use super::switch::{Pieces, Switch, Value};
+use super::switch::{ModeRule, Switch, SwitchValue};
 
 /// A function that an expression can call.
 pub(super) struct Function {
@@ -76,12 +76,12 @@ macro_rules! unary {
 /// Every function.
 pub(super) static FUNCTIONS: [Function; 21] = [
     smooth("sqrt", &["x"], |x, _| x.sqrt(), |x, _| root(x)),
-    switch("abs", &["x"], Pieces::NotNegative, Value::Magnitude),
-    switch("sign", &["x"], Pieces::Sign, Value::Mode),
-    switch("min", &["a", "b"], Pieces::Less, Value::Choice),
-    switch("max", &["a", "b"], Pieces::Greater, Value::Choice),
+    switch("abs", &["x"], ModeRule::NotNegative, SwitchValue::Magnitude),
+    switch("sign", &["x"], ModeRule::Sign, SwitchValue::Mode),
+    switch("min", &["a", "b"], ModeRule::Less, SwitchValue::Choice),
+    switch("max", &["a", "b"], ModeRule::Greater, SwitchValue::Choice),
     function("clamp", &["x", "low", "high"], Meaning::Clamp),
-    switch("floor", &["x"], Pieces::Floor, Value::Mode),
+    switch("floor", &["x"], ModeRule::Floor, SwitchValue::Mode),
     unary!("exp", |x| f = libm::exp(x), [f, f]),
     unary!("ln", |x| f = libm::log(x), [1.0 / x, -1.0 / (x * x)]),
     unary!("sin", |x| f = libm::sin(x), [libm::cos(x), -f]).periodic(),
@@ -119,7 +119,7 @@ pub(super) static FUNCTIONS: [Function; 21] = [
         [libm::hypot(x[0], y[0]), first, second]
     }),
     function("if", &["condition", "a", "b"], Meaning::If),
-    switch("step", &["x"], Pieces::NotNegative, Value::Mode),
+    switch("step", &["x"], ModeRule::NotNegative, SwitchValue::Mode),
     function("table", &["x", "[[x0, y0], [x1, y1]]"], Meaning::Table),
 ];
 
@@ -169,8 +169,8 @@ const fn smooth(
 const fn switch(
     name: &'static str,
     arguments: &'static [&'static str],
-    pieces: Pieces,
-    value: Value,
+    pieces: ModeRule,
+    value: SwitchValue,
 ) -> Function {
     function(name, arguments, Meaning::Switch(Switch { pieces, value }))
 }

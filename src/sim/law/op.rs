@@ -1,7 +1,7 @@
 //! The operations of expressions and tapes.
 
 use super::function::Smooth;
-use super::switch::{Pieces, Switch, Value};
+use super::switch::{ModeRule, Switch, SwitchValue};
 
 /// One operation. Logic is 0 for false and 1 for true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -65,12 +65,12 @@ pub(super) struct Infix {
 pub(super) const INFIXES: [Infix; 13] = [
     infix("or", Level::Or, Op::Or),
     infix("and", Level::And, Op::And),
-    comparison("<", Pieces::Less, Value::Truth),
-    comparison("<=", Pieces::LessEqual, Value::Truth),
-    Infix { is_swapped: true, ..comparison(">", Pieces::Less, Value::Truth) },
-    Infix { is_swapped: true, ..comparison(">=", Pieces::LessEqual, Value::Truth) },
-    comparison("==", Pieces::Order, Value::Equal),
-    comparison("!=", Pieces::Order, Value::NotEqual),
+    comparison("<", ModeRule::Less, SwitchValue::Truth),
+    comparison("<=", ModeRule::LessEqual, SwitchValue::Truth),
+    Infix { is_swapped: true, ..comparison(">", ModeRule::Less, SwitchValue::Truth) },
+    Infix { is_swapped: true, ..comparison(">=", ModeRule::LessEqual, SwitchValue::Truth) },
+    comparison("==", ModeRule::Order, SwitchValue::Equal),
+    comparison("!=", ModeRule::Order, SwitchValue::NotEqual),
     infix("+", Level::Sum, Op::Add),
     infix("-", Level::Sum, Op::Subtract),
     infix("*", Level::Product, Op::Multiply),
@@ -82,7 +82,7 @@ const fn infix(sign: &'static str, level: Level, op: Op) -> Infix {
     Infix { sign, level, op, is_swapped: false }
 }
 
-const fn comparison(sign: &'static str, pieces: Pieces, value: Value) -> Infix {
+const fn comparison(sign: &'static str, pieces: ModeRule, value: SwitchValue) -> Infix {
     infix(sign, Level::Comparison, Op::Switch(Switch { pieces, value }))
 }
 

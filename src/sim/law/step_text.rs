@@ -123,7 +123,7 @@ impl StepText {
         let plain = plain(text);
         let mut reader = Reader::new(&plain)?;
         for statement in statements(&plain)? {
-            reader.take(statement)?;
+            reader.read_statement(statement)?;
         }
         Ok(Self { source: text.to_owned(), ..reader.finish()? })
     }
@@ -164,7 +164,7 @@ impl StepText {
     }
 
     /// For each carried number, the indices of the carried numbers that its next value depends on.
-    pub fn reads(&self) -> Vec<Vec<usize>> {
+    pub fn dependencies(&self) -> Vec<Vec<usize>> {
         let mut sets = vec![0_u64; self.tape.slots];
         (0..self.names.len()).for_each(|input| sets[input] = 1 << input);
         for (_, operands, to, _) in self.tape.operations() {
@@ -179,7 +179,7 @@ impl StepText {
     }
 
     /// Whether a step leaves this carried number unchanged.
-    pub fn keeps(&self, index: usize) -> bool {
+    pub fn leaves_unchanged(&self, index: usize) -> bool {
         usize::from(self.tape.outputs[index]) == self.carried[index].input
     }
 
@@ -299,8 +299,8 @@ mod tests {
         let names: Vec<&str> = text.carried().iter().map(|carried| &*carried.name).collect();
         assert_eq!(names, ["x", "v", "prev", "count"]);
         assert_eq!(text.carried()[2].start, 6.0);
-        assert_eq!(text.reads()[0], [0, 2]);
-        assert!(text.keeps(1) && !text.keeps(0));
+        assert_eq!(text.dependencies()[0], [0, 2]);
+        assert!(text.leaves_unchanged(1) && !text.leaves_unchanged(0));
         let mut registers = text.registers();
         (0..2).for_each(|_| text.step(&mut registers, 1.0, 0.0));
         assert_eq!([0, 2, 3].map(|index| text.value(&registers, index)), [-4.5, -3.0, 2.0]);

@@ -6,13 +6,13 @@ use crate::sim::curve::{Curve, above, below};
 /// An operation on `a` and `b` that is smooth only piece by piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Switch {
-    pub(super) pieces: Pieces,
-    pub(super) value: Value,
+    pub(super) pieces: ModeRule,
+    pub(super) value: SwitchValue,
 }
 
 /// The rule for the mode, given the operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Pieces {
+pub(super) enum ModeRule {
     /// 1 if a ≥ 0, else 0.
     NotNegative,
     /// 1 if a < b, else 0.
@@ -33,7 +33,7 @@ pub(super) enum Pieces {
 
 /// The value in each mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Value {
+pub(super) enum SwitchValue {
     /// The mode as a number.
     Mode,
     /// The mode as true or false.
@@ -52,13 +52,16 @@ pub(super) enum Value {
 
 impl Switch {
     /// The switch of `table(x, …)`.
-    pub(super) const TABLE: Self = Self { pieces: Pieces::Table, value: Value::Table };
+    pub(super) const TABLE: Self = Self { pieces: ModeRule::Table, value: SwitchValue::Table };
 
     /// Whether the value is a truth value, rather than a number.
     pub(super) fn is_truth(self) -> bool {
         match self.value {
-            Value::Truth | Value::Equal | Value::NotEqual => true,
-            Value::Mode | Value::Magnitude | Value::Choice | Value::Table => false,
+            SwitchValue::Truth | SwitchValue::Equal | SwitchValue::NotEqual => true,
+            SwitchValue::Mode
+            | SwitchValue::Magnitude
+            | SwitchValue::Choice
+            | SwitchValue::Table => false,
         }
     }
 
@@ -66,15 +69,15 @@ impl Switch {
     #[inline]
     pub(super) fn mode(self, a: f64, b: f64, table: Option<&Curve>) -> i64 {
         match self.pieces {
-            Pieces::NotNegative => i64::from(a >= 0.0),
-            Pieces::Less => i64::from(a < b),
-            Pieces::LessEqual => i64::from(a <= b),
-            Pieces::Greater => i64::from(a > b),
-            Pieces::Sign => i64::from(a > 0.0) - i64::from(a < 0.0),
-            Pieces::Order => i64::from(a > b) - i64::from(a < b),
+            ModeRule::NotNegative => i64::from(a >= 0.0),
+            ModeRule::Less => i64::from(a < b),
+            ModeRule::LessEqual => i64::from(a <= b),
+            ModeRule::Greater => i64::from(a > b),
+            ModeRule::Sign => i64::from(a > 0.0) - i64::from(a < 0.0),
+            ModeRule::Order => i64::from(a > b) - i64::from(a < b),
             // It saturates at magnitudes where no number has a fraction.
-            Pieces::Floor => libm::floor(a) as i64,
-            Pieces::Table => table.map_or(0, |table| table.piece(a)),
+            ModeRule::Floor => libm::floor(a) as i64,
+            ModeRule::Table => table.map_or(0, |table| table.piece(a)),
         }
     }
 
@@ -82,10 +85,10 @@ impl Switch {
     #[inline]
     pub(super) fn value(self, a: f64, b: f64, table: Option<&Curve>) -> f64 {
         match self.pieces {
-            Pieces::Floor => libm::floor(a),
+            ModeRule::Floor => libm::floor(a),
             // No mode distinguishes a NaN, which equals nothing.
-            Pieces::Order if self.value == Value::Equal => f64::from(u8::from(a == b)),
-            Pieces::Order if self.value == Value::NotEqual => f64::from(u8::from(a != b)),
+            ModeRule::Order if self.value == SwitchValue::Equal => f64::from(u8::from(a == b)),
+            ModeRule::Order if self.value == SwitchValue::NotEqual => f64::from(u8::from(a != b)),
             _ => self.value_on(self.mode(a, b, table), a, b, table),
         }
     }
@@ -94,15 +97,15 @@ impl Switch {
     #[inline]
     pub(super) fn value_on(self, mode: i64, a: f64, b: f64, table: Option<&Curve>) -> f64 {
         match self.value {
-            Value::Mode | Value::Truth => mode as f64,
-            Value::Equal => f64::from(u8::from(mode == 0)),
-            Value::NotEqual => f64::from(u8::from(mode != 0)),
+            SwitchValue::Mode | SwitchValue::Truth => mode as f64,
+            SwitchValue::Equal => f64::from(u8::from(mode == 0)),
+            SwitchValue::NotEqual => f64::from(u8::from(mode != 0)),
             // Adding 0 removes the sign of a negative zero.
-            Value::Magnitude if mode == 1 => a + 0.0,
-            Value::Magnitude => -a,
-            Value::Choice if mode == 1 => a,
-            Value::Choice => b,
-            Value::Table => table.map_or(f64::NAN, |table| table.on(mode, a)),
+            SwitchValue::Magnitude if mode == 1 => a + 0.0,
+            SwitchValue::Magnitude => -a,
+            SwitchValue::Choice if mode == 1 => a,
+            SwitchValue::Choice => b,
+            SwitchValue::Table => table.map_or(f64::NAN, |table| table.on(mode, a)),
         }
     }
 
@@ -111,12 +114,16 @@ impl Switch {
         let mode = self.mode(a[0], b[0], table);
         let value = self.value_on(mode, a[0], b[0], table);
         match self.value {
-            Value::Mode | Value::Truth | Value::Equal | Value::NotEqual => constant(value),
-            Value::Magnitude if mode == 1 => a,
-            Value::Magnitude => a.map(|x| -x),
-            Value::Choice if mode == 1 => a,
-            Value::Choice => b,
-            Value::Table => chain(a, [value, table.map_or(0.0, |table| table.slope(mode)), 0.0]),
+            SwitchValue::Mode | SwitchValue::Truth | SwitchValue::Equal | SwitchValue::NotEqual => {
+                constant(value)
+            }
+            SwitchValue::Magnitude if mode == 1 => a,
+            SwitchValue::Magnitude => a.map(|x| -x),
+            SwitchValue::Choice if mode == 1 => a,
+            SwitchValue::Choice => b,
+            SwitchValue::Table => {
+                chain(a, [value, table.map_or(0.0, |table| table.slope(mode)), 0.0])
+            }
         }
     }
 
@@ -132,13 +139,13 @@ impl Switch {
             _ => [above(a, end), below(a, end)],
         };
         match self.pieces {
-            Pieces::NotNegative => one_boundary(a, 0.0),
-            Pieces::Less | Pieces::LessEqual => one_boundary(b, a),
-            Pieces::Greater => one_boundary(a, b),
-            Pieces::Sign => point(0.0),
-            Pieces::Order => point(b),
-            Pieces::Floor => [above(a, mode as f64), below(a, mode as f64 + 1.0)],
-            Pieces::Table => table.map_or([f64::INFINITY; 2], |table| table.distances(mode, a)),
+            ModeRule::NotNegative => one_boundary(a, 0.0),
+            ModeRule::Less | ModeRule::LessEqual => one_boundary(b, a),
+            ModeRule::Greater => one_boundary(a, b),
+            ModeRule::Sign => point(0.0),
+            ModeRule::Order => point(b),
+            ModeRule::Floor => [above(a, mode as f64), below(a, mode as f64 + 1.0)],
+            ModeRule::Table => table.map_or([f64::INFINITY; 2], |table| table.distances(mode, a)),
         }
     }
 
@@ -147,11 +154,11 @@ impl Switch {
         let beyond = 2 * side as i64 - 1;
         match self.pieces {
             // Equality lasts for no time, unless the motion starts in it.
-            Pieces::Sign | Pieces::Order => beyond,
-            Pieces::NotNegative | Pieces::Less | Pieces::LessEqual | Pieces::Greater => {
+            ModeRule::Sign | ModeRule::Order => beyond,
+            ModeRule::NotNegative | ModeRule::Less | ModeRule::LessEqual | ModeRule::Greater => {
                 mode + beyond
             }
-            Pieces::Floor | Pieces::Table => mode + beyond,
+            ModeRule::Floor | ModeRule::Table => mode + beyond,
         }
     }
 }

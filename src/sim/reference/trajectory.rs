@@ -45,7 +45,7 @@ const MAX_HALVINGS: u32 = 8;
 const STRETCH: u64 = 200_000;
 
 /// The factor by which the steps of a stretch may still grow on the rest of the way, as after a near collision.
-const HOPE: f64 = 1e3;
+const MAX_LATER_STEP_GROWTH: f64 = 1e3;
 
 /// The step size strategy of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,7 +83,7 @@ struct Crossing {
 }
 
 /// The outcome of a trial step.
-enum Tried {
+enum StepOutcome {
     /// It was too long for the tolerance.
     Rejected,
     /// It left its piece of the force law and came back.
@@ -96,7 +96,7 @@ enum Tried {
 
 /// Why a trajectory ends.
 #[derive(Debug)]
-pub(super) enum Ended {
+pub(super) enum TrajectoryEnd {
     /// The budget of evaluations is exhausted, or would be long before the end.
     Budget,
     /// The motion is pushed back to a jump of the force from both sides.
@@ -190,7 +190,7 @@ impl<V: Vector> Trajectory<V> {
         h: f64,
         work: &mut Extrapolation<V>,
         budget: u64,
-    ) -> Result<(), Ended> {
+    ) -> Result<(), TrajectoryEnd> {
         self.unwind(body);
         let mut carried = self.step.map_or(h, |step| step.copysign(h));
         let mut left = h;
@@ -201,8 +201,8 @@ impl<V: Vector> Trajectory<V> {
             if work.evaluations >= seen.0 + STRETCH {
                 let come = (seen.1 - left).abs();
                 let stretches = (budget - work.evaluations) as f64 / STRETCH as f64;
-                if HOPE * stretches * come < left.abs() {
-                    return Err(Ended::Budget);
+                if MAX_LATER_STEP_GROWTH * stretches * come < left.abs() {
+                    return Err(TrajectoryEnd::Budget);
                 }
                 seen = (work.evaluations, left);
             }
@@ -214,23 +214,23 @@ impl<V: Vector> Trajectory<V> {
             };
             let trial = if carried.abs() < most.abs() { carried } else { most };
             let stepped = match self.try_step(body, t + (h - left), trial, halvings, work) {
-                Tried::Rejected => {
+                StepOutcome::Rejected => {
                     carried = REJECTED_FACTOR * trial;
                     continue;
                 }
-                Tried::LeftPiece => {
+                StepOutcome::LeftPiece => {
                     halvings += 1;
                     carried = trial / 2.0;
                     continue;
                 }
-                Tried::AtBoundary { part } => {
+                StepOutcome::AtBoundary { part } => {
                     stands = if part > 0.0 { 0 } else { stands + 1 };
                     if stands > MAX_STANDS {
-                        return Err(Ended::Sticks);
+                        return Err(TrajectoryEnd::Sticks);
                     }
                     part * trial
                 }
-                Tried::Accepted { columns } => {
+                StepOutcome::Accepted { columns } => {
                     // A step cut short by the end of the call gives no information about the next one.
                     if trial == carried && columns <= FEW_COLUMNS {
                         carried *= 2.0;
@@ -246,7 +246,7 @@ impl<V: Vector> Trajectory<V> {
             left -= stepped;
             work.begin(body, &self.piece, t + (h - left), &self.at);
         }
-        Err(Ended::Budget)
+        Err(TrajectoryEnd::Budget)
     }
 
     /// Tries one step of `h` from `t`, after this many halvings for leaving the piece. Moves the state if the step is
@@ -258,10 +258,10 @@ impl<V: Vector> Trajectory<V> {
         h: f64,
         halvings: u32,
         work: &mut Extrapolation<V>,
-    ) -> Tried {
+    ) -> StepOutcome {
         let tolerance = self.control.tolerance();
         let Some(columns) = work.attempt(body, &self.piece, t, h, &self.at, tolerance) else {
-            return Tried::Rejected;
+            return StepOutcome::Rejected;
         };
         let switches = body.switches();
         let (mut begun, mut ended) = (NO_BOUNDARIES, NO_BOUNDARIES);
@@ -273,20 +273,20 @@ impl<V: Vector> Trajectory<V> {
         if let Some(crossing) = self.first_crossing(switches, &begun, &ended) {
             let found = self.find_first_boundary(body, work, t, h, &begun, crossing);
             let Some((part, Crossing { switch, side, .. })) = found else {
-                return Tried::Rejected;
+                return StepOutcome::Rejected;
             };
             if part > 0.0 {
                 self.add(work.added());
             }
             let mode = &mut self.piece.modes[switch];
             *mode = body.neighbour(switch, *mode, side);
-            return Tried::AtBoundary { part };
+            return StepOutcome::AtBoundary { part };
         }
         if halvings < MAX_HALVINGS && self.leaves_piece(body, &work.min_distances) {
-            return Tried::LeftPiece;
+            return StepOutcome::LeftPiece;
         }
         self.add(work.added());
-        Tried::Accepted { columns }
+        StepOutcome::Accepted { columns }
     }
 
     /// Extends the extents by the finite distances of a state.

@@ -91,7 +91,7 @@ impl LinearMotion {
         let maps = linear_maps(stepper, &self.shapes, step, [amplitude, rate])?;
         let mut stability = Stability::OVERFLOW;
         if let Some(mut values) = eigenvalues(&maps) {
-            self.keep_what_drifts(&mut values);
+            self.snap_force_free_to_one(&mut values);
             stability = compare(&self.truth, &values, step.h);
             // The map of a tick is a power of the map of a step, in which the modes turn less.
             stability.spectral_radius = libm::pow(stability.spectral_radius, f64::from(times));
@@ -101,7 +101,7 @@ impl LinearMotion {
 
     /// Sets the eigenvalues nearest to 1 to exactly 1, one for each force-free mode. Methods preserve uniform drift,
     /// but rounding splits a double eigenvalue by √ε.
-    fn keep_what_drifts(&self, values: &mut [Eigenvalue]) {
+    fn snap_force_free_to_one(&self, values: &mut [Eigenvalue]) {
         let still = self.truth.iter().filter(|mode| mode.is_still()).count();
         if still == 0 {
             return;

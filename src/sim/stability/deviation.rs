@@ -46,9 +46,9 @@ pub(super) fn force_slopes(body: &dyn Stepper, at: &[f64], by: f64, t: f64) -> D
 
 /// A system given by its acceleration on slices: coordinates, velocities, output.
 #[derive(Clone)]
-struct Forces<F>(F);
+struct SliceSystem<F>(F);
 
-impl<F: Fn(&[f64], &[f64], &mut [f64])> System for Forces<F> {
+impl<F: Fn(&[f64], &[f64], &mut [f64])> System for SliceSystem<F> {
     type Vector = Vec<f64>;
 
     fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
@@ -57,13 +57,13 @@ impl<F: Fn(&[f64], &[f64], &mut [f64])> System for Forces<F> {
 }
 
 /// A body of `n` coordinates at 0 with this acceleration, under `method`.
-fn under(
+fn body_with_acceleration(
     acceleration: impl Fn(&[f64], &[f64], &mut [f64]) + Clone + Send + 'static,
     n: usize,
     method: &'static Method,
 ) -> Box<dyn Stepper> {
     let start = State { q: vec![0.0; n], v: vec![0.0; n] };
-    let body = Custom::unnamed(Forces(acceleration), &start, &Extras::default());
+    let body = Custom::unnamed(SliceSystem(acceleration), &start, &Extras::default());
     stepper(body, Solver::Method(method))
 }
 
@@ -76,12 +76,12 @@ pub(super) fn linear(jacobian: DMatrix<f64>, method: &'static Method) -> Box<dyn
             *a = (0..n).map(row).sum();
         }
     };
-    under(acceleration, n, method)
+    body_with_acceleration(acceleration, n, method)
 }
 
 /// A deviation from the state of `body` at time `t` (s), under the forces linearised there. Their slopes are
 /// differences along the deviation, over `displacement` times the size of the state. Velocities are scaled by `h`.
-pub(super) fn along(
+pub(super) fn deviation_along_forces(
     body: &dyn Stepper,
     t: f64,
     h: f64,
@@ -99,7 +99,7 @@ pub(super) fn along(
         let part = distance / size_of(q, v);
         a.copy_from_slice(&slope(&*body, t, &at, &here, part, &[q, v].concat()));
     };
-    under(acceleration, n, method)
+    body_with_acceleration(acceleration, n, method)
 }
 
 #[cfg(test)]
@@ -143,7 +143,7 @@ mod tests {
         // Starts in a state in which coordinate, velocity and force are all nonzero.
         let values = [2.0, 180.0, 3.0, 0.7, 1.5, 1.0];
         let body = (kind("spring").unwrap().build)(&values, Solver::Truth);
-        let found = reached(&mut *along(&*body, 0.0, 0.05, 1e-3, rk4), 0.2, -4.0);
+        let found = reached(&mut *deviation_along_forces(&*body, 0.0, 0.05, 1e-3, rk4), 0.2, -4.0);
         let mut stepper = body.with_solver(Solver::Method(rk4), 0.0);
         let [near, far] = [[0.7, 1.5], [0.9, -2.5]].map(|[q, v]| reached(&mut *stepper, q, v));
         let wanted: Vec<f64> = far.iter().zip(&near).map(|(far, near)| far - near).collect();

@@ -141,7 +141,7 @@ fn continued_run(
 ) -> impl FnMut() -> Result<Option<f64>, StepFailure> + use<> {
     let Tick { t, h, substeps } = tick;
     let n = body.q().len();
-    let mut deviation = deviation::along(body, t, h, DISPLACEMENT, method);
+    let mut deviation = deviation::deviation_along_forces(body, t, h, DISPLACEMENT, method);
     let mut start = start_vector(2 * n);
     start.iter_mut().for_each(|x| *x *= START);
     start[n..].iter_mut().for_each(|v| *v /= h);

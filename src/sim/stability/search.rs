@@ -39,7 +39,7 @@ impl RateSearch {
     }
 
     /// The slowest rate that passes, or `Some(None)` if none does; `None` while the search continues.
-    pub fn found(&self) -> Option<Option<u32>> {
+    pub fn slowest_rate(&self) -> Option<Option<u32>> {
         match self.state {
             SearchState::Found(hz) => Some(hz),
             _ => None,
@@ -70,14 +70,14 @@ impl RateSearch {
             }
             SearchState::Found(hz) => SearchState::Found(hz),
         };
-        self.found().is_none()
+        self.slowest_rate().is_none()
     }
 
     /// Runs the whole search.
     pub fn run(mut holds_at: impl FnMut(u32) -> bool) -> Option<u32> {
         let mut search = Self::new();
         while search.advance(&mut holds_at) {}
-        search.found().flatten()
+        search.slowest_rate().flatten()
     }
 }
 

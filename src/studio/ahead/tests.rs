@@ -144,7 +144,7 @@ fn each_predicted_future_matches_the_run_under_its_method() {
     studio.apply(StageCommand::TickHz(12.into()));
     let futures = futures(&studio.deck, 0);
     assert_eq!(futures.len(), studio.scene().lanes.len() + 1);
-    for Future { entry, moments } in futures {
+    for FutureCurve { entry, moments } in futures {
         let Some(entry) = entry else {
             let FutureMoment { t, state: [x, _], .. } = moments[moments.len() - 1];
             let from = studio.race().entrants()[0].lane.bodies()[0].stepper.clone();

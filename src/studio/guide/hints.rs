@@ -20,7 +20,23 @@ struct FollowUpHint {
 /// Least duration (s) of a run that is worth rewinding.
 const WORTH_GOING_BACK_S: f64 = 1.0;
 
+/// Index of the hint to restart.
+const RESTARTS: usize = 1;
+
 static FOLLOW_UP_HINTS: [FollowUpHint; 8] = [
+    FollowUpHint {
+        text: |now| {
+            let beside = [Step::Previous, Step::Next]
+                .map(|step| step.next_rung(&TICK_LADDER, now.race.tick_hz()));
+            beside
+                .iter()
+                .all(Option::is_some)
+                .then_some("Drag the tick rate, or press `[`: the next second unfolds.")
+        },
+        is_done_by: |command| {
+            matches!(command, Command::Stage(StageCommand::TickRate(_) | StageCommand::TickHz(_)))
+        },
+    },
     FollowUpHint {
         text: |now| (!now.is_from_the_start).then_some("Press `Home` to see it from the start."),
         is_done_by: |command| {
@@ -81,19 +97,6 @@ static FOLLOW_UP_HINTS: [FollowUpHint; 8] = [
         },
     },
     FollowUpHint {
-        text: |now| {
-            let beside = [Step::Previous, Step::Next]
-                .map(|step| step.next_rung(&TICK_LADDER, now.race.tick_hz()));
-            beside
-                .iter()
-                .all(Option::is_some)
-                .then_some("Press `[` and `]` to change the tick rate: who survives a coarse one?")
-        },
-        is_done_by: |command| {
-            matches!(command, Command::Stage(StageCommand::TickRate(_) | StageCommand::TickHz(_)))
-        },
-    },
-    FollowUpHint {
         text: |_| Some("Press `F2` for the guide through the chapter, or `N` for the next scene."),
         is_done_by: |command| {
             matches!(
@@ -141,9 +144,9 @@ impl Hints {
         if let Some(hint) = hint.filter(|_| !self.scene) {
             return Some(hint.to_owned());
         }
-        let leads = FOLLOW_UP_HINTS.iter().zip(self.leads).filter(|(_, done)| !done);
-        let text = leads.filter_map(|(lead, _)| (lead.text)(now)).next()?;
-        let is_asked_to_restart = self.scene && !now.is_from_the_start && !self.leads[0];
+        let mut leads = FOLLOW_UP_HINTS.iter().enumerate().filter(|(index, _)| !self.leads[*index]);
+        let (index, text) = leads.find_map(|(index, lead)| Some((index, (lead.text)(now)?)))?;
+        let is_asked_to_restart = self.scene && index == RESTARTS;
         // A verdict is about a run from the start, and not about the one on the stage.
         Some(match reaction(outcome).filter(|_| is_asked_to_restart) {
             Some(reaction) => format!("{} {reaction}. {text}", now.method().name),

@@ -7,7 +7,7 @@ use crate::sim::integrators::{JointMode, METHODS, Method};
 
 /// How a method applies the body's spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SpringAs {
+pub enum SpringForm {
     /// As a part of the acceleration; also if there is no spring.
     Acceleration,
     /// As an engine's joint in this mode, or in an equivalent one.
@@ -24,14 +24,14 @@ pub struct Candidate {
     /// Its substeps per tick.
     pub substeps: u32,
     /// How it applies the spring.
-    pub spring: SpringAs,
+    pub spring: SpringForm,
 }
 
 /// Writes the id, the substeps and, unless it is the engine's first, the way it applies the spring.
 impl fmt::Display for Candidate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} ×{}", self.method.id, self.substeps)?;
-        self.told().map_or(Ok(()), |told| write!(f, ", {told}"))
+        self.spring_label().map_or(Ok(()), |told| write!(f, ", {told}"))
     }
 }
 
@@ -59,17 +59,17 @@ impl Candidate {
 
     /// Label of the way the spring is applied, unless it is the engine's first: `force held` where a joint was
     /// possible, or the id of the joint's mode.
-    pub fn told(&self) -> Option<&'static str> {
+    pub fn spring_label(&self) -> Option<&'static str> {
         match self.spring {
-            SpringAs::HeldForce if !self.method.holds_force() => Some("force held"),
-            SpringAs::Joint(mode) if mode.is_explicit => Some(mode.id),
+            SpringForm::HeldForce if !self.method.holds_force() => Some("force held"),
+            SpringForm::Joint(mode) if mode.is_explicit => Some(mode.id),
             _ => None,
         }
     }
 
     /// Whether the game applies the spring as a force of its own, not as a joint of the engine.
     pub fn is_held(&self) -> bool {
-        self.spring == SpringAs::HeldForce
+        self.spring == SpringForm::HeldForce
     }
 
     /// Whether it has its method's default substeps, and is not a listing of the book.
@@ -94,7 +94,7 @@ impl Candidate {
     /// apply the spring, and other engines.
     pub(super) fn preference(&self) -> (bool, bool, bool, bool, u32, Option<usize>) {
         let is_as_set = self.method.is_engine() && self.is_as_set();
-        let is_told = self.told().is_some();
+        let is_told = self.spring_label().is_some();
         let index = METHODS.iter().position(|method| method.id == self.method.id);
         (!is_as_set, !self.is_usual(), is_told, !self.method.is_engine(), self.substeps, index)
     }
@@ -102,17 +102,17 @@ impl Candidate {
 
 /// The ways to apply the body's spring under which the method moves differently. For an engine these are its first
 /// joint of each kind, explicit or not, and a held force.
-fn ways(method: &Method, body: &LoggedBody) -> Vec<SpringAs> {
+fn spring_forms(method: &Method, body: &LoggedBody) -> Vec<SpringForm> {
     if method.holds_force() {
-        return vec![SpringAs::HeldForce];
+        return vec![SpringForm::HeldForce];
     }
     if !method.is_engine() || !body.has_spring() {
-        return vec![SpringAs::Acceleration];
+        return vec![SpringForm::Acceleration];
     }
     let modes = method.engine.map_or(&[][..], |engine| engine.modes);
     let first = |is_explicit| modes.iter().find(|mode| mode.is_explicit == is_explicit);
-    let joints = [false, true].into_iter().filter_map(first).map(SpringAs::Joint);
-    joints.chain([SpringAs::HeldForce]).collect()
+    let joints = [false, true].into_iter().filter_map(first).map(SpringForm::Joint);
+    joints.chain([SpringForm::HeldForce]).collect()
 }
 
 /// All candidates for a body. If its spring is unknown, only those with usual substeps.
@@ -120,7 +120,7 @@ pub(super) fn candidates(body: &LoggedBody) -> Vec<Candidate> {
     let mut all = Vec::new();
     let stepped = METHODS.iter().filter(|method| method.tolerance.is_none());
     for method in stepped.filter(|method| method.only.is_none() || method.is_engine()) {
-        for spring in ways(method, body) {
+        for spring in spring_forms(method, body) {
             let of = |substeps| Candidate { method, substeps, spring };
             all.extend((1..=MAX_SUBSTEPS).map(of));
         }

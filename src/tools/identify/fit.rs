@@ -32,7 +32,7 @@ const HALVINGS: u32 = 8;
 /// Fewer rows cannot separate noise from autocorrelation.
 const MIN_ROWS_OF_NOISE: usize = 20;
 /// Autocorrelation tolerated beyond the 3σ bound of white noise.
-const FOLLOWING: f64 = 0.1;
+const AUTOCORRELATION_SLACK: f64 = 0.1;
 /// Largest lag of the autocorrelation, in rows.
 const LAGS: usize = 3;
 
@@ -230,22 +230,24 @@ impl Fit {
     pub(super) fn is_doubtful(&self) -> bool {
         let is_beyond_rounding = self.residual() > EXACT;
         is_beyond_rounding
-            && (self.follows(EXACT) || (self.is_short() && self.residual() > self.precise))
+            && (self.is_autocorrelated(EXACT)
+                || (self.is_short() && self.residual() > self.precise))
     }
 
     /// Whether the residual is autocorrelated and above rounding level, so that it is not noise.
     pub(super) fn is_systematic(&self) -> bool {
-        self.follows(self.precise)
+        self.is_autocorrelated(self.precise)
     }
 
     /// Whether the residual is autocorrelated and larger than `precise`.
-    fn follows(&self, precise: f64) -> bool {
+    fn is_autocorrelated(&self, precise: f64) -> bool {
         self.residuals.iter().any(|residuals| {
             let square = mean_square(residuals);
             let follows = |lag: usize| {
                 let pairs = residuals.iter().zip(&residuals[lag..]);
                 let mean = pairs.map(|(a, b)| a * b).sum::<f64>() / (residuals.len() - lag) as f64;
-                (mean / square).abs() > 3.0 / (residuals.len() as f64).sqrt() + FOLLOWING
+                (mean / square).abs()
+                    > 3.0 / (residuals.len() as f64).sqrt() + AUTOCORRELATION_SLACK
             };
             square.sqrt() > precise && (1..=LAGS.min(residuals.len() - 1)).any(follows)
         })

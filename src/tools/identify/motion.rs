@@ -1,6 +1,6 @@
 //! Runs a log's body under a candidate.
 
-use super::candidates::{Candidate, SpringAs};
+use super::candidates::{Candidate, SpringForm};
 use super::logged::LoggedBody;
 use crate::sim::integrators::{fresh, problem};
 use crate::sim::{Query, State, System};
@@ -51,8 +51,8 @@ pub(crate) fn run(
 ) -> Option<Vec<[f64; 2]>> {
     // An explicit joint reads its force again in each substep, as if each were a tick.
     let (is_held, parts) = match candidate.spring {
-        SpringAs::Joint(mode) if mode.is_explicit => (true, candidate.substeps),
-        spring => (spring == SpringAs::HeldForce, 1),
+        SpringForm::Joint(mode) if mode.is_explicit => (true, candidate.substeps),
+        spring => (spring == SpringForm::HeldForce, 1),
     };
     let (step_s, substeps) = (tick_s / f64::from(parts), candidate.substeps / parts);
     let known = problem(Known { spring: body.spring?, drag: body.drag, push: body.push, is_held });

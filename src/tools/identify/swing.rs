@@ -33,7 +33,7 @@ pub struct FittedSwing {
 type Parameters = [f64; 5];
 
 /// Distance from the rest `t` seconds after the start `[x, v]`, by the closed form of x″ = -k x - c x′.
-fn swung([k, c]: [f64; 2], [x, v]: [f64; 2], t: f64) -> f64 {
+fn displacement_at([k, c]: [f64; 2], [x, v]: [f64; 2], t: f64) -> f64 {
     let half = c / 2.0;
     let square = k - half * half;
     let slope = v + half * x;
@@ -50,8 +50,8 @@ fn swung([k, c]: [f64; 2], [x, v]: [f64; 2], t: f64) -> f64 {
 }
 
 /// Coordinates at the times of the log.
-fn run(log: &Log, [k, c, rest, x, v]: Parameters) -> Vec<f64> {
-    let at = |t: f64| rest + swung([k, c], [x - rest, v], t);
+fn sample_swing(log: &Log, [k, c, rest, x, v]: Parameters) -> Vec<f64> {
+    let at = |t: f64| rest + displacement_at([k, c], [x - rest, v], t);
     log.rows().iter().map(|row| at(row.t_s)).collect()
 }
 
@@ -106,13 +106,13 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
         let column = |i: usize| {
             let mut there = *now;
             there[i] += DISPLACEMENT * unit(now)[i];
-            let moved = run(log, there);
+            let moved = sample_swing(log, there);
             moved.iter().zip(base).map(|(there, here)| (there - here) / DISPLACEMENT).collect()
         };
         free.map(column).collect()
     };
     for _ in 0..ITERATIONS {
-        let base = run(log, now);
+        let base = sample_swing(log, now);
         let off = residual(&base);
         let change = least_squares(&slopes(&now, &base), &off)?;
         let before = squares(&off);
@@ -122,7 +122,8 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
             let mut there = now;
             let free = (0..5).filter(|i| is_free[*i]);
             free.zip(&change).for_each(|(i, change)| there[i] += part * change * units[i]);
-            let is_nearer = there[0] > 0.0 && squares(&residual(&run(log, there))) < before;
+            let is_nearer =
+                there[0] > 0.0 && squares(&residual(&sample_swing(log, there))) < before;
             is_nearer.then_some(there)
         });
         let Some(nearer) = nearer else { break };
@@ -131,7 +132,7 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
             break;
         }
     }
-    let base = run(log, now);
+    let base = sample_swing(log, now);
     let off = residual(&base);
     let [k, c, rest, ..] = now;
     let omega = k.sqrt();
@@ -183,7 +184,7 @@ mod tests {
         let (mut t, mut text) = (0.0, "t,x\n".to_owned());
         for row in 0..400 {
             let off = [0.3, -1.0, 0.8, -0.4, 0.1][row % 5];
-            let x = 3.0 + swung([20.0, 0.25], [1.0, -0.5], t) + noise * off;
+            let x = 3.0 + displacement_at([20.0, 0.25], [1.0, -0.5], t) + noise * off;
             text += &format!("{t:?},{x:?}\n");
             t += 0.012 + 0.01 * f64::from((row * 7 % 11) as u32) / 11.0;
         }
@@ -213,7 +214,7 @@ mod tests {
     fn the_closed_form_satisfies_its_equation_on_both_sides_of_critical_damping() {
         let (k, h) = (4.0_f64, 1e-4);
         for c in [-0.5, 0.0, 0.5, 3.999_999_99, 4.0, 4.000_000_01, 9.0] {
-            let at = |t| swung([k, c], [1.0, -0.3], t);
+            let at = |t| displacement_at([k, c], [1.0, -0.3], t);
             let [x, v] = [at(0.5), (at(0.5 + h) - at(0.5 - h)) / (2.0 * h)];
             let a = (at(0.5 + h) - 2.0 * x + at(0.5 - h)) / (h * h);
             assert!((a + k * x + c * v).abs() < 1e-4, "{c}: {a}");

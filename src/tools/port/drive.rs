@@ -56,7 +56,7 @@ pub fn drive_limits(setup: Setup, joint: [f64; 2], held_ticks: Option<u32>) -> D
         fewest_substeps: (1..=MAX_SUBSTEPS).find(|n| holds(with(*n), joint)),
         sees: match held_ticks {
             Some(ticks) => setup.sees_held(joint, ticks),
-            None => setup.sees(joint),
+            None => setup.visible_motion(joint),
         },
     }
 }

@@ -8,7 +8,7 @@ pub(super) type Sees<'a> = &'a dyn Fn([f64; 2]) -> Option<Effective>;
 
 /// A joint with its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Found {
+pub(super) struct EvaluatedJoint {
     /// Stiffness in 1/s² and damping in 1/s.
     pub(super) joint: [f64; 2],
     /// Its visible motion.
@@ -44,24 +44,24 @@ const ROUNDS: u32 = 40;
 const HALVED: u32 = 60;
 
 /// The joint that shows `wanted`, or the nearest one; `None` if no joint shows a motion.
-pub(super) fn invert(sees: Sees, wanted: &Effective) -> Option<Found> {
+pub(super) fn invert(sees: Sees, wanted: &Effective) -> Option<EvaluatedJoint> {
     let solved = in_stages(sees, wanted);
     if let Some(found) = solved.filter(|found| found.missed <= super::REACHED) {
         return Some(found);
     }
-    let nearer = |a: &Found, b: &Found| a.missed.total_cmp(&b.missed);
+    let nearer = |a: &EvaluatedJoint, b: &EvaluatedJoint| a.missed.total_cmp(&b.missed);
     let kept = min_damping(sees, wanted.omega)
-        .and_then(|(stiffness, _)| found(sees, wanted, [stiffness, 0.0]));
+        .and_then(|(stiffness, _)| evaluate(sees, wanted, [stiffness, 0.0]));
     let all = [solved, kept, zoomed(sees, wanted)].into_iter().flatten();
     let best = all.min_by(nearer)?;
     Some(least_stiff(sees, wanted, best))
 }
 
 /// The joint with its visible motion and its error; `None` if it shows no motion.
-fn found(sees: Sees, wanted: &Effective, joint: [f64; 2]) -> Option<Found> {
+fn evaluate(sees: Sees, wanted: &Effective, joint: [f64; 2]) -> Option<EvaluatedJoint> {
     let seen = sees(joint)?;
     let missed = residual(&seen, wanted).into_iter().map(f64::abs).sum();
-    Some(Found { joint, seen, missed })
+    Some(EvaluatedJoint { joint, seen, missed })
 }
 
 /// Logarithm of the frequency's ratio to the wanted one, and difference of the damping ratios.
@@ -71,7 +71,7 @@ fn residual(seen: &Effective, wanted: &Effective) -> [f64; 2] {
 
 /// Applies Newton's method in stages, from a frequency so low that every map is near the motion, up to the wanted
 /// one.
-fn in_stages(sees: Sees, wanted: &Effective) -> Option<Found> {
+fn in_stages(sees: Sees, wanted: &Effective) -> Option<EvaluatedJoint> {
     let mut part = FIRST_STAGE;
     let ratio = wanted.decay / wanted.omega;
     let mut joint = [1.0, 2.0 * ratio];
@@ -81,28 +81,28 @@ fn in_stages(sees: Sees, wanted: &Effective) -> Option<Found> {
         let target = Effective { omega, decay: ratio * omega };
         // In units of the stage's frequency.
         let scaled = |[k, c]: [f64; 2]| [k * omega * omega, c * omega];
-        let at = |joint| found(sees, &target, scaled(joint));
+        let at = |joint| evaluate(sees, &target, scaled(joint));
         solution = newton(&at, &target, joint).or(solution.filter(|_| part < 1.0));
         if part >= 1.0 {
             break;
         }
-        if let Some(Found { joint: [k, c], .. }) = solution {
+        if let Some(EvaluatedJoint { joint: [k, c], .. }) = solution {
             joint = [k / (omega * omega), c / omega];
         }
         part = (part * STAGE).min(1.0);
     }
-    let Found { joint: [stiffness, damping], .. } = solution?;
+    let EvaluatedJoint { joint: [stiffness, damping], .. } = solution?;
     // A wish that needs a negative damping is out of reach.
     let damping = if damping.abs() < NO_DAMPING * wanted.omega { 0.0 } else { damping };
-    (damping >= 0.0).then(|| found(sees, wanted, [stiffness, damping]))?
+    (damping >= 0.0).then(|| evaluate(sees, wanted, [stiffness, damping]))?
 }
 
 /// The best joint that Newton's method finds from `joint`, which is in units of the target's frequency.
 fn newton(
-    at: &dyn Fn([f64; 2]) -> Option<Found>,
+    at: &dyn Fn([f64; 2]) -> Option<EvaluatedJoint>,
     target: &Effective,
     joint: [f64; 2],
-) -> Option<Found> {
+) -> Option<EvaluatedJoint> {
     // The logarithm keeps the stiffness positive.
     let of = |[s, c]: [f64; 2]| at([libm::exp(s), c]);
     let mut place = [libm::log(joint[0]), joint[1]];
@@ -162,14 +162,14 @@ fn intervals() -> impl Iterator<Item = (f64, f64)> {
 }
 
 /// The nearest joint on grids that shrink around the nearest one found.
-fn zoomed(sees: Sees, wanted: &Effective) -> Option<Found> {
+fn zoomed(sees: Sees, wanted: &Effective) -> Option<EvaluatedJoint> {
     let damping_of = |s: f64| wanted.omega * (libm::exp(s) - libm::exp(SPAN[0])).max(0.0);
     let of = |[s, d]: [f64; 2]| {
         let stiffness = wanted.omega * wanted.omega * libm::exp(s);
-        found(sees, wanted, [stiffness, damping_of(d)])
+        evaluate(sees, wanted, [stiffness, damping_of(d)])
     };
     let mut middle = [2.0, -3.0];
-    let mut best: Option<Found> = None;
+    let mut best: Option<EvaluatedJoint> = None;
     for (mut reach, first) in REACHES {
         for round in 0..ROUNDS {
             let cells = if round == 0 { first } else { CELLS };
@@ -192,7 +192,7 @@ fn zoomed(sees: Sees, wanted: &Effective) -> Option<Found> {
 }
 
 /// Lowers the stiffness while the visible motion stays the same, down to the engine's limit if it has one.
-fn least_stiff(sees: Sees, wanted: &Effective, best: Found) -> Found {
+fn least_stiff(sees: Sees, wanted: &Effective, best: EvaluatedJoint) -> EvaluatedJoint {
     let [stiffness, damping] = best.joint;
     let joint = |s: f64| [stiffness * libm::exp(s), damping];
     let is_same = |s: f64| sees(joint(s)) == Some(best.seen);
@@ -200,5 +200,5 @@ fn least_stiff(sees: Sees, wanted: &Effective, best: Found) -> Found {
         return best;
     }
     let [_, high] = bisect([SPAN[0] - SPAN[1], 0.0], HALVED, |s| !is_same(s));
-    found(sees, wanted, joint(high)).unwrap_or(best)
+    evaluate(sees, wanted, joint(high)).unwrap_or(best)
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, RowVector2, Vector2};
 
 use crate::sim::integrators::{JointMode, Method};
-use crate::tools::identify::{Candidate, Effective, LoggedBody, SLOW, SpringAs, run};
+use crate::tools::identify::{Candidate, Effective, LoggedBody, SLOW, SpringForm, run};
 
 /// An engine's settings for a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,9 +38,9 @@ impl Setup {
 
     /// Visible motion of a joint with this stiffness in 1/s² and damping in 1/s, each per unit of mass. `None` if no
     /// damped spring moves so, for example because the body changes sides at every tick.
-    pub fn sees(&self, joint: [f64; 2]) -> Option<Effective> {
+    pub fn visible_motion(&self, joint: [f64; 2]) -> Option<Effective> {
         let [trace, determinant] = self.invariants(joint)?;
-        seen(trace, determinant, 1.0 / self.tick_hz)
+        spring_of_map(trace, determinant, 1.0 / self.tick_hz)
     }
 
     /// Trace and determinant of a tick's map. In an engine with a memory, those of the two slowest motions.
@@ -64,7 +64,7 @@ impl Setup {
     fn maps(&self, spring: [f64; 2], ticks: u64) -> Option<Vec<Map>> {
         let &Self { method, mode, tick_hz, substeps } = self;
         let body = LoggedBody { spring: Some(spring), ..LoggedBody::default() };
-        let candidate = Candidate { method, substeps, spring: SpringAs::Joint(mode) };
+        let candidate = Candidate { method, substeps, spring: SpringForm::Joint(mode) };
         let from = |start| run(candidate, &body, start, 1.0 / tick_hz, 0..=ticks);
         columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)
     }
@@ -72,7 +72,7 @@ impl Setup {
     /// Map of `ticks` ticks through which user code holds the spring's force.
     fn held_map(&self, [stiffness, damping]: [f64; 2], ticks: u32) -> Option<Map> {
         let &Self { method, tick_hz, substeps, .. } = self;
-        let candidate = Candidate { method, substeps, spring: SpringAs::Acceleration };
+        let candidate = Candidate { method, substeps, spring: SpringForm::Acceleration };
         let after = |start, push| {
             let body = LoggedBody { spring: Some([0.0; 2]), push, ..LoggedBody::default() };
             run(candidate, &body, start, 1.0 / tick_hz, [0, u64::from(ticks)].into_iter())
@@ -86,7 +86,7 @@ impl Setup {
     /// Visible motion of a spring whose force user code holds through `ticks` ticks.
     pub fn sees_held(&self, joint: [f64; 2], ticks: u32) -> Option<Effective> {
         let map = self.held_map(joint, ticks)?;
-        seen(map.trace(), map.determinant(), f64::from(ticks) / self.tick_hz)
+        spring_of_map(map.trace(), map.determinant(), f64::from(ticks) / self.tick_hz)
     }
 
     /// As [`Setup::growth`], for a force held through `ticks` ticks.
@@ -98,7 +98,7 @@ impl Setup {
 
 /// Map of a step of `step_s` seconds, for a method with the spring, per unit of mass, as a part of the acceleration.
 pub(super) fn map_of_step(method: &'static Method, joint: [f64; 2], step_s: f64) -> Option<Map> {
-    let candidate = Candidate { method, substeps: 1, spring: SpringAs::Acceleration };
+    let candidate = Candidate { method, substeps: 1, spring: SpringForm::Acceleration };
     let body = LoggedBody { spring: Some(joint), ..LoggedBody::default() };
     let from = |start| run(candidate, &body, start, step_s, 0..=1);
     columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)?.pop()
@@ -129,7 +129,11 @@ pub(in crate::tools) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
 }
 
 /// The damped spring whose map over `tick_s` has this trace and determinant.
-pub(in crate::tools) fn seen(trace: f64, determinant: f64, tick_s: f64) -> Option<Effective> {
+pub(in crate::tools) fn spring_of_map(
+    trace: f64,
+    determinant: f64,
+    tick_s: f64,
+) -> Option<Effective> {
     let half = trace / 2.0;
     let square = half * half - determinant;
     if determinant <= 0.0 || square >= 0.0 && half <= 0.0 {

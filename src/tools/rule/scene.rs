@@ -36,7 +36,7 @@ pub fn rule_scene(file: &str, text: &str, fps: TickRate) -> Result<Scene, SceneE
     })?;
     let method = own_rule(&id, text, fps).map_err(of_text)?;
     let Some(OwnLines::Rule(rule)) = method.own else { unreachable!("a rule has its lines") };
-    let seen = Rule::read(text, fps.hz()).map_err(of_text)?.seen_at(fps.hz());
+    let seen = Rule::read(text, fps.hz()).map_err(of_text)?.motion_at(fps.hz());
     let tick_hz = fps.scaled(1, 2);
     let body = rule.body();
     let grows = match body {

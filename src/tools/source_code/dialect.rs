@@ -64,7 +64,7 @@ impl Dialect {
     }
 
     /// Fills in the parts of a template that depend on the precision.
-    pub(super) fn written(&self, template: &str, precision: Precision) -> String {
+    pub(super) fn fill_precision(&self, template: &str, precision: Precision) -> String {
         let type_name = self.type_in(precision);
         let (suffix, cast) = match precision {
             Precision::Double => ("", String::new()),

@@ -56,15 +56,15 @@ impl Names<'_> {
 
     /// Writes an expression word by word, with whole numbers converted.
     pub(super) fn expression(&self, text: &str) -> String {
-        self.written(text, true)
+        self.translate(text, true)
     }
 
     /// Writes a condition, or an expression that changes a whole number.
-    pub(super) fn unconverted(&self, text: &str) -> String {
-        self.written(text, false)
+    pub(super) fn whole_expression(&self, text: &str) -> String {
+        self.translate(text, false)
     }
 
-    fn written(&self, text: &str, converts: bool) -> String {
+    fn translate(&self, text: &str, converts: bool) -> String {
         let mut written = String::with_capacity(text.len());
         // For each open parenthesis, whether its last argument is C's `user`.
         let mut takes_user = Vec::new();
@@ -146,13 +146,13 @@ impl Names<'_> {
         }
         let dialect = self.language.dialect();
         if converts && self.whole.contains(&word) {
-            let converted = dialect.written(dialect.converted, self.precision);
+            let converted = dialect.fill_precision(dialect.converted, self.precision);
             return converted.replace("NAME", &self.name(word));
         }
         let written = dialect.words.iter().find(|(source, _)| *source == word);
         written.map_or_else(
             || self.name(word),
-            |(_, written)| dialect.written(written, self.precision),
+            |(_, written)| dialect.fill_precision(written, self.precision),
         )
     }
 }

@@ -17,9 +17,9 @@ pub(super) fn print(
 ) -> String {
     let mut printer = Printer { id, program, language, precision, text: String::new(), depth: 0 };
     for line in header {
-        printer.comment(line);
+        printer.print_comment(line);
     }
-    printer.whole();
+    printer.print_file();
     printer.text
 }
 
@@ -48,36 +48,41 @@ impl Printer<'_> {
         Names { id, language, precision, whole, inputs, functions: &self.program.functions }
     }
 
-    fn whole(&mut self) {
+    fn print_file(&mut self) {
         let snake = self.id.replace('-', "_");
         let pascal = pascal(&snake);
-        self.lines(&[""]);
+        self.push_lines(&[""]);
         match self.language {
-            Language::C => self.lines(&["#include <math.h>", ""]),
+            Language::C => self.push_lines(&["#include <math.h>", ""]),
             Language::CSharp => {
-                self.lines(&["using System;", "", &format!("public static class {pascal}"), "{"]);
+                self.push_lines(&[
+                    "using System;",
+                    "",
+                    &format!("public static class {pascal}"),
+                    "{",
+                ]);
                 self.depth += 1;
             }
             Language::Rust | Language::GdScript => {}
         }
-        self.memory(&snake, &pascal);
+        self.print_memory(&snake, &pascal);
         let program = self.program;
         for function in &program.functions {
             for comment in &function.comments {
-                self.comment(comment);
+                self.print_comment(comment);
             }
-            self.function(function);
-            self.lines(&[""]);
+            self.print_function(function);
+            self.push_lines(&[""]);
         }
-        self.step(&snake, &pascal);
+        self.print_step(&snake, &pascal);
         if self.language == Language::CSharp {
             self.depth -= 1;
-            self.lines(&["}"]);
+            self.push_lines(&["}"]);
         }
     }
 
     /// Prints the type of the memory, with its values before the first step.
-    fn memory(&mut self, snake: &str, pascal: &str) {
+    fn print_memory(&mut self, snake: &str, pascal: &str) {
         let fields = &self.program.memory;
         if fields.is_empty() {
             return;
@@ -113,16 +118,16 @@ impl Printer<'_> {
                 (format!("class {pascal}Memory:"), each("\tvar NAME: float = VALUE"), String::new())
             }
         };
-        self.lines(&[&open]);
-        each.iter().for_each(|line| self.lines(&[line]));
+        self.push_lines(&[&open]);
+        each.iter().for_each(|line| self.push_lines(&[line]));
         match close.is_empty() {
-            true => self.lines(&[""]),
-            false => self.lines(&[&close, ""]),
+            true => self.push_lines(&[""]),
+            false => self.push_lines(&[&close, ""]),
         }
     }
 
     /// Prints a function that returns a number.
-    fn function(&mut self, function: &Function<'_>) {
+    fn print_function(&mut self, function: &Function<'_>) {
         let (name, number) = (self.names(&[], &[]).function(function.name), self.number_type());
         let (open, close) = match self.language {
             Language::Rust => (format!("fn {name}("), format!(") -> {number} {{")),
@@ -133,13 +138,13 @@ impl Printer<'_> {
         let inputs = self.parameters(&function.inputs);
         self.signature(&open, &inputs, &close);
         self.depth += 1;
-        self.body(&function.body, &function.inputs);
+        self.print_body(&function.body, &function.inputs);
         self.depth -= 1;
-        self.end();
+        self.print_end();
     }
 
     /// Prints the function of the step.
-    fn step(&mut self, snake: &str, pascal: &str) {
+    fn print_step(&mut self, snake: &str, pascal: &str) {
         let program = self.program;
         // Marks unused parameters, so that compilers do not warn of them.
         let v = if program.reads("v") || !program.replaces("v") { "" } else { "_" };
@@ -181,24 +186,24 @@ impl Printer<'_> {
         match (self.language, v.is_empty()) {
             (Language::C, is_read) => {
                 let v = if is_read { "v = *velocity" } else { "v" };
-                self.lines(&[&format!("{number} x = *position;"), &format!("{number} {v};")]);
+                self.push_lines(&[&format!("{number} x = *position;"), &format!("{number} {v};")]);
             }
-            (Language::Rust, false) => self.lines(&["let v;"]),
-            (Language::GdScript, false) => self.lines(&["var v: float"]),
+            (Language::Rust, false) => self.push_lines(&["let v;"]),
+            (Language::GdScript, false) => self.push_lines(&["var v: float"]),
             (Language::Rust | Language::CSharp | Language::GdScript, _) => {}
         }
         if self.language == Language::C && !h.is_empty() {
-            self.lines(&["(void)h;"]);
+            self.push_lines(&["(void)h;"]);
         }
-        self.body(&program.body, &program.inputs);
+        self.print_body(&program.body, &program.inputs);
         match self.language {
-            Language::Rust => self.lines(&["(x, v)"]),
-            Language::C => self.lines(&["*position = x;", "*velocity = v;"]),
+            Language::Rust => self.push_lines(&["(x, v)"]),
+            Language::C => self.push_lines(&["*position = x;", "*velocity = v;"]),
             Language::CSharp => {}
-            Language::GdScript => self.lines(&["return [x, v]"]),
+            Language::GdScript => self.push_lines(&["return [x, v]"]),
         }
         self.depth -= 1;
-        self.end();
+        self.print_end();
     }
 
     /// Parameters of a function with these inputs.
@@ -235,29 +240,29 @@ impl Printer<'_> {
         let whole = format!("{open}{}{close}", parameters.join(", "));
         let dialect = self.dialect();
         if whole.len() + self.depth * dialect.indent.len() <= LINE_CHARS {
-            self.lines(&[&whole]);
+            self.push_lines(&[&whole]);
         } else {
-            self.lines(&[open]);
+            self.push_lines(&[open]);
             self.depth += 1;
             for (n, parameter) in parameters.iter().enumerate() {
                 let is_last = n + 1 == parameters.len();
                 // Only Rust allows a comma after the last.
                 let comma = if is_last && self.language != Language::Rust { "" } else { "," };
-                self.lines(&[&format!("{parameter}{comma}")]);
+                self.push_lines(&[&format!("{parameter}{comma}")]);
             }
             self.depth -= 1;
-            self.lines(&[close]);
+            self.push_lines(&[close]);
         }
     }
 
-    fn end(&mut self) {
+    fn print_end(&mut self) {
         match self.dialect().end {
             "" => {}
-            end => self.lines(&[end]),
+            end => self.push_lines(&[end]),
         }
     }
 
-    fn body(&mut self, lines: &[Line<'_>], inputs: &[MethodInput<'_>]) {
+    fn print_body(&mut self, lines: &[Line<'_>], inputs: &[MethodInput<'_>]) {
         let dialect = self.dialect();
         let whole = whole_numbers(inputs, lines);
         for (n, line) in lines.iter().enumerate() {
@@ -265,7 +270,7 @@ impl Printer<'_> {
             let (template, name, value) = match line {
                 Line::Blank => ("", "", ""),
                 Line::Comment(text) => {
-                    self.comment(text);
+                    self.print_comment(text);
                     continue;
                 }
                 Line::Constant { name, value } => (dialect.constant, *name, &**value),
@@ -284,10 +289,10 @@ impl Printer<'_> {
                 Line::Else | Line::End => {
                     self.depth -= 1;
                     if *line == Line::Else {
-                        self.lines(&[dialect.else_block]);
+                        self.push_lines(&[dialect.else_block]);
                         self.depth += 1;
                     } else {
-                        self.end();
+                        self.print_end();
                     }
                     continue;
                 }
@@ -301,10 +306,11 @@ impl Printer<'_> {
                 }
                 _ => false,
             };
-            let value = if counts { names.unconverted(value) } else { names.expression(value) };
+            let value =
+                if counts { names.whole_expression(value) } else { names.expression(value) };
             let value = value.replace('\n', &line_break);
-            let template_here = dialect.written(template, self.precision);
-            self.lines(&[&filled(&template_here, &names.name(name), &value)]);
+            let template_here = dialect.fill_precision(template, self.precision);
+            self.push_lines(&[&filled(&template_here, &names.name(name), &value)]);
             if [dialect.if_block, dialect.while_block].contains(&template) {
                 self.depth += 1;
             }
@@ -325,16 +331,16 @@ impl Printer<'_> {
             (Language::GdScript, true) => &["return [NAN, NAN]"],
             (Language::GdScript, false) => &["return [x, v]"],
         };
-        self.lines(lines);
+        self.push_lines(lines);
     }
 
-    fn comment(&mut self, text: &str) {
+    fn print_comment(&mut self, text: &str) {
         let line = format!("{} {text}", self.dialect().comment);
-        self.lines(&[line.trim_end()]);
+        self.push_lines(&[line.trim_end()]);
     }
 
     /// Adds lines at the present depth.
-    fn lines(&mut self, lines: &[&str]) {
+    fn push_lines(&mut self, lines: &[&str]) {
         for line in lines.iter().flat_map(|lines| lines.split('\n').collect::<Vec<_>>()) {
             if !line.is_empty() {
                 self.text.push_str(&self.indent(self.depth));

@@ -33,6 +33,9 @@ pub(super) const LANES: f32 = 240.0;
 pub(super) const TIMELINE: f32 = 420.0;
 pub(super) const TIMES_OF_TIMELINE: f32 = 560.0;
 
+/// Width and height of a stage with a scale of tick rates.
+pub(super) const RATE_SCALE: [f32; 2] = [320.0, 280.0];
+
 // Widths of a panel, or of a part of it.
 pub(super) const TIME_IN_TOP_BAR: f32 = 48.0;
 /// A name at the left of the timeline, and the memory at its right.

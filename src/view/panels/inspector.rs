@@ -10,7 +10,7 @@ use self::rows::{Row, SliderRange, Spacing, Values, rows};
 pub(in crate::view) use self::sweep::is_sweep_active;
 use super::focus;
 use crate::scene::{Action, check_entered, edited_values};
-use crate::stage::Acts;
+use crate::stage::TakesEffect;
 use crate::studio::{Command, RunCommand, Studio};
 use crate::view::theme::palette;
 
@@ -38,10 +38,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.spacing_mut().interact_size.y = LINE;
     ui.spacing_mut().button_padding.y = 1.0;
     ui.horizontal(|ui| {
-        ui.label(RichText::new("Inspector").size(14.0).strong());
+        ui.label(RichText::new("Edit").size(14.0).strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if named_button(ui, Button::new("×").frame(false), "close the inspector (E)").clicked()
-            {
+            if named_button(ui, Button::new("×").frame(false), "close Edit (E)").clicked() {
                 commands.push(Command::Run(RunCommand::ToggleInspector));
             }
             let restoring = restore_commands(studio);
@@ -81,7 +80,7 @@ fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
 }
 
 fn show_body(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec<Command>) {
-    let mut acts = Acts::AtOnce;
+    let mut acts = TakesEffect::AtOnce;
     for row in rows(studio, body) {
         if row.parameter.acts != acts {
             acts = row.parameter.acts;
@@ -120,8 +119,8 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
     };
     let check = |value| {
         let values = match parameter.acts {
-            Acts::AtOnce => studio.race().values(*body),
-            Acts::AtStart => &studio.scene().bodies[*body].values,
+            TakesEffect::AtOnce => studio.race().values(*body),
+            TakesEffect::AtStart => &studio.scene().bodies[*body].values,
         };
         check_entered(&parameter.quantity(), value, parameter.range)?;
         let checked = edited_values(kind, values, *index, value);
@@ -133,7 +132,7 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
         let slider = vec2((room - number - buttons).max(1.0), LINE);
         let reach = SliderRange::of(parameter.range, values);
         // A sweep of a parameter that acts from the next start would show nothing.
-        let swept_reach = reach.filter(|_| parameter.acts == Acts::AtOnce);
+        let swept_reach = reach.filter(|_| parameter.acts == TakesEffect::AtOnce);
         // A sweep ends with its scene, because another scene has other parameters at the same indices.
         let of = field.id.with(studio.deck.openings());
         let swept = sweep::show(ui, of, swept_reach, values, &name);
@@ -290,7 +289,7 @@ mod tests {
             }
             // A net has no start parameters.
             let mut parameters = bodies.iter().flat_map(|body| &body.kind.parameters);
-            let has_start = parameters.any(|parameter| parameter.acts == Acts::AtStart);
+            let has_start = parameters.any(|parameter| parameter.acts == TakesEffect::AtStart);
             assert_eq!(count("from the next start") >= 1, has_start, "{}", scene.name);
         }
     }

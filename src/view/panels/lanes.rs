@@ -163,7 +163,7 @@ impl TableRow for Row<'_> {
             None => "as many evaluations per step as it needs".into(),
         };
         ui.label(format!("{order} · {} · {cost}", method.family.id()));
-        let held = method.engine.and_then(|engine| engine.held_against());
+        let held = method.engine.and_then(|engine| engine.checked_against());
         for said in [Some(method.source.to_owned()), held].into_iter().flatten() {
             ui.label(RichText::new(said).color(palette(ui).dim));
         }

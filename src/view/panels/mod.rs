@@ -26,6 +26,7 @@ mod one_step;
 mod opening;
 mod parts;
 mod ranges;
+mod rate_scale;
 mod series_styles;
 mod stability_map;
 mod table;
@@ -123,6 +124,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
                 .show(ui, |ui| instruments::show_alone(ui, studio, &mut commands));
         }
         edge(ui, stage, &mut commands);
+        if rate_scale::is_shown(studio, stage.size()) {
+            rate_scale::show(ui, studio, stage, &mut commands);
+        }
         if studio.display().enlarged {
             stage.min.x = stage.max.x;
         }

@@ -7,7 +7,7 @@ use super::parts::dialog;
 use super::text_field::select;
 use crate::scene::TickRate;
 use crate::studio::{Command, MySpring, SpringField, StageCommand, Studio, ViewCommand};
-use crate::tools::port::{DIALECTS, Dialect, DialectPort};
+use crate::tools::port::{UI_SPRINGS, UiSpring, UiSpringPort};
 use crate::tools::source_code::Language;
 use crate::view::theme::{TYPE, palette};
 
@@ -90,17 +90,17 @@ fn is_new(ui: &Ui) -> bool {
 }
 
 /// A menu of libraries, which shows the spring's numbers in the selected one. A button copies its line of code.
-fn show_dialect(ui: &mut Ui, spring: MySpring) -> Option<(&'static Dialect, DialectPort)> {
+fn show_dialect(ui: &mut Ui, spring: MySpring) -> Option<(&'static UiSpring, UiSpringPort)> {
     let id = Id::unique("my spring speaks");
     let chosen = ui.data(|data| data.get_temp::<Option<usize>>(id)).flatten();
-    let name = |index: Option<usize>| index.map_or("as a UI spring of…", |i| DIALECTS[i].name);
-    let dialect = chosen.map(|index| &DIALECTS[index]);
+    let name = |index: Option<usize>| index.map_or("as a UI spring of…", |i| UI_SPRINGS[i].name);
+    let dialect = chosen.map(|index| &UI_SPRINGS[index]);
     let told = dialect.map(|dialect| (dialect, dialect.port(&spring.wish(), USUAL_FRAME_HZ)));
     ui.horizontal(|ui| {
         let menu =
             ComboBox::from_id_salt(id).selected_text(name(chosen)).width(NAME + NUMBER - 56.0);
         let menu = menu.truncate().show_ui(ui, |ui| {
-            for index in [None].into_iter().chain((0..DIALECTS.len()).map(Some)) {
+            for index in [None].into_iter().chain((0..UI_SPRINGS.len()).map(Some)) {
                 if ui.selectable_label(index == chosen, name(index)).clicked() {
                     ui.data_mut(|data| data.insert_temp(id, index));
                 }

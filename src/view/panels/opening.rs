@@ -5,7 +5,7 @@ use egui::{Id, Key, Label, Rect, RichText, ScrollArea, TextStyle, TextWrapMode, 
 use super::parts::dialog;
 use super::text_field::{select, text_field};
 use crate::run::link::MAX_LETTERS;
-use crate::scene::Mistake;
+use crate::scene::ShownError;
 use crate::studio::{Command, DriverRequest, Studio, ViewCommand};
 use crate::view::theme::palette;
 
@@ -16,7 +16,7 @@ const WIDTH: f32 = 460.0;
 pub(super) fn path(
     ui: &Ui,
     studio: &Studio,
-    refused: Option<&[Mistake]>,
+    refused: Option<&[ShownError]>,
     over: Rect,
     commands: &mut Vec<Command>,
 ) {
@@ -70,7 +70,7 @@ pub(super) fn path(
 pub(super) fn mistakes(
     ui: &Ui,
     file: &str,
-    report: &[Mistake],
+    report: &[ShownError],
     over: Rect,
     commands: &mut Vec<Command>,
 ) {
@@ -95,10 +95,10 @@ pub(super) fn mistakes(
 
 /// Writes a report into this room, scrolled if it is larger. Messages wrap. Lines of the file do not, because the
 /// marks below them would lose their places.
-fn report_within(ui: &mut Ui, report: &[Mistake], room: egui::Vec2) {
+fn report_within(ui: &mut Ui, report: &[ShownError], room: egui::Vec2) {
     let room = room.max(egui::Vec2::ZERO);
     ScrollArea::both().max_width(room.x).max_height(room.y).show(ui, |ui| {
-        for Mistake { message, quoted } in report {
+        for ShownError { message, quoted } in report {
             let message = RichText::new(message).monospace().color(palette(ui).bad);
             // A scroll area by itself has no right edge to wrap at.
             ui.scope(|ui| {
@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn a_long_message_is_wrapped_and_a_quoted_line_is_not() {
         let message = |words: usize| format!("a.toml:1:1: {}", "words ".repeat(words));
-        let shown = |report: Mistake| {
+        let shown = |report: ShownError| {
             let mut studio = Studio::new(Scene::built_in("spring").unwrap());
             show_mistakes(
                 &mut studio.deck,
@@ -154,7 +154,7 @@ mod tests {
         let [short, long] = [8, 80].map(|words| shown(message(words).into()));
         assert!(long.x <= 800.0 && long.y > short.y + 20.0, "{short:?} {long:?}");
         let quoted = format!("1 | {}", "words ".repeat(80));
-        let quoted = shown(Mistake { message: message(8), quoted });
+        let quoted = shown(ShownError { message: message(8), quoted });
         assert!(quoted.x <= 800.0 && quoted.y < long.y, "{quoted:?} {long:?}");
     }
 

@@ -35,6 +35,21 @@ pub(super) fn around_truth(
     (low - pad, high + pad)
 }
 
+/// Enlarges a range to the values of these points, up to `times` its size on each side of its middle.
+pub(super) fn with_room<'a>(
+    (low, high): (f64, f64),
+    points: impl Iterator<Item = &'a [f64; 2]>,
+    times: f64,
+) -> (f64, f64) {
+    let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
+    let [least, most] = [-1.0, 1.0].map(|sign| middle + sign * times * half);
+    let values = points.map(|at| at[1]).filter(|value| value.is_finite());
+    values.fold((low, high), |(low, high), value| {
+        let value = value.clamp(least, most);
+        (low.min(value), high.max(value))
+    })
+}
+
 /// Range of the truth along an axis, and of the lanes that are nowhere more than `healthy` times as far out.
 pub(super) fn around_orbit(
     truth: impl Iterator<Item = f64> + Clone,

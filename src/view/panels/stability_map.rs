@@ -10,7 +10,7 @@ use egui::{
 use super::annotations::{label, mixed, polygon};
 use super::breakpoints;
 use super::parts::{is_picture, numbered};
-use crate::measure::{Coverage, MapRequest, SeenLine, StabilityMap};
+use crate::measure::{Coverage, DampingLine, MapRequest, StabilityMap};
 use crate::run::MenuIndex;
 use crate::scene::TickRate;
 use crate::scene::{Action, edited_values};
@@ -290,7 +290,7 @@ fn seen_lines(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64,
     let is_decade = |ratio: f64| libm::log10(ratio).fract().abs() < 1e-9;
     let lines = selected.flat_map(|(region, _)| &region.seen);
     let lines = lines.filter(|line| has_room || is_decade(line.damping_ratio));
-    let line = |line: &SeenLine| {
+    let line = |line: &DampingLine| {
         (line.damping_ratio, line.points.iter().map(|point| area.at(*point)).collect())
     };
     lines.map(line).collect()

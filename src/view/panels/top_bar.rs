@@ -4,14 +4,14 @@ use egui::{
     Align, Button, ComboBox, Frame, Label, Layout, RichText, Sense, TextWrapMode, Ui, vec2,
 };
 
-use super::breakpoints;
 use super::loops::controls;
+use super::{breakpoints, rate_scale};
 use crate::loops::loop_lab::LoopCommand;
 use crate::run::race::Mode;
 use crate::scene::{SCENES, Scene};
 use crate::studio::{
-    Command, RunCommand, SPEED_LADDER, StageCommand, Step, Studio, TICK_LADDER, ViewCommand,
-    shown_s, shown_tick,
+    Command, RunCommand, SPEED_LADDER, StageCommand, Step, Studio, ViewCommand, shown_s,
+    shown_tick, slowed_in_words,
 };
 use crate::view::theme::{TYPE, palette, strong_font};
 
@@ -35,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
                 None => speed_menu(ui, studio, commands),
             }
             word(ui, width, "tick rate");
-            tick_rate_menu(ui, studio, commands);
+            tick_rate(ui, studio, commands);
         }
         modes(ui, studio, width, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -60,7 +60,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
                     match is_wide {
                         true => {
                             let tick = shown_tick(&studio.deck, &studio.viewer);
-                            format!("t = {t:.3} s · tick {tick}")
+                            let slowed = slowed_in_words(&studio.deck, &studio.viewer);
+                            let slowed = slowed.map(|words| format!(" · {words}"));
+                            format!("t = {t:.3} s · tick {tick}{}", slowed.unwrap_or_default())
                         }
                         false => format!("{t:.3} s"),
                     }
@@ -158,7 +160,7 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
         false => Command::Stage(StageCommand::ToggleRace),
     };
     let is_in = |mode: Mode| !is_in_loops && studio.mode() == mode;
-    let loops = if width >= breakpoints::WORDS_IN_TOP_BAR { "Loop lab" } else { "Loops" };
+    let loops = "Loop lab";
     let parts = [
         (
             "Solo",
@@ -235,22 +237,14 @@ fn multiple(percent: u32) -> String {
     }
 }
 
-fn tick_rate_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+fn tick_rate(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let tick_hz = studio.loop_lab().map_or(studio.clock().tick_hz(), |loops| loops.scene().tick_hz);
-    let text = RichText::new(format!("{tick_hz:.3} Hz"));
-    let menu = ComboBox::from_id_salt("tick rate").selected_text(text).width(72.0).height(480.0);
-    let response = menu.show_ui(ui, |ui| {
-        for rung in TICK_LADDER {
-            if ui.selectable_label(tick_hz == rung, format!("{rung} Hz")).clicked() {
-                commands.push(Command::Stage(StageCommand::TickHz(rung.into())));
-            }
-        }
-    });
-    response.response.on_hover_text("ticks per simulated second ([ and ])");
+    let response = rate_scale::number(ui, tick_hz, vec2(76.0, 26.0), commands);
+    response.on_hover_text("ticks per simulated second: drag it, or click and type ([ and ])");
 }
 
 fn inspector_button(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
-    let (is_open, about) = (studio.display().inspector, "inspector (E)");
+    let (is_open, about) = (studio.display().inspector, "edit parameters, methods and rates (E)");
     let response = ui.add(Button::new("Edit").selected(is_open)).on_hover_text(about);
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_open, about));
     if response.clicked() {

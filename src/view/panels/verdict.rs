@@ -10,11 +10,15 @@ use crate::view::theme::{TYPE, palette};
 /// Half the size of a sign, and the room for it, in points.
 const HALF: f32 = 4.5;
 const ROOM: f32 = 17.0;
+/// Opacity of the sign of a verdict at a former tick rate.
+const STALE: f32 = 0.35;
 
 /// Verdict in a row.
 pub(super) struct VerdictText {
     /// The sign and its colour; `None` before the judgement.
     pub(super) sign: Option<(Sign, Severity)>,
+    /// Whether it is about the present tick rate. The sign is dimmed if not.
+    pub(super) is_current: bool,
     /// Wordings from the longest to the shortest.
     pub(super) wordings: Vec<String>,
     /// Rank for sorting, once it is known.
@@ -52,7 +56,9 @@ impl VerdictText {
     /// Shows the sign alone, centred at `at`.
     pub(super) fn paint_sign(&self, ui: &Ui, at: Pos2) {
         if let Some((sign, severity)) = self.sign {
-            paint(sign, ui, at, severity_tone(ui, severity));
+            let tone = severity_tone(ui, severity);
+            let tone = if self.is_current { tone } else { tone.gamma_multiply(STALE) };
+            paint(sign, ui, at, tone);
         }
     }
 

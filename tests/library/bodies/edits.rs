@@ -1,7 +1,7 @@
 //! Setting a parameter of a moving body: it continues from its state as if it had been built with the value.
 
 use regatta::scene::Scene;
-use regatta::sim::bodies::{Acts, BODIES, Input, Kind, MAX_VALUE, Range, kind};
+use regatta::sim::bodies::{BODIES, Input, Kind, MAX_VALUE, Range, TakesEffect, kind};
 use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::sim::{Solver, Stepper};
 
@@ -23,7 +23,7 @@ fn another(value: f64) -> f64 {
     if value == 0.0 { 0.3 } else { 1.25 * value }
 }
 
-fn acting(kind: &Kind, acts: Acts) -> impl Iterator<Item = usize> {
+fn acting(kind: &Kind, acts: TakesEffect) -> impl Iterator<Item = usize> {
     (0..kind.parameters.len()).filter(move |&place| kind.parameters[place].acts == acts)
 }
 
@@ -54,7 +54,7 @@ fn bits(body: &dyn Stepper) -> Vec<u64> {
 fn an_edited_body_continues_as_if_built_with_the_value() {
     for kind in BODIES.iter() {
         let values = values(kind);
-        for place in acting(kind, Acts::AtOnce) {
+        for place in acting(kind, TakesEffect::AtOnce) {
             let mut edited = values.clone();
             edited[place] = another(values[place]);
             for solver in solvers() {
@@ -95,10 +95,10 @@ fn a_refused_edit_changes_no_bit_and_no_memory() {
             };
             let untouched = ended(&|_| ());
             let refused = ended(&|body| {
-                for place in acting(kind, Acts::AtOnce) {
+                for place in acting(kind, TakesEffect::AtOnce) {
                     assert!(!body.set_parameter(40.0 / HZ, place, values[place]));
                 }
-                for place in acting(kind, Acts::AtStart) {
+                for place in acting(kind, TakesEffect::AtStart) {
                     assert!(!body.set_parameter(40.0 / HZ, place, another(values[place])));
                 }
                 assert!(!body.set_parameter(40.0 / HZ, kind.parameters.len(), 1.0));
@@ -112,7 +112,7 @@ fn a_refused_edit_changes_no_bit_and_no_memory() {
 fn values_at_the_ends_of_their_ranges_never_panic() {
     for kind in BODIES.iter() {
         let values = values(kind);
-        for place in acting(kind, Acts::AtOnce) {
+        for place in acting(kind, TakesEffect::AtOnce) {
             let range = kind.parameters[place].range;
             for value in [-MAX_VALUE, 0.0, f64::MIN_POSITIVE, MAX_VALUE] {
                 if !range.contains(value) {
@@ -149,7 +149,9 @@ fn the_errors_of_the_truth_outlast_an_edit() {
 fn counts_curves_and_start_values_act_only_at_the_start() {
     let at_start = |id: &str| {
         let kind = kind(id).unwrap();
-        acting(kind, Acts::AtStart).map(|place| &kind.parameters[place].key).collect::<Vec<_>>()
+        acting(kind, TakesEffect::AtStart)
+            .map(|place| &kind.parameters[place].key)
+            .collect::<Vec<_>>()
     };
     assert_eq!(at_start("ship"), ["s0_m", "v0_m_per_s"]);
     assert_eq!(at_start("chain"), ["masses", "plucked_mass", "x0_m"]);
@@ -211,12 +213,13 @@ fn a_parameter_is_named_by_its_key_or_its_start_quantity() {
     assert_eq!(called("chain")[4], "plucked mass");
     assert_eq!(called("helm")[3], "side drag");
     for kind in BODIES.iter() {
-        for parameter in kind.parameters.iter().filter(|it| it.acts == Acts::AtStart) {
+        for parameter in kind.parameters.iter().filter(|it| it.acts == TakesEffect::AtStart) {
             let quantity = parameter.quantity();
             assert!(!quantity.contains('0'), "{} of {}", quantity, kind.id);
         }
         assert!(
-            kind.parameter(&kind.leading).is_some_and(|(_, leading)| leading.acts == Acts::AtOnce)
+            kind.parameter(&kind.leading)
+                .is_some_and(|(_, leading)| leading.acts == TakesEffect::AtOnce)
         );
     }
 }

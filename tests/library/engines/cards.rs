@@ -145,7 +145,7 @@ fn an_engine_with_logs_has_their_date() {
         };
         assert!(logged.is_none_or(is_day), "{}: {logged:?}", method.id);
         let engine = method.engine.unwrap();
-        let said = engine.held_against().unwrap_or_default();
+        let said = engine.checked_against().unwrap_or_default();
         let parts = [Some(engine.version), logged];
         assert!(parts.into_iter().flatten().all(|part| said.contains(part)), "{said}");
         assert_eq!(said.is_empty(), method.holds_force(), "{}: {said}", method.id);

@@ -1,7 +1,8 @@
 //! The engine that made a log is found by its motion alone.
 
 use regatta::tools::identify::{
-    Candidate, ColumnNames, Conclusion, Identification, Log as Text, LoggedBody, SpringAs, identify,
+    Candidate, ColumnNames, Conclusion, Identification, Log as Text, LoggedBody, SpringForm,
+    identify,
 };
 use regatta::tools::port::{Setup, setups};
 
@@ -34,7 +35,9 @@ fn names(found: &Identification, log: &Log) -> bool {
     let all = [found.best.unwrap().candidate].into_iter().chain(found.also.iter().copied());
     let mut all = all.filter(|candidate| candidate.substeps == log.substeps);
     match &*log.engine {
-        "mujoco-Euler-actuator" => all.any(|candidate| candidate.told() == Some("actuator-euler")),
+        "mujoco-Euler-actuator" => {
+            all.any(|candidate| candidate.spring_label() == Some("actuator-euler"))
+        }
         _ => all.any(|candidate| candidate.method == log.method()),
     }
 }
@@ -64,9 +67,9 @@ fn a_log_of_every_mode_of_every_engine_is_identified_at_three_settings() {
             let Setup { method, mode, substeps, .. } = setup;
             let is_it = |candidate: &Candidate| {
                 let is_told = match candidate.spring {
-                    SpringAs::Joint(told) => told.is_explicit == mode.is_explicit,
-                    SpringAs::HeldForce => method.holds_force(),
-                    SpringAs::Acceleration => false,
+                    SpringForm::Joint(told) => told.is_explicit == mode.is_explicit,
+                    SpringForm::HeldForce => method.holds_force(),
+                    SpringForm::Acceleration => false,
                 };
                 is_told && candidate.method == method && candidate.substeps == substeps
             };

@@ -1,6 +1,6 @@
 //! Nets of masses and springs: the conserved quantities, the scene syntax, and verdicts without a reference solution.
 
-use regatta::sim::bodies::{Form, Grid, Lists, NetPlan, Pin, PlannedSpring, net_kind};
+use regatta::sim::bodies::{Grid, Lists, NetLayout, NetPlan, Pin, PlannedSpring, net_kind};
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
 
@@ -44,12 +44,12 @@ fn build(plan: &NetPlan, values: Values, solver: Solver) -> Box<dyn Stepper> {
 
 fn grid(columns: usize, rows: usize, pin: Option<Pin>) -> NetPlan {
     let grid = Grid { columns, rows, spacing: 0.1, shear: true, pin };
-    NetPlan { form: Form::Grid(grid), kicked: None }
+    NetPlan { form: NetLayout::Grid(grid), kicked: None }
 }
 
 fn lists(nodes: &[[f64; 2]], fixed: &[usize], springs: &[PlannedSpring]) -> NetPlan {
     let (nodes, fixed, springs) = (nodes.to_vec(), fixed.to_vec(), springs.to_vec());
-    NetPlan { form: Form::Lists(Lists { nodes, fixed, springs }), kicked: None }
+    NetPlan { form: NetLayout::Lists(Lists { nodes, fixed, springs }), kicked: None }
 }
 
 fn energy(body: &dyn Stepper) -> f64 {

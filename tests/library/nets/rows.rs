@@ -21,7 +21,7 @@ fn plan(columns: usize, rows: usize) -> NetPlan {
 
 /// The same nodes and springs one by one.
 fn one_by_one(plan: &NetPlan) -> NetPlan {
-    NetPlan { form: Form::Lists(plan.lists()), kicked: plan.kicked }
+    NetPlan { form: NetLayout::Lists(plan.lists()), kicked: plan.kicked }
 }
 
 /// The bits of the state after some ticks from a kick.

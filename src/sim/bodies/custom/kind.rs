@@ -9,7 +9,7 @@ use crate::sim::batch::{Batch, Copies, InstructionSet, NewBatch, UniformBlock};
 use crate::sim::bodies::claims::ClaimHorizon;
 use crate::sim::bodies::kind::{Coordinate, CustomInfo, Kind, Origin};
 use crate::sim::integrators::Problem;
-use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range, Text};
+use crate::sim::parameter::{Fault, Parameter, ParameterOf, Range, TakesEffect, Text};
 use crate::sim::state::{State, Vector};
 use crate::sim::stepper::Solver;
 use crate::sim::system::{StateOf, System};
@@ -83,7 +83,7 @@ fn with_default<S: System<Vector: Vector> + Clone>(
 
 fn force_parameter() -> Parameter {
     let about = "what its acceleration is multiplied by";
-    let parameter = Parameter::new(FORCE.into(), about, Range::POSITIVE, Acts::AtOnce);
+    let parameter = Parameter::new(FORCE.into(), about, Range::POSITIVE, TakesEffect::AtOnce);
     Parameter { default: Some(1.0), ..parameter }
 }
 
@@ -167,7 +167,7 @@ fn check_keys(parameters: &[Parameter]) -> Result<(), CustomFault> {
     for (i, Parameter { key, acts, range, default, .. }) in parameters.iter().enumerate() {
         let is_taken = parameters[..i].iter().any(|earlier| earlier.key == *key);
         let is_number =
-            *acts == Acts::AtOnce && !matches!(range, Range::Count(_) | Range::Curve { .. });
+            *acts == TakesEffect::AtOnce && !matches!(range, Range::Count(_) | Range::Curve { .. });
         if !is_name(key) || is_taken || !is_number {
             return Err(CustomFault {
                 field: "parameters",

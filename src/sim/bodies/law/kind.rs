@@ -8,7 +8,7 @@ use crate::sim::bodies::kind::{Coordinate, Kind, Origin};
 use crate::sim::body::Body;
 use crate::sim::law::{CoordinateText, Equations, LawFault, LawText};
 use crate::sim::numerics::quotient;
-use crate::sim::parameter::{Acts, Fault, Parameter, Range, Text};
+use crate::sim::parameter::{Fault, Parameter, Range, TakesEffect, Text};
 use crate::sim::system::System;
 
 /// The kind of bodies that move by this law. Its parameters are the constants, then for each coordinate its start
@@ -56,13 +56,18 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<LawFault>> {
 
 fn parameters(text: &LawText) -> Vec<Parameter> {
     let constant = |name: &String| {
-        Parameter::new(name.clone().into(), "a constant of the law", Range::ANY, Acts::AtOnce)
+        Parameter::new(
+            name.clone().into(),
+            "a constant of the law",
+            Range::ANY,
+            TakesEffect::AtOnce,
+        )
     };
     let mut parameters: Vec<_> = text.constants.iter().map(constant).collect();
     for (key, about, per_s, acts) in [
-        ("start", "where it is at the start", "", Acts::AtStart),
-        ("start_velocity", "its velocity at the start", "/s", Acts::AtStart),
-        ("kick", "the change of its velocity by one kick", "/s", Acts::AtOnce),
+        ("start", "where it is at the start", "", TakesEffect::AtStart),
+        ("start_velocity", "its velocity at the start", "/s", TakesEffect::AtStart),
+        ("kick", "the change of its velocity by one kick", "/s", TakesEffect::AtOnce),
     ] {
         parameters.extend(text.coordinates.iter().enumerate().map(|(index, of)| Parameter {
             unit: match (of.unit, per_s) {

@@ -7,7 +7,12 @@ pub(super) trait Forces<const N: usize>: Copy + Send + Sync {
 
     /// The force on the first end of a spring; the other end gets its negative. The constants are stiffness and
     /// damping divided by the mass of a node, and the rest length.
-    fn along(&self, constants: &[f64; 3], from: [[f64; 2]; N], to: [[f64; 2]; N]) -> [f64; 2];
+    fn spring_force(
+        &self,
+        constants: &[f64; 3],
+        from: [[f64; 2]; N],
+        to: [[f64; 2]; N],
+    ) -> [f64; 2];
 }
 
 /// Accelerations of nodes at a state: places and velocities.
@@ -34,8 +39,13 @@ impl Forces<2> for Accelerations {
 
     /// A spring of length 0 has no direction, and does not pull.
     #[inline(always)]
-    fn along(&self, [k, c, rest]: &[f64; 3], from: [[f64; 2]; 2], to: [[f64; 2]; 2]) -> [f64; 2] {
-        let [d, w] = apart(from, to);
+    fn spring_force(
+        &self,
+        [k, c, rest]: &[f64; 3],
+        from: [[f64; 2]; 2],
+        to: [[f64; 2]; 2],
+    ) -> [f64; 2] {
+        let [d, w] = difference(from, to);
         let (length, _, u) = direction(d);
         let pull = k * (length - rest) + c * (u[0] * w[0] + u[1] * w[1]);
         [pull * u[0], pull * u[1]]
@@ -49,8 +59,13 @@ impl Forces<4> for Derivatives {
     }
 
     #[inline(always)]
-    fn along(&self, [k, c, rest]: &[f64; 3], from: [[f64; 2]; 4], to: [[f64; 2]; 4]) -> [f64; 2] {
-        let [d, w, dd, dw] = apart(from, to);
+    fn spring_force(
+        &self,
+        [k, c, rest]: &[f64; 3],
+        from: [[f64; 2]; 4],
+        to: [[f64; 2]; 4],
+    ) -> [f64; 2] {
+        let [d, w, dd, dw] = difference(from, to);
         let (length, inverse, u) = direction(d);
         let pull = k * (length - rest) + c * (u[0] * w[0] + u[1] * w[1]);
         let longer = u[0] * dd[0] + u[1] * dd[1];
@@ -63,7 +78,7 @@ impl Forces<4> for Derivatives {
 
 /// The numbers of the second node minus those of the first.
 #[inline(always)]
-fn apart<const N: usize>(from: [[f64; 2]; N], to: [[f64; 2]; N]) -> [[f64; 2]; N] {
+fn difference<const N: usize>(from: [[f64; 2]; N], to: [[f64; 2]; N]) -> [[f64; 2]; N] {
     let mut apart = to;
     for (apart, from) in apart.iter_mut().zip(from) {
         *apart = [apart[0] - from[0], apart[1] - from[1]];

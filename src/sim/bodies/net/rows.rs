@@ -11,7 +11,7 @@ use std::slice;
 use super::forces::Forces;
 use crate::sim::batch::{InstructionSet, Kernel};
 use crate::sim::cores::{self, split};
-use crate::sim::net_plan::{Grid, Way, distance};
+use crate::sim::net_plan::{Grid, SpringDirection, distance};
 
 /// A vector over the nodes, as pairs of x and y.
 pub(super) type Nodes<'a> = &'a [[f64; 2]];
@@ -84,11 +84,11 @@ impl RestLengths {
     }
 
     /// Rest length of the spring that begins at a column of a row.
-    pub(super) fn of(&self, row: usize, column: usize, way: Way) -> f64 {
+    pub(super) fn of(&self, row: usize, column: usize, way: SpringDirection) -> f64 {
         match way {
-            Way::Right => self.across[column + 1],
-            Way::Down => self.down[row],
-            Way::Falling | Way::Rising => self.diagonals(row)[column + 1],
+            SpringDirection::Right => self.across[column + 1],
+            SpringDirection::Down => self.down[row],
+            SpringDirection::Falling | SpringDirection::Rising => self.diagonals(row)[column + 1],
         }
     }
 
@@ -148,7 +148,10 @@ impl Rows {
 
     /// Calls `see` for each spring between free nodes, in the order of the plan, with the indices of its ends, and its
     /// row, column and direction.
-    pub(super) fn each_spring(&self, mut see: impl FnMut([usize; 2], (usize, usize, Way))) {
+    pub(super) fn each_spring(
+        &self,
+        mut see: impl FnMut([usize; 2], (usize, usize, SpringDirection)),
+    ) {
         for row in 0..self.grid.rows {
             for (column, way) in self.grid.springs(row) {
                 let ends = self.grid.ends(row, column, way);
@@ -183,7 +186,7 @@ impl Rows {
 struct GridForces<'a, F, const N: usize> {
     rows: Rows,
     forces: F,
-    /// Stiffness and damping of every spring, as for [`Forces::along`].
+    /// Stiffness and damping of every spring, as for [`Forces::spring_force`].
     constants: [f64; 2],
     rest: &'a RestLengths,
     vectors: [Nodes<'a>; N],
@@ -247,7 +250,7 @@ impl<F: Forces<N>, const N: usize> Kernel for Band<'_, F, N> {
             let mut tile = Tile::new(part, start..end);
             tile.begin(rows.start);
             for row in rows.clone() {
-                tile.turn_to(row);
+                tile.evaluate_row(row);
                 for (run, index) in part.rows.runs(row, start..end) {
                     if run.is_empty() {
                         continue;
@@ -290,17 +293,17 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
         self.load(row);
         if row > 0 {
             self.load(row - 1);
-            self.pull_down(row - 1);
+            self.evaluate_springs_below(row - 1);
         }
     }
 
     /// Evaluates the springs that begin in the row.
     #[inline(always)]
-    fn turn_to(&mut self, row: usize) {
-        self.pull(row, Way::Right);
+    fn evaluate_row(&mut self, row: usize) {
+        self.evaluate_springs(row, SpringDirection::Right);
         if row + 1 < self.part.rows.grid.rows {
             self.load(row + 1);
-            self.pull_down(row);
+            self.evaluate_springs_below(row);
         } else {
             // The bottom row: zeros that change no sum.
             self.down[row % 2].as_flattened_mut().iter_mut().for_each(|lanes| lanes.fill(-0.0));
@@ -311,14 +314,14 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
     #[inline(always)]
     fn sum(&self, row: usize, lane: usize, to: &mut [[f64; 2]]) {
         let (forces, count) = (self.part.forces, to.len());
-        let here = cut(&self.nodes[row % 2], lane, count);
-        let [right, left] = [lane, lane - 1].map(|at| one(&self.right, at, count));
+        let here = lane_ranges(&self.nodes[row % 2], lane, count);
+        let [right, left] = [lane, lane - 1].map(|at| lane_range(&self.right, at, count));
         let [down, falling, rising] = &self.down[row % 2];
-        let [down, falling] = [down, falling].map(|pulls| one(pulls, lane, count));
-        let rising = one(rising, lane - 1, count);
+        let [down, falling] = [down, falling].map(|pulls| lane_range(pulls, lane, count));
+        let rising = lane_range(rising, lane - 1, count);
         let [up, from_left, from_right] = &self.down[(row + 1) % 2];
-        let [up, from_right] = [up, from_right].map(|pulls| one(pulls, lane, count));
-        let from_left = one(from_left, lane - 1, count);
+        let [up, from_right] = [up, from_right].map(|pulls| lane_range(pulls, lane, count));
+        let from_left = lane_range(from_left, lane - 1, count);
         if self.part.rows.grid.shear {
             for i in 0..count {
                 let sum = forces.on_node(node(&here, i));
@@ -370,40 +373,42 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
 
     /// Evaluates the springs from a row to the one below; both must be loaded.
     #[inline(always)]
-    fn pull_down(&mut self, row: usize) {
-        self.pull(row, Way::Down);
+    fn evaluate_springs_below(&mut self, row: usize) {
+        self.evaluate_springs(row, SpringDirection::Down);
         if self.part.rows.grid.shear {
-            self.pull(row, Way::Falling);
-            self.pull(row, Way::Rising);
+            self.evaluate_springs(row, SpringDirection::Falling);
+            self.evaluate_springs(row, SpringDirection::Rising);
         }
     }
 
     /// Evaluates the springs of one direction that begin in a row.
     #[inline(always)]
-    fn pull(&mut self, row: usize, way: Way) {
+    fn evaluate_springs(&mut self, row: usize, way: SpringDirection) {
         let GridForces { rows, forces, constants: [k, c], rest, .. } = self.part;
         let ([from, to], rows_down) = way.ends();
         let (above, below) = (&self.nodes[row % 2], &self.nodes[(row + rows_down) % 2]);
         let lanes = self.lanes();
-        let ends = [cut(above, from, lanes), cut(below, to, lanes)];
+        let ends = [lane_ranges(above, from, lanes), lane_ranges(below, to, lanes)];
         let [straight, falling, rising] = &mut self.down[row % 2];
         let (pulls, rest) = match way {
-            Way::Right => (&mut self.right, &rest.across[..]),
-            Way::Down => (straight, &[][..]),
-            Way::Falling => (falling, rest.diagonals(row)),
-            Way::Rising => (rising, rest.diagonals(row)),
+            SpringDirection::Right => (&mut self.right, &rest.across[..]),
+            SpringDirection::Down => (straight, &[][..]),
+            SpringDirection::Falling => (falling, rest.diagonals(row)),
+            SpringDirection::Rising => (rising, rest.diagonals(row)),
         };
         let [x, y] = pulls.each_mut().map(|numbers| &mut numbers[..lanes]);
-        if let Way::Down = way {
+        if let SpringDirection::Down = way {
             let constants = [k, c, self.part.rest.down[row]];
             for i in 0..lanes {
-                [x[i], y[i]] = forces.along(&constants, node(&ends[0], i), node(&ends[1], i));
+                [x[i], y[i]] =
+                    forces.spring_force(&constants, node(&ends[0], i), node(&ends[1], i));
             }
         } else {
             let rest = &rest[self.columns.start..][..lanes];
             for i in 0..lanes {
                 let constants = [k, c, rest[i]];
-                [x[i], y[i]] = forces.along(&constants, node(&ends[0], i), node(&ends[1], i));
+                [x[i], y[i]] =
+                    forces.spring_force(&constants, node(&ends[0], i), node(&ends[1], i));
             }
         }
         // Missing and anchored springs contribute a zero whose sign leaves every sum unchanged.
@@ -424,14 +429,14 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
 
 /// Numbers of neighbouring lanes.
 #[inline(always)]
-fn one(pairs: &[Lanes; 2], from: usize, count: usize) -> [&[f64]; 2] {
+fn lane_range(pairs: &[Lanes; 2], from: usize, count: usize) -> [&[f64]; 2] {
     pairs.each_ref().map(|numbers| &numbers[from..from + count])
 }
 
 /// Numbers of neighbouring lanes of every vector.
 #[inline(always)]
-fn cut<const N: usize>(row: &Row<N>, from: usize, count: usize) -> [[&[f64]; 2]; N] {
-    row.each_ref().map(|vector| one(vector, from, count))
+fn lane_ranges<const N: usize>(row: &Row<N>, from: usize, count: usize) -> [[&[f64]; 2]; N] {
+    row.each_ref().map(|vector| lane_range(vector, from, count))
 }
 
 /// The numbers of one node.

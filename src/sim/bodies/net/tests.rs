@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::sim::batch::InstructionSet;
-use crate::sim::net_plan::{Form, Grid, NetPlan, Pin};
+use crate::sim::net_plan::{Grid, NetLayout, NetPlan, Pin};
 
 const VALUES: [f64; 8] = [0.02, 200.0, 0.03, 0.01, 9.81, 0.9, 1.5, -0.5];
 
@@ -67,7 +67,7 @@ fn assert_same(plan: &NetPlan) {
         (net.springs(), bits(&rates), bits(&net.start().q))
     };
     assert_eq!(of_springs(&rows), of_springs(&lists), "{plan:?}");
-    let Form::Grid(grid) = plan.form else { panic!("{plan:?} is no grid") };
+    let NetLayout::Grid(grid) = plan.form else { panic!("{plan:?} is no grid") };
     for node in 0..grid.nodes() {
         assert_eq!(
             rows.topology.index_of(node),
@@ -98,7 +98,7 @@ fn a_grid_by_rows_has_the_bits_of_the_same_net_as_lists() {
                 let middle = columns * rows / 2;
                 let kicked = [0, 1, columns - 1, columns / 2, middle].map(Some);
                 for kicked in kicked.into_iter().chain([None]) {
-                    let plan = NetPlan { form: Form::Grid(grid), kicked };
+                    let plan = NetPlan { form: NetLayout::Grid(grid), kicked };
                     if plan.faults().is_empty() {
                         assert_same(&plan);
                     }
@@ -111,7 +111,7 @@ fn a_grid_by_rows_has_the_bits_of_the_same_net_as_lists() {
 #[test]
 fn the_width_of_vectors_changes_no_bit_of_a_grid() {
     let grid = Grid { columns: 90, rows: 7, spacing: 0.1, shear: true, pin: Some(Pin::Corners) };
-    let plan = NetPlan { form: Form::Grid(grid), kicked: Some(301) };
+    let plan = NetPlan { form: NetLayout::Grid(grid), kicked: Some(301) };
     let net = net(&plan, true);
     let Storage::Rows(rows) = &net.topology.storage else { panic!("they are rows") };
     let Springs { shared, rest, .. } = &*net.springs;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::rows::Rows;
-use crate::sim::net_plan::{Form, Lists, NetPlan, PlannedSpring};
+use crate::sim::net_plan::{Lists, NetLayout, NetPlan, PlannedSpring};
 
 /// The index of a fixed node, which has no coordinates.
 const FIXED: u32 = u32::MAX;
@@ -48,16 +48,16 @@ pub(super) struct Arrays {
 impl Topology {
     /// Prepares a plan without [faults](NetPlan::faults).
     pub(super) fn new(plan: Arc<NetPlan>) -> Self {
-        let by_rows = matches!(plan.form, Form::Grid(grid) if grid.nodes() >= MIN_ROWS_NODES);
+        let by_rows = matches!(plan.form, NetLayout::Grid(grid) if grid.nodes() >= MIN_ROWS_NODES);
         Self::laid_out(plan, by_rows)
     }
 
     /// Prepares a plan; a grid by rows, or as lists.
     pub(super) fn laid_out(plan: Arc<NetPlan>, by_rows: bool) -> Self {
         let storage = match &plan.form {
-            Form::Grid(grid) if by_rows => Storage::Rows(Rows::new(*grid, plan.kicked)),
-            Form::Grid(grid) => Storage::Arrays(Arrays::new(&grid.lists(), plan.kicked)),
-            Form::Lists(lists) => Storage::Arrays(Arrays::new(lists, plan.kicked)),
+            NetLayout::Grid(grid) if by_rows => Storage::Rows(Rows::new(*grid, plan.kicked)),
+            NetLayout::Grid(grid) => Storage::Arrays(Arrays::new(&grid.lists(), plan.kicked)),
+            NetLayout::Lists(lists) => Storage::Arrays(Arrays::new(lists, plan.kicked)),
         };
         let free = match &storage {
             Storage::Rows(rows) => rows.len(),
@@ -78,7 +78,7 @@ impl Topology {
 
     /// The springs whose constants are kept, in the order of the sums: all springs of lists, or those of rows with a
     /// fixed end.
-    pub(super) fn kept(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
+    pub(super) fn kept_springs(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
         let is_kept = |_: &PlannedSpring| matches!(self.storage, Storage::Arrays(_));
         let inner = self.plan.springs().filter(is_kept).filter(|it| !self.is_anchored(it));
         inner.chain(self.anchored())
@@ -97,8 +97,8 @@ impl Topology {
     /// The place of a node at the start.
     pub(super) fn place(&self, node: usize) -> [f64; 2] {
         match &self.plan.form {
-            Form::Grid(grid) => grid.place(node),
-            Form::Lists(lists) => lists.nodes[node],
+            NetLayout::Grid(grid) => grid.place(node),
+            NetLayout::Lists(lists) => lists.nodes[node],
         }
     }
 

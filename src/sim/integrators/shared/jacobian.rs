@@ -59,7 +59,7 @@ impl<V: Vector> Jacobian<V> {
 
     /// Computes the derivatives at `t` and `y`, where the acceleration is `a`, for a step of `h`.
     #[inline]
-    pub(in crate::sim::integrators) fn take(
+    pub(in crate::sim::integrators) fn compute(
         &mut self,
         system: &impl System<Vector = V>,
         t: f64,
@@ -81,7 +81,7 @@ impl<V: Vector> Jacobian<V> {
                 let by_v = is_by_v as u32;
                 comb(&mut along.q, begin, apart, f64::from(1 - by_v));
                 comb(&mut along.v, begin, apart, f64::from(by_v));
-                slopes.take(system, t, at, along, None, slope);
+                slopes.differentiate(system, t, at, along, None, slope);
                 for j in (begin..n).step_by(apart) {
                     let (first, height) = rows(j, reach, n);
                     let column = &mut matrix[j * height..][..height];
@@ -117,7 +117,7 @@ impl<V: Vector> Jacobian<V> {
                 there.copy_from_slice(q)
             }
             along.v.components_mut().copy_from_slice(v);
-            slopes.take(system, *t, at, along, None, slope);
+            slopes.differentiate(system, *t, at, along, None, slope);
             return slope;
         };
         let sums = slope.components_mut();
@@ -145,7 +145,7 @@ impl<V: Vector> Jacobian<V> {
                 along.v.components_mut().fill(0.0);
                 let part = if is_by_q { &mut along.q } else { &mut along.v };
                 alternate(part, 1.0);
-                slopes.take(system, *t, at, along, None, slope);
+                slopes.differentiate(system, *t, at, along, None, slope);
                 SPARSE_NORM * largest(slope.components())
             });
         };

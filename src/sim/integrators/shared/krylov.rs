@@ -27,7 +27,7 @@ pub(super) type Matrix<'a> = dyn FnMut(&[f64], &mut [f64]) + 'a;
 #[derive(Clone)]
 pub(super) struct Krylov {
     /// Products left in this step.
-    left: u32,
+    products_left: u32,
     pub(super) x: Vec<f64>,
     r: Vec<f64>,
     shadow: Vec<f64>,
@@ -41,16 +41,16 @@ pub(super) struct Krylov {
 impl Krylov {
     pub(super) fn new(size: usize) -> Self {
         let [x, r, shadow, u, v, s, w, t] = [(); 8].map(|()| vec![0.0; size]);
-        Self { left: 0, x, r, shadow, u, v, s, w, t }
+        Self { products_left: 0, x, r, shadow, u, v, s, w, t }
     }
 
     pub(super) fn begin_step(&mut self) {
-        self.left = MAX_PRODUCTS;
+        self.products_left = MAX_PRODUCTS;
     }
 
     /// Whether the step has no products left.
     pub(super) fn is_spent(&self) -> bool {
-        self.left < PRODUCTS
+        self.products_left < PRODUCTS
     }
 
     /// Overwrites the right-hand side `b` with the solution, to a residual of `tolerance` times `b`, or as near as the
@@ -69,7 +69,7 @@ impl Krylov {
     /// method and trust regions in large scale optimization*, 1983). Returns whether it curved upwards along every
     /// direction tried.
     pub(super) fn descend(&mut self, matrix: &mut Matrix<'_>, b: &mut [f64]) -> bool {
-        let Self { left, x, r, u: p, v: product, .. } = self;
+        let Self { products_left, x, r, u: p, v: product, .. } = self;
         let unit = unit(b);
         r.iter_mut().zip(&*b).for_each(|(r, b)| *r = b / unit);
         x.fill(0.0);
@@ -77,8 +77,8 @@ impl Krylov {
         let mut size = dot(r, r);
         let enough = DESCENT_TOLERANCE * DESCENT_TOLERANCE * size;
         let mut curves_upwards = true;
-        while *left >= PRODUCTS && size > enough {
-            *left -= 1;
+        while *products_left >= PRODUCTS && size > enough {
+            *products_left -= 1;
             matrix(p, product);
             let curvature = dot(p, product);
             if curvature <= 0.0 || curvature.is_nan() {
@@ -103,9 +103,9 @@ impl Krylov {
     /// The iteration with its textbook letters: `x` the solution, `r` the residual, `u` a direction, and `v`, `s`, `w`
     /// and `t` their products.
     fn iterate(&mut self, matrix: &mut Matrix<'_>, enough: f64) {
-        let Self { left, x, r, shadow, u, v, s, w, t } = self;
-        let mut multiply = |left: &mut u32, x: &[f64], y: &mut [f64]| {
-            *left -= 1;
+        let Self { products_left, x, r, shadow, u, v, s, w, t } = self;
+        let mut multiply = |products_left: &mut u32, x: &[f64], y: &mut [f64]| {
+            *products_left -= 1;
             matrix(x, y);
         };
         shadow.copy_from_slice(r);
@@ -115,26 +115,26 @@ impl Krylov {
             let size = dot(r, r).sqrt();
             size <= enough || size.is_nan()
         };
-        while *left >= PRODUCTS && !is_done(r) {
+        while *products_left >= PRODUCTS && !is_done(r) {
             rho *= -omega2;
             let mut next = dot(r, shadow);
             let mut beta = alpha * next / rho;
             rho = next;
             assign_sum(u, r, -beta);
-            multiply(left, u, v);
+            multiply(products_left, u, v);
             alpha = rho / dot(v, shadow);
             add(r, -alpha, v);
             add(x, alpha, u);
             if is_done(r) {
                 return;
             }
-            multiply(left, r, s);
+            multiply(products_left, r, s);
 
             next = dot(s, shadow);
             beta = alpha * next / rho;
             rho = next;
             assign_sum(v, s, -beta);
-            multiply(left, v, w);
+            multiply(products_left, v, w);
             alpha = rho / dot(w, shadow);
             assign_sum(u, r, -beta);
             add(r, -alpha, v);
@@ -143,7 +143,7 @@ impl Krylov {
             if is_done(r) {
                 return;
             }
-            multiply(left, s, t);
+            multiply(products_left, s, t);
 
             // Minimises the residual along its two products.
             let (along, across, both) = (dot(s, s), dot(s, t), dot(t, t));

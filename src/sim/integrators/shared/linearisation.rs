@@ -69,7 +69,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
             comb(&mut along.q, first, apart, stages.alpha[i][s]);
             comb(&mut along.v, first, apart, stages.beta[i][s]);
             let forward = forward.map(|(from, part)| Forward { from: &from[i], part });
-            slopes.take(system, stages.t[i], &at[i], along, forward, slope);
+            slopes.differentiate(system, stages.t[i], &at[i], along, forward, slope);
         };
         let Some(matrix) = matrix else {
             take(0, 0, 0, 1, slope);
@@ -79,13 +79,13 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
             return;
         };
         // Coordinates that act on different ones are displaced together.
-        let apart = matrix.apart();
-        matrix.begin();
+        let apart = matrix.independent_stride();
+        matrix.clear_matrix();
         for s in 0..S {
             for first in 0..apart {
                 for i in 0..S {
                     take(s, i, first, apart, slope);
-                    matrix.put([s, first], i, slope.components(), &mut see);
+                    matrix.add_slopes([s, first], i, slope.components(), &mut see);
                 }
             }
         }
@@ -104,7 +104,9 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
 
     /// Resets the iterations' budget of products for a new step.
     pub(super) fn begin_step(&mut self) {
-        self.krylov.iter_mut().for_each(|krylov| krylov.begin_step());
+        if let Some(krylov) = &mut self.krylov {
+            krylov.begin_step();
+        }
     }
 
     /// Whether the iterations of the step have no products left.
@@ -151,7 +153,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
                     add(along.q.components_mut(), *alpha, x);
                     add(along.v.components_mut(), *beta, x);
                 }
-                slopes.take(system, stages.t[i], &at[i], along, None, slope);
+                slopes.differentiate(system, stages.t[i], &at[i], along, None, slope);
                 let x = &x[i * n..];
                 for ((y, x), slope) in y.iter_mut().zip(x).zip(slope.components()) {
                     *y = x - slope;
@@ -171,7 +173,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         let Self { at, slopes, along, slope, .. } = self;
         alternate(&mut along.q, distance);
         along.v.components_mut().fill(0.0);
-        slopes.take(system, t, &at[0], along, None, slope);
+        slopes.differentiate(system, t, &at[0], along, None, slope);
         largest(slope.components())
     }
 }
@@ -190,7 +192,7 @@ impl<V: Vector> Linearisation<V, 1> {
     ) {
         self.along.q.assign(along);
         self.along.v.components_mut().fill(0.0);
-        self.slopes.take(system, t, y, &self.along, None, &mut self.slope);
+        self.slopes.differentiate(system, t, y, &self.along, None, &mut self.slope);
         x.add_scaled(times, &self.slope);
     }
 

@@ -158,28 +158,28 @@ impl StageLu {
 
     /// Coordinates at least this far apart act on different ones.
     #[inline]
-    pub(super) fn apart(&self) -> usize {
+    pub(super) fn independent_stride(&self) -> usize {
         (2 * self.reach + 1).min(self.n)
     }
 
     /// Clears the matrix before it is filled: swaps of the last factorisation leave entries outside its band.
     #[inline]
-    pub(super) fn begin(&mut self) {
+    pub(super) fn clear_matrix(&mut self) {
         self.lu.entries.fill(0.0);
     }
 
     /// Stores the `slopes` at stage `i` as entries of `I - slopes`. They are along coordinate `first` at stage `s`,
-    /// and along all coordinates [apart](Self::apart) from it, each in its own column. Calls `see` with each slope and
-    /// its row of the matrix ordered stage by stage.
+    /// and along all coordinates some [strides](Self::independent_stride) from it, each in its own column. Calls `see`
+    /// with each slope and its row of the matrix ordered stage by stage.
     #[inline]
-    pub(super) fn put(
+    pub(super) fn add_slopes(
         &mut self,
         [s, first]: [usize; 2],
         i: usize,
         slopes: &[f64],
         see: &mut impl FnMut(usize, f64),
     ) {
-        let (reach, apart, [stride, _]) = (self.reach, self.apart(), self.strides);
+        let (reach, apart, [stride, _]) = (self.reach, self.independent_stride(), self.strides);
         // A loop by hand, because `step_by` divides.
         let mut j = first;
         while j < self.n {
@@ -298,12 +298,12 @@ mod tests {
         for n in [4, 9] {
             let mut matrix = StageLu::new(1, n, 1);
             let [once, again] = [(); 2].map(|()| {
-                matrix.begin();
-                for first in 0..matrix.apart() {
+                matrix.clear_matrix();
+                for first in 0..matrix.independent_stride() {
                     // A small diagonal of `I - slopes`, so that rows are swapped.
                     let slope = |row: usize| if row % 3 == first { 0.999 } else { -1.0 };
                     let slopes: Vec<f64> = (0..n).map(slope).collect();
-                    matrix.put([0, first], 0, &slopes, &mut |_, _| ());
+                    matrix.add_slopes([0, first], 0, &slopes, &mut |_, _| ());
                 }
                 let mut x = vec![1.0; n];
                 matrix.lu.factor();

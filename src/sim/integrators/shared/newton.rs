@@ -256,7 +256,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     }
 
     /// Saves `A`.
-    fn keep(&mut self) {
+    fn save_unknowns(&mut self) {
         let n = self.kept.len() / S;
         for (kept, a) in self.kept.chunks_exact_mut(n).zip(&self.a) {
             kept.copy_from_slice(a.components());
@@ -264,7 +264,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     }
 
     /// Restores the saved `A`.
-    fn go_back(&mut self) {
+    fn restore_unknowns(&mut self) {
         let n = self.kept.len() / S;
         for (kept, a) in self.kept.chunks_exact(n).zip(&mut self.a) {
             a.components_mut().copy_from_slice(kept);

@@ -70,7 +70,7 @@ impl<V: Vector> Slopes<V> {
     /// Overwrites `slope` with the derivative of the acceleration at `y` in the direction `along`. A difference is
     /// central unless a forward one is given.
     #[inline]
-    pub(in crate::sim::integrators) fn take(
+    pub(in crate::sim::integrators) fn differentiate(
         &mut self,
         system: &(impl System<Vector = V> + ?Sized),
         t: f64,

@@ -7,7 +7,7 @@ use crate::sim::curve::Curve;
 use crate::sim::law::fault::{Parsed, fault};
 use crate::sim::law::function::{Function, Meaning};
 use crate::sim::law::op::Op;
-use crate::sim::law::switch::{Pieces, Switch, Value};
+use crate::sim::law::switch::{ModeRule, Switch, SwitchValue};
 use crate::sim::law::token::Token;
 use crate::sim::parameter::MAX_POINTS;
 
@@ -28,7 +28,7 @@ impl Parser<'_> {
                 break;
             }
             arguments.push(self.nested(Self::any)?);
-            if arguments.len() > wanted || !self.takes(",") {
+            if arguments.len() > wanted || !self.consume_if(",") {
                 break;
             }
         }
@@ -53,8 +53,8 @@ impl Parser<'_> {
             Meaning::Switch(switch) => self.push(Op::Switch(*switch), &arguments, span),
             Meaning::If => self.push(Op::If, &arguments, span),
             Meaning::Clamp => {
-                let [max, min] = [Pieces::Greater, Pieces::Less]
-                    .map(|pieces| Op::Switch(Switch { pieces, value: Value::Choice }));
+                let [max, min] = [ModeRule::Greater, ModeRule::Less]
+                    .map(|pieces| Op::Switch(Switch { pieces, value: SwitchValue::Choice }));
                 let raised = self.push(max, &arguments[..2], span.clone());
                 self.push(min, &[raised, arguments[2]], span)
             }
@@ -78,7 +78,7 @@ impl Parser<'_> {
     pub(super) fn acceleration(&mut self, name: Range<usize>) -> Parsed<usize> {
         self.next += 1;
         let mut arguments = vec![self.nested(Self::any)?];
-        while self.takes(",") {
+        while self.consume_if(",") {
             arguments.push(self.nested(Self::any)?);
         }
         self.expect(")", "the arguments")?;
@@ -117,7 +117,7 @@ impl Parser<'_> {
                 return fault(span, what, format!("keep at most {MAX_POINTS}"));
             }
             points.push([x, y]);
-            if !self.takes(",") {
+            if !self.consume_if(",") {
                 break;
             }
         }
@@ -131,7 +131,7 @@ impl Parser<'_> {
 
     /// Reads a number with or without a sign.
     fn literal(&mut self) -> Parsed<f64> {
-        let sign = if self.takes("-") { -1.0 } else { 1.0 };
+        let sign = if self.consume_if("-") { -1.0 } else { 1.0 };
         let Token::Number(number) = self.peek() else {
             let what = "a point of a table is made of plain numbers";
             return fault(self.here(), what, "write one, such as `0.5`");

@@ -99,12 +99,12 @@ const TAKEN: [&str; 45] = [
 ];
 
 /// Code with the level of its outermost operator; `None` for a name, a number or a call.
-type Written = (String, Option<Level>);
+type LevelledCode = (String, Option<Level>);
 
 impl Carried {
     /// Its name in code: a field of `memory` unless it is `x` or `v`.
     pub fn field(&self) -> String {
-        own(self.name.strip_prefix(FIELD).unwrap_or(&self.name))
+        unreserved_name(self.name.strip_prefix(FIELD).unwrap_or(&self.name))
     }
 }
 
@@ -168,15 +168,15 @@ impl StepText {
             H if self.call.is_none() => StepCode::STEP.into(),
             _ if index < BUILT_IN.len() => name.clone(),
             _ if self.is_state(index) => {
-                format!("memory.{}", own(name.strip_prefix(FIELD).unwrap_or(name)))
+                format!("memory.{}", unreserved_name(name.strip_prefix(FIELD).unwrap_or(name)))
             }
             _ if name == "a" && self.call.is_some() => "a_own".into(),
-            _ => own(name),
+            _ => unreserved_name(name),
         }
     }
 
     fn expression(&self, expression: &Expression, code: &mut StepCode) -> Result<String, String> {
-        let mut written: Vec<Written> = Vec::new();
+        let mut written: Vec<LevelledCode> = Vec::new();
         for node in &expression.nodes {
             let operand = |n: usize| &written[node.arguments()[n]];
             let call = |name: &str| {
@@ -184,7 +184,7 @@ impl StepText {
                 (format!("{name}({})", all.join(", ")), None)
             };
             let infix = INFIXES.iter().find(|infix| infix.op == node.op && !infix.is_swapped);
-            let new: Written = match (node.op, infix) {
+            let new: LevelledCode = match (node.op, infix) {
                 (Op::Number, _) => (format!("{:?}", node.number), None),
                 (Op::Input, _) => (self.name(node.index), None),
                 (Op::Power, _) => call("pow"),
@@ -193,15 +193,17 @@ impl StepText {
                     (format!("a({x}, {v})"), None)
                 }
                 (Op::Negate, _) => {
-                    (format!("-{}", within(operand(0), Some(Level::Product))), Some(Level::Sum))
+                    (format!("-{}", bracketed(operand(0), Some(Level::Product))), Some(Level::Sum))
                 }
-                (Op::Not, _) => (format!("not {}", within(operand(0), Some(Level::Power))), None),
+                (Op::Not, _) => {
+                    (format!("not {}", bracketed(operand(0), Some(Level::Power))), None)
+                }
                 (_, Some(infix)) => {
                     let left = match operand(0) {
                         (text, Some(level)) if *level < infix.level => format!("({text})"),
                         (text, _) => text.clone(),
                     };
-                    let right = within(operand(1), Some(infix.level));
+                    let right = bracketed(operand(1), Some(infix.level));
                     (format!("{left} {} {right}", infix.sign), Some(infix.level))
                 }
                 (op, None) => {
@@ -226,7 +228,7 @@ impl StepText {
 }
 
 /// Code as an operand of an operator of level `outside`, in brackets if needed.
-fn within((text, level): &Written, outside: Option<Level>) -> String {
+fn bracketed((text, level): &LevelledCode, outside: Option<Level>) -> String {
     match level {
         Some(level) if Some(*level) <= outside => format!("({text})"),
         _ => text.clone(),
@@ -244,7 +246,7 @@ fn name_of(op: Op) -> Option<&'static str> {
 }
 
 /// A name of the text, changed if a language already uses it.
-fn own(name: &str) -> String {
+fn unreserved_name(name: &str) -> String {
     if TAKEN.contains(&name) { format!("{name}_own") } else { name.to_owned() }
 }
 

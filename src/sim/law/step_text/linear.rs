@@ -42,7 +42,7 @@ pub(crate) fn remembers_place(map: &Matrix2<f64>) -> bool {
 impl StepText {
     /// The indices of these carried numbers and of all that they depend on.
     pub(crate) fn with_causes(&self, mut state: Vec<usize>) -> Vec<usize> {
-        let (reads, mut next) = (self.reads(), 0);
+        let (reads, mut next) = (self.dependencies(), 0);
         while let Some(&index) = state.get(next) {
             for read in &reads[index] {
                 if !state.contains(read) {
@@ -126,7 +126,7 @@ impl LinearRule {
     pub fn new(text: StepText, fps: TickRate) -> Result<Self, [String; 2]> {
         let refused = |why: &str, remedy: &str| Err([why.to_owned(), remedy.to_owned()]);
         let ask = "`regatta rule` says what it does, and prints code for any frame rate";
-        if text.keeps(0) {
+        if text.leaves_unchanged(0) {
             return refused("the rule leaves `x` where it is", "say how it moves: `x += v * dt`");
         }
         if !text.is_linear() {

@@ -196,14 +196,16 @@ impl<'t> Reader<'t> {
     }
 
     /// Consumes the next statement.
-    pub(super) fn take(&mut self, statement: Statement) -> Parsed<()> {
+    pub(super) fn read_statement(&mut self, statement: Statement) -> Parsed<()> {
         match statement {
             Statement::Assign { name, joins, value, is_declared } => {
                 // A game declares the initial value above the lines of its frames.
                 let index = self.index(&self.text[name.clone()]).filter(|index| *index <= V);
                 let is_first = index.is_some_and(|index| self.values[index].is_none());
                 let start = match is_declared && is_first && self.blocks.is_empty() {
-                    true => self.alone(&self.expression(value.clone(), false)?, value.clone()).ok(),
+                    true => self
+                        .constant_value(&self.expression(value.clone(), false)?, value.clone())
+                        .ok(),
                     false => None,
                 };
                 match index.zip(start) {
@@ -216,7 +218,7 @@ impl<'t> Reader<'t> {
                 // NaN equals no step length, so that the lines can recognise the first step.
                 let start = match self.text[value.clone()].trim() {
                     "nan" => f64::NAN,
-                    _ => self.alone(&self.expression(value.clone(), false)?, value)?,
+                    _ => self.constant_value(&self.expression(value.clone(), false)?, value)?,
                 };
                 let index = self.index(&self.declared(name, true)).unwrap_or(X);
                 self.starts[index] = start;
@@ -231,7 +233,7 @@ impl<'t> Reader<'t> {
                 block.first = Some(std::mem::replace(&mut self.values, block.before.clone()));
                 let (taken, outside) = (block.condition, block.outside);
                 let not = self.push(Node::new(Op::Not, &[taken]), &brace);
-                self.guard = Some(self.within(outside, not, &brace));
+                self.guard = Some(self.nested_guard(outside, not, &brace));
                 self.lines.push(Line::Else);
                 match condition {
                     Some(condition) => self.open(condition, true),
@@ -273,7 +275,7 @@ impl<'t> Reader<'t> {
     }
 
     /// The value of an expression made only of numbers.
-    fn alone(&self, expression: &Expression, span: Range<usize>) -> Parsed<f64> {
+    fn constant_value(&self, expression: &Expression, span: Range<usize>) -> Parsed<f64> {
         let reads = expression.nodes.iter().any(|node| matches!(node.op, Op::Input | Op::Call));
         let tape = Tape::new(0, |_| false, &[(Part::Energy, expression)]).ok().filter(|_| !reads);
         let value = tape.map(|tape| {
@@ -336,14 +338,19 @@ impl<'t> Reader<'t> {
         let expression = self.expression(condition.clone(), true)?;
         let node = self.splice(&expression, condition.start);
         let (before, outside) = (self.values.clone(), self.guard);
-        self.guard = Some(self.within(outside, node, &condition));
+        self.guard = Some(self.nested_guard(outside, node, &condition));
         self.blocks.push(Block { condition: node, before, first: None, outside, is_chained });
         self.lines.push(Line::If(expression));
         Ok(())
     }
 
     /// The node that tells whether the lines within a block of this condition run.
-    fn within(&mut self, outside: Option<usize>, condition: usize, at: &Range<usize>) -> usize {
+    fn nested_guard(
+        &mut self,
+        outside: Option<usize>,
+        condition: usize,
+        at: &Range<usize>,
+    ) -> usize {
         match outside {
             Some(outside) => self.push(Node::new(Op::And, &[outside, condition]), at),
             None => condition,
@@ -422,13 +429,14 @@ impl<'t> Reader<'t> {
         };
         for node in before..self.nodes.nodes.len() {
             let new = self.nodes.nodes[node].reading(number_of);
-            self.nodes.nodes[node] = if new.op == Op::Call { self.called(&new, node) } else { new };
+            self.nodes.nodes[node] =
+                if new.op == Op::Call { self.guarded_call(&new, node) } else { new };
         }
         number_of(self.nodes.nodes.len() - 1)
     }
 
     /// The node of a call of the acceleration, guarded if these lines are in a block.
-    fn called(&mut self, call: &Node, node: usize) -> Node {
+    fn guarded_call(&mut self, call: &Node, node: usize) -> Node {
         let &[x, v, ref time @ ..] = call.arguments() else { return *call };
         let index = self.calls.len();
         self.calls.push([node, time.first().copied().unwrap_or(x)]);

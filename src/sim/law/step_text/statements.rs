@@ -99,7 +99,7 @@ impl Reader<'_> {
                     "if" => Some(self.condition()?),
                     _ => {
                         let between = self.at..self.at;
-                        self.opened(between)?;
+                        self.expect_open_brace(between)?;
                         None
                     }
                 };
@@ -122,12 +122,12 @@ impl Reader<'_> {
         let length = self.rest().find(['{', ';', '}']).unwrap_or(self.rest().len());
         let condition = self.at..self.at + length;
         self.at = condition.end;
-        self.opened(word)?;
+        self.expect_open_brace(word)?;
         Ok(condition)
     }
 
     /// Consumes the brace that opens a block.
-    fn opened(&mut self, word: Range<usize>) -> Parsed<()> {
+    fn expect_open_brace(&mut self, word: Range<usize>) -> Parsed<()> {
         if !self.rest().starts_with('{') {
             return fault(word, "no `{` opens the block", "write `if condition { … }`");
         }
@@ -143,7 +143,9 @@ impl Reader<'_> {
                 '(' | '[' => depth += 1,
                 ')' | ']' => depth -= 1,
                 ';' | '{' | '}' => return self.at + at,
-                '\n' if depth <= 0 && !goes_on(&self.rest()[..at], &self.rest()[at..]) => {
+                '\n' if depth <= 0
+                    && !continues_on_next_line(&self.rest()[..at], &self.rest()[at..]) =>
+                {
                     return self.at + at;
                 }
                 _ => {}
@@ -223,7 +225,7 @@ impl Reader<'_> {
 }
 
 /// Whether a statement continues after the end of a line.
-fn goes_on(before: &str, after: &str) -> bool {
+fn continues_on_next_line(before: &str, after: &str) -> bool {
     let is_operator = |sign: char| "+-*/^=<>".contains(sign);
     let (before, after) = (before.trim_end(), after.trim_start());
     let is_word = |word: &str| {

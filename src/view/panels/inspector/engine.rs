@@ -54,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec
         }
         let lane = studio.entries().iter().find(|spec| spec.method == setup.method);
         let substeps = lane.map_or(setup.substeps, |spec| spec.substeps);
-        let seen = Setup { substeps, ..setup }.sees(spring.joint);
+        let seen = Setup { substeps, ..setup }.visible_motion(spring.joint);
         let seen = seen.map_or("a player sees no swing".to_owned(), |seen| {
             let [hz, ratio] = [seen.undamped_hz(), seen.damping_ratio().unwrap_or(0.0)];
             let [hz, ratio] = [hz, ratio].map(|number| significant(number, 3));

@@ -17,6 +17,7 @@ const FAULT: f32 = 260.0;
 const SPEED: f64 = 0.004;
 /// Minimum change for each point, which lets a drag leave 0.
 const MIN_SPEED: f64 = 1e-4;
+const MIN_SPEED_OF_WHOLE: f64 = 0.1;
 
 /// Error of the last entry in a field.
 #[derive(Clone)]
@@ -176,7 +177,8 @@ impl NumberField<'_> {
 
     /// Change of the number for each point of a drag.
     fn speed(&self) -> f64 {
-        if self.is_whole { 0.1 } else { (SPEED * self.value.abs()).max(MIN_SPEED) }
+        let least = if self.is_whole { MIN_SPEED_OF_WHOLE } else { MIN_SPEED };
+        (SPEED * self.value.abs()).max(least)
     }
 
     /// Parses the typed number. Unchanged text keeps the number to the last digit.

@@ -1,6 +1,6 @@
 //! The inspector's rows for a body: one for each parameter, with the range of its slider.
 
-use crate::stage::{Acts, Parameter, Range};
+use crate::stage::{Parameter, Range, TakesEffect};
 use crate::studio::Studio;
 
 /// A logarithmic slider extends from the scene's value divided by this factor to the value times it.
@@ -42,13 +42,17 @@ pub(super) fn rows<'l>(studio: &'l Studio, body: usize) -> Vec<Row<'l>> {
     let row = |(index, parameter): (usize, &'l Parameter)| {
         let is_number = !matches!(parameter.range, Range::Curve { .. });
         let values = is_number.then(|| Values {
-            present: if parameter.acts == Acts::AtStart { next[index] } else { present[index] },
+            present: if parameter.acts == TakesEffect::AtStart {
+                next[index]
+            } else {
+                present[index]
+            },
             opened: opened.values[index],
         });
         Row { body, index, parameter, values }
     };
     let mut rows: Vec<Row<'l>> = opened.kind.parameters.iter().enumerate().map(row).collect();
-    rows.sort_by_key(|row| row.parameter.acts == Acts::AtStart);
+    rows.sort_by_key(|row| row.parameter.acts == TakesEffect::AtStart);
     rows
 }
 
@@ -123,7 +127,7 @@ mod tests {
                     let Some(values) = row.values else { continue };
                     assert!(!values.differ() && values.present == body.values[row.index]);
                 }
-                let at_start = |row: &Row| row.parameter.acts == Acts::AtStart;
+                let at_start = |row: &Row| row.parameter.acts == TakesEffect::AtStart;
                 assert!(rows.is_sorted_by_key(at_start));
                 kinds.push(body.kind.id);
             }

@@ -7,10 +7,10 @@ use super::{LINE, RESTORE, line, restore_button};
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{
     Action, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, MIN_SECONDS, TOLERANCES, check_entered,
-    entered_tick_rate,
 };
 use crate::stage::Range;
 use crate::studio::{Command, RunCommand, StageCommand, Studio};
+use crate::view::panels::rate_scale;
 use crate::view::theme::palette;
 
 /// Widths of the fields of a lane, in points.
@@ -123,20 +123,11 @@ fn opened(studio: &Studio, entrant: &Entrant) -> LaneSpec {
 pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let opened = studio.deck.scene_as_opened();
     let tick_hz = studio.race().tick_hz();
-    let rate = NumberField {
-        id: ui.scope_id().with("tick rate"),
-        value: f64::from(tick_hz),
-        unit: "Hz",
-        name: "tick rate",
-        is_whole: true,
-    };
     let about = "ticks per second; a change restarts every method from its present state";
     line(ui, "tick rate", about, |ui, [room, number]| {
         ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
         let size = vec2(number, LINE);
-        let (_, entered) = rate.show(ui, size, |value| entered_tick_rate(value).map(drop));
-        let entered = entered.and_then(|value| entered_tick_rate(value).ok());
-        commands.extend(entered.map(|tick_hz| Command::Stage(StageCommand::TickHz(tick_hz))));
+        rate_scale::number(ui, tick_hz, size, commands);
         let about = format!("back to {:.3} Hz", opened.tick_hz);
         restore_button(ui, tick_hz != opened.tick_hz, &about, "tick rate", || {
             commands.push(Command::Stage(StageCommand::TickHz(opened.tick_hz)));

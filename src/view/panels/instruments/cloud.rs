@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use egui::epaint::PathShape;
 use egui::text::LayoutJob;
 use egui::{
     Color32, ColorImage, FontId, Galley, Label, Pos2, Rect, RichText, Sense, Stroke, TextFormat,
@@ -62,6 +63,8 @@ const AREA_ROOM: f32 = 34.0;
 /// shows at least this much on both sides of 1: half of it and twice.
 const MAX_DECADES: f64 = 3.0;
 const MIN_DECADES: f64 = 0.31;
+/// Half the width of a mark for points beyond an edge, in points.
+const HALF_MARK: f32 = 5.0;
 /// Lag behind the run, in seconds, from which the clouds show it.
 const BEHIND_S: f64 = 0.25;
 
@@ -153,7 +156,7 @@ fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         body_choice(ui, studio, commands);
         let told = picture.map(|picture| match &picture.section {
             Some(section) => section.clone(),
-            None => moment(studio, picture),
+            None => format!("{}; {}", moment(studio, picture), legend(picture)),
         });
         if let Some(words) = told {
             ui.label(RichText::new(words).color(palette(ui).dim));
@@ -161,7 +164,7 @@ fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-/// Time of the pictures, their lag behind the run if it is visible, and the number of points if not all keep up.
+/// Time of the pictures, and their lag behind the run if it is visible.
 fn moment(studio: &Studio, picture: &CloudPicture) -> String {
     let Some(request) = cloud_request(studio) else { return String::new() };
     let mut words = format!("t = {:.2} s", request.t_s(picture));
@@ -169,10 +172,15 @@ fn moment(studio: &Studio, picture: &CloudPicture) -> String {
     if behind > BEHIND_S {
         words += &format!(", {} s behind", significant(behind, 2));
     }
-    if picture.points < studio.display().cloud.points {
-        words += &format!(", {} points drawn", grouped(picture.points as u64));
-    }
     words
+}
+
+/// The meaning of the points and of the white outline.
+fn legend(picture: &CloudPicture) -> String {
+    let points = grouped(picture.points as u64);
+    let area = picture.exact.last().map(|[_, area]| format!(", area ×{area:.2}"));
+    let area = area.unwrap_or_default();
+    format!("{points} starts; white: where exact motion takes them{area}")
 }
 
 /// Detail of the caption above each cloud. A hover shows the rest.
@@ -294,7 +302,9 @@ fn side_by_side(
         let captions = captions.laid_out(ui, studio, width)?;
         let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 5.0;
         let height = inner.height() / rows as f32 - above - below - GAP / 2.0;
-        let size = vec2(width.min(MAX_ASPECT * height), height);
+        // A cloud alone fills its room.
+        let most = if lanes.len() == 1 { f32::INFINITY } else { MAX_ASPECT * height };
+        let size = vec2(width.min(most), height);
         (size.min_elem() >= least).then_some((columns, size, captions, above))
     };
     let area = |size: Vec2| size.x * size.y;
@@ -317,7 +327,8 @@ fn side_by_side(
         let corner = pos2(inner.left() + column as f32 * (wide + GAP), top);
         ui.painter().galley(corner, words, palette(ui).text);
         let rect = Rect::from_min_size(corner + vec2(0.0, above), size);
-        cloud(ui, studio, picture, lane, (rect, place), [column == 0, is_lowest], commands);
+        let has = [column == 0, is_lowest];
+        cloud(ui, studio, picture, lane, (rect, below, place), has, commands);
         if let Some(ratio) = lane.area_ratio.filter(|_| is_large) {
             let at = pos2(rect.center().x, rect.bottom() + NUMBERS + AREA_ROOM / 2.0);
             let number = format!("×{}", significant(ratio, 3));
@@ -333,13 +344,13 @@ fn side_by_side(
     ui.painter().text(at, egui::Align2::LEFT_BOTTOM, names, small, palette(ui).dim);
 }
 
-/// Shows a cloud, with numbers at the left and below where `has` is set.
+/// Shows a cloud, with numbers at the left and below where `has` is set, and with room for its area below those.
 fn cloud(
     ui: &Ui,
     studio: &Studio,
     picture: &CloudPicture,
     lane: &LaneCloud,
-    (rect, place): (Rect, usize),
+    (rect, below, place): (Rect, f32, usize),
     has: [bool; 2],
     commands: &mut Vec<Command>,
 ) {
@@ -380,7 +391,10 @@ fn cloud(
     ui.painter().image(texture.id(), rect, all, Color32::WHITE);
     let mut over =
         vec![Primitive::Clip(rect, vec![Primitive::Curves(outline(picture, rect, palette))])];
-    let response = ui.interact(rect, ui.scope_id().with(("cloud", place)), Sense::click());
+    mark_beyond(ui, lane.beyond, rect);
+    // The tooltip lies below the numbers too.
+    let whole = rect.with_max_y(rect.bottom() + NUMBERS + below);
+    let response = ui.interact(whole, ui.scope_id().with(("cloud", place)), Sense::click());
     if studio.mode() == Mode::Race && lane.entry == studio.active() {
         let rim = Stroke::new(1.6, Color32::from_rgb(colour[0], colour[1], colour[2]));
         over.push(Primitive::Edge(rect, rim));
@@ -392,6 +406,32 @@ fn cloud(
     let told = format!("{about} ({})", lane.measured);
     if response.on_hover_text(told).clicked() && studio.mode() == Mode::Race {
         commands.push(Command::Stage(StageCommand::Pick(lane.entry)));
+    }
+}
+
+/// Marks each side of a cloud beyond which points lie, with their number.
+fn mark_beyond(ui: &Ui, beyond: [usize; 4], rect: Rect) {
+    let (palette, painter) = (palette(ui), ui.painter());
+    let sides = [
+        (rect.left_center(), vec2(1.0, 0.0)),
+        (rect.right_center(), vec2(-1.0, 0.0)),
+        (rect.center_bottom(), vec2(0.0, -1.0)),
+        (rect.center_top(), vec2(0.0, 1.0)),
+    ];
+    for ((edge, inward), points) in sides.into_iter().zip(beyond).filter(|(_, points)| *points > 0)
+    {
+        let side = inward.rot90() * HALF_MARK;
+        let tip = edge + inward * 2.0;
+        let base = tip + inward * HALF_MARK;
+        let corners = vec![tip, base + side, base - side];
+        painter.add(PathShape::convex_polygon(corners, palette.text, Stroke::NONE));
+        let text = grouped(points as u64);
+        let text = painter.layout_no_wrap(text, FontId::proportional(11.0), palette.text);
+        let room = text.size() / 2.0;
+        let middle = base + vec2(inward.x * (room.x + 3.0), inward.y * room.y);
+        let plate = Rect::from_center_size(middle, text.size()).expand(1.0);
+        painter.rect_filled(plate, 2.0, palette.plot.gamma_multiply(0.8));
+        painter.galley(middle - room, text, palette.text);
     }
 }
 

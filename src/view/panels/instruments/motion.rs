@@ -8,7 +8,7 @@ use super::plot_set::{
     EXACT, ExactLine, PlotAxis, PlotModel, PlotSet, origin, over_time, time_in_view,
 };
 use crate::look::{Framing, Look};
-use crate::measure::Future;
+use crate::measure::FutureCurve;
 use crate::run::past::Quantity;
 use crate::stage::Coordinate;
 use crate::studio::{Studio, futures, shows_futures};
@@ -73,6 +73,7 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let exact_future = futures.last().into_iter().flat_map(|curve| &curve.points);
     let seen = seen.chain(origin(studio)).chain(exact_future.map(|at| at[1]));
     let y = ranges::around_truth(seen, &lanes, 1, HEALTHY);
+    let y = ranges::with_room(y, futures.iter().flat_map(|curve| &curve.points), ROOM_FOR_FUTURES);
     let name = name_of_plotted(studio, body, &coordinate);
     let title = match truth.halted() {
         Some(_) => format!("{name}, {}", truth.truth().missing()),
@@ -84,13 +85,16 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     PlotModel { tracks, dots: Dots::SparseAlongX, exact: vec![exact], futures, ..plot }
 }
 
+/// Greatest enlargement of a plot for futures.
+const ROOM_FOR_FUTURES: f64 = 4.0;
+
 /// The next second of a body under each method and in truth, if the display has them.
 fn future_curves(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve> {
     if !shows_futures(studio) {
         return Vec::new();
     }
     let palette = palette_of(studio.display().theme);
-    let curve = |future: Future| {
+    let curve = |future: FutureCurve| {
         let style = match future.entry {
             Some(entry) => {
                 let (colour, _) = palette.style(studio.entries(), &studio.entries()[entry]);

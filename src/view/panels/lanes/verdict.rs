@@ -16,7 +16,7 @@ pub(super) fn text_of(
 ) -> VerdictText {
     if studio.viewer.is_asked() {
         let waits = vec!["after your prediction".into()];
-        return VerdictText { sign: None, wordings: waits, rank: None };
+        return VerdictText { sign: None, is_current: true, wordings: waits, rank: None };
     }
     let halts = flown.into_iter().flat_map(|entrant| entrant.lane.halts());
     let mut halts: Vec<_> = halts.filter(|halt| body.is_none_or(|b| b == halt.body)).collect();
@@ -45,17 +45,24 @@ pub(super) fn text_of(
         None => verdict,
     };
     let Some(verdict) = verdict else {
-        return VerdictText { sign: None, wordings: vec!["judging…".into()], rank: None };
+        return VerdictText {
+            sign: None,
+            is_current: true,
+            wordings: vec!["judging…".into()],
+            rank: None,
+        };
     };
     let is_named = body.is_none() && named_above != Some(verdict.body);
     let wordings = match studio.deck.is_judged_apart() {
         true => verdict.wordings_of_another_run(is_named),
         false => verdict.wordings(is_named),
     };
-    text(verdict.outcome(), wordings)
+    let is_current = studio.viewer.is_judged_at(entry, studio.clock().tick_hz());
+    VerdictText { is_current, ..text(verdict.outcome(), wordings) }
 }
 
 fn text(outcome: Outcome, wordings: Vec<String>) -> VerdictText {
     let rank = Outcome::ALL.iter().position(|known| *known == outcome).map(|index| index as f64);
-    VerdictText { sign: Some((outcome.sign(), outcome.severity())), wordings, rank }
+    let sign = Some((outcome.sign(), outcome.severity()));
+    VerdictText { sign, is_current: true, wordings, rank }
 }

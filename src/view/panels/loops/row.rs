@@ -28,7 +28,7 @@ impl<'a> Row<'a> {
             Severity::Unknown => None,
         };
         let sign = Some((verdict.severity.sign(), verdict.severity));
-        let verdict = VerdictText { sign, wordings: verdict.wordings(), rank };
+        let verdict = VerdictText { sign, is_current: true, wordings: verdict.wordings(), rank };
         let is_on_stage = loops.on_stage().contains(&index);
         Self { loops, index, lane, is_on_stage, verdict }
     }

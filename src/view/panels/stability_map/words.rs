@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::text::LayoutJob;
 use egui::{Color32, FontId, Galley, TextFormat, Ui};
 
-use crate::measure::{Here, MapRequest, StabilityMap};
+use crate::measure::{MapRequest, PointStability, StabilityMap};
 use crate::scene::TickRate;
 use crate::stage::Parameter;
 use crate::stage::number::round;
@@ -104,7 +104,7 @@ fn longest(studio: &Studio, map: &StabilityMap) -> [String; 2] {
     let all = specs.len();
     let does = format!(
         "{all} of {all} methods are bounded, {all} pick their own steps. {name} {}.",
-        Here::Doubles(0.001_23)
+        PointStability::Doubles(0.001_23)
     );
     [here.into_iter().flatten().max_by_key(|here| here.chars().count()).unwrap_or_default(), does]
 }

@@ -97,7 +97,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         let mut step = longest;
         for _ in 0..MAX_STEPS {
             self.update_tangent(system, stages);
-            self.keep();
+            self.save_unknowns();
             let begun = self.curve.lambda;
             if self.predict_and_correct(system, stages, step) {
                 // The curve has only its start at λ = 0; with λ < 0 this is another curve.
@@ -118,7 +118,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
                     return true;
                 }
             }
-            self.go_back();
+            self.restore_unknowns();
             self.curve.lambda = begun;
             step *= STEP_FACTORS.1;
             if step < MIN_STEP_LENGTH {

@@ -56,11 +56,11 @@ impl<V: Vector, const S: usize> Newton<V, S> {
                 Descent::Curved => continue,
                 Descent::Near => {}
             }
-            self.keep();
+            self.save_unknowns();
             if self.correct_sparsely(system, stages) {
                 return true;
             }
-            self.go_back();
+            self.restore_unknowns();
         }
         false
     }

@@ -7,8 +7,8 @@ use std::fmt::Write;
 use nalgebra::Matrix2;
 
 use super::follow::map_of_frame;
-use super::seen::{is_stable, map_of_step, seen};
-use super::{REACHED, Reach, Wish};
+use super::seen::{is_stable, map_of_step, spring_of_map};
+use super::{PortOutcome, REACHED, Wish};
 use crate::sim::bodies::Spring;
 use crate::sim::integrators::{in_code, method};
 use crate::sim::number::significant;
@@ -18,7 +18,7 @@ use crate::tools::identify::Effective;
 
 mod cards;
 
-pub use cards::DIALECTS;
+pub use cards::UI_SPRINGS;
 
 /// A number that a library takes.
 #[derive(Debug)]
@@ -66,7 +66,7 @@ enum Steps {
 
 /// A library's way to set a spring.
 #[derive(Debug)]
-pub struct Dialect {
+pub struct UiSpring {
     /// Id on the command line.
     pub id: &'static str,
     /// Id in an earlier release, still accepted.
@@ -105,9 +105,9 @@ pub struct Departure {
 
 /// A library's settings for a wish, and the motion that they show.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DialectPort {
+pub struct UiSpringPort {
     /// Whether they show the wish. It is unreachable if the library damps more or explodes.
-    pub reach: Reach,
+    pub outcome: PortOutcome,
     /// Values of the keys, in their order.
     pub values: Vec<f64>,
     /// Frames per second below which the motion explodes; `None` if the frame rate does not decide that.
@@ -136,7 +136,7 @@ const STEP_S: f64 = 1e-3;
 const MAX_STEPS: f64 = 64.0;
 
 /// Share of the way left at this angle (ω times the time) to a spring that starts at rest with this damping ratio.
-fn left(damping_ratio: f64, angle: f64) -> f64 {
+fn part_left(damping_ratio: f64, angle: f64) -> f64 {
     let spring =
         Spring { mass: 1.0, stiffness: 1.0, damping: 2.0 * damping_ratio, ..Spring::default() };
     let left = spring.exact(angle, &State { q: 1.0, v: 0.0 });
@@ -152,7 +152,7 @@ fn decimal(value: f64) -> String {
 /// The points of a motion as a style sheet writes them, and the largest error of the lines between them.
 fn curve(wish: &Wish, [duration, points, ..]: Values) -> (String, f64) {
     let pieces = points as u32 - 1;
-    let at = |place: f64| 1.0 - left(wish.damping_ratio, wish.omega() * duration * place);
+    let at = |place: f64| 1.0 - part_left(wish.damping_ratio, wish.omega() * duration * place);
     let point = |i: u32| match i == pieces {
         true => 1.0,
         false => (1e4 * at(f64::from(i) / f64::from(pieces))).round() / 1e4,
@@ -171,10 +171,10 @@ fn curve(wish: &Wish, [duration, points, ..]: Values) -> (String, f64) {
     (written, error)
 }
 
-impl Dialect {
+impl UiSpring {
     /// The dialect with this id or former id.
     pub fn of_id(id: &str) -> Option<&'static Self> {
-        DIALECTS.iter().find(|dialect| dialect.ids().any(|own| own == id))
+        UI_SPRINGS.iter().find(|dialect| dialect.ids().any(|own| own == id))
     }
 
     /// Its id, then its former one.
@@ -183,7 +183,7 @@ impl Dialect {
     }
 
     /// The version that it was checked against, and how, in words; `None` for code of your own.
-    pub fn held_against(&self) -> Option<String> {
+    pub fn checked_against(&self) -> Option<String> {
         let Self { version, evidence, .. } = self;
         (!version.is_empty()).then(|| format!("held against {version}, {evidence}"))
     }
@@ -228,35 +228,35 @@ impl Dialect {
 
     /// Its settings for a wish, whose numbers must [have a meaning](Wish::check_numbers), and the motion visible at
     /// this many frames per second.
-    pub fn port(&self, wish: &Wish, frame_hz: f64) -> DialectPort {
+    pub fn port(&self, wish: &Wish, frame_hz: f64) -> UiSpringPort {
         let values = (self.write)(wish);
-        let is_told = values.iter().all(|value| value.is_finite());
-        let told = self.read.map_or(*wish, |read| read(values));
+        let has_values = values.iter().all(|value| value.is_finite());
+        let motion = self.read.map_or(*wish, |read| read(values));
         let (points, error) = match self.steps {
-            Steps::Sampled if is_told => curve(wish, values),
+            Steps::Sampled if has_values => curve(wish, values),
             _ => Default::default(),
         };
-        let departure = (self.departure)(&told);
-        let map = self.map(&told, frame_hz);
+        let departure = (self.departure)(&motion);
+        let map = self.map(&motion, frame_hz);
         let is_stable = map.as_ref().is_none_or(StepMap::is_stable);
-        let seen = map.map_or(Some(told.seen()), |map| map.seen());
-        let seen = seen.filter(|_| is_told && error <= ASTRAY && departure.is_none());
+        let seen = map.map_or(Some(motion.effective()), |map| map.visible_motion());
+        let seen = seen.filter(|_| has_values && error <= ASTRAY && departure.is_none());
         let missed = seen.and_then(|seen| {
             let ratio = seen.damping_ratio()? - wish.damping_ratio;
             Some([(seen.undamped_hz() / wish.frequency_hz - 1.0).abs(), ratio])
         });
         let near = REACHED * (1.0 + wish.damping_ratio);
-        let reach = match missed {
-            _ if !is_told => Reach::Unreachable,
-            _ if error > ASTRAY => Reach::Unreachable,
+        let outcome = match missed {
+            _ if !has_values => PortOutcome::Unreachable,
+            _ if error > ASTRAY => PortOutcome::Unreachable,
             _ if departure.is_some_and(|it| it.damping_ratio > Some(wish.damping_ratio + near)) => {
-                Reach::Unreachable
+                PortOutcome::Unreachable
             }
-            _ if error > 0.0 => Reach::Nearest,
-            None if is_stable => Reach::Nearest,
-            Some([of_hz, ratio]) if of_hz <= REACHED && ratio.abs() <= near => Reach::Reached,
-            Some(_) if told.damping_ratio <= wish.damping_ratio + near => Reach::Nearest,
-            _ => Reach::Unreachable,
+            _ if error > 0.0 => PortOutcome::Nearest,
+            None if is_stable => PortOutcome::Nearest,
+            Some([of_hz, ratio]) if of_hz <= REACHED && ratio.abs() <= near => PortOutcome::Reached,
+            Some(_) if motion.damping_ratio <= wish.damping_ratio + near => PortOutcome::Nearest,
+            _ => PortOutcome::Unreachable,
         };
         let mut code = self.code.replace("<ms>", &(1e3 * values[0]).round().to_string());
         code = code.replace("<curve>", &points);
@@ -267,15 +267,15 @@ impl Dialect {
         for switch in self.switched_on(&values) {
             code = format!("{code}; {}", switch.code);
         }
-        DialectPort {
-            reach,
+        UiSpringPort {
+            outcome,
             values: values[..self.keys.len()].to_vec(),
-            explodes_below_hz: self.explodes_below_hz(&told),
+            explodes_below_hz: self.explodes_below_hz(&motion),
             is_stable,
             seen,
             departure,
             error: (error > 0.0).then_some(error),
-            code: if is_told { code } else { String::new() },
+            code: if has_values { code } else { String::new() },
         }
     }
 
@@ -287,7 +287,7 @@ impl Dialect {
     }
 
     /// The map of one step of this motion; `None` for a closed form.
-    fn map(&self, told: &Wish, frame_hz: f64) -> Option<StepMap> {
+    fn map(&self, motion: &Wish, frame_hz: f64) -> Option<StepMap> {
         let (step_s, pace) = match self.steps {
             Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => return None,
             Steps::PerFrame | Steps::SmoothDamp => (1.0 / frame_hz, 1.0),
@@ -295,8 +295,8 @@ impl Dialect {
         };
         let method = method(self.steps()).expect("a method of the table");
         let map = match self.steps {
-            Steps::SmoothDamp => map_of_frame(method, told.omega(), frame_hz),
-            _ => map_of_step(method, told.joint(), step_s),
+            Steps::SmoothDamp => map_of_frame(method, motion.omega(), frame_hz),
+            _ => map_of_step(method, motion.joint(), step_s),
         };
         // A step without a finite map is unstable.
         let map = map.unwrap_or(Matrix2::from_element(f64::INFINITY));
@@ -304,15 +304,15 @@ impl Dialect {
     }
 
     /// Frames per second below which this motion explodes.
-    fn explodes_below_hz(&self, told: &Wish) -> Option<f64> {
+    fn explodes_below_hz(&self, motion: &Wish) -> Option<f64> {
         let Steps::PerFrame = self.steps else { return None };
-        let explodes = |log| self.map(told, libm::exp(log)).is_some_and(|map| !map.is_stable());
+        let explodes = |log| self.map(motion, libm::exp(log)).is_some_and(|map| !map.is_stable());
         let [_, high] = bisect(RATES.map(libm::log), HALVINGS, explodes);
         Some(libm::exp(high))
     }
 
     /// The effect of the frame rate on a port, in words.
-    pub fn at_frame_rates(&self, port: &DialectPort, frame_hz: f64) -> String {
+    pub fn at_frame_rates(&self, port: &UiSpringPort, frame_hz: f64) -> String {
         let percent = |part: f64| significant(100.0 * part.abs(), 2);
         match self.steps {
             Steps::Exact | Steps::WholeMilliseconds => {
@@ -381,9 +381,9 @@ impl StepMap {
     }
 
     /// The damped spring with the same motion.
-    fn seen(&self) -> Option<Effective> {
+    fn visible_motion(&self) -> Option<Effective> {
         let Self { map, step_s, pace } = self;
-        let Effective { omega, decay } = seen(map.trace(), map.determinant(), *step_s)?;
+        let Effective { omega, decay } = spring_of_map(map.trace(), map.determinant(), *step_s)?;
         Some(Effective { omega: pace * omega, decay: pace * decay })
     }
 }

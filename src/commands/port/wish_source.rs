@@ -5,15 +5,15 @@ use std::path::PathBuf;
 use super::{TARGET, Target};
 use crate::scene::{MAX_SUBSTEPS, clip};
 use crate::sim::integrators::{JointMode, Method, Setting};
-use crate::tools::port::{Approach, Dialect, Friction, Key, Setup, Wish};
+use crate::tools::port::{Approach, Friction, Key, Setup, UiSpring, Wish};
 
 /// Source of a wish.
-pub(super) enum From {
+pub(super) enum WishSource {
     /// Settings of an engine.
     Engine(EngineSettings),
     /// Settings of a user interface: the motion that it shows, and the spring of these numbers. The interface may
     /// damp less than that spring.
-    Dialect { shown: Wish, as_given: Wish },
+    UiSpring { shown: Wish, as_given: Wish },
     /// A velocity that keeps a part of itself in each frame.
     Friction(Friction),
     /// A chase, and its frame rate if it has one.
@@ -44,7 +44,7 @@ fn with_frames<'a>(written: &'a str, example: &str) -> Result<(&'a str, f64), St
     Ok((setting, above_0(fps, "fps", "the rate of frames")?))
 }
 
-impl From {
+impl WishSource {
     /// Parses the argument, for a tick rate in hertz and a body of this mass in kg.
     pub(super) fn parse(written: &str, tick_hz: f64, mass_kg: f64) -> Result<Self, String> {
         let Some((head, rest)) = written.split_once(':') else {
@@ -52,8 +52,8 @@ impl From {
                 Ok(Target::Engine(method)) => {
                     Err(format!("give its settings too: {}", example(method)))
                 }
-                Ok(Target::Dialect(dialect)) => of_dialect(dialect, "", mass_kg),
-                _ => Ok(From::Log(written.into())),
+                Ok(Target::UiSpring(dialect)) => of_ui_spring(dialect, "", mass_kg),
+                _ => Ok(WishSource::Log(written.into())),
             };
         };
         match head {
@@ -62,7 +62,7 @@ impl From {
                 let part = with_unit(part, "")?;
                 let fits = part > 0.0 && part < 1.0;
                 let wrong = || format!("the part is {part}; it must be between 0 and 1");
-                Ok(From::Approach(
+                Ok(WishSource::Approach(
                     Approach::of_lerp(fits.then_some(part).ok_or_else(wrong)?, fps),
                     Some(fps),
                 ))
@@ -78,32 +78,35 @@ impl From {
                         "{rate} at {fps} frames per second {end}; give a rate below the frames"
                     ));
                 }
-                Ok(From::Approach(Approach::of_lerp(part, fps), Some(fps)))
+                Ok(WishSource::Approach(Approach::of_lerp(part, fps), Some(fps)))
             }
             "friction" => {
                 let (kept, fps) = with_frames(rest, "friction:0.9@60fps")?;
                 let kept = with_unit(kept, "")?;
                 let fits = kept > 0.0 && kept < 1.0;
                 let wrong = || format!("{kept} is kept; it must be between 0 and 1");
-                Ok(From::Friction(Friction { kept: fits.then_some(kept).ok_or_else(wrong)?, fps }))
+                Ok(WishSource::Friction(Friction {
+                    kept: fits.then_some(kept).ok_or_else(wrong)?,
+                    fps,
+                }))
             }
             "per-frame-decay" => of_decay(rest, tick_hz, mass_kg)
-                .map(|wish| From::Dialect { shown: wish, as_given: wish }),
+                .map(|wish| WishSource::UiSpring { shown: wish, as_given: wish }),
             "smooth-damp" => {
                 let seconds = above_0(rest, "s", "the smoothing time")?;
-                Ok(From::Approach(Approach::of_smooth_time(seconds), None))
+                Ok(WishSource::Approach(Approach::of_smooth_time(seconds), None))
             }
             "half-life" => {
                 let half_life_s = above_0(rest, "s", "the half-life")?;
-                Ok(From::Approach(Approach { half_life_s }, None))
+                Ok(WishSource::Approach(Approach { half_life_s }, None))
             }
             // One letter is the drive of a path.
-            _ if head.len() == 1 => Ok(From::Log(written.into())),
+            _ if head.len() == 1 => Ok(WishSource::Log(written.into())),
             _ => match TARGET.find(head)? {
                 Target::Engine(method) => {
-                    of_engine(method, rest, tick_hz, mass_kg).map(From::Engine)
+                    of_engine(method, rest, tick_hz, mass_kg).map(WishSource::Engine)
                 }
-                Target::Dialect(dialect) => of_dialect(dialect, rest, mass_kg),
+                Target::UiSpring(dialect) => of_ui_spring(dialect, rest, mass_kg),
                 _ => Err(format!("{head} is all of a kind; name one")),
             },
         }
@@ -135,7 +138,7 @@ fn example(method: &Method) -> String {
 
 /// The motion of a user interface with settings in the form `key=value,…`. Missing settings have the library's own
 /// values, except the mass in kg.
-fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<From, String> {
+fn of_ui_spring(dialect: &UiSpring, written: &str, mass_kg: f64) -> Result<WishSource, String> {
     let usual = |key: &Key| if key.name == "mass" { mass_kg } else { key.usual };
     let mut values: Vec<f64> = dialect.keys.iter().map(usual).collect();
     let mut given = Vec::new();
@@ -170,7 +173,7 @@ fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<From, St
             values[index] = 1.0;
         }
     }
-    Ok(From::Dialect { shown, as_given: wish(&values)? })
+    Ok(WishSource::UiSpring { shown, as_given: wish(&values)? })
 }
 
 /// The settings of a spring in an engine.
@@ -188,9 +191,9 @@ impl EngineSettings {
     }
 
     /// The motion that the engine shows with these settings.
-    pub(super) fn shown(&self) -> Result<Wish, String> {
+    pub(super) fn as_visible(&self) -> Result<Wish, String> {
         let Setup { method, tick_hz, substeps, .. } = self.setup;
-        let seen = self.setup.sees(self.joint).ok_or_else(|| {
+        let seen = self.setup.visible_motion(self.joint).ok_or_else(|| {
             format!("nothing swings so in {} ×{substeps} at {tick_hz} Hz; tick faster", method.id)
         })?;
         let wish = Wish::of(seen, self.mass_kg);

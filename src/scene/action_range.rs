@@ -7,7 +7,7 @@ use crate::sim::bodies::MAX_VALUE;
 impl Action {
     /// The action with throttle and rudder clamped to -1 to 1. `None` if a number is out of its range, so that no
     /// scene file could express it.
-    pub fn checked(mut self) -> Option<Self> {
+    pub fn clamped_in_range(mut self) -> Option<Self> {
         if let Action::Throttle(part) | Action::Rudder(part) = &mut self {
             *part = part.clamp(-1.0, 1.0);
         }

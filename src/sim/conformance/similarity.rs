@@ -106,7 +106,7 @@ static KNOWN: LazyLock<Vec<(&'static Method, Vec<f64>)>> = LazyLock::new(|| {
 });
 
 /// Whether two methods make the same steps on this system.
-fn are_alike(a: &Method, b: &Method, system: &dyn Fn() -> Problem<f64>) -> bool {
+fn steps_agree(a: &Method, b: &Method, system: &dyn Fn() -> Problem<f64>) -> bool {
     let run = |method: &Method| {
         let (system, mut stepper) = (system(), fresh(method));
         let mut state = State { q: 0.7, v: -0.4 };
@@ -123,7 +123,7 @@ fn are_alike(a: &Method, b: &Method, system: &dyn Fn() -> Problem<f64>) -> bool 
 
 /// The similarity of two maps, from 0 to 1: the sum of the smaller of each pair of coefficients over the sum of the
 /// larger. A coefficient of `hᵖ` weighs p!, the number that divides it in the exact motion.
-fn likeness(a: &[f64], b: &[f64]) -> f64 {
+fn similarity(a: &[f64], b: &[f64]) -> f64 {
     let (mut common, mut all) = (0.0, 0.0);
     for (term, (a, b)) in Term::all().zip(a.iter().zip(b)) {
         let weight: f64 = (1..=term.power()).map(f64::from).product();
@@ -141,14 +141,14 @@ pub(super) fn nearest(method: &Method, evaluations: Option<u32>) -> String {
     };
     let is_other = |(a, b): (&f64, &f64)| (a - b).abs() >= ROUNDING;
     let curved: [&dyn Fn() -> Problem<f64>; 2] = [&|| problem(UnitPendulum), &|| problem(Air)];
-    let is_it = |known: &Method| curved.iter().all(|system| are_alike(method, known, system));
+    let is_it = |known: &Method| curved.iter().all(|system| steps_agree(method, known, system));
     let rank = |(known, theirs): &(&'static Method, Vec<f64>)| {
         let is_same = !own.iter().zip(theirs).any(is_other);
         // Among methods equal on linear forces, prefers one that also agrees on others.
         let as_many = f64::from(u8::from(known.evaluations == evaluations));
         match is_same {
             true => 1.0 + AS_MANY + f64::from(u8::from(is_it(known))),
-            false => likeness(&own, theirs) + AS_MANY * as_many,
+            false => similarity(&own, theirs) + AS_MANY * as_many,
         }
     };
     let best = KNOWN.iter().rev().max_by(|a, b| rank(a).total_cmp(&rank(b)));
@@ -163,7 +163,7 @@ pub(super) fn nearest(method: &Method, evaluations: Option<u32>) -> String {
     differing.sort_by_key(|(term, _)| term.power());
     let id = known.id;
     let Some((term, pair)) = differing.first() else {
-        let is_linear = are_alike(method, known, &|| problem(super::problems::spring(3.0, 0.1)));
+        let is_linear = steps_agree(method, known, &|| problem(super::problems::spring(3.0, 0.1)));
         return match (is_linear, is_it(known)) {
             (true, true) => format!("the same as {id}"),
             (true, false) => format!("the same as {id} on linear forces"),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Departure, Dialect, HALVINGS, Key, Steps, Switch, Values, left};
+use super::{Departure, HALVINGS, Key, Steps, Switch, UiSpring, Values, part_left};
 use crate::sim::numerics::bisect;
 use crate::tools::port::{REACHED, Wish};
 
@@ -30,7 +30,7 @@ const STIFFNESS: Key = key("stiffness", 100.0);
 const DAMPING: Key = ratio("damping", 10.0);
 
 /// A spring with a mass, by its equation of motion.
-const EQUATION: Dialect = Dialect {
+const EQUATION: UiSpring = UiSpring {
     id: "",
     former_id: None,
     name: "",
@@ -52,7 +52,7 @@ const EQUATION: Dialect = Dialect {
 };
 
 /// A spring set by its damping ratio and its stiffness, which is the square of ω.
-const RATIO: Dialect = Dialect {
+const RATIO: UiSpring = UiSpring {
     read: Some(|[ratio, stiffness, ..]| wish(libm::sqrt(stiffness), ratio)),
     write: |wish| [wish.damping_ratio, wish.omega() * wish.omega(), 0.0, 0.0],
     keys: &[ratio("dampingRatio", 1.0), key("stiffness", 1500.0)],
@@ -61,7 +61,7 @@ const RATIO: Dialect = Dialect {
 };
 
 /// A spring set by its period and its bounce, which is 1 - ζ, or 1/ζ - 1 above critical damping.
-const BOUNCE: Dialect = Dialect {
+const BOUNCE: UiSpring = UiSpring {
     read: Some(|[duration, bounce, ..]| {
         wish(TAU / duration, if bounce < 0.0 { 1.0 / (1.0 + bounce) } else { 1.0 - bounce })
     }),
@@ -75,8 +75,8 @@ const BOUNCE: Dialect = Dialect {
 };
 
 /// The springs of user interfaces.
-pub static DIALECTS: &[Dialect] = &[
-    Dialect {
+pub static UI_SPRINGS: &[UiSpring] = &[
+    UiSpring {
         id: "swiftui",
         name: "SwiftUI, duration and bounce",
         source: "developer.apple.com/documentation/swiftui/spring; its numbers as Flutter's withDurationAndBounce has them",
@@ -85,7 +85,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: ".spring(duration: <duration>, bounce: <bounce>)",
         ..BOUNCE
     },
-    Dialect {
+    UiSpring {
         id: "swiftui-response",
         name: "SwiftUI, response and damping fraction",
         keys: &[key("response", 0.5), ratio("dampingFraction", 0.825)],
@@ -97,7 +97,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: ".spring(response: <response>, dampingFraction: <dampingFraction>)",
         ..EQUATION
     },
-    Dialect {
+    UiSpring {
         id: "core-animation",
         name: "Core Animation and UIKit",
         keys: &[
@@ -130,7 +130,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: "spring.mass = <mass>; spring.stiffness = <stiffness>; spring.damping = <damping>",
         ..EQUATION
     },
-    Dialect {
+    UiSpring {
         id: "css",
         name: "CSS linear()",
         keys: &[key("duration", 0.5), key("points", 50.0)],
@@ -143,7 +143,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: "transition: translate <duration>s linear(<curve>)",
         ..EQUATION
     },
-    Dialect {
+    UiSpring {
         id: "compose",
         name: "Jetpack Compose",
         source: "androidx, compose/animation/animation-core: SpringSimulation.kt, FloatAnimationSpec.kt",
@@ -152,7 +152,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: "spring(dampingRatio = <dampingRatio>f, stiffness = <stiffness>f)",
         ..RATIO
     },
-    Dialect {
+    UiSpring {
         id: "android",
         name: "Android SpringForce",
         keys: &[ratio("dampingRatio", 0.5), key("stiffness", 1500.0)],
@@ -162,7 +162,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: "new SpringForce(target).setDampingRatio(<dampingRatio>f).setStiffness(<stiffness>f)",
         ..RATIO
     },
-    Dialect {
+    UiSpring {
         id: "flutter",
         name: "Flutter",
         source: "flutter, packages/flutter/lib/src/physics/spring_simulation.dart",
@@ -171,7 +171,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: "SpringDescription(mass: <mass>, stiffness: <stiffness>, damping: <damping>)",
         ..EQUATION
     },
-    Dialect {
+    UiSpring {
         id: "flutter-duration",
         name: "Flutter, duration and bounce",
         keys: &[milliseconds("duration", 0.5), bounce(0.0)],
@@ -183,7 +183,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: "SpringDescription.withDurationAndBounce(duration: Duration(milliseconds: <ms>), bounce: <bounce>)",
         ..BOUNCE
     },
-    Dialect {
+    UiSpring {
         id: "react-spring",
         name: "react-spring",
         keys: &[key("mass", 1.0), key("tension", 170.0), ratio("friction", 26.0)],
@@ -194,7 +194,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: "config: { mass: <mass>, tension: <tension>, friction: <friction> }",
         ..EQUATION
     },
-    Dialect {
+    UiSpring {
         id: "motion",
         name: "Motion",
         source: "motion, packages/motion-dom/src/animation/generators/spring.ts",
@@ -204,7 +204,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: "transition: { type: \"spring\", mass: <mass>, stiffness: <stiffness>, damping: <damping> }",
         ..EQUATION
     },
-    Dialect {
+    UiSpring {
         id: "motion-duration",
         name: "Motion, duration and bounce",
         keys: &[
@@ -230,7 +230,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: "transition: { type: \"spring\", duration: <duration>, bounce: <bounce> }",
         ..EQUATION
     },
-    Dialect {
+    UiSpring {
         id: "slint",
         former_id: Some("slint-duration"),
         name: "Slint",
@@ -253,7 +253,7 @@ pub static DIALECTS: &[Dialect] = &[
         departure: slint_departure,
         code: "animate x { easing: spring(<bounce:decimal>); duration: <ms>ms; }",
     },
-    Dialect {
+    UiSpring {
         id: "gpui",
         name: "gpui",
         source: "zed, crates/gpui/src/spring.rs",
@@ -262,7 +262,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: "SpringConfig::new(<stiffness>, <damping>, <mass>)",
         ..EQUATION
     },
-    Dialect {
+    UiSpring {
         id: "unity-smooth-damp",
         name: "Unity SmoothDamp",
         keys: &[key("smoothTime", 0.3)],
@@ -275,7 +275,7 @@ pub static DIALECTS: &[Dialect] = &[
         code: "x = Mathf.SmoothDamp(x, target, ref velocity, <smoothTime>f);",
         ..EQUATION
     },
-    Dialect {
+    UiSpring {
         id: "per-frame",
         name: "two lines of your own, once a frame",
         source: "semi-implicit Euler with the force of the start of the frame",
@@ -320,7 +320,7 @@ fn cut_to_milliseconds([seconds, rest @ ..]: Values) -> Values {
 
 /// Angle ω t at which a spring with a damping ratio of 1 or more has [`OVER`] of its way left.
 fn angle_of(ratio: f64) -> f64 {
-    bisect([0.0, 40.0 * ratio], HALVINGS, |angle| left(ratio, angle) > OVER)[0]
+    bisect([0.0, 40.0 * ratio], HALVINGS, |angle| part_left(ratio, angle) > OVER)[0]
 }
 
 /// Angle ω t at which Motion considers a spring settled. Below critical damping, ζ / √(1 − ζ²) exp(−ζ ω t) is then
@@ -363,7 +363,7 @@ fn motion_overdamped_angle(ratio: f64, critical: f64) -> f64 {
 fn motion_cut(told: &Wish) -> Option<Departure> {
     let ratio = told.damping_ratio;
     let apart = libm::sqrt((ratio * ratio - 1.0).max(0.0));
-    let left = left(ratio, MOTION_CUT / apart);
+    let left = part_left(ratio, MOTION_CUT / apart);
     (apart * told.omega() >= MOTION_CUT_FROM && left > OVER).then(|| Departure {
         at_s: MOTION_CUT / apart / told.omega(),
         left,
@@ -377,7 +377,7 @@ fn slint_departure(told: &Wish) -> Option<Departure> {
     let later = if ratio >= 1.0 + SLINT_CRITICAL { 1.0 } else { ratio.max(SLINT_LEAST) };
     let departure = Departure {
         at_s: 1.0 / told.frequency_hz,
-        left: left(ratio, TAU).abs(),
+        left: part_left(ratio, TAU).abs(),
         damping_ratio: Some(later),
     };
     (later != ratio).then_some(departure)
