@@ -162,11 +162,10 @@ impl App {
         }
         let Some(canvas) = &mut self.canvas else { return };
         if std::mem::take(&mut self.screenshot) {
-            let Canvas { window, gpu, .. } = canvas;
-            let size = window.inner_size();
-            let scale = window.scale_factor() as f32;
+            let size = canvas.window.inner_size();
+            let scale = canvas.window.scale_factor() as f32;
             let notice =
-                export::save_screenshot(gpu, [size.width, size.height], scale, &self.frames.studio);
+                export::save_screenshot([size.width, size.height], scale, &self.frames.studio);
             self.frames.studio.viewer.set_notice(notice);
             self.stand_still();
         }

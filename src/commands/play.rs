@@ -25,6 +25,7 @@ use crate::run::race::Mode;
 use crate::run::trace::last_tick;
 use crate::sim::number::counted;
 use crate::studio::{Motion, SavedPreferences, Studio, show_clouds_of_scene};
+use crate::view::RendererChoice;
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
 const EXAMPLES: &str = "\
@@ -213,6 +214,7 @@ fn without_display(
         motion: !args.reduced_motion,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: state_log::usual_stride(schedule.ticks(&studio)),
+        renderer: RendererChoice::Cpu,
     };
     let last = args.seconds.map(|seconds| studio.race().nearest_tick(seconds));
     let mut studio = clip::record(experiment, studio, capture, folder)?;

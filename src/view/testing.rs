@@ -1,21 +1,22 @@
-//! Shared test code: a device and the pixels drawn with it, and frames of panels without a device.
+//! Shared test code: drawn pixels, frames of panels, and a graphics device.
 
 use std::io::{self, Write};
+use std::num::NonZero;
 
 use egui::epaint::TextShape;
 use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2};
 
 use super::panels::RING;
 use super::stage::Stage;
-use super::{AdapterPreference, Drawing, Gpu, GpuExecutor, Offscreen, Readback, panels, theme};
+use super::{CpuExecutor, Drawing, Gpu, GpuExecutor, Offscreen, Readback, Textures, panels, theme};
 use crate::stage::{Picture, Rect};
 use crate::studio::{Command, Studio};
 use crate::view::backdrop::BackdropFinder;
 use crate::view::stage::draw_stage;
 
-/// A software device. Without one, writes the name of the skipped test and the reason to stderr.
+/// A graphics device. Without one, writes the name of the skipped test and the reason to stderr.
 pub(super) fn gpu_or_skip(test: &str) -> Option<Gpu> {
-    pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
+    pollster::block_on(Gpu::headless())
         // Not `eprintln!`, which the test runner hides when a test passes.
         .inspect_err(|error| drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")))
         .ok()
@@ -45,9 +46,27 @@ impl Pixels {
 }
 
 /// Draws a picture alone on black, with a stage that fills the target at `scale` pixels per point.
-pub(super) fn draw_picture(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
-    let drawing = stage_alone(&mut BackdropFinder::default(), size_px, scale, picture);
-    execute(gpu, &mut GpuExecutor::new(gpu, Offscreen::FORMAT), &drawing)
+pub(super) fn draw_picture(size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
+    Painter::new().paint(&stage_alone(&mut BackdropFinder::default(), size_px, scale, picture))
+}
+
+/// Paints the drawings of one renderer.
+pub(super) struct Painter {
+    pub(super) executor: CpuExecutor,
+    pub(super) textures: Textures,
+}
+
+impl Painter {
+    pub(super) fn new() -> Self {
+        let executor = CpuExecutor::new(NonZero::<usize>::MIN);
+        Self { executor, textures: Textures::default() }
+    }
+
+    pub(super) fn paint(&mut self, drawing: &Drawing) -> Pixels {
+        let mut rows = Vec::new();
+        self.executor.execute(drawing, &self.textures.update(drawing), &mut rows);
+        Pixels { size_px: drawing.size_px, rows }
+    }
 }
 
 /// The drawing of a picture alone, with a stage that fills the target at `scale` pixels per point.
@@ -64,16 +83,12 @@ pub(super) fn stage_alone(
     drawing
 }
 
-/// The pixels of a drawing.
-pub(super) fn execute(gpu: &Gpu, executor: &mut GpuExecutor, drawing: &Drawing) -> Pixels {
+/// The pixels of a drawing from a device.
+pub(super) fn paint_on(gpu: &Gpu, executor: &mut GpuExecutor, drawing: &Drawing) -> Pixels {
     let target = Offscreen::new(gpu, drawing.size_px).expect("tests ask for small targets");
-    read(gpu, executor.encode(gpu, drawing, &target.view), &target)
-}
-
-/// Pixels of the target after `drawing`.
-pub(super) fn read(gpu: &Gpu, drawing: Option<wgpu::CommandBuffer>, target: &Offscreen) -> Pixels {
+    let commands = executor.encode(gpu, drawing, &target.view);
     let mut rows = Vec::new();
-    let read = Readback::default().read(gpu, drawing, &target.texture, &mut rows);
+    let read = Readback::default().read(gpu, commands, &target.texture, &mut rows);
     read.expect("a fresh target can be read");
     Pixels { size_px: target.size_px, rows }
 }
