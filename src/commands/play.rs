@@ -7,6 +7,7 @@ use std::sync::Arc;
 use annotate_snippets::Renderer;
 use clap::Args;
 
+use super::drawing::RendererName;
 use super::error::Error;
 use super::experiment::{self, Experiment, ExperimentArgs, ThemeName, known_trace};
 use super::frame_folder::FrameFolder;
@@ -79,6 +80,12 @@ pub(super) struct PlayArgs {
     #[arg(long, value_name = "THEME", hide_possible_values = true, hide_short_help = true)]
     theme: Option<ThemeName>,
 
+    /// What draws: auto, gpu or cpu [default: auto]
+    ///
+    /// Auto takes a graphics device, or the processor where there is only a software driver.
+    #[arg(long, value_name = "WHAT", hide_possible_values = true, hide_short_help = true)]
+    renderer: Option<RendererName>,
+
     /// Trails do not fade, and the camera zooms out in steps
     #[arg(long, hide_short_help = true)]
     reduced_motion: bool,
@@ -137,6 +144,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         seconds: args.seconds,
         tick: scene_file::tick_of(options.scene()).map(|tick| tick.min(last_tick(studio.scene()))),
         size: preferences.size,
+        renderer: args.renderer.map(RendererChoice::from).unwrap_or_default(),
         on_interrupt: record.map(|_| on_interrupt as _),
     };
     let keep = unfinished.as_ref().map(UnfinishedRecording::keeper);
