@@ -11,10 +11,10 @@ use std::process::ExitCode;
 
 use regatta::commands::{self, Cli};
 
-/// Log filter: these libraries report errors only, and EGL nothing. EGL tries drivers that are not installed, and any
+/// Log filter: these libraries report errors only, EGL and the frames of Wayland windows nothing. EGL tries drivers that are not installed, and any
 /// failure that matters comes back as an error value. `RUST_LOG` overrides it.
-const LOG_FILTER: &str =
-    "warn,arboard=error,wgpu_core=error,wgpu_hal=error,wgpu_hal::gles::egl=off,naga=error";
+const LOG_FILTER: &str = "warn,arboard=error,wgpu_core=error,wgpu_hal=error,wgpu_hal::gles::egl=off,naga=error,\
+     sctk_adwaita=off";
 
 fn main() -> ExitCode {
     panic::set_hook(Box::new(report_bug));
@@ -83,6 +83,10 @@ fn report_bug(panic: &PanicHookInfo<'_>) {
         return commands::print_status(
             "error: the system starts no more threads for this program; let it (ulimit -u, ulimit -v)",
         );
+    }
+    // The keyboard's library is loaded late, and its loader panics without it.
+    if said.contains("could not be loaded") {
+        return commands::print_status(&format!("error: {said}; {}", commands::WINDOW_LIBRARIES));
     }
     // Not `eprintln!`, which itself panics if standard error is closed.
     commands::print_status(&format!(

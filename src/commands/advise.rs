@@ -1,4 +1,4 @@
-//! `regatta advise`: recommends a method for a scene at its tick rate, and says why.
+//! `regatta advise`: recommends a method for a scene at its tick rate, and gives the reasons.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -94,8 +94,8 @@ pub(super) struct AdviseArgs {
     format: TableFormat,
 }
 
-/// One lane for each method of the family that can step the scene. A method that the scene lists keeps the scene's
-/// lane.
+/// Returns one lane for each method of the family that can step the scene. A method that the scene lists keeps the lane
+/// that it has there.
 fn of_family(scene: &Scene, family: Family) -> Result<Vec<LaneSpec>, Error> {
     let listed = |method| scene.lanes.iter().find(|lane| lane.method == method).copied();
     let fitting = scene.methods_of(family);

@@ -1,5 +1,5 @@
-//! Parsers for numeric arguments, and the form of arguments in messages: long ones, such as links to a run, are
-//! shortened.
+//! Parsers for numeric arguments, and the form that arguments have in messages. Long arguments, such as links to a run,
+//! are shortened.
 
 use std::path::Path;
 
@@ -8,16 +8,16 @@ use clap::error::{ContextKind, ContextValue};
 use crate::regular_file::is_link;
 use crate::scene::{clip, truncate};
 
-/// Most characters of an argument in a message: longer than a person types, yet only a few lines.
+/// Maximum number of characters of an argument in a message. It is more than a person types, yet only a few lines.
 const MAX_SHOWN_CHARS: usize = 300;
 
-/// A path for a message. A link is unreadable, so only its first characters appear.
+/// Returns a path in the form that it has in a message. A link is unreadable, so only its first characters appear.
 pub(super) fn brief(path: &Path) -> String {
     let written = path.display().to_string();
     if is_link(path) { clip(&written) } else { truncate(MAX_SHOWN_CHARS, &written) }
 }
 
-/// Shortens long arguments in a command line error.
+/// Shortens the long arguments in an error about the command line.
 pub(super) fn with_brief_arguments(mut error: clap::Error) -> clap::Error {
     let shorter = |(kind, value): (ContextKind, &ContextValue)| match value {
         ContextValue::String(text) => {
@@ -28,7 +28,7 @@ pub(super) fn with_brief_arguments(mut error: clap::Error) -> clap::Error {
     };
     let long: Vec<(ContextKind, ContextValue)> = error.context().filter_map(shorter).collect();
     if !long.is_empty() {
-        // A suggestion would repeat the long argument.
+        // A suggestion would repeat the long argument, so it is removed.
         error.remove(ContextKind::Suggested);
     }
     for (kind, shown) in long {
@@ -37,7 +37,7 @@ pub(super) fn with_brief_arguments(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// Parses a finite number for which `fits` is true. The error names the `wanted` numbers.
+/// Parses a finite number for which `fits` returns true. The error names the `wanted` numbers.
 pub(super) fn number_that(
     written: &str,
     fits: fn(f64) -> bool,

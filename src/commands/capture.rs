@@ -1,5 +1,5 @@
-//! `regatta capture`: draws a run frame by frame. The time of each frame is computed, not read from a clock, so
-//! that the same command makes the same bytes.
+//! `regatta capture`: draws a run frame by frame. The time of each frame is computed and not read from a clock, so that
+//! the same command always makes the same bytes.
 
 use std::path::PathBuf;
 
@@ -153,10 +153,10 @@ enum Shown {
     Off,
 }
 
-/// One column per second: enough to see a method fail on every scene.
+/// Columns per second of a sheet. One is enough to see a method fail on any scene.
 const SHEET_FPS: u32 = 1;
 
-/// As many cells as fit side by side on a page.
+/// Maximum number of cells side by side in a sheet, as many as fit on a page.
 const SHEET_COLUMNS: u32 = 6;
 
 /// Longest side of a frame in pixels. Nearly every graphics device can draw it.

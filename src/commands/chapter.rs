@@ -1,7 +1,7 @@
-//! `regatta chapter`: recomputes the tables and figures of the book chapter with which this program began, next to
-//! the printed numbers.
+//! `regatta chapter`: recomputes the tables and figures of the book chapter with which this program began. The results
+//! appear next to the printed numbers.
 //!
-//! Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
+//! The book is Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -67,7 +67,7 @@ pub(super) fn run(args: &ChapterArgs) -> Result<(), Error> {
     print(text)
 }
 
-/// Pixel size of a figure, and pixels per point: legible at page width.
+/// Size of a figure in pixels, and pixels per point. The text is legible at the width of a page.
 const SIZE_PX: [u32; 2] = [1600, 1000];
 const SCALE: f32 = 1.6;
 
@@ -95,7 +95,7 @@ fn draw(mut folder: FigureFolder) -> Result<(), Error> {
     Ok(())
 }
 
-/// State of a built-in scene's body at time `t` (s), for the tables and figures.
+/// State of a built-in scene's body at time `t` (s), as the tables and figures need it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Moment {
     t: f64,
@@ -111,12 +111,12 @@ fn method_of(id: &str) -> &'static Method {
     method(id).expect("the chapter's methods are in the table")
 }
 
-/// States of the scene's first body at every tick from 0 to `seconds`, at the scene's tick rate.
+/// Returns the states of the scene's first body at every tick from 0 to `seconds`, at the scene's tick rate.
 fn by_method(scene: &Scene, id: &str, seconds: f64) -> Vec<Moment> {
     moments(scene, Solver::Method(method_of(id)), seconds, scene.tick_hz)
 }
 
-/// Exact motion of the scene's first body, with `per_second` states per second.
+/// Returns the exact motion of the scene's first body, with `per_second` states per second.
 fn exactly(scene: &Scene, seconds: f64, per_second: impl Into<TickRate>) -> Vec<Moment> {
     moments(scene, Solver::Truth, seconds, per_second.into())
 }

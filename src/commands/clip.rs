@@ -15,8 +15,8 @@ use super::terminal::{print_status, report_left_alone};
 use crate::studio::Studio;
 use crate::view::png;
 
-/// Draws the run of `studio` into `folder` and reports the result on standard error. The studio must be at the start
-/// of `experiment`. Returns it at the end of the run.
+/// Draws the run of `studio` into `folder`, and reports the result on standard error. The studio must be at the start
+/// of `experiment`. Returns the studio at the end of the run.
 pub(super) fn record(
     experiment: &Experiment,
     studio: Studio,
@@ -26,7 +26,8 @@ pub(super) fn record(
     let CaptureSettings { schedule, size_px, .. } = capture;
     let mut renderer = capture.renderer()?;
     let adapter = adapter(&renderer);
-    // Watch before the folder gets its first entry, which an unhandled Ctrl-C would leave behind.
+    // Signals are watched before the folder gets its first entry, because an unhandled Ctrl-C would leave that entry
+    // behind.
     let interrupted = watch_for_interrupt();
     folder.clear()?;
 

@@ -1,4 +1,4 @@
-//! `regatta cloud`: steps a shape of many starts under some methods and tabulates how its area changes.
+//! `regatta cloud`: steps a shape of many starts under some methods, and tabulates how the area of the shape changes.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -91,14 +91,14 @@ pub(super) struct CloudArgs {
     force: bool,
 }
 
-/// A smaller cloud is lost in the rounding of its states.
+/// Minimum reach of a cloud. A smaller cloud is lost in the rounding of its states.
 const MIN_REACH: f64 = 1e-6;
 
 fn reach(written: &str) -> Result<f64, String> {
     number_that(written, |it| (MIN_REACH..=1e9).contains(&it), "a number from 1e-6 to 1e9")
 }
 
-/// The error for a cloud that cannot be built.
+/// Returns the error for a cloud that cannot be built.
 fn no_cloud(why: NoCloud) -> Error {
     Error::mistake(match why {
         NoCloud::TooMany { .. } => format!("{why} --points"),
@@ -108,7 +108,7 @@ fn no_cloud(why: NoCloud) -> Error {
     })
 }
 
-/// The format of the rows, from the name of their file.
+/// Returns the format of the rows, which follows from the name of their file.
 fn format(out: &Path) -> Result<RowFormat, Error> {
     match ending(out).as_deref() {
         Some("png" | "gif") => Err(Error::mistake(format!(
@@ -119,28 +119,28 @@ fn format(out: &Path) -> Result<RowFormat, Error> {
     }
 }
 
-/// Most area measurements in a run.
+/// Maximum number of times that the area is measured in a run.
 const MAX_MEASUREMENTS: u64 = 100;
 
-/// The longest default run, in seconds.
+/// Maximum length of a run whose length is not given, in seconds.
 const USUAL_SECONDS: f64 = 60.0;
 
-/// A method's cloud in progress.
+/// The cloud of a method, as it is stepped.
 struct MethodCloud {
     spec: LaneSpec,
     cloud: Cloud,
     stepping: Duration,
-    /// Area ratios measured on the way, where known.
+    /// Area ratios that were measured on the way, without the unknown ones.
     areas: Vec<f64>,
 }
 
 impl MethodCloud {
-    /// Describes the change of the area.
+    /// Describes how the area has changed.
     fn measured_text(&self, area_ratio: Option<f64>) -> String {
         self.cloud.in_words(area_ratio, self.areas.iter().copied())
     }
 
-    /// Steps to `tick` and measures the area there.
+    /// Steps the cloud to `tick`, and measures the area there.
     fn step_to(&mut self, tick: u64) {
         let begun = Instant::now();
         self.cloud.go_to(tick);
@@ -171,7 +171,8 @@ pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
     let threads = args.threads.map_or(0, usize::from);
     let pool = jobs::pool(threads)?;
     let (ticks, reached) = (args.ticks(&scene), Arc::new(AtomicU64::new(0)));
-    // An interrupt does not wait for this thread: a tick of many points takes seconds, and so does its measurement.
+    // An interrupt does not wait for this thread. A tick of many points takes seconds, and so does the measurement of
+    // the area.
     let (args, noted) = (args.clone(), Arc::clone(&reached));
     let rows = move || pool.install(|| rows(&args, &scene, &specs, &noted));
     let Some(rows) = jobs::result(&interrupted, rows) else {
@@ -182,7 +183,7 @@ pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
 }
 
 struct Row {
-    /// Id of the method, made distinct from other rows of the same method.
+    /// Id of the method, with its settings if other rows have the same method.
     method: String,
     measure: CloudMeasure,
     body_steps_per_s: f64,
@@ -197,7 +198,7 @@ const COLUMNS: &[Column<Row>] = &[
     Column::new("hash", |row| json!(format!("{:016x}", row.measure.hash))),
 ];
 
-/// Computes the rows of all methods. `reached` follows the last tick that all methods have reached.
+/// Computes the rows of all methods. `reached` is updated to the last tick that all methods have reached.
 fn rows(
     args: &CloudArgs,
     scene: &Scene,
@@ -233,13 +234,13 @@ fn rows(
     Ok(runs.iter().map(|run| row(run, specs, points, ticks, is_read)).collect())
 }
 
-/// The first body of one coordinate, or else the first body.
+/// Returns the first body that has one coordinate, or else the first body.
 fn scene_body(scene: &Scene) -> &SceneBody {
     let of_one = |body: &&SceneBody| body.kind.coordinates(&body.values).len() == 1;
     scene.bodies.iter().find(of_one).unwrap_or(&scene.bodies[0])
 }
 
-/// Builds a method's row. Prints a summary if the rows go to a file or if starts were lost.
+/// Builds the row of a method. If the rows go to a file, or if starts were lost, prints a summary.
 fn row(run: &MethodCloud, specs: &[LaneSpec], points: usize, ticks: u64, is_read: bool) -> Row {
     let MethodCloud { spec, cloud, stepping, .. } = run;
     let measure = cloud.measure();

@@ -1,4 +1,4 @@
-//! `regatta completions`: prints a script for a shell, so that Tab completes options, scenes and methods.
+//! `regatta completions`: prints a script with which a shell completes options, scenes and methods after Tab.
 
 use clap::{Args, Command};
 use clap_complete::Shell;
@@ -21,9 +21,9 @@ pub(super) struct CompletionsArgs {
     shell: Shell,
 }
 
-/// Prints the script for the command line `cli`.
+/// Prints the completion script for the command line `cli`.
 pub(super) fn run(args: &CompletionsArgs, cli: &mut Command) -> Result<(), Error> {
-    // Generate into memory: on a closed pipe the generator itself would panic.
+    // The script is generated into memory, because the generator itself would panic on a closed pipe.
     let mut script = Vec::new();
     clap_complete::generate(args.shell, cli, "regatta", &mut script);
     print(String::from_utf8_lossy(&script))

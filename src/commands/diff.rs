@@ -190,11 +190,11 @@ fn report_text(found: &Comparison, a: &Path, b: &Path) -> String {
             lines.push(format!("{what}: {count}"));
         }
     }
-    // A cell or a file name may contain line breaks.
+    // The text of a cell or of a file name may contain line breaks.
     lines.iter().map(|line| visible_in_a_line(line) + "\n").collect()
 }
 
-/// Lists the columns that differ, each with its first tick, and the columns that are equal.
+/// Lists the columns that differ, each with the first tick of a difference, and the columns that are equal.
 fn by_column(found: &Comparison, tick_name: Option<&str>) -> String {
     let from = |tick: u64| tick_name.map_or(String::new(), |name| format!(" from {name} {tick}"));
     let differ = found
@@ -212,7 +212,7 @@ fn by_column(found: &Comparison, tick_name: Option<&str>) -> String {
     }
 }
 
-/// The comparison as JSON, with numbers spelled as in the tables.
+/// Returns the comparison as JSON. Its numbers are spelled as in the tables.
 fn object(found: &Comparison) -> String {
     const WRITTEN: [&str; 2] = ["\u{1}a", "\u{1}b"];
     let finite = |part: f64| part.is_finite().then_some(part);

@@ -1,4 +1,4 @@
-//! Renderers for captures and charts, and the closing and interrupt messages of a capture.
+//! Renderers for captures and charts, and the messages that end a capture or report its interruption.
 
 use std::io::Write;
 
@@ -15,8 +15,8 @@ use crate::view::{
     png,
 };
 
-/// Most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files. A larger request is
-/// probably a typing mistake.
+/// Maximum number of pixels of a whole capture, which is hours of drawing and about a hundred gigabytes of files. A
+/// larger request is probably a typing mistake.
 const MAX_PIXELS: u64 = 1_000_000_000_000;
 
 /// A [`RendererChoice`] on the command line.
@@ -38,7 +38,7 @@ impl From<RendererName> for RendererChoice {
 }
 
 impl CaptureSettings {
-    /// A renderer for these frames. Fails if the capture has too many pixels.
+    /// Returns a renderer for the frames, or an error if the capture has too many pixels.
     pub(super) fn renderer(&self) -> Result<OffscreenRenderer, Error> {
         let size_px = self.size_px;
         check_pixels(self.schedule.frames, size_px, MAX_PIXELS)?;
@@ -68,7 +68,7 @@ impl CaptureSettings {
 
 const GIGA: u64 = 1_000_000_000;
 
-/// Fails if the frames together have more than `most` pixels.
+/// Fails if all frames together have more than `most` pixels.
 pub(super) fn check_pixels(frames: u32, [width, height]: [u32; 2], most: u64) -> Result<(), Error> {
     let pixels = u64::from(frames) * u64::from(width) * u64::from(height);
     if pixels <= most {
@@ -82,12 +82,12 @@ pub(super) fn check_pixels(frames: u32, [width, height]: [u32; 2], most: u64) ->
     )))
 }
 
-/// The error for an interrupt after `done` of `frames` frames. `whole` names the complete frames.
+/// Returns the error for an interrupt after `done` of `frames` frames. `whole` names the complete frames.
 pub(super) fn interrupted_after(done: u32, frames: u32, whole: &str) -> Error {
     Error::interrupted_after(format!("{done} of {frames} frames; whole: {whole}"))
 }
 
-/// The last message of a capture: frame count, size and place.
+/// Returns the last message of a capture: the number of frames, their size and their place.
 pub(super) fn closing_line(capture: &CaptureSettings, place: &str) -> String {
     let Schedule { frames, fps } = capture.schedule;
     let [width, height] = capture.size_px;
@@ -114,14 +114,14 @@ pub(super) fn adapter(renderer: &OffscreenRenderer) -> Adapter {
     }
 }
 
-/// Pixel size of a chart, and pixels per point: legible when a few charts fill a screen.
+/// Size of a chart in pixels, and pixels per point. The text is legible when a few charts fill a screen.
 const CHART_PX: [u32; 2] = [920, 660];
 const SCALE: f32 = 1.6;
 
-/// Height in pixels of title, legend and note.
+/// Height of the title, the legend and the note together, in pixels.
 const MARGIN_PX: u32 = 240;
 
-/// Draws one figure of charts into a PNG file. Opens the file before the figure is computed.
+/// Draws one figure of charts into a PNG file, which is opened before the figure is computed.
 pub(super) struct Plot {
     renderer: OffscreenRenderer,
     output: Output,
@@ -152,7 +152,7 @@ impl Plot {
     }
 }
 
-/// The number of columns for which a grid has about as many rows.
+/// Returns the number of columns of a grid that has about as many rows as columns.
 pub(super) fn columns(charts: usize) -> usize {
     (2..charts).find(|columns| columns * (columns + 1) >= charts).unwrap_or(charts.min(2))
 }

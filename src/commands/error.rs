@@ -12,12 +12,12 @@ use crate::scene::{SceneErrors, ShownError};
 #[cfg(feature = "view")]
 use crate::view::{FrameSizeError, GpuError, ReadbackError};
 
-/// Reason for an error. It decides the exit code.
+/// Reason for an error. The exit code follows from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ExitReason {
-    /// The run failed.
+    /// The run has failed.
     Failed,
-    /// The request cannot be met as given.
+    /// The request cannot be met in the form in which it was made.
     Mistake,
     /// Ctrl-C was pressed, or the system asked the process to end.
     Interrupted,
@@ -28,14 +28,14 @@ enum ExitReason {
 /// How the user named the place of an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PlaceOf {
-    /// An option, which could name another place.
+    /// By an option, which could name another place.
     Option(&'static str),
-    /// The clip to bless. No other place will do.
+    /// As the clip to bless, which cannot be replaced by another place.
     Blessed,
 }
 
 impl PlaceOf {
-    /// The remedy, which also offers another place if an option names the place.
+    /// Returns the remedy. If an option names the place, another place is offered too.
     pub(super) fn or_another(self, remedy: &str) -> String {
         match self {
             Self::Option(option) => format!("{remedy}, or give another {option}"),
@@ -43,7 +43,7 @@ impl PlaceOf {
         }
     }
 
-    /// The remedy for an I/O error.
+    /// Returns the remedy for an I/O error.
     fn remedy(self, error: &io::Error) -> String {
         match (error.kind(), self) {
             (io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded, _) => {
@@ -61,13 +61,13 @@ impl PlaceOf {
     }
 }
 
-/// The error that ends a command: its exit code and its message.
+/// The error that ends a command, with its exit code and its message.
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct Error {
     kind: ExitReason,
     message: String,
-    /// The mistakes of a scene file, reported with its lines.
+    /// The mistakes in a scene file, which are reported with the lines of the file.
     scene: Option<SceneErrors>,
 }
 
@@ -76,17 +76,17 @@ impl Error {
         Self { kind, message: message.to_string(), scene: None }
     }
 
-    /// A run that failed.
+    /// Creates the error of a run that failed.
     pub(super) fn failed(message: impl Display) -> Self {
         Self::new(ExitReason::Failed, message)
     }
 
-    /// A mistake in the request. The message ends with a remedy.
+    /// Creates the error of a mistake in the request. The message ends with a remedy.
     pub(super) fn mistake(message: impl Display) -> Self {
         Self::new(ExitReason::Mistake, message)
     }
 
-    /// Turns a failed run into a mistake, for commands whose exit code 1 has another meaning.
+    /// Turns the error of a failed run into a mistake, for commands in which exit code 1 has another meaning.
     pub(super) fn into_mistake(self) -> Self {
         match self.kind {
             ExitReason::Failed => Self { kind: ExitReason::Mistake, ..self },
@@ -94,30 +94,30 @@ impl Error {
         }
     }
 
-    /// An interrupt after part of the work, such as `3 of 10 frames`.
+    /// Creates the error of an interrupt after part of the work, such as `3 of 10 frames`.
     pub(super) fn interrupted_after(done: impl Display) -> Self {
         Self::new(ExitReason::Interrupted, format!("interrupted after {done}"))
     }
 
-    /// An interrupt of work whose result is written whole or not at all.
+    /// Creates the error of an interrupt, for work whose result is written whole or not at all.
     pub(super) fn nothing_written() -> Self {
         Self::new(ExitReason::Interrupted, "interrupted; nothing was written")
     }
 
-    /// An interrupt while nothing was reading the stream `name`.
+    /// Creates the error of an interrupt while nothing was reading the stream `name`.
     pub(super) fn interrupted_while_waiting_for(name: &str) -> Self {
         let message = format!("interrupted while nothing was reading {name}");
         Self::new(ExitReason::Interrupted, message)
     }
 
-    /// A failed write. A broken pipe means that the reader closed it.
+    /// Creates the error of a failed write. If the pipe is broken, its reader has closed it.
     pub(super) fn unwritten(error: &io::Error, message: impl Display) -> Self {
         let is_closed = error.kind() == io::ErrorKind::BrokenPipe;
         Self::new(if is_closed { ExitReason::ClosedPipe } else { ExitReason::Failed }, message)
     }
 
-    /// Converts I/O errors that occur while `doing`, such as `write`, the file or directory at `path`. `option` names
-    /// the path on the command line.
+    /// Returns a converter of I/O errors that occur while `doing` something with the file or directory at `path`, for
+    /// example `write`. `option` names the path on the command line.
     pub(super) fn of_file(
         doing: &'static str,
         path: &Path,
@@ -126,7 +126,7 @@ impl Error {
         Self::of_place(doing, path, PlaceOf::Option(option))
     }
 
-    /// Like `of_file`, for a place that an option or a clip names.
+    /// Like `of_file`, but for a place that is named by an option or is a clip.
     pub(super) fn of_place(
         doing: &'static str,
         path: &Path,
@@ -165,7 +165,7 @@ impl Error {
         self.kind == ExitReason::ClosedPipe
     }
 
-    /// Exit code of the process: 1 for a failed run, 2 for a mistake in the request, 130 for an interrupt.
+    /// Returns the exit code of the process: 1 for a failed run, 2 for a mistake in the request, 130 for an interrupt.
     pub fn exit_code(&self) -> u8 {
         match self.kind {
             ExitReason::Failed | ExitReason::ClosedPipe => 1,
@@ -174,15 +174,15 @@ impl Error {
         }
     }
 
-    /// The message, with the lines of the scene file that it refers to.
+    /// Returns the message, with the lines of the scene file to which it refers.
     pub fn report(&self, renderer: &Renderer) -> String {
         let mistakes = self.mistakes(renderer).into_iter();
         let parts = mistakes.flat_map(|ShownError { message, quoted }| [message, quoted]);
         parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
     }
 
-    /// The messages, each with its lines of the scene file. Shows control characters as visible signs, except those
-    /// of the renderer's colours.
+    /// Returns the messages, each with the lines of the scene file to which it refers. Control characters appear as
+    /// visible signs, except those of the renderer's colours.
     pub(super) fn mistakes(&self, renderer: &Renderer) -> Vec<ShownError> {
         let Some(errors) = &self.scene else {
             let title = Level::ERROR.primary_title(visible(&self.message));
@@ -212,7 +212,7 @@ impl From<SceneErrors> for Error {
     }
 }
 
-/// Recovers the command's own error from an I/O error. An error that no `Output` has explained is about standard
+/// Recovers the command's own error from an I/O error. An I/O error that no `Output` has explained is about standard
 /// output.
 impl From<io::Error> for Error {
     fn from(error: io::Error) -> Self {

@@ -1,4 +1,4 @@
-//! Options common to every run, and the studio that they set up.
+//! The options that every run has in common, and the studio that they set up.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -34,7 +34,8 @@ pub(super) struct ExperimentArgs {
 
     /// A method (`regatta list methods`), or several
     ///
-    /// Give the option again for each, to race them. A file that ends in .step is a method of your own: `regatta help step`.
+    /// Give the option again for each, to race them. A file that ends in .step is a method of your own: `regatta help
+    /// step`.
     #[arg(long = "method", value_name = "ID|FILE", value_parser = METHOD_OR_FILE)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
@@ -43,22 +44,22 @@ pub(super) struct ExperimentArgs {
     tick_rate: TickRateArgs,
 }
 
-/// A scene with the command line's options applied, and its methods.
+/// A scene to which the options of the command line have been applied, and its methods.
 pub(super) struct Experiment {
     /// The scene, with the options applied.
     pub(super) scene: Scene,
     /// The text of the scene file, without the options.
     pub(super) text: String,
-    /// The first method named; `None` if no method or many methods are named.
+    /// The first method that the options name. `None` if they name none, or many.
     pub(super) selected: Option<&'static Method>,
     /// Whether the lanes of the scene race.
     pub(super) mode: Mode,
-    /// Trace of the loop lab, if the lab is open.
+    /// The trace on which the loop lab opens, if it does.
     pub(super) loop_trace: Option<&'static TraceCard>,
 }
 
 impl ExperimentArgs {
-    /// Reads the scene and applies the other options. `asked` is the mode, unless the methods or the scene decide it.
+    /// Reads the scene and applies the other options. The mode is `asked`, unless the methods or the scene decide it.
     pub(super) fn load(&self, asked: Mode) -> Result<Experiment, Error> {
         let (scene, text) = match self.spring.load()? {
             Some((scene, text)) => (self.applied_to(scene)?, text),
@@ -68,7 +69,7 @@ impl ExperimentArgs {
         Ok(Experiment { scene, text, selected, mode, loop_trace: None })
     }
 
-    /// Reads a scene. Applies the other options only if `--scene` names the same scene.
+    /// Reads a scene. The other options are applied only if `--scene` names the same scene.
     pub(super) fn read(&self, path: &Path) -> Result<(Scene, String), Error> {
         let (mut scene, text) = scene_file::load(path)?;
         if path == self.scene() && !self.spring.is_given() {
@@ -87,17 +88,19 @@ impl ExperimentArgs {
         Ok(scene.with_methods(&self.methods))
     }
 
-    /// The `--scene` argument, a name or a path, or else the first built-in scene.
+    /// Returns the `--scene` argument, which is a name or a path. Without the argument, returns the name of the first
+    /// built-in scene.
     pub(super) fn scene(&self) -> &Path {
         self.scene.as_deref().unwrap_or(Path::new(SCENES[0].name))
     }
 
-    /// The scene file that the command reads, if any.
+    /// Returns the scene file that the command reads, if any.
     pub(super) fn input(&self) -> Option<Input<'_>> {
         scene_file::input(self.scene()).filter(|_| !self.is_a_spring())
     }
 
-    /// The same options with `scene`, unless they already choose a scene, methods or a tick rate.
+    /// Returns the same options with `scene`. If the options already choose a scene, methods or a tick rate, they stay
+    /// unchanged.
     pub(super) fn or_scene(&self, scene: &Path) -> Self {
         let is_chosen = self.names_a_scene()
             || !self.methods.is_empty()
@@ -106,7 +109,7 @@ impl ExperimentArgs {
         Self { scene, ..self.clone() }
     }
 
-    /// Whether a scene or a spring is given.
+    /// Whether the options name a scene or a spring.
     pub(super) fn names_a_scene(&self) -> bool {
         self.scene.is_some() || self.is_a_spring()
     }
@@ -116,7 +119,7 @@ impl ExperimentArgs {
         self.spring.is_given()
     }
 
-    /// The lanes of the named methods, set up as in `scene`.
+    /// Returns the lanes of the methods that the options name, set up as in `scene`.
     pub(super) fn lanes_named(&self, scene: &Scene) -> Vec<LaneSpec> {
         scene.lanes_of(&self.methods)
     }
@@ -127,17 +130,17 @@ impl ExperimentArgs {
 }
 
 impl Experiment {
-    /// The method shown alone, or selected in a race.
+    /// Returns the method that is shown alone, or that is selected in a race.
     pub(super) fn opening_method(&self) -> &'static Method {
         self.selected.unwrap_or_else(|| self.scene.opening_lane().method)
     }
 
-    /// Whether the race has no selected method yet, so that its verdicts select one.
+    /// Whether the race has no selected method yet. If so, its verdicts select one.
     pub(super) fn leaves_selection(&self) -> bool {
         self.mode == Mode::Race && self.selected.is_none()
     }
 
-    /// The studio at tick 0. A single lane is shown solo.
+    /// Returns the studio at tick 0. A scene with a single lane opens in solo mode.
     pub(super) fn studio(&self) -> Studio {
         let mut studio = Studio::opened(self.scene.clone(), self.selected, self.mode);
         if let Some(card) = self.loop_trace {
@@ -147,7 +150,7 @@ impl Experiment {
     }
 }
 
-/// The built-in trace with this id, as a parser for clap.
+/// Returns the built-in trace with this id. Clap uses this function as a parser.
 pub(super) fn known_trace(id: &str) -> Result<&'static TraceCard, String> {
     TRACE.find(id).map_err(|refusal| match is_path(id) {
         true => "only built-in traces are taken here; drop the file on the window, open it there with O, or \
@@ -187,7 +190,7 @@ pub(super) fn seconds(written: &str) -> Result<f64, String> {
     }
 }
 
-/// Parses a duration above 0 seconds.
+/// Parses a duration, which must be longer than 0 seconds.
 pub(super) fn some_seconds(written: &str) -> Result<f64, String> {
     match seconds(written)? {
         0.0 => Err("give more than 0 seconds".into()),
@@ -195,7 +198,7 @@ pub(super) fn some_seconds(written: &str) -> Result<f64, String> {
     }
 }
 
-/// Accepts any path. Offers these names for shell completion.
+/// A parser that accepts any path, and offers these names for shell completion.
 #[derive(Clone)]
 pub(super) struct PathOrName(pub(super) fn() -> Vec<&'static str>);
 
@@ -220,7 +223,7 @@ pub(super) fn scene_names() -> Vec<&'static str> {
     SCENES.iter().map(|scene| scene.name).collect()
 }
 
-/// Long help of `--scene`: the scenes to start with, and the command that lists the rest.
+/// Returns the long help of `--scene`: the scenes to start with, and the command that lists the others.
 fn scene_help() -> String {
     let first = SCENES.iter().filter(|scene| scene.group == SceneGroup::StartHere);
     let names: Vec<&str> = first.map(|scene| scene.name).collect();

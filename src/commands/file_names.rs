@@ -1,4 +1,4 @@
-//! Formats of a table and of its picture, from their file names.
+//! Formats of a table and of its picture. They follow from the names of the files.
 
 use std::path::Path;
 
@@ -7,39 +7,39 @@ use crate::commands::error::Error;
 use crate::commands::output::same_file_path;
 use crate::commands::output::table::RowFormat;
 
-/// File name endings that promise a picture. All others promise nothing.
+/// Endings of file names that promise a picture.
 const PICTURES: [&str; 21] = [
     "apng", "avi", "avif", "bmp", "gif", "jpeg", "jpg", "m4v", "mkv", "mov", "mp4", "mpeg", "mpg",
     "png", "rgba", "svg", "tif", "tiff", "webm", "webp", "y4m",
 ];
 
-/// Endings of files without pictures, which a capture never writes.
+/// Endings of files that are not pictures. A capture never writes such files.
 #[cfg(feature = "view")]
 const NO_PICTURES: [&str; 11] =
     ["csv", "html", "json", "log", "md", "pdf", "sheet", "toml", "txt", "xml", "zip"];
 
-/// The file name's extension in lower case.
+/// Returns the file name's extension in lower case.
 pub(super) fn ending(path: &Path) -> Option<String> {
     path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase)
 }
 
-/// Whether files with this ending hold pictures.
+/// Whether files with this ending are pictures.
 pub(super) fn is_of_pictures(ending: &str) -> bool {
     PICTURES.contains(&ending)
 }
 
-/// Whether files with this ending never hold pictures.
+/// Whether files with this ending are never pictures.
 #[cfg(feature = "view")]
 pub(super) fn holds_no_picture(ending: &str) -> bool {
     NO_PICTURES.contains(&ending)
 }
 
-/// The error for a file name that promises another format than the requested one.
+/// Returns the error for a file name that promises another format than the requested one.
 pub(super) fn mislabelled(path: &Path, remedy: &str) -> Error {
     Error::mistake(format!("{} would not hold what its name says; {remedy}", brief(path)))
 }
 
-/// The requested format, else the one that the name of `out` implies, else CSV.
+/// Returns the requested format. Without a request, the format follows from the name of `out`, and is otherwise CSV.
 pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowFormat, Error> {
     let mislabelled = |remedy| Err(mislabelled(out, remedy));
     let ending = ending(out);
@@ -62,7 +62,7 @@ pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowForm
     }
 }
 
-/// Checks that a PNG may be named `plot`: it ends in .png or has no ending, and differs from `out`.
+/// Checks that a PNG file may be named `plot`. The name must end in .png or have no ending, and must differ from `out`.
 pub(super) fn check_picture_name(plot: &Path, out: &Path) -> Result<(), Error> {
     match plot.extension() {
         Some(ending) if !ending.eq_ignore_ascii_case("png") => {

@@ -1,4 +1,4 @@
-//! `regatta fixture`: prints the states of a scene's truth as a test for an engine.
+//! `regatta fixture`: prints the states of a scene's truth in the form of a test for an engine.
 
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -63,17 +63,17 @@ enum Format {
     Json,
 }
 
-/// Syntax of a test in one language.
+/// The syntax of a test in one language.
 struct Language {
-    /// The file, with a placeholder of the form `@NAME@` for each inserted text.
+    /// Text of the file. It has a placeholder of the form `@NAME@` for each text that is inserted.
     template: &'static str,
     comment: &'static str,
-    /// Names of the double and float types, each with the suffix of its literals.
+    /// Names of the types for double and single precision, each with the suffix of its literals.
     reals: [(&'static str, &'static str); 2],
-    /// Text before and after the states of a body. Its quoted name replaces `@`; its largest coordinate and velocity
-    /// replace `%`.
+    /// Text before and after the states of a body. `@` is replaced by the body's quoted name, and `%` by its largest
+    /// coordinate and velocity.
     body: [&'static str; 2],
-    /// Text around a state, and around a list.
+    /// Text before and after a state, and text before and after a list.
     state: [&'static str; 2],
     list: [&'static str; 2],
 }
@@ -110,11 +110,11 @@ impl Format {
     }
 }
 
-/// Relative rounding error of a state in double and in single precision, with room for the order in which an engine
-/// adds.
+/// Relative rounding error of a state in double and in single precision. It leaves room for the order in which an
+/// engine adds.
 const ROUNDING: [f64; 2] = [1e-12, 1e-6];
 
-/// States of a body's truth at the written ticks.
+/// States of a body's truth at the ticks that are written.
 #[derive(Default)]
 struct States {
     rows: Vec<(u64, Vec<f64>, Vec<f64>)>,
@@ -165,7 +165,7 @@ pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
     }
 }
 
-/// Records the current state of every body that has not stopped.
+/// Records the present state of every body that has not halted.
 fn note(states: &mut [States], studio: &Studio, args: &FixtureArgs) {
     let tick = studio.race().tick();
     for (states, body) in states.iter_mut().zip(studio.race().truth().bodies()) {
@@ -179,12 +179,12 @@ fn note(states: &mut [States], studio: &Studio, args: &FixtureArgs) {
     }
 }
 
-/// Formats a number to its last digit.
+/// Formats a number with all its digits.
 fn digits(value: f64, is_float: bool) -> String {
     if is_float { format!("{:?}", value as f32) } else { format!("{value:?}") }
 }
 
-/// Lines at the top of the file: where its numbers come from.
+/// Returns the lines at the top of the file, which state where its numbers come from.
 fn about(scene: &Scene, studio: &Studio) -> Vec<String> {
     let mut text =
         format!("{}: exact states for a test of an engine, by regatta fixture.\n", scene.title);

@@ -20,14 +20,14 @@ use super::frame_names::{frame_name, in_the_way, is_a_captures, is_pending, not_
 use blessing::Blessing;
 use entries::Entries;
 
-/// Policy for frames that are already in a folder.
+/// Policy for frames that a folder already contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FolderPolicy {
     /// The folder must be new or empty.
     Refuse,
-    /// New frames replace old ones. Other entries stay.
+    /// New frames replace old ones. Other entries of the folder stay.
     Replace,
-    /// New frames replace old ones once all of them are written.
+    /// New frames replace old ones, but only after all of them have been written.
     Bless,
 }
 
@@ -41,14 +41,14 @@ pub(super) struct FrameFolder {
     entries: Entries,
     /// Number of frames added.
     frames: u32,
-    /// The directory of new frames, to be swapped in.
+    /// The directory of the new frames of a blessing, which is swapped in at the end.
     blessing: Option<Blessing>,
-    /// `None` while the folder does not exist.
+    /// The lock on the folder. `None` while the folder does not exist.
     lock: Option<DirectoryLock>,
 }
 
 impl FrameFolder {
-    /// Examines the folder at `path`, which need not exist yet. Changes nothing, except that it completes an
+    /// Examines the folder at `path`, which need not exist yet. Changes nothing, with one exception: it completes the
     /// interrupted swap of a blessing if frames may be replaced.
     pub(super) fn inspect(
         path: &Path,
@@ -75,7 +75,7 @@ impl FrameFolder {
         }
     }
 
-    /// The first of `name`, `name-2`, `name-3` … that is new or an empty directory.
+    /// Inspects `name`, `name-2`, `name-3` and so on. Returns the first of these folders that is new or empty.
     pub(super) fn new_sibling(name: &str) -> Result<Self, Error> {
         let siblings = (2..).map(|n: u32| format!("{name}-{n}"));
         for sibling in std::iter::once(name.to_owned()).chain(siblings) {
@@ -106,7 +106,8 @@ impl FrameFolder {
             )));
         }
         if self.existing == FolderPolicy::Bless {
-            // A plain capture may stop before a frame that a directory blocks, but a swap replaces all frames.
+            // A directory with the name of a frame stops a plain capture only at that frame. A swap needs to replace
+            // all frames, so it is refused at once.
             entries.foreign = entries.foreign.or(entries.in_the_way.take());
         }
         if let Some(path) = entries.foreign {
@@ -130,18 +131,18 @@ impl FrameFolder {
         &self.path
     }
 
-    /// Whether an incomplete set of frames is worth keeping.
+    /// Whether a set of frames that is not complete is worth keeping.
     pub(super) fn keeps_partial_capture(&self) -> bool {
         self.existing != FolderPolicy::Bless
     }
 
-    /// The directory that receives new files.
+    /// Returns the directory into which new files are written.
     fn place(&self) -> &Path {
         self.blessing.as_ref().map_or(&self.path, Blessing::place)
     }
 
-    /// Creates the folder if necessary, and removes the files of an earlier capture. The folder never mixes frames of
-    /// two captures.
+    /// Creates the folder if necessary, and removes the files of an earlier capture, so that the folder never mixes
+    /// frames of two captures.
     pub(super) fn clear(&mut self) -> Result<(), Error> {
         if self.lock.is_none() {
             fs::create_dir_all(&self.path).map_err(Error::of_place(
@@ -160,7 +161,7 @@ impl FrameFolder {
             FolderPolicy::Bless => name.to_str().is_some_and(|name| !is_a_captures(name)),
             _ => true,
         };
-        // Remove the manifest first, because it describes the frames.
+        // The manifest is removed first, because it describes the frames.
         for name in self.entries.ours.iter().rev().filter(|name| goes(name)) {
             let path = self.path.join(name);
             fs::remove_file(&path).map_err(fail(&path))?;
@@ -185,7 +186,7 @@ impl FrameFolder {
         Ok(())
     }
 
-    /// Writes the manifest after all frames, and completes a blessing.
+    /// Writes the manifest after all frames, and then completes a blessing.
     pub(super) fn finish(mut self, manifest: &str) -> Result<(), Error> {
         let path = self.place().join(manifest::FILE_NAME);
         sync_directory(self.place())
@@ -195,7 +196,7 @@ impl FrameFolder {
         swapped.map_err(Error::of_place("put the new frames into", &self.path, self.place))
     }
 
-    /// The error for a file that could not be written.
+    /// Returns the error for a file that could not be written.
     fn unwritten(&self, name: &str, error: io::Error) -> Error {
         let error = Error::of_place("write", &self.path.join(name), self.place)(error);
         if !self.keeps_partial_capture() {
@@ -207,7 +208,7 @@ impl FrameFolder {
         ))
     }
 
-    /// Path of the first frame written and name of the last.
+    /// Returns the path of the first frame that was written, and the name of the last one.
     pub(super) fn range(&self) -> String {
         let name = |frame| self.path.join(frame_name(frame)).display().to_string();
         match self.frames {
@@ -217,7 +218,7 @@ impl FrameFolder {
         }
     }
 
-    /// Names of the entries that no capture made. They were left alone.
+    /// Returns the names of the entries that no capture made. These entries were left alone.
     pub(super) fn others(&self) -> &[OsString] {
         &self.entries.others
     }

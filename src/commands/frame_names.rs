@@ -1,4 +1,5 @@
-//! Names of frames, and the test whether a capture made a file: by its content, not its name.
+//! Names of frames, and the test whether a capture made a file. The test depends on the content of the file, not only
+//! on its name.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -14,25 +15,26 @@ use crate::commands::output::same_file_path;
 use crate::picture_note::{NOTED_WITHIN, is_encoded_here};
 use crate::regular_file;
 
-/// Most frames in a folder: six digits number no more.
+/// Maximum number of frames in a folder, because their numbers have six digits.
 pub(crate) const MAX_FRAMES: u32 = 1_000_000;
 
-/// Directory of a complete set of new frames. Once it has this name, its frames replace the old ones.
+/// Name of the directory of a complete set of new frames. Once the directory has this name, its frames will replace the
+/// old ones.
 pub(crate) const READY: &str = ".regatta-blessed";
 
-/// The file name of the frame with this number, from 0.
+/// Returns the file name of the frame with this number, from 0.
 pub(crate) fn frame_name(frame: u32) -> String {
     format!("frame-{frame:06}.png")
 }
 
-/// Number of the frame with this file name; `None` for any other name.
+/// Returns the number of the frame with this file name, or `None` if the name is not that of a frame.
 pub(crate) fn frame_number(name: &str) -> Option<u32> {
     let digits = name.strip_prefix("frame-")?.strip_suffix(".png")?;
     let is_number = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit());
     is_number.then(|| digits.parse().ok()).flatten()
 }
 
-/// Whether the picture at `path` bears this program's mark.
+/// Whether the picture at `path` carries this program's mark.
 pub(crate) fn is_marked(path: &Path) -> bool {
     let start = regular_file::read_start(path, NOTED_WITHIN);
     start.is_ok_and(|start| is_encoded_here(&start))
@@ -43,12 +45,13 @@ pub(crate) fn is_a_captures(name: &str) -> bool {
     name == manifest::FILE_NAME || frame_number(name).is_some()
 }
 
-/// Whether the file at `path` is a frame or a manifest of a capture. Both its name and its content must match.
+/// Whether the file at `path` is a frame or a manifest of a capture. The file's name and its content must both match.
 pub(crate) fn is_ours(path: &Path) -> bool {
     name_of(path).is_some_and(is_a_captures) && is_of_ours(path)
 }
 
-/// Whether a killed capture left the file at `path`. Its name must match, and so must its content unless it is empty.
+/// Whether a capture that was killed left the file at `path`. The file's name must match, and so must its content
+/// unless it is empty.
 pub(crate) fn is_left_over(path: &Path) -> bool {
     name_of(path).and_then(final_name).is_some_and(is_a_captures)
         && (fs::symlink_metadata(path).is_ok_and(|entry| entry.is_file() && entry.len() == 0)
@@ -63,7 +66,7 @@ fn is_of_ours(path: &Path) -> bool {
     is_marked(path) || frames_claimed(path).is_some()
 }
 
-/// The files listed in the manifest at `path`, of any schema; `None` if a capture did not write it.
+/// Returns the files that the manifest at `path` lists, whatever its schema, or `None` if no capture wrote it.
 pub(crate) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
     let bytes = regular_file::read(path, manifest::MAX_BYTES).ok()?;
     let manifest: Value = serde_json::from_slice(&bytes).ok()?;
@@ -77,15 +80,15 @@ pub(crate) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
     is_ours.then(|| manifest["frames"].as_array().map(files).unwrap_or_default())
 }
 
-/// Whether the swap of a `--bless` was interrupted before its last step, the move of the manifest.
+/// Whether the swap of a `--bless` was interrupted before its last step, in which the manifest is moved.
 pub(crate) fn is_pending(clip: &Path) -> bool {
     let ready = clip.join(READY);
     fs::symlink_metadata(&ready).is_ok_and(|entry| entry.is_dir())
         && frames_claimed(&ready.join(manifest::FILE_NAME)).is_some()
 }
 
-/// An entry that no `--bless` made at the place of the new frames of `clip`. It keeps a `--bless` from replacing the
-/// old ones.
+/// Returns an entry that no `--bless` made, at the place of the new frames of `clip`. Such an entry prevents a
+/// `--bless` from replacing the old frames.
 pub(crate) fn in_the_way(clip: &Path) -> Option<PathBuf> {
     let ready = clip.join(READY);
     if !fs::symlink_metadata(&ready).ok()?.is_dir() {
@@ -102,14 +105,14 @@ pub(crate) fn in_the_way(clip: &Path) -> Option<PathBuf> {
     })
 }
 
-/// The error for a file that has one of our names but that no command made.
+/// Returns the error for a file that has one of our names, although no command made it.
 pub(crate) fn not_ours(path: &Path, place: PlaceOf) -> Error {
     let (path, remedy) = (brief(path), place.or_another("move it away"));
     Error::mistake(format!("{path} was not made by regatta and is not replaced; {remedy}"))
 }
 
-/// Whether `path` is the place of the manifest or of a frame in `clip`, existing or not, or a file that any
-/// capture made.
+/// Whether `path` is the place of the manifest or of a frame in `clip`, whether existing or not. Files that any capture
+/// made count too.
 pub(crate) fn is_of_a_capture(path: &Path, clip: &Path) -> bool {
     let resolved = same_file_path(path);
     let name = name_of(&resolved).unwrap_or_default();

@@ -189,7 +189,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let inputs = args.inputs();
     let interrupted = watch_for_interrupt();
     let stop = || interrupted.load(Ordering::Relaxed);
-    // Open the outputs before the first run: a refusal should not come late.
+    // The outputs are opened before the first run, so that a refusal does not come late.
     let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
     let to = |path, option| Destination { path, option, if_exists, inputs: &inputs };
     let out = to(&args.out, "--out").open_for_text()?;
@@ -239,7 +239,8 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
 }
 
 impl LoopArgs {
-    /// Limits on the simulated part of a frame. Refuses `--max-ticks` for a policy that ignores it.
+    /// Returns the limits on the simulated part of a frame, or an error if `--max-ticks` is given for a policy that
+    /// ignores it.
     fn limits(&self) -> Result<FrameLimits, Error> {
         let free =
             self.policies.iter().find(|card| self.max_ticks.is_some() && !card.has_max_ticks);
@@ -254,14 +255,14 @@ impl LoopArgs {
         Ok(FrameLimits { max_ticks: self.max_ticks, max_frame_ms: self.max_frame_ms })
     }
 
-    /// Files that the command reads.
+    /// Returns the files that the command reads.
     fn inputs(&self) -> Vec<Input<'_>> {
         let files = self.traces.iter().filter(|path| path.to_str().and_then(trace_card).is_none());
         let traces = files.map(|path| (&**path, "read as a trace"));
         traces.chain(scene_file::input(&self.scene)).collect()
     }
 
-    /// Path of the picture, if one is asked for.
+    /// Returns the path of the picture, if one is requested.
     fn plot(&self) -> Option<&Path> {
         #[cfg(feature = "view")]
         return self.plot.as_deref();
@@ -269,7 +270,7 @@ impl LoopArgs {
         None
     }
 
-    /// The requested policies without duplicates.
+    /// Returns the requested policies without duplicates.
     fn policies(&self) -> Vec<&'static PolicyCard> {
         if self.policies.is_empty() {
             return POLICIES.iter().filter(|card| self.all || card.is_usual).collect();
@@ -283,7 +284,7 @@ impl LoopArgs {
         policies
     }
 
-    /// End of a run of `trace`, in nanoseconds.
+    /// Returns the time at which a run of `trace` ends, in nanoseconds.
     fn until_ns(&self, scene: &Scene, trace: &FrameTrace) -> i64 {
         match self.seconds {
             None if trace.ends() => i64::MAX,
@@ -292,7 +293,7 @@ impl LoopArgs {
     }
 }
 
-/// Metrics of a single run. The state difference needs a second run.
+/// Returns the metrics that follow from a single run. The state difference needs a second run.
 fn metrics() -> impl Iterator<Item = &'static PacingMetric> {
     PACING_METRICS.iter().filter(|metric| metric.id != "state_difference")
 }

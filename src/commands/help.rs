@@ -16,10 +16,10 @@ Examples:
 /// Id of the chapter on keys.
 const KEYS: &str = "keys";
 
-/// Columns that every help text fits.
+/// Maximum number of columns of every help text.
 pub(super) const COLUMNS: usize = 80;
 
-/// Indent of a list row, in blanks.
+/// Indent of the rows of a list, in blanks.
 const ROW_INDENT: usize = 2;
 
 /// Print this help, help on a command, or a chapter of the manual
@@ -31,8 +31,9 @@ pub(super) struct HelpArgs {
     topic: Option<String>,
 }
 
-/// Joins the lines of each paragraph, so that the terminal can wrap them. List rows are indented and begin with a
-/// term and two blanks. They stay on one line if all of them fit; otherwise each explanation moves below its term.
+/// Joins the lines of each paragraph, so that the terminal can wrap them. The rows of a list are indented, and begin
+/// with a term and two blanks. If all rows of a list fit on a line each, they stay so. Otherwise each explanation moves
+/// below its term.
 pub(super) fn flowing(text: &str) -> String {
     let blocks = text.split("\n\n").map(|block| {
         let mut rows: Vec<String> = Vec::new();
@@ -64,7 +65,7 @@ fn manual() -> String {
     format!("{EXAMPLES}\n\nChapters:{}", lines.collect::<String>())
 }
 
-/// The program's examples and the chapters of its manual.
+/// Returns the program's examples, and the chapters of its manual.
 pub(super) fn overview(examples: &str) -> String {
     let chapters: Vec<&str> = CHAPTERS.iter().map(|chapter| chapter.id).collect();
     let chapters = chapters.join(", ");
@@ -73,7 +74,7 @@ pub(super) fn overview(examples: &str) -> String {
     ))
 }
 
-/// A chapter for a terminal. Its table of keys is too wide, so `keys` replaces it.
+/// Returns the text of a chapter for a terminal. The chapter's table of keys is too wide, so `keys` replaces it.
 fn chapter_text(chapter: &Chapter, keys: &str) -> String {
     let is_row = |line: &&str| line.starts_with('|');
     match chapter.text.lines().find(is_row).filter(|_| chapter.id == KEYS) {
@@ -86,7 +87,7 @@ fn chapter_text(chapter: &Chapter, keys: &str) -> String {
     }
 }
 
-/// Prints the help of `cli` or of one of its commands, or a chapter. `keys` is the list of keys.
+/// Prints the help of `cli` or of one of its commands, or a chapter of the manual. `keys` is the list of keys.
 pub(super) fn run(args: &HelpArgs, cli: Command, keys: &str) -> Result<(), Error> {
     let topic = args.topic.as_deref();
     if let Some(chapter) = topic.and_then(chapter) {

@@ -1,4 +1,4 @@
-//! Ids on the command line: parsed, offered for shell completion, or refused with a suggestion.
+//! Ids on the command line. They are parsed, offered for shell completion, or refused with a suggestion.
 
 use std::ffi::OsStr;
 
@@ -11,15 +11,15 @@ use crate::sim::integrators::{Family, METHODS, Method};
 use crate::studio::Instrument;
 use crate::tools::source_code::Language;
 
-/// One kind of id, with the value of each id.
+/// The ids of one kind, with the value of each.
 #[derive(Clone, Copy)]
 pub(super) struct Id<T: 'static> {
-    /// Noun for messages, such as "method".
+    /// Noun for the kind of id in messages, such as "method".
     pub(super) thing: &'static str,
-    /// The lists of `regatta list` that name all ids. If there are none, the message names them.
+    /// Names of the lists of `regatta list` that have all the ids. If there are none, the message itself names the ids.
     pub(super) lists: &'static [&'static str],
     pub(super) all: fn() -> Vec<(String, T)>,
-    /// Other spellings, each with its id, for suggestions.
+    /// Other spellings, each with its id, from which suggestions are made.
     pub(super) spellings: fn() -> Vec<(&'static str, &'static str)>,
 }
 
@@ -28,7 +28,7 @@ impl<T: Copy> Id<T> {
         Self { thing, lists: &[], all, spellings: Vec::new }
     }
 
-    /// The value of `id`.
+    /// Returns the value of the item with this `id`.
     ///
     /// # Errors
     /// The message for an unknown id, with a suggestion.
@@ -106,7 +106,7 @@ pub(super) const SHAPE: Id<CloudShape> =
 pub(super) const FAMILY: Id<Family> =
     Id::new("family", || Family::ALL.map(|(id, family)| (id.into(), family)).into());
 
-/// The languages of code, with C++, which compiles the C code.
+/// The languages of code, and C++, because a C++ compiler accepts the C code.
 pub(super) const LANGUAGE_OR_CPP: Id<Language> = Id {
     thing: LANGUAGE.thing,
     lists: &[],

@@ -1,4 +1,4 @@
-//! `regatta identify`: finds the method and the number of substeps that made a log of a motion.
+//! `regatta identify`: finds the method and the number of substeps that produced a log of a motion.
 
 use std::path::{Path, PathBuf};
 
@@ -148,7 +148,7 @@ fn remedy(error: &LogError) -> &'static str {
 }
 
 impl LogArgs {
-    /// Reads the log at `path` of a game with this tick rate in hertz.
+    /// Reads the log at `path`, which comes from a game with this tick rate in hertz.
     pub(super) fn read(&self, path: &Path, tick_hz: f64) -> Result<Log, Error> {
         let bytes = regular_file::read_table(path).map_err(|error| {
             Error::mistake(format!("cannot read the log {}: {error}", brief(path)))
@@ -167,7 +167,7 @@ impl LogArgs {
         Ok(log)
     }
 
-    /// The logged body, with its mass in kg.
+    /// Returns the body that was logged. Its mass is `mass`, in kg.
     pub(super) fn body(&self, mass: f64) -> LoggedBody {
         let spring = match (self.k, self.drag, self.thrust) {
             (Some(k), ..) => Some([k / mass, self.c.unwrap_or(0.0) / mass]),

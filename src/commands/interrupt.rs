@@ -1,4 +1,5 @@
-//! Ctrl-C, SIGTERM and SIGHUP: each sets a flag instead of ending the process, so that finished work can be kept.
+//! Handles Ctrl-C, SIGTERM and SIGHUP. Each signal sets a flag instead of ending the process, so that finished work can
+//! be kept.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,13 +9,13 @@ use std::time::Duration;
 use super::error::Error;
 use super::jobs;
 
-/// The flag and the callback of the signal handler.
+/// The flag that the signal handler sets, and the callback that it calls.
 struct SignalState {
     interrupted: Arc<AtomicBool>,
     tell: Arc<Mutex<InterruptCallback>>,
 }
 
-/// Callback for each signal.
+/// Callback that is called at each signal.
 type InterruptCallback = Option<Box<dyn Fn() + Send>>;
 
 static SIGNAL_STATE: OnceLock<SignalState> = OnceLock::new();
@@ -22,13 +23,13 @@ static SIGNAL_STATE: OnceLock<SignalState> = OnceLock::new();
 /// Time that a blocked stream still has after an interrupt.
 const GRACE: Duration = Duration::from_millis(100);
 
-/// A flag that is set once Ctrl-C is pressed or the system asks the process to end. Call this before beginning a
-/// file: an unhandled signal would leave the file's temporary name behind.
+/// Returns a flag that is set when Ctrl-C is pressed or the system asks the process to end. Call this function before a
+/// file is begun, because an unhandled signal would leave the file's temporary name behind.
 pub(super) fn watch_for_interrupt() -> Arc<AtomicBool> {
     Arc::clone(&signal_state().interrupted)
 }
 
-/// Calls `tell` at each of these signals, and at once if one came earlier.
+/// Calls `tell` at each of these signals, and at once if a signal came earlier.
 #[cfg(feature = "window")]
 pub(super) fn on_interrupt(tell: Box<dyn Fn() + Send>) {
     let SignalState { interrupted, tell: told } = signal_state();
@@ -57,26 +58,26 @@ fn signal_state() -> &'static SignalState {
     })
 }
 
-/// Makes a write beyond the system's limit of a file's size (`ulimit -f`) fail with a message. By default its signal
-/// ends the process and leaves temporary files behind.
+/// Makes a write fail with a message if it exceeds the system's limit on a file's size (`ulimit -f`). By default, the
+/// signal for this ends the process and leaves temporary files behind.
 pub(super) fn survive_large_files() {
-    // A signal with a handler does not end the process. Nobody reads this flag.
+    // A signal that has a handler does not end the process. Nobody reads the flag that this handler sets.
     #[cfg(unix)]
     if let Err(error) = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default()) {
         log::warn!("a file beyond the limit of its size will stop the run at once: {error}");
     }
 }
 
-/// Runs `wait`, which may block on the other end of the stream `name` for ever.
+/// Runs `wait`, which may block for ever on the other end of the stream `name`.
 ///
 /// # Errors
-/// Those of `wait`, and an [`Error`] if the other end has not moved a moment after an interrupt. The blocked thread
-/// stays behind: the process is about to end.
+/// The errors of `wait`, and an [`Error`] if the other end has not moved a moment after an interrupt. In that case the
+/// blocked thread stays behind, because the process is about to end.
 pub(super) fn wait_for<T: Send + 'static>(
     name: &str,
     wait: impl FnOnce() -> io::Result<T> + Send + 'static,
 ) -> io::Result<T> {
-    // Without a handler, a signal ends the process wherever it waits.
+    // A signal without a handler ends the process anyway, even while it waits.
     let Some(SignalState { interrupted, .. }) = SIGNAL_STATE.get() else { return wait() };
     let done = jobs::result_within(GRACE, interrupted, wait);
     done.unwrap_or_else(|| Err(io::Error::other(Error::interrupted_while_waiting_for(name))))

@@ -1,4 +1,4 @@
-//! Runs jobs on other threads until all are done or Ctrl-C is pressed.
+//! Runs jobs on other threads until all of them are done, or until Ctrl-C is pressed.
 
 use std::fmt::Display;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,13 +13,14 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use super::error::Error;
 use super::terminal::print_status;
 
-/// Longest delay before an interrupt is noticed.
+/// Maximum delay until an interrupt is noticed.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Time between two progress lines if no bar is shown.
+/// Time between two lines about progress, if no bar is shown.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
-/// A pool of `threads` threads. Zero means `RAYON_NUM_THREADS`, or one per core if that is not set.
+/// Returns a pool of `threads` threads. If the number is zero, `RAYON_NUM_THREADS` sets it, or else there is one thread
+/// per core.
 ///
 /// # Errors
 /// If the system cannot start the threads.
@@ -27,7 +28,7 @@ pub(super) fn pool(threads: usize) -> Result<ThreadPool, Error> {
     ThreadPoolBuilder::new().num_threads(threads).build().map_err(no_threads)
 }
 
-/// The error for threads that the system cannot start.
+/// Returns the error for threads that the system cannot start.
 pub(super) fn no_threads(why: impl Display) -> Error {
     Error::failed(format!(
         "cannot start the threads: {why}; give fewer --threads, where a command takes them, or let the \
@@ -35,8 +36,9 @@ pub(super) fn no_threads(why: impl Display) -> Error {
     ))
 }
 
-/// Results of `work` for the jobs 0 to `number` - 1, in order. A job that was not done when `interrupted` was set
-/// gives `None`. An interrupt does not wait for the threads: some jobs take minutes, and the process is about to end.
+/// Returns the results of `work` for the jobs 0 to `number` - 1, in order. The result is `None` for a job that was not
+/// done when `interrupted` was set. An interrupt does not wait for the threads, because some jobs take minutes and the
+/// process is about to end.
 pub(super) fn results<R: Send + 'static>(
     pool: &ThreadPool,
     number: usize,
@@ -47,7 +49,7 @@ pub(super) fn results<R: Send + 'static>(
     let (sender, receiver) = mpsc::channel();
     pool.spawn(move || {
         (0..number).into_par_iter().for_each_with(sender, |sender, job| {
-            // After an interrupt the receiver is gone.
+            // The receiver no longer exists after an interrupt.
             let _ = sender.send((job, work(job)));
         });
     });
@@ -67,8 +69,8 @@ pub(super) fn results<R: Send + 'static>(
     results
 }
 
-/// Result of `work` on a new thread; `None` if `interrupted` is set first. An interrupt does not wait for the thread:
-/// the process is about to end.
+/// Returns the result of `work` on a new thread, or `None` if `interrupted` is set first. An interrupt does not wait
+/// for the thread, because the process is about to end.
 pub(super) fn result<R: Send + 'static>(
     interrupted: &AtomicBool,
     work: impl FnOnce() -> R + Send + 'static,
@@ -83,7 +85,7 @@ pub(super) fn result_within<R: Send + 'static>(
     work: impl FnOnce() -> R + Send + 'static,
 ) -> Option<R> {
     let (sender, receiver) = mpsc::channel();
-    // After an interrupt the receiver is gone.
+    // The receiver no longer exists after an interrupt.
     let thread = thread::spawn(move || _ = sender.send(work()));
     let found = next(&receiver, interrupted, || ());
     let found = found.or_else(|| receiver.recv_timeout(grace).ok());
@@ -93,8 +95,8 @@ pub(super) fn result_within<R: Send + 'static>(
     found
 }
 
-/// The next result; `None` once none is left or `interrupted` is set. Calls `meanwhile` at least every [`PATIENCE`]
-/// while it waits.
+/// Returns the next result, or `None` once no result is left or `interrupted` is set. While it waits, calls `meanwhile`
+/// at least every [`PATIENCE`].
 fn next<R>(
     receiver: &Receiver<R>,
     interrupted: &AtomicBool,
@@ -140,7 +142,7 @@ mod tests {
         let (sets, (sender, receiver)) = (Arc::clone(&set), mpsc::channel::<()>());
         let found = result(&set, move || {
             sets.store(true, Ordering::Relaxed);
-            // This thread ends after the wait for it.
+            // This thread ends only after nobody waits for it any more.
             receiver.recv().unwrap_err();
         });
         assert_eq!(found, None);
@@ -154,7 +156,7 @@ mod tests {
         let set = Arc::clone(&interrupted);
         let work = move |job| {
             if job == 3 {
-                // This thread has sent the earlier results. Leave time for them to arrive.
+                // This thread has sent the earlier results, which need time to arrive.
                 thread::sleep(Duration::from_millis(100));
                 set.store(true, Ordering::Relaxed);
                 thread::sleep(Duration::from_secs(1));

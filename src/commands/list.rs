@@ -61,7 +61,7 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
     WHAT.split('|')
 }
 
-/// The keys of the window as text.
+/// Returns the keys of the window as text.
 pub(super) fn keys() -> String {
     write(KEY, KEYS, TableFormat::Text)
 }
@@ -87,7 +87,7 @@ fn write<T>(columns: &[Column<T>], items: &[T], format: TableFormat) -> String {
     }
 }
 
-/// The built-in scenes. In text, each group has a heading.
+/// Returns the built-in scenes. As text, each group has a heading.
 fn scenes(format: TableFormat) -> String {
     let read = |built_in: &'static BuiltIn| Some((built_in, Scene::built_in(built_in.name)?));
     let scenes: Vec<(&BuiltIn, Scene)> = SCENES.iter().filter_map(read).collect();
@@ -109,7 +109,7 @@ fn scenes(format: TableFormat) -> String {
     grouped
 }
 
-/// Help on the expressions of laws.
+/// Returns the help on the expressions of laws.
 fn expressions() -> String {
     let values: Vec<&str> = values().collect();
     let (first, others) = UNITS.split_first().expect("there are units");
@@ -136,7 +136,7 @@ expressions
     )
 }
 
-/// Width of a row of functions in characters. With the margin it fits a line of a terminal.
+/// Width of a row of functions, in characters. With the margin, the row fits into a line of a terminal.
 const FUNCTIONS_WIDTH: usize = 80;
 
 fn bodies_with_keys() -> String {
@@ -153,7 +153,7 @@ fn bodies_with_keys() -> String {
     table::text(BODY, BODIES.iter(), "") + &keys + &tables + &expressions() + "\nnets\n" + &of_nets
 }
 
-/// Two lines: why engines do not step bodies of this class, and which engine methods do.
+/// Explains in two lines why engines do not step bodies of this class, and which engine methods do.
 fn refused_by_engines(class: BodyClass) -> Option<String> {
     let why = class.engine_refusal()?;
     let steps =

@@ -1,22 +1,23 @@
-//! `manifest.json`: describes a capture, so that `regatta verify` can judge it later.
+//! `manifest.json` describes a capture, so that `regatta verify` can judge it later.
 //!
-//! The file is UTF-8 JSON beside the frames. It appears whole, after the frames that it lists. Its numbers are exact:
-//! floats are the shortest decimals that read back to the same bits. This is [`SCHEMA`] 1:
+//! The file is UTF-8 JSON beside the frames. It appears whole, after the frames that it lists. Its numbers are exact,
+//! because floats are the shortest decimals that read back to the same bits. This is [`SCHEMA`] 1:
 //!
 //! - `schema`: the number of this description. `regatta`: the version of the program that drew.
-//! - `settings`: everything that the run depends on.
+//! - `settings`: everything on which the run depends.
 //!   - `scene`: `name`, `text` (the TOML) and the text's `hash`.
 //!   - `lanes`: the scene's lanes, with the command line applied. Each has a `method` and its `substeps`. If the
 //!     scene gives them, it also has its `tolerance` and its `joint`, the spring setting of an engine.
-//!   - `methods`: a person's own methods, if any: the `id` of each, and its lines, `step`.
-//!   - `race`: whether all of them race. If not, the `selected` method is shown solo. `null` selects the scene's
-//!     opening method, and among many lanes the best.
+//!   - `methods`: a person's own methods, if any. Each has its `id`, and its lines as `step`.
+//!   - `race`: whether all lanes race. If not, the `selected` method is shown solo. `null` selects the scene's opening
+//!     method, or among many lanes the best one.
 //!   - `tick_hz`: the tick rate at the start. It is a number if it is a decimal, else a ratio such as `"60000/1001"`.
-//!   - `frames`: the requested number of frames. `fps`: frames per second. `size`: in pixels. `scale`: pixels per
-//!     point.
-//!   - `panels`: whether they are shown. `instrument` and `cloud`: the requested ones, if any. `motion`: whether it
-//!     is on.
-//!   - `theme`: only if it is `light`. `loop`: the trace of the loop lab, if that is shown. `mark_every`: in ticks.
+//!   - `frames`: the requested number of frames. `fps`: frames per second. `size`: width and height of a frame in
+//!     pixels. `scale`: pixels per point.
+//!   - `panels`: whether panels are shown. `instrument` and `cloud`: the requested ones, if any. `motion`: whether
+//!     trails fade and the camera glides.
+//!   - `theme`: present only if it is `light`. `loop`: the trace of the loop lab, if the lab is shown. `mark_every`:
+//!     number of ticks between two marks.
 //! - `settings_hash`: the hash of `settings` as JSON without spaces.
 //! - `adapter`: what drew: `name`, `driver`, `driver_info`, `backend`, `kind`. Our own code is called `regatta`, of
 //!   kind `Cpu`. Its `driver_info` has the instructions by which letters were filled, which may change a level of their
@@ -24,15 +25,16 @@
 //! - `complete`: `false` if the capture was interrupted.
 //! - `frames`: for each frame its `file`, the `tick` reached, the drawn part of the next tick as `alpha`, numerator
 //!   and denominator, and `pixels`, the hash of its RGBA bytes.
-//! - `lanes`: each lane at the end: `method`, `substeps`, the `hash` of its state, and the tick at which its first
-//!   body `halted`, or `null`. Each of its `bodies` has its `name`, the tick at which it `halted` or `null`, and
-//!   every metric of `regatta list metrics` against the exact solution. A metric without meaning is `null`.
-//! - `marks`: the state of each lane at every `mark_every`th `tick` and at the end. Each of the `lanes` has its
-//!   `hash` and, body by body, `q` and `v`. JSON has no numbers that are not finite, so these are the strings `inf`,
-//!   `-inf` and `NaN`.
+//! - `lanes`: each lane at the end. It has its `method`, its `substeps`, the `hash` of its state, and the tick at which
+//!   its first body `halted`, or `null`. Each of its `bodies` has its `name`, the tick at which it `halted` or `null`,
+//!   and every metric of `regatta list metrics` against the exact solution. A metric that has no meaning for the body
+//!   is `null`.
+//! - `marks`: the state of each lane at the end, and at each `tick` that is a multiple of `mark_every`. Each of the
+//!   `lanes` has its `hash` and, body by body, `q` and `v`. JSON has no numbers that are not finite, so these are the
+//!   strings `inf`, `-inf` and `NaN`.
 //!
-//! A lane's `hash` is [`Race::lane_hashes`](crate::run::Race::lane_hashes). The other hashes are XXH3's
-//! 64 bits ([`fingerprint`]). All are hexadecimal. There is no seed, because nothing in a run is random.
+//! A lane's `hash` is [`Race::lane_hashes`](crate::run::Race::lane_hashes). The other hashes are 64 bits of XXH3
+//! ([`fingerprint`]). All hashes are hexadecimal. There is no seed, because nothing in a run is random.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value};
@@ -41,16 +43,16 @@ use xxhash_rust::xxh3::xxh3_64;
 use crate::run::diff::is_same_number;
 use crate::sim::TickRate;
 
-/// The schema number of the description above. Manifests with another number cannot be judged.
+/// Number of the schema that is described above. Manifests with another number cannot be judged.
 pub const SCHEMA: u32 = 1;
 
-/// Largest manifest that is read, in bytes: twice that of a capture of a million frames with its marks.
+/// Maximum size of a manifest that is read, in bytes. It is twice that of a capture of a million frames with its marks.
 pub(super) const MAX_BYTES: usize = 512 << 20;
 
-/// The manifest's file name.
+/// File name of the manifest.
 pub const FILE_NAME: &str = "manifest.json";
 
-/// The whole file.
+/// The contents of a manifest.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]
@@ -66,7 +68,7 @@ pub struct Manifest {
     pub marks: Vec<Mark>,
 }
 
-/// Everything that a run depends on.
+/// Everything on which a run depends.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]
@@ -97,7 +99,8 @@ pub struct Settings {
     pub mark_every: u64,
 }
 
-/// A tick rate as JSON that reads back as the same rate: a number if it is a decimal, else text such as `1/0.015`.
+/// Conversion of a tick rate to JSON that reads back as the same rate. It is a number if the rate is a decimal, or else
+/// text such as `1/0.015`.
 mod exact {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
@@ -129,7 +132,7 @@ mod exact {
 }
 
 impl Settings {
-    /// The hash that reveals altered settings.
+    /// Returns the hash by which altered settings are recognised.
     pub fn hash(&self) -> String {
         let text = serde_json::to_string(self).expect("all keys are strings");
         fingerprint(text.as_bytes())
@@ -143,12 +146,12 @@ impl Settings {
 pub struct OwnEntry {
     pub id: String,
     pub step: String,
-    /// The frame rate of a rule's author, exactly; nothing for a method.
+    /// The exact frame rate of the author, if the lines are a rule. A method has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fps: Option<String>,
 }
 
-/// The scene file at the time of the capture.
+/// The scene file, as it was at the time of the capture.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]
@@ -165,7 +168,7 @@ pub struct SceneText {
 pub struct LaneEntry {
     pub method: String,
     pub substeps: u32,
-    /// Tolerance that replaces the method's own, if the scene gives one.
+    /// Tolerance that the scene gives in place of the method's own, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// Frequency in hertz and damping ratio of the engine's spring setting, if the scene gives them.
@@ -185,7 +188,7 @@ pub struct Adapter {
     pub kind: String,
 }
 
-/// One frame.
+/// A frame of the capture.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]
@@ -196,7 +199,7 @@ pub struct FrameEntry {
     pub pixels: String,
 }
 
-/// A lane at the end.
+/// A lane at the end of the capture.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]
@@ -205,11 +208,11 @@ pub struct LaneEnd {
     pub substeps: u32,
     pub hash: String,
     pub halted: Option<u64>,
-    /// Name, halt and metrics of each body.
+    /// The name, the halt and the metrics of each body.
     pub bodies: Vec<Map<String, Value>>,
 }
 
-/// All lanes at a tick.
+/// The state of all lanes at a tick.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]
@@ -218,7 +221,7 @@ pub struct Mark {
     pub lanes: Vec<LaneMark>,
 }
 
-/// A lane at a tick.
+/// The state of a lane at a tick.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]
@@ -231,7 +234,7 @@ pub struct LaneMark {
 }
 
 impl LaneMark {
-    /// Whether both hold the same state. NaN equals NaN here.
+    /// Whether both marks have the same state. NaN equals NaN here.
     pub fn is_same(&self, other: &Self) -> bool {
         let rows = |a: &[Vec<f64>], b: &[Vec<f64>]| {
             let values = |a: &Vec<f64>, b: &Vec<f64>| {
@@ -244,8 +247,8 @@ impl LaneMark {
 }
 
 impl Manifest {
-    /// The text of the file. Each entry of a list has its own line, so that two manifests can be compared line by
-    /// line.
+    /// Returns the text of the file. Each entry of a list has a line of its own, so that two manifests can be compared
+    /// line by line.
     pub fn to_text(&self) -> String {
         let value = serde_json::to_value(self).expect("all keys are strings");
         let mut text = String::new();
@@ -255,7 +258,7 @@ impl Manifest {
     }
 }
 
-/// Breaks objects and lists on the outer two levels into lines.
+/// Breaks the objects and lists of the two outer levels into lines.
 fn lay_out(value: &Value, depth: usize, text: &mut String) {
     let indent = "  ".repeat(depth + 1);
     let mut separator = "\n";
@@ -282,13 +285,13 @@ fn lay_out(value: &Value, depth: usize, text: &mut String) {
     }
 }
 
-/// A hash of a text or of pixels, for later comparison, also by other programs: XXH3 of `bytes`, 64 bits with the
-/// seed 0, as 16 hexadecimal digits.
+/// Returns a hash of a text or of pixels, which this and other programs can compare later. It is XXH3 of `bytes`, with
+/// 64 bits and the seed 0, as 16 hexadecimal digits.
 pub fn fingerprint(bytes: &[u8]) -> String {
     format!("{:016x}", xxh3_64(bytes))
 }
 
-/// A number in JSON, or a word for infinity or NaN, which JSON cannot write as numbers.
+/// A number in JSON, or a word for infinity or NaN, because JSON has no such numbers.
 #[derive(Deserialize, Serialize)]
 #[serde(untagged)]
 enum AnyNumber {
@@ -327,7 +330,7 @@ mod tests {
 
     #[test]
     fn the_fingerprint_matches_the_reference_vectors() {
-        // From the reference implementation's own test vectors.
+        // The hash is one of the reference implementation's own test vectors.
         assert_eq!(fingerprint(b""), "2d06800538d394c2");
     }
 

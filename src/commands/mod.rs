@@ -1,7 +1,7 @@
-//! The command line: one file per subcommand, from arguments to a finished run.
+//! The command line. Each subcommand has a file, which leads from the arguments to a finished run.
 //!
-//! Data goes to standard output and everything else to standard error, so that a command works in a pipe. A pipe that
-//! closes early ends a command quietly. Scripts rely on names, columns and exit codes.
+//! Data goes to standard output and everything else to standard error, so that a command works in a pipe. If the pipe
+//! is closed early, the command ends quietly. Scripts rely on the names, columns and exit codes.
 //!
 //! The modules below come in four groups: subcommands, inputs of a run, drawing, and shared code. Drawing writes a
 //! run, frame by frame, into a folder, a stream or a sheet.
@@ -90,6 +90,10 @@ use play::PlayArgs;
 pub use terminal::{print_error, print_status, stderr_renderer};
 pub use visible::visible;
 
+/// The remedy for missing libraries of a window.
+pub const WINDOW_LIBRARIES: &str =
+    "on Debian and Ubuntu: apt install libx11-6 libxcursor1 libxi6 libxkbcommon-x11-0";
+
 use crate::manual::{CHAPTERS, chapter};
 use crate::scene::{SCENES, clip as shortened, nearest};
 
@@ -125,13 +129,14 @@ pub struct Cli {
     play: PlayArgs,
 }
 
-/// Most bytes of an argument, more than a path has. Messages quote arguments.
+/// Maximum number of bytes of an argument, which is more than a path has. Messages quote arguments.
 const MAX_ARGUMENT_BYTES: usize = 4096;
 
-/// The command to insert before a first word that names no command but a list or a chapter.
+/// Returns the command that is missing before the first word, if that word is no command. It is `list` before the name
+/// of a list, and `help` before a chapter.
 fn unnamed_command(cli: &clap::Command, arguments: &[OsString]) -> Option<&'static str> {
     let word = arguments.get(1)?.to_str().filter(|word| cli.find_subcommand(word).is_none())?;
-    // A chapter that shares its name with a scene needs the word `help`.
+    // A chapter that shares its name with a scene is shown only after the word `help`.
     let is_scene = SCENES.iter().any(|scene| scene.name == word);
     match list::names().any(|name| name == word) {
         true => Some("list"),
@@ -139,8 +144,9 @@ fn unnamed_command(cli: &clap::Command, arguments: &[OsString]) -> Option<&'stat
     }
 }
 
-/// Index of a scene without an option before it, in a command that takes a scene. It may be a link. The name of a
-/// built-in scene or of a scene file also counts, unless the command takes positional arguments.
+/// Returns the index of an argument that is a scene but has no option before it, in a command that takes a scene. The
+/// argument may be a link. It may also be the name of a built-in scene or of a scene file, unless the command takes
+/// positional arguments.
 fn lone_scene(cli: &clap::Command, arguments: &[OsString]) -> Option<usize> {
     let end = arguments.iter().position(|one| one == "--").unwrap_or(arguments.len());
     let named = arguments.get(1).and_then(|one| cli.find_subcommand(one));
@@ -163,7 +169,7 @@ fn lone_scene(cli: &clap::Command, arguments: &[OsString]) -> Option<usize> {
     (1..end).filter(is_scene).find(is_lone)
 }
 
-/// The error for an unknown word, with the similar name of a scene, a list or a chapter.
+/// Returns the error for an unknown word. It suggests the scene, list or chapter with the most similar name.
 fn with_similar_name(mut error: clap::Error, word: &str) -> clap::Error {
     let others = list::names().chain(CHAPTERS.iter().map(|chapter| chapter.id));
     let names = SCENES.iter().map(|scene| scene.name).chain(others);
@@ -175,11 +181,12 @@ fn with_similar_name(mut error: clap::Error, word: &str) -> clap::Error {
 }
 
 impl Cli {
-    /// Parses a command line that begins with the program's name.
+    /// Parses a command line, which begins with the name of the program.
     ///
     /// # Errors
     ///
-    /// The text to show instead of running the command: a mistake, or the help or version that the user asked for.
+    /// The text to show instead of running the command. It is a mistake, or the help or version for which the user
+    /// asked.
     pub fn read(arguments: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
         let mut arguments: Vec<OsString> = arguments.into_iter().collect();
         let is_link = |one: &OsString| scene_file::is_link(one.as_ref());
@@ -201,7 +208,7 @@ impl Cli {
             arguments.insert(at, "--scene".into());
         }
         Self::try_parse_from(&arguments).map_err(|error| {
-            // The message quotes the arguments.
+            // The message about a long argument quotes it.
             let texts: Vec<_> = arguments.iter().map(|one| one.to_string_lossy()).collect();
             let shown: Vec<_> = texts.iter().map(|text| visible(text)).collect();
             let error = match shown.iter().zip(&texts).all(|(shown, text)| shown == text) {
@@ -230,7 +237,7 @@ impl Cli {
     }
 }
 
-/// Declares the subcommands from one row each: the arguments, and the function that runs them.
+/// Declares the subcommands. Each row has the arguments, and the function that runs the subcommand.
 macro_rules! subcommands {
     ($($(#[$when:meta])* $name:ident($args:ty) => $run:expr,)*) => {
         #[derive(Debug, Subcommand)]

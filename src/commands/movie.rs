@@ -1,4 +1,4 @@
-//! Writes a run as one stream: an animated picture, or frames for a video encoder.
+//! Writes a run as one stream, which is an animated picture, or frames for a video encoder.
 
 use std::io::Write;
 
@@ -16,22 +16,22 @@ use super::state_log::StateLog;
 use super::terminal::print_status;
 use crate::studio::Studio;
 
-/// A stream of frames being encoded.
+/// A stream into which frames are encoded.
 pub(super) trait Movie: Send {
     fn push(&mut self, frame: &DrawnFrame) -> Result<(), Error>;
 }
 
-/// A started stream, or the reason why it could not start.
+/// A stream that has been started, or the reason why it could not be.
 pub(super) type Begun<'a> = Result<Box<dyn Movie + 'a>, Error>;
 
-/// Starts a stream of one format.
+/// A function that starts a stream of one format.
 pub(super) type Begin = for<'a> fn(&'a mut Output, &CaptureSettings) -> Begun<'a>;
 
-/// The palette of a GIF samples one pixel in this many. This is the coarsest sampling: twice as fast as a medium one,
-/// and on flat colours no worse.
+/// Step between the pixels from which the palette of a GIF is computed. This step is the coarsest one, twice as fast as
+/// a medium one, and no worse on flat colours.
 const GIF_SPEED: i32 = 30;
 
-/// Draws the run of `studio` into `output` and reports the result on standard error.
+/// Draws the run of `studio` into `output`, and reports the result on standard error.
 pub(super) fn record(
     studio: Studio,
     capture: CaptureSettings,
@@ -64,8 +64,8 @@ pub(super) fn record(
     Ok(())
 }
 
-/// GIF, with a palette of 256 colours for each frame. Dropping the encoder writes the last byte; closing the output
-/// reports whether that worked.
+/// A GIF, in which each frame has a palette of 256 colours. The encoder writes the last byte when it is dropped, and
+/// closing the output reports whether that worked.
 struct Gif<'a> {
     encoder: GifEncoder<&'a mut Output>,
     size_px: [u32; 2],
@@ -88,7 +88,7 @@ impl Movie for Gif<'_> {
     }
 }
 
-/// YUV4MPEG2, 4:4:4, BT.601 in the limited range.
+/// YUV4MPEG2 with 4:4:4 sampling and BT.601 colours in the limited range.
 struct Y4m<'a> {
     out: &'a mut Output,
     planes: Vec<u8>,
@@ -108,7 +108,8 @@ impl Movie for Y4m<'_> {
     }
 }
 
-/// Duration of a frame in a GIF, in hundredths of a second. The remainder moves to the next frame.
+/// Returns the duration of a frame in a GIF, in hundredths of a second. The fraction that remains is carried over to
+/// the next frame.
 fn shown_cs(frame: u32, fps: u32) -> u32 {
     let ends = |frame: u32| u64::from(frame) * 100 / u64::from(fps);
     (ends(frame + 1) - ends(frame)) as u32
@@ -121,7 +122,8 @@ fn of_gif(error: ImageError) -> Error {
     }
 }
 
-/// Replaces `planes` with all Y, all Cb and all Cr: BT.601, 16 to 235 and 16 to 240.
+/// Replaces the contents of `planes` by all Y, all Cb and all Cr, as in BT.601. Y is from 16 to 235, and Cb and Cr are
+/// from 16 to 240.
 fn to_yuv(rgba: &[u8], planes: &mut Vec<u8>) {
     let pixels = rgba.len() / 4;
     planes.resize(3 * pixels, 0);

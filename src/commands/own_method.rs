@@ -14,15 +14,15 @@ use crate::regular_file;
 use crate::scene::{LaneSpec, MAX_FILE_BYTES};
 use crate::sim::integrators::Method;
 
-/// Parser for an id, or for a method in a `.step` file.
+/// Parser for an id, or for the path of a `.step` file with a method.
 #[derive(Clone, Copy)]
 pub(super) struct OrStepFile<T: 'static> {
     pub(super) id: Id<T>,
-    /// Converts a method to the parsed type.
+    /// Converts a method to the type that is parsed.
     pub(super) of: fn(&'static Method) -> T,
 }
 
-/// Parser for the id of a method, or for a `.step` file.
+/// Parser for the id of a method, or for the path of a `.step` file.
 pub(super) const METHOD_OR_FILE: OrStepFile<&Method> =
     OrStepFile { id: METHOD, of: |method| method };
 
@@ -50,12 +50,12 @@ impl<T: Copy + Send + Sync + 'static> TypedValueParser for OrStepFile<T> {
     }
 }
 
-/// Whether the name of a file says that it holds the lines of a step.
+/// Whether the name of a file promises the lines of a step.
 pub(super) fn is_step(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("step"))
 }
 
-/// Loads a method from a file and names it after the file.
+/// Loads a method from a file. The method is named after the file.
 fn load(path: &Path) -> Result<&'static Method, Error> {
     let name = brief(path);
     let bytes = regular_file::read(path, MAX_FILE_BYTES).map_err(|error| {

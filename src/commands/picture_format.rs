@@ -1,4 +1,4 @@
-//! Formats of a capture, and the choice of one by a file's name.
+//! The formats of a capture, and the choice of a format by the name of a file.
 
 use std::path::Path;
 
@@ -11,10 +11,10 @@ use super::movie::{self, Begin};
 use super::output::STDOUT;
 use Writing::{Folder, Movie, Sheet};
 
-/// Kind of output that a capture writes.
+/// The kind of output that a capture writes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Writing {
-    /// One picture per frame, in a directory.
+    /// One picture for each frame, in a directory.
     Folder,
     /// One picture with all frames.
     Sheet,
@@ -24,12 +24,12 @@ pub(super) enum Writing {
 
 #[derive(Debug)]
 pub(super) struct PictureFormat {
-    /// Value of `--format`.
+    /// The value of `--format` that selects the format.
     pub(super) id: &'static str,
     about: &'static str,
-    /// Endings of files in this format.
+    /// Endings of the names of files in this format.
     endings: &'static [&'static str],
-    /// Most frames per second in this format.
+    /// Maximum number of frames per second in this format.
     max_fps: Option<u32>,
     pub(super) writing: Writing,
 }
@@ -37,7 +37,7 @@ pub(super) struct PictureFormat {
 pub(super) static FORMATS: [PictureFormat; 4] = [
     format("png", "Numbered pictures and a manifest in a directory", &[], Folder),
     PictureFormat {
-        // Players show a frame for at least two hundredths of a second.
+        // Players show each frame for at least two hundredths of a second.
         max_fps: Some(50),
         ..format("gif", "One GIF, each frame with its own palette", &["gif"], Movie(movie::gif))
     },
@@ -54,7 +54,7 @@ const fn format(
     PictureFormat { id, about, endings, max_fps: None, writing }
 }
 
-/// Parser for the id of a format. Offers all ids for shell completion.
+/// Returns a parser for the id of a format, which offers all ids for shell completion.
 pub(super) fn by_id() -> impl TypedValueParser<Value = &'static PictureFormat> {
     let ids = FORMATS.iter().map(|format| PossibleValue::new(format.id).help(format.about));
     PossibleValuesParser::new(ids).map(|id| PictureFormat::find(&id).expect("no other is taken"))
@@ -65,7 +65,8 @@ impl PictureFormat {
         FORMATS.iter().find(|format| format.id == id)
     }
 
-    /// The requested format, else the one that the name of `out` implies, else numbered pictures.
+    /// Returns the requested format. Without a request, the format follows from the name of `out`, and is otherwise
+    /// numbered pictures.
     pub(super) fn of(out: &Path, asked: Option<&'static Self>) -> Result<&'static Self, Error> {
         let path = brief(out);
         if out == Path::new(STDOUT) {
@@ -106,7 +107,7 @@ impl PictureFormat {
         }
     }
 
-    /// Fails if the format cannot show this many frames per second.
+    /// Fails if the format cannot show `fps` frames per second.
     pub(super) fn check(&self, fps: u32) -> Result<(), Error> {
         match self.max_fps {
             Some(most) if fps > most => Err(Error::mistake(format!(
@@ -121,7 +122,7 @@ impl PictureFormat {
         matches!(self.writing, Sheet)
     }
 
-    /// Picks `sheet` for a sheet and `others` for every other format.
+    /// Returns `sheet` for a sheet, and `others` for every other format.
     pub(super) fn or_sheet<T>(&self, others: T, sheet: T) -> T {
         if self.is_sheet() { sheet } else { others }
     }

@@ -36,13 +36,13 @@ const SPARE_BUFFERS: usize = 2;
 
 /// A drawn frame.
 pub(super) struct DrawnFrame {
-    /// Index, from 0.
+    /// Index of the frame, from 0.
     pub(super) frame: u32,
-    /// Tick reached.
+    /// Tick that the frame has reached.
     pub(super) tick: u64,
-    /// Part of the next tick that is drawn, as an exact fraction.
+    /// Part of the next tick that the frame shows, as an exact fraction.
     pub(super) alpha: (u64, u64),
-    /// Pixels, top row first.
+    /// Pixels of the frame, with the top row first.
     pub(super) rgba: Vec<u8>,
 }
 
@@ -52,7 +52,7 @@ type Encoded<T> = (DrawnFrame, thread::Result<T>);
 /// A run to be drawn.
 pub(super) struct Pipeline<'a> {
     pub(super) renderer: &'a mut OffscreenRenderer,
-    /// Must be at tick 0.
+    /// The studio, which must be at tick 0.
     pub(super) studio: &'a mut Studio,
     pub(super) state_log: &'a mut StateLog,
     pub(super) schedule: Schedule,
@@ -171,14 +171,14 @@ fn deliver_in_order<T>(
         window.insert(drawn.frame, (drawn, made));
         while let Some((drawn, made)) = window.take_next() {
             take(&drawn, made.unwrap_or_else(|bug| panic::resume_unwind(bug)))?;
-            // After the last frame the receiver is gone.
+            // The receiver no longer exists after the last frame.
             let _ = emptied.send(drawn.rgba);
         }
     }
     Ok(())
 }
 
-/// Puts numbered results back in order and keeps those that arrive before their turn.
+/// Puts numbered results back in order, and keeps those that arrive too early.
 struct ReorderingWindow<T> {
     next: u32,
     early: BTreeMap<u32, T>,
@@ -195,7 +195,7 @@ impl<T> ReorderingWindow<T> {
         self.early.insert(number, result);
     }
 
-    /// The result with the next number, from 0, if it has arrived.
+    /// Returns the result with the next number, from 0, if that result has arrived.
     fn take_next(&mut self) -> Option<T> {
         let result = self.early.remove(&self.next)?;
         self.next += 1;
@@ -204,8 +204,9 @@ impl<T> ReorderingWindow<T> {
 }
 
 /// Completes the loops on the stage, and the analysis and the clouds that the panels show. A window shows results as
-/// they arrive. A recording completes a stated amount of work on verdicts before each frame, so that its frames are
-/// reproducible. Returns `false` after an interrupt, without waiting for the work: the process is about to end.
+/// they arrive. A recording does a fixed amount of work on verdicts before each frame, so that its frames are
+/// reproducible. Returns `false` after an interrupt. It does not wait for the work then, because the process is about
+/// to end.
 pub(super) fn complete_analysis(
     studio: &mut Studio,
     renderer: &OffscreenRenderer,
@@ -231,7 +232,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::studio::StageCommand;
 
-    /// More frames than there are buffers.
+    /// The schedule has more frames than there are buffers.
     const SCHEDULE: Schedule = Schedule { frames: 30, fps: 10 };
 
     fn renderer() -> OffscreenRenderer {
@@ -255,7 +256,7 @@ mod tests {
         let mut state_log = StateLog::new(1, studio.race());
         let (studio, state_log) = (&mut studio, &mut state_log);
         let run = Pipeline { renderer, studio, state_log, schedule: SCHEDULE };
-        // Every other frame, from the first on, takes longer to encode.
+        // Every other frame takes longer to encode, beginning with the first.
         let encode = |drawn: &DrawnFrame| {
             thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
             drawn.frame
@@ -308,7 +309,7 @@ mod tests {
         let [on_their_way, most] = [0, 0].map(AtomicUsize::new);
         let encode = |drawn: &DrawnFrame| {
             most.fetch_max(on_their_way.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
-            // Delay the first frame until all buffers are in use, and a little longer.
+            // The first frame is delayed until all buffers are in use, and a little longer.
             while drawn.frame == 0 && most.load(Ordering::SeqCst) < 3 + SPARE_BUFFERS {
                 thread::yield_now();
             }

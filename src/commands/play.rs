@@ -1,5 +1,6 @@
-//! `regatta play`: opens the window or, without a display, draws its first seconds as pictures.
+//! `regatta play`: opens the window. If there is no display, draws the first seconds as pictures.
 
+use std::env;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -18,7 +19,7 @@ use super::schedule::{FPS, Schedule, frames_in};
 use super::settings::CaptureSettings;
 use super::terminal::print_status;
 use super::unfinished::{self, UnfinishedRecording};
-use super::{clip, preferences, scene_file, state_log};
+use super::{WINDOW_LIBRARIES, clip, preferences, scene_file, state_log};
 use crate::atomic_file::IfExists;
 use crate::look::palette::Theme;
 use crate::loops::TraceCard;
@@ -91,21 +92,21 @@ pub(super) struct PlayArgs {
     reduced_motion: bool,
 }
 
-/// Directory of the pictures if there is no display.
+/// Directory into which the pictures are drawn if there is no display.
 const FRAMES_DIR: &str = "regatta-frames";
-/// Number of pictures if there is no display: enough to show how each method behaves, and drawn in seconds even in
-/// software.
+/// Number of pictures if there is no display. They are enough to show how each method behaves, and even software draws
+/// them in seconds.
 const FRAMES: u32 = 4 * FPS;
-/// Size of these pictures, equal to the window's.
+/// Size of these pictures in pixels, which is also that of the window.
 const SIZE_PX: [u32; 2] = [1280, 720];
 
 pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let mode = if args.race { Mode::Race } else { Mode::Solo };
     let preferences = preferences::load();
-    // A run of a given length belongs to a script and is the same everywhere.
+    // A run whose length is given belongs to a script, so it must be the same everywhere.
     let last_scene = preferences.scene.as_deref().filter(|_| args.seconds.is_none());
     let again = last_scene.map(|scene| args.experiment.or_scene(scene));
-    // The scene file may be gone by now.
+    // The scene file may no longer exist.
     let again = again.and_then(|options| Some((options.load(mode).ok()?, options)));
     let (experiment, options) = match again {
         Some(opened) => opened,
@@ -130,8 +131,8 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         let if_exists = if args.force { IfExists::Replace } else { IfExists::Beside };
         Destination { path, option: "--record", if_exists, inputs: &inputs }
     });
-    // Open the file before the run, which could otherwise turn out impossible to save. Begin it again after the run,
-    // so that a killed program leaves only the unfinished recording beside it.
+    // The file is opened before the run, so that no run starts that cannot be saved. The file is begun again after the
+    // run, so that a program that is killed leaves only the unfinished recording beside it.
     let opened = record.map(Destination::open_for_text).transpose()?;
     let unfinished = opened.as_ref().and_then(Output::file).map(UnfinishedRecording::for_recording);
     let stream = opened.filter(|output| output.file().is_none());
@@ -189,12 +190,12 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     }
 }
 
-/// Length of a run in words.
+/// Describes the length of a run.
 fn ticks(studio: &Studio) -> String {
     counted(studio.run().end(), "tick")
 }
 
-/// Draws the first seconds into a folder and returns the studio at the end of the run.
+/// Draws the first seconds of the run into a folder. Returns the studio at the end of the run.
 fn without_display(
     args: &PlayArgs,
     experiment: &Experiment,
@@ -205,8 +206,10 @@ fn without_display(
         None => FRAMES,
     };
     let folder = FrameFolder::new_sibling(FRAMES_DIR)?;
+    let has_display = ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| env::var_os(name).is_some());
+    let remedy = if has_display { format!("; {WINDOW_LIBRARIES}") } else { String::new() };
     print_status(&format!(
-        "no display to open a window on ({reason}); drawing {} s of it into {} instead",
+        "no display to open a window on ({reason}{remedy}); drawing {} s of it into {} instead",
         f64::from(frames) / f64::from(FPS),
         folder.path().display(),
     ));
@@ -226,15 +229,15 @@ fn without_display(
     };
     let last = args.seconds.map(|seconds| studio.race().nearest_tick(seconds));
     let mut studio = clip::record(experiment, studio, capture, folder)?;
-    // The last frame is before the end of the run.
+    // The last frame may be before the end of the run.
     while last.is_some_and(|last| studio.race().tick() < last) {
         studio.tick();
     }
     Ok(studio)
 }
 
-/// Reader of scene files for the window. Applies the command line's options to the file that it names, and to no
-/// other. Errors read as on the command line.
+/// Returns the reader of scene files for the window. It applies the options of the command line only to the file that
+/// they name. Its errors read as on the command line.
 fn files(args: &ExperimentArgs, experiment: &Experiment) -> SceneFiles {
     let given = args.clone();
     let read =

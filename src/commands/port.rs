@@ -127,7 +127,7 @@ pub(super) struct PortArgs {
     format: TableFormat,
 }
 
-/// An engine or user interface to find settings for, or all of one kind.
+/// An engine or a user interface for which settings are found, or all of one kind.
 #[derive(Clone, Copy, Debug)]
 enum Target {
     Engines,
@@ -145,7 +145,7 @@ fn engines() -> impl Iterator<Item = &'static Method> {
     METHODS.iter().filter(|method| has_modes(method))
 }
 
-/// Parser for the id of an engine or user interface with a spring, or for all of one kind.
+/// Parser for the id of an engine or user interface that has a spring, or for all of one kind.
 const TARGET: Id<Target> = Id {
     thing: "engine or user interface with a spring",
     lists: &[],
@@ -160,7 +160,7 @@ const TARGET: Id<Target> = Id {
 };
 
 impl PortArgs {
-    /// Tick rate in Hz, from either option.
+    /// Returns the tick rate in Hz, from either of its options.
     fn tick_hz(&self) -> f64 {
         self.step.unwrap_or(self.tick_hz)
     }
@@ -175,13 +175,13 @@ fn about() -> String {
     ABOUT.replace("{dialects}", &dialects.join(", "))
 }
 
-/// An engine's setup with its settings; `None` if no settings come near the wish.
+/// The setup of an engine, with its settings. They are `None` if no settings come near the wish.
 struct PortedEngine {
     setup: Setup,
     ported: Option<Ported>,
 }
 
-/// A drive in an engine: its own and, with the engine's first mode, a force in user code.
+/// A drive in an engine. With the engine's first mode, the drive may also be a force in the user's code.
 struct Drive {
     setup: Setup,
     limits: Vec<DriveLimits>,
@@ -264,7 +264,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             )));
         }
     }
-    // A drive may have any frequency: the question is whether it is stable.
+    // A drive may have any frequency, because the question is only whether it is stable.
     match setups.is_empty() || args.drive {
         true => wish.check_numbers(args.tick_hz()).map_err(Error::mistake)?,
         false => wish.check(args.tick_hz()).map_err(Error::mistake)?,

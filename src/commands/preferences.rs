@@ -1,7 +1,7 @@
-//! Storage of the window's [preferences](SavedPreferences) between runs.
+//! Storage for the [preferences](SavedPreferences) of the window from one run to the next.
 //!
-//! The file is `window.toml` in the system's folder for a program's settings, under `XDG_CONFIG_HOME` on Linux. An
-//! invalid file is ignored, with a line on standard error.
+//! The file is `window.toml`, in the folder that the system has for the settings of a program. On Linux it is under
+//! `XDG_CONFIG_HOME`. If the file is invalid, it is ignored, and a line on standard error reports this.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ use crate::studio::{SavedPreferences, Studio};
 
 const FILE_NAME: &str = "window.toml";
 
-/// Loads the saved preferences, or the defaults if there is no file.
+/// Loads the saved preferences. Without a file, returns the defaults.
 pub(super) fn load() -> SavedPreferences {
     let Some(path) = path() else { return SavedPreferences::default() };
     read(&path).unwrap_or_else(|why| {
@@ -33,13 +33,13 @@ fn read(path: &Path) -> Result<SavedPreferences, String> {
     SavedPreferences::parse(str::from_utf8(&bytes).map_err(|_| "it is not text")?)
 }
 
-/// Saves the preferences. A failure goes to the log only.
+/// Saves the preferences. A failure goes only to the log.
 pub(super) fn save(preferences: &SavedPreferences) {
     let Some(path) = path() else { return };
     let write = |path: &Path| {
         let folder = path.parent().unwrap_or(path);
         std::fs::create_dir_all(folder)?;
-        // Replace the file atomically, as another window may close at the same time.
+        // The file is replaced atomically, because another window may close at the same time.
         begin_file(path)?.write_whole(preferences.to_text().as_bytes(), IfExists::Replace)
     };
     if let Err(error) = write(&path) {
@@ -47,7 +47,7 @@ pub(super) fn save(preferences: &SavedPreferences) {
     }
 }
 
-/// The studio's open scene for the file: a name, or an absolute path.
+/// Returns the studio's open scene in the form that it has in the file, which is a name or an absolute path.
 pub(super) fn scene_of(studio: &Studio) -> Option<PathBuf> {
     match studio.deck.scene_list().open_path() {
         Some(path) => path.canonicalize().ok(),
@@ -55,7 +55,7 @@ pub(super) fn scene_of(studio: &Studio) -> Option<PathBuf> {
     }
 }
 
-/// The folder of the program's settings.
+/// Returns the folder that contains the program's settings.
 pub(super) fn folder() -> Option<PathBuf> {
     Some(ProjectDirs::from("", "", "regatta")?.config_dir().to_owned())
 }

@@ -73,7 +73,7 @@ pub(super) struct RuleArgs {
     format: TableFormat,
 }
 
-/// Name of the rule in messages, and its text.
+/// Returns the name that the rule has in messages, and the text of the rule.
 fn read(written: &str) -> Result<(String, String), Error> {
     let path = Path::new(written);
     let (name, bytes) = if written == "-" {
@@ -144,12 +144,12 @@ fn object(rule: &Rule, written: &str) -> Value {
     })
 }
 
-/// A number with this many digits, or null.
+/// Returns a number with this many digits, or null if there is no number.
 fn digits(value: Option<f64>, digits: usize) -> Value {
     value.map(|value| significant(value, digits)).into()
 }
 
-/// The undamped frequency, if it differs from the visible one by more than a hundredth.
+/// Returns the undamped frequency, if it differs by more than a hundredth from the visible one.
 fn undamped(seen: &VisibleMotion) -> Option<f64> {
     let undamped = seen.spring?.undamped_hz();
     seen.hz.is_none_or(|hz| (hz / undamped - 1.0).abs() > 0.01).then_some(undamped)

@@ -1,4 +1,4 @@
-//! Loads the scene that `--scene` names: a built-in scene, or else a file.
+//! Loads the scene that `--scene` names, which is a built-in scene, or else a file or a link.
 
 use std::path::Path;
 
@@ -17,10 +17,10 @@ use crate::sim::integrators::Method;
 use crate::sim::law::StepText;
 use crate::tools::rule::rule_scene;
 
-/// The frame rate of a rule's author where nothing says it: the usual one of games.
+/// Frame rate of the author of a rule, if nothing states it. It is the usual one of games.
 const USUAL_FPS: TickRate = TickRate::whole(60);
 
-/// Loads the built-in scene of that name, or the scene in that file or link. Returns it with its text.
+/// Loads the built-in scene with this name, or the scene in the file or link. Returns the scene and its text.
 pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
     if let Some(built_in) = built_in(path) {
         return Ok((Scene::parse(built_in.name, built_in.text)?, built_in.text.to_owned()));
@@ -38,7 +38,7 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
 }
 
-/// The scene of the rule in a file of lines.
+/// Returns the scene of the rule whose lines are in a file.
 fn scene_of_rule(path: &Path) -> Result<Scene, Error> {
     let (name, bytes) = (brief(path), read(path)?);
     let Ok(text) = str::from_utf8(&bytes) else {
@@ -52,7 +52,8 @@ fn scene_of_rule(path: &Path) -> Result<Scene, Error> {
     Ok(rule_scene(&name, text, USUAL_FPS)?)
 }
 
-/// Current text of the built-in scene of that name, or of the file at that path; `None` if it cannot be read.
+/// Returns the present text of the built-in scene with this name, or of the file at this path. Returns `None` if the
+/// text cannot be read.
 pub(super) fn text_now(path: &Path) -> Option<String> {
     match built_in(path) {
         Some(built_in) => Some(built_in.text.to_owned()),
@@ -61,7 +62,7 @@ pub(super) fn text_now(path: &Path) -> Option<String> {
     }
 }
 
-/// Checks that `method`, from the command line, can step `scene`.
+/// Checks that `method`, which the command line names, can step `scene`.
 pub(super) fn check_method(scene: &Scene, method: &Method) -> Result<(), Error> {
     if let Some(own) = scene.own_methods.iter().find(|own| own.id == method.id && *own != &method) {
         return Err(Error::mistake(format!(
@@ -79,33 +80,33 @@ pub(super) fn is_built_in(path: &Path) -> bool {
     built_in(path).is_some()
 }
 
-/// Whether `path` looks like a scene: it ends in .toml or is the name of a built-in scene.
+/// Whether `path` looks like a scene, which it does if it ends in .toml or .step, or is the name of a built-in scene.
 pub(super) fn is_name(path: &Path) -> bool {
     is_built_in(path) || is_step(path) || path.extension().is_some_and(|ending| ending == "toml")
 }
 
-/// Whether `path` is a file's path: neither a built-in scene nor a link.
+/// Whether `path` is the path of a file, which means that it is neither a built-in scene nor a link.
 pub(super) fn is_file(path: &Path) -> bool {
     !is_built_in(path) && !is_link(path)
 }
 
-/// The scene at `path` as an input of a command, if it is a file.
+/// Returns the scene at `path` as an input of a command, if the scene is a file.
 pub(super) fn input(path: &Path) -> Option<Input<'_>> {
     is_file(path).then_some((path, "the scene that is run"))
 }
 
-/// The path for messages. A link is too long to show: it contains its run.
+/// Returns the path in the form that it has in messages. A link is too long to show, because it contains its run.
 pub(super) fn name_in_messages(path: &Path) -> String {
     if is_link(path) { "the link".into() } else { brief(path) }
 }
 
-/// Name of the built-in scene in a link, if `path` is such a link.
+/// Returns the name of the built-in scene in a link, or `None` if `path` is not such a link.
 fn name_in_link(path: &Path) -> Option<String> {
     let link = Link::read(path.to_str().filter(|_| is_link(path))?).ok()?;
     link.named().ok().filter(|_| !link.is_packed()).map(|named| named.scene.name)
 }
 
-/// The tick at which a link opens, if `path` is a link with a tick.
+/// Returns the tick at which a link opens, or `None` if `path` is not a link with a tick.
 pub(super) fn tick_of(path: &Path) -> Option<u64> {
     let written = path.to_str().filter(|_| is_link(path))?;
     Link::read(written).ok()?.tick()

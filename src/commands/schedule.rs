@@ -1,5 +1,5 @@
-//! Times of a recording's frames, and the advance of a studio from one to the next. Time is computed, never read from
-//! a clock.
+//! The times of a recording's frames, and the advance of a studio from one frame to the next. These times are computed,
+//! and never read from a clock.
 
 use super::error::Error;
 use super::frame_names::MAX_FRAMES;
@@ -7,13 +7,14 @@ use crate::loops::MAX_FRAME_MS;
 use crate::run::race::Observer;
 use crate::studio::Studio;
 
-/// Default frames per simulated second: smooth enough for every scene, at half the files and half the time of 60.
+/// Default number of frames per simulated second. It is smooth enough for every scene, with half the files and half the
+/// time of 60.
 pub(super) const FPS: u32 = 30;
 
-/// Most frames per simulated second, more than any display shows.
+/// Maximum number of frames per simulated second, which is more than any display shows.
 pub(super) const MAX_FPS: u32 = 1000;
 
-/// Moments of `frames` frames from the start on, `fps` per simulated second.
+/// The moments of `frames` frames, with `fps` frames per simulated second. The first frame is at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Schedule {
     pub(super) frames: u32,
@@ -22,7 +23,7 @@ pub(super) struct Schedule {
 
 const SECOND_NS: u64 = 1_000_000_000;
 
-/// Number of frames in this many seconds, at least one.
+/// Returns the number of frames in this number of seconds, which is at least one.
 pub(super) fn frames_in(seconds: f64, fps: u32) -> Result<u32, Error> {
     let frames = (seconds * f64::from(fps)).round().max(1.0);
     if frames > f64::from(MAX_FRAMES) {
@@ -35,23 +36,23 @@ pub(super) fn frames_in(seconds: f64, fps: u32) -> Result<u32, Error> {
 }
 
 impl Schedule {
-    /// The time of `frame` in nanoseconds, rounded up so that a tick due at that moment is done.
+    /// Returns the time of `frame` in nanoseconds. It is rounded up, so that a tick that is due at that moment is done.
     pub(super) fn time_ns(self, frame: u32) -> u64 {
         (u64::from(frame) * SECOND_NS).div_ceil(u64::from(self.fps))
     }
 
-    /// The tick nearest to the last frame, for a studio at the start.
+    /// Returns the tick nearest to the last frame. `studio` must be at its start.
     pub(super) fn ticks(self, studio: &Studio) -> u64 {
         studio.race().nearest_tick(f64::from(self.frames.saturating_sub(1)) / f64::from(self.fps))
     }
 
-    /// Advances a studio to `frame` and reports each tick to the observer. The studio must be at the frame before, or
-    /// at the start.
+    /// Advances a studio to `frame`, and reports each tick to the observer. The studio must be at the previous frame,
+    /// or at the start.
     pub(super) fn advance(self, studio: &mut Studio, frame: u32, observer: &mut dyn Observer) {
         let Some(before) = frame.checked_sub(1) else { return };
         let longest = u64::from(MAX_FRAME_MS) * 1_000_000;
         let mut left = self.time_ns(frame) - self.time_ns(before);
-        // Advance in stretches that the clock accepts without dropping ticks.
+        // Time advances in stretches that the clock accepts without dropping ticks.
         while left > 0 {
             let stretch = left.min(longest).min(until_rate_changes(studio));
             let due = studio.advance_in_time(u64::MAX, stretch as i64, &mut || true, observer);
@@ -61,7 +62,7 @@ impl Schedule {
     }
 }
 
-/// Nanoseconds, rounded up, until the next tick at which the tick rate changes.
+/// Returns the nanoseconds, rounded up, until the next tick at which the tick rate changes.
 fn until_rate_changes(studio: &Studio) -> u64 {
     let (tick, clock) = (studio.race().tick(), studio.clock());
     let mut rates = studio.race().rates_to_come();
@@ -103,7 +104,7 @@ mod tests {
         assert!(frames_in(3e7, 1000).is_err());
     }
 
-    /// Counts ticks.
+    /// An observer that counts ticks.
     struct Ticks(u64);
 
     impl Observer for Ticks {

@@ -1,4 +1,4 @@
-//! Settings of a capture, and their conversion to and from those of a manifest.
+//! The settings of a capture, and their conversion to and from those of a manifest.
 
 use super::experiment::Experiment;
 use super::frame_names::{MAX_FRAMES, frame_name};
@@ -16,30 +16,30 @@ use crate::studio::{Instrument, Motion, RunCommand, Studio};
 #[cfg(feature = "view")]
 use crate::view::RendererChoice;
 
-/// Settings of a capture: its frames, their size and their content.
+/// Settings of a capture, namely its frames, their size and their content.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CaptureSettings {
     pub(super) schedule: Schedule,
     pub(super) size_px: [u32; 2],
-    /// Pixels per point.
+    /// Number of pixels per point.
     pub(super) scale: f32,
     /// Whether panels are shown around the stage.
     pub(super) panels: bool,
-    /// Instrument in the panels; `None` for the default.
+    /// Instrument in the panels, or `None` for the default one.
     pub(super) instrument: Option<Instrument>,
-    /// Kind of the clouds; `None` for the default shape.
+    /// Kind of the clouds, or `None` for the default shape.
     pub(super) cloud: Option<CloudKind>,
     /// Whether trails fade and the camera glides.
     pub(super) motion: bool,
     pub(super) theme: Theme,
-    /// Ticks between two marks in the manifest.
+    /// Number of ticks between two marks in the manifest.
     pub(super) mark_every: u64,
     #[cfg(feature = "view")]
     pub(super) renderer: RendererChoice,
 }
 
 impl CaptureSettings {
-    /// Prepares an experiment's studio for drawing.
+    /// Prepares the studio of an experiment for drawing.
     pub(super) fn prepare_studio(&self, mut studio: Studio) -> Studio {
         studio.viewer.preferences.display.motion =
             if self.motion { Motion::Recorded } else { Motion::Reduced };
@@ -54,10 +54,10 @@ impl CaptureSettings {
     }
 }
 
-/// The light theme in a manifest. The dark one is not written.
+/// Name of the light theme in a manifest. The dark theme is not written.
 const LIGHT: &str = "light";
 
-/// Settings of a run, for its manifest.
+/// Returns the settings of a run in the form for its manifest.
 pub(super) fn settings_for_manifest(
     experiment: &Experiment,
     capture: &CaptureSettings,
@@ -90,7 +90,7 @@ pub(super) fn settings_for_manifest(
         frames: capture.schedule.frames,
         fps: capture.schedule.fps,
         size: capture.size_px,
-        // The shortest decimal of an f32 reads well as an f64, and reads back as the same f32.
+        // The shortest decimal of the f32 reads well as an f64, and reads back as the same f32.
         scale: capture.scale.to_string().parse().expect("a number's own text"),
         panels: capture.panels,
         instrument: capture.instrument.map(Instrument::id),
@@ -101,10 +101,10 @@ pub(super) fn settings_for_manifest(
     }
 }
 
-/// The run that these settings describe.
+/// Returns the run that these settings describe.
 ///
 /// # Errors
-/// The reason why this program cannot run it.
+/// The reason why this program cannot make the run.
 pub(super) fn from_manifest(settings: &Settings) -> Result<(Experiment, CaptureSettings), String> {
     let SceneText { name, text, .. } = &settings.scene;
     let made = |entry: &OwnEntry| {
@@ -153,7 +153,7 @@ pub(super) fn from_manifest(settings: &Settings) -> Result<(Experiment, CaptureS
         let joint = lane.joint.map(swing);
         Ok(LaneSpec { method, substeps, tolerance, joint })
     };
-    // The lanes already have the substeps of equal cost.
+    // The lanes already have the substeps that equal cost gave them.
     scene.equal_cost = false;
     scene.own_methods.clone_from(&own);
     scene.lanes = settings.lanes.iter().map(lane).collect::<Result<_, String>>()?;
@@ -220,7 +220,8 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), String> {
     }
 }
 
-/// The tick rate that follows from the tick and the time of the last frame, if the rate never changes.
+/// Returns the tick rate in Hz that follows from the tick and the time of the last frame, on the assumption that the
+/// rate never changes.
 fn drawn_at_hz(manifest: &Manifest) -> Option<u64> {
     let last = manifest.frames.len().checked_sub(1)?;
     let FrameEntry { tick, alpha: [numerator, denominator], .. } = manifest.frames[last];

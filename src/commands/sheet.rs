@@ -1,4 +1,4 @@
-//! A contact sheet: one picture of a race, with a column for each moment and a row for each lane.
+//! A contact sheet, which is one picture of a race. It has a column for each moment and a row for each lane.
 
 use std::io::Write;
 
@@ -16,10 +16,10 @@ use crate::scene::LaneSpec;
 use crate::studio::Studio;
 use crate::view::png;
 
-/// Most pixels of a sheet: a gigabyte of memory.
+/// Maximum number of pixels of a sheet. They take a gigabyte of memory.
 const MAX_SHEET_PIXELS: u64 = 1 << 28;
 
-/// Draws every lane of the experiment alone, at the moments of the capture, into one picture.
+/// Draws each lane of the experiment by itself, at the moments of the capture, into one picture.
 pub(super) fn draw(
     experiment: &Experiment,
     studio: &Studio,

@@ -50,18 +50,18 @@ pub(super) struct ShowArgs {
     float: bool,
 }
 
-/// The method or game loop to show.
+/// The item to show, which is a method or a game loop.
 #[derive(Clone, Copy, Debug)]
 enum ShownItem {
     Method {
         method: &'static Method,
-        /// The [other id](Method::also) that the user gave, if it was not the method's own.
+        /// The [other id](Method::also) of the method that the user gave, if it was not the method's own id.
         alias: Option<&'static str>,
     },
     Loop(&'static PolicyCard),
 }
 
-/// Parser for all of these ids, or for a `.step` file.
+/// Parser for the ids of `SHOWN_ITEM`, or for the path of a `.step` file.
 const ITEM_OR_FILE: OrStepFile<ShownItem> =
     OrStepFile { id: SHOWN_ITEM, of: |method| ShownItem::Method { method, alias: None } };
 
@@ -82,12 +82,12 @@ const SHOWN_ITEM: Id<ShownItem> = Id {
     spellings: || [(METHOD.spellings)(), (POLICY.spellings)()].concat(),
 };
 
-/// A language of methods or of game loops.
+/// A language of the code.
 #[derive(Clone, Copy, Debug)]
 enum CodeLanguage {
-    /// A language of methods.
+    /// A language in which methods are available.
     Of(Language),
-    /// C++, the language of some loops but of no method.
+    /// C++, in which some loops are available but no methods.
     Cpp,
 }
 
@@ -103,7 +103,7 @@ const CODE_LANGUAGE: Id<CodeLanguage> = Id {
 };
 
 impl CodeLanguage {
-    /// Name of the language on a loop's card.
+    /// Returns the name that the language has on the card of a loop.
     fn of_loops(self) -> &'static str {
         match self {
             Self::Cpp => "c++",
@@ -125,7 +125,7 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     };
     let language = match args.language {
         CodeLanguage::Of(language) => language,
-        // C++ compiles the C code.
+        // A C++ compiler accepts the C code.
         CodeLanguage::Cpp => Language::C,
     };
     let precision = if args.float { Precision::Single } else { Precision::Double };
@@ -136,7 +136,7 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     print(&code)
 }
 
-/// The source of a loop in a language.
+/// Returns the source code of a loop in a language.
 fn snippet(card: &PolicyCard, language: CodeLanguage) -> Result<&'static str, Error> {
     let found = |written: CodeLanguage| {
         let mut snippets = card.snippets.iter();

@@ -1,4 +1,4 @@
-//! A custom spring on the command line, instead of a scene.
+//! A spring that is described on the command line, in place of a scene.
 
 use clap::Args;
 
@@ -38,7 +38,7 @@ pub(super) struct SpringArgs {
     mass: Option<f64>,
 }
 
-/// Default tick rate of a spring in Hz: the usual one of games.
+/// Default tick rate of a spring, in Hz. It is the usual one of games.
 const USUAL_TICK_HZ: u32 = 60;
 
 impl SpringArgs {
@@ -47,10 +47,10 @@ impl SpringArgs {
         self.k.is_some() || self.frequency.is_some()
     }
 
-    /// The spring's scene and its text; `None` if the options describe no spring.
+    /// Returns the scene of the spring and its text, or `None` if the options describe no spring.
     ///
     /// # Errors
-    /// If the numbers are not valid in a scene.
+    /// If a scene may not have the numbers.
     pub(super) fn load(&self) -> Result<Option<(Scene, String)>, Error> {
         let mass_kg = self.mass.unwrap_or(1.0);
         let by_stiffness = self.k.map(|stiffness_n_per_m| MySpring {

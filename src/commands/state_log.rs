@@ -8,16 +8,16 @@ use crate::run::race::{Observer, Race};
 use crate::sim::Solver;
 use crate::studio::Studio;
 
-/// Default number of marks in a run. They locate a difference to within a few ticks and keep the manifest of a race
+/// Default number of marks in a run. They locate a difference to within a few ticks, and keep the manifest of a race
 /// below a megabyte.
 const USUAL_MARKS: u64 = 500;
 
-/// Default number of ticks between two marks, for a run of this many ticks.
+/// Returns the default number of ticks between two marks, for a run of `ticks` ticks.
 pub(super) fn usual_stride(ticks: u64) -> u64 {
     ticks.div_ceil(USUAL_MARKS).max(1)
 }
 
-/// The marks of one run, from its start.
+/// The marks of a run, from its start on.
 #[derive(Debug)]
 pub(super) struct StateLog {
     every: u64,
@@ -25,12 +25,12 @@ pub(super) struct StateLog {
 }
 
 impl StateLog {
-    /// Starts a log with a mark of the current state.
+    /// Starts a log with a mark of the present state.
     pub(super) fn new(every: u64, race: &Race) -> Self {
         Self { every, marks: vec![mark(race)] }
     }
 
-    /// All marks, the last of the current state.
+    /// Returns all marks. The last one is that of the present state.
     pub(super) fn close(mut self, race: &Race) -> Vec<Mark> {
         if self.marks.last().is_none_or(|last| last.tick != race.tick()) {
             self.marks.push(mark(race));
@@ -59,7 +59,7 @@ fn mark(race: &Race) -> Mark {
     Mark { tick: race.tick(), lanes: lanes.collect() }
 }
 
-/// The end of each lane, with its metrics against the truth.
+/// Returns the state of each lane at the end, with its metrics against the truth.
 pub(super) fn ends(studio: &Studio) -> Vec<LaneEnd> {
     let race = studio.race();
     let end = |(entrant, hash): (&crate::run::race::Entrant, u64)| {

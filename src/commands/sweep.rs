@@ -69,7 +69,8 @@ pub(super) struct SweepArgs {
 
     /// A method, or several [default: all]
     ///
-    /// `regatta list methods` has them. Give the option again for each. A file that ends in .step is a method of your own.
+    /// `regatta list methods` has them. Give the option again for each. A file that ends in .step is a method of your
+    /// own.
     #[arg(long = "method", value_name = "ID|FILE", value_parser = METHOD_OR_FILE)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
@@ -137,7 +138,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
         check_picture_name(plot, &args.out)?;
     }
     let interrupted = watch_for_interrupt();
-    // Open the outputs before the first run: a refusal should not come minutes late.
+    // The outputs are opened before the first run, so that a refusal does not come minutes later.
     let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
     let inputs: Vec<_> = args.scenes.iter().filter_map(|path| scene_file::input(path)).collect();
     let to = |path, option| Destination { path, option, if_exists, inputs: &inputs };
@@ -150,7 +151,8 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
         .transpose()?;
     let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
     let written = write_rows(out, format, COLUMNS, &rows);
-    // Draw even if the rows could not be written: their reader may have closed the pipe after the first few.
+    // The picture is drawn even if the rows could not be written, because their reader may have closed the pipe after
+    // the first few.
     #[cfg(feature = "view")]
     if let Some(plot) = plot {
         let rounded = args.round_off.then(|| round_off::error_curves(&swept.methods));
@@ -160,7 +162,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
 }
 
 impl SweepArgs {
-    /// Path of the picture, if one is asked for.
+    /// Returns the path of the picture, if one is requested.
     fn plot(&self) -> Option<&Path> {
         #[cfg(feature = "view")]
         return self.plot.as_deref();
@@ -168,7 +170,7 @@ impl SweepArgs {
         None
     }
 
-    /// The requested scenes, methods and rates, without repetitions.
+    /// Returns the requested scenes, methods and rates, without repetitions.
     fn load(&self) -> Result<Swept, Error> {
         let built_in = || SCENES.iter().map(|scene| PathBuf::from(scene.name)).collect();
         let spring = self.spring.load()?.map(|(scene, _)| (scene.name.clone(), scene));
@@ -198,7 +200,8 @@ impl SweepArgs {
             }
         }
         for method in &self.methods {
-            // A method runs on those bodies that it can step. If it steps none, refuse it: it would leave no row.
+            // A method runs on the bodies that it can step. If it can step none of them, it is refused, because it
+            // would leave no row.
             let alone =
                 |body: &SceneBody| incompatibility(method, &body.kind, &body.values).is_none();
             if !scenes.iter().any(|(_, scene)| scene.bodies.iter().any(alone)) {

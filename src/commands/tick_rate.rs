@@ -1,4 +1,4 @@
-//! The options that set a tick rate: ticks per second, or the length of a tick.
+//! The options that set a tick rate, as ticks per second or as the length of a tick.
 
 use clap::Args;
 
@@ -23,7 +23,7 @@ pub(super) struct TickRateArgs {
 }
 
 impl TickRateArgs {
-    /// The given rate, if any.
+    /// Returns the tick rate that is given, if any.
     pub(super) fn tick_rate(&self) -> Option<TickRate> {
         self.tick_hz.or(self.step)
     }
@@ -34,8 +34,8 @@ impl TickRateArgs {
 pub(super) struct TickRatesArgs {
     /// Tick rates in Hz, separated by commas
     ///
-    /// From 0.01 to 10000, with at most nine digits after the point, or ratios such as 60000/1001; by default octaves about
-    /// the scene's own.
+    /// From 0.01 to 10000, with at most nine digits after the point, or ratios such as 60000/1001; by default octaves
+    /// about the scene's own.
     #[arg(long, value_name = "N", value_delimiter = ',', allow_negative_numbers = true)]
     tick_hz: Vec<TickRate>,
 
@@ -48,7 +48,7 @@ pub(super) struct TickRatesArgs {
 }
 
 impl TickRatesArgs {
-    /// The given rates, ascending and without duplicates.
+    /// Returns the tick rates that are given, ascending and without duplicates.
     pub(super) fn tick_rates(&self) -> Vec<TickRate> {
         let mut rates = [&self.tick_hz[..], &self.step[..]].concat();
         rates.sort_unstable();
@@ -57,7 +57,7 @@ impl TickRatesArgs {
     }
 }
 
-/// Parses the rate of a game that ran elsewhere: any number of hertz above 0, up to a million.
+/// Parses the tick rate of a game that ran elsewhere. It may be any number of hertz above 0, up to a million.
 ///
 /// # Errors
 /// A message with the valid range.

@@ -1,4 +1,4 @@
-//! `regatta trace`: writes every lane's numbers, tick by tick, as a tidy table on standard output.
+//! `regatta trace`: writes the numbers of every lane, tick by tick, as a tidy table on standard output.
 
 use std::io;
 
@@ -87,11 +87,11 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// The table being written.
+/// The table that is being written.
 struct Trace<'a> {
     rows: RowWriter<Output>,
     args: &'a TraceArgs,
-    /// The current row. Most cells stay for the next row.
+    /// The cells of the present row. Most of them are the same in the next row.
     cells: [Value; COLUMNS.len()],
 }
 
@@ -101,7 +101,7 @@ impl<'a> Trace<'a> {
         Ok(Self { rows, args, cells: Default::default() })
     }
 
-    /// Writes the current state of the truth and of every lane, except for bodies that have halted.
+    /// Writes the present state of the truth and of every lane, but not of bodies that have halted.
     fn tick(&mut self, studio: &Studio) -> io::Result<()> {
         let race = studio.race();
         if !race.tick().is_multiple_of(self.args.every) {
@@ -118,7 +118,7 @@ impl<'a> Trace<'a> {
     }
 }
 
-/// Accuracy of a body's truth on a run: the largest coordinate and velocity, and their errors.
+/// The accuracy of a body's truth during a run: the largest coordinate and velocity, and their errors.
 #[derive(Clone, Copy, Default)]
 pub(super) struct TruthAccuracy {
     pub(super) largest: [f64; 2],
@@ -136,7 +136,7 @@ impl TruthAccuracy {
         self.error = [0, 1].map(|i: usize| self.error[i].max(error[i]));
     }
 
-    /// The larger of the relative errors. An error of 0 stays 0, even for a body that does not move.
+    /// Returns the larger of the two relative errors. An error of 0 stays 0, even for a body that does not move.
     pub(super) fn relative(&self) -> f64 {
         let part =
             |i: usize| if self.error[i] == 0.0 { 0.0 } else { self.error[i] / self.largest[i] };
@@ -144,8 +144,8 @@ impl TruthAccuracy {
     }
 }
 
-/// Reports the accuracy of each body whose truth is a reference solution at the end. `at_start` has the truths at the
-/// start.
+/// Reports the accuracy of each body whose truth is a reference solution at the end. `at_start` has the kinds of the
+/// truths at the start.
 fn print_accuracy(
     bodies: &[SceneBody],
     at_start: &[Truth],
@@ -155,7 +155,7 @@ fn print_accuracy(
     for (((SceneBody { name, .. }, at_start), reached), truth) in
         bodies.iter().zip(at_start).zip(reached).zip(truth.bodies())
     {
-        // A halt has its own message and needs no aim.
+        // A truth that has halted has a message of its own, and no accuracy to report.
         let aim = truth.truth().aimed_accuracy().filter(|_| !truth.stepper.is_beyond_reference());
         let Some(accuracy) = aim else { continue };
         let why = match at_start {
@@ -173,7 +173,7 @@ fn print_accuracy(
     }
 }
 
-/// Messages about bodies that stopped. They wait until the table is done, because they could break it up.
+/// Messages about bodies that halted. They are printed after the table, because they could break it up.
 #[derive(Default)]
 struct Halts {
     lines: Vec<String>,

@@ -1,4 +1,5 @@
-//! Finds the frame traces that `--trace` names: a built-in one, or else the streams of a file.
+//! Finds the frame traces that `--trace` names. A name is that of a built-in trace, or else of a file with streams of
+//! frames.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +12,7 @@ use crate::loops::{
 use crate::regular_file;
 use crate::scene::nearest;
 
-/// Refresh rate for a trace that suits any display.
+/// Refresh rate of the display for a trace that suits any display.
 const USUAL: RefreshRate = RefreshRate::new(60, 1);
 
 fn remedy(path: &Path) -> String {
@@ -22,9 +23,9 @@ fn remedy(path: &Path) -> String {
     }
 }
 
-/// The named traces, on a display of the rate `display` if they have none of their own. Without a name, frames at
-/// `fps`, or an even display of that rate, or else all built-in traces. A display without a rate shows each frame
-/// when it begins.
+/// Returns the traces that are named. Those that have no display of their own are on a display of the rate `display`.
+/// If none is named, returns frames at `fps`, or an even display of the rate `display`, or else all built-in traces. A
+/// display without a rate shows each frame when it begins.
 pub(super) fn traces(
     names: &[PathBuf],
     display: Option<RefreshRate>,

@@ -1,8 +1,9 @@
-//! The recording of a run in progress: a scene file beside the final one. A longer one replaces it every few seconds,
-//! and it is removed when the recording is whole. The next start reports one that a killed program left behind.
+//! The recording of a run in progress, which is a scene file beside the final one. Every few seconds a longer recording
+//! replaces it. It is removed when the final recording is whole. If a program is killed, the next start reports the
+//! recording that was left behind.
 //!
-//! A note beside the settings names its path, and is locked as long as the program runs. Only files that have both
-//! the name and the text of a note are ever removed there.
+//! A note beside the settings names the path of the recording, and is locked as long as the program runs. Files there
+//! are removed only if they have both the name and the text of a note.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -16,29 +17,29 @@ use crate::atomic_file::{IfExists, RANDOM_CHARS, is_random};
 use crate::regular_file;
 use crate::window::KeepRecording;
 
-/// Text between the stem and the number in an unfinished recording's name, and the name's ending.
+/// Text between the stem and the number in the name of an unfinished recording, and the ending of the name.
 const UNFINISHED: &str = ".unfinished";
 const ENDING: &str = ".toml";
 
-/// How notes are stored: their folder beside the settings, the form of their names, and their first words.
+/// How notes are stored: the folder beside the settings, the form of the names, and the first words of the text.
 struct Notes {
     folder: &'static str,
-    /// Text before and after the random characters of a note's name.
+    /// Text before and after the random characters in the name of a note.
     name: [&'static str; 2],
     heading: &'static str,
 }
 
-/// Notes of this release. Their folder is hidden, so that nobody takes it for a store of recordings.
+/// The notes of this release. Their folder is hidden, so that nobody mistakes it for a store of recordings.
 const NOTES: Notes = Notes {
     folder: ".unfinished-notes",
     name: ["recording-", ".note"],
     heading: "regatta has an unfinished recording in\n",
 };
 
-/// Notes of earlier releases, in a folder that may also contain a person's recordings.
+/// The notes of earlier releases. Their folder may also contain a person's recordings.
 const OLDER_NOTES: Notes = Notes { folder: "recordings", name: [".tmp", ""], heading: "" };
 
-/// Most bytes of a note, more than a path has.
+/// Maximum number of bytes of a note, which is more than a path has.
 const MAX_NOTE_BYTES: usize = 1 << 16;
 
 /// A recording in progress.
@@ -47,16 +48,16 @@ pub(super) struct UnfinishedRecording {
 }
 
 enum RecordingState {
-    /// Nothing is written yet. The file will get this path, or a free one beside it.
+    /// Nothing is written yet. The file will have this path, or a free one beside it.
     Wanted(PathBuf),
-    /// The file, and the note with its path, unless the note could not be written.
+    /// The file is growing. A note has its path, unless the note could not be written.
     Growing { path: PathBuf, note: Option<Note> },
-    /// The recording is whole: nothing more is written.
+    /// The recording is whole, so nothing more is written.
     Finished,
 }
 
 impl UnfinishedRecording {
-    /// An unfinished recording beside the file that will contain the whole one.
+    /// Creates an unfinished recording beside the file `recording`, which will contain the whole one.
     pub(super) fn for_recording(recording: &Path) -> Self {
         let stem = match recording.extension() {
             Some(ending) if ending == "toml" => recording.file_stem(),
@@ -69,7 +70,7 @@ impl UnfinishedRecording {
         Self { state: Arc::new(Mutex::new(state)) }
     }
 
-    /// The callback that saves the recording so far.
+    /// Returns the callback that saves the recording so far.
     pub(super) fn keeper(&self) -> KeepRecording {
         let state = Arc::clone(&self.state);
         Box::new(move |text| {
@@ -78,7 +79,7 @@ impl UnfinishedRecording {
         })
     }
 
-    /// Removes the file, since the recording is whole.
+    /// Removes the file, because the recording is whole.
     pub(super) fn finish(self) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         if let RecordingState::Growing { path, note } =
@@ -110,7 +111,7 @@ impl RecordingState {
     }
 }
 
-/// A file with the path of an unfinished recording.
+/// A file that has the path of an unfinished recording.
 struct Note {
     path: PathBuf,
     _locked: File,
@@ -141,13 +142,14 @@ impl Notes {
         Ok(settings.join(self.folder))
     }
 
-    /// Text of the note on a recording; `None` if its path does not fit into a line.
+    /// Returns the text of the note on a recording, or `None` if the path of the recording does not fit into a line.
     fn text(&self, recording: &Path) -> Option<String> {
         let path = recording.to_str().filter(|path| !path.contains(char::is_control))?;
         Some(format!("{}{path}", self.heading))
     }
 
-    /// The recording that the note at `path` names; `None` if the file has not the name or not the text of a note.
+    /// Returns the recording that the note at `path` names, or `None` if the file does not have both the name and the
+    /// text of a note.
     fn recording_in(&self, path: &Path) -> Option<PathBuf> {
         let [before, behind] = self.name;
         let name = path.file_name()?.to_str()?;
@@ -161,11 +163,11 @@ impl Notes {
         (is_noted && recording.is_absolute() && is_unfinished(&recording)).then_some(recording)
     }
 
-    /// Removes the note at `path` if the program that wrote it is gone. Returns a message about its recording, if
-    /// that still exists.
+    /// Removes the note at `path` if the program that wrote it no longer runs. Returns a message about the recording,
+    /// if that still exists.
     fn left_behind_in(&self, path: &Path) -> Option<String> {
         let recording = self.recording_in(path)?;
-        // A running program would still have the lock.
+        // A program that still runs would have the lock.
         File::open(path).ok()?.try_lock().ok()?;
         fs::remove_file(path).ok()?;
         let name = recording.display();
@@ -181,8 +183,8 @@ impl Notes {
     }
 }
 
-/// Whether the name may belong to an [unfinished](UnfinishedRecording::for_recording) recording: `x.unfinished.toml`,
-/// or `x.unfinished-2.toml` if that was taken.
+/// Whether the name may be that of an [unfinished](UnfinishedRecording::for_recording) recording. Such a name is
+/// `x.unfinished.toml`, or `x.unfinished-2.toml` if that was taken.
 fn is_unfinished(recording: &Path) -> bool {
     let name = recording.file_name().and_then(OsStr::to_str).unwrap_or_default();
     let stem = name.strip_suffix(ENDING).unwrap_or_default();
@@ -191,7 +193,7 @@ fn is_unfinished(recording: &Path) -> bool {
     })
 }
 
-/// Messages about recordings that programs left behind. Each appears once.
+/// Returns the messages about recordings that programs have left behind. Each recording appears once.
 pub(super) fn left_behind() -> Vec<String> {
     [NOTES, OLDER_NOTES].iter().flat_map(Notes::left_behind).collect()
 }
@@ -266,7 +268,7 @@ mod tests {
             }
             assert_eq!(fs::read_to_string(folder.join(name)).unwrap(), text, "{name}");
         }
-        // If the recording is gone by now, its note goes too.
+        // The note is removed too if its recording no longer exists.
         for (notes, name, text) in [
             (
                 NOTES,

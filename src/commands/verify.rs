@@ -1,7 +1,7 @@
 //! `regatta verify`: checks that this program still reproduces a capture or a recording.
 //!
-//! Repeats a run once. Its physics must match bit by bit, also without a GPU. Its pixels may differ while the physics
-//! is the same.
+//! The run is repeated once. Its physics must match bit by bit, even without a GPU. Its pixels may differ although the
+//! physics is the same.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -113,21 +113,21 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), Error> {
     report.outcome()
 }
 
-/// The manifest of the capture in `dir`, and the run that it describes.
+/// Returns the manifest of the capture in `dir`, and the run that the manifest describes.
 pub(super) fn manifest_of(dir: &Path) -> Result<(Manifest, Experiment), Error> {
     let rerun = clip::read_run(dir)?;
     Ok((rerun.manifest, rerun.experiment))
 }
 
-/// Whether `path` counts as a scene file: a link, a file, or a missing path that ends in `.toml`.
+/// Whether `path` counts as a scene file. It does if it is a link, a file, or a missing path that ends in `.toml`.
 fn is_scene_file(path: &Path) -> bool {
     super::scene_file::is_link(path)
         || !path.is_dir()
             && (path.exists() || path.extension().is_some_and(|ending| ending == "toml"))
 }
 
-/// Opens the files that `--report` names. None of them may be a file of a capture, the judged recording, or anything
-/// else than an older report.
+/// Opens the files that `--report` names. A report may replace only an older report, and no file of a capture and not
+/// the judged recording.
 fn report_files(args: &VerifyArgs) -> Result<Vec<ReportFile>, Error> {
     let mut files: Vec<(ReportFormat, &Path)> = Vec::new();
     for words in args.report.as_deref().unwrap_or_default().chunks_exact(2) {
@@ -159,30 +159,31 @@ fn percent(written: &str) -> Result<f64, String> {
     number_that(written, |it| (0.0..=100.0).contains(&it), "a percentage from 0 to 100")
 }
 
-/// A capture's run from its manifest, to be repeated.
+/// The run of a capture, as its manifest describes it, which is to be repeated.
 struct Rerun {
     manifest: Manifest,
     capture: CaptureSettings,
     experiment: Experiment,
 }
 
-/// Frames of a repeated run.
+/// The frames of a repeated run.
 struct Frames {
-    /// Whether they must be the same to the byte.
+    /// Whether the frames must be the same to the byte.
     are_exact: bool,
-    /// Difference of each frame from its file, if any.
+    /// Difference of each frame from its file, or `None` if there is none.
     differences: Vec<Option<String>>,
 }
 
 impl Rerun {
-    /// The studio at the start of the run, and a log of its states.
+    /// Returns the studio at the start of the run, and a log of the studio's states.
     fn begin(&self) -> (Studio, StateLog) {
         let studio = self.capture.prepare_studio(self.experiment.studio());
         let state_log = StateLog::new(self.capture.mark_every, studio.race());
         (studio, state_log)
     }
 
-    /// Runs to the end without drawing. Returns the studio and its log, or `None` after an interrupt.
+    /// Runs the studio to the end without drawing. Returns the studio and the log of its states, or `None` after an
+    /// interrupt.
     fn run(&self, interrupted: &AtomicBool) -> Option<(Studio, StateLog)> {
         let (mut studio, mut state_log) = self.begin();
         for frame in 0..self.manifest.frames.len() as u32 {

@@ -3,15 +3,15 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// Whether a terminal may obey this character or reorder others by it. These are control characters, except line ends
-/// and tabs, and characters that set the direction of writing.
+/// Whether a terminal may obey this character, or reorder other characters by it. Such characters are control
+/// characters, except line ends and tabs, and those that set the direction of writing.
 fn is_hidden(sign: char) -> bool {
     sign.is_control() && !matches!(sign, '\n' | '\t')
         || matches!(sign, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Replaces control characters and those of writing direction with visible signs: their pictures if Unicode has them.
-/// CRLF line ends stay.
+/// Replaces control characters, and characters that set the direction of writing, by visible signs. A control character
+/// becomes its picture in Unicode, if it has one. CRLF line ends stay.
 pub fn visible(text: &str) -> Cow<'_, str> {
     if !text.contains(is_hidden) {
         return text.into();
@@ -27,7 +27,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     shown.collect()
 }
 
-/// The text for use within a line: line ends become signs too.
+/// Returns the text in a form for use within a line, in which line ends become signs too.
 pub(super) fn visible_in_a_line(text: &str) -> String {
     visible(text).replace('\r', "\u{240d}").replace('\n', "\u{240a}")
 }
@@ -36,7 +36,7 @@ fn picture(code: u32) -> char {
     char::from_u32(0x2400 + code).unwrap_or(char::REPLACEMENT_CHARACTER)
 }
 
-/// JSON with the same value, but with escapes for hidden characters in its strings.
+/// Returns JSON with the same value, but with escapes for the hidden characters in its strings.
 pub(super) fn visible_json(text: &str) -> Cow<'_, str> {
     if !text.contains(is_hidden) {
         return text.into();

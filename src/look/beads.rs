@@ -1,4 +1,4 @@
-//! Draws a custom body or a law as beads: one bead per coordinate, each on its rail, or one bead in a plane.
+//! Draws a custom body or a law as beads: one bead per coordinate, each on a rail of its own, or one bead in a plane.
 
 use glam::DVec2;
 
@@ -12,22 +12,22 @@ const BEAD_IN_PLANE: f64 = 0.045;
 const RAILS_APART: f64 = 0.3;
 const MARGIN: f64 = 0.2;
 
-/// Half the length of a rail, in halves of the motion's range.
+/// Half the length of a rail, as a multiple of half the coordinate's range.
 const BEYOND: f64 = 1.25;
 
 /// Length of the trail in a plane, in seconds.
 const TRAIL_S: f64 = 4.0;
 
-/// The rail of one coordinate: where its range lies in the picture, and at which scale.
+/// The rail of one coordinate: its position and its scale in the picture.
 #[derive(Clone, Copy)]
 struct Rail {
     /// Middle of the coordinate's range.
     middle: f64,
-    /// Half of that range.
+    /// Half of the coordinate's range.
     half: f64,
     /// Position of the middle in the picture.
     at: DVec2,
-    /// Metres of the picture for a unit of the coordinate.
+    /// Metres of the picture per unit of the coordinate.
     scale: f64,
 }
 
@@ -40,14 +40,14 @@ impl Rail {
         self.middle + (x - self.at.x) / self.scale
     }
 
-    /// Left and right end of the rail in the picture.
+    /// Returns the left and right end of the rail in the picture.
     fn ends(&self) -> [DVec2; 2] {
         [-1.0, 1.0].map(|side| self.place(self.middle + side * BEYOND * self.half))
     }
 }
 
-/// Middle and half-width of a range. An empty range is as wide as its value is large; a range of zeros has a
-/// half-width of 1.
+/// Returns the middle and the half-width of a range. For an empty range, the half-width is the magnitude of its value;
+/// for a range of zeros it is 1.
 fn middle_and_half(&(low, high): &(f64, f64)) -> [f64; 2] {
     let (middle, half) = (low + (high - low) / 2.0, (high - low) / 2.0);
     let half = if half > 1e-9 * middle.abs() { half } else { middle.abs() };
@@ -64,8 +64,9 @@ pub(super) struct Beads<'a> {
 }
 
 impl Beads<'_> {
-    /// The rails from the top down. Coordinates with the first one's unit share its scale and zero, so that they can
-    /// be compared. Every other coordinate has its range scaled to the same length.
+    /// Returns the rails from the top down. Coordinates with the unit of the first one share its scale and zero, so
+    /// that they can be compared. Every other coordinate has a scale of its own, at which its range is as long as the
+    /// others'.
     fn rails(&self) -> Vec<Rail> {
         let [_, unit] = self.coordinates[0];
         let pairs = || self.ranges.iter().zip(&self.coordinates);
@@ -83,7 +84,7 @@ impl Beads<'_> {
         pairs().enumerate().map(rail).collect()
     }
 
-    /// Centre of the plane's picture, and half its width and height.
+    /// Returns the centre of the plane's picture, and half the picture's width and height.
     fn plane_room(&self, plane: [usize; 2]) -> [DVec2; 2] {
         let [x, y] = plane.map(|place| middle_and_half(&self.ranges[place]));
         let half = x[1].max(y[1]);
@@ -144,7 +145,7 @@ impl BodyPicture for Beads<'_> {
         rails.iter().zip(q).map(|(rail, &q)| Handle { at: rail.place(q), radius }).collect()
     }
 
-    /// The other coordinates keep their values and velocities.
+    /// Moves the pulled coordinates only. All others keep their values and velocities.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         match self.plane {
             Some([x, y]) => {

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Chain;
 
-/// Radius of each bead of a chain, in metres.
+/// Returns the radius of the beads of a chain, in metres.
 fn bead(chain: &Chain, beads: usize) -> f64 {
     let room = -2.0 * chain.place_of(0, 0.0).x / (beads + 1) as f64;
     (0.28 * room).min(0.11 * chain.amplitude())
@@ -44,7 +44,7 @@ impl BodyPicture for Chain {
         (1..).zip(q).map(|(j, &x)| Handle { at: self.place_of(j, x), radius }).collect()
     }
 
-    /// The other beads keep their positions and velocities.
+    /// Moves the pulled bead only. The other beads keep their positions and velocities.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         q[pull.handle] = pull.to.y;
         v[pull.handle] = pull.velocity.y;

@@ -1,4 +1,4 @@
-//! Draws a custom body with its author's drawing function, or else as beads on rails or in a plane.
+//! Draws a custom body with its author's drawing function or, if there is none, as beads on rails or in a plane.
 
 use super::beads::Beads;
 use super::{BodyPicture, Framing, Handle, Outline, Pull, typed};

@@ -3,14 +3,15 @@
 use super::palette::{Rgba, Theme, mix};
 use crate::measure::cloud::Density;
 
-/// Tones are precomputed up to a count of `USUAL`, in steps of 1/`PARTS` of a point.
+/// Tones are precomputed for counts up to `USUAL`, in steps of 1/`PARTS` of a point.
 const PARTS: f32 = 8.0;
 const USUAL: usize = 256;
 
-/// Density of the brightest tone, relative to the mean, unless the densest pixel exceeds it.
+/// Density at which a pixel has the brightest tone, relative to the mean density. If the densest pixel exceeds it, that
+/// pixel has the brightest tone.
 const DENSE: f32 = 8.0;
 
-/// Colours of the counts, brighter with the logarithm of the count. `sum` is the sum of all counts.
+/// Returns the colours of the counts, which brighten with the logarithm of the count. `sum` is the sum of all counts.
 fn shaded(
     counts: impl Iterator<Item = f32> + Clone,
     sum: f32,
@@ -56,8 +57,9 @@ fn spread(counts: &[f32], stride: usize, places: usize) -> Vec<f32> {
     spread
 }
 
-/// The picture of a cloud in a method's colour, brighter with the logarithm of the count and transparent where no
-/// point is. It is scaled to `size_px`; a point that falls between two pixels is shared by both.
+/// Returns the picture of a cloud in a method's colour. A pixel brightens with the logarithm of its count, and is
+/// transparent where no point is. The picture is scaled to `size_px`, and a point that falls between two pixels counts
+/// for both in part.
 pub fn density_picture(
     density: &Density,
     size_px: [usize; 2],

@@ -5,14 +5,15 @@ use glam::DVec2;
 use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Follow;
 
-/// Largest distance of the camera or the target from 0 at the start, in metres; 1 if both stay at 0.
+/// Returns the largest distance of the camera or the target from 0 at the start, in metres; 1 if both stay at 0.
 fn reach(follow: &Follow) -> f64 {
     let target = follow.step.abs() + follow.sine.abs();
     let reach = target.max(follow.x0.abs());
     if reach > 0.0 { reach } else { 1.0 }
 }
 
-/// Radius of the camera, radius of the target, and half the length of the line across the target, in reaches.
+/// Radius of the camera, radius of the target, and half the length of the line across the target, as multiples of the
+/// `reach`.
 const CAMERA: f64 = 0.09;
 const TARGET: f64 = 0.045;
 const HALF_POST: f64 = 0.16;
@@ -35,7 +36,7 @@ impl BodyPicture for Follow {
         vec![Handle { at: DVec2::new(q[0], 0.0), radius: CAMERA * reach(self) }]
     }
 
-    /// Under the first-order law, the camera's velocity depends on its position.
+    /// Pulls the camera. Under the first-order law, its velocity follows from its position instead of the pull.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         v[0] = match self.order {
             1 => v[0] - self.rate * (pull.to.x - q[0]),

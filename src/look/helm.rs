@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Helm;
 
-/// Width of the view in metres: it shows a turning circle.
+/// Width of the view in metres, enough for a turning circle.
 const WIDTH_M: f64 = 150.0;
 
 /// Length of the hull, in metres.
@@ -25,7 +25,7 @@ impl BodyPicture for Helm {
         vec![Handle { at: DVec2::from_slice(q), radius: LENGTH_M / 2.0 }]
     }
 
-    /// The ship keeps its heading and stops turning.
+    /// Moves the ship, which keeps its heading and stops turning.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         pull.to.write_to_slice(q);
         pull.velocity.extend(0.0).write_to_slice(v);

@@ -1,29 +1,30 @@
-//! Things of familiar size, from a person to the observable universe: marks on the way of a body that runs away.
+//! Things of familiar size, from a person to the observable universe. They mark the way of a body that runs away.
 
 use SilhouetteShape::{Disc, Outline, Ring};
 
 /// A thing of familiar size.
 pub(crate) struct Landmark {
-    /// Name in the singular with its article, and in the plural.
+    /// Name in the singular with its article, and name in the plural.
     pub(crate) names: [&'static str; 2],
-    /// Length in metres, and as text.
+    /// Length in metres, and the same length as text.
     pub(crate) length_m: f64,
     pub(crate) length: &'static str,
     pub(crate) silhouette: &'static [SilhouetteShape],
 }
 
-/// A part of a silhouette, in lengths of the whole: across from its left end, and up from its middle.
+/// A part of a silhouette. The unit is the length of the whole thing; x counts from its left end, and y upwards from
+/// its middle.
 pub(crate) enum SilhouetteShape {
-    /// Centre and radius.
+    /// A filled circle with this centre and radius.
     Disc([f32; 2], f32),
-    /// Centre and radius.
+    /// A circle's line with this centre and radius.
     Ring([f32; 2], f32),
-    /// Corners, all visible from their mean.
+    /// A filled polygon with these corners, all of which are visible from their mean.
     Outline(&'static [[f32; 2]]),
 }
 
 impl Landmark {
-    /// Largest extent up or down from its middle, in its lengths.
+    /// Returns the largest extent of the silhouette up or down from its middle, relative to the thing's length.
     pub(crate) fn half_height(&self) -> f32 {
         let highest = |part: &SilhouetteShape| match part {
             Disc([_, y], radius) | Ring([_, y], radius) => y.abs() + radius,
@@ -42,10 +43,10 @@ const fn known(
     Landmark { names, length_m, length, silhouette }
 }
 
-/// From small to large. The court is the rules', the jet a Boeing 747-400, the pyramid measures along its foot. The
-/// tower has its height since 2022, the ship is among the longest of its kind, and the
-/// island's length is along its longest street. The Sun and the light year are the IAU's. The orbit is twice 30.07
-/// au, the Galaxy 100 000 light years and the observable universe 93 billion.
+/// All landmarks, from small to large. The court has the size that the rules demand, the jet is a Boeing 747-400, and
+/// the pyramid is measured along its foot. The tower has its height since 2022, the ship is among the longest of its
+/// kind, and the island is measured along its longest street. The sizes of the Sun and of the light year are those of
+/// the IAU. The orbit is twice 30.07 au wide, the Galaxy 100 000 light years and the observable universe 93 billion.
 #[rustfmt::skip]
 pub(crate) static LANDMARKS: [Landmark; 14] = [
     known(["a person", "people"], 1.75, "1.75 m", &[
@@ -124,14 +125,16 @@ pub(crate) static LANDMARKS: [Landmark; 14] = [
     ]),
 ];
 
-/// Powers of ten from one landmark to the next, for a view of this width in metres. Infinite beyond the last.
+/// Two landmarks count as one if they are fewer powers of ten apart than this.
+const LEAST_DECADES: f64 = 0.3;
+
+/// Returns the powers of ten between the last landmark below this width in metres and the next one; infinity beyond the
+/// last landmark.
 pub(crate) fn decades_to_next(width_m: f64) -> f64 {
     let next = LANDMARKS.iter().position(|landmark| landmark.length_m > width_m);
-    match next {
-        Some(0) => libm::log10(LANDMARKS[1].length_m / LANDMARKS[0].length_m),
-        Some(next) => libm::log10(LANDMARKS[next].length_m / LANDMARKS[next - 1].length_m),
-        None => f64::INFINITY,
-    }
+    let Some(next) = next else { return f64::INFINITY };
+    let [from, to] = [next.max(1) - 1, next.max(1)].map(|index| LANDMARKS[index].length_m);
+    libm::log10(to / from).max(LEAST_DECADES)
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
     }
     let unit = text.coordinates[0].unit;
     let alike = text.coordinates.iter().take_while(|of| of.unit == unit).count();
-    // Coordinates in other units are not positions along the same axis.
+    // Coordinates in other units are not positions on this axis.
     let ranges = preview.ranges[..alike].to_vec();
     match text.layout {
         Layout::Beads => {
@@ -37,14 +37,14 @@ pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
     }
 }
 
-/// Minimum and maximum of 0 and all ranges; -1 and 1 if every range is 0.
+/// Returns the minimum and maximum of 0 and all ranges; -1 and 1 if every range is 0.
 fn reach(ranges: &[(f64, f64)]) -> [f64; 2] {
     let (low, high) =
         ranges.iter().fold((0.0_f64, 0.0_f64), |all, next| (all.0.min(next.0), all.1.max(next.1)));
     if low < high { [low, high] } else { [-1.0, 1.0] }
 }
 
-/// Radius of the follower and of its target, relative to the farthest distance that either reaches.
+/// Radius of the follower and of its target, relative to the largest distance from 0 that either of them reaches.
 const BODY: f64 = 0.08;
 const TARGET: f64 = 0.05;
 
@@ -59,7 +59,7 @@ impl Follower {
         high.max(-low)
     }
 
-    /// The coordinates that are drawn: the follower, then its target if there is one.
+    /// Returns the drawn coordinates, which are the follower and, if there is one, its target.
     fn places<'q>(&self, q: &'q [f64]) -> &'q [f64] {
         &q[..self.ranges.len().min(2)]
     }

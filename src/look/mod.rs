@@ -32,7 +32,7 @@ pub use density::density_picture;
 /// The part of a body's world that the stage shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Framing {
-    /// Afloat: the camera follows the true body over the water, and a wake marks where the body has been.
+    /// Afloat: the camera follows the true body over the water, and a wake marks the body's way.
     Follow {
         /// Minimum visible width in metres; about six hulls.
         width_m: f64,
@@ -47,8 +47,7 @@ pub enum Framing {
         /// Metres from the middle to the edge.
         half_width_m: f64,
     },
-    /// The camera stays and shows a rectangle, or more if the true body moves further. The trail marks where the body
-    /// has been.
+    /// The camera stays and shows a rectangle, or more if the true body moves further. A trail marks the body's way.
     Fixed {
         /// Centre of the rectangle.
         centre_m: DVec2,
@@ -62,13 +61,13 @@ pub enum Framing {
 /// A part of a body that a person can grab.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Handle {
-    /// Its centre, in metres.
+    /// Centre of the handle, in metres.
     pub at: DVec2,
-    /// Its radius, in metres.
+    /// Radius of the handle, in metres.
     pub radius: f64,
 }
 
-/// Target of a grabbed handle, and its velocity there.
+/// Target position of a grabbed handle, and the velocity that the handle has there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pull {
     /// Index of the handle among the body's [handles](Look::handles).
@@ -81,33 +80,33 @@ pub struct Pull {
 
 /// The picture of one kind of body with its current parameters.
 trait BodyPicture {
-    /// Draws the body at the coordinates `q`, in metres, x right and y up. [`Outline::at`] is its position and
+    /// Draws the body at the coordinates `q`, in metres, x right and y up. [`Outline::at`] is the body's position and
     /// [`Outline::t`] the time.
     fn draw(&self, q: &[f64], outline: &mut Outline);
 
     fn framing(&self) -> Framing;
 
-    /// The closed course that the body follows from this state; empty if it has none.
+    /// Returns the closed course that the body follows from this state; empty if the course is not closed.
     fn course(&self, _q: &[f64], _v: &[f64]) -> Vec<DVec2> {
         Vec::new()
     }
 
-    /// The true motion from this state on in a few words, if it is simple.
+    /// Describes the true motion from this state on in a few words, if the motion is simple.
     fn describe_motion(&self, _q: &[f64], _v: &[f64]) -> Option<String> {
         None
     }
 
-    /// Amplitude of the true motion from this state on, in metres, if it is simple.
+    /// Returns the amplitude of the true motion from this state on, in metres, if the motion is simple.
     fn swing_m(&self, _q: &[f64], _v: &[f64]) -> Option<f64> {
         None
     }
 
-    /// Whether it is a single body above a ground, on which it comes down again.
+    /// Whether the picture shows a single body above a ground, to which the body falls back.
     fn has_ground(&self) -> bool {
         false
     }
 
-    /// The handles of the body at these coordinates.
+    /// Returns the handles of the body at these coordinates.
     fn handles(&self, q: &[f64]) -> Vec<Handle>;
 
     /// Brings a handle as close to its target position and velocity as the body allows. Coordinates that the handle
@@ -115,7 +114,7 @@ trait BodyPicture {
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull);
 }
 
-/// How to place and draw bodies of one kind.
+/// Functions that place and draw bodies of one kind.
 struct LookCard {
     /// Id of the kind.
     kind: &'static str,
@@ -134,13 +133,13 @@ static LOOKS: &[LookCard] = &[
     LookCard::plain::<Follow>("follow"),
 ];
 
-/// The looks of kinds outside that table.
+/// The looks of kinds outside the table of built-in kinds.
 static LAW_LOOK: LookCard = LookCard::of::<Law>("law", law::picture);
 static NET_LOOK: LookCard = LookCard::of::<Net>("net", net::picture);
 static CUSTOM_LOOK: LookCard = LookCard::of::<Custom>("custom", custom::picture);
 
-/// Unit of a body's picture, as text for people: that of its plane, or else of its first coordinate. Empty for a pure
-/// number.
+/// Returns the unit of a body's picture, as text for people. It is the unit of the body's plane or, without a plane, of
+/// its first coordinate. A pure number has an empty unit.
 pub(crate) fn drawn_unit(kind: &Kind) -> &'static str {
     let plane = match &kind.origin {
         Origin::Law(law) if !law.has_places() => law.text().plane,
@@ -186,13 +185,13 @@ pub struct Look<'a> {
 }
 
 impl<'a> Look<'a> {
-    /// The look of `body`.
+    /// Returns the look of `body`.
     pub fn of(body: &'a LaneBody) -> Self {
         let card = LookCard::find(&body.kind);
         Self { body, card, picture: (card.picture)(body) }
     }
 
-    /// The outline at the coordinates `q` at time `t` (s).
+    /// Returns the outline at the coordinates `q` at time `t` (s).
     pub fn outline(&self, t: f64, q: &[f64]) -> Outline {
         let at = (self.card.place)(self.body.stepper.body(), q);
         let mut outline = Outline { t, at, ..Outline::default() };
@@ -200,32 +199,32 @@ impl<'a> Look<'a> {
         outline
     }
 
-    /// The part of the body's world that the stage shows.
+    /// Returns the part of the body's world that the stage shows.
     pub fn framing(&self) -> Framing {
         self.picture.framing()
     }
 
-    /// The closed course that the body follows from this state; empty if it has none.
+    /// Returns the closed course that the body follows from this state; empty if the course is not closed.
     pub fn course(&self, q: &[f64], v: &[f64]) -> Vec<DVec2> {
         self.picture.course(q, v)
     }
 
-    /// The true motion from this state on in a few words, if it is simple.
+    /// Describes the true motion from this state on in a few words, if the motion is simple.
     pub fn describe_motion(&self, q: &[f64], v: &[f64]) -> Option<String> {
         self.picture.describe_motion(q, v)
     }
 
-    /// Amplitude of the true motion from this state on, in metres, if it is simple.
+    /// Returns the amplitude of the true motion from this state on, in metres, if the motion is simple.
     pub fn swing_m(&self, q: &[f64], v: &[f64]) -> Option<f64> {
         self.picture.swing_m(q, v)
     }
 
-    /// Whether it is a single body above a ground, on which it comes down again.
+    /// Whether the picture shows a single body above a ground, to which the body falls back.
     pub fn has_ground(&self) -> bool {
         self.picture.has_ground()
     }
 
-    /// The handles of the body at the coordinates `q`.
+    /// Returns the handles of the body at the coordinates `q`.
     pub fn handles(&self, q: &[f64]) -> Vec<Handle> {
         self.picture.handles(q)
     }
@@ -255,7 +254,7 @@ mod tests {
     use crate::sim::Solver;
     use crate::sim::bodies::{BODIES, kind};
 
-    /// The kind's built-in scene, stepped by the truth.
+    /// Returns a lane of the kind's built-in scene, stepped by the truth.
     fn lane(kind: &Kind) -> Lane {
         Lane::new(&Scene::built_in(kind.id).expect("a scene for each kind"), Solver::Truth, 1)
     }

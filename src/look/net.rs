@@ -9,10 +9,10 @@ use crate::run::race::LaneBody;
 use crate::scene::{Preview, Thread};
 use crate::sim::bodies::Net;
 
-/// Largest number of nodes with beads. In larger nets beads would hide the threads.
+/// Maximum number of nodes with beads. In larger nets beads would hide the threads.
 const MAX_BEADS: usize = 64;
 
-/// Radius of a bead, of a pin, and of a handle, in lengths of the shortest spring.
+/// Radius of a bead, of a pin, and of a handle, relative to the length of the shortest spring.
 const BEAD: f64 = 0.13;
 const PIN: f64 = 0.16;
 const GRIP: f64 = 0.45;
@@ -20,7 +20,7 @@ const GRIP: f64 = 0.45;
 /// Largest radius of a bead or a pin, relative to the picture's width.
 const MAX_BEAD: f64 = 0.01;
 
-/// Margin around the motion, relative to the motion.
+/// Margin around the motion, relative to the size of the motion.
 const MARGIN: f64 = 0.12;
 
 /// Length of the marked node's trail, in seconds.
@@ -66,7 +66,7 @@ impl BodyPicture for NetPicture<'_> {
         Net::nodes(q).iter().map(|&node| Handle { at: DVec2::from(node), radius }).collect()
     }
 
-    /// The other nodes keep their positions and velocities.
+    /// Moves the pulled node only. The other nodes keep their positions and velocities.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         Net::nodes_mut(q)[pull.handle] = pull.to.into();
         Net::nodes_mut(v)[pull.handle] = pull.velocity.into();

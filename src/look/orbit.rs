@@ -7,14 +7,14 @@ use glam::DVec2;
 use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::{Ellipse, Orbit};
 
-/// Radius of the satellite and of the planet, in units.
+/// Radius of the satellite and of the planet, relative to the `unit`.
 const SATELLITE: f64 = 0.035;
 const PLANET: f64 = 0.12;
 
-/// Number of segments of a course.
+/// Number of segments of a drawn course.
 const CORNERS: u16 = 180;
 
-/// Half the longer side of the rectangle around the orbit, in metres; for an open orbit, the initial distance.
+/// Returns half the longer side of the rectangle around the orbit, in metres; for an open orbit, the initial distance.
 fn unit(orbit: &Orbit) -> f64 {
     orbit.ellipse().map_or(orbit.q0.length(), |ellipse| ellipse.half.max_element())
 }
@@ -40,7 +40,7 @@ impl BodyPicture for Orbit {
         }
     }
 
-    /// The ellipse through the state, from its polar equation about the focus.
+    /// Returns the ellipse on which the satellite moves from this state, by its polar equation about the focus.
     fn course(&self, q: &[f64], v: &[f64]) -> Vec<DVec2> {
         let [q, v] = [q, v].map(DVec2::from_slice);
         let now = Orbit { q0: q, v0: v, ..self.clone() };

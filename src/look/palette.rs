@@ -9,7 +9,7 @@ use crate::measure::Severity;
 use crate::scene::LaneSpec;
 use crate::sim::integrators::{METHODS, Method};
 
-/// Red, green, blue and alpha in sRGB, alpha not premultiplied.
+/// A colour: red, green, blue and alpha in sRGB, where alpha is not premultiplied.
 pub type Rgba = [u8; 4];
 
 pub(crate) const WHITE: Rgba = [255; 4];
@@ -26,7 +26,7 @@ pub enum Theme {
 }
 
 impl Theme {
-    /// The colours of the theme.
+    /// Returns the colours of the theme.
     pub fn palette(self) -> &'static Palette {
         match self {
             Theme::Dark => &DARK,
@@ -34,7 +34,7 @@ impl Theme {
         }
     }
 
-    /// The opposite theme: light for dark, dark for light.
+    /// Returns the opposite theme: light for dark, dark for light.
     pub fn other(self) -> Self {
         match self {
             Theme::Dark => Theme::Light,
@@ -42,23 +42,23 @@ impl Theme {
         }
     }
 
-    /// Colour of the `number`th force evaluation of a step, counted from 0.
+    /// Returns the colour of the `number`th force evaluation of a step, counted from 0.
     pub fn evaluation(self, number: usize) -> Rgba {
         let [orange, blue, pink, yellow, green, amber, violet] = self.palette().methods;
         [green, blue, yellow, pink, orange, violet, amber][number % 7]
     }
 
-    /// Colour and dash pattern of a method. The pattern is the length of a dash and of a gap in points; a gap of 0 is
-    /// solid.
+    /// Returns the colour and the dash pattern of a method. The pattern is the length of a dash and of a gap in points;
+    /// a gap of 0 is solid.
     pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
         self.resolve_style(indices(method))
     }
 
-    /// Colour and dash pattern of a lane among `lanes`. The first lane of a method has the method's style; each
-    /// further lane of that method has another colour and dash.
+    /// Returns the colour and the dash pattern of a lane among `lanes`. The first lane of a method has the method's
+    /// style; each further lane of that method has another colour and dash.
     ///
-    /// No two of the first nine lanes share their dash together with colours that some people confuse. A lane whose
-    /// colour is taken gets a free one while there is one. Only explicit Euler has explicit Euler's colour.
+    /// Among the first nine lanes, two lanes with the same dash never have colours that some people confuse. A lane
+    /// whose colour is taken gets a free colour while there is one. Only explicit Euler has explicit Euler's colour.
     pub fn lane_style(self, lanes: &[LaneSpec], lane: &LaneSpec) -> (Rgba, [f32; 2]) {
         self.resolve_style(lane_places(lanes, lane))
     }
@@ -67,8 +67,8 @@ impl Theme {
         (self.palette().methods[colour], DASHES[dash])
     }
 
-    /// Colour and dash pattern of the game loop with this index in [`POLICIES`](crate::loops::POLICIES). Seven
-    /// neighbours differ in colour.
+    /// Returns the colour and the dash pattern of the game loop with this index in
+    /// [`POLICIES`](crate::loops::POLICIES). Any seven neighbours differ in colour.
     pub fn loop_style(self, index: usize) -> (Rgba, [f32; 2]) {
         let colour = LOOPS[index % LOOPS.len()];
         (self.palette().methods[colour], DASHES[index % FIRST_DASHES])
@@ -90,37 +90,37 @@ pub struct Palette {
     pub plot: Rgba,
     /// Grid of a plot.
     pub grid: Rgba,
-    /// Text.
+    /// Colour of text.
     pub text: Rgba,
-    /// Quiet text.
+    /// Colour of quiet text.
     pub dim: Rgba,
-    /// Hover, focus, a kick, a draggable cross.
+    /// Colour of hover, of focus, of a kick, and of a draggable cross.
     pub accent: Rgba,
-    /// Text on the accent colour.
+    /// Colour of text on the accent colour.
     pub on_accent: Rgba,
-    /// The sea at the top and at the bottom of the stage.
+    /// Colours of the sea at the top and at the bottom of the stage.
     pub sea: [Rgba; 2],
-    /// Waves, depth contours, distance marks.
+    /// Colour of waves, depth contours and distance marks.
     pub chart: Rgba,
-    /// The quay and its edge.
+    /// Colours of the quay and its edge.
     pub quay: [Rgba; 2],
-    /// The wire of a coil spring: its edge, and the metal in shade, in light and at the highlight.
+    /// Colours of the wire of a coil spring: its edge, and the metal in shade, in light and at the highlight.
     pub wire: [Rgba; 4],
-    /// The exact solution.
+    /// Colour of the exact solution.
     pub exact: Rgba,
-    /// Errors and bad verdicts.
+    /// Colour of errors and bad verdicts.
     pub bad: Rgba,
-    /// Warnings and doubtful verdicts.
+    /// Colour of warnings and doubtful verdicts.
     pub warn: Rgba,
-    /// Good verdicts.
+    /// Colour of good verdicts.
     pub good: Rgba,
-    /// Fair verdicts.
+    /// Colour of fair verdicts.
     pub fair: Rgba,
     methods: [Rgba; 7],
 }
 
 impl Palette {
-    /// Colour of a verdict of this severity.
+    /// Returns the colour of a verdict of this severity.
     pub fn of_severity(&self, severity: Severity) -> Rgba {
         match severity {
             Severity::Fine => self.good,
@@ -204,27 +204,27 @@ static LIGHT: Palette = Palette {
     ],
 };
 
-/// Length of dash and gap in points. With six patterns and seven colours, the first 42 methods all differ in one of
-/// the two.
+/// Lengths of dash and gap in points. With six patterns and seven colours, any two of the first 42 methods differ in
+/// colour or in dash.
 const DASHES: [[f32; 2]; 6] =
     [[9.0, 4.0], [16.0, 4.0], [5.0, 4.0], [2.5, 3.5], [1.0, 0.0], [12.0, 9.0]];
 
-/// Number of patterns used first; the others resemble them.
+/// Number of dash patterns that are used first; the others resemble these.
 const FIRST_DASHES: usize = 5;
 
 /// Indices of the dashes of engines, which race among themselves.
 const ENGINE_DASHES: [usize; 3] = [4, 1, 2];
 
-/// Hue that a deuteranope sees in each colour: 0 yellow, 1 blue, 2 grey.
+/// Hue of each colour as a deuteranope sees it: 0 yellow, 1 blue, 2 grey.
 const HUES: [usize; 7] = [0, 1, 2, 0, 2, 0, 1];
 
-/// Number of lanes at the head of a list, those with keys. No two of them share hue and dash.
+/// Number of lanes at the head of a list that have keys. No two of them share both hue and dash.
 const DISTINCT_LANES: usize = 9;
 
-/// Indices of the colours of game loops. No two warm ones are adjacent.
+/// Indices of the colours of game loops. No two warm colours are adjacent.
 const LOOPS: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
 
-/// The methods that the chapter and its scenes race, with the indices of their colours and dashes.
+/// The methods in the races of the chapter and its scenes, with the indices of their colours and dashes.
 const CLASSICS: [(&str, usize, usize); 6] = [
     ("explicit-euler", 0, 0),
     ("semi-implicit-euler", 1, 1),
@@ -245,20 +245,20 @@ fn are_alike(a: usize, b: usize) -> bool {
     a == b || WARM.contains(&a) && WARM.contains(&b)
 }
 
-/// Indices of a method's colour and dash.
+/// Returns the indices of a method's colour and dash.
 fn indices(method: &Method) -> (usize, usize) {
     let listed = METHODS.iter().position(|listed| listed == method);
     listed.map_or_else(|| own_style(method), |index| STYLES[index])
 }
 
-/// Indices of the colour and dash of a method that has the same style in every scene.
+/// Returns the indices of the colour and dash of a method that has the same style in every scene.
 fn classic(method: &Method) -> Option<(usize, usize)> {
     let found = CLASSICS.iter().find(|(id, ..)| *id == method.id);
     found.map(|&(_, colour, dash)| (colour, dash))
 }
 
-/// Indices of a lane's colour and dash. A further lane of a method gets a colour unlike all earlier ones while there
-/// is one, then at least an unused pair.
+/// Returns the indices of a lane's colour and dash. A further lane of a method gets a colour unlike all earlier ones
+/// while there is one, and after that at least an unused pair of colour and dash.
 fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
     let is_first = |end: usize| lanes[..end].iter().all(|other| other.method != lanes[end].method);
     let end = match lanes.iter().position(|other| other == lane) {
@@ -284,7 +284,7 @@ fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
             _ => None,
         };
         let wanted = other.unwrap_or((colour, dash));
-        // First tries the other dashes, then other colours too.
+        // First the other dashes are tried, then other colours too.
         let dashed = (0..dashes).map(|n| (wanted.0, (wanted.1 + n) % dashes));
         let is_told = |pair: &(usize, usize)| {
             let looks = |of: (usize, usize)| (HUES[of.0], of.1);
@@ -296,14 +296,14 @@ fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
     taken[end]
 }
 
-/// Indices of the colour and dash of a method outside the table, derived from its id so that they never change. It
-/// never has the first colour or the first dash, which are those of explicit Euler.
+/// Returns the indices of the colour and dash of a method outside the table. They are derived from the method's id, so
+/// that they never change. The first colour and the first dash are excluded, because they belong to explicit Euler.
 fn own_style(method: &Method) -> (usize, usize) {
     let sum = method.id.bytes().fold(0, |sum: usize, byte| (31 * sum + usize::from(byte)) % 9973);
     (1 + sum % (DARK.methods.len() - 1), 1 + sum % (FIRST_DASHES - 1))
 }
 
-/// Indices of each method's colour and dash. Neighbours in the table have unlike colours.
+/// Indices of each method's colour and dash. Neighbours in the table differ in colour.
 static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
     let colours = DARK.methods.len();
     let first = (0..colours * FIRST_DASHES).map(|n| (n % colours, n % FIRST_DASHES));
@@ -332,7 +332,7 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
     styles
 });
 
-/// The opaque colour at the fraction `part` of the way from the first to the second.
+/// Returns the opaque colour at the fraction `part` of the way from the first colour to the second.
 pub fn mix(from: Rgba, to: Rgba, part: f32) -> Rgba {
     let mix = |i: usize| {
         f32::from(from[i]) + part.clamp(0.0, 1.0) * (f32::from(to[i]) - f32::from(from[i]))
@@ -340,7 +340,7 @@ pub fn mix(from: Rgba, to: Rgba, part: f32) -> Rgba {
     [mix(0) as u8, mix(1) as u8, mix(2) as u8, 255]
 }
 
-/// The same colour with its alpha scaled by `part`.
+/// Returns the same colour with its alpha scaled by `part`.
 pub(crate) fn fade([r, g, b, a]: Rgba, part: f32) -> Rgba {
     [r, g, b, (f32::from(a) * part.clamp(0.0, 1.0)) as u8]
 }

@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::{Body, Pendulum};
 
-/// Radius of the bob, in lengths of the rod.
+/// Radius of the bob, relative to the length of the rod.
 const BOB: f64 = 0.12;
 
 impl BodyPicture for Pendulum {
@@ -27,7 +27,8 @@ impl BodyPicture for Pendulum {
         vec![Handle { at: self.place(&q[0]), radius: BOB * self.length }]
     }
 
-    /// Chooses the angle nearest to the current one, so that turns add up while the bob is led around.
+    /// Chooses the equivalent angle that is nearest to the current one, so that turns add up while the bob is led
+    /// around.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         if pull.to != DVec2::ZERO {
             let angle = libm::atan2(pull.to.x, -pull.to.y);

@@ -6,13 +6,13 @@ use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Spring;
 use crate::sim::number::round;
 
-/// Amplitude of the undamped motion from the spring's start, in metres; 1 if it starts at rest.
+/// Returns the amplitude of the undamped motion from the spring's start, in metres; 1 if the spring starts at rest.
 fn amplitude(spring: &Spring) -> f64 {
     let amplitude = libm::hypot(spring.x0, spring.v0 / spring.angular_frequency());
     if amplitude > 0.0 { amplitude } else { 1.0 }
 }
 
-/// Half the side of the block, in amplitudes.
+/// Half the side of the block, relative to the amplitude.
 const HALF_BLOCK: f64 = 0.16;
 
 impl BodyPicture for Spring {

@@ -8,48 +8,50 @@ use crate::run::race::Interpolation;
 use crate::sim::TickRate;
 use crate::sim::number::round;
 
-/// Animation errors within this margin are equal, in milliseconds: no display shows the difference.
+/// Two animation errors that differ by less than this are equal, in milliseconds, because no display shows the
+/// difference.
 const ALIKE_MS: f64 = 1e-3;
-/// Position errors within this margin are equal, in amplitudes.
+/// Two position errors that differ by less than this are equal, in amplitudes.
 const AS_NEAR: f64 = 0.01;
 
 /// Default limit on the mean latency of a recommended loop, in milliseconds.
 pub const USUAL_LATENCY_MS: f64 = 20.0;
 
-/// Reason to prefer a loop that draws between two ticks to an equally smooth one that draws beyond the last tick.
+/// Reason to prefer a loop that draws between two ticks to one that is equally smooth but draws beyond the last tick.
 const NOT_AHEAD: &str = "extrapolation or a render tick would be as smooth and no tick late, but overshoots at each kick";
 
 /// The recommended loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AdvisedLoop {
-    /// Its index among the measured loops.
+    /// Index of the loop among the measured loops.
     pub index: usize,
-    /// Why it beats another that is as smooth, where this needs an explanation.
+    /// Why the loop beats another one that is equally smooth, if this needs an explanation.
     pub why: Option<&'static str>,
 }
 
-/// Why no loop is recommended. Indices refer to the measured loops.
+/// The reason why no loop is recommended. Indices refer to the measured loops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoLoop {
     /// Fewer than two frames were displayed.
     TooFewFrames,
-    /// No loop has a fixed tick: the physics of every loop depends on the frame rate.
+    /// No loop has a fixed tick, so the physics of every loop depends on the frame rate.
     NoFixedTick,
     /// The speed of every loop with a fixed tick depends on the frame rate.
     OtherSpeed,
     /// Every loop with a fixed tick loses the motion.
     MotionLost,
-    /// No loop with a fixed tick is smooth within the latency.
+    /// No loop with a fixed tick is both smooth and within the latency.
     Unfit {
-        /// The smooth loop with the least latency.
+        /// The smooth loop with the lowest latency.
         late: Option<usize>,
-        /// The smoothest uneven loop: within the latency if there is one, otherwise only if no loop is smooth.
+        /// The smoothest uneven loop within the latency. If there is none and no loop is smooth, the smoothest uneven
+        /// loop of all.
         uneven: Option<usize>,
     },
 }
 
 impl NoLoop {
-    /// The loop that comes closest to a recommendation.
+    /// Returns the loop that comes closest to a recommendation.
     pub fn nearest(self) -> Option<usize> {
         match self {
             Self::Unfit { late, uneven } => late.or(uneven),
@@ -58,7 +60,7 @@ impl NoLoop {
     }
 }
 
-/// Loops measured on the same trace.
+/// Loops that were measured on the same trace.
 pub struct MeasuredLoops<'a> {
     loops: Vec<(&'static PolicyCard, &'a PacingReport)>,
     tick_hz: TickRate,
@@ -79,17 +81,17 @@ impl<'a> MeasuredLoops<'a> {
         Self { loops, tick_hz: tick_hz.into(), origin_ms: least.unwrap_or(0.0) }
     }
 
-    /// Mean latency of the loop with this index, in milliseconds.
+    /// Returns the mean latency of the loop with this index, in milliseconds.
     pub fn latency_ms(&self, index: usize) -> Option<f64> {
         self.loops[index].1.latency_mean_ms().map(|latency| latency - self.origin_ms)
     }
 
-    /// The smooth loop with a fixed tick, a mean latency of at most `latency_ms`, and the smallest animation error.
-    /// Ties go to loops that never draw beyond their last tick, then to the smaller position error, then to the
-    /// first.
+    /// Returns the best smooth loop with a fixed tick and a mean latency of at most `latency_ms`. The best one has the
+    /// smallest animation error. Among equals it is one that never draws beyond its last tick, then the one with the
+    /// smaller position error, then the first.
     ///
     /// # Errors
-    /// The reason if no loop qualifies.
+    /// Returns the reason if no loop qualifies.
     pub fn advised(&self, latency_ms: f64) -> Result<AdvisedLoop, NoLoop> {
         if self.loops.iter().all(|(_, report)| report.animation_error_rms_ms.is_none()) {
             return Err(NoLoop::TooFewFrames);
@@ -132,7 +134,7 @@ impl<'a> MeasuredLoops<'a> {
         Ok(AdvisedLoop { index, why })
     }
 
-    /// Reasons why no loop is recommended within this latency, clause by clause. `name` names a loop.
+    /// Returns the reasons why no loop is recommended within this latency, clause by clause. `name` names a loop.
     pub fn reasons(
         &self,
         none: NoLoop,
@@ -172,7 +174,7 @@ impl<'a> MeasuredLoops<'a> {
         LoopVerdict::of(card, report, self.tick_hz).severity == Severity::Fine
     }
 
-    /// Sort key of a loop; the smallest is the best.
+    /// Returns the sort key of a loop. The smallest key is the best.
     fn rank(&self, index: usize) -> (f64, bool, f64) {
         let (card, report) = self.loops[index];
         let steps = |value: Option<f64>, step: f64| {

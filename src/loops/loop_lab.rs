@@ -1,4 +1,4 @@
-//! The loop lab: one body under one method in every game loop, over the same frames, in slow motion.
+//! The loop lab, which shows one body under one method in every game loop, over the same frames, in slow motion.
 //!
 //! A run has few frames, so the lab keeps them all and moves through them by lookup. After each choice a
 //! [`LoopWorker`] runs the loops in the background, and the lab shows each loop as soon as it has run.
@@ -20,22 +20,22 @@ mod running;
 pub use lane::{FRAME_METRICS, FrameMetric, LoopFrame, LoopLane, LoopState};
 pub use running::{FoundLoop, LoopRequest, LoopWorker};
 
-/// The opening traces and the policies on the stage with them. Noise first: raw ticks flip between none and two,
-/// under the raw loop and the one that heals noise. Then a display with too few ticks, under the raw loop and the
-/// usual remedy.
+/// The opening traces, each with the two policies on the stage. The first trace is noise, on which raw ticks flip
+/// between none and two; it shows the raw loop and one that heals noise. The second is a display with too few ticks,
+/// and shows the raw loop and the usual remedy.
 const OPENING: [(&str, [&str; 2]); 2] =
     [("edge", [RAW, "whole-refresh"]), ("steady-144", [RAW, "fixed-linear"])];
-/// The loop that draws its ticks without interpolation.
+/// Id of the loop that draws its ticks without interpolation.
 pub const RAW: &str = "fixed";
-/// Length of the opening's first trace, in nanoseconds of the display: long enough to see a judder.
+/// Length of the opening's first trace, in nanoseconds of the display, which is long enough to see a judder.
 const OPENING_NS: i64 = 1_500_000_000;
 /// Maximum number of policies on the stage.
 pub const MAX_ON_STAGE: usize = 4;
-/// Slow-motion factors. A monitor adds its own judder to faster playback.
+/// Slow-motion factors. In faster playback, the monitor's own judder shows too.
 pub const SLOWNESS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 /// Initial slow-motion factor.
 const SLOWNESS_AT_FIRST: u32 = 8;
-/// Display of a trace that names none.
+/// Refresh rate of a trace that names none.
 const DISPLAY: RefreshRate = RefreshRate::new(60, 1);
 
 /// A command in the loop lab.
@@ -45,7 +45,7 @@ pub enum LoopCommand {
     ToggleLab,
     /// Selects the loop with this index in [`POLICIES`] and puts it on the stage.
     Select(usize),
-    /// Takes the loop with this index off the stage, or puts it there.
+    /// Takes the loop with this index off the stage or, if it is not there, puts it on the stage.
     ToggleOnStage(usize),
     /// Chooses the trace with this index.
     Trace(usize),
@@ -57,17 +57,17 @@ pub enum LoopCommand {
 
 /// One body under one method in every loop, and the playback position.
 pub struct LoopLab {
-    /// Contains only the one body.
+    /// The scene with this one body only.
     scene: Arc<Scene>,
     method: &'static Method,
     /// The body at its start, from which its look is drawn.
     body: LaneBody,
     traces: Vec<FrameTrace>,
     trace: usize,
-    /// The loops to run.
+    /// The request to run all loops.
     request: Arc<LoopRequest>,
     lanes: Vec<LoopLane>,
-    /// The recommended loop, or why there is none, once all loops have run.
+    /// The recommended loop or, if there is none, the reason; `None` until all loops have run.
     advice: Option<Result<AdvisedLoop, NoLoop>>,
     /// Range of the exact first coordinate.
     range: [f64; 2],
@@ -76,7 +76,7 @@ pub struct LoopLab {
     is_stage_chosen: bool,
     /// Whether playback continues with the second trace of the opening by itself.
     plays_opening: bool,
-    /// Index in [`FRAME_METRICS`].
+    /// Index of the plotted metric in [`FRAME_METRICS`].
     metric: usize,
     is_overlaid: bool,
     selected: usize,
@@ -85,12 +85,12 @@ pub struct LoopLab {
     slowness: u32,
     /// Whether the run resumes on leaving the loop lab.
     pub(crate) run_goes_on: bool,
-    /// Whether the stage had no instruments before the loop lab opened.
+    /// Whether the stage was shown without instruments before the loop lab opened.
     pub(crate) stage_was_alone: bool,
 }
 
 impl LoopLab {
-    /// The lab for one body of a scene, at the start. No loop has [run](Self::request) yet.
+    /// Creates the lab for one body of a scene, at the start. No loop has [run](Self::request) yet.
     pub fn new(scene: &Scene, body: usize, method: &'static Method) -> Self {
         let mut cards: Vec<&TraceCard> = TRACES.iter().collect();
         cards.sort_by_key(|card| {
@@ -126,12 +126,12 @@ impl LoopLab {
         studio
     }
 
-    /// Continues with the second trace of the opening by itself, until [`end_opening`](Self::end_opening).
+    /// Lets playback continue with the second trace of the opening by itself, until [`end_opening`](Self::end_opening).
     pub(crate) fn play_opening(&mut self) {
         self.plays_opening = true;
     }
 
-    /// Stays on the chosen trace.
+    /// Lets playback stay on the chosen trace.
     pub(crate) fn end_opening(&mut self) {
         self.plays_opening = false;
     }
@@ -162,12 +162,12 @@ impl LoopLab {
         self.range = [f64::INFINITY, f64::NEG_INFINITY];
     }
 
-    /// The request for a [`LoopWorker`]. Every choice replaces it with a new one.
+    /// Returns the request for a [`LoopWorker`]. Every choice replaces the request with a new one.
     pub fn request(&self) -> &Arc<LoopRequest> {
         &self.request
     }
 
-    /// Shows a loop that has run; drops it if its request is outdated.
+    /// Shows a loop that has run, or drops the loop if its request is outdated.
     pub(crate) fn accept(&mut self, found: FoundLoop) {
         let FoundLoop { request, index, lane } = found;
         if !Arc::ptr_eq(&request, &self.request) {
@@ -185,7 +185,8 @@ impl LoopLab {
         }
     }
 
-    /// Shows the raw loop beside the recommended or nearest one, unless a person chose the lanes on the stage.
+    /// Shows the raw loop beside the recommended loop or the one nearest to a recommendation, unless a person chose the
+    /// lanes on the stage.
     fn bring_advised_on_stage(&mut self) {
         let raw = index_of(RAW);
         if let Some(best) = self.best().filter(|best| *best != raw && !self.is_stage_chosen) {
@@ -194,7 +195,7 @@ impl LoopLab {
         }
     }
 
-    /// All measured loops; `None` until all have run.
+    /// Returns all measured loops; `None` until all have run.
     fn measured(&self) -> Option<MeasuredLoops<'_>> {
         let measured = self.lanes.iter().map(|lane| Some((lane.card(), lane.report()?)));
         let measured: Vec<_> = measured.collect::<Option<_>>()?;
@@ -212,59 +213,61 @@ impl LoopLab {
         self.on_stage.iter().all(|&index| self.lanes[index].was_run())
     }
 
-    /// The scene, reduced to the one body.
+    /// Returns the scene, reduced to the one body.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
-    /// The method that steps the body.
+    /// Returns the method that steps the body.
     pub fn method(&self) -> &'static Method {
         self.method
     }
-    /// The body at its start.
+    /// Returns the body at its start.
     pub fn body(&self) -> &LaneBody {
         &self.body
     }
-    /// Range of the exact first coordinate over all loops that have run; zeros if none has.
+    /// Returns the range of the exact first coordinate over all loops that have run; zeros if none has run.
     pub fn range(&self) -> [f64; 2] {
         if self.range[0] > self.range[1] { [0.0; 2] } else { self.range }
     }
-    /// The available traces: the built-in ones, then opened ones.
+    /// Returns the available traces: first the built-in ones, then the opened ones.
     pub fn traces(&self) -> &[FrameTrace] {
         &self.traces
     }
-    /// Index of the chosen trace.
+    /// Returns the index of the chosen trace.
     pub fn trace(&self) -> usize {
         self.trace
     }
-    /// The lanes of all loops, in the order of [`POLICIES`].
+    /// Returns the lanes of all loops, in the order of [`POLICIES`].
     pub fn lanes(&self) -> &[LoopLane] {
         &self.lanes
     }
-    /// The recommended loop, by its index in [`POLICIES`]; `None` until all have run, or if none qualifies.
+    /// Returns the recommended loop, by its index in [`POLICIES`]; `None` until all loops have run, or if none
+    /// qualifies.
     pub fn advised(&self) -> Option<AdvisedLoop> {
         self.advice?.ok()
     }
-    /// Why no loop is recommended, with reasons clause by clause; `None` until all have run, or if one is.
+    /// Returns why no loop is recommended, with reasons clause by clause; `None` until all loops have run, or if one is
+    /// recommended.
     pub fn none_advised(&self) -> Option<(NoLoop, Vec<String>)> {
         let none = self.advice?.err()?;
         Some((none, self.measured()?.reasons(none, USUAL_LATENCY_MS, |card| card.name)))
     }
-    /// Index of the recommended loop, or of the nearest to it.
+    /// Returns the index of the recommended loop, or of the loop that is nearest to a recommendation.
     fn best(&self) -> Option<usize> {
         self.advice?.map_or_else(NoLoop::nearest, |advised| Some(advised.index))
     }
-    /// Order of the lanes in the list: the recommended loop or the nearest to it, then the others in the order of
-    /// [`POLICIES`].
+    /// Returns the order of the lanes in the list. The recommended loop or the one nearest to a recommendation comes
+    /// first, then the others in the order of [`POLICIES`].
     pub fn listed(&self) -> Vec<usize> {
         let first = self.best();
         let others = (0..self.lanes.len()).filter(|index| Some(*index) != first);
         first.into_iter().chain(others).collect()
     }
-    /// Placeholder for the plots until every loop on the stage has run.
+    /// Returns a text to show instead of the plots until every loop on the stage has run.
     pub fn waiting(&self) -> Option<&'static str> {
         (!self.is_stage_complete()).then_some("Running the loops on the stage…")
     }
-    /// Verdict on the loop with this index in [`POLICIES`].
+    /// Returns the verdict on the loop with this index in [`POLICIES`].
     pub fn verdict(&self, index: usize) -> LoopVerdict {
         let lane = &self.lanes[index];
         let Some(report) = lane.report() else { return LoopVerdict::awaited() };
@@ -274,7 +277,7 @@ impl LoopLab {
         }
         verdict
     }
-    /// Indices of the lanes on the stage, from top to bottom.
+    /// Returns the indices of the lanes on the stage, from top to bottom.
     pub fn on_stage(&self) -> &[usize] {
         &self.on_stage
     }
@@ -282,31 +285,31 @@ impl LoopLab {
     pub fn is_overlaid(&self) -> bool {
         self.is_overlaid
     }
-    /// Index of the selected lane.
+    /// Returns the index of the selected lane.
     pub fn selected(&self) -> usize {
         self.selected
     }
-    /// Playback position: time of the display in nanoseconds.
+    /// Returns the playback position, which is a time of the display in nanoseconds.
     pub fn now_ns(&self) -> i64 {
         self.now_ns
     }
-    /// Delay of the frame on the display, in milliseconds. It is the frame's latency, plus the time since it appeared
-    /// once the display has held it for more than two refreshes.
+    /// Returns the delay of the frame on the display, in milliseconds. It is the frame's latency. If the display has
+    /// held the frame for more than two refreshes, the time since the frame appeared is added.
     pub fn late_ms(&self, frame: &LoopFrame) -> f64 {
         let held_ms = (self.now_ns - frame.displayed_ns) as f64 / 1e6;
         let refresh_ms = 1000.0 / self.traces[self.trace].refresh().hz();
         frame.latency_ms() + if held_ms > 2.0 * refresh_ms { held_ms } else { 0.0 }
     }
-    /// End of the longest loop that has run, in nanoseconds; 0 if none has.
+    /// Returns the end of the longest loop that has run, in nanoseconds; 0 if none has run.
     pub fn end_ns(&self) -> i64 {
         self.end_ns
     }
-    /// Slow-motion factor.
+    /// Returns the slow-motion factor.
     pub fn slowness(&self) -> u32 {
         self.slowness
     }
 
-    /// Index in [`FRAME_METRICS`] of the metric that the error instrument shows.
+    /// Returns the index in [`FRAME_METRICS`] of the metric that the error instrument shows.
     pub fn metric(&self) -> usize {
         self.metric
     }
@@ -316,7 +319,7 @@ impl LoopLab {
         self.metric = index.min(FRAME_METRICS.len() - 1);
     }
 
-    /// Chooses a trace and keeps the playback position if the trace reaches it. A trace of the opening puts its
+    /// Chooses a trace, and keeps the playback position if the trace is long enough. A trace of the opening puts its
     /// policies on the stage, unless a person chose others.
     pub fn choose_trace(&mut self, index: usize) {
         self.trace = index.min(self.traces.len() - 1);
@@ -374,7 +377,8 @@ impl LoopLab {
         }
     }
 
-    /// Takes the lane with this index off the stage, or puts it there. The last one stays.
+    /// Takes the lane with this index off the stage or, if it is not there, puts it on the stage. The last lane on the
+    /// stage stays there.
     pub fn toggle(&mut self, index: usize) {
         self.is_stage_chosen = true;
         match self.on_stage.iter().position(|&shown| shown == index) {
@@ -387,8 +391,8 @@ impl LoopLab {
         }
     }
 
-    /// Advances playback by `real_ns` nanoseconds of real time and wraps around at the end. The opening continues
-    /// with its next trace. Time waits until all loops on the stage have run.
+    /// Advances playback by `real_ns` nanoseconds of real time, and wraps around at the end. The opening continues with
+    /// its next trace. Playback waits until all loops on the stage have run.
     pub fn advance(&mut self, real_ns: i64) {
         if !self.is_stage_complete() {
             return;
@@ -419,18 +423,18 @@ impl LoopLab {
         }
     }
 
-    /// Card of the selected policy.
+    /// Returns the card of the selected policy.
     pub fn selected_card(&self) -> &'static PolicyCard {
         self.lanes[self.selected].card()
     }
 }
 
-/// Index of the loop with this id in [`POLICIES`].
+/// Returns the index of the loop with this id in [`POLICIES`].
 fn index_of(id: &str) -> usize {
     POLICIES.iter().position(|card| card.id == id).expect("a built-in loop")
 }
 
-/// The scene's only body at its start.
+/// Returns the scene's only body at its start.
 fn at_start(scene: &Scene) -> LaneBody {
     let body = &scene.bodies[0];
     LaneBody::new(body, Solver::Truth)

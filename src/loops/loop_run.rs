@@ -10,7 +10,7 @@ use super::trace::{Frame, FrameTrace, Frames};
 use crate::run::race::{Lane, LaneBody};
 use crate::scene::{LaneSpec, Scene};
 
-/// Default minimum length, in seconds: every one-off event of a built-in trace lies before it.
+/// Default minimum length of a run, in seconds. Every one-off event of a built-in trace happens before this time.
 pub const MIN_RUN_S: f64 = 10.0;
 
 /// A scene under one method in one loop, frame by frame.
@@ -54,7 +54,7 @@ impl LoopRun {
         Self::limited(scene, spec, card, trace, FrameLimits::default())
     }
 
-    /// As [`new`](Self::new), with limits on the work in a frame.
+    /// Like [`new`](Self::new), with limits on the work in a frame.
     pub fn limited(
         scene: &Scene,
         spec: LaneSpec,
@@ -75,27 +75,27 @@ impl LoopRun {
         }
     }
 
-    /// The same run at half the frame rate, skipping every second frame.
+    /// Returns the same run at half the frame rate, which skips every second frame.
     fn at_half_the_rate(self) -> Self {
         Self { stride: 2, ..self }
     }
 
-    /// The bodies in the loop.
+    /// Returns the bodies in the loop.
     pub fn lane(&self) -> &PacedLane {
         &self.lane
     }
 
-    /// Exact coordinates of the body with this index at the last displayed frame.
+    /// Returns the exact coordinates of the body with this index at the last displayed frame.
     pub fn exact(&self, body: usize) -> &[f64] {
         self.truth.body(body).stepper.q()
     }
 
-    /// The body with this index in its exact state at the last displayed frame.
+    /// Returns the body with this index in its exact state at the last displayed frame.
     pub(crate) fn exact_body(&self, body: usize) -> &LaneBody {
         self.truth.body(body)
     }
 
-    /// Makes the next frame; `None` at the end of the trace.
+    /// Makes the next frame and returns it; `None` at the end of the trace.
     pub fn next_frame(&mut self) -> Option<FrameRecord> {
         let steps_before = self.last.map_or(0, |(_, steps)| steps.count);
         let mut frame = self.frames.next(steps_before)?;
@@ -130,7 +130,8 @@ impl LoopRun {
         })
     }
 
-    /// Makes frames until one begins at or after `until_ns`, or `stop` returns true. Returns when the last one began.
+    /// Makes frames until one begins at or after `until_ns`, or `stop` returns true. Returns the time at which the last
+    /// frame began.
     pub fn run_until(
         &mut self,
         until_ns: i64,
@@ -144,14 +145,14 @@ impl LoopRun {
         self.began_ns()
     }
 
-    /// Start of the last frame in nanoseconds; 0 before the first.
+    /// Returns the start of the last frame in nanoseconds; 0 before the first.
     fn began_ns(&self) -> i64 {
         self.last.map_or(0, |(frame, _)| frame.began_ns)
     }
 
-    /// Runs to `until_ns` and also runs the same game at half the frame rate to report their
-    /// [difference](PacingReport::state_difference). The two are compared at every frame that they share. At a single
-    /// moment, two motions that are whole periods apart would look alike.
+    /// Runs to `until_ns` and also runs the same game at half the frame rate, to report their
+    /// [difference](PacingReport::state_difference). The two runs are compared at every frame that they share, because
+    /// motions that are whole periods apart look alike at a single moment.
     pub fn measure(
         mut self,
         until_ns: i64,
@@ -186,7 +187,7 @@ impl LoopRun {
         }
     }
 
-    /// The report on the frames so far.
+    /// Returns the report on the frames so far.
     pub fn report(&self) -> PacingReport {
         let (steps, evaluations) = (self.lane.steps(), self.lane.evaluations());
         let report = self.meter.report(self.lane.pacer(), steps, evaluations);

@@ -5,59 +5,62 @@ use super::policy::Steps;
 use super::trace::Frame;
 use crate::run::Unit;
 
-/// Tolerance for double steps, since traces round to nanoseconds.
+/// Tolerance for double steps in nanoseconds, because traces round to nanoseconds.
 const LEEWAY_NS: i64 = 1000;
 
 /// Measurements of a loop over a trace.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PacingReport {
-    /// Frames, displayed or not.
+    /// Number of frames, displayed or not.
     pub frames: u64,
-    /// Displayed frames.
+    /// Number of displayed frames.
     pub displayed: u64,
     /// RMS animation error in milliseconds; `None` until two frames are displayed.
     pub animation_error_rms_ms: Option<f64>,
-    /// Largest animation error, by magnitude.
+    /// Largest animation error in magnitude, in milliseconds.
     pub animation_error_max_ms: Option<f64>,
     /// Displayed frames that repeat the previous moment, in percent.
     pub repeated_percent: Option<f64>,
-    /// Displayed frames that advance by two ticks or more, and by half a tick or more beyond the display, in percent.
+    /// Displayed frames that advance by two ticks or more, and also by at least half a tick more than the display does,
+    /// in percent.
     pub double_percent: Option<f64>,
     /// Mean and maximum of display time minus the moment shown; negative for a game that runs ahead.
     pub(super) latency_ms: [Option<f64>; 2],
-    /// Real time that the loop dropped.
+    /// Real time that the loop dropped, in milliseconds.
     pub dropped_ms: f64,
-    /// Maximum of the real time that was neither simulated nor dropped.
+    /// Maximum of the real time that was neither simulated nor dropped, in milliseconds.
     pub owed_max_ms: f64,
     /// RMS distance from the exact solution at the time of display, in amplitudes, for the worst body.
     pub position_error_rms: Option<f64>,
-    /// Steps of the bodies.
+    /// Number of steps of the bodies.
     pub ticks: u64,
-    /// Evaluations of the bodies' accelerations.
+    /// Number of evaluations of the bodies' accelerations.
     pub evaluations: u64,
-    /// Largest distance of the bodies from their positions at half the frame rate, over all shared frames, in
-    /// amplitudes; `None` if not measured.
+    /// Largest distance of the bodies from their positions in the same game at half the frame rate, over all shared
+    /// frames, in amplitudes; `None` if not measured.
     pub state_difference: Option<f64>,
-    /// Simulated time minus that at half the frame rate; `None` if not measured.
+    /// Simulated time minus the simulated time at half the frame rate, in milliseconds; `None` if not measured.
     pub time_difference_ms: Option<f64>,
 }
 
-/// Time difference at half the frame rate above which the game runs at another speed, in milliseconds. It exceeds a
-/// few ticks.
+/// A game runs at another speed at half the frame rate if its time difference exceeds this, in milliseconds. The limit
+/// exceeds a few ticks.
 const OTHER_SPEED_MS: f64 = 100.0;
-/// Position error above which the motion is lost, in amplitudes. A motion that is merely late is off by at most two.
+/// Position error above which the motion is lost, in amplitudes. The position error of a motion that is merely late is
+/// at most two.
 const LOST: f64 = 4.0;
-/// Difference of the motion at half the frame rate above which it is more than rounding, in amplitudes.
+/// Difference of the motion at half the frame rate, in amplitudes, above which it is more than rounding.
 const OTHER_MOTION: f64 = 1e-9;
 
 impl PacingReport {
-    /// Mean of display time minus the moment shown, in milliseconds. `None` until a frame is displayed, or if the
-    /// speed depends on the frame rate: such a game runs away from the display or falls behind for ever.
+    /// Returns the mean of display time minus the moment shown, in milliseconds. It is `None` until a frame is
+    /// displayed. It is also `None` if the speed depends on the frame rate, because such a game runs ever further ahead
+    /// of or behind the display.
     pub fn latency_mean_ms(&self) -> Option<f64> {
         self.latency_ms[0].filter(|_| self.keeps_speed() != Some(false))
     }
 
-    /// Maximum latency, as for [`latency_mean_ms`](Self::latency_mean_ms).
+    /// Returns the maximum latency; `None` as for [`latency_mean_ms`](Self::latency_mean_ms).
     pub fn latency_max_ms(&self) -> Option<f64> {
         self.latency_ms[1].filter(|_| self.keeps_speed() != Some(false))
     }
@@ -67,12 +70,13 @@ impl PacingReport {
         self.time_difference_ms.map(|difference| difference.abs() <= OTHER_SPEED_MS)
     }
 
-    /// Whether the motion no longer resembles the exact one, as when a method is too coarse for the tick.
+    /// Whether the motion no longer resembles the exact one. This happens, for example, if a method is too coarse for
+    /// the tick.
     pub fn loses_motion(&self) -> bool {
         self.position_error_rms.is_some_and(|distance| distance.is_nan() || distance > LOST)
     }
 
-    /// [Difference of the motion](Self::state_difference) at half the frame rate, if it exceeds rounding.
+    /// Returns the [difference of the motion](Self::state_difference) at half the frame rate, if it exceeds rounding.
     pub fn other_motion(&self) -> Option<f64> {
         self.state_difference.filter(|difference| *difference > OTHER_MOTION)
     }
@@ -81,15 +85,15 @@ impl PacingReport {
 /// A metric of a [`PacingReport`].
 #[derive(Debug)]
 pub struct PacingMetric {
-    /// Name in output, `snake_case`.
+    /// Name of the metric in output, `snake_case`.
     pub id: &'static str,
-    /// Name for people.
+    /// Name of the metric for people.
     pub name: &'static str,
-    /// Its unit.
+    /// Unit of the metric.
     pub unit: Unit,
-    /// Description in one line.
+    /// Description of the metric in one line.
     pub about: &'static str,
-    /// Reads the value; `None` if it has no meaning.
+    /// Reads the metric's value from a report; `None` if the value has no meaning.
     pub measure: fn(&PacingReport) -> Option<f64>,
 }
 
@@ -193,7 +197,7 @@ pub const PACING_METRICS: &[PacingMetric] = &[
 pub(super) struct PacingMeter {
     frames: u64,
     displayed: u64,
-    /// Display time and moment shown of the last displayed frame.
+    /// Display time of the last displayed frame, and the moment that it shows.
     last: Option<[i128; 2]>,
     squares_ms2: f64,
     largest_error: i128,
@@ -209,7 +213,7 @@ impl PacingMeter {
         self.frames
     }
 
-    /// Adds a frame after its steps. Returns its animation error in milliseconds if it and an earlier frame were
+    /// Adds a frame after its steps. Returns its animation error in milliseconds if this frame and an earlier one were
     /// displayed.
     pub(super) fn frame(&mut self, frame: Frame, pacer: &Pacer) -> Option<f64> {
         self.frames += 1;
@@ -235,7 +239,7 @@ impl PacingMeter {
         Some(error_ms)
     }
 
-    /// The report so far on a loop that made `ticks` steps with `evaluations`.
+    /// Returns the report so far on a loop that made `ticks` steps with `evaluations`.
     pub(super) fn report(&self, pacer: &Pacer, ticks: u64, evaluations: u64) -> PacingReport {
         let base = pacer.base();
         let (displayed, changes) = (self.displayed as f64, self.displayed.saturating_sub(1) as f64);
@@ -267,16 +271,16 @@ impl PacingMeter {
 /// A frame that the loop made, with its steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameRecord {
-    /// Index from 0.
+    /// Index of the frame, from 0.
     pub number: u64,
-    /// When it began and was displayed.
+    /// Times when the frame began and was displayed.
     pub frame: Frame,
-    /// Simulated moment that it shows, in milliseconds.
+    /// Simulated moment that the frame shows, in milliseconds.
     pub shown_ms: f64,
-    /// Its steps.
+    /// Steps of the frame.
     pub steps: Steps,
-    /// Real time that it dropped, in milliseconds.
+    /// Real time that the frame dropped, in milliseconds.
     pub dropped_ms: f64,
-    /// Animation error in milliseconds, if it and an earlier frame were displayed.
+    /// Animation error in milliseconds, if this frame and an earlier one were displayed.
     pub animation_error_ms: Option<f64>,
 }

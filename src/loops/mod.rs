@@ -1,9 +1,10 @@
-//! Game loops: their effect on motion, independent of the method that steps it.
+//! Game loops and their effect on motion, independent of the method that steps it.
 //!
 //! A [`FrameTrace`] records when each [`Frame`] began and when its picture was displayed. A [`Policy`] knows only the
-//! duration of the last frame, as a game does, and decides on steps and the moment to show. [`POLICIES`] lists all of
-//! them. A [`PacedLane`] steps bodies by a policy, a [`LoopRun`] follows a trace with one, and [`PACING_METRICS`]
-//! measure how it looks on the display. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
+//! duration of the last frame, as a game does, and decides on steps and the moment to show. [`POLICIES`] lists all
+//! policies. A [`PacedLane`] steps bodies by a policy, a [`LoopRun`] runs such a lane over a trace, and
+//! [`PACING_METRICS`] measure how the motion looks on the display. Time is counted in whole numbers of a [`TimeBase`];
+//! there is no clock here.
 
 mod advice;
 pub mod loop_lab;

@@ -9,12 +9,12 @@ use crate::run::race::Lane;
 pub struct PacedLane {
     pacer: Pacer,
     lane: Lane,
-    /// The drawn copy, in a loop with a render tick.
+    /// The drawn copy of the lane, in a loop with a render tick.
     ahead: Option<Lane>,
     /// Evaluations by all drawn copies so far.
     evaluations_ahead: u64,
     steps: u64,
-    /// Length of the last step in seconds; a tick at the start.
+    /// Length of the last step in seconds; at the start, the length of a tick.
     last_step_s: f64,
 }
 
@@ -25,26 +25,26 @@ impl PacedLane {
         Self { pacer, lane, ahead: None, evaluations_ahead: 0, steps: 0, last_step_s }
     }
 
-    /// The loop.
+    /// Returns the game loop.
     pub fn pacer(&self) -> &Pacer {
         &self.pacer
     }
-    /// The bodies.
+    /// Returns the lane with the bodies.
     pub fn lane(&self) -> &Lane {
         &self.lane
     }
-    /// Number of steps made.
+    /// Returns the number of steps made.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Evaluations of accelerations so far, including those of drawn copies.
+    /// Returns the evaluations of accelerations so far, including those of drawn copies.
     pub fn evaluations(&self) -> u64 {
         self.lane.evaluations() + self.evaluations_ahead
     }
 
-    /// Makes the steps of a frame, where `duration_ns` is the duration of the last frame in nanoseconds. Calls
-    /// `before_step` with the number of steps made and the time in seconds before each step.
+    /// Makes the steps of a frame, where `duration_ns` is the duration of the last frame in nanoseconds. Before each
+    /// step it calls `before_step` with the number of steps made and the time in seconds.
     pub fn frame(
         &mut self,
         duration_ns: i64,
@@ -73,7 +73,7 @@ impl PacedLane {
         steps
     }
 
-    /// Coordinates in the picture of the body with this index.
+    /// Returns the coordinates in the picture of the body with this index.
     pub fn drawn_coordinates(&self, body: usize) -> Vec<f64> {
         let drawing = self.pacer.card().drawing;
         let lane = self.ahead.as_ref().unwrap_or(&self.lane);

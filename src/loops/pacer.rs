@@ -1,10 +1,11 @@
-//! A policy at work, with the time that it has simulated.
+//! A policy at work, and the time that it has simulated.
 
 use super::policy::{FrameLimits, Policy, PolicyCard, Steps};
 use super::time_base::TimeBase;
 use crate::run::race::Interpolation;
 
-/// A game loop: frames go in, steps and the moment to show come out. Times are in the unit of its [`TimeBase`].
+/// A game loop, which decides for each frame on the steps and the moment to show. Times are in the unit of its
+/// [`TimeBase`].
 #[derive(Clone)]
 pub struct Pacer {
     card: &'static PolicyCard,
@@ -18,35 +19,35 @@ pub struct Pacer {
 }
 
 impl Pacer {
-    /// The loop before its first frame.
+    /// Creates the loop before its first frame.
     pub fn new(card: &'static PolicyCard, base: TimeBase) -> Self {
         Self::limited(card, base, FrameLimits::default())
     }
 
-    /// As [`new`](Self::new), with limits on the work in a frame.
+    /// Like [`new`](Self::new), with limits on the work in a frame.
     pub fn limited(card: &'static PolicyCard, base: TimeBase, limits: FrameLimits) -> Self {
         let policy = (card.build)(base, limits);
         let longest = limits.max_frame_ms.map(|ms| base.nanoseconds(i64::from(ms) * 1_000_000));
         Self { card, base, policy, longest, passed: 0, simulated: 0, dropped: 0 }
     }
 
-    /// Card of its policy.
+    /// Returns the card of the policy.
     pub fn card(&self) -> &'static PolicyCard {
         self.card
     }
-    /// Its unit of time.
+    /// Returns the loop's unit of time.
     pub fn base(&self) -> TimeBase {
         self.base
     }
-    /// Simulated time.
+    /// Returns the simulated time.
     pub fn simulated(&self) -> i128 {
         self.simulated
     }
-    /// Dropped time.
+    /// Returns the dropped time.
     pub fn dropped(&self) -> i128 {
         self.dropped
     }
-    /// Time that is neither simulated nor dropped; negative if the simulation is ahead.
+    /// Returns the time that is neither simulated nor dropped; negative if the simulation is ahead.
     pub fn owed(&self) -> i128 {
         self.passed - self.simulated - self.dropped
     }
@@ -64,13 +65,13 @@ impl Pacer {
         steps
     }
 
-    /// Position of the picture between the last tick and the next. It is in [0, 1] for policies that draw between
-    /// ticks, in [-1/2, 3/2) under `hysteresis`, and 0 for policies without ticks.
+    /// Returns the position of the picture between the last tick and the next. It is in [0, 1] for policies that draw
+    /// between ticks, in [-1/2, 3/2) under `hysteresis`, and 0 for policies without ticks.
     pub fn alpha(&self) -> f64 {
         self.policy.owed() as f64 / self.base.tick() as f64
     }
 
-    /// Simulated moment in the picture. With interpolation it begins one tick before the start.
+    /// Returns the simulated moment in the picture. With interpolation, this moment begins one tick before the start.
     pub fn drawn_moment(&self) -> i128 {
         let now = self.simulated + self.policy.owed();
         match self.card.drawing {

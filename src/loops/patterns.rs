@@ -9,17 +9,17 @@ mod tests;
 /// A built-in trace.
 #[derive(Debug)]
 pub struct TraceCard {
-    /// Its name on the command line, `kebab-case`.
+    /// Name of the trace on the command line, `kebab-case`.
     pub id: &'static str,
-    /// Description in one line.
+    /// Description of the trace in one line.
     pub about: &'static str,
-    /// Rate of its display; `None` if any display will do, by default one of 60 Hz.
+    /// Refresh rate of the trace's display; `None` if any display will do, by default one of 60 Hz.
     pub refresh: Option<RefreshRate>,
     build: fn(&'static str, RefreshRate) -> FrameTrace,
 }
 
 impl TraceCard {
-    /// The trace on its own display, or else on a display with this rate.
+    /// Returns the trace on its own display or, if it has none, on a display with this rate.
     pub fn trace(&self, refresh: RefreshRate) -> FrameTrace {
         (self.build)(self.id, self.refresh.unwrap_or(refresh))
     }
@@ -92,21 +92,21 @@ pub static TRACES: &[TraceCard] = &[
     },
 ];
 
-/// The built-in trace with this id.
+/// Returns the built-in trace with this id.
 pub fn trace_card(id: &str) -> Option<&'static TraceCard> {
     TRACES.iter().find(|card| card.id == id)
 }
 
-/// The trace `steady-` plus the rate: an even display of any rate.
+/// Returns the trace named `steady-` plus the rate, which is an even display of any rate.
 pub fn steady_trace(refresh: RefreshRate) -> FrameTrace {
     // A rate has at most six decimals.
     let hz = (refresh.hz() * 1e6).round() / 1e6;
     FrameTrace::of_pattern(format!("steady-{hz}"), refresh, Steady::new(refresh))
 }
 
-/// The trace `fps-`, the frame rate, `-on-` and the refresh rate: even frames at one rate on an even display of
-/// another. A frame is displayed at the first refresh after it begins, unless the next frame reaches the same
-/// refresh.
+/// Returns the trace named `fps-`, the frame rate, `-on-` and the refresh rate, which has even frames at one rate on an
+/// even display of another. A frame is displayed at the first refresh after it begins, unless the next frame reaches
+/// the same refresh.
 pub fn frames_on_display(fps: RefreshRate, refresh: RefreshRate) -> FrameTrace {
     let name = format!("fps-{fps}-on-{refresh}");
     FrameTrace::of_pattern(name, refresh, OtherRate { fps, refresh, next: 0, shown_at: 0 })
@@ -123,7 +123,8 @@ struct OtherRate {
 }
 
 impl OtherRate {
-    /// First refresh at or after the start of this frame. The search begins at `from`, which must not be later.
+    /// Returns the first refresh at or after the start of this frame. The search begins at `from`, which must not be
+    /// later than that refresh.
     fn refresh_of(&self, frame: u64, from: u64) -> u64 {
         let began_ns = self.fps.refresh_ns(frame);
         (from..).find(|n| self.refresh.refresh_ns(*n) >= began_ns).expect("refreshes have no end")
@@ -145,7 +146,7 @@ impl Pattern for OtherRate {
     }
 }
 
-/// An even display and a game that is always ready: every frame begins and is displayed at a refresh.
+/// An even display and a game that is always ready, so that every frame begins and is displayed at a refresh.
 #[derive(Clone, Copy)]
 struct Steady {
     refresh: RefreshRate,
@@ -173,14 +174,14 @@ impl Pattern for Steady {
 /// Seed of the noise of [`Edge`]. The mean of this noise is near 0, so that it adds no latency.
 const EDGE_SEED: u64 = 4;
 
-/// Largest shift of a frame's beginning, as when a sleeping thread wakes early or late. It is below half the shortest
-/// refresh, 1 ms, so that each frame begins after the one before.
+/// Largest shift of a frame's beginning, in nanoseconds, as when a sleeping thread wakes early or late. It is below
+/// half the shortest refresh, which is 1 ms, so that each frame begins after the one before.
 const EDGE_NS: i64 = 499_999;
 
 /// Frames that begin a little before or after the edge of a tick.
 ///
-/// Frame n begins at refresh n plus noise, the first one without. It is displayed at refresh n, by design even where
-/// that is before it began, so that the mean latency is that of the loop alone.
+/// Frame n begins at refresh n plus noise; only the first frame has no noise. It is displayed at refresh n, even if it
+/// begins later, so that the mean latency is that of the loop alone.
 #[derive(Clone, Copy)]
 struct Edge {
     refresh: RefreshRate,
@@ -207,14 +208,14 @@ impl Pattern for Edge {
     }
 }
 
-/// Frames of one refresh each, and now and then a long one.
+/// Frames of one refresh each, and now and then a long frame.
 ///
-/// After every `short` frames of one refresh follows one of `long` refreshes. Its picture is displayed at the last of
-/// them, and the next frame begins after it. So the display sees the long time one frame before the game does.
+/// After every `short` frames of one refresh follows one frame of `long` refreshes. Its picture is displayed at the
+/// last of them, and the next frame begins after it. So the display sees the long time one frame before the game does.
 #[derive(Clone, Copy)]
 struct LongFrame {
     refresh: RefreshRate,
-    /// Number of frames before a long one.
+    /// Number of short frames before a long one.
     short: u64,
     /// Duration of a long frame in refreshes, at least 1.
     long: u64,
@@ -225,12 +226,12 @@ struct LongFrame {
 }
 
 impl LongFrame {
-    /// A frame of `long` refreshes after every `short` frames of one.
+    /// Creates a pattern with a frame of `long` refreshes after every `short` frames of one refresh.
     fn new(refresh: RefreshRate, short: u64, long: u64) -> Self {
         Self { refresh, short, long, at: 0, since: 0 }
     }
 
-    /// A frame of `long_ns` after every `short_ns`, both rounded up to whole refreshes.
+    /// Creates a pattern with a frame of `long_ns` after every `short_ns`, both rounded up to whole refreshes.
     fn lasting(refresh: RefreshRate, short_ns: i64, long_ns: i64) -> Self {
         let refreshes = |ns| (1..).find(|&n| refresh.refresh_ns(n) >= ns).expect("no end");
         Self::new(refresh, refreshes(short_ns), refreshes(long_ns))
@@ -256,9 +257,9 @@ impl Pattern for LongFrame {
 
 /// A game that reads its clock unevenly while its pictures are displayed evenly.
 ///
-/// Every second frame begins a quarter of a refresh late, so that durations alternate between 5/4 and 3/4 of a
-/// refresh. Frame n is displayed at refresh n, by design even where that is before it began. As with the steady
-/// traces, the latency is that of the loop alone.
+/// Every second frame begins a quarter of a refresh late, so that durations alternate between 5/4 and 3/4 of a refresh.
+/// Frame n is displayed at refresh n, even if it begins later. As with the steady traces, the latency is that of the
+/// loop alone.
 #[derive(Clone, Copy)]
 struct Heartbeat {
     refresh: RefreshRate,
@@ -284,19 +285,19 @@ impl Pattern for Heartbeat {
     }
 }
 
-/// Cost of a step: 5/4 of a tick at 60 Hz.
+/// Cost of a step in nanoseconds: 5/4 of a tick at 60 Hz.
 const STEP_NS: i64 = 20_800_000;
 
 /// Steps that cost more time than they simulate: the spiral of death.
 ///
-/// A frame lasts a refresh, or as long as its steps take if that is longer. It is displayed when it begins, since its
-/// cost is not yet known then.
+/// A frame lasts a refresh, or as long as its steps take if that is longer. It is displayed when it begins, because its
+/// cost is not yet known at that time.
 #[derive(Clone, Copy)]
 struct Spiral {
     refresh: RefreshRate,
     /// End of the last frame that took too long.
     since_ns: i64,
-    /// Refreshes since then.
+    /// Number of refreshes since `since_ns`.
     refreshes: u64,
     begun: bool,
 }
@@ -332,14 +333,14 @@ impl Pattern for Spiral {
 /// Seed of the noise of [`Jitter`].
 const JITTER_SEED: u64 = 9;
 
-/// On average one frame in this number is slow.
+/// Mean number of frames per slow frame.
 const SLOW_IN: i64 = 64;
 
 /// A game with uneven frame times whose pictures wait for the display in a queue.
 ///
-/// Frames take 0.5 to 1.1 refreshes, and a slow one up to 2 more. A picture is displayed at the first refresh when it
-/// is ready and none before it waits. The game runs ahead by one waiting picture, so that in good times the latency
-/// is two refreshes.
+/// Frames take 0.5 to 1.1 refreshes, and a slow one up to 2 more. A picture is displayed at the first refresh at which
+/// it is ready and no earlier picture waits. The game runs ahead by one waiting picture, so that the latency is two
+/// refreshes if no frame is slow.
 #[derive(Clone, Copy)]
 struct Jitter {
     refresh: RefreshRate,
@@ -372,7 +373,7 @@ impl Pattern for Jitter {
         while self.refresh.refresh_ns(self.shown) < ready {
             self.shown += 1;
         }
-        // The slot in the queue is free again when the previous picture is displayed.
+        // The slot in the queue is free again as soon as the previous picture is displayed.
         self.began_ns = ready.max(self.refresh.refresh_ns(before));
         Frame { began_ns, displayed_ns: Some(self.refresh.refresh_ns(self.shown)) }
     }
@@ -382,7 +383,7 @@ impl Pattern for Jitter {
     }
 }
 
-/// Generates whole numbers, the same on every platform: Sebastiano Vigna's SplitMix64.
+/// Generates whole numbers that are the same on every platform, by Sebastiano Vigna's SplitMix64.
 #[derive(Clone, Copy)]
 struct Noise(u64);
 
@@ -391,10 +392,10 @@ impl Noise {
         Self(seed)
     }
 
-    /// A uniformly distributed number from 0 to `most`, which must not be negative.
+    /// Returns a uniformly distributed number from 0 to `most`, which must not be negative.
     fn up_to(&mut self, most: i64) -> i64 {
         let many = u128::from(most.unsigned_abs()) + 1;
-        // The high half of the product lies in 0..many: no division, and a bias below 2⁻⁶⁴ · many.
+        // The high half of the product lies in 0..many. This needs no division, and its bias is below 2⁻⁶⁴ · many.
         ((u128::from(self.bits()) * many) >> 64) as i64
     }
 

@@ -14,7 +14,7 @@ mod median;
 mod snapped;
 mod whole_refresh;
 
-/// The snippets of a loop, one per language.
+/// Lists the snippets of a loop, one per language.
 macro_rules! snippets {
     ($id:literal: $($language:literal $ending:literal),+) => {
         &[$(Snippet {
@@ -24,7 +24,7 @@ macro_rules! snippets {
     };
 }
 
-/// A fixed tick that shows its last state. Policies that draw a fixed tick differently derive their cards from this
+/// A fixed tick whose last state is shown. Policies that draw a fixed tick differently derive their cards from this
 /// one.
 const FIXED: PolicyCard = PolicyCard {
     id: "fixed",
@@ -43,7 +43,7 @@ const FIXED: PolicyCard = PolicyCard {
     build: |base, limits| Box::new(Fixed::new(base, limits)),
 };
 
-/// Every policy of a game loop, the simplest first.
+/// Every policy of a game loop, with the simplest first.
 pub static POLICIES: &[PolicyCard] = &[
     PolicyCard {
         id: "variable",
@@ -223,15 +223,15 @@ pub static POLICIES: &[PolicyCard] = &[
     },
 ];
 
-/// The policy with this id.
+/// Returns the policy with this id.
 pub fn policy(id: &str) -> Option<&'static PolicyCard> {
     POLICIES.iter().find(|card| card.id == id)
 }
 
-/// One step as long as the frame.
+/// Makes one step per frame, as long as the frame.
 #[derive(Clone, Copy)]
 struct Variable {
-    /// Longest step; the rest of a longer frame is dropped.
+    /// Longest step. The rest of a longer frame is dropped.
     longest: Option<i128>,
 }
 
@@ -246,7 +246,7 @@ impl Policy for Variable {
     }
 }
 
-/// One tick per frame: the game is as fast as the display.
+/// Makes one tick per frame, so that the game is as fast as the display.
 #[derive(Clone, Copy)]
 struct Lockstep {
     tick: i128,
@@ -262,10 +262,10 @@ impl Policy for Lockstep {
     }
 }
 
-/// Maximum number of steps in a frame. In frames that need more, steps are longer than a tick.
+/// Maximum number of steps in a frame. In frames that need more steps, the steps are longer than a tick.
 const MAX_STEPS: u32 = 6;
 
-/// As few equal steps as possible, none longer than a tick.
+/// Makes the fewest equal steps that are not longer than a tick.
 #[derive(Clone, Copy)]
 struct SemiFixed {
     tick: i128,

@@ -1,4 +1,4 @@
-//! The policy of a game loop: its decision for each frame, and its card.
+//! The policy of a game loop, which decides on the steps of each frame, and its card.
 
 use super::time_base::TimeBase;
 use crate::run::race::Interpolation;
@@ -15,33 +15,33 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// One step of this length, or none if it is 0.
+    /// Returns one step of this length, or none if the length is 0.
     pub fn one(span: i128) -> Self {
         Self { count: u32::from(span > 0), span, dropped: 0 }
     }
 }
 
-/// Limits on the work in a frame. `None` keeps the policy's own limit.
+/// Limits on the work in a frame. With `None` the policy's own limit applies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameLimits {
-    /// Maximum number of ticks, or of steps, for a policy that [limits them](PolicyCard::has_max_ticks).
+    /// Maximum number of ticks or steps, for a policy that [limits them](PolicyCard::has_max_ticks).
     pub max_ticks: Option<u32>,
     /// Maximum frame duration in milliseconds; the excess is dropped.
     pub max_frame_ms: Option<u32>,
 }
 
-/// The decisions of a game loop, with its memory. Times are in the unit of a [`TimeBase`].
+/// A game loop's decisions and memory. Times are in the unit of a [`TimeBase`].
 pub trait Policy: Send {
-    /// Decides on the steps of a frame. `duration` is the duration of the last frame, never negative, as a game would
-    /// measure it.
+    /// Decides on the steps of a frame. `duration` is the duration of the last frame as a game would measure it, and
+    /// never negative.
     fn frame(&mut self, duration: i128) -> Steps;
 
-    /// Time since the last tick, for drawing between ticks; 0 for a policy without ticks.
+    /// Returns the time since the last tick, for drawing between ticks; 0 for a policy without ticks.
     fn owed(&self) -> i128 {
         0
     }
 
-    /// A copy with its memory.
+    /// Returns a copy of the policy with its memory.
     fn boxed_clone(&self) -> Box<dyn Policy>;
 }
 
@@ -66,29 +66,29 @@ pub struct Snippet {
 /// a tick that is owed.
 #[derive(Debug)]
 pub struct PolicyCard {
-    /// Its name on the command line, `kebab-case`.
+    /// Name of the policy on the command line, `kebab-case`.
     pub id: &'static str,
-    /// Its name for people.
+    /// Name of the policy for people.
     pub name: &'static str,
-    /// Its rule in one line.
+    /// Rule of the policy in one line.
     pub formula: &'static str,
-    /// Its constants; empty if it has none.
+    /// Constants of the policy; empty if there are none.
     pub constants: &'static str,
-    /// Its response to a frame of no or negative time, and to one of ten seconds.
+    /// Response of the policy to a frame of no or negative time, and to one of ten seconds.
     pub odd_frames: &'static str,
-    /// Engines and games that use it.
+    /// Engines and games that use the policy.
     pub users: &'static str,
-    /// Source that describes it.
+    /// Source that describes the policy.
     pub source: &'static str,
     /// Interpolation of the picture between ticks.
     pub drawing: Interpolation,
-    /// Whether the picture shows a copy that is stepped to the moment to show, then discarded.
+    /// Whether the picture shows a copy of the bodies that is stepped to the moment to show and then discarded.
     pub has_render_tick: bool,
     /// Whether every step is a whole tick, so that the physics is the same to the bit at any frame rate.
     pub has_fixed_tick: bool,
-    /// Whether it limits the ticks in a frame, so that the limit can be set.
+    /// Whether the policy limits the ticks in a frame, so that a person can set the limit.
     pub has_max_ticks: bool,
-    /// Whether `regatta loop` compares it by default.
+    /// Whether `regatta loop` compares the policy by default.
     pub is_usual: bool,
     /// Source code to copy into a game.
     pub snippets: &'static [Snippet],
@@ -96,12 +96,12 @@ pub struct PolicyCard {
 }
 
 impl PolicyCard {
-    /// Name of the interpolation between ticks, for people.
+    /// Returns the name of the interpolation between ticks, for people.
     pub fn drawing_name(&self) -> &'static str {
         if self.has_render_tick { "a copy stepped on" } else { self.drawing.name() }
     }
 
-    /// Whether the picture can lie beyond the last tick. It is then drawn as if nothing acted on the bodies in the
+    /// Whether the picture can lie beyond the last tick. The bodies are then drawn as if nothing acted on them in the
     /// meantime.
     pub fn draws_ahead(&self) -> bool {
         self.has_render_tick || self.drawing == Interpolation::Extrapolated

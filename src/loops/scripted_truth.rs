@@ -1,4 +1,4 @@
-//! The exact solution at each time of display, the distance of the pictures from it, and the script that drives both.
+//! The exact solution at each time of display, the distance of the pictures from it, and the script that acts on both.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ pub(super) struct ScriptedTruth {
     errors: Vec<BodyError>,
 }
 
-/// Largest distance so far of each body between two lanes, in the unit of its first coordinate.
+/// Largest distance so far between the states of each body in two lanes, in the unit of the body's first coordinate.
 #[derive(Default)]
 pub(super) struct MaxDistances(Vec<f64>);
 
@@ -30,12 +30,12 @@ struct BodyError {
 }
 
 impl BodyError {
-    /// Half the range, if the body moves.
+    /// Returns half the range, if the body moves.
     fn amplitude(&self) -> Option<f64> {
         Some((self.range[1] - self.range[0]) / 2.0).filter(|half| *half > 0.0 && half.is_finite())
     }
 
-    /// RMS distance in amplitudes.
+    /// Returns the RMS distance in amplitudes.
     fn rms(&self) -> Option<f64> {
         Some((self.squares / self.count as f64).sqrt() / self.amplitude()?)
     }
@@ -49,7 +49,7 @@ impl ScriptedTruth {
         Self { lane, t: 0.0, script: TimedScript::new(scene), errors }
     }
 
-    /// Advances to `t` (s) and adds the distance of every drawn body from its exact position.
+    /// Advances the exact solution to `t` (s), and adds the distance of every drawn body from its exact position.
     pub(super) fn compare(&mut self, t: f64, paced: &PacedLane) {
         while let Some((at, action)) = self.script.next_due(t) {
             self.advance(at);
@@ -68,7 +68,7 @@ impl ScriptedTruth {
         }
     }
 
-    /// The body with this index in its exact state.
+    /// Returns the body with this index in its exact state.
     pub(super) fn body(&self, body: usize) -> &LaneBody {
         &self.lane.bodies()[body]
     }
@@ -87,7 +87,7 @@ impl ScriptedTruth {
         }
     }
 
-    /// Largest distance of the worst body, in amplitudes.
+    /// Returns the largest distance of the worst body, in amplitudes.
     pub(super) fn in_amplitudes(&self, furthest: &MaxDistances) -> Option<f64> {
         let bodies = furthest.0.iter().zip(&self.errors);
         let shares = bodies.filter_map(|(most, error)| Some(most / error.amplitude()?));
@@ -101,13 +101,13 @@ impl ScriptedTruth {
         }
     }
 
-    /// RMS distance of the worst body, in amplitudes.
+    /// Returns the RMS distance of the worst body, in amplitudes.
     pub(super) fn position_error_rms(&self) -> Option<f64> {
         self.errors.iter().filter_map(BodyError::rms).reduce(f64::max)
     }
 }
 
-/// Largest distance between two states of a body, over the coordinates in the unit of the first.
+/// Returns the largest distance between two states of a body, over the coordinates in the unit of the first.
 fn distance(body: &LaneBody, one: &[f64], other: &[f64]) -> f64 {
     let pairs = body.like_first(one).zip(body.like_first(other));
     pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
@@ -116,7 +116,7 @@ fn distance(body: &LaneBody, one: &[f64], other: &[f64]) -> f64 {
 /// The actions of a script that are still to come.
 #[derive(Clone)]
 pub(super) struct TimedScript {
-    /// Sorted by time in seconds.
+    /// Rows of the script, sorted by time in seconds.
     rows: Arc<[(f64, Action)]>,
     done: usize,
 }
@@ -127,7 +127,7 @@ impl TimedScript {
         Self { rows: rows.collect(), done: 0 }
     }
 
-    /// Takes the next action due by `t` (s), with its time.
+    /// Takes the next action that is due by `t` (s), with its time.
     pub(super) fn next_due(&mut self, t: f64) -> Option<(f64, Action)> {
         let due = self.rows.get(self.done).filter(|(at, _)| *at <= t).cloned();
         self.done += usize::from(due.is_some());

@@ -1,17 +1,17 @@
-//! The unit of time in which a nanosecond, a tick and a refresh of the display are whole numbers.
+//! The unit of time of a game loop. A nanosecond, a tick and a refresh of the display are whole numbers of this unit.
 
 use std::fmt;
 use std::str::FromStr;
 
 use crate::sim::TickRate;
 
-/// Longest time in any unit; a sum of a few does not overflow.
+/// Longest time in any unit. It is so short that a sum of a few such times does not overflow.
 const LONGEST: i128 = i128::MAX / 4;
 
 /// Nanoseconds in a second.
 const SECOND_NS: i128 = 1_000_000_000;
 
-/// Refresh rate of a display, as a fraction, since 59.94 Hz is not a whole number.
+/// Refresh rate of a display. It is a fraction, because 59.94 Hz is not a whole number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RefreshRate {
     numerator: u32,
@@ -22,7 +22,7 @@ impl RefreshRate {
     /// Valid rates in Hz.
     pub const HZ: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
 
-    /// A rate of `numerator / denominator` in Hz.
+    /// Creates a rate of `numerator / denominator` in Hz.
     ///
     /// # Panics
     /// If the rate is not in [`RefreshRate::HZ`].
@@ -31,18 +31,19 @@ impl RefreshRate {
         Self { numerator, denominator }
     }
 
-    /// The rate with a refresh of `period_ns` nanoseconds, clamped to [`RefreshRate::HZ`].
+    /// Creates the rate with a refresh of `period_ns` nanoseconds, clamped to [`RefreshRate::HZ`].
     pub fn of_period(period_ns: i64) -> Self {
         let period_ns = period_ns.clamp(1_000_000, 1_000_000_000) as u32;
         Self::new(SECOND_NS as u32, period_ns)
     }
 
-    /// The rate in Hz.
+    /// Returns the rate in Hz.
     pub fn hz(self) -> f64 {
         f64::from(self.numerator) / f64::from(self.denominator)
     }
 
-    /// Start of refresh `n` in nanoseconds from the first, rounded up: a clock in nanoseconds sees it at this time.
+    /// Returns the start of refresh `n` in nanoseconds from the first, rounded up to the time at which a clock in
+    /// nanoseconds sees it.
     pub fn refresh_ns(self, n: u64) -> i64 {
         let seconds_ns = u128::from(n) * u128::from(self.denominator) * SECOND_NS.unsigned_abs();
         let ns = seconds_ns.div_ceil(self.numerator.into());
@@ -81,9 +82,9 @@ fn greatest_common_divisor(mut a: u32, mut b: u32) -> u32 {
     a
 }
 
-/// Unit of time of one loop: a nanosecond divided by the numerators of the tick rate and the refresh rate.
+/// Unit of time of one loop, which is a nanosecond divided by the numerators of the tick rate and the refresh rate.
 ///
-/// A nanosecond, a tick and a refresh are whole numbers of it, so that days of frames add up without rounding.
+/// A nanosecond, a tick and a refresh are whole numbers of this unit, so that days of frames add up without rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TimeBase {
     tick_hz: TickRate,
@@ -91,7 +92,7 @@ pub struct TimeBase {
 }
 
 impl TimeBase {
-    /// The unit for a tick rate and a display.
+    /// Creates the unit for a tick rate and a display.
     ///
     /// # Panics
     /// If the tick rate is 0.
@@ -101,15 +102,15 @@ impl TimeBase {
         Self { tick_hz, refresh }
     }
 
-    /// The tick rate.
+    /// Returns the tick rate.
     pub fn tick_hz(&self) -> TickRate {
         self.tick_hz
     }
-    /// Length of a tick.
+    /// Returns the length of a tick.
     pub fn tick(&self) -> i128 {
         SECOND_NS * self.tick_terms()[1] * i128::from(self.refresh.numerator)
     }
-    /// Time between two refreshes of the display.
+    /// Returns the time between two refreshes of the display.
     pub fn refresh(&self) -> i128 {
         SECOND_NS * i128::from(self.refresh.denominator) * self.tick_terms()[0]
     }
@@ -119,12 +120,12 @@ impl TimeBase {
         ticks.saturating_mul(self.refresh.numerator.into()).clamp(-LONGEST, LONGEST)
     }
 
-    /// A number of ticks that last a whole number of seconds, and that number of seconds.
+    /// Returns a number of ticks that last a whole number of seconds, and that number of seconds.
     fn tick_terms(&self) -> [i128; 2] {
         self.tick_hz.ratio().map(i128::from)
     }
 
-    /// Converts a time to seconds. A time of n whole ticks is to the bit n divided by the tick rate.
+    /// Converts a time to seconds. For n whole ticks, the result is to the bit n divided by the tick rate.
     pub fn seconds(&self, time: i128) -> f64 {
         let tick = self.tick();
         let part = time.rem_euclid(tick) as f64 / tick as f64;

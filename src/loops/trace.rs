@@ -1,16 +1,18 @@
-//! Frame traces: when a game begins each frame, and when its picture is displayed.
+//! Frame traces, which record when a game begins each frame and when its picture is displayed.
 
 use std::sync::Arc;
 
 use super::time_base::RefreshRate;
 use crate::sim::number::{counted, grouped, significant};
 
-/// A frame of a game: when it began and when its picture was displayed, in nanoseconds from the start of its trace.
+/// A frame of a game, with the times when it began and when its picture was displayed, in nanoseconds from the start of
+/// its trace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// When the game began the frame and read the time.
+    /// Time when the game began the frame and read the time, in nanoseconds.
     pub began_ns: i64,
-    /// When its picture appeared on the display; `None` if another picture replaced it before.
+    /// Time when the frame's picture appeared on the display, in nanoseconds; `None` if another picture replaced it
+    /// before.
     pub displayed_ns: Option<i64>,
 }
 
@@ -21,9 +23,9 @@ pub struct FrameTrace {
     refresh: RefreshRate,
     source: Source,
     clocks: Clocks,
-    /// The tool that wrote the log, and the unit of its times if that was inferred; empty for a pattern.
+    /// Name of the tool that wrote the log, and the unit of its times if that was inferred; empty for a pattern.
     format: String,
-    /// Duration of the first frame before it began, in nanoseconds, if the log counts it; else 0.
+    /// Duration of the first frame before it began, in nanoseconds, if the log counts it; otherwise 0.
     lead_ns: i64,
 }
 
@@ -32,28 +34,29 @@ pub struct FrameTrace {
 enum Clocks {
     /// Frames begin and are displayed by the same clock.
     One,
-    /// Two clocks without a common origin.
+    /// Frames begin by one clock and are displayed by another, without a common origin.
     Two,
-    /// Only the beginnings are known, and count as times of display too.
+    /// The log has only the times when frames begin, which count as times of display too.
     OfFrames,
-    /// As `OfFrames`, because times in the log contradict each other.
+    /// Like `OfFrames`, because times in the log contradict each other.
     Conflicting(ClockConflict),
 }
 
-/// Contradictory times of a log. They differ by more than 1 %, or by a quarter for the averaged frames per second.
+/// Two contradictory kinds of times in a log. They differ by more than 1 %, or, for the averaged frames per second, by
+/// more than a quarter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ClockConflict {
-    /// Display times against frame times.
+    /// The display times contradict the frame times.
     Display,
-    /// The log's own time against frame times.
+    /// The log's own time contradicts the frame times.
     Time,
-    /// Frames per second against frame times.
+    /// The frames per second contradict the frame times.
     Rate,
 }
 
 #[derive(Clone)]
 enum Source {
-    /// A finite list.
+    /// A finite list of frames.
     Recorded(Arc<[Frame]>),
     /// An endless pattern.
     Pattern(Box<dyn Pattern>),
@@ -61,10 +64,10 @@ enum Source {
 
 /// An endless pattern of frames.
 pub(super) trait Pattern: Send + Sync {
-    /// The next frame. `steps` is the number of steps that the game made in the previous one.
+    /// Returns the next frame. `steps` is the number of steps that the game made in the previous frame.
     fn next(&mut self, steps: u32) -> Frame;
 
-    /// A copy with its memory.
+    /// Returns a copy of the pattern with its memory.
     fn boxed_clone(&self) -> Box<dyn Pattern>;
 }
 
@@ -75,7 +78,7 @@ impl Clone for Box<dyn Pattern> {
 }
 
 impl FrameTrace {
-    /// A trace of these frames, in order, on a display of this nominal rate.
+    /// Creates a trace of these frames, in order, on a display of this nominal rate.
     pub fn recorded(name: impl Into<String>, refresh: RefreshRate, frames: Vec<Frame>) -> Self {
         Self {
             name: name.into(),
@@ -87,7 +90,7 @@ impl FrameTrace {
         }
     }
 
-    /// A trace of a pattern from its start.
+    /// Creates a trace of a pattern from its start.
     pub(super) fn of_pattern(
         name: impl Into<String>,
         refresh: RefreshRate,
@@ -98,23 +101,23 @@ impl FrameTrace {
         Self { name: name.into(), refresh, source, clocks, format, lead_ns: 0 }
     }
 
-    /// Its name.
+    /// Returns the name of the trace.
     pub fn name(&self) -> &str {
         &self.name
     }
-    /// Nominal rate of its display.
+    /// Returns the nominal refresh rate of the trace's display.
     pub fn refresh(&self) -> RefreshRate {
         self.refresh
     }
-    /// The same frames, beginning and displayed by one clock.
+    /// Returns the same frames, now with one clock by which they begin and are displayed.
     pub(super) fn by_one_clock(self) -> Self {
         Self { clocks: Clocks::One, ..self }
     }
-    /// The same frames, with the name of the tool that wrote them.
+    /// Returns the same frames, with the name of the tool that wrote them.
     pub(super) fn written_by(self, format: String) -> Self {
         Self { format, ..self }
     }
-    /// Summary of a log: its frames, their durations and the tool that wrote it; `None` for a pattern.
+    /// Summarizes a log by its frames, their durations and the tool that wrote it; `None` for a pattern.
     pub fn summary(&self) -> Option<String> {
         let Source::Recorded(frames) = &self.source else { return None };
         let began: Vec<i64> = frames.iter().map(|frame| frame.began_ns).collect();
@@ -137,23 +140,23 @@ impl FrameTrace {
             self.format
         ))
     }
-    /// The same frames, from a log without display times.
+    /// Returns the same frames, marked as from a log without display times.
     pub(super) fn without_display(self) -> Self {
         Self { clocks: Clocks::OfFrames, ..self }
     }
-    /// Whether frames begin and are displayed by one clock. In the logs of most tools they are not.
+    /// Whether frames begin and are displayed by one clock. In the logs of most tools there are two clocks.
     pub fn has_one_clock(&self) -> bool {
         self.clocks != Clocks::Two
     }
-    /// The same frames, without display times because the log contradicts itself.
+    /// Returns the same frames, without display times because the log contradicts itself.
     pub(super) fn with_conflicting_clocks(self, parting: ClockConflict) -> Self {
         Self { clocks: Clocks::Conflicting(parting), ..self }
     }
-    /// The same frames, where the first one took `lead_ns` nanoseconds until it began.
+    /// Returns the same frames, where the first one took `lead_ns` nanoseconds until it began.
     pub(super) fn with_lead(self, lead_ns: i64) -> Self {
         Self { lead_ns, ..self }
     }
-    /// Notice about a log whose display times are missing or not used; `None` for any other trace.
+    /// Returns a notice about a log whose display times are missing or not used; `None` for any other trace.
     pub fn missing_display(&self) -> Option<&'static str> {
         match self.clocks {
             Clocks::One | Clocks::Two => None,
@@ -174,15 +177,15 @@ impl FrameTrace {
             ),
         }
     }
-    /// Whether it ends.
+    /// Whether the trace ends.
     pub fn ends(&self) -> bool {
         matches!(self.source, Source::Recorded(_))
     }
-    /// The same frames on a display with another nominal rate.
+    /// Returns the same frames on a display with another nominal rate.
     pub fn on(self, refresh: RefreshRate) -> Self {
         Self { refresh, ..self }
     }
-    /// Its frames, from the first.
+    /// Returns the frames of the trace, from the first.
     pub fn frames(&self) -> Frames {
         Frames { source: self.source.clone(), next: 0 }
     }
@@ -196,8 +199,8 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// The next frame; `None` at the end of a recording. `steps` is the number of steps in the previous frame, on
-    /// which the duration depends where steps take long.
+    /// Returns the next frame; `None` at the end of a recording. `steps` is the number of steps in the previous frame,
+    /// because the duration depends on it if steps take long.
     pub fn next(&mut self, steps: u32) -> Option<Frame> {
         match &mut self.source {
             Source::Recorded(frames) => {

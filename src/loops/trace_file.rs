@@ -1,12 +1,12 @@
-//! Traces from the logs of frame-time tools: PresentMon, OCAT, CapFrameX, FrameView, MangoHud, Unreal and FRAPS,
-//! which write a row per frame. A plain list of frame times in milliseconds, one a line, works too.
+//! Traces from the logs of frame-time tools: PresentMon, OCAT, CapFrameX, FrameView, MangoHud, Unreal and FRAPS, which
+//! write a row per frame. A plain list of frame times in milliseconds with one time per line works too.
 //!
 //! A log can contain several streams of frames, from several programs and windows; each becomes a separate trace. The
 //! first row of a stream starts its clock. From then on a frame begins `MsBetweenPresents` after the one before, and
 //! is displayed `MsBetweenDisplayChange` after the last one displayed.
 //!
-//! The two clocks have no common origin in these columns, so that a frame's display may lie before its beginning.
-//! Differences within each clock count, not their offset. If a log has no display times, frames count as displayed
+//! These columns have two clocks without a common origin, so that a frame's display may lie before its beginning.
+//! Differences within each clock count, but not their offset. If a log has no display times, frames count as displayed
 //! when they begin, and the trace [reports it](FrameTrace::missing_display).
 
 #[cfg(feature = "serde")]
@@ -27,13 +27,13 @@ use stream::Stream;
 use crate::sim::number::significant;
 use crate::table::{Reading, TableError, TableFault, TableReader, Utf8};
 
-/// Why a log cannot be read, with its place and a remedy.
+/// The reason why a log cannot be read, with its place and a remedy.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{name}:{line}: {fault}")]
 pub struct TraceFileError {
-    /// Name of the log, from the caller.
+    /// Name of the log, as given by the caller.
     pub name: String,
-    /// Line of the fault, from 1.
+    /// Line number of the fault, from 1.
     pub line: u64,
     fault: Fault,
 }
@@ -93,17 +93,17 @@ enum Fault {
 /// Reads the streams of a log from a text, like [`from_bytes`].
 ///
 /// # Errors
-/// As [`from_bytes`].
+/// Fails as [`from_bytes`] does.
 pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
     from_bytes(name, text.as_bytes())
 }
 
 /// Reads the streams of a log from the bytes of a file, in order of their first rows. A single stream has the name
-/// `name`. Several are named `name`, a colon and their program, plus process and number where names would otherwise
-/// collide.
+/// `name`. If there are several, each has the name `name`, a colon and its program; process and number are added if
+/// names would otherwise collide.
 ///
 /// # Errors
-/// If the bytes are not a log of this kind; the message calls it `name`.
+/// If the bytes are not a log of a known kind; the message calls the log `name`.
 pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
     let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if start.trim_ascii_start().starts_with(b"{") {
@@ -144,7 +144,7 @@ struct Checks {
     names_unit: bool,
     /// Whether rows have the log's own time instead of frame times.
     is_own_time: bool,
-    /// Frame times as if in milliseconds, and their products with frames per second where the log has these.
+    /// Frame times as if in milliseconds, and, if the log has frames per second, the products of both.
     frames_ms: Vec<f64>,
     products: Vec<f64>,
     /// Ratio of the log's own time to the sum of its frame times, in the longest stream.
@@ -159,7 +159,7 @@ impl Checks {
         self.products.extend(cells.fps.map(|fps| fps * ms));
     }
 
-    /// Unit of the times; `None` if nothing indicates another than milliseconds.
+    /// Returns the unit of the times; `None` if nothing indicates another unit than milliseconds.
     fn unit(&self) -> Option<Unit> {
         let near = |unit: Unit, wanted: f64, found: f64| {
             (wanted / 2.0..wanted * 2.0).contains(&found).then_some(unit)
@@ -180,14 +180,14 @@ impl Checks {
         }
         let median_ms = median(&self.frames_ms).filter(|_| !self.names_unit)?;
         match median_ms {
-            // The limits are 5000 frames per second and one frame in two seconds.
+            // The limits correspond to 5000 frames per second and to one frame in two seconds.
             ..0.2 if median_ms > 0.0 => Some(Unit::Seconds),
             2000.0.. => Some(Unit::Microseconds),
             _ => None,
         }
     }
 
-    /// Time between two samples in milliseconds, if rows are not frames.
+    /// Returns the time between two samples in milliseconds, if rows are not frames.
     fn sampled_ms(&self) -> Option<f64> {
         if self.is_own_time {
             let product = median(&self.products)?;
@@ -206,7 +206,7 @@ impl Checks {
     }
 }
 
-/// Largest ratio between averaged frames per second and frame times, in the median.
+/// Largest ratio between the averaged frames per second and those of the frame times, in the median row.
 const MAX_RATE_OFF: f64 = 1.25;
 
 fn median(values: &[f64]) -> Option<f64> {
@@ -215,7 +215,7 @@ fn median(values: &[f64]) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
-/// Reads the streams of a log with times in this unit, or else in the unit of its format.
+/// Reads the streams of a log with times in this unit or, if none is given, in the unit of the log's format.
 fn read_in(
     name: &str,
     bytes: &[u8],
@@ -311,7 +311,7 @@ fn read_in(
     Ok((names.into_iter().zip(streams).map(trace).collect(), checks))
 }
 
-/// A row as text, with bytes that are not UTF-8 replaced.
+/// Returns a row as text, with bytes that are not UTF-8 replaced.
 fn text_of(row: &ByteRecord) -> StringRecord {
     StringRecord::from_byte_record_lossy(row.clone())
 }
@@ -321,18 +321,18 @@ fn is_of_capframex(bytes: &[u8]) -> bool {
     bytes.starts_with(b"//") && head(bytes).contains("//GameName")
 }
 
-/// The first bytes of a log as text.
+/// Returns the first bytes of a log as text.
 fn head(bytes: &[u8]) -> String {
     String::from_utf8_lossy(&bytes[..bytes.len().min(400)]).into_owned()
 }
 
-/// Whether a log is one of MSI Afterburner: rows begin with their kind, which is 00 for the head.
+/// Whether a log is one of MSI Afterburner, whose rows begin with their kind, which is 00 for the head.
 fn is_of_afterburner(bytes: &[u8]) -> bool {
     let head = head(bytes);
     head.trim_start().starts_with("00,") && head.contains("Hardware monitoring")
 }
 
-/// A unique name for each stream.
+/// Returns a unique name for each stream.
 fn names(name: &str, streams: &[Stream]) -> Vec<String> {
     if streams.len() == 1 {
         return vec![name.into()];

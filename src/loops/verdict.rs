@@ -8,24 +8,24 @@ use crate::measure::Severity;
 use crate::sim::TickRate;
 use crate::sim::number::round;
 
-/// Animation error that nobody sees, in milliseconds.
+/// Animation error in milliseconds below which nobody sees it.
 const SMOOTH_MS: f64 = 0.1;
-/// Animation error that many people see, in milliseconds.
+/// Animation error in milliseconds above which many people see it.
 const JUDDER_MS: f64 = 2.0;
-/// Latency worth a mention, in ticks.
+/// Latency above which the verdict mentions it, in ticks.
 const LATE_TICKS: f64 = 0.25;
 
 /// A verdict on a loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoopVerdict {
-    /// How bad it is.
+    /// How bad the loop is.
     pub severity: Severity,
-    /// Its clauses, the most important first.
+    /// Clauses of the verdict, with the most important first.
     pub parts: Vec<String>,
 }
 
 impl LoopVerdict {
-    /// The verdict on a loop from its report, at a tick rate in Hz.
+    /// Returns the verdict on a loop from its report, at a tick rate in Hz.
     pub fn of(card: &PolicyCard, report: &PacingReport, tick_hz: impl Into<TickRate>) -> Self {
         let mut verdict = Self::of_picture(report, tick_hz.into());
         let differs = report.keeps_speed() != Some(false) && report.other_motion().is_some();
@@ -38,7 +38,7 @@ impl LoopVerdict {
         verdict
     }
 
-    /// A placeholder for a loop that has not run yet.
+    /// Returns a placeholder for a loop that has not run yet.
     pub(crate) fn awaited() -> Self {
         Self::new(Severity::Unknown, [Some("running…".into())])
     }
@@ -47,12 +47,12 @@ impl LoopVerdict {
         Self { severity, parts: parts.into_iter().flatten().collect() }
     }
 
-    /// Wordings of decreasing length, from all clauses to the first one only.
+    /// Returns wordings of decreasing length, from all clauses to the first one only.
     pub fn wordings(&self) -> Vec<String> {
         (1..=self.parts.len()).rev().map(|count| self.parts[..count].join(", ")).collect()
     }
 
-    /// The verdict on the picture as a viewer sees it.
+    /// Returns the verdict on the picture as a viewer sees it.
     fn of_picture(report: &PacingReport, tick_hz: TickRate) -> Self {
         let said = |severity, words: &str| Self::new(severity, [Some(words.into())]);
         if report.keeps_speed() == Some(false) && report.animation_error_rms_ms.is_some() {

@@ -1,5 +1,5 @@
-//! Advice on the method for a scene at its tick rate. It gives the fewest substeps that meet each of three criteria,
-//! and how much lower the rate or stiffer the bodies could be.
+//! Advice on the method for a scene at its tick rate. It gives the fewest substeps that meet each of three criteria. It
+//! also gives how much lower the rate or how much stiffer the bodies could be.
 
 use std::sync::Arc;
 
@@ -19,23 +19,24 @@ use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 use crate::sim::stability::RateSearch;
 
-/// Largest number of substeps per tick that is tried.
+/// Maximum number of substeps per tick that is tried.
 pub const MAX_ADVISED_SUBSTEPS: u32 = 64;
 
-/// Up to this many substeps, each number is tried before [`MAX_ADVISED_SUBSTEPS`].
+/// Each number of substeps up to this one is tried before [`MAX_ADVISED_SUBSTEPS`].
 const FEW_SUBSTEPS: u32 = 8;
 
 /// Work limit for one run of a stiffer scene, in the unit of [`MAX_WORK`](super::MAX_WORK). There are many such runs.
 const WORK_WHEN_STIFFER: u64 = 10_000_000;
 
-/// An accurate scene that spares less than this fraction of the tolerance is borderline. The error at coarse ticks
-/// has bumps, so that the factors in between are then tried, too.
+/// An accurate scene is borderline if the fraction of the tolerance that it leaves is smaller than this. The error at
+/// coarse ticks has bumps, so that the factors in between are tried, too.
 const SPARE_WHEN_STIFFER: f64 = 0.2;
 
-/// For a body with more coordinates, only cheap methods have their margins searched, since its runs are expensive.
+/// Maximum number of coordinates of a body at which the margins of all methods are searched. If there are more
+/// coordinates, runs are expensive, and only cheap methods have their margins searched.
 const MANY_COORDINATES: usize = 8;
 
-/// Largest cost of such a cheap method, relative to the cheapest.
+/// Maximum cost of such a cheap method, as a multiple of the cheapest method's cost.
 const MAX_TIMES_CHEAPEST: f64 = 4.0;
 
 /// The advice on one method for a scene.
@@ -50,7 +51,8 @@ pub struct MethodAdvice {
 }
 
 impl MethodAdvice {
-    /// Outcome with this many substeps per tick, by the hardest criterion that the method is known to meet with them.
+    /// Returns the outcome with this number of substeps per tick, by the hardest criterion that the method is known to
+    /// meet with it.
     pub fn outcome_with(&self, substeps: u32) -> Outcome {
         let meets = |i: &usize| self.met[*i].met().is_some_and(|met| met.substeps <= substeps);
         let hardest = (0..CRITERIA.len()).rev().find(meets);
@@ -66,16 +68,17 @@ impl MethodAdvice {
 /// Whether a method meets a criterion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CriterionResult {
-    /// It does, in this way.
+    /// The method meets the criterion in this way.
     With(CriterionMet),
-    /// It fails with up to 8 substeps and with [`MAX_ADVISED_SUBSTEPS`]. Numbers in between are then not searched.
+    /// The method fails with up to 8 substeps and with [`MAX_ADVISED_SUBSTEPS`]. Numbers in between are not searched in
+    /// this case.
     No,
-    /// Unknown: it takes too much work, or there is no truth.
+    /// The result is unknown, because it takes too much work, or because there is no truth.
     Unknown,
 }
 
 impl CriterionResult {
-    /// How it meets the criterion, if it does.
+    /// Returns how the method meets the criterion, if it does.
     pub fn met(&self) -> Option<&CriterionMet> {
         match self {
             CriterionResult::With(met) => Some(met),
@@ -84,23 +87,25 @@ impl CriterionResult {
     }
 }
 
-/// Judges methods on a scene at one tick rate. Shared results are computed once, and several threads may use it at
-/// the same time.
+/// Judges methods on a scene at one tick rate. Shared results are computed once, and several threads may use the
+/// adviser at the same time.
 pub struct Adviser {
     scene: Scene,
     judge: Judge,
     tick_hz: TickRate,
-    /// Judges of stiffer scenes, by the index of their [factor](fine_factor); `None` if no scene can be that stiff.
+    /// Judges of stiffer scenes, by the index of the scene's [factor](fine_factor); `None` if no scene can be that
+    /// stiff.
     stiffer: [Once<Option<Judge>>; FINE_FACTORS],
 }
 
 impl Adviser {
-    /// An adviser for `scene` under full throttle at this rate.
+    /// Creates an adviser for `scene` under full throttle at this rate.
     pub fn new(scene: &Scene, tick_hz: impl Into<TickRate>) -> Self {
         Self::within(u64::MAX, scene, tick_hz.into())
     }
 
-    /// As [`Self::new`], with a limit on the total work in the unit of [`MAX_WORK`]. Results beyond it are unknown.
+    /// Like [`Self::new`], with a limit on the total work in the unit of [`MAX_WORK`]. Results beyond the limit are
+    /// unknown.
     pub(super) fn within(max_work: u64, scene: &Scene, tick_hz: TickRate) -> Self {
         let meter = Meter::within(max_work).into();
         block_on(Self::find(scene.clone(), FULL_THROTTLE, tick_hz, meter))
@@ -111,7 +116,7 @@ impl Adviser {
         self.judge.meter().budget_left() == 0
     }
 
-    /// As [`Self::new`], counting its work with `meter`.
+    /// Like [`Self::new`], with `meter` as the counter of the adviser's work.
     pub(super) async fn find(
         scene: Scene,
         throttle: f64,
@@ -127,22 +132,23 @@ impl Adviser {
         &self.scene
     }
 
-    /// The judge of the scene.
+    /// Returns the judge of the scene.
     pub fn judge(&self) -> &Judge {
         &self.judge
     }
 
-    /// The requested rate in Hz.
+    /// Returns the requested rate in Hz.
     pub fn tick_hz(&self) -> TickRate {
         self.tick_hz
     }
 
-    /// The verdict on a lane at the requested rate.
+    /// Returns the verdict on a lane at the requested rate.
     pub fn verdict(&self, spec: LaneSpec) -> Verdict {
         self.judge.verdict(spec, self.tick_hz)
     }
 
-    /// Whether a method meets a criterion, its fewest substeps, and its margins. The substeps of `spec` are ignored.
+    /// Returns whether a method meets a criterion and, if it does, the fewest substeps and the margins. The substeps of
+    /// `spec` are ignored.
     pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
         let mut result = block_on(self.fewest_substeps(spec, criterion));
         if let CriterionResult::With(met) = &mut result {
@@ -151,8 +157,8 @@ impl Adviser {
         result
     }
 
-    /// The method recommended for a criterion, with its fewest substeps. The result is [`recommended`], found without
-    /// judging more expensive methods.
+    /// Returns the method recommended for a criterion, with its fewest substeps. The result is [`recommended`], found
+    /// without judging more expensive methods.
     pub fn cheapest(
         &self,
         criterion: Criterion,
@@ -192,12 +198,13 @@ impl Adviser {
         }
     }
 
-    /// The verdict on a lane, and for each criterion the fewest substeps that meet it. Margins are not searched.
+    /// Returns the verdict on a lane, and for each criterion the fewest substeps that meet it. Margins are not
+    /// searched.
     pub fn judged(&self, spec: LaneSpec) -> MethodAdvice {
         block_on(self.advice_on(spec))
     }
 
-    /// As [`Self::judged`].
+    /// Like [`Self::judged`], as work in slices.
     pub(super) async fn advice_on(&self, spec: LaneSpec) -> MethodAdvice {
         let verdict = self.judge.verdict_within(MAX_WORK, spec, self.tick_hz).await;
         let mut met = [const { CriterionResult::Unknown }; CRITERIA.len()];
@@ -211,8 +218,8 @@ impl Adviser {
         MethodAdvice { spec, verdict, met }
     }
 
-    /// Unsearched margins that affect which method is [`recommended`], as indices of a method in `advised` and of a
-    /// criterion that it meets. Searching them may make further margins relevant.
+    /// Returns the unsearched margins that affect which method is [`recommended`], as indices of a method in `advised`
+    /// and of a criterion that this method meets. Searching them may make further margins relevant.
     pub fn undecided_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
         if self.is_spent() {
             return Vec::new();
@@ -234,8 +241,8 @@ impl Adviser {
         }
     }
 
-    /// Unsearched margins worth a search, as indices like those of [`Self::undecided_margins`]. For a body with more
-    /// than eight coordinates, only methods that cost at most four times the least are included.
+    /// Returns the unsearched margins that are worth a search, as indices like those of [`Self::undecided_margins`].
+    /// For a body with more than eight coordinates, only methods that cost at most four times the minimum are included.
     pub fn worth_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
         if self.is_spent() {
             return Vec::new();
@@ -255,7 +262,7 @@ impl Adviser {
         margins.filter(is_worth).collect()
     }
 
-    /// As [`MethodAdvice::search_margins`].
+    /// Like [`MethodAdvice::search_margins`], as work in slices.
     pub(super) async fn search_margins(&self, advice: &mut MethodAdvice, criterion: usize) {
         if let CriterionResult::With(met) = &mut advice.met[criterion] {
             self.add_margins(advice.spec, CRITERIA[criterion], met).await;
@@ -273,13 +280,13 @@ impl Adviser {
         met.are_margins_searched = true;
     }
 
-    /// Whether a method meets a criterion, and with how many substeps. With one fewer it does not.
+    /// Returns whether a method meets a criterion, and with how many substeps. With one substep fewer it fails.
     async fn fewest_substeps(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
         let with = |substeps: u32| LaneSpec { substeps, ..spec };
         let tried = |substeps| self.judge.meets(criterion, with(substeps), self.tick_hz);
         let (mut fails, mut holds, mut with_most) = (0, None, None);
         for substeps in (0..).map(tried_substeps).take_while(|&n| n <= MAX_ADVISED_SUBSTEPS) {
-            // If even the most substeps fail, the numbers in between are not searched.
+            // If even the maximum number of substeps fails, the numbers in between are not searched.
             if substeps > FEW_SUBSTEPS && with_most.is_none() {
                 with_most = Some(tried(MAX_ADVISED_SUBSTEPS).await);
                 if matches!(with_most, Some(CriterionFinding::Fails { .. })) {
@@ -322,20 +329,20 @@ impl Adviser {
         })
     }
 
-    /// The lowest of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion, in Hz; `None`
-    /// if it meets it at no rate.
+    /// Returns the lowest of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion, in Hz;
+    /// `None` if the lane meets it at no rate.
     pub fn slowest(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
         RateSearch::run(|hz| block_on(self.judge.meets(criterion, spec, hz.into())).holds())
     }
 
-    /// The lowest whole rate that a search down from the requested one finds to meet the criterion. One hertz lower
-    /// the lane fails, or no tick fits into the horizon. `None` if this is unknown.
+    /// Returns the lowest whole rate that a search down from the requested rate finds to meet the criterion. One hertz
+    /// lower, the lane fails, or no tick fits into the horizon. `None` if the result is unknown.
     async fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
         // Runs of a net are expensive, and so are the modes of a method with memory.
         let is_dear = spec.method.restart.is_some()
             || self.scene.bodies.iter().any(|body| body.kind.net().is_some());
         let strides = if is_dear { 6 } else { 60 };
-        // The last miss of the search is adjacent to its result.
+        // The last miss of the search is adjacent to the result of the search.
         let mut is_known = true;
         let mut search = RatesDown::from(self.tick_hz.hz().ceil() as u32, strides);
         while let Some(hz) = search.next() {
@@ -349,8 +356,9 @@ impl Adviser {
         is_known.then_some(search.held_hz)
     }
 
-    /// The largest of [`FACTORS`] by which every body may be stiffer, if it and all smaller factors meet the
-    /// criterion. Also the parameter that limits it. `None` if the result for the next factor is unknown.
+    /// Returns the largest of [`FACTORS`] by which every body may be stiffer, if this factor and all smaller ones meet
+    /// the criterion. Also returns the name of the parameter that limits the factor. `None` if the result for the next
+    /// factor is unknown.
     async fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> Option<(f64, String)> {
         let (mut held, mut last_miss) = (0, None);
         let has_hairs = criterion == Criterion::Accurate && self.judge.has_bumps();
@@ -383,7 +391,7 @@ impl Adviser {
         Some((FACTORS[held], self.stiffness_name(culprit.unwrap_or(0))))
     }
 
-    /// Each body's index, with the index of its leading parameter.
+    /// Returns each body's index, with the index of the body's leading parameter.
     fn stiff_bodies(&self) -> impl Iterator<Item = (usize, usize)> {
         self.scene.bodies.iter().enumerate().filter_map(|(body, of)| {
             let (leads, _) = of.kind.parameter(&of.kind.leading)?;
@@ -391,7 +399,7 @@ impl Adviser {
         })
     }
 
-    /// Name of the parameter that makes a body stiffer.
+    /// Returns the name of the parameter that makes a body stiffer.
     fn stiffness_name(&self, body: usize) -> String {
         let body = &self.scene.bodies[body];
         let (_, leading) =
@@ -403,7 +411,7 @@ impl Adviser {
         }
     }
 
-    /// The judge of the scene with every body stiffer by the factor with this index.
+    /// Returns the judge of the scene in which every body is stiffer by the factor with this index.
     async fn stiffer(&self, index: usize) -> Option<&Judge> {
         let find = async {
             let scene = self.stiffen(fine_factor(index))?;
@@ -433,7 +441,7 @@ impl Adviser {
     }
 }
 
-/// The ranking for the criterion with this index.
+/// Returns the ranking for the criterion with this index.
 fn ranking(advised: &[MethodAdvice], criterion: usize) -> Ranking<'_> {
     Ranking::new(
         advised.iter().enumerate().filter_map(|(i, advice)| {
@@ -442,18 +450,20 @@ fn ranking(advised: &[MethodAdvice], criterion: usize) -> Ranking<'_> {
     )
 }
 
-/// Index in `advised` of the method recommended for a criterion. Margins that are not searched count as no reserve.
+/// Returns the index in `advised` of the method recommended for a criterion. A margin that is not searched counts as no
+/// reserve.
 pub fn recommended(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
     ranking(advised, criterion).recommended_index()
 }
 
-/// Indices in `advised` of the methods that meet a criterion: the [`recommended`] one, then the others by increasing
-/// cost. The order of `advised` does not matter. Listings as printed are left out.
+/// Returns the indices in `advised` of the methods that meet a criterion. The [`recommended`] one comes first, then the
+/// others by increasing cost. The order of `advised` does not matter. Listings as printed are left out.
 pub fn ranked(advised: &[MethodAdvice], criterion: usize) -> Vec<usize> {
     ranking(advised, criterion).indices()
 }
 
-/// Index in `advised` of the cheapest method, if it loses to the [`recommended`] one for lack of a reserve.
+/// Returns the index in `advised` of the cheapest method, if the [`recommended`] one is preferred because the cheapest
+/// lacks a reserve.
 pub(super) fn passed_over(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
     ranking(advised, criterion).passed_over()
 }

@@ -1,18 +1,18 @@
-//! Trend of an amplitude within the horizon, and the quantity that it measures.
+//! Trend of an amplitude within the horizon, and the quantity whose amplitude it is.
 
 use super::criterion::VISIBLE;
 
-/// A change of the amplitude by this factor counts even if it happens at once and then stops.
+/// Factor from which on a change of the amplitude counts even if it happens at once and then stops.
 const LEAP: f64 = 1.5;
 
 /// Change of an amplitude within the horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Trend {
-    /// Too small to see.
+    /// The change is too small to see.
     None,
-    /// It grows.
+    /// The amplitude grows.
     Grows,
-    /// It shrinks.
+    /// The amplitude shrinks.
     Dies,
 }
 
@@ -21,10 +21,10 @@ pub enum Trend {
 pub enum Measure {
     /// The swing of one coordinate, or of one mode of a linear body.
     Swing,
-    /// The swing of several modes of a linear body: the root of their energy.
+    /// The swing of several modes of a linear body, which is the root of their energy.
     Modes,
-    /// Largest distance of any coordinate from its centre in units of its amplitude, for coordinates that swing
-    /// together.
+    /// Largest distance of any coordinate from its centre in units of that coordinate's amplitude, for coordinates that
+    /// swing together.
     Reach,
     /// The distance from a motion that does not swing.
     #[default]
@@ -32,7 +32,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// Its name.
+    /// Returns the quantity's name.
     pub fn name(self) -> &'static str {
         match self {
             Measure::Swing | Measure::Modes => "swing",
@@ -43,7 +43,7 @@ impl Measure {
 }
 
 impl Trend {
-    /// Trend of a swing whose amplitude has changed by this factor.
+    /// Returns the trend of a swing whose amplitude has changed by this factor.
     pub(super) fn of(amplitude: f64) -> Self {
         match amplitude {
             a if a >= 1.0 + VISIBLE => Trend::Grows,
@@ -52,8 +52,9 @@ impl Trend {
         }
     }
 
-    /// Trend of a swing with the amplitudes `first` in the first quarter and `last` in the last one, in units of the
-    /// initial amplitude. A change that happens at once and then stops does not count, unless it is a [leap](LEAP).
+    /// Returns the trend of a swing with the amplitudes `first` in the first quarter and `last` in the last one, in
+    /// units of the initial amplitude. A change that happens at once and then stops does not count, unless it is a
+    /// [leap](LEAP).
     pub(super) fn between(first: f64, last: f64) -> Self {
         let trend = Trend::of(last / first);
         match Trend::of(last) {
@@ -64,7 +65,7 @@ impl Trend {
     }
 }
 
-/// Amplitude of a swing, in units of the initial one, after a relative change of its energy.
+/// Returns the amplitude of a swing, in units of the initial amplitude, after a relative change of its energy.
 pub(super) fn amplitude(energy_change: f64) -> f64 {
     (1.0 + energy_change).max(0.0).sqrt()
 }

@@ -1,5 +1,5 @@
-//! The verdict on a body without a reference solution, which would take too much work. It rests on the energy of the
-//! run, which only the method's error can raise, and on the spectral radius of a tick.
+//! The verdict on a body without a reference solution, because the solution would take too much work. The verdict rests
+//! on the energy of the run, which only the method's error can raise, and on the spectral radius of a tick.
 
 use std::ops::ControlFlow;
 
@@ -14,7 +14,7 @@ use crate::scene::LaneSpec;
 use crate::sim::TickRate;
 use crate::sim::stability::{PowerIteration, Tick};
 
-/// Divisor of a run's work limit that gives the limit for the spectral radius.
+/// Divisor of a run's work limit. The quotient is the work limit for the spectral radius.
 const WORK_OF_RADIUS: u64 = 12;
 
 /// Result of a run without a truth.
@@ -48,7 +48,7 @@ pub(super) async fn follow_energy(
     let spectral_radius = spectral_radius(truth, &mut followed.body, spec, tick_hz, max_work).await;
     let (mut seconds, mut evaluations) = (0.0, 0);
     let mut means = Means::over(horizon);
-    // Largest kinetic energy, energy loss and energy gain, in joules.
+    // These are the largest kinetic energy, energy loss and energy gain, in joules.
     let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);
     let see = |body: &FollowedBody, tick: u64| {
         (seconds, evaluations) = (tick_hz.seconds(tick), body.stepper.evaluations());
@@ -89,7 +89,7 @@ pub(super) async fn follow_energy(
     }
 }
 
-/// Spectral radius of a tick about the state of `body`, if it is finite.
+/// Returns the spectral radius of a tick about the state of `body`, if it is finite.
 async fn spectral_radius(
     truth: &BodyTruth,
     body: &mut FollowedBody,

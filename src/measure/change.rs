@@ -7,10 +7,10 @@ use super::truth::{BodyTruth, Swing};
 use super::verdict::LongTerm;
 use crate::sim::stability::FOREVER_S;
 
-/// Relative growth of the swing over the second half of the long run above which it counts as growth.
+/// Relative growth of the swing over the second half of the long run from which on the swing counts as growing.
 const GROWTH_SEEN: f64 = 2e-3;
 
-/// Gains of energy are steady if the smallest quarter's gain is at least this fraction of the largest.
+/// Gains of energy are steady if the smallest quarter's gain is at least this fraction of the largest quarter's gain.
 const STEADY: f64 = 0.5;
 
 /// Changes of a motion's amplitude, energy and frequency.
@@ -76,8 +76,9 @@ pub(super) fn bounded(truth: &BodyTruth, run: &JudgedRun) -> Option<bool> {
     Some(!grows && steadily_doubles_in_s(truth, run).is_none())
 }
 
-/// Doubling time of the amplitude of a linear oscillator that gains similar energy in each quarter of the long run,
-/// so that its swing grows at a constant rate. `None` beyond [`FOREVER_S`], and for any other body or run.
+/// Returns the doubling time of the amplitude of a linear oscillator whose swing grows at a constant rate. The rate
+/// counts as constant if the energy gains in the quarters of the long run are similar. `None` beyond [`FOREVER_S`], and
+/// for any other body or run.
 fn steadily_doubles_in_s(truth: &BodyTruth, run: &JudgedRun) -> Option<f64> {
     let [first, early, middle, late] = run.long_quarters;
     let gains = [early - first, middle - early, late - middle];
@@ -103,7 +104,7 @@ mod tests {
     use crate::scene::{LaneSpec, Scene};
     use crate::sim::integrators::{StepFailure, method};
 
-    /// A run to the end of a swing that neither grows nor dies.
+    /// Returns a run to the end, for a swing that neither grows nor dies.
     fn followed() -> (BodyTruth, JudgedRun) {
         let text = "title = 't'\ntick_hz = 60\nseconds = 10\n[[pendulum]]\nlength_m = 1\n";
         let scene = Scene::parse("t", text).unwrap();

@@ -9,21 +9,21 @@ use crate::sim::number::{round, significant};
 use crate::sim::numerics::bisect;
 use crate::sim::{Solver, TickRate};
 
-/// How a body closes in on a fixed target, under a method and in truth.
+/// How a body approaches a fixed target, under a method and in truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChaseFinding {
-    /// Time in seconds to cover half of the way; `None` if it does not.
+    /// Time in seconds to cover half of the way; `None` if the body does not cover it.
     pub half_life_s: Option<f64>,
-    /// The half-life in truth.
+    /// True half-life in seconds.
     pub true_half_life_s: Option<f64>,
     /// Distance beyond the target, in percent of the way.
     pub overshoot_percent: f64,
-    /// Rate times step length and the method's limit for it, if the limit is exceeded.
+    /// The rate times the step length, and the method's limit for this product, if the limit is exceeded.
     pub beyond_limit: Option<[f64; 2]>,
 }
 
-/// Number of moments that a search for the true half-life samples before narrowing it down. The first crossing is the
-/// only one, since a true follower does not turn back.
+/// Number of moments that a search for the true half-life samples before narrowing it down. There is only one crossing,
+/// because a true follower does not turn back.
 const LOOKS: u32 = 1 << 10;
 
 /// Smaller relative errors of the half-life are not mentioned.
@@ -52,7 +52,7 @@ impl ChaseFinding {
     }
 }
 
-/// True half-life in seconds, if it is within the horizon.
+/// Returns the true half-life in seconds, if it is within the horizon.
 fn true_half_life_s(truth: &BodyTruth) -> Option<f64> {
     let start = truth.start(Solver::Truth);
     let target = start.pursuit(0.0)?.target;
@@ -68,7 +68,7 @@ fn true_half_life_s(truth: &BodyTruth) -> Option<f64> {
 }
 
 impl ChaseFinding {
-    /// The half-life in seconds and in words, which is the key figure of a body that closes in on a target.
+    /// Returns the half-life in seconds and in words, which is the key figure of a body that approaches a target.
     pub(super) fn number(&self) -> Option<(f64, String)> {
         let half = self.half_life_s.filter(|_| self.beyond_limit.is_none())?;
         Some((half, format!("half-life {}", milliseconds(half))))

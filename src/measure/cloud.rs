@@ -1,7 +1,8 @@
-//! Clouds: many starts around the state of a body, stepped by one method, and the change of the area they cover.
+//! Clouds, which are many starts around the state of a body, stepped by one method, and the change of the area that
+//! they cover.
 //!
-//! A method is a map of the phase plane. Its effect on an area is its character: it preserves, spreads, shrinks or
-//! tears it.
+//! A method is a map of the phase plane. Its effect on an area is its character, because it preserves, spreads, shrinks
+//! or tears the area.
 
 use crate::sim::batch::{Batch, InstructionSet, OneCoordinate, Ticks};
 use crate::sim::bodies::Kind;
@@ -34,15 +35,15 @@ use crate::scene::LaneSpec;
 /// Default number of points of a cloud.
 pub const USUAL_POINTS: usize = 100_000;
 
-/// Why there is no cloud.
+/// The reason why there is no cloud.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoCloud {
-    /// The body has no phase plane, or several.
+    /// The body has no phase plane, or several ones.
     #[error("a cloud needs a body of one coordinate, and {body} has {coordinates}")]
     SeveralCoordinates {
         /// Name of the body.
         body: String,
-        /// Number of its coordinates.
+        /// Number of the body's coordinates.
         coordinates: usize,
     },
     /// The coordinate of a custom body has another type than `f64`.
@@ -59,21 +60,21 @@ pub enum NoCloud {
     },
 }
 
-/// A body to make a cloud of.
+/// A body from which a cloud is made.
 #[derive(Clone, Copy)]
 pub struct CloudBody<'a> {
-    /// Its name, for errors.
+    /// Name of the body, for errors.
     pub name: &'a str,
-    /// Its kind.
+    /// Kind of the body.
     pub kind: &'a Kind,
-    /// The body, whose state is the middle of the cloud.
+    /// The body under its solver. Its state is the middle of the cloud.
     pub body: &'a dyn Stepper,
 }
 
-/// Start of a cloud.
+/// The start of a cloud.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloudStart {
-    /// Its shape.
+    /// Shape of the cloud.
     pub shape: CloudShape,
     /// Start time in seconds, for forces that depend on time.
     pub t: f64,
@@ -84,9 +85,9 @@ pub struct CloudStart {
 }
 
 impl CloudStart {
-    /// A cloud around the state of a body at time 0. `size` is its half-width in the unit of the coordinate, by
-    /// default a quarter of the swing. The half-width in velocity is `size` times the rate of the body's motion
-    /// there.
+    /// Returns a cloud's start around the state of a body at time 0. `size` is the half-width in the unit of the
+    /// coordinate, by default a quarter of the swing. The half-width in velocity is `size` times the rate of the body's
+    /// motion in this state.
     ///
     /// # Errors
     /// If the body has several coordinates.
@@ -108,7 +109,7 @@ impl CloudStart {
         Ok(Self::around(middle, force, shape, size))
     }
 
-    /// A cloud around a state, where `force` is the force per unit mass at its velocity.
+    /// Returns a cloud's start around a state, where `force` is the force per unit mass at this state's velocity.
     fn around(
         middle: [f64; 2],
         force: impl Fn(f64) -> f64,
@@ -136,7 +137,7 @@ impl CloudStart {
 /// Measurements of a cloud.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloudMeasure {
-    /// Number of points left; the others blew up.
+    /// Number of points left. The other points blew up.
     pub points: usize,
     /// Area relative to the start; `None` if no point is left, or if the cloud is too fine, folded or torn to
     /// measure.
@@ -158,30 +159,29 @@ pub struct Cloud {
 
 /// How the area is measured.
 enum Area {
-    /// By lozenges around some points; the course steps their corners.
+    /// The area is measured by lozenges around some points. The course steps the corners of the lozenges.
     Lozenges(Course),
-    /// By the border of the whole cloud, if near points take different steps, so that the map is too rough for small
-    /// areas.
+    /// The area is measured by the border of the whole cloud. This is done if near points take different steps, so that
+    /// the map is too rough for small areas.
     Border(CloudBorder),
 }
 
-/// The area is recovering if its log change once exceeded `BACK` × the current one + `LITTLE_BACK`.
+/// The area is recovering if its log change was once larger than `BACK` × the current log change + `LITTLE_BACK`.
 const BACK: f64 = 1.1;
 const LITTLE_BACK: f64 = 0.01;
 
-/// Log changes of an area below which it counts as preserved, for lozenges and for a border. For lozenges a larger
-/// change counts as zero too if it is within this number of standard errors of the mean.
+/// Log changes of an area below which the area counts as preserved, for lozenges and for a border. For lozenges a
+/// larger change counts as zero too if it is within `UNKNOWN_ERRORS` standard errors of the mean.
 const UNKNOWN: f64 = 1e-6;
 const UNKNOWN_ERRORS: f64 = 3.0;
 const UNKNOWN_BY_BORDER: f64 = 2e-3;
-/// Smaller changes are reported as a percentage of the area, not as a rate.
+/// Log change of an area below which it is reported as a percentage of the area, and not as a rate.
 const SLIGHT: f64 = 1e-2;
 
-/// If the relative standard error of the mean area exceeds this, the mean is unknown: a few far points then decide
-/// it.
+/// Relative standard error of the mean area above which the mean is unknown, because a few far points decide it.
 const UNEVEN: f64 = 0.1;
 
-/// Smaller fractions of points beyond the axes are not mentioned.
+/// Fraction of points beyond the axes below which they are not mentioned.
 const HIDDEN: f64 = 0.1;
 
 /// Maximum number of sampled points, and number of a cloud's points per sample.
@@ -189,10 +189,10 @@ const MAX_SAMPLES: usize = 256;
 const POINTS_TO_A_SAMPLE: usize = 16;
 
 impl Cloud {
-    /// Whether memory suffices for a cloud of `points` under each of these lanes at once. Allocates nothing.
+    /// Checks whether memory suffices for a cloud of `points` under each of these lanes at once. Allocates nothing.
     ///
     /// # Errors
-    /// [`NoCloud::TooMany`] if it does not.
+    /// Fails with [`NoCloud::TooMany`] if memory does not suffice.
     pub fn find_room<'s>(
         points: usize,
         specs: impl IntoIterator<Item = &'s LaneSpec>,
@@ -201,10 +201,10 @@ impl Cloud {
         Batch::find_room(points, solvers).map_err(|_| NoCloud::TooMany { points })
     }
 
-    /// A cloud of `points` starts of a body, under a lane of a race at this tick rate.
+    /// Creates a cloud of `points` starts of a body, under a lane of a race at this tick rate.
     ///
     /// # Errors
-    /// The reason if the body has no cloud.
+    /// Fails with the reason if the body has no cloud.
     pub fn new(
         of: CloudBody<'_>,
         spec: &LaneSpec,
@@ -217,7 +217,8 @@ impl Cloud {
         Self::of_subject(subject, of.body.is_linear(), spec, start, points, tick_hz.into())
     }
 
-    /// A cloud of `points` starts of a custom body around a start. Its half-width is a quarter of the swing.
+    /// Creates a cloud of `points` starts of a custom body around a start. The cloud's half-width is a quarter of the
+    /// swing.
     ///
     /// ```
     /// use regatta::measure::cloud::{Cloud, CloudShape};
@@ -243,7 +244,7 @@ impl Cloud {
     /// ```
     ///
     /// # Errors
-    /// [`NoCloud::TooMany`] if memory does not suffice.
+    /// Fails with [`NoCloud::TooMany`] if memory does not suffice.
     pub fn of<S: OneCoordinate>(
         system: &S,
         start: State<f64>,
@@ -302,7 +303,7 @@ impl Cloud {
         Ok(cloud)
     }
 
-    /// The same cloud, storing earlier states so that it can go back.
+    /// Returns the same cloud, which from now on stores states so that it can go back.
     pub fn rewindable(self) -> Self {
         let area = match self.area {
             Area::Lozenges(corners) => Area::Lozenges(corners.rewindable()),
@@ -326,8 +327,8 @@ impl Cloud {
         }
     }
 
-    /// Coordinates and velocities of all points at this number of ticks after the start. Between two ticks they are
-    /// interpolated linearly, and the cloud moves to the later tick.
+    /// Returns the coordinates and velocities of all points at this number of ticks after the start. Between two ticks
+    /// they are interpolated linearly, and the cloud moves to the later tick.
     pub fn states_at(&mut self, ticks: f64) -> [Vec<f64>; 2] {
         let part = ticks.fract();
         self.go_to(ticks as u64);
@@ -341,22 +342,22 @@ impl Cloud {
         states
     }
 
-    /// The current tick.
+    /// Returns the current tick.
     pub fn tick(&self) -> u64 {
         self.course.tick()
     }
 
-    /// Coordinates of the points.
+    /// Returns the coordinates of the points.
     pub fn q(&self) -> &[f64] {
         self.course.q()
     }
 
-    /// Velocities of the points.
+    /// Returns the velocities of the points.
     pub fn v(&self) -> &[f64] {
         self.course.v()
     }
 
-    /// How the area is measured, in words.
+    /// Describes in words how the area is measured.
     pub fn measured_in_words(&self) -> String {
         match &self.area {
             Area::Border(_) => "measured by its border".into(),
@@ -379,13 +380,13 @@ impl Cloud {
         CloudMeasure { points: self.points_left(), area_ratio, spread, hash: hash.0 }
     }
 
-    /// Number of points left; the others blew up.
+    /// Returns the number of points left. The other points blew up.
     pub fn points_left(&self) -> usize {
         self.present().count()
     }
 
-    /// Area relative to the start; `None` if no point is left, or if the cloud is too fine, folded or torn to
-    /// measure.
+    /// Returns the area relative to the start; `None` if no point is left, or if the cloud is too fine, folded or torn
+    /// to measure.
     pub fn area_ratio(&self) -> Option<f64> {
         self.present().next()?;
         match &self.area {
@@ -400,8 +401,8 @@ impl Cloud {
         }
     }
 
-    /// Change of the area in words. `before` yields earlier areas relative to the start: an area that is recovering
-    /// has no rate.
+    /// Describes the change of the area in words. `before` yields earlier areas relative to the start, because an area
+    /// that is recovering has no rate.
     pub fn in_words(
         &self,
         area_ratio: Option<f64>,
@@ -433,7 +434,7 @@ impl Cloud {
         }
     }
 
-    /// Log change of the area below which it may be a measurement error.
+    /// Returns the log change of the area below which the change may be a measurement error.
     fn unknown(&self) -> f64 {
         match &self.area {
             Area::Border(_) => UNKNOWN_BY_BORDER,
@@ -445,14 +446,14 @@ impl Cloud {
         }
     }
 
-    /// Number of points left that lie beyond the axes of a picture.
+    /// Returns the number of points left that lie beyond the axes of a picture.
     pub fn hidden(&self, picture: &Density) -> usize {
         // The margin of an axis may show points that blew up.
         self.points_left().saturating_sub(picture.points())
     }
 
-    /// Number of points left on each side of a view: left, right, below and above. A point counts for the side that it
-    /// is furthest beyond.
+    /// Returns the number of points left that lie on each side of a view: left, right, below and above. A point counts
+    /// for the side on which it is furthest beyond the view.
     pub fn beyond(&self, view: PlaneView) -> [usize; 4] {
         let mut beyond = [0; 4];
         for [q, v] in self.present() {
@@ -467,13 +468,14 @@ impl Cloud {
         beyond
     }
 
-    /// The points that have not blown up.
+    /// Returns the points that have not blown up.
     fn present(&self) -> impl Iterator<Item = [f64; 2]> {
         let is_there = |state: &[f64; 2]| state.iter().all(|number| number.abs() <= ESCAPE);
         self.q().iter().zip(self.v()).map(|(&q, &v)| [q, v]).filter(is_there)
     }
 
-    /// RMS distance of the points from their middle, in units of the half-width; `None` without points.
+    /// Returns the RMS distance of the points from their middle, in units of the half-width; `None` if there are no
+    /// points.
     fn distance(&self) -> Option<f64> {
         let reach = self.start.reach;
         let states = || self.present().map(|state| [state[0] / reach[0], state[1] / reach[1]]);
@@ -488,13 +490,13 @@ impl Cloud {
     }
 }
 
-/// Percentage of points beyond the axes, in words; `None` if it is small.
+/// Describes the percentage of points beyond the axes in words; `None` if it is small.
 pub fn hidden_in_words(hidden: usize, points: usize) -> Option<String> {
     let part = hidden as f64 / points as f64;
     (part >= HIDDEN).then(|| format!("{} % off the picture", significant(100.0 * part, 2)))
 }
 
-/// Mean of areas and its standard error.
+/// Returns the mean of areas and the standard error of this mean.
 fn mean_and_error(areas: &[f64]) -> [f64; 2] {
     let count = areas.len() as f64;
     let mean = areas.iter().sum::<f64>() / count;
@@ -502,7 +504,7 @@ fn mean_and_error(areas: &[f64]) -> [f64; 2] {
     [mean, (squares.sum::<f64>() / (count * (count - 1.0).max(1.0))).sqrt()]
 }
 
-/// Number of sampled points in a cloud of `points`.
+/// Returns the number of sampled points in a cloud of `points`.
 fn samples(points: usize) -> usize {
     (points / POINTS_TO_A_SAMPLE).clamp(POINTS_TO_A_SAMPLE / 2, MAX_SAMPLES)
 }

@@ -20,7 +20,7 @@ pub static CRITERIA: [Criterion; 3] =
     [Criterion::Bounded, Criterion::LooksRight, Criterion::Accurate];
 
 impl Criterion {
-    /// Its name in output, in kebab case.
+    /// Returns the criterion's name in output, in kebab case.
     pub fn id(self) -> &'static str {
         match self {
             Criterion::Bounded => "bounded",
@@ -29,7 +29,7 @@ impl Criterion {
         }
     }
 
-    /// Its name for people.
+    /// Returns the criterion's name for people.
     pub fn name(self) -> &'static str {
         match self {
             Criterion::Bounded => "bounded",
@@ -38,7 +38,7 @@ impl Criterion {
         }
     }
 
-    /// The requirement in one line.
+    /// Describes the requirement in one line.
     pub fn about(self) -> &'static str {
         match self {
             Criterion::Bounded => {
@@ -62,40 +62,42 @@ impl Criterion {
 /// Largest factor by which bodies are made stiffer.
 pub(super) const MAX_STIFFER: f64 = 10.0;
 
-/// The fewest substeps with which a method meets a criterion, and its margins.
+/// The smallest number of substeps with which a method meets a criterion, and the margins of the method.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct CriterionMet {
     /// Requested tick rate in Hz, at which the criterion is met.
     pub tick_hz: TickRate,
-    /// Steps per tick.
+    /// Number of steps per tick.
     pub substeps: u32,
-    /// Evaluations of all bodies' accelerations per simulated second, in the long run for a method of equal steps.
+    /// Number of evaluations of all bodies' accelerations per simulated second. For a method of equal steps, it is the
+    /// number in the long run.
     pub evaluations_per_s: f64,
-    /// These evaluations times [the cost of one](crate::sim::integrators::Method::evaluation_cost), which is the
-    /// first key of the ranking.
+    /// Number of evaluations per simulated second times [the cost of
+    /// one](crate::sim::integrators::Method::evaluation_cost), which is the first key of the ranking.
     pub cost_per_s: f64,
-    /// Whether the margins have been searched. Where a search is expensive, only cheap methods get one.
+    /// Whether the margins have been searched. If a search is expensive, it is done only for cheap methods.
     #[cfg_attr(feature = "serde", serde(rename = "margins_searched"))]
     pub are_margins_searched: bool,
     /// Lowest whole tick rate in Hz at which the criterion still holds with the same number of substeps. The search
-    /// goes down from the requested rate, rounded up, and all rates tried on the way hold as well. `None` if the
-    /// result one hertz lower is unknown, for lack of a truth or for too much work.
+    /// goes down from the requested rate, rounded up, and the criterion holds at all rates tried on the way. `None` if
+    /// the result one hertz lower is unknown, because there is no truth or it takes too much work.
     pub slowest_hz: Option<u32>,
-    /// Largest factor by which the bodies may be stiffer, 1 to 10, to two digits. The criterion holds with every
-    /// factor tried up to it, each at most a tenth above the one before. `None` if the result for the next factor is
-    /// unknown.
+    /// Largest factor by which the bodies may be stiffer, from 1 to 10, to two digits. The criterion holds with this
+    /// factor and with every smaller one tried, each of which is at most a tenth above the one before. `None` if the
+    /// result for the next factor is unknown.
     pub stiffness_factor: Option<f64>,
-    /// The parameter that the factor multiplies, for the body that fails first beyond it; `None` if the factor is.
+    /// The parameter that the factor multiplies, for the body that fails first with a larger factor; `None` if the
+    /// factor is `None`.
     pub limited_by: Option<String>,
 }
 
-/// Marks a zero margin.
+/// Text that marks a zero margin.
 const NO_RESERVE: &str = "(no reserve)";
 
 impl CriterionMet {
-    /// Its margins in words, as part of a sentence, or that they are unknown.
+    /// Describes the margins in words, as part of a sentence. If they were not searched, the text says so.
     pub fn margins(&self) -> String {
         if !self.are_margins_searched {
             return "the reserve has not been searched".into();
@@ -112,19 +114,19 @@ impl CriterionMet {
         }
     }
 
-    /// Lowest rate at which the criterion holds; `None` if unknown.
+    /// Returns the lowest rate at which the criterion holds; `None` if unknown.
     pub fn slowest(&self) -> Option<TickRate> {
         self.slowest_hz.map(|hz| TickRate::whole(hz).min(self.tick_hz))
     }
 
-    /// Lowest rate at which the criterion holds, in words; `None` if unknown.
+    /// Describes the lowest rate at which the criterion holds; `None` if unknown.
     pub fn slower(&self) -> Option<String> {
         let hz = self.slowest()?;
         let mark = if self.has_no_slower() { format!(" {NO_RESERVE}") } else { String::new() };
         Some(format!("{hz:.3} Hz{mark}"))
     }
 
-    /// Largest stiffness factor with its parameter, in words; `None` if unknown.
+    /// Describes the largest stiffness factor and its parameter; `None` if unknown.
     pub fn stiffer(&self) -> Option<String> {
         let factor = self.stiffness_factor?;
         let more = if factor >= MAX_STIFFER { "more than " } else { "" };
@@ -132,23 +134,23 @@ impl CriterionMet {
         Some(format!("{more}{} × {}{mark}", round(factor, 3), self.limited_by.as_deref()?))
     }
 
-    /// The reserve: a factor, 1 to 10, by which the bodies may be stiffer at this rate, or equivalently the rate
-    /// lower. It is the smaller of the known margins, and `None` if neither is known.
+    /// Returns the reserve, which is the factor, from 1 to 10, by which the bodies may be stiffer at this rate, or
+    /// equivalently the rate lower. It is the smaller of the known margins, and `None` if neither is known.
     ///
-    /// Both margins are factors of stiffness. A spring with f times the stiffness takes steps of the same angle at √f
+    /// Both margins are factors of stiffness. A spring with f times the stiffness makes steps of the same angle at √f
     /// times the rate, so the ratio of rates is squared. At 1 Hz no lower rate is searched, and only the stiffness
     /// counts.
     pub fn reserve(&self) -> Option<f64> {
         let of_rate = self.slowest().filter(|_| self.tick_hz > 1).map(|slowest| {
             let ratio = self.tick_hz.hz() / slowest.hz();
-            // Rounded down to one decimal, like the factors tried.
+            // The ratio is rounded down to one decimal, like the factors tried.
             libm::floor(10.0 * ratio * ratio) / 10.0
         });
         let least = [of_rate, self.stiffness_factor].into_iter().flatten().reduce(f64::min)?;
         Some(least.min(MAX_STIFFER))
     }
 
-    /// Whether a margin is zero: the next rate or the next factor tried fails.
+    /// Whether a margin is zero, because the next rate or the next factor tried fails.
     pub fn has_no_reserve(&self) -> bool {
         self.has_no_slower() || self.stiffness_factor.is_some_and(|factor| factor <= 1.0)
     }
@@ -159,7 +161,7 @@ impl CriterionMet {
     }
 }
 
-/// Largest error that counts as accurate, in amplitudes: about the smallest that a person sees.
+/// Largest error that counts as accurate, in amplitudes. It is about the smallest error that a person sees.
 pub const TOLERANCE: f64 = 0.01;
 
 /// Smallest relative change of an amplitude that a person sees.

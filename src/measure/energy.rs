@@ -1,9 +1,9 @@
-//! The energy of a body during a run: its drift, and its mean over quarters of the run.
+//! The energy of a body during a run, with its drift, and its mean over quarters of the run.
 
 use super::truth::BodyTruth;
 use crate::sim::Stepper;
 
-/// Relative loss of amplitude over the second half of the long run above which a swing counts as losing.
+/// Relative loss of amplitude over the second half of the long run from which on a swing counts as losing.
 const LOSING: f64 = 0.01;
 
 /// Change of a body's energy since the start, in units of the largest true kinetic energy.
@@ -19,7 +19,8 @@ pub(super) struct Energy {
 }
 
 impl Energy {
-    /// The initial energy of `stepper`, for a horizon and a long run that end at the ticks `horizon` and `end`.
+    /// Creates a record that starts with the initial energy of `stepper`, for a horizon and a long run that end at the
+    /// ticks `horizon` and `end`.
     pub(super) fn of(stepper: &dyn Stepper, truth: &BodyTruth, horizon: u64, end: u64) -> Self {
         let start = stepper.energy().unwrap_or(0.0);
         Self {
@@ -37,7 +38,7 @@ impl Energy {
         self.scale.is_some() && late < (1.0 - LOSING) * early
     }
 
-    /// Adds the state after `tick` ticks and returns its drift.
+    /// Adds the state after `tick` ticks and returns the drift of its energy.
     pub(super) fn add(&mut self, stepper: &dyn Stepper, tick: u64) -> Option<f64> {
         let drift = (stepper.energy()? - self.start) / self.scale?;
         if !drift.is_finite() {

@@ -7,23 +7,24 @@ use super::outcome::Outcome;
 use crate::sim::bodies::Truth;
 use crate::sim::number::round;
 
-/// A radius above this counts as growth, since the power iteration is accurate to some thousandths.
+/// Spectral radius above which deviations count as growing. It is not 1, because the power iteration is accurate only
+/// to some thousandths.
 const GROWING_RADIUS: f64 = 1.01;
 
 /// Findings on a lane from its energy and the spectral radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyFinding {
     /// Mean change of kinetic and potential energy in the last quarter of the run, without the energy that an input
-    /// adds. The unit is the largest kinetic energy, or the largest loss if that is more.
+    /// adds. The unit is the largest kinetic energy, or the largest loss if the loss is larger.
     pub change: f64,
     /// Trend of the energy.
     pub trend: Trend,
-    /// Extreme change of a conserved energy, in percent of the unit of `change`.
+    /// Largest change in magnitude of a conserved energy, in percent of the unit of `change`.
     pub drift_percent: Option<f64>,
     /// Whether the body conserves its energy, so that a loss is an error of the method too.
     pub is_conserved: bool,
-    /// Spectral radius of a tick around the start, for state and memory. `None` for a method that chooses its
-    /// substeps, for an implicit one with memory, and if it takes too much work.
+    /// Spectral radius of a tick around the start, for state and memory. `None` for a method that chooses its substeps,
+    /// for an implicit one with memory, and if the radius takes too much work.
     pub spectral_radius: Option<f64>,
 }
 
@@ -46,12 +47,12 @@ impl EnergyFinding {
         self.spectral_radius.is_some_and(|radius| radius >= GROWING_RADIUS)
     }
 
-    /// The behaviour of an energy that shows no visible growth or loss.
+    /// Returns the words for an energy that shows no visible growth or loss.
     pub(super) fn word(&self) -> &'static str {
         if self.is_conserved { "keeps energy" } else { "gains no energy" }
     }
 
-    /// Relative change of a conserved energy, in words.
+    /// Describes the relative change of a conserved energy in words.
     pub(super) fn number(&self) -> Option<String> {
         self.is_conserved.then(|| format!("within {} %", round(100.0 * self.change.abs(), 2)))
     }

@@ -1,4 +1,4 @@
-//! The frequency error of a lane, from the times at which it crosses its centre.
+//! The frequency error of a lane, from the times at which the lane crosses its centre.
 
 use super::run::JudgedRun;
 use super::truth::{BodyTruth, Swing};
@@ -7,10 +7,11 @@ use crate::sim::numerics::bisect;
 /// Minimum number of crossings for a frequency, which is two whole turns.
 const FEWEST_CROSSINGS: usize = 3;
 
-/// Relative frequency error of a lane, positive if it is too fast, over all its turns and over each half of them.
+/// Relative frequency error of a lane, over all its turns and over each half of them. The error is positive if the lane
+/// is too fast.
 pub(super) struct FrequencyError {
     pub(super) error: f64,
-    /// Seconds by which it is early at the end of the horizon; `None` if this is uncertain by a tenth.
+    /// Seconds by which the lane is early at the end of the horizon; `None` if this is uncertain by a tenth.
     pub(super) early_s: Option<f64>,
     halves: [f64; 2],
     /// Uncertainty of the error, from interpolation between ticks.
@@ -18,7 +19,7 @@ pub(super) struct FrequencyError {
 }
 
 impl FrequencyError {
-    /// Whether the error is constant and larger than its uncertainty.
+    /// Whether the error is constant and its uncertainty small.
     pub(super) fn is_steady(&self) -> bool {
         let least = (0.005 * self.error.abs()).max(2.5e-5);
         let [a, b] = self.halves;
@@ -26,7 +27,7 @@ impl FrequencyError {
     }
 }
 
-/// The frequency error of a run; `None` if it has too few turns.
+/// Returns the frequency error of a run; `None` if the run has too few turns.
 pub(super) fn frequency_error(truth: &BodyTruth, run: &JudgedRun) -> Option<FrequencyError> {
     let swing = truth.swing.as_ref()?;
     let h = run.horizon_s / run.series.len().max(1) as f64;
@@ -78,7 +79,7 @@ fn crossings(series: &[f64], level: f64) -> Vec<Crossing> {
         .collect()
 }
 
-/// Evaluates at `s` the cubic through values at -1, 0, 1 and 2.
+/// Evaluates the cubic through values at -1, 0, 1 and 2, at `s`.
 fn cubic(y: &[f64; 4], s: f64) -> f64 {
     let [a, b, c, d] = y;
     -s * (s - 1.0) * (s - 2.0) / 6.0 * a + (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0 * b
@@ -87,20 +88,20 @@ fn cubic(y: &[f64; 4], s: f64) -> f64 {
 }
 
 impl Swing {
-    /// Relative frequency error, over all turns, of a swing that crosses its centre upwards at these times (s). It is
-    /// positive if that swing is too fast, and `None` if one of the two makes too few turns.
+    /// Returns the relative frequency error, over all turns, of a swing that crosses its centre upwards at these times
+    /// (s). It is positive if that swing is too fast, and `None` if one of the two swings makes too few turns.
     pub(super) fn frequency_error(&self, crossings: &[f64]) -> Option<f64> {
         let count = crossings.len().min(self.crossings.len());
         let span = |crossings: &[f64]| crossings[count - 1] - crossings[0];
         (count >= FEWEST_CROSSINGS).then(|| span(&self.crossings) / span(crossings) - 1.0)
     }
 
-    /// Whether it has enough crossings for a frequency.
+    /// Whether the swing has enough crossings for a frequency.
     pub(super) fn has_a_frequency(&self) -> bool {
         self.crossings.len() >= FEWEST_CROSSINGS
     }
 
-    /// Mean time between two crossings, in seconds.
+    /// Returns the mean time between two crossings, in seconds.
     pub(super) fn period(&self) -> f64 {
         let turns = self.crossings.len() - 1;
         (self.crossings[turns] - self.crossings[0]) / turns as f64

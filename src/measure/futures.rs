@@ -1,5 +1,5 @@
-//! A fan of futures: the next second of a body under each method of the scene, and in truth, from its current state.
-//! It is computed on copies and leaves the run undisturbed.
+//! A fan of futures, which shows the next second of a body under each method of the scene, and in truth, from the
+//! body's current state. It is computed on copies and leaves the run undisturbed.
 
 use glam::DVec2;
 
@@ -10,9 +10,9 @@ use crate::sim::{Solver, Stepper, TickRate};
 /// Length of a future in seconds, and its maximum number of ticks.
 const LENGTH_S: f64 = 1.0;
 const MAX_TICKS: u32 = 1000;
-/// Steps of the truth per second, rounded up to whole steps per tick: enough for a smooth curve.
+/// Number of steps of the truth per second, rounded up to whole steps per tick. They are enough for a smooth curve.
 const EXACT_STEPS: u32 = 120;
-/// Maximum number of methods, and of coordinates of a body, since each frame steps all of them.
+/// Maximum number of methods, and of coordinates of a body, because each frame steps all of them.
 const MAX_METHODS: usize = 9;
 const MAX_COORDINATES: usize = 8;
 
@@ -37,8 +37,8 @@ pub struct FutureCurve {
 }
 
 /// Computes the second after time `t` (s) of a body at a tick rate, under each of `methods` and last in truth. `held`
-/// is the state in which a person holds the body, and `plotted` the coordinate in the moments' states. Empty if the
-/// body has halted or has too many coordinates.
+/// is the state in which a person holds the body, and `plotted` the index of the coordinate in the moments' states. The
+/// result is empty if the body has halted or has too many coordinates.
 pub(crate) fn futures(
     of: &LaneBody,
     t: f64,

@@ -2,8 +2,8 @@
 //!
 //! A scene is judged from its start, at one tick rate, with the inputs of its script, each body separately. A linear
 //! body under a method of equal steps has one map from tick to tick, whose modes give its motion at all later times.
-//! Any other body is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and its verdict claims nothing
-//! beyond that.
+//! Any other body is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and the verdict claims nothing about
+//! later times.
 
 use std::sync::Arc;
 
@@ -34,8 +34,8 @@ pub struct Judge {
     throttle: f64,
     max_work: u64,
     truths: Vec<BodyTruth>,
-    /// Truths over their first swings, for bodies that make too few within the horizon. Each is computed on first
-    /// use.
+    /// Truths over their first swings, for bodies that make too few swings within the horizon. Each truth is computed
+    /// on first use.
     of_swings: Vec<Once<BodyTruth>>,
     meter: Arc<Meter>,
 }
@@ -43,29 +43,29 @@ pub struct Judge {
 /// Default throttle for judging a scene.
 pub(super) const FULL_THROTTLE: f64 = 1.0;
 
-/// Horizon of a scene in simulated seconds.
+/// Returns the horizon of a scene in simulated seconds.
 pub(super) fn horizon_s(scene: &Scene) -> f64 {
     scene.seconds.min(MAX_HORIZON_S)
 }
 
-/// The script's actions on the body with this index in the scene.
+/// Returns the script's actions on the body with this index in the scene.
 fn inputs_of(scene: &Scene, body: usize) -> Vec<Scripted> {
     scene.script.iter().filter(|row| row.action.acts_on(body)).cloned().collect()
 }
 
 impl Judge {
-    /// A judge of `scene` under full throttle, over its length but at most [`MAX_HORIZON_S`].
+    /// Creates a judge of `scene` under full throttle, over the scene's length but at most [`MAX_HORIZON_S`].
     pub fn new(scene: &Scene) -> Self {
         Self::over(scene, horizon_s(scene))
     }
 
-    /// As [`Judge::new`], over `horizon_s` simulated seconds, which must be positive and may exceed the scene's
+    /// Like [`Judge::new`], over `horizon_s` simulated seconds, which must be positive and may exceed the scene's
     /// length.
     pub fn over(scene: &Scene, horizon_s: f64) -> Self {
         block_on(Self::find(scene, FULL_THROTTLE, horizon_s, Arc::default()))
     }
 
-    /// As [`Judge::new`], under a throttle for the bodies that have one.
+    /// Like [`Judge::new`], under a throttle for the bodies that have one.
     ///
     /// # Panics
     /// If the throttle is not in -1 to 1.
@@ -75,7 +75,7 @@ impl Judge {
         block_on(Self::find(scene, throttle, horizon_s(scene), Arc::default()))
     }
 
-    /// As [`Self::over`], counting its work with `meter`.
+    /// Like [`Self::over`], with `meter` as the counter of the judge's work.
     pub(super) async fn find(
         scene: &Scene,
         throttle: f64,
@@ -107,27 +107,27 @@ impl Judge {
         ticks(self.horizon_s, tick_hz) > 0
     }
 
-    /// The throttle under which the scene is judged.
+    /// Returns the throttle under which the scene is judged.
     pub fn throttle(&self) -> f64 {
         self.throttle
     }
 
-    /// The horizon in simulated seconds.
+    /// Returns the horizon in simulated seconds.
     pub fn horizon_s(&self) -> f64 {
         self.horizon_s
     }
 
-    /// The verdict on a lane at this tick rate, which is that on its worst body.
+    /// Returns the verdict on a lane at this tick rate, which is the verdict on its worst body.
     pub fn verdict(&self, spec: LaneSpec, tick_hz: impl Into<TickRate>) -> Verdict {
         block_on(self.verdict_within(self.max_work, spec, tick_hz.into()))
     }
 
-    /// The meter that counts its work.
+    /// Returns the meter that counts the judge's work.
     pub(super) fn meter(&self) -> &Arc<Meter> {
         &self.meter
     }
 
-    /// The verdict on a lane. A body whose run exceeds the work limit is not judged.
+    /// Returns the verdict on a lane. A body whose run exceeds the work limit is not judged.
     pub(super) async fn verdict_within(
         &self,
         max_work: u64,
@@ -165,7 +165,7 @@ impl Judge {
     ) -> Verdict {
         let truth = &self.truths[body];
         if truth.is_too_dear() {
-            // A tick of a large body may take seconds, so its run ends with the horizon; later growth would matter to
+            // A tick of a large body may take seconds, so its run ends with the horizon. Later growth would matter to
             // nobody.
             return match self.not_judged(tick_hz, max_work == 0) {
                 Some(why) => self.verdict_with(body, Finding::NotJudged(why), LongTerm::default()),
@@ -187,7 +187,7 @@ impl Judge {
         self.compared(body, spec, tick_hz, &run, by_modes).await
     }
 
-    /// The verdict on a body from a run alongside the truth, and from its modes if they determine the motion.
+    /// Returns the verdict on a body from a run alongside the truth, and from its modes if they determine the motion.
     async fn compared(
         &self,
         body: usize,
@@ -200,7 +200,7 @@ impl Judge {
         let are_swings_known = by_modes.is_some() && truth.inputs.is_empty();
         let MotionChange { long_term, within, energy_change, frequency_error, early_s, width } =
             by_modes.unwrap_or_else(|| MotionChange::of_run(truth, run, self.horizon_s));
-        // A motion that grew once but stays bounded is bounded; one that has yet to grow is not.
+        // A motion that grew once but stays bounded counts as bounded. A motion that has yet to grow does not.
         let change = match (within, long_term.is_bounded) {
             (Trend::Grows, Some(true)) => Trend::None,
             (Trend::None, Some(false)) => Trend::Grows,
@@ -209,7 +209,7 @@ impl Judge {
         let swing = truth.swing.as_ref();
         // Peaks lie between ticks, so that only an excess is certain.
         let too_wide = swing.map(|swing| run.widest / swing.widest()).filter(|&width| width > 1.0);
-        // A time shift that explains less than half of the error is not its cause.
+        // A time shift that explains less than half of the error is not the cause of the error.
         let is_of_phase =
             |early_s: f64| swing.is_some_and(|swing| swing.error_when(early_s) >= run.error / 2.0);
         let truth_error = truth.gap(run.seconds, tick_hz).await;
@@ -247,7 +247,7 @@ impl Judge {
         Verdict { chase, evaluations: run.evaluations, seconds: run.seconds, ..verdict }
     }
 
-    /// The verdict on a body without a reference solution.
+    /// Returns the verdict on a body without a reference solution.
     fn by_energy(&self, body: usize, tick_hz: TickRate, run: EnergyRun) -> Verdict {
         let found = run.finding;
         let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {
@@ -262,7 +262,7 @@ impl Judge {
         Verdict { evaluations: run.evaluations, seconds: run.seconds, ..verdict }
     }
 
-    /// The reason if a run at this rate is not judged.
+    /// Returns the reason if a run at this rate is not judged.
     fn not_judged(&self, tick_hz: TickRate, is_cut_short: bool) -> Option<NotJudged> {
         match self.has_ticks(tick_hz) {
             false => Some(NotJudged::ShorterThanATick),
@@ -291,7 +291,7 @@ impl Judge {
     }
 }
 
-/// Why the truth cannot be used; `None` if it can. `gap` is its largest error in amplitudes.
+/// Returns why the truth cannot be used; `None` if it can be used. `gap` is the truth's largest error in amplitudes.
 fn without_truth(truth: &BodyTruth, run: &JudgedRun, gap: f64) -> Option<NoTruth> {
     if let Some(failure) = run.no_truth.as_ref().or(truth.failure.as_ref()) {
         return Some(NoTruth::Failed(failure.clone()));

@@ -1,9 +1,9 @@
-//! Measurements: verdicts on methods on a scene, advice on which method to choose, and the effect of a method on a
-//! state or an area of states.
+//! Measurements, which are verdicts on methods on a scene, advice on which method to choose, and the effect of a method
+//! on a state or an area of states.
 //!
 //! A [`Judge`] runs a scene under a method and gives a [`Verdict`]. An [`Adviser`] searches for the fewest substeps
 //! that meet a [`Criterion`]. Both are pure functions of the scene. A [`cloud`] steps many starts, [`OneStep`] is the
-//! anatomy of a tick, and a [`FutureCurve`] the next second of a body. [`advise`] reports on a custom body. An
+//! anatomy of a tick, and a [`FutureCurve`] is the next second of a body. [`advise`] reports on a custom body. An
 //! [`AnalysisWorker`] does all of this beside a run, in slices.
 
 mod advice;

@@ -13,16 +13,16 @@ use crate::sim::numerics::bisect;
 use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, unforced};
 use crate::sim::{Stepper, TickRate};
 
-/// Finding the modes would exceed the work limit of a run.
+/// The error if finding the modes would exceed the work limit of a run.
 pub(super) struct TooMuch;
 
 /// Number of moments at which the amplitude is compared with the true one.
 const ENVELOPE_MOMENTS: u32 = 256;
 
-/// Steps to compute a mode's map: three from each of two states.
+/// Number of steps to compute a mode's map, which is three from each of two states.
 pub(super) const STEPS_PER_MODE: u64 = 6;
 
-/// Steps to compute a mode's curve.
+/// Number of steps to compute a mode's curve.
 const STEPS_PER_CURVE: u64 = 1;
 
 /// The normal modes of a linear body, and their stability under a method of equal steps.
@@ -36,8 +36,8 @@ pub(super) struct Modes<'a> {
 struct SteppedMode<'a> {
     moved: &'a MovedMode,
     stability: Stability,
-    /// The true curve, and the curve through the method's states, in units of the true initial amplitude. `None`
-    /// unless the mode swings under both.
+    /// The true curve, and the curve through the method's states, in units of the true initial amplitude. `None` if the
+    /// mode does not swing in truth or under the method.
     curves: Option<[SwingCurve; 2]>,
 }
 
@@ -46,7 +46,7 @@ impl SteppedMode<'_> {
         &self.moved.mode
     }
 
-    /// Energy after `t` seconds, relative to that of the true motion at the start.
+    /// Returns the energy after `t` seconds, relative to that of the true motion at the start.
     fn energy(&self, t: f64) -> f64 {
         let width = self.curves.map_or(1.0, |[_, own]| own.width());
         width * width * self.moved.energy(self.stability.growth_per_s, t)
@@ -54,13 +54,14 @@ impl SteppedMode<'_> {
 }
 
 impl MovedMode {
-    /// Its share of the energy after `t` seconds of growth at this rate.
+    /// Returns the mode's share of the energy after `t` seconds of growth at this rate.
     fn energy(&self, growth_per_s: f64, t: f64) -> f64 {
         self.share * libm::exp(2.0 * growth_per_s * t)
     }
 
-    /// Its true curve, and its curve under the method of `stepper` from one `step`. Both begin in the same state. The
-    /// curve through the method's first two states contains all later ones. `None` unless the mode swings under both.
+    /// Returns the mode's true curve, and its curve under the method of `stepper` from one `step`. Both begin in the
+    /// same state. The curve through the method's first two states contains all later ones. `None` if the mode does not
+    /// swing in truth or under the method.
     ///
     /// # Errors
     /// If the method fails in the step.
@@ -95,7 +96,7 @@ impl MovedMode {
 }
 
 impl<'a> Modes<'a> {
-    /// The true modes, if the method acts on each of them separately.
+    /// Returns the true modes, if the method acts on each of them separately.
     fn modes_of(truth: &BodyTruth, spec: LaneSpec) -> Option<&Vec<MovedMode>> {
         let chooses = spec.method.tolerance.is_some() || !spec.method.keeps_time;
         let is_follower = spec.method.family == Family::Follower;
@@ -107,10 +108,11 @@ impl<'a> Modes<'a> {
         Self::modes_of(truth, spec).is_some() && truth.inputs.is_empty()
     }
 
-    /// `None` if the body is not linear, or if the method chooses its own steps, follows a target or fails.
+    /// Finds the modes; `None` if the body is not linear, or if the method chooses its own steps, follows a target or
+    /// fails.
     ///
     /// # Errors
-    /// If it takes too much work.
+    /// Fails if this takes too much work.
     pub(super) async fn of(
         truth: &'a BodyTruth,
         spec: LaneSpec,
@@ -118,7 +120,7 @@ impl<'a> Modes<'a> {
     ) -> Result<Option<Self>, TooMuch> {
         let Some(modes) = Self::modes_of(truth, spec) else { return Ok(None) };
         let n = modes.len() as u64;
-        // An implicit step takes differences of the force along every coordinate.
+        // An implicit step computes differences of the force along every coordinate.
         let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
         let steps = STEPS_PER_MODE + STEPS_PER_CURVE;
         let work_of_mode = work_of(steps * evaluations, n, spec.solver());
@@ -147,26 +149,26 @@ impl<'a> Modes<'a> {
         self.modes.iter().all(|mode| mode.stability.is_bounded())
     }
 
-    /// The swinging mode with the most energy.
+    /// Returns the swinging mode with the most energy.
     fn main(&self) -> Option<&SteppedMode<'a>> {
         let swinging = self.modes.iter().filter(|mode| mode.mode().swing().is_some());
         swinging.max_by(|a, b| a.moved.share.total_cmp(&b.moved.share))
     }
 
-    /// Frequency error of the main mode.
+    /// Returns the frequency error of the main mode.
     pub(super) fn frequency_error(&self) -> Option<f64> {
         self.main()?.stability.frequency_error
     }
 
-    /// The true curve of the main mode, and the curve under the method.
+    /// Returns the true curve of the main mode, and its curve under the method.
     fn main_curves(&self) -> Option<&[SwingCurve; 2]> {
         self.main()?.curves.as_ref()
     }
 
     /// Whether the amplitude stays within [`VISIBLE`] of the true one for `seconds`. `None` if no mode moves.
     ///
-    /// With one mode, half turns are compared. With several, the amplitude is the root of their total energy, each
-    /// with its own initial width and rate of growth or decay.
+    /// With one mode, half turns are compared. With several modes, the amplitude is the root of their total energy,
+    /// where each mode has its own initial width and rate of growth or decay.
     pub(super) fn are_as_wide(&self, seconds: f64) -> Option<bool> {
         let moving = || self.modes.iter().filter(|mode| mode.moved.share > 0.0);
         moving().next()?;
@@ -189,8 +191,8 @@ impl<'a> Modes<'a> {
         self.modes.iter().all(|mode| is_conserved(mode.mode()))
     }
 
-    /// Amplitude after `t` seconds, relative to the initial one. Modes that decay in truth contribute only their
-    /// growth.
+    /// Returns the amplitude after `t` seconds, relative to the initial amplitude. Modes that decay in truth contribute
+    /// only their growth.
     fn amplitude(&self, t: f64) -> f64 {
         let conserved = self.are_conserved();
         let energy = self.modes.iter().map(|SteppedMode { moved, stability, .. }| {
@@ -205,7 +207,7 @@ impl<'a> Modes<'a> {
         energy.sum::<f64>().sqrt()
     }
 
-    /// First time, up to [`FOREVER_S`], at which the amplitude satisfies `is_past`.
+    /// Returns the first time, up to [`FOREVER_S`], at which the amplitude satisfies `is_past`.
     fn reaches(&self, is_past: impl Fn(f64) -> bool) -> Option<f64> {
         let (mut low, mut high) = (0.0, FIRST_LOOK_S);
         while !is_past(self.amplitude(high)) {
@@ -218,7 +220,7 @@ impl<'a> Modes<'a> {
         Some(past)
     }
 
-    /// The change of the motion within the horizon and later.
+    /// Returns the change of the motion within the horizon and later.
     pub(super) fn change(&self, measure: Measure, horizon_s: f64) -> MotionChange {
         let moves = self.modes.iter().any(|mode| mode.moved.share > 0.0);
         let is_conserved = moves && self.are_conserved();

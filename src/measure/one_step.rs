@@ -1,5 +1,5 @@
-//! The anatomy of the selected method's next tick: its force evaluations, its landing point, and the landing point of
-//! the true motion from the same state. It is computed on copies and leaves the run undisturbed.
+//! The anatomy of the selected method's next tick, with its force evaluations, its landing point, and the landing point
+//! of the true motion from the same state. It is computed on copies and leaves the run undisturbed.
 
 use crate::run::race::LaneBody;
 use crate::scene::LaneSpec;
@@ -7,19 +7,20 @@ use crate::sim::Solver;
 use crate::sim::numerics::bisect;
 use crate::sim::stability::Tick;
 
-/// Points on the true motion over the tick: enough for a smooth curve if it makes less than a turn.
+/// Number of points on the true motion over the tick, which is enough for a smooth curve if the motion makes less than
+/// a turn.
 const EXACT_POINTS: u32 = 48;
 
-/// Points of an orbit across a plot, and number of bisections to find a turning point.
+/// Number of points of an orbit across a plot, and number of bisections to find a turning point.
 const ORBIT_POINTS: u32 = 96;
 const HALVINGS: u32 = 40;
 
-/// A tick of a body in the phase plane of its first coordinate. Points are coordinate and velocity.
+/// A tick of a body in the phase plane of the body's first coordinate. A point is a coordinate and a velocity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneStep {
     /// The method with its substeps.
     pub spec: LaneSpec,
-    /// Index of the tick at its start.
+    /// Index of the tick at which the step starts.
     pub tick: u64,
     /// Length of the tick in seconds.
     pub h: f64,
@@ -34,8 +35,8 @@ pub struct OneStep {
     /// The running sum of the weighted slopes, from the current state to the landing; empty if the landing is not
     /// such a sum.
     pub chain: Vec<[f64; 2]>,
-    /// Relative change of the swing by the tick, and by the same tick in twice as many steps. `None` unless the body
-    /// is linear, swings about 0 and conserves its energy.
+    /// Relative change of the swing by the tick, and by the same tick in twice the number of steps. `None` if the body
+    /// is not linear, does not swing about 0 or does not conserve its energy.
     pub growth: Option<[f64; 2]>,
 }
 
@@ -51,13 +52,13 @@ pub struct Slope {
 }
 
 impl OneStep {
-    /// End of the true motion.
+    /// Returns the end of the true motion.
     pub fn exact_landing(&self) -> Option<[f64; 2]> {
         self.exact.last().copied()
     }
 }
 
-/// Anatomy of the tick with this number; `None` if the body has halted.
+/// Returns the anatomy of the tick with this number; `None` if the body has halted.
 pub(crate) fn one_step(
     body: &LaneBody,
     spec: LaneSpec,
@@ -89,7 +90,7 @@ pub(crate) fn one_step(
     Some(step)
 }
 
-/// Relative change of the swing by a tick; see [`OneStep::growth`].
+/// Returns the relative change of the swing by a tick; see [`OneStep::growth`].
 fn growth(body: &LaneBody, spec: LaneSpec, Tick { t, h, substeps }: Tick) -> Option<[f64; 2]> {
     let stepper = &body.stepper;
     let mut at_rest = [0.0];
@@ -107,8 +108,8 @@ fn growth(body: &LaneBody, spec: LaneSpec, Tick { t, h, substeps }: Tick) -> Opt
     Some([by(substeps)?, by(2 * substeps)?])
 }
 
-/// Lines through the states with the same energy as `through`, for coordinates from `low` to `high`. Empty if the
-/// body has several coordinates or conserves no energy.
+/// Returns lines through the states with the same energy as `through`, for coordinates from `low` to `high`. The result
+/// is empty if the body has several coordinates or conserves no energy.
 pub(crate) fn orbit(
     body: &LaneBody,
     t: f64,
@@ -134,7 +135,7 @@ pub(crate) fn orbit(
         let Some(v) = speed(part(i)) else { return Vec::new() };
         let was_seen = !piece.is_empty();
         if i > 0 && was_seen != v.is_finite() {
-            // The orbit turns between these two.
+            // The orbit turns between these two points.
             let ends = if was_seen { [i - 1, i] } else { [i, i - 1] };
             let is_inside = |q: f64| speed(q).is_some_and(f64::is_finite);
             let [inside, _] = bisect(ends.map(part), HALVINGS, is_inside);
@@ -152,7 +153,7 @@ pub(crate) fn orbit(
     pieces.into_iter().chain(below).filter(|line| line.len() > 1).collect()
 }
 
-/// The true motion from the current state.
+/// Returns the true motion from the current state.
 fn exact(body: &LaneBody, tick: Tick) -> Vec<[f64; 2]> {
     let mut truth = body.stepper.with_solver(Solver::Truth, tick.t);
     let part = tick.h / f64::from(EXACT_POINTS);
@@ -166,7 +167,7 @@ fn exact(body: &LaneBody, tick: Tick) -> Vec<[f64; 2]> {
     points
 }
 
-/// The running sum of the weighted slopes, from the current state.
+/// Returns the running sum of the weighted slopes, from the current state.
 fn chain(step: &OneStep) -> Vec<[f64; 2]> {
     let weights = step.spec.method.weights;
     if step.spec.substeps != 1 || weights.is_empty() || weights.len() != step.evaluations.len() {

@@ -9,15 +9,15 @@ use crate::run::race::Halt;
 pub enum Outcome {
     /// The error is at rounding level.
     Rounding,
-    /// It meets [`Criterion::Accurate`].
+    /// The run meets [`Criterion::Accurate`].
     Accurate,
-    /// It meets [`Criterion::LooksRight`].
+    /// The run meets [`Criterion::LooksRight`].
     LooksRight,
     /// Judging takes too much work, or the scene is shorter than a tick.
     NotJudged,
     /// The truth is unknown, or not precise enough.
     NoTruth,
-    /// It neither grows nor dies away, and looks wrong.
+    /// The motion neither grows nor dies away, but looks wrong.
     Bounded,
     /// The amplitude decreases, unlike in truth.
     DiesAway,
@@ -44,12 +44,12 @@ impl Outcome {
         Self::BlewUp,
     ];
 
-    /// Outcome of a body that halted.
+    /// Returns the outcome of a body that halted.
     pub fn of_halt(halt: &Halt) -> Self {
         if halt.is_blow_up() { Self::BlewUp } else { Self::GaveUp }
     }
 
-    /// Its name in output: the name for people, in kebab case.
+    /// Returns the outcome's name in output, which is the name for people in kebab case.
     pub fn id(self) -> &'static str {
         match self {
             Outcome::Rounding | Outcome::Accurate => "accurate",
@@ -64,7 +64,7 @@ impl Outcome {
         }
     }
 
-    /// Its name for people.
+    /// Returns the outcome's name for people.
     pub fn text(self) -> &'static str {
         match self {
             Outcome::Rounding | Outcome::Accurate => "accurate",
@@ -79,7 +79,7 @@ impl Outcome {
         }
     }
 
-    /// Its meaning in one line.
+    /// Describes the outcome's meaning in one line.
     pub fn about(self) -> &'static str {
         match self {
             Outcome::Rounding | Outcome::Accurate => {
@@ -101,7 +101,7 @@ impl Outcome {
         }
     }
 
-    /// Its sign.
+    /// Returns the outcome's sign.
     pub fn sign(self) -> Sign {
         match self {
             Outcome::Rounding | Outcome::Accurate | Outcome::LooksRight => Sign::Disc,
@@ -113,7 +113,7 @@ impl Outcome {
         }
     }
 
-    /// How bad it is for a developer.
+    /// Returns how bad the outcome is for a developer.
     pub fn severity(self) -> Severity {
         match self {
             Outcome::Rounding | Outcome::Accurate => Severity::Fine,
@@ -126,7 +126,7 @@ impl Outcome {
 }
 
 impl Criterion {
-    /// The outcome of a lane that meets this criterion and no harder one.
+    /// Returns the outcome of a lane that meets this criterion and no harder one.
     pub fn outcome(self) -> Outcome {
         match self {
             Criterion::Bounded => Outcome::Bounded,
@@ -139,22 +139,22 @@ impl Criterion {
 /// The shape that distinguishes verdicts without their colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
-    /// Accurate or, in a lighter colour, looks right.
+    /// The motion is accurate or, in a lighter colour, looks right.
     Disc,
-    /// Only bounded.
+    /// The motion is only bounded.
     Diamond,
-    /// It grows.
+    /// The motion grows.
     Rising,
-    /// It dies away.
+    /// The motion dies away.
     Falling,
-    /// It is lost.
+    /// The motion is lost.
     Cross,
-    /// Unknown.
+    /// The outcome is unknown.
     Ring,
 }
 
 impl Sign {
-    /// The sign as a character.
+    /// Returns the character that shows the sign.
     pub fn glyph(self) -> &'static str {
         match self {
             Sign::Disc => "●",
@@ -167,7 +167,7 @@ impl Sign {
     }
 }
 
-/// How bad a verdict is for a developer. Each severity has one colour.
+/// How bad a verdict is for a developer. Each severity has its own colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     /// The error is invisible.
@@ -183,7 +183,7 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// The sign of a result without an outcome, such as that of a game loop.
+    /// Returns the sign of a result without an outcome, such as that of a game loop.
     pub fn sign(self) -> Sign {
         match self {
             Severity::Fine | Severity::Fair => Sign::Disc,

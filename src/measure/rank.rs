@@ -2,18 +2,20 @@
 //!
 //! The lowest [cost](CriterionMet::cost_per_s) comes first. Ties go to the larger [reserve](CriterionMet::reserve),
 //! then to the fewest substeps, then to the place in the table of methods. A method with a reserve below
-//! [`LITTLE_RESERVE`] is passed over if another has a larger one at up to [`TIMES_ITS_COST`] its cost.
+//! [`LITTLE_RESERVE`] is passed over if another method has a larger reserve at up to [`TIMES_ITS_COST`] times the cost.
 
 use super::criterion::{CriterionMet, MAX_STIFFER};
 use crate::sim::integrators::{METHODS, Method};
 
-/// A reserve below this is little: a designer may well make a body half as stiff again in an afternoon.
+/// Reserve below which it counts as little, because a designer may well multiply the stiffness of a body by 1.5 in an
+/// afternoon.
 const LITTLE_RESERVE: f64 = 1.5;
 
-/// Largest relative cost of a larger reserve: that of one more substep, for most methods.
+/// Maximum cost of a method with a larger reserve, as a multiple of the cost of the method with little reserve. For
+/// most methods, one more substep multiplies the cost by this.
 const TIMES_ITS_COST: f64 = 2.0;
 
-/// The methods that meet a criterion, in order. Margins that are not searched count as no reserve.
+/// The methods that meet a criterion, in order. A margin that is not searched counts as no reserve.
 pub(super) struct Ranking<'a> {
     all: Vec<Ranked<'a>>,
 }
@@ -22,12 +24,12 @@ struct Ranked<'a> {
     index: usize,
     met: &'a CriterionMet,
     reserve: f64,
-    /// Key for equal costs and reserves: substeps, place in the table, index.
+    /// Key for equal costs and reserves, which has the substeps, the place in the table and the index.
     ties: (u32, usize, usize),
 }
 
 impl Ranked<'_> {
-    /// Whether another has a larger reserve at little more cost.
+    /// Whether `other` has a larger reserve at little more cost.
     fn loses_to(&self, other: &Self) -> bool {
         self.reserve < LITTLE_RESERVE
             && other.reserve > self.reserve
@@ -36,7 +38,7 @@ impl Ranked<'_> {
 }
 
 impl<'a> Ranking<'a> {
-    /// Ranks these methods, each with its index and how it meets the criterion.
+    /// Ranks these methods, each given with its index and how it meets the criterion.
     pub(super) fn new(
         methods: impl Iterator<Item = (usize, (&'static Method, &'a CriterionMet))>,
     ) -> Self {
@@ -62,26 +64,26 @@ impl<'a> Ranking<'a> {
         Some(self.all.first()?.met.cost_per_s)
     }
 
-    /// Index of the recommended method.
+    /// Returns the index of the recommended method.
     pub(super) fn recommended_index(&self) -> Option<usize> {
         let is_outdone = |one: &Ranked| self.all.iter().any(|other| one.loses_to(other));
         self.all.iter().find(|one| !is_outdone(one)).map(|one| one.index)
     }
 
-    /// All indices: the recommended method, then the others in order.
+    /// Returns all indices, with the recommended method first and then the others in order.
     pub(super) fn indices(&self) -> Vec<usize> {
         let first = self.recommended_index();
         let rest = self.all.iter().map(|it| it.index).filter(|&index| Some(index) != first);
         first.into_iter().chain(rest).collect()
     }
 
-    /// Index of the cheapest method, if it is passed over.
+    /// Returns the index of the cheapest method, if this method is passed over.
     pub(super) fn passed_over(&self) -> Option<usize> {
         let cheapest = self.all.first()?.index;
         (self.recommended_index() != Some(cheapest)).then_some(cheapest)
     }
 
-    /// Highest cost at which another method could still become the recommended one.
+    /// Returns the highest cost at which another method could still become the recommended one.
     pub(super) fn most_cost_of_a_rival(&self) -> f64 {
         let first = self.recommended_index();
         let taken = self.all.iter().find(|it| Some(it.index) == first);
@@ -91,8 +93,8 @@ impl<'a> Ranking<'a> {
         })
     }
 
-    /// Indices of the methods whose margins to search next; empty once the recommendation is certain. They all cost
-    /// the same: more expensive ones follow only if the reserve of these is little.
+    /// Returns the indices of the methods whose margins to search next; empty once the recommendation is certain. All
+    /// of these methods cost the same, because more expensive ones follow only if the reserve of these is little.
     pub(super) fn undecided(&self) -> Vec<usize> {
         let is_open = |it: &&Ranked| !it.met.are_margins_searched;
         let cost = |it: &Ranked| it.met.cost_per_s;

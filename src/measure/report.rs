@@ -30,7 +30,7 @@ impl<T> Criteria<T> {
         Self { bounded, looks_right, accurate }
     }
 
-    /// The value for a criterion.
+    /// Returns the value for a criterion.
     pub fn get(&self, criterion: Criterion) -> &T {
         match criterion {
             Criterion::Bounded => &self.bounded,
@@ -51,12 +51,12 @@ pub struct Report {
     pub tick_hz: TickRate,
     /// Simulated seconds over which the methods were judged.
     pub horizon_s: f64,
-    /// Every method, in the order of the table or as given.
+    /// The results for every method, in the order of the table or as given.
     pub methods: Vec<MethodReport>,
-    /// The method recommended for each criterion, in the order of [`ranked`](super::ranked); `None` if none meets it,
-    /// or if this is unknown.
+    /// The method recommended for each criterion, in the order of [`ranked`](super::ranked); `None` if no method meets
+    /// the criterion, or if this is unknown.
     pub recommended: Criteria<Option<Recommendation>>,
-    /// Ids of methods with an unknown result: no truth, or too much work.
+    /// Ids of methods with an unknown result, because there is no truth, or because the result takes too much work.
     pub not_known: Criteria<Vec<&'static str>>,
 }
 
@@ -65,11 +65,11 @@ pub struct Report {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct MethodReport {
-    /// Its id.
+    /// Id of the method.
     pub method: &'static str,
     /// The verdict, displayed as a sentence.
     pub verdict: Verdict,
-    /// How it meets each criterion with the fewest substeps; `None` if it does not, or if this is unknown.
+    /// How the method meets each criterion with the fewest substeps; `None` if it does not, or if this is unknown.
     pub criteria: Criteria<Option<CriterionMet>>,
 }
 
@@ -78,17 +78,17 @@ pub struct MethodReport {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct PassedOver {
-    /// Its id.
+    /// Id of the method.
     pub method: &'static str,
-    /// Its steps per tick.
+    /// Number of steps per tick.
     pub substeps: u32,
-    /// Its [cost](CriterionMet::cost_per_s).
+    /// The method's [cost](CriterionMet::cost_per_s).
     pub cost_per_s: f64,
-    /// Its [reserve](CriterionMet::reserve); `None` if unknown.
+    /// The method's [reserve](CriterionMet::reserve); `None` if unknown.
     pub reserve: Option<f64>,
 }
 
-/// The reason, as part of a sentence.
+/// Writes the reason, as part of a sentence.
 impl fmt::Display for PassedOver {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} ×{} costs less, but its reserve is ", self.method, self.substeps)?;
@@ -106,7 +106,7 @@ impl fmt::Display for PassedOver {
 pub struct Recommendation {
     /// Id of the method.
     pub method: &'static str,
-    /// How it meets the criterion.
+    /// How the method meets the criterion.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub with: CriterionMet,
     /// The cheapest method, if it is passed over for its small reserve.
@@ -115,7 +115,7 @@ pub struct Recommendation {
 }
 
 impl Recommendation {
-    /// The recommendation for the criterion with this index; `None` if no method is known to meet it.
+    /// Returns the recommendation for the criterion with this index; `None` if no method is known to meet it.
     pub fn of(advised: &[MethodAdvice], criterion: usize) -> Option<Self> {
         let found = |row: usize| {
             let MethodAdvice { spec, met, .. } = &advised[row];
@@ -136,7 +136,7 @@ impl Recommendation {
     }
 }
 
-/// One line for a design note.
+/// Writes one line for a design note.
 impl fmt::Display for Recommendation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { method, with, instead_of } = self;
@@ -188,7 +188,7 @@ where
     }
 }
 
-/// As [`advise`].
+/// Like [`advise`], with an error instead of a panic.
 ///
 /// # Errors
 /// If an option is invalid, as for [`Scene::of`].
@@ -205,13 +205,13 @@ where
 }
 
 impl Report {
-    /// The advice on a scene at its tick rate, under full throttle, for the same [lanes](Scene::advised_lanes) that
-    /// command and window judge.
+    /// Returns the advice on a scene at its tick rate, under full throttle, for the same [lanes](Scene::advised_lanes)
+    /// that command and window judge.
     pub fn of_scene(scene: &Scene) -> Self {
         Self::within(u64::MAX, scene)
     }
 
-    /// As [`Self::of_scene`], with a limit of about `max_work` on the total [work](Options::max_work).
+    /// Like [`Self::of_scene`], with a limit of about `max_work` on the total [work](Options::max_work).
     pub fn within(max_work: u64, scene: &Scene) -> Self {
         let adviser = Adviser::within(max_work, scene, scene.tick_hz);
         let mut judged: Vec<MethodAdvice> =
@@ -245,7 +245,7 @@ fn method(advice: &MethodAdvice, index: &dyn Fn(Criterion) -> usize) -> MethodRe
     }
 }
 
-/// The verdicts, then a recommendation for each criterion.
+/// Writes the verdicts, and then a recommendation for each criterion.
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ids = self.methods.iter().map(|row| row.method.len());

@@ -13,39 +13,40 @@ pub use crate::scene::custom::MAX_WORK;
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Stepper, TickRate};
 
-/// A swing of this many true amplitudes has grown, and one below the inverse has died away.
+/// A swing has grown if it reaches this multiple of the true amplitude, and has died away if it falls below the
+/// inverse.
 const TWICE: f64 = 2.0;
 
-/// A swing that is [losing](Energy::is_losing) at the end of the long run is followed this many times as far, since a
-/// shrinking orbit may still be ejected.
+/// Multiple of the long run over which a swing is followed that is [losing](Energy::is_losing) at the end of the long
+/// run. A shrinking orbit may still be ejected.
 const FOLLOWED_ON: u64 = 100;
 
-/// A swing below this fraction of the true one has come to rest.
+/// Fraction of the true swing below which a swing has come to rest.
 const AT_REST: f64 = 0.02;
 
-/// When a run ends.
+/// The condition under which a run ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Until {
-    /// At the end of the horizon, or when the error exceeds this many amplitudes.
+    /// The run ends with the horizon, or when the error exceeds this number of amplitudes.
     Error(f64),
-    /// At the end of the horizon.
+    /// The run ends with the horizon.
     Horizon,
-    /// At the end of the horizon, with the swings measured step by step.
+    /// The run ends with the horizon, and the swings are measured step by step.
     Swings,
-    /// At the end of the long run, or when the swing has grown.
+    /// The run ends with the long run, or when the swing has grown.
     Grown,
-    /// At the end of the long run.
+    /// The run ends with the long run.
     LongRun,
 }
 
 /// The measurements of one body followed under one method.
 #[derive(Clone, Debug, Default)]
 pub(super) struct JudgedRun {
-    /// Largest error of a coordinate or velocity over the horizon, in amplitudes, and its time. Infinite if the body
-    /// failed.
+    /// Largest error of a coordinate or velocity over the horizon, in amplitudes, and the time of this error. The error
+    /// is infinite if the body failed.
     pub(super) error: f64,
     pub(super) error_at_s: f64,
-    /// Largest error in the last twentieth of the horizon.
+    /// Largest error in the last twentieth of the horizon, in amplitudes.
     pub(super) last_error: f64,
     /// Energy drift of largest magnitude over the horizon, in percent of the energy in motion.
     pub(super) energy_drift: Option<f64>,
@@ -56,29 +57,29 @@ pub(super) struct JudgedRun {
     /// Whether too much work stopped the run.
     pub(super) is_too_much: bool,
     pub(super) evaluations: u64,
-    /// Simulated seconds within the horizon.
+    /// Number of simulated seconds within the horizon.
     pub(super) seconds: f64,
-    /// All simulated seconds.
+    /// Number of all simulated seconds.
     pub(super) followed_s: f64,
-    /// The horizon in seconds, in whole ticks.
+    /// Length of the horizon in seconds, in whole ticks.
     pub(super) horizon_s: f64,
     /// Failure of the body after the horizon.
     pub(super) later: Option<RunFailure>,
     /// Largest distance of a coordinate from its centre after a tick of the horizon, in amplitudes.
     pub(super) widest: f64,
-    /// When a coordinate, and when a velocity, first reached twice its true amplitude.
+    /// Times when a coordinate, and when a velocity, first reached twice its true amplitude, in seconds.
     pub(super) doubled_at: Option<f64>,
     pub(super) velocity_doubled_at: Option<f64>,
-    /// Time since which the swing stays below half the true amplitude.
+    /// Time since which the swing stays below half the true amplitude, in seconds.
     pub(super) halved_at: Option<f64>,
     /// Whether the swing was losing and was followed beyond the long run, and whether it came to rest there.
     pub(super) is_losing: bool,
     pub(super) has_come_to_rest: bool,
-    /// Mean change of the energy in the quarters of the horizon and of the long run, in units of the largest true
+    /// Mean changes of the energy in the quarters of the horizon and of the long run, in units of the largest true
     /// kinetic energy.
     pub(super) quarters: [f64; 4],
     pub(super) long_quarters: [f64; 4],
-    /// How the body closes in on a fixed target, up to the first input.
+    /// How the body approaches a fixed target, up to the first input.
     pub(super) chase: Option<Chase>,
     /// The swinging coordinate after each tick of the horizon.
     pub(super) series: Vec<f64>,
@@ -150,7 +151,7 @@ struct RunMeter {
     until: Until,
     horizon: u64,
     tick_hz: TickRate,
-    /// Time in seconds for which a body that closes in on a target is followed.
+    /// Time in seconds for which a body that approaches a target is followed.
     chased_s: f64,
 }
 
@@ -200,7 +201,7 @@ impl RunMeter {
         if is_needed { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }
 
-    /// Completes the run, which has stopped after `ticks` at time `t` (s).
+    /// Completes the run, which has stopped after `ticks` ticks at time `t` (s).
     fn complete(self, stop: StopReason, ticks: u64, t: f64) -> JudgedRun {
         let Self { mut run, energy, horizon, .. } = self;
         (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
@@ -240,7 +241,7 @@ impl JudgedRun {
         let values = stepper.q().iter().chain(stepper.v());
         let parts = values.zip(exact).zip(&truth.amplitudes);
         let parts = parts.map(|((x, exact), amplitude)| (x - exact).abs() / amplitude);
-        // Written so that NaN propagates.
+        // This comparison is written so that NaN propagates.
         let off = parts.fold(0.0, |off, part| if part <= off { off } else { part });
         if off.is_nan() || off > self.error {
             (self.error, self.error_at_s) = (off, t);
@@ -257,7 +258,7 @@ impl JudgedRun {
         drift: Option<f64>,
         t: f64,
     ) {
-        // The energy gives an oscillator's amplitude at every moment, its coordinates only at their peaks.
+        // The energy gives an oscillator's amplitude at every moment, but its coordinates give it only at their peaks.
         let swing = match drift {
             Some(drift) if truth.is_oscillator() => (1.0 + drift).max(0.0).sqrt(),
             _ => truth.reach.of_coordinates(stepper.q()),
@@ -277,7 +278,7 @@ impl JudgedRun {
 }
 
 impl JudgedRun {
-    /// Whether it was stopped within the horizon.
+    /// Whether the run was stopped within the horizon.
     pub(super) fn is_cut_short(&self) -> bool {
         self.is_too_much && self.seconds < self.horizon_s
     }

@@ -2,7 +2,7 @@
 
 use super::criterion::MAX_STIFFER;
 
-/// The number of substeps with this index in the sequence 1, 2, 3, 4, 6, 8, 12 … 64.
+/// Returns the number of substeps with this index in the sequence 1, 2, 3, 4, 6, 8, 12 … 64.
 pub(super) fn tried_substeps(index: u32) -> u32 {
     match index {
         0 => 1,
@@ -11,7 +11,7 @@ pub(super) fn tried_substeps(index: u32) -> u32 {
     }
 }
 
-/// Stiffness factors to try, to two digits, each at most a tenth above the one before.
+/// Stiffness factors to try, to two digits. Each is at most a tenth above the one before.
 pub(super) const FACTORS: [f64; 30] = [
     1.0,
     1.1,
@@ -45,13 +45,13 @@ pub(super) const FACTORS: [f64; 30] = [
     MAX_STIFFER,
 ];
 
-/// Number of subdivisions of a stride between two factors, if the results at both are borderline.
+/// Number of subdivisions of a stride between two factors, for a stride at whose ends the results are borderline.
 pub(super) const PARTS_OF_STRIDE: usize = 5;
 
 /// Number of factors, including those within strides.
 pub(super) const FINE_FACTORS: usize = PARTS_OF_STRIDE * (FACTORS.len() - 1) + 1;
 
-/// The factor with this index, counting [`PARTS_OF_STRIDE`] per stride.
+/// Returns the factor with this index, counting [`PARTS_OF_STRIDE`] per stride.
 pub(super) fn fine_factor(index: usize) -> f64 {
     let (stride, part) = (index / PARTS_OF_STRIDE, index % PARTS_OF_STRIDE);
     if part == 0 {
@@ -64,10 +64,10 @@ pub(super) fn fine_factor(index: usize) -> f64 {
 /// A search for the lowest rate, down from a rate at which a property holds. Each stride is the rate divided by
 /// `strides`, and the last stride is searched hertz by hertz. No rate tried above the result has failed.
 pub(super) struct RatesDown {
-    /// Lowest rate so far at which the property holds, in Hz.
+    /// Lowest rate in Hz up to now at which the property holds.
     pub(super) held_hz: u32,
     strides: u32,
-    /// Highest rate at which it fails.
+    /// Highest rate in Hz at which the property fails.
     failed_hz: Option<u32>,
 }
 
@@ -130,7 +130,7 @@ mod tests {
         // The search finds a gap of 3 Hz if its strides are as short.
         assert_eq!(slowest_down(60, 60, |hz| !(40..43).contains(&hz)), 43);
         assert_eq!(slowest_down(150, 60, |hz| !(110..113).contains(&hz)), 113);
-        // The last stride ends at a failure, and a gap within it is found, too.
+        // The last stride ends at a failure, and a gap within that stride is found, too.
         assert_eq!(slowest_down(60, 6, |hz| hz > 44 && hz != 47), 48);
     }
 

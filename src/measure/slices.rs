@@ -1,5 +1,6 @@
-//! Long work in slices. An `async` function counts its work on a [`Meter`] and pauses when the slice is over, or
-//! while another function computes a value that it needs. No runtime is necessary: the caller polls it.
+//! Long work in slices. An `async` function counts its work on a [`Meter`] and pauses when the slice is over, or while
+//! another function computes a value that the first one needs. No runtime is necessary, because the caller polls the
+//! work.
 
 use std::future::{Future, poll_fn};
 use std::mem;
@@ -13,7 +14,7 @@ use std::thread;
 #[derive(Debug)]
 pub(super) struct Meter {
     counted: AtomicU64,
-    /// All work, including work outside the budget, since it uses up the slice too.
+    /// All work, including work outside the budget, because such work uses up the slice too.
     passed: AtomicU64,
     /// Value of `passed` at which the slice ends.
     end: AtomicU64,
@@ -22,36 +23,37 @@ pub(super) struct Meter {
 }
 
 impl Default for Meter {
-    /// A meter without slices or budget.
+    /// Creates a meter without slices or budget.
     fn default() -> Self {
         Self::within(u64::MAX)
     }
 }
 
 impl Meter {
-    /// A meter without slices that allows `budget` of counted work. Work in progress checks it before each run.
+    /// Creates a meter without slices that allows `budget` of counted work. Work in progress checks the budget before
+    /// each run.
     pub(super) fn within(budget: u64) -> Self {
         let [counted, passed] = [AtomicU64::new(0), AtomicU64::new(0)];
         Self { counted, passed, end: AtomicU64::new(u64::MAX), budget }
     }
 
-    /// Remaining budget.
+    /// Returns the remaining budget.
     pub(super) fn budget_left(&self) -> u64 {
         self.budget.saturating_sub(self.counted())
     }
 
-    /// Work counted so far.
+    /// Returns the work counted up to now.
     pub(super) fn counted(&self) -> u64 {
         self.counted.load(Ordering::Relaxed)
     }
 
-    /// All work so far.
+    /// Returns all work up to now.
     #[cfg(test)]
     pub(super) fn passed(&self) -> u64 {
         self.passed.load(Ordering::Relaxed)
     }
 
-    /// Work left in the slice.
+    /// Returns the work left in the slice.
     pub(super) fn work_left(&self) -> u64 {
         let passed = self.passed.load(Ordering::Relaxed);
         self.end.load(Ordering::Relaxed).saturating_sub(passed)
@@ -79,7 +81,7 @@ async fn pause() {
         .await;
 }
 
-/// Work that proceeds slice by slice. Dropping it cancels the work.
+/// Work that proceeds slice by slice. Dropping this value cancels the work.
 pub(super) struct Sliced<T> {
     meter: Arc<Meter>,
     work: Pin<Box<dyn Future<Output = T> + Send>>,
@@ -141,7 +143,7 @@ impl<T> Once<T> {
         self.found.get()
     }
 
-    /// The value, which `find` computes if it is unknown.
+    /// Returns the value, which `find` computes if it is unknown.
     pub(super) async fn get(&self, find: impl Future<Output = T>) -> &T {
         while self.get_if_known().is_none() && self.is_sought.swap(true, Ordering::Acquire) {
             pause().await;
@@ -155,7 +157,7 @@ impl<T> Once<T> {
     }
 }
 
-/// Marks the caller that computes the value. Dropping it gives up the claim, also when the work is cancelled.
+/// Marks the caller that computes the value. Dropping this mark gives up the claim, also if the work is cancelled.
 struct ComputeClaim<'a, T>(&'a Once<T>);
 
 impl<T> Drop for ComputeClaim<'_, T> {

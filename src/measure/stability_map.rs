@@ -1,8 +1,8 @@
-//! The stability map: the tick rates and parameter values at which each method is stable on a body.
+//! The stability map, which shows the tick rates and parameter values at which each method is stable on a body.
 //!
-//! A method is stable on a linear body if it is stable on each of its normal modes, which are springs. If damping
-//! couples the modes, the map of a step of the whole body decides. A nonlinear body is linearised about rest. A
-//! method that chooses its own steps has no region, since no tick rate bounds it.
+//! A method is stable on a linear body if it is stable on each of the body's normal modes, which are springs. If
+//! damping couples the modes, the map of a step of the whole body decides. A nonlinear body is linearised about rest. A
+//! method that chooses its own steps has no region, because no tick rate bounds it.
 
 use std::sync::Arc;
 
@@ -25,17 +25,18 @@ mod contour;
 mod seen;
 mod words;
 
-/// Tick rates of a map in Hz, those that keys can set. A current rate outside widens the map.
+/// Lowest and highest tick rate of a map in Hz, which are those that keys can set. A current rate outside widens the
+/// map.
 const RATES_HZ: [f64; 2] = [2.0, 1000.0];
 /// Number of decades of the parameter that a map covers.
 const DECADES: f64 = 5.0;
-/// Values of a parameter that is 0 in the scene, so that its scale is unknown.
+/// Smallest and largest value of a parameter that is 0 in the scene, so that its scale is unknown.
 const FROM_NOTHING: [f64; 2] = [0.01, 1000.0];
 /// Number of points at which a method is tried, along the rates and along the values. Boundaries are bisected between
-/// them, so that more points only find narrower regions.
+/// the points, so that more points only find narrower regions.
 const CORNERS: [usize; 2] = [37, 33];
-/// The same for a body with many coupled coordinates. A region takes tens of milliseconds with 2 coordinates, and
-/// would take seconds with 16.
+/// Number of such points for a body with many coupled coordinates. A region takes tens of milliseconds with 2
+/// coordinates, and would take seconds with 16.
 const FEWER_CORNERS: [usize; 2] = [19, 17];
 /// Number of coupled coordinates from which on [`FEWER_CORNERS`] is used.
 const MANY_COUPLED: usize = 9;
@@ -55,9 +56,9 @@ pub struct MapRequest {
     pub tick_hz: TickRate,
     /// The current parameters of the body.
     pub(super) values: Vec<f64>,
-    /// Rates at the left and right end, in Hz.
+    /// Rates in Hz at the left and right end of the map.
     pub rates_hz: [f64; 2],
-    /// Values of the parameter at the lower and upper end.
+    /// Values of the parameter at the lower and upper end of the map.
     pub range: [f64; 2],
 }
 
@@ -82,7 +83,7 @@ impl MapRequest {
         }
     }
 
-    /// The current value of the mapped parameter.
+    /// Returns the current value of the mapped parameter.
     pub fn value(&self) -> f64 {
         self.values[self.parameter]
     }
@@ -99,7 +100,7 @@ impl MapRequest {
     }
 }
 
-/// Whole decades around the scene's value and the current one.
+/// Returns the limits of whole decades around the scene's value and the current one.
 fn range(opened: f64, present: f64) -> [f64; 2] {
     let [low, high] = if opened > 0.0 {
         let low = libm::pow(10.0, (libm::log10(opened) - 1.5).round());
@@ -118,11 +119,11 @@ fn range(opened: f64, present: f64) -> [f64; 2] {
 /// value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
-    /// How much of the map it covers.
+    /// How much of the map the region covers.
     pub coverage: Coverage,
-    /// Convex polygons that cover it.
+    /// Convex polygons that together cover the region.
     pub pieces: Vec<Vec<[f64; 2]>>,
-    /// Its boundary, as lines through these points.
+    /// Boundary of the region, as lines through these points.
     pub boundary: Vec<Vec<[f64; 2]>>,
     /// The ω h of a tick at the boundary, if the method's card states it and no motion on the map is damped.
     pub limit: Option<f64>,
@@ -131,7 +132,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// Whether a point is in one of its pieces.
+    /// Whether a point is in one of the region's pieces.
     pub fn contains(&self, [x, y]: [f64; 2]) -> bool {
         let is_left = |(a, b): (&[f64; 2], &[f64; 2])| {
             (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) >= 0.0
@@ -143,11 +144,11 @@ impl Region {
 /// How much of a map a region covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// All of it.
+    /// The region covers all of the map.
     Everywhere,
-    /// None of it.
+    /// The region covers none of the map.
     Nowhere,
-    /// Part of it.
+    /// The region covers a part of the map.
     Part,
     /// The method chooses its own steps, so that no tick rate bounds it.
     OwnSteps,
@@ -156,24 +157,24 @@ pub enum Coverage {
 /// Stability of a method at the current point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PointStability {
-    /// It is stable.
+    /// The method is stable.
     Stable,
-    /// It grows: the swing doubles in this many seconds.
+    /// The motion grows, so that the swing doubles in this number of seconds.
     Doubles(f64),
     /// The method chooses its own steps.
     OwnSteps,
 }
 
-/// The stability map of a body, with the results so far.
+/// The stability map of a body, with the results up to now.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
     /// The request.
     pub request: MapRequest,
-    /// Regions of the request's methods, from the first; later ones are not known yet.
+    /// Regions of the request's methods, from the first one; later regions are not known yet.
     pub regions: Vec<Region>,
     /// Stability of each method of the request at the current point; empty until known.
     pub here: Vec<PointStability>,
-    /// Why the body cannot be mapped, if it is neither linear nor linearisable about rest.
+    /// The reason why the body cannot be mapped, if it is neither linear nor linearisable about rest.
     pub refused: Option<NoSmallMotion>,
     /// Whether the body is linear, so that the map holds at any amplitude.
     pub is_linear: bool,
@@ -183,9 +184,9 @@ pub struct StabilityMap {
 
 /// The motion on which a method is tried.
 enum TestProblem {
-    /// The normal modes, the fastest first.
+    /// The normal modes, with the fastest first.
     Uncoupled(Uncoupled),
-    /// All coordinates together, since damping couples the modes or one of them grows.
+    /// All coordinates together, because damping couples the modes or one of them grows.
     Coupled(CoupledMotion),
 }
 
@@ -211,7 +212,7 @@ impl TestProblem {
         small.coupled().map(Self::Coupled)
     }
 
-    /// The modes on which a method is tried, or else the coupled motion.
+    /// Returns the modes on which a method is tried or, if it is not tried on modes, the coupled motion.
     fn test_motions(&self, spec: &LaneSpec) -> (&[NormalMode], Option<&CoupledMotion>) {
         match self {
             Self::Uncoupled(Uncoupled { held: Some(held), .. }) if spec.method.is_engine() => {
@@ -222,7 +223,7 @@ impl TestProblem {
         }
     }
 
-    /// Stability of a method on each mode or on the coupled motion; `None` where the method fails.
+    /// Returns the stability of a method on each mode or on the coupled motion; `None` if the method fails.
     fn stabilities<'a>(
         &'a self,
         spec: &'a LaneSpec,
@@ -244,7 +245,8 @@ impl TestProblem {
             .all(|found| found.is_some_and(|stability| stability.is_bounded()))
     }
 
-    /// Approximate work of a point under a method: steps from two states per coordinate, and the roots of their map.
+    /// Returns the approximate work of a point under a method, which is that of steps from two states per coordinate,
+    /// and of the roots of their map.
     fn work(&self, spec: &LaneSpec) -> u64 {
         let steps = |n: u64| {
             let evaluations = u64::from(spec.method.evaluations.unwrap_or(n as u32));
@@ -265,7 +267,7 @@ impl TestProblem {
     }
 }
 
-/// The body and the grid that a map is made of.
+/// The body and the grid from which a map is made.
 struct Plane {
     kind: Arc<Kind>,
     values: Vec<f64>,
@@ -275,7 +277,7 @@ struct Plane {
 }
 
 impl Plane {
-    /// The motion of the body with this value of the mapped parameter.
+    /// Returns the motion of the body with this value of the mapped parameter.
     fn motion_at(&self, value: f64) -> Option<TestProblem> {
         TestProblem::of(&*self.body_at(value)).ok()
     }
@@ -286,12 +288,12 @@ impl Plane {
         (self.kind.build)(&values, Solver::Truth)
     }
 
-    /// Approximate work of finding a motion.
+    /// Returns the approximate work of finding a motion.
     fn work_of_motion(&self) -> u64 {
         work_of_roots(self.kind.coordinates(&self.values).len() as u64)
     }
 
-    /// Stability of each method at a value and a rate, and whether the true motion grows there.
+    /// Returns the stability of each method at a value and a rate, and whether the true motion grows at this point.
     async fn stability_at_point(
         &self,
         specs: &[(usize, LaneSpec)],
@@ -308,7 +310,7 @@ impl Plane {
         (found, motion.is_some_and(|motion| motion.grows()))
     }
 
-    /// The motion at each row of the map; `None` where the body cannot be linearised.
+    /// Returns the motion at each row of the map; `None` if the body cannot be linearised.
     async fn rows(&self) -> Rows {
         let mut rows = Vec::new();
         for j in 0..self.corners.counts()[1] {
@@ -352,12 +354,12 @@ impl Plane {
 
 type Rows = Vec<Option<TestProblem>>;
 
-/// A map in progress: first the current point, then region by region.
+/// A map in progress. The current point comes first, then region by region.
 pub(super) struct MapWork {
     plane: Arc<Plane>,
     map: StabilityMap,
     rows: Option<Arc<Rows>>,
-    /// Work in progress on the current point, and on the rows or a region.
+    /// Work in progress on the current point. Below is the work in progress on the rows or a region.
     here: Option<Sliced<(Vec<PointStability>, bool)>>,
     part: Option<Sliced<MapPart>>,
     /// Whether the last slice ended without a new result.
@@ -407,7 +409,7 @@ impl MapWork {
         }
     }
 
-    /// Whether it maps the body of `request`, which is of this kind.
+    /// Whether the map is of the body of `request`, which is of this kind.
     pub(super) fn is_of(&self, kind: &Arc<Kind>, request: &MapRequest) -> bool {
         Arc::ptr_eq(&self.plane.kind, kind) && self.map.request.body == request.body
     }
@@ -427,7 +429,7 @@ impl MapWork {
         self.is_within_a_part
     }
 
-    /// The meter that counts its work.
+    /// Returns the meter that counts the map's work.
     #[cfg(test)]
     pub(super) fn meter(&self) -> &Arc<Meter> {
         &self.plane.meter
@@ -463,7 +465,7 @@ impl MapWork {
         self.is_within_a_part = self.part.is_some();
     }
 
-    /// The work for the next region, or for the rows that it needs first.
+    /// Returns the work for the next region, or for the rows that it needs first.
     fn next_part(&self) -> Sliced<MapPart> {
         let (plane, meter) = (self.plane.clone(), self.plane.meter.clone());
         let (_, spec) = self.map.request.specs[self.map.regions.len()];
@@ -476,7 +478,7 @@ impl MapWork {
     }
 }
 
-/// Work of the eigenvalues of two values for each of `n` coordinates.
+/// Returns the work of the eigenvalues of two values for each of `n` coordinates.
 fn work_of_roots(n: u64) -> u64 {
     ROOTS_PER_CUBE * n * n * n
 }
@@ -485,8 +487,8 @@ fn chooses_steps(spec: &LaneSpec) -> bool {
     spec.method.tolerance.is_some() || !spec.method.keeps_time
 }
 
-/// Stability on one mode, measured on a body with one coordinate and this mode. It is a spring, but a follower for a
-/// follower method, and a ship for an engine without a joint for the body. `None` if the method fails.
+/// Returns the stability on one mode, measured on a body with one coordinate and this mode. The body is a spring, but a
+/// follower for a follower method, and a ship for an engine without a joint for the body. `None` if the method fails.
 fn stability(spec: &LaneSpec, has_joint: bool, mode: &NormalMode, hz: f64) -> Option<Stability> {
     let NormalMode { omega_squared, damping_per_s, .. } = *mode;
     let body = match spec.method.law_order() {

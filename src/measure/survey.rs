@@ -11,9 +11,9 @@ const BETWEEN: u32 = 4;
 #[derive(Clone, Debug)]
 pub(super) struct TruthNode {
     pub(super) t: f64,
-    /// Coordinates, then velocities.
+    /// Coordinates, followed by velocities.
     pub(super) x: Vec<f64>,
-    /// Velocities, then accelerations: the slopes of `x`.
+    /// Velocities, followed by accelerations, which are the slopes of `x`.
     pub(super) slope: Vec<f64>,
 }
 
@@ -26,7 +26,7 @@ impl TruthNode {
         Self { t, x, slope }
     }
 
-    /// Component `i` at the fraction `s` of the way to `next`, on the cubic through both.
+    /// Returns component `i` at the fraction `s` of the way to `next`, on the cubic through both moments.
     pub(super) fn between(&self, next: &Self, i: usize, s: f64) -> f64 {
         let h = next.t - self.t;
         hermite(s, h, [self.x[i], next.x[i]], [self.slope[i], next.slope[i]])
@@ -35,7 +35,7 @@ impl TruthNode {
     /// Advances `body` between these times.
     ///
     /// # Errors
-    /// If it fails or is not finite.
+    /// If the body fails or is not finite.
     pub(super) fn of_advanced(
         body: &mut dyn Stepper,
         from: f64,
@@ -60,7 +60,7 @@ impl TruthNode {
     }
 }
 
-/// The range of each component, coordinates first.
+/// The range of each component, with the coordinates first.
 #[derive(Clone, Debug)]
 pub(super) struct Ranges(pub(super) Vec<(f64, f64)>);
 

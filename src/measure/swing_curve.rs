@@ -7,28 +7,28 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub(super) struct SwingCurve {
     /// Initial distance from the place of rest.
     pub(super) q: f64,
-    /// Amplitude of the sine part, a quarter of a turn ahead.
+    /// Amplitude of the sine part, which is a quarter of a turn ahead.
     pub(super) b: f64,
-    /// g, per second: negative for a decaying swing.
+    /// Growth rate g, per second; negative for a decaying swing.
     pub(super) growth_per_s: f64,
-    /// ω, in radians per second; positive.
+    /// Angular frequency ω, in radians per second; positive.
     pub(super) frequency: f64,
 }
 
 impl SwingCurve {
-    /// Amplitude at the start, as if it were at a peak there.
+    /// Returns the amplitude at the start, as if the swing were at a peak at the start.
     pub(super) fn width(&self) -> f64 {
         libm::hypot(self.q, self.b)
     }
 
-    /// Seconds by which it leads `other` after `seconds`, measured in turns of `other`.
+    /// Returns the seconds by which this curve leads `other` after `seconds`, measured in turns of `other`.
     pub(super) fn lead_s(&self, other: &Self, seconds: f64) -> f64 {
         let phase = |curve: &Self| libm::atan2(curve.b, curve.q);
         let at_start = libm::remainder(phase(other) - phase(self), 2.0 * PI);
         (at_start + (self.frequency - other.frequency) * seconds) / other.frequency
     }
 
-    /// Angle of the first passage through the place of rest, in 0 to π.
+    /// Returns the angle of the first passage through the place of rest, in 0 to π.
     fn first_passage(&self) -> f64 {
         let angle = libm::atan2(self.b, self.q);
         [-FRAC_PI_2, FRAC_PI_2, PI + FRAC_PI_2]
@@ -38,13 +38,13 @@ impl SwingCurve {
             .unwrap_or(PI)
     }
 
-    /// Number of complete half turns after `seconds`; the first begins at the start.
+    /// Returns the number of complete half turns after `seconds`. The first half turn begins at the start.
     fn half_turns(&self, seconds: f64) -> f64 {
         let turned = self.frequency * seconds - self.first_passage();
         (libm::floor(turned / PI) + 1.0).max(0.0)
     }
 
-    /// Largest distance from the place of rest in the half turn with this index.
+    /// Returns the largest distance from the place of rest in the half turn with this index.
     fn reach(&self, half_turn: f64) -> f64 {
         let slope = self.growth_per_s / self.frequency;
         let peak = self.first_passage() - FRAC_PI_2 + libm::atan(slope);
@@ -56,13 +56,13 @@ impl SwingCurve {
         }
     }
 
-    /// Largest distance from the place of rest, if the swing does not grow.
+    /// Returns the largest distance from the place of rest, if the swing does not grow.
     pub(super) fn widest(&self) -> f64 {
         self.reach(0.0).max(self.reach(1.0))
     }
 
-    /// As [`Self::reach`] for the first half turn, from states `step_s` apart. A first step that turns back at once
-    /// shows no peak.
+    /// Like [`Self::reach`] for the first half turn, from states that are `step_s` apart. A first step that turns back
+    /// at once shows no peak.
     fn first_reach(&self, step_s: f64) -> f64 {
         let (sin, cos) = libm::sincos(self.frequency * step_s);
         let next = libm::exp(self.growth_per_s * step_s) * (self.q * cos + self.b * sin);
@@ -70,10 +70,10 @@ impl SwingCurve {
         if turns_back { self.q.abs() } else { self.reach(0.0) }
     }
 
-    /// Largest difference in width between half turns of this curve and of `other` within `seconds`, relative to this
-    /// curve's widest. The states of `other` are `step_s` apart.
+    /// Returns the largest difference in width between half turns of this curve and of `other` within `seconds`,
+    /// relative to this curve's largest width. The states of `other` are `step_s` apart.
     ///
-    /// Without decay all half turns are equally wide, and the incomplete first one is not compared.
+    /// If there is no decay, all half turns are equally wide, and the incomplete first one is not compared.
     pub(super) fn misfit(&self, other: &Self, step_s: f64, seconds: f64) -> f64 {
         let last = self.half_turns(seconds).min(other.half_turns(seconds)).max(1.0) - 1.0;
         let first = match self.growth_per_s {
@@ -99,7 +99,7 @@ impl SwingCurve {
 mod tests {
     use super::*;
 
-    /// Largest distance in each complete half turn, from small steps.
+    /// Returns the largest distance in each complete half turn, from small steps.
     fn stepped(curve: &SwingCurve, seconds: f64) -> Vec<f64> {
         let at = |t: f64| {
             let turned = curve.frequency * t;
@@ -146,7 +146,7 @@ mod tests {
             let (b, q) = libm::sincos(angle);
             let other = SwingCurve { q, b, frequency, ..truth };
             for seconds in [0.0, 2.0, 60.0] {
-                // ω₀ (t + lead) = ω t - angle.
+                // The lead is the solution of ω₀ (t + lead) = ω t - angle.
                 let wanted = ((frequency - 5.0) * seconds - angle) / 5.0;
                 let found = other.lead_s(&truth, seconds);
                 assert!((found - wanted).abs() < 1e-12, "{other:?}: {found}, not {wanted}");

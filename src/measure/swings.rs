@@ -1,12 +1,12 @@
-//! The swings of a body under a method: its width in each half turn, and its passages through its centre, both found
-//! between the method's steps.
+//! The swings of a body under a method, with the body's width in each half turn, and its passages through its centre.
+//! Both are found between the method's steps.
 
 use crate::run::race::hermite;
 use crate::sim::Stepper;
 use crate::sim::numerics::bisect;
 
-/// Number of parts of a step at which its curve is evaluated for a peak. In a step of a third of a turn, they miss
-/// 0.2 % of a peak.
+/// Number of parts of a step at which its curve is evaluated for a peak. In a step of a third of a turn, these parts
+/// miss 0.2 % of a peak.
 const PARTS: u32 = 16;
 
 /// Measures a run step by step.
@@ -20,9 +20,9 @@ pub(super) struct Swings {
     coordinate: usize,
     centres: Vec<f64>,
     amplitudes: Vec<f64>,
-    /// The last three states, oldest first, while a step is added; otherwise the last one is a buffer.
+    /// The last three states, with the oldest first, while a step is added. At other times, the last entry is a buffer.
     nodes: [Node; 3],
-    /// Whether the oldest state precedes the next by one step: false at the start and after an input.
+    /// Whether the oldest state precedes the next one by one step, which is false at the start and after an input.
     has_before: bool,
     /// Largest distance of any coordinate from its centre in each half turn so far, in amplitudes.
     pub(super) half_turns: Vec<f64>,
@@ -38,7 +38,7 @@ struct Node {
     v: Vec<f64>,
     /// The acceleration, once evaluated.
     a: Option<Vec<f64>>,
-    /// Index of its half turn.
+    /// Index of the state's half turn.
     half_turn: usize,
 }
 
@@ -84,7 +84,7 @@ impl Swings {
         swings
     }
 
-    /// Distance of a coordinate from its centre in one of the states.
+    /// Returns the distance of a coordinate from its centre in one of the states.
     fn distance(&self, node: usize, i: usize) -> f64 {
         self.nodes[node].q[i] - self.centres[i]
     }
@@ -143,7 +143,7 @@ impl Swings {
         self.has_before = false;
     }
 
-    /// Time in seconds at which the swinging coordinate crosses its centre in the newest step.
+    /// Returns the time in seconds at which the swinging coordinate crosses its centre in the newest step.
     fn crossing(&self) -> f64 {
         let ([from, to], i) = ([&self.nodes[1], &self.nodes[2]], self.coordinate);
         let h = to.t - from.t;
@@ -152,7 +152,7 @@ impl Swings {
         from.t + part * h
     }
 
-    /// Widens half turns to include the peak of coordinate `i` between a state and the next.
+    /// Widens half turns to include the peak of coordinate `i` between a state and the next one.
     fn find_peak(&mut self, stepper: &dyn Stepper, from: usize, i: usize) {
         let q = [self.distance(from, i), self.distance(from + 1, i)];
         let ends = [from, from + 1].map(|node| &self.nodes[node]);
@@ -173,7 +173,7 @@ impl Swings {
     }
 }
 
-/// A coordinate over a step of `h` seconds: the polynomial of degree five through its ends.
+/// A coordinate over a step of `h` seconds, as the polynomial of degree five through the ends of the step.
 struct Step {
     h: f64,
     q: [f64; 2],
@@ -182,15 +182,16 @@ struct Step {
 }
 
 impl Step {
-    /// Some methods have velocities at other times than coordinates: those of semi-implicit Euler are half a step
-    /// late. Both velocities are shifted by the same amount, so that they lead from one coordinate to the other.
+    /// Creates a step. Some methods have velocities at other times than coordinates; for example, those of
+    /// semi-implicit Euler are half a step late. Both velocities are shifted by the same amount, so that they lead from
+    /// one coordinate to the other.
     fn new(h: f64, q: [f64; 2], v: [f64; 2], a: [f64; 2]) -> Self {
         let mean = (q[1] - q[0]) / h - h * (a[0] - a[1]) / 12.0;
         let shift = mean - (v[0] + v[1]) / 2.0;
         Self { h, q, v: v.map(|v| v + shift), a }
     }
 
-    /// The coordinate at a fraction of the step.
+    /// Returns the coordinate at a fraction of the step.
     fn at(&self, part: f64) -> f64 {
         let Self { h, q, v, a } = *self;
         let side = |s: f64, q: f64, v: f64, a: f64| {

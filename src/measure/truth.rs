@@ -27,10 +27,10 @@ pub(super) use swing::Swing;
 /// Length of a nonlinear body's long run, in horizons.
 pub const LONG_RUN: f64 = 20.0;
 
-/// Number of swings over which a body is followed if it makes too few for a frequency within the horizon.
+/// Number of swings over which a body is followed if it makes too few swings for a frequency within the horizon.
 const FOLLOWED_SWINGS: u32 = 4;
 
-/// Limits of [`BodyTruth::walk`], in moments and in products of the exact flow, n² for a chain of n masses.
+/// Limits of [`BodyTruth::walk`], in moments and in products of the exact flow, which are n² for a chain of n masses.
 const MAX_MOMENTS: usize = 100_000;
 const MAX_REFERENCE_MOMENTS: usize = 20_000;
 const MIN_MOMENTS: usize = 512;
@@ -39,8 +39,8 @@ const MAX_PRODUCTS: usize = 40_000_000;
 /// Absolute and relative tolerance over the long run, for a body without a closed form.
 const LONG_RUN_TOLERANCE: f64 = 1e-9;
 
-/// Work of a moment of an exact flow and of a reference solution, in evaluations of one coordinate, and matrix
-/// products of a flow per evaluation.
+/// Work of a moment of an exact flow and of a reference solution, in evaluations of one coordinate. The last number is
+/// the matrix products of a flow that count as one evaluation.
 const WORK_OF_MOMENT: u64 = 64;
 const WORK_OF_REFERENCE_MOMENT: u64 = 256;
 const PRODUCTS_PER_EVALUATION: u64 = 4;
@@ -54,14 +54,15 @@ pub(super) struct BodyTruth {
     /// The script's later actions on the body within the horizon, in order.
     pub(super) inputs: Vec<Scripted>,
     pub(super) horizon_s: f64,
-    /// Amplitude of each component of the state, coordinates first.
+    /// Amplitude of each component of the state, with the coordinates first.
     pub(super) amplitudes: Vec<f64>,
-    /// Centre of each coordinate's swing: the middle of its range, or the place of rest if it loses energy.
+    /// Centre of each coordinate's swing, which is the middle of its range, or the place of rest if the body loses
+    /// energy.
     pub(super) centres: Vec<f64>,
-    /// Reach over the long run, or until the truth fails.
+    /// Reach of the motion over the long run, or until the truth fails.
     pub(super) reach: Reach,
-    /// The normal modes of a linear body with its last parameters, and the part of the motion after the last input in
-    /// each.
+    /// The normal modes of a linear body with its last parameters, each with the part of the motion after the last
+    /// input that is in the mode.
     pub(super) modes: Option<Vec<MovedMode>>,
     /// Largest kinetic energy in joules, which is the total energy of an oscillator. `None` if energy is not
     /// conserved or nothing moves.
@@ -69,21 +70,21 @@ pub(super) struct BodyTruth {
     /// The energy that the motion exchanges, in joules, as the metric `energy_drift` defines it.
     pub(super) exchanged_j: Option<f64>,
     pub(super) swing: Option<Swing>,
-    /// Duration of the first swings in seconds. It is set if the body makes too few for a frequency within the
-    /// horizon, and nothing disturbs them.
+    /// Duration of the first swings in seconds. It is set if the body makes too few swings for a frequency within the
+    /// horizon, and nothing disturbs these swings.
     pub(super) first_swings_s: Option<f64>,
-    /// Why the truth is unknown over the whole horizon; `None` if it is known.
+    /// The reason why the truth is unknown over the whole horizon; `None` if the truth is known.
     pub(super) failure: Option<StepFailure>,
-    /// Whether it fails before anything has moved. Another walk would cost the same again and get no further.
+    /// Whether the truth fails before anything has moved. Another walk would cost the same again and get no further.
     fails_at_start: bool,
     series_by_rate: TruthSeriesByRate,
-    /// The meter that counts its work.
+    /// The meter that counts the truth's work.
     pub(super) meter: Arc<Meter>,
 }
 
 impl BodyTruth {
     /// Computes the truth. The amplitude of a component is half the largest true range among components of the same
-    /// unit. For constant components, it is their largest value.
+    /// unit. For constant components, it is the largest value.
     pub(super) async fn find(
         body: &SceneBody,
         inputs: &[Scripted],
@@ -116,7 +117,7 @@ impl BodyTruth {
         truth
     }
 
-    /// The body under `solver` at its start, after the script's actions at the start.
+    /// Returns the body under `solver` at its start, after the script's actions at the start.
     pub(super) fn start(&self, solver: Solver) -> Box<dyn Stepper> {
         let mut stepper = (self.body.kind.build)(&self.body.values, solver);
         stepper.input(0.0, Input::Throttle(self.throttle));
@@ -129,12 +130,12 @@ impl BodyTruth {
         self.at_start.iter().map(input).collect()
     }
 
-    /// Time of the last input in seconds; 0 without one.
+    /// Returns the time of the last input in seconds; 0 if there is no input.
     pub(super) fn last_input_s(&self) -> f64 {
         self.inputs.last().map_or(0.0, |input| input.at_s)
     }
 
-    /// The true state after the last input that can be reached.
+    /// Returns the true state after the last input that can be reached.
     async fn after_inputs(&self) -> Box<dyn Stepper> {
         let mut body = self.start(Solver::Truth);
         let mut t = 0.0;
@@ -149,7 +150,7 @@ impl BodyTruth {
         body
     }
 
-    /// The body in its initial state, with the parameters in force after the last input.
+    /// Returns the body in its initial state, with the parameters in force after the last input.
     pub(super) fn with_last_parameters(&self) -> Box<dyn Stepper> {
         let mut body = self.start(Solver::Truth);
         let is_parameter = |input: &&Scripted| matches!(input.action, Action::Set { .. });
@@ -164,7 +165,7 @@ impl BodyTruth {
         self.body.kind.coordinates(&self.body.values)
     }
 
-    /// Work of one moment of the true motion, in evaluations of one coordinate.
+    /// Returns the work of one moment of the true motion, in evaluations of one coordinate.
     pub(super) fn work_of_moment(&self) -> u64 {
         let n = self.coordinates().len() as u64;
         match self.body.kind.truth {
@@ -237,7 +238,7 @@ impl BodyTruth {
                 self.centres = long.means;
             }
         }
-        // A body that is knocked away from a fixed target does not swing about it.
+        // A body that is knocked away from a fixed target does not swing about that target.
         let is_chase = body.pursuit(0.0).is_some_and(|pursuit| pursuit.is_still);
         if self.failure.is_none() && self.energy_scale.is_none() && !is_chase {
             self.swing = self.measure_swing(&self.centres, seen.as_deref(), most).await;
@@ -249,7 +250,7 @@ impl BodyTruth {
             first_swings_s.filter(|&s| is_short && is_left_alone && s > self.horizon_s);
     }
 
-    /// Duration in seconds of the first swings of the slowest moving mode of an undamped linear body.
+    /// Returns the duration in seconds of the first swings of the slowest moving mode of an undamped linear body.
     fn first_swings_of_modes_s(&self) -> Option<f64> {
         let modes = self.modes.iter().flatten().filter(|moved| moved.share > 0.0);
         let slowest = modes.filter_map(|moved| moved.mode.swing()).min_by(f64::total_cmp)?;
@@ -257,10 +258,10 @@ impl BodyTruth {
         self.is_oscillator().then_some(f64::from(FOLLOWED_SWINGS) * period_s)
     }
 
-    /// The motion over the long run under this solver.
+    /// Returns the motion over the long run under this solver.
     ///
     /// # Errors
-    /// The motion so far, if the solver fails.
+    /// If the solver fails, the motion up to the failure is returned as the error.
     async fn long_run(&self, solver: Solver, most: usize) -> Result<LongRun, LongRun> {
         let mut body = self.start(solver);
         let mut reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
@@ -306,19 +307,19 @@ struct LongRun {
     reach: ReachSoFar,
     /// Mean of each coordinate; empty if the motion was not followed.
     means: Vec<f64>,
-    /// When a coordinate has turned back twice for each of the first swings, in seconds.
+    /// Time in seconds at which a coordinate has turned back twice for each of the first swings.
     first_swings_s: Option<f64>,
 }
 
-/// The adaptive solver of highest order, at [`LONG_RUN_TOLERANCE`]. It suffices for the reach of a motion and its
-/// place of rest in the long run, at a tenth of the work of a reference.
+/// Returns the adaptive solver of highest order, at [`LONG_RUN_TOLERANCE`]. It suffices for the reach of a motion and
+/// its place of rest in the long run, at a tenth of the work of a reference.
 fn close_solver() -> Solver {
     let adaptive = GENERAL_METHODS.iter().filter(|method| method.tolerance.is_some());
     let method = adaptive.max_by_key(|method| method.order).expect("a method is adaptive");
     Solver::With(method, Override::tolerance(LONG_RUN_TOLERANCE))
 }
 
-/// The second of two moments, and 15 between them if a velocity has an extreme there.
+/// Returns the second of two moments and, if a velocity has an extreme between both, 15 moments between them.
 fn fastest(from: &TruthNode, to: &TruthNode) -> Vec<TruthNode> {
     let n = to.x.len() / 2;
     let turns = (n..2 * n).any(|i| from.slope[i] * to.slope[i] < 0.0);
@@ -337,11 +338,11 @@ pub(super) struct MovedMode {
     /// Initial distance from the mode's equilibrium, and initial velocity.
     pub(super) q: f64,
     pub(super) v: f64,
-    /// Its share of the energy of the motion.
+    /// The mode's share of the energy of the motion.
     pub(super) share: f64,
 }
 
-/// Splits the motion of `body` from its current state into its `modes`.
+/// Splits the motion of `body` from its current state into the parts in its `modes`.
 fn moved(body: &dyn Stepper, modes: Vec<NormalMode>) -> Vec<MovedMode> {
     let n = body.q().len();
     let mut push = vec![0.0; n];

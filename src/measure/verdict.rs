@@ -1,4 +1,4 @@
-//! The verdict on a method on a scene: its outcome and the numbers behind it.
+//! The verdict on a method on a scene, with its outcome and the numbers behind the outcome.
 
 use super::amplitude::{Measure, Trend};
 use super::chase_finding::ChaseFinding;
@@ -20,17 +20,17 @@ pub use words::VerdictNumber;
 /// Largest error in amplitudes that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Why and when a body's run ended early.
+/// The reason why a body's run ended early, and the time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunFailure {
-    /// Time in simulated seconds.
+    /// Time of the failure, in simulated seconds.
     pub t: f64,
-    /// The cause.
+    /// Cause of the failure.
     pub cause: StepFailure,
 }
 
 impl RunFailure {
-    /// The failure of a run that stopped at `t` (s), if it failed.
+    /// Returns the failure of a run that stopped at `t` (s), if the run failed.
     pub(super) fn of(stop: StopReason, t: f64) -> Option<Self> {
         match stop {
             StopReason::Failed(cause) => Some(Self { t, cause }),
@@ -46,7 +46,7 @@ impl RunFailure {
     }
 }
 
-/// Why a lane cannot be compared with the truth.
+/// The reason why a lane cannot be compared with the truth.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoTruth {
@@ -56,11 +56,11 @@ pub enum NoTruth {
     Vague(f64),
 }
 
-/// Why a lane is not judged.
+/// The reason why a lane is not judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NotJudged {
-    /// Its run takes more than [`MAX_WORK`](super::MAX_WORK).
+    /// The lane's run takes more work than [`MAX_WORK`](super::MAX_WORK).
     TooMuchWork,
     /// The scene is shorter than one tick.
     ShorterThanATick,
@@ -76,12 +76,12 @@ pub enum Finding {
     ByEnergy(EnergyFinding),
     /// The run ended early.
     Failed {
-        /// Why and when.
+        /// The reason and the time.
         failure: RunFailure,
-        /// Findings from the energy up to then, if there is no reference solution.
+        /// Findings from the energy up to that time, if there is no reference solution.
         by_energy: Option<EnergyFinding>,
     },
-    /// There is no truth to compare it with.
+    /// There is no truth with which to compare the run.
     NoTruth(NoTruth),
     /// The run is not judged.
     NotJudged(NotJudged),
@@ -101,20 +101,20 @@ pub struct Comparison {
     pub truth_error: f64,
     /// Trend of the amplitude within the horizon and, if it grows or stays bounded, beyond it.
     pub change: Trend,
-    /// Whether it meets [`Criterion::LooksRight`](super::Criterion::LooksRight); `None` if unknown.
+    /// Whether the run meets [`Criterion::LooksRight`](super::Criterion::LooksRight); `None` if unknown.
     pub looks_right: Option<bool>,
-    /// Widest swing relative to the true one; `None` if nothing swings. For a nonlinear body it is known only at
-    /// ticks, and `None` unless the swing is wider.
+    /// Largest width of the swing relative to the true one; `None` if nothing swings. For a nonlinear body the width is
+    /// known only at ticks, and `None` if the swing is not wider than the true one.
     pub width: Option<f64>,
-    /// Seconds by which the motion is early at the end of the horizon, negative if it is late. `None` if this does
-    /// not cause most of the error.
+    /// Seconds by which the motion is early at the end of the horizon, negative if it is late. `None` if this shift
+    /// does not cause most of the error.
     pub early_s: Option<f64>,
     /// Change of the energy, in units of the largest true kinetic energy; `None` if energy is not conserved.
     pub energy_change: Option<f64>,
     /// Energy drift of largest magnitude, in percent of the energy that the motion exchanges; `None` if energy is not
     /// conserved.
     pub energy_drift_percent: Option<f64>,
-    /// Relative frequency error, positive if the body swings too fast. With several modes, it is that of the mode
+    /// Relative frequency error, positive if the body swings too fast. With several modes, it is the error of the mode
     /// with the most energy. `None` if nothing swings or the error is not steady.
     pub frequency_error: Option<f64>,
 }
@@ -152,37 +152,37 @@ pub struct LongTerm {
 
 /// The verdict on a lane over a horizon, displayed as one line.
 ///
-/// With the feature `serde` it serializes as one flat object, which the commands write too. In it, `word` is the id
-/// of the outcome, `text` the line, and `quantity`, `value` and `unit` the number in the line. A field without a
-/// meaning is null.
+/// With the feature `serde`, the verdict serializes as one flat object, which the commands write too. In this object,
+/// `word` is the id of the outcome, `text` the line, and `quantity`, `value` and `unit` the number in the line. A field
+/// without a meaning is null.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Verdict {
     /// The finding on the worst body, which is the subject of the verdict.
     pub finding: Finding,
-    /// The long-term change of its amplitude. `is_bounded` is about all bodies.
+    /// The long-term change of the worst body's amplitude. Only `is_bounded` is about all bodies.
     pub long_term: LongTerm,
-    /// How the body closes in on a fixed target; `None` if it follows none.
+    /// How the body approaches a fixed target; `None` if it follows none.
     pub chase: Option<ChaseFinding>,
     /// Index of the body in the scene.
     pub body: usize,
     /// Name of the body.
     pub body_name: String,
-    /// Evaluations of all bodies' accelerations over the horizon.
+    /// Number of evaluations of all bodies' accelerations over the horizon.
     pub evaluations: u64,
-    /// Simulated seconds that the body completed.
+    /// Number of simulated seconds that the body completed.
     pub seconds: f64,
-    /// The horizon in simulated seconds.
+    /// Length of the horizon in simulated seconds.
     pub horizon_s: f64,
-    /// Time of the run, in seconds, at which the judged part begins: 0, or the time of a person's last kick or
+    /// Time of the run, in seconds, at which the judged part begins. This is 0, or the time of a person's last kick or
     /// placement. Other times count from there, but displayed moments are times of the run.
     pub starts_at_s: f64,
-    /// The verdicts on the bodies of the scene, in its order; empty within one of those.
+    /// The verdicts on the bodies of the scene, in the order of the scene; empty in a verdict on one of these bodies.
     pub of_bodies: Vec<Verdict>,
 }
 
 impl Verdict {
-    /// The outcome.
+    /// Returns the outcome.
     pub fn outcome(&self) -> Outcome {
         match &self.finding {
             Finding::Compared(comparison) => comparison.outcome(),
@@ -193,23 +193,23 @@ impl Verdict {
         }
     }
 
-    /// The comparison with the truth, if there is one.
+    /// Returns the comparison with the truth, if there is one.
     pub fn comparison(&self) -> Option<&Comparison> {
         if let Finding::Compared(comparison) = &self.finding { Some(comparison) } else { None }
     }
 
-    /// Largest error of a coordinate or a velocity, in amplitudes; `None` without a comparison over the whole
-    /// horizon.
+    /// Returns the largest error of a coordinate or a velocity, in amplitudes; `None` if there is no comparison over
+    /// the whole horizon.
     pub fn error(&self) -> Option<f64> {
         self.comparison().map(|comparison| comparison.error)
     }
 
-    /// Why and when the run ended early, if it did.
+    /// Returns why and when the run ended early, if it did.
     pub fn failure(&self) -> Option<&RunFailure> {
         if let Finding::Failed { failure, .. } = &self.finding { Some(failure) } else { None }
     }
 
-    /// Findings from the energy, if there is no reference solution.
+    /// Returns the findings from the energy, if there is no reference solution.
     pub fn by_energy(&self) -> Option<&EnergyFinding> {
         match &self.finding {
             Finding::ByEnergy(found) => Some(found),
@@ -218,9 +218,9 @@ impl Verdict {
         }
     }
 
-    /// Energy drift of largest magnitude, in percent of the energy that the motion exchanges. Without a reference
-    /// solution the unit is the lane's largest kinetic energy, or its largest loss. `None` if energy is not
-    /// conserved, or if the run ended early.
+    /// Returns the energy drift of largest magnitude, in percent of the energy that the motion exchanges. If there is
+    /// no reference solution, the unit is the lane's largest kinetic energy, or its largest loss. `None` if energy is
+    /// not conserved, or if the run ended early.
     pub fn energy_drift_percent(&self) -> Option<f64> {
         match &self.finding {
             Finding::Compared(comparison) => comparison.energy_drift_percent,
@@ -229,18 +229,19 @@ impl Verdict {
         }
     }
 
-    /// The missing kind of truth, `no reference`, if the verdict rests on the energy for lack of it.
+    /// Returns the missing kind of truth, `no reference`, if the verdict rests on the energy because that truth is
+    /// missing.
     pub fn missing_truth(&self) -> Option<&'static str> {
         self.by_energy().map(|_| Truth::Reference.missing())
     }
 
-    /// The same verdict for a part of a run that begins at this time of the run, in seconds.
+    /// Returns the same verdict for a part of a run that begins at this time of the run, in seconds.
     pub(super) fn starting_at(self, starts_at_s: f64) -> Self {
         let of_bodies = self.of_bodies.into_iter().map(|of_body| of_body.starting_at(starts_at_s));
         Self { starts_at_s, of_bodies: of_bodies.collect(), ..self }
     }
 
-    /// Sort key: the larger is the worse.
+    /// Returns a sort key. The larger the key, the worse the verdict.
     pub(crate) fn badness(&self) -> (Outcome, f64) {
         (self.outcome(), self.error().unwrap_or(f64::INFINITY))
     }

@@ -1,5 +1,5 @@
-//! Computes verdicts and advice in small steps, so that this can happen off the race's thread: an [`AnalysisRequest`]
-//! goes in, and [`Findings`] come back.
+//! Computes verdicts and advice in small steps, so that they can be computed outside the race's thread. An
+//! [`AnalysisRequest`] goes in, and [`Findings`] come back.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::sim::TickRate;
 /// The bodies of a scene that advice covers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AdvisedBodies {
-    /// All of them, under one method.
+    /// All bodies of the scene, under one method.
     #[default]
     All,
     /// The body with this index in the scene, alone.
@@ -39,14 +39,14 @@ pub struct AnalysisRequest {
     pub(crate) scene: Arc<Scene>,
     /// The lanes to judge.
     pub(crate) entries: Vec<LaneSpec>,
-    /// Number of lanes, from the first, that share the work limit of a bounded worker. The others get the rest.
+    /// Number of lanes, from the first, that share the work limit of a bounded worker. The other lanes get the rest.
     pub(crate) first: usize,
     pub(crate) tick_hz: TickRate,
     /// Edits to the judged run.
     pub(crate) by_hand: Interventions,
-    /// The bodies to give advice on, if it is requested.
+    /// The bodies to give advice on, if advice is requested.
     pub(crate) advice: Option<AdvisedBodies>,
-    /// The stability map, if it is requested.
+    /// The stability map, if a map is requested.
     pub(crate) map: Option<MapRequest>,
 }
 
@@ -58,7 +58,7 @@ impl PartialEq for AnalysisRequest {
 }
 
 impl AnalysisRequest {
-    /// Whether it is about this instance of the scene. An equal copy counts as another scene.
+    /// Whether the request is about this instance of the scene. An equal copy counts as another scene.
     pub(crate) fn is_of(&self, scene: &Arc<Scene>) -> bool {
         Arc::ptr_eq(&self.scene, scene)
     }
@@ -73,11 +73,11 @@ impl AnalysisRequest {
     }
 }
 
-/// The verdicts and the advice found so far.
+/// The verdicts and the advice found up to now.
 #[derive(Clone, Debug)]
 pub struct Findings {
     pub(crate) request: AnalysisRequest,
-    /// The last verdict on each method of the list. It may answer an earlier request about the same scene.
+    /// The last verdict on each method of the list. A verdict may answer an earlier request about the same scene.
     pub(crate) verdicts: Vec<Option<Verdict>>,
     /// Number of verdicts, from the first, that answer this request.
     pub(crate) judged: usize,
@@ -88,7 +88,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Whether they answer `request` in full. They may cover more lanes.
+    /// Whether these findings answer `request` in full. They may cover more lanes.
     pub(crate) fn answer(&self, request: &AnalysisRequest) -> bool {
         let are_judged = self.request.entries.starts_with(&request.entries);
         self.complete && are_judged && self.request.is_alike(request)
@@ -98,20 +98,20 @@ impl Findings {
 /// The advice on every method for a scene.
 #[derive(Clone, Debug)]
 pub struct Advice {
-    /// The bodies that it covers.
+    /// The bodies that the advice covers.
     pub bodies: AdvisedBodies,
     /// The requested rate in Hz.
     pub tick_hz: TickRate,
     /// Number of methods to judge.
     pub wanted: usize,
-    /// The advice on the methods judged so far.
+    /// The advice on the methods judged up to now.
     pub advised: Vec<MethodAdvice>,
 }
 
-/// Work limit of a bounded worker for all verdicts together, including the truth: a second or two.
+/// Work limit of a bounded worker for all verdicts together, including the truth, which is a second or two.
 const MAX_WORK_OF_ALL: u64 = MAX_WORK;
 
-/// Approximate work of one step: some milliseconds.
+/// Approximate work of one step, which takes some milliseconds.
 const WORK_OF_STEP: u64 = 1_000_000;
 
 /// Answers one [`AnalysisRequest`] at a time, in the background.
@@ -135,18 +135,18 @@ enum AnswerPart {
     Judge(Arc<Judge>),
     Verdict(Box<Verdict>),
     Adviser(AdvisedBodies, Arc<Adviser>),
-    /// The advice in this row, new or with more margins searched.
+    /// The advice in this row, which is new or has more searched margins.
     Advised(usize, Box<MethodAdvice>),
 }
 
-/// Advice in progress: the methods are judged one by one, then margins are searched one by one.
+/// Advice in progress. First the methods are judged one by one, then margins are searched one by one.
 struct AdviceInProgress {
     bodies: AdvisedBodies,
     adviser: Arc<Adviser>,
     /// The lanes to advise on.
     lanes: Vec<LaneSpec>,
     advised: Vec<MethodAdvice>,
-    /// Margins that remain to be searched, the first one last; `None` until all methods are judged.
+    /// Margins that remain to be searched, with the first one last; `None` until all methods are judged.
     margins: Option<Vec<(usize, usize)>>,
 }
 
@@ -155,13 +155,13 @@ impl AdviceInProgress {
         let scene = adviser.scene();
         let place = |spec: &LaneSpec| scene.lanes.iter().position(|l| l.method == spec.method);
         let mut lanes = scene.advised_lanes();
-        // Racing methods come first, since a person sees them.
+        // Racing methods come first, because a person sees them.
         lanes.sort_by_key(|spec| place(spec).unwrap_or(usize::MAX));
         let (advised, margins) = (Vec::new(), None);
         Self { bodies, adviser, lanes, advised, margins }
     }
 
-    /// The next method to judge, or else the next margin to search.
+    /// Returns the next method to judge or, if all are judged, the next margin to search.
     fn next(&mut self) -> Option<Sliced<AnswerPart>> {
         let adviser = self.adviser.clone();
         let meter = adviser.judge().meter().clone();
@@ -194,7 +194,8 @@ impl AdviceInProgress {
         }
     }
 
-    /// The margins to search next, the first one last. Margins that affect the recommendation precede the others.
+    /// Returns the margins to search next, with the first one last. Margins that affect the recommendation precede the
+    /// others.
     fn next_margins(&self) -> Vec<(usize, usize)> {
         let mut margins = self.adviser.undecided_margins(&self.advised);
         if margins.is_empty() {
@@ -210,7 +211,7 @@ impl AdviceInProgress {
 }
 
 impl AnalysisWorker {
-    /// A worker on `request`.
+    /// Creates a worker on `request`.
     pub fn new(request: AnalysisRequest) -> Self {
         let verdicts = vec![None; request.entries.len()];
         Self {
@@ -225,12 +226,12 @@ impl AnalysisWorker {
         }
     }
 
-    /// The same worker with a work limit. It does not judge the lanes beyond the limit.
+    /// Returns the same worker with a work limit. It does not judge the lanes beyond the limit.
     pub(crate) fn bounded(self) -> Self {
         Self { max_work: MAX_WORK_OF_ALL, ..self }
     }
 
-    /// Replaces the request. Results that also answer the new request are kept; a part in progress is dropped.
+    /// Replaces the request. Results that also answer the new request are kept, but a part in progress is dropped.
     pub fn set_request(&mut self, request: AnalysisRequest) {
         self.set_map(&request);
         self.part = None;
@@ -257,7 +258,7 @@ impl AnalysisWorker {
         self.request = request;
     }
 
-    /// Updates the map's request; a map of another body is dropped.
+    /// Updates the map's request. A map of another body is dropped.
     fn set_map(&mut self, request: &AnalysisRequest) {
         let Some(wanted) = &request.map else { return };
         let kind = &request.scene.bodies[wanted.body].kind;
@@ -273,7 +274,7 @@ impl AnalysisWorker {
         if let Some(wanted) = &self.request.map
             && !self.is_mapped()
         {
-            // The map precedes the verdicts, since each of them may take longer.
+            // The map precedes the verdicts, because each verdict may take longer.
             let kind = &self.request.scene.bodies[wanted.body].kind;
             let new = || MapWork::new(kind.clone(), wanted.clone());
             self.mapping.get_or_insert_with(new).advance(WORK_OF_STEP);
@@ -286,7 +287,7 @@ impl AnalysisWorker {
         !self.is_done()
     }
 
-    /// The next part of the answer, if one is missing.
+    /// Returns the next part of the answer, if one is missing.
     fn next_part(&mut self) -> Option<Sliced<AnswerPart>> {
         let AnalysisRequest { scene, by_hand, entries, first, tick_hz, advice, .. } = &self.request;
         let (tick_hz, meter) = (*tick_hz, Arc::<Meter>::default());
@@ -347,7 +348,7 @@ impl AnalysisWorker {
         self.findings()
     }
 
-    /// Whether the map is complete, if it is requested.
+    /// Whether the map is complete, if one is requested.
     fn is_mapped(&self) -> bool {
         self.request.map.is_none() || self.mapping.as_ref().is_some_and(MapWork::is_done)
     }
@@ -358,7 +359,7 @@ impl AnalysisWorker {
         judged && self.is_mapped() && (advised || self.request.advice.is_none())
     }
 
-    /// The findings so far.
+    /// Returns the findings up to now.
     pub fn findings(&self) -> Findings {
         let advice = self.advising.as_ref().filter(|_| self.request.advice.is_some());
         let advice =

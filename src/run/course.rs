@@ -1,27 +1,27 @@
-//! The course of a run from its start to the last tick reached: session, observations, snapshots and events.
+//! The course of a run from its start to the last tick reached, with its session, observations, snapshots and events.
 
 use super::observations::ObservationsMark;
 use super::race::{Journal, Observer, PerformedAction, Race};
 use super::{Event, EventKind, Observations, Session};
 use crate::scene::{Action, LaneId};
 
-/// A run from its start to the last tick reached, wherever the present is. A restart replaces it, and undoing the
-/// restart brings it back.
+/// A run from its start to the last tick reached, whichever tick is the present. A restart replaces the course, and
+/// undoing the restart brings it back.
 pub(super) struct Course {
     pub(super) session: Session,
     pub(super) seen: Observations,
     pub(super) record: RunRecord,
 }
 
-/// The record of a run's progress; replaying the run rebuilds it.
+/// The record of a run's progress, which can be rebuilt by replaying the run.
 #[derive(Default)]
 pub(super) struct RunRecord {
     /// Last tick reached.
     pub(super) end: u64,
-    /// In order of ticks. In a whole run, the first one is the start.
+    /// Snapshots in order of ticks. In a whole run, the first one is the start.
     pub(super) snapshots: Vec<Snapshot>,
     pub(super) halts: Vec<Event>,
-    /// In the order in which the run first reached their ticks.
+    /// Hashes in the order in which the run first reached their ticks.
     pub(super) hashes: Vec<Hashes>,
 }
 
@@ -51,7 +51,7 @@ impl Course {
         self.session.race.catch_up(&mut (&mut self.seen, observer));
     }
 
-    /// Makes a tick. When the run reaches it for the first time, notes its halts and hashes.
+    /// Makes a tick. When the run reaches that tick for the first time, its halts and hashes are recorded.
     pub(super) fn tick(&mut self, observer: &mut dyn Observer) {
         self.session.tick(&mut (&mut self.seen, observer));
         let (race, record) = (&self.session.race, &mut self.record);
@@ -62,7 +62,7 @@ impl Course {
         }
     }
 
-    /// Returns to the start, and begins new observations of these coordinates there.
+    /// Returns to the start, and begins new observations there, of these coordinates.
     pub(super) fn begin(&mut self, coordinates: Vec<usize>) {
         self.session.race = self.record.snapshots[0].race.clone();
         let (race, span_s) = (&self.session.race, self.session.scene().seconds);
@@ -82,7 +82,8 @@ impl RunRecord {
     /// Splits off every record that depends on the actions at `tick`.
     pub(super) fn split_off(&mut self, tick: u64) -> Self {
         let Self { end, snapshots, halts, hashes } = self;
-        // Snapshots and hashes show a tick as the session reached it, before its actions; so those at `tick` stay.
+        // Snapshots and hashes show a tick as the session reached it, before the actions at that tick; so those at
+        // `tick` stay.
         let later = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick);
         let snapshots = snapshots.split_off(later);
         let later = halts.partition_point(|event| event.tick < tick);
@@ -102,7 +103,7 @@ impl RunRecord {
     }
 }
 
-/// Halts in the last tick, except those of a reference that was declined beforehand.
+/// Returns the halts in the last tick, except those of a reference that was declined beforehand.
 fn halts(race: &Race) -> impl Iterator<Item = Event> {
     let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
     halts.map(|(entrant, halt)| {
@@ -114,23 +115,23 @@ fn halts(race: &Race) -> impl Iterator<Item = Event> {
 
 /// A session at one tick.
 pub(super) struct Snapshot {
-    /// Has no journal; the run holds it.
+    /// The race without a journal, which the run holds.
     pub(super) race: Race,
     pub(super) mark: ObservationsMark,
     pub(super) bytes: usize,
 }
 
-/// Most hashes kept: more than a recording needs as checks.
+/// Maximum number of hashes, which is more than a recording needs as checks.
 const MAX_NOTED: usize = 32_000;
 
-/// Tolerance (s) for the end of a second: times may be off by their last bits.
+/// Tolerance for the end of a second, in seconds, because times may be off by their last bits.
 const ON_TIME_S: f64 = 1e-6;
 
 /// The hash of each lane at a tick.
 #[derive(Clone)]
 pub(super) struct Hashes {
     pub(super) tick: u64,
-    /// Full seconds up to this tick.
+    /// Number of full seconds up to this tick.
     second: f64,
     pub(super) of_lanes: Vec<(LaneId, u64)>,
 }
@@ -143,7 +144,7 @@ impl Hashes {
     }
 }
 
-/// Notes the hashes of a tick just reached, once per second. In a long run, drops every other one.
+/// Records the hashes of a tick just reached, once per second. In a long run, every other one is dropped.
 pub(super) fn note_hashes(hashes: &mut Vec<Hashes>, race: &Race) {
     let last = hashes.last().map_or(0.0, |last| last.second);
     if race.t() + ON_TIME_S < last + 1.0 {

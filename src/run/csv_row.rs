@@ -2,7 +2,8 @@
 
 use std::fmt::{Display, Write};
 
-/// A line of comma-separated values with its line end. Quotes values that contain commas, quotes or line ends.
+/// Returns a line of comma-separated values with its line end. Values that contain commas, quotes or line ends are
+/// quoted.
 pub(crate) fn csv_row(values: &[&dyn Display]) -> String {
     let mut row = String::new();
     for (column, value) in values.iter().enumerate() {

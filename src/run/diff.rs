@@ -1,12 +1,12 @@
 //! Finds where two runs first differ, and how the difference grows.
 //!
-//! A run is a table. Key columns identify a row: `tick`, or else `t`, or else its position, with `lane`, `body` and
-//! `coordinate` where present. A caller may name [other key columns](Chosen). By default, `t` and `method` are not
-//! compared, and all other columns hold values.
+//! A run is a table. Key columns identify a row. They are `tick` or, if there is none, `t` or, if there is none either,
+//! the row's position. In addition, `lane`, `body` and `coordinate` are key columns. A caller may name [other key
+//! columns](Chosen). By default, `t` and `method` are not compared, and all other columns hold values.
 //!
-//! A column is numeric until one of its cells is not a number; then all of it is text. Rows with equal keys pair up
-//! across at most [`MAX_WAITING`] rows, so memory does not grow with the number of rows. It grows with the number of
-//! distinct keys, up to a bound.
+//! A column is numeric until one of its cells is not a number; then all of it is text. Rows with equal keys form a pair
+//! if at most [`MAX_WAITING`] rows lie between them, so memory does not grow with the number of rows. It grows with the
+//! number of distinct keys, up to a limit.
 
 use std::collections::HashMap;
 use std::collections::hash_map::DefaultHasher;
@@ -33,34 +33,34 @@ pub use number::{distance_ulps, is_same_number};
 use number::{hide_a_difference, is_text, parsed, relative};
 use side::{Place, Side, Waiting};
 
-/// Relative differences whose first ticks a comparison reports.
+/// Relative differences for which a comparison reports the first tick.
 pub const LEVELS: [f64; 5] = [1e-12, 1e-9, 1e-6, 1e-3, 1.0];
-/// Most rows of one side that may wait for their counterparts. A row that waits longer counts as missing on the other
-/// side.
+/// Maximum number of rows of one side that may wait for their counterparts. A row that waits longer counts as missing
+/// on the other side.
 pub const MAX_WAITING: usize = 1 << 16;
-/// Most bytes of the waiting rows; long rows reach this limit first.
+/// Maximum number of bytes of the waiting rows. Long rows reach this limit first.
 const MAX_WAITING_BYTES: usize = 64 << 20;
-/// Most bytes kept for distinct keys: 256 MiB, enough for a million keys with few columns.
+/// Maximum number of bytes for distinct keys: 256 MiB, enough for a million keys with few columns.
 const MAX_NAME_BYTES: usize = 256 << 20;
-/// Bytes of a key besides its cells and values: its table entry and the heads of its lists.
+/// Number of bytes of a key besides its cells and values, for its table entry and the heads of its lists.
 const NAME_BYTES: usize = 192;
 
 /// A run as a sequence of rows.
 pub trait Records {
-    /// Why a row cannot be read.
+    /// The reason why a row cannot be read.
     type Error;
 
-    /// Names of the columns.
+    /// Returns the names of the columns.
     fn header(&self) -> &ByteRecord;
 
-    /// Reads the next row, with one cell for each column of the header; returns `false` after the last.
+    /// Reads the next row, with one cell for each column of the header; returns `false` after the last row.
     ///
     /// # Errors
     /// If the row cannot be read.
     fn next(&mut self, row: &mut ByteRecord) -> Result<bool, Self::Error>;
 }
 
-/// Whether a row can be a header: several names, none of them a number.
+/// Whether a row can be a header, which has several names, none of them a number.
 pub fn is_header(row: &ByteRecord) -> bool {
     let is_name = |cell: &[u8]| {
         !cell.trim_ascii().is_empty() && number(cell, Decimal::PointOrComma).is_none()
@@ -71,7 +71,7 @@ pub fn is_header(row: &ByteRecord) -> bool {
 /// Reads `text` as a table.
 ///
 /// # Errors
-/// If its header cannot be read.
+/// If the header of the table cannot be read.
 pub fn table(text: &str) -> Result<TableReader<&[u8]>, TableError> {
     TableReader::begin(text.as_bytes(), Reading::default(), is_header)
 }
@@ -83,17 +83,17 @@ impl<R: BufRead> Records for TableReader<R> {
         self.header()
     }
 
-    /// Returns numbers with decimal points.
+    /// Reads a row, with numbers written with decimal points.
     fn next(&mut self, row: &mut ByteRecord) -> Result<bool, TableError> {
         Ok(self.next_with_points(row)?.is_some())
     }
 }
 
-/// Bounds within which two numbers count as equal; one of the two is enough. By default only identical numbers do,
-/// where NaN equals NaN and 0 equals −0.
+/// Limits within which two numbers count as equal; it is enough if one of the limits holds. By default only identical
+/// numbers are equal, where NaN equals NaN and 0 equals −0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tolerance {
-    /// Largest distance, counted in doubles.
+    /// Largest distance of two numbers, counted in doubles.
     pub ulps: u64,
     /// Largest difference relative to the larger number.
     pub relative: f64,
@@ -103,7 +103,7 @@ pub struct Tolerance {
 struct Stream {
     /// Cells of the key columns, each followed by a zero byte.
     key: Vec<u8>,
-    /// First finite value (or NaN) and largest size so far, for each value column.
+    /// First finite value (or NaN) and largest magnitude so far, for each value column.
     values: Vec<[f64; 2]>,
     /// Course of each value column that may be a clock.
     courses: Vec<ClockCheck>,
@@ -116,13 +116,13 @@ struct Stream {
 struct ColumnState {
     /// Largest relative difference.
     worst: f64,
-    /// Largest distance from its first value.
+    /// Largest distance of a value from the first value of its stream.
     moved: f64,
-    /// First tick at each of [`LEVELS`].
+    /// First tick at which the difference reaches each of [`LEVELS`].
     reaches: [Option<u64>; LEVELS.len()],
-    /// Index into a stream's courses, while the column may still be a clock.
+    /// Index of the column's course among those of a stream, while the column may still be a clock.
     course: Option<usize>,
-    /// Whether any cell was not a number.
+    /// Whether any cell of the column was not a number.
     is_text: bool,
     /// Whether the text changes between rows with the same key.
     changes: bool,
@@ -171,7 +171,7 @@ where
                 work.compare_rows(one, number, [&rows[0], &rows[1]]);
                 places = [None; 2];
             }
-            // Advance only the side that is behind. Then both line up again after a row that one side lacks.
+            // Only the side that is behind advances. Then both sides line up again after a row that one side lacks.
             [one, other] => {
                 let order =
                     |it: Option<(Place, u64)>| it.map_or(u64::MAX, |(place, _)| place.order);
@@ -196,7 +196,7 @@ struct Work {
     key: Vec<u8>,
     sides: [Side; 2],
     found: Comparison,
-    /// Whether rows are out of order. Then the counterpart of a row that waited too long may still follow.
+    /// Whether rows are out of order. If they are, the counterpart of a row that waited too long may still follow.
     is_out_of_order: bool,
     /// Order and number of the first row that differs.
     first: Option<(u64, u64)>,
@@ -236,7 +236,7 @@ impl Work {
         }
     }
 
-    /// The place of a row, and its number on its side.
+    /// Returns the place of a row, and the row's number on its side.
     fn place(&mut self, side: usize, row: &ByteRecord) -> Result<(Place, u64), NotComparable> {
         self.key.clear();
         for key in &self.layout.keys {
@@ -278,7 +278,7 @@ impl Work {
         Ok((Place { order, stream }, number))
     }
 
-    /// Pairs a row with its counterpart on the other side, or queues it.
+    /// Pairs a row with its counterpart on the other side or, if there is none yet, queues the row.
     fn pair_or_queue(&mut self, side: usize, place: Place, number: u64, row: &mut ByteRecord) {
         if let Some(other) = self.sides[1 - side].remove(&place) {
             self.found.displaced += 1;
@@ -308,7 +308,7 @@ impl Work {
         *first = Some(first.map_or(tick, |first| first.min(tick)));
     }
 
-    /// Compares two rows at one place; `number` counts on the first side.
+    /// Compares two rows at one place. `number` counts rows on the first side.
     fn compare_rows(&mut self, place: Place, number: u64, rows: [&ByteRecord; 2]) {
         self.found.rows += 1;
         let tick = self.layout.tick(place.order, number);
@@ -385,7 +385,7 @@ impl Work {
         }
     }
 
-    /// Treats a column as text from its first row on. Equal numbers in different spelling now differ.
+    /// Treats a column as text from the column's first row on. Equal numbers in different spelling now differ.
     fn turn_into_text(&mut self, column: usize) {
         let state = &mut self.columns[column];
         state.is_text = true;
@@ -398,7 +398,7 @@ impl Work {
         }
     }
 
-    /// Notes whether the text of a column changes between rows with the same key.
+    /// Records whether the text of a column changes between rows with the same key.
     fn note_text(&mut self, place: Place, column: usize, cells: [&[u8]; 2]) {
         let moves = self.layout.values[column].moves;
         if matches!(moves, Moves::Never | Moves::Back) {
@@ -412,7 +412,7 @@ impl Work {
         }
     }
 
-    /// Adds a column's values to its stream, and returns their largest size so far.
+    /// Adds a column's values to the column's stream, and returns their largest magnitude so far.
     fn note_values(
         &mut self,
         place: Place,
@@ -447,8 +447,8 @@ impl Work {
         stream.values[column][1]
     }
 
-    /// Records cells that differ by more than the tolerance; `far` is their distance in ulps and relative to the
-    /// larger.
+    /// Records cells that differ by more than the tolerance. `far` is their distance in doubles and relative to the
+    /// larger value.
     fn record_difference(
         &mut self,
         place: Place,
@@ -487,7 +487,7 @@ impl Work {
         }
     }
 
-    /// The difference between two cells; a cell is `None` if its side lacks the column.
+    /// Returns the difference between two cells. A cell is `None` if its side lacks the column.
     fn difference(
         &self,
         (order, number): (u64, u64),

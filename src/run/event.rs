@@ -20,7 +20,7 @@ pub enum EventKind {
     Done {
         /// The action.
         action: Action,
-        /// Its author.
+        /// The author of the action.
         author: Author,
         /// The only lane of the run; `None` in a race.
         solo: Option<LaneId>,
@@ -31,7 +31,7 @@ pub enum EventKind {
         lane: Option<LaneId>,
         /// Index of the body in the scene.
         body: usize,
-        /// Whether a value left its range; otherwise the solver failed.
+        /// Whether a value left its range; if not, the solver failed.
         is_blow_up: bool,
     },
 }
@@ -95,5 +95,6 @@ fn what_was_done(action: &Action, solo: Option<LaneId>, scene: &Scene) -> String
         Action::Kick(1.0) => "kick".into(),
         Action::Kick(times) => format!("kick ×{}", round(times, 3)),
         Action::Place { body, .. } => format!("{} is moved by hand", scene.bodies[body].name),
+        Action::Push { body, .. } => format!("{} is pulled by hand", scene.bodies[body].name),
     }
 }

@@ -1,5 +1,5 @@
-//! A run in an address. After `#v1.` follows the compressed text of its recording, where no server sees it. A
-//! built-in scene goes by name, as in `#scene=spring&method=rk4`.
+//! A run in an address. After `#v1.` follows the compressed text of the run's recording, where no server sees it. A run
+//! of a built-in scene is named instead, as in `#scene=spring&method=rk4`.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -21,7 +21,7 @@ const MARK: char = '#';
 const VERSION_MARK: char = 'v';
 /// The version written, and the newest one read.
 const VERSION: u32 = 1;
-/// Ends a packed run and each setting.
+/// The letter that ends a packed run and each setting.
 const END: char = '&';
 /// Settings that name a run, like the options of `regatta play`.
 const SCENE: &str = "scene";
@@ -30,16 +30,16 @@ const TICK_HZ: &str = "tick-hz";
 const RACE: &str = "race";
 /// Settings of a page, which belong to no run.
 const OF_A_PAGE: [&str; 6] = ["tick", "play", "panels", "theme", "instrument", "loop"];
-/// Most letters of an unknown word that a message quotes.
+/// Maximum number of letters of an unknown word that a message quotes.
 const QUOTED: usize = 40;
 /// Compression level, 0 to 10.
 const LEVEL: u8 = 10;
 
-/// Roughly the longest link (letters) that every system accepts as an argument. The window's field accepts no longer
-/// one.
+/// Length of the longest link in letters, which is roughly the longest argument that every system accepts. The window's
+/// field accepts no longer link either.
 pub const MAX_LETTERS: usize = 100_000;
 
-/// Why a link leads to no run.
+/// The reason why a link leads to no run.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {
     /// A newer release made the link.
@@ -48,10 +48,10 @@ pub enum LinkError {
         format_name(*version)
     )]
     Newer {
-        /// Its format, or [`u32::MAX`] for any beyond.
+        /// The link's format, or [`u32::MAX`] for a number that is too large.
         version: u32,
     },
-    /// Some of the link is missing or was changed.
+    /// A part of the link is missing or was changed.
     #[error("the link is broken; copy it whole, from #v to its end")]
     Broken,
     /// The link unpacks to more bytes than a scene file may have.
@@ -62,7 +62,7 @@ pub enum LinkError {
     /// The link contains an unknown name.
     #[error("the link asks for {thing} {written:?}, and there is none; {remedy}")]
     Unknown {
-        /// The kind of name: a setting, or the setting whose value it is.
+        /// Kind of the name, which is a setting, or the setting whose value the name is.
         thing: String,
         /// The name as written.
         written: String,
@@ -72,13 +72,13 @@ pub enum LinkError {
     /// The link names a method that cannot step its scene.
     #[error("the link names a method that cannot run: {reason}; name another")]
     Refused {
-        /// Why the method cannot.
+        /// The reason why the method cannot step the scene.
         reason: String,
     },
 }
 
 impl LinkError {
-    /// The error for a name that is missing from `known`.
+    /// Returns the error for a name that is missing from `known`.
     pub fn unknown(thing: &str, written: &str, known: &[&str]) -> Self {
         let remedy = match nearest(written, known.iter().map(|name| (*name, *name))) {
             Some(meant) => format!("did you mean {meant:?}?"),
@@ -109,11 +109,11 @@ pub fn is_link(written: &str) -> bool {
 /// A parsed link.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Link {
-    /// The text after the mark, without the text around it.
+    /// The text after the mark, without punctuation around the link.
     fragment: String,
     /// Version and letters of a packed run.
     packed: Option<(u32, String)>,
-    /// Keys and values of the settings that name a run, and below of those for the page, in order.
+    /// Keys and values of the settings that name a run, in order. Below are those of the settings for the page.
     names: Vec<(String, String)>,
     settings: Vec<(String, String)>,
 }
@@ -121,17 +121,17 @@ pub struct Link {
 /// A run that a link names.
 #[derive(Clone, Debug)]
 pub struct Named {
-    /// The scene; several methods make its lanes, and it has the link's tick rate.
+    /// The scene with the link's tick rate. If the link names several methods, these are the scene's lanes.
     pub scene: Scene,
     /// The methods, in order.
     pub methods: Vec<&'static Method>,
-    /// Whether its lanes race.
+    /// Whether the scene's lanes race.
     pub races: bool,
 }
 
 impl Link {
-    /// Parses a link, or an address that ends in one. An address without a link yields an empty link. Decodes percent
-    /// codes, and strips punctuation from the end, as of a sentence around the address.
+    /// Parses a link, or an address that ends in one. An address without a link gives an empty link. Percent codes are
+    /// decoded, and punctuation at the end is removed, which may come from a sentence around the address.
     ///
     /// # Errors
     /// If a setting is unknown, or no run follows the version.
@@ -170,12 +170,12 @@ impl Link {
         }
     }
 
-    /// Keys and values of the page's settings, in order.
+    /// Returns the keys and values of the page's settings, in order.
     pub fn settings(&self) -> impl Iterator<Item = (&str, &str)> {
         self.settings.iter().map(|(key, value)| (&**key, &**value))
     }
 
-    /// The tick at which to pause; `None` for a run that starts or resumes by itself.
+    /// Returns the tick at which to pause; `None` for a run that starts or resumes by itself.
     pub fn tick(&self) -> Option<u64> {
         let value =
             |wanted| self.settings().find(|(key, _)| *key == wanted).map(|(_, value)| value);
@@ -192,7 +192,7 @@ impl Link {
         self.names.iter().any(|(key, _)| key == RACE)
     }
 
-    /// The run that the link names; the default scene is the first of [`SCENES`].
+    /// Returns the run that the link names. The default scene is the first of [`SCENES`].
     ///
     /// # Errors
     /// If the scene, a method or the rate is unknown, or if a method cannot step the scene.
@@ -219,10 +219,10 @@ impl Link {
         Ok(Named { scene: scene.with_methods(&methods), methods, races })
     }
 
-    /// Text of the scene file in the link, or of the run that it names.
+    /// Returns the text of the scene file in the link, or of the run that the link names.
     ///
     /// # Errors
-    /// If the link is broken, too new or too long. It never unpacks more than a scene file may have.
+    /// If the link is broken, too new or too long. The text never grows beyond the size that a scene file may have.
     pub fn text(&self) -> Result<String, LinkError> {
         let Some((version, run)) = &self.packed else {
             return Ok(self.named()?.into_scene().to_toml());
@@ -250,7 +250,7 @@ impl fmt::Display for Link {
 }
 
 impl Named {
-    /// The scene with the opening method and mode that the link asks for.
+    /// Returns the scene with the opening method and mode that the link asks for.
     fn into_scene(self) -> Scene {
         let Self { mut scene, methods, races } = self;
         scene.opens_as_race |= races;
@@ -267,11 +267,11 @@ impl Named {
     }
 }
 
-/// Version and letters of a packed run.
+/// Returns the version and letters of a packed run.
 fn packed_run(part: &str) -> Option<(u32, &str)> {
     let (version, run) = part.strip_prefix(VERSION_MARK)?.split_once('.')?;
     let is_version = !version.is_empty() && version.bytes().all(|digit| digit.is_ascii_digit());
-    // A version with too many digits is newer, too.
+    // A version with too many digits is a newer one, too.
     is_version.then(|| (version.parse().unwrap_or(u32::MAX), run))
 }
 
@@ -289,7 +289,7 @@ fn percent_decoded(written: &str) -> String {
     String::from_utf8(bytes).unwrap_or_else(|_| written.to_owned())
 }
 
-/// Ticks of the checks that a link keeps. Early ones matter, since a motion may rest at the end.
+/// Returns the ticks of the checks that a link keeps. Early checks matter, because a motion may rest at the end.
 fn kept_ticks(scene: &Scene) -> Vec<u64> {
     let mut ticks: Vec<u64> = scene.checks.iter().map(|check| check.tick).collect();
     ticks.sort_unstable();
@@ -301,11 +301,11 @@ fn kept_ticks(scene: &Scene) -> Vec<u64> {
     }
 }
 
-/// The link to a run: `#v1.` and letters that an address may have. It holds the scene with its script, and a few of
-/// its checks, among them the last of each lane.
+/// Returns the link to a run, which is `#v1.` and letters that an address may have. The link holds the scene with its
+/// script, and a few of its checks, among them the last check of each lane.
 ///
 /// # Errors
-/// If its text is longer than a scene file may be.
+/// If the run's text is longer than a scene file may be.
 ///
 /// ```
 /// use regatta::run::link;
@@ -330,18 +330,18 @@ pub fn link_to_run(scene: &Scene) -> Result<String, LinkError> {
     if text.len() > MAX_FILE_BYTES {
         return Err(LinkError::TooLong);
     }
-    // The checksum keeps a changed letter from opening another run.
+    // The checksum prevents a changed letter from opening another run.
     let packed = compress_to_vec_zlib(text.as_bytes(), LEVEL);
     Ok(format!("{MARK}{VERSION_MARK}{VERSION}.{}", URL_SAFE_NO_PAD.encode(packed)))
 }
 
-/// The link to the built-in scene of this name.
+/// Returns the link to the built-in scene of this name.
 pub fn to_built_in(name: &str) -> String {
     format!("{MARK}{SCENE}={name}")
 }
 
-/// The link that names a run from its start, at any present tick; `None` if it needs a packed run. Only an unedited
-/// built-in scene has such a link, under methods and at a rate that a link can name.
+/// Returns the link that names a run from its start, at any present tick; `None` if the run needs a packed link. Only
+/// an unedited built-in scene can be named, under methods and at a rate that a link can name.
 pub fn link_by_name(session: &Session) -> Option<String> {
     let (scene, start) = (session.scene(), session.start());
     let built_in = Scene::built_in(&scene.name).filter(|_| scene.in_rust().is_none())?;
@@ -398,10 +398,11 @@ pub fn link_by_name(session: &Session) -> Option<String> {
     Some(link)
 }
 
-/// Text of the scene file in a [link](is_link), or in an address that ends in one.
+/// Returns the text of the scene file in a [link](is_link), or in an address that ends in one.
 ///
 /// # Errors
-/// If there is no link, or if it is broken, too new or too long. It never unpacks more than a scene file may have.
+/// If there is no link, or if it is broken, too new or too long. The text never grows beyond the size that a scene file
+/// may have.
 pub fn text(written: &str) -> Result<String, LinkError> {
     if is_link(written) { Link::read(written)?.text() } else { Err(LinkError::Broken) }
 }
@@ -422,7 +423,7 @@ mod tests {
         session.run(1);
         let recording = session.recording(session.race().tick());
         let link = link_to_run(&recording).unwrap();
-        // A minute with five kicks per second.
+        // The run is a minute with five kicks per second.
         assert!(link.len() < 8_000, "{} bytes", link.len());
         let around = format!("https://example.org/play/{link}&panels=off&play");
         for end in ["", ")", ").", ",", ">", " ", "\u{201d}"] {
@@ -465,7 +466,7 @@ mod tests {
         assert!(!is_link("a#b.toml") && !is_link("spring") && is_link("x#v9.y"));
     }
 
-    /// A built-in scene's run at its start: solo under the method with this menu index, or a race.
+    /// Returns a built-in scene's run at its start, either solo under the method with this menu index, or as a race.
     fn begun(name: &str, entry: Option<usize>) -> Session {
         let scene = Scene::built_in(name).unwrap();
         match entry {
@@ -482,7 +483,7 @@ mod tests {
             for entry in solos.chain([None]) {
                 let run = begun(built_in.name, entry);
                 let Some(link) = link_by_name(&run) else {
-                    // Lanes at equal cost, or two of one method, have no name.
+                    // Lanes at equal cost, or two lanes of one method, cannot be named.
                     assert!(entry.is_none() || scene.lanes.len() > 1, "{}", built_in.name);
                     continue;
                 };

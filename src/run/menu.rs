@@ -6,9 +6,9 @@ use crate::scene::{LaneId, LaneSpec};
 /// Index of a method in a [`Menu`].
 pub type MenuIndex = usize;
 
-/// The methods to which digits, rows and colours refer by index: the scene's lanes, then all other methods that fit
-/// its bodies. Each entry has the substeps and tolerance that its lane uses, or used last. The menu follows the
-/// switches of a run, without being part of it.
+/// The methods to which digits, rows and colours refer by index. First come the scene's lanes, then all other methods
+/// that fit the scene's bodies. Each entry has the substeps and tolerance that its lane uses, or used last. The menu
+/// follows the switches of a run, without being part of the run.
 #[derive(Clone, Debug)]
 pub struct Menu {
     specs: Vec<LaneSpec>,
@@ -17,7 +17,7 @@ pub struct Menu {
 }
 
 impl Menu {
-    /// The menu of a race at its start.
+    /// Creates the menu of a race at its start.
     pub(crate) fn new(race: &Race) -> Self {
         let mut menu = Self { specs: race.methods().to_vec(), lane_entries: Vec::new() };
         for entrant in race.entrants() {
@@ -30,12 +30,12 @@ impl Menu {
         menu
     }
 
-    /// The methods, in menu order.
+    /// Returns the methods, in menu order.
     pub fn specs(&self) -> &[LaneSpec] {
         &self.specs
     }
 
-    /// Menu index of a lane in the race.
+    /// Returns the menu index of a lane in the race.
     ///
     /// # Panics
     /// If the lane is not in the race.
@@ -43,7 +43,7 @@ impl Menu {
         self.known_entry(lane).expect("it is in the race")
     }
 
-    /// First lane under the method with this index; `None` if no lane uses it.
+    /// Returns the first lane under the method with this index; `None` if no lane uses the method.
     pub fn lane(&self, entry: MenuIndex) -> Option<LaneId> {
         self.lane_entries.iter().find(|(_, known)| *known == entry).map(|(lane, _)| *lane)
     }
@@ -52,12 +52,12 @@ impl Menu {
         self.lane_entries.iter().find(|(known, _)| *known == lane).map(|(_, entry)| *entry)
     }
 
-    /// Heap memory in bytes.
+    /// Returns the heap memory of the menu in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         size_of_val(&self.specs[..]) + size_of_val(&self.lane_entries[..])
     }
 
-    /// Follows an action: a switched lane takes another entry, and lanes that left the race release theirs.
+    /// Follows an action. A switched lane takes another entry, and lanes that left the race release theirs.
     pub(super) fn follow(&mut self, race: &Race, done: &PerformedAction) {
         if let Some(Switch { lane, spec, .. }) = done.switch {
             let entry = self.entry_for(lane, spec);
@@ -69,8 +69,9 @@ impl Menu {
         self.lane_entries.retain(|(lane, _)| race.entrant(*lane).is_some());
     }
 
-    /// The index for a lane that switches to `spec`, so that the menu lists every lane's method. Prefers the entry
-    /// equal to `spec`. Otherwise changes an entry of the same method that no other lane uses, or adds one.
+    /// Returns the index for a lane that switches to `spec`, so that the menu lists every lane's method. An entry equal
+    /// to `spec` is preferred. Otherwise an entry of the same method that no other lane uses is changed, or an entry is
+    /// added.
     fn entry_for(&mut self, lane: LaneId, spec: LaneSpec) -> MenuIndex {
         if let Some(known) = self.specs.iter().position(|known| *known == spec) {
             return known;

@@ -5,19 +5,19 @@ use std::fmt;
 use crate::run::race::{Chase, LaneBody};
 use crate::sim::bodies::{Coordinate, Truth};
 
-/// How a metric is plotted.
+/// The scale on which a metric is plotted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// By its decimal logarithm.
+    /// The decimal logarithm of the metric is plotted.
     Log,
-    /// By its value.
+    /// The metric itself is plotted.
     Linear,
 }
 
 /// The unit of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// None: a pure number.
+    /// A pure number without a unit.
     One,
     /// Percent of the metric's reference.
     Percent,
@@ -34,7 +34,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// The unit for a body with this coordinate.
+    /// Returns the unit's text for a body with this coordinate.
     pub fn on(self, coordinate: &Coordinate) -> String {
         match self {
             Unit::Coordinate => coordinate.shown_unit().into(),
@@ -61,24 +61,24 @@ impl fmt::Display for Unit {
 /// A metric of a body in a lane, compared with the same body in truth.
 #[derive(Debug)]
 pub struct Metric {
-    /// Name in output, `snake_case`.
+    /// Name of the metric in output, `snake_case`.
     pub id: &'static str,
-    /// Name for people.
+    /// Name of the metric for people.
     pub name: &'static str,
-    /// Text shown if no lane has a value.
+    /// Text that is shown if no lane has a value.
     pub absent: &'static str,
-    /// Unit of its values.
+    /// Unit of the metric's values.
     pub unit: Unit,
-    /// Scale on which it is plotted.
+    /// Scale on which the metric is plotted.
     pub scale: Scale,
-    /// Whether it compares the lane with the truth.
+    /// Whether the metric compares the lane with the truth.
     pub is_comparison: bool,
-    /// Whether it measures the energy that a body conserves; the energy instrument shows it.
+    /// Whether the metric measures the energy that a body conserves; the energy instrument shows such a metric.
     pub is_of_energy: bool,
-    /// Description in one line.
+    /// Description of the metric in one line.
     pub about: &'static str,
-    /// The value for a body in a lane, given the same body in truth; `None` where undefined. A comparison is
-    /// undefined once either body has halted.
+    /// Computes the value for a body in a lane, given the same body in truth; `None` if undefined. A comparison is
+    /// undefined once one of the two bodies has halted.
     pub measure: fn(lane: &LaneBody, truth: &LaneBody) -> Option<f64>,
 }
 
@@ -94,7 +94,7 @@ impl Metric {
     /// The index of the overshoot in [`METRICS`].
     pub const OVERSHOOT: usize = place_of("overshoot");
 
-    /// Text shown if no lane has a value for this body; `truth` is the same body in truth.
+    /// Returns the text that is shown if no lane has a value for this body; `truth` is the same body in truth.
     pub fn absent_on(&self, truth: &LaneBody) -> &'static str {
         if self.is_of_energy && truth.false_claims().energy {
             "No drift to show: with these constants the body's `energy` is not conserved."
@@ -127,7 +127,7 @@ const fn is_same(a: &[u8], b: &[u8]) -> bool {
     }
 }
 
-/// Every metric. The first one ranks the lanes.
+/// Every metric. The first metric ranks the lanes.
 pub const METRICS: &[Metric] = &[
     Metric {
         id: "position_error",
@@ -236,9 +236,9 @@ pub const METRICS: &[Metric] = &[
     },
 ];
 
-/// Energy of a body in a lane above that in truth, in percent of the energy that the exact motion exchanges. A linear
-/// body that exchanges or conserves none is measured against the most energy that it had. `None` if its energies are
-/// unknown, or if it is not linear, so that its energy has no natural zero.
+/// Returns the energy of a body in a lane above that in truth, in percent of the energy that the exact motion
+/// exchanges. A linear body that exchanges or conserves none is measured against the largest energy that it had. `None`
+/// if the body's energies are unknown, or if it is not linear, because its energy then has no natural zero.
 pub fn energy_gained_percent(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
     let of_swing = (METRICS[Metric::ENERGY_DRIFT].measure)(lane, truth);
     of_swing.or_else(|| {
@@ -248,13 +248,14 @@ pub fn energy_gained_percent(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
     })
 }
 
-/// Energy of a body in a lane above that in truth, in joules; `None` if either is unknown.
+/// Returns the energy of a body in a lane above that in truth, in joules; `None` if one of the two energies is unknown.
 pub fn energy_gained_j(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
     let [lane, exact] = unless_halted(lane, truth)?.map(energy_j);
     if_finite(lane? - exact?)
 }
 
-/// Kinetic plus potential energy of a body, in joules; `None` if unknown, or once the body has halted.
+/// Returns the kinetic plus potential energy of a body, in joules; `None` if the energy is unknown, or once the body
+/// has halted.
 pub fn energy_j(body: &LaneBody) -> Option<f64> {
     let stepper = &body.stepper;
     let parts = || Some(stepper.mechanical_energy()?.iter().sum());
@@ -262,18 +263,18 @@ pub fn energy_j(body: &LaneBody) -> Option<f64> {
     energy.and_then(if_finite)
 }
 
-/// The body in a lane and in truth; `None` once either has halted.
+/// Returns the body in a lane and the body in truth; `None` once one of them has halted.
 fn unless_halted<'a>(lane: &'a LaneBody, truth: &'a LaneBody) -> Option<[&'a LaneBody; 2]> {
     let are_running = lane.halted().is_none() && truth.halted().is_none();
     are_running.then_some([lane, truth])
 }
 
-/// The value, if it is finite.
+/// Returns the value, if it is finite.
 fn if_finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// The largest difference; NaN if any difference is NaN.
+/// Returns the largest difference; NaN if any difference is NaN.
 fn largest_difference(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>) -> f64 {
     let larger = |largest: f64, x: f64| if x > largest || x.is_nan() { x } else { largest };
     a.zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
@@ -292,7 +293,7 @@ mod tests {
         METRICS.iter().find(|metric| metric.id == id).unwrap()
     }
 
-    /// A race under `id` at 100 Hz, of one spring with 2 kg, 8 N/m and a kick of 4 N s.
+    /// Returns a race under `id` at 100 Hz, of one spring with 2 kg, 8 N/m and a kick of 4 N s.
     fn race(id: &str, [x0, v0]: [f64; 2]) -> Race {
         let text = format!(
             "title = 'x'\ntick_hz = 100\nseconds = 10\nmethods = ['{id}']\n\
@@ -314,7 +315,7 @@ mod tests {
         assert_eq!(measured("energy_drift", &race), None, "nothing is exchanged yet");
         assert_eq!(measured("evaluations", &race), Some(0.0));
         assert_eq!(measured("lost_time", &race), None);
-        // A period is π s: the truth is back at its start, and its speed at zero.
+        // A period is π s, so that the truth is back at its start, and its speed is zero.
         race.run(314);
         let state = |lane: &Lane| {
             let stepper = &lane.bodies()[0].stepper;
@@ -327,7 +328,7 @@ mod tests {
         };
         near("position_error", (q - x).abs());
         near("velocity_error", (v - u).abs());
-        // The largest speed is 2 m/s, the energy exchanged 4 J.
+        // The largest speed is 2 m/s, and the exchanged energy is 4 J.
         near("relative_speed_error", 100.0 * (v.abs() - u.abs()) / 2.0);
         near("energy_drift", 100.0 * (v * v + 4.0 * q * q - 4.0) / 4.0);
         near("evaluations", 314.0);
@@ -349,7 +350,8 @@ mod tests {
         // The first tick of explicit Euler adds (ω h)² of the energy, here (2 π / 60)².
         let first = gained("harbour", "explicit-euler", 1, 0).unwrap();
         assert!((first - 1.0966).abs() < 1e-3, "{first}");
-        // All its energy is kinetic. After many time constants it is that of the last speed, under any method.
+        // All energy of the ship is kinetic. After many time constants this is the energy of the last speed, under any
+        // method.
         let ship = gained("harbour", "explicit-euler", 60 * 200, 1).unwrap();
         assert!(ship.abs() < 1e-6, "{ship}");
         let damped = gained("damped", "explicit-euler", 600, 0).unwrap();
@@ -389,7 +391,7 @@ mod tests {
         assert_eq!(drifts(circle, 30), [0.0; 0]);
         let swing = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\nx0_m = 1\n";
         let largest = drifts(swing, 60).into_iter().map(f64::abs).fold(0.0, f64::max);
-        // The energy of semi-implicit Euler swings by h ω / 2, and by no more at the beginning.
+        // The energy of semi-implicit Euler swings by h ω / 2, and not by more at the beginning.
         assert!((4.8..5.8).contains(&largest), "{largest} %");
     }
 

@@ -1,8 +1,8 @@
-//! A run: lanes that race against the truth, a person's actions on them, its drawn past, and its text.
+//! A run, which has lanes that race against the truth, a person's actions on these lanes, a drawn past, and a text.
 //!
 //! A [`race`] ticks its lanes and performs the actions of its journal; a [`Session`] is a scene's race as a plain
-//! value. A [`Run`] moves back and forth in time, and undoes edits. [`Observations`] follow its race: the [`Menu`],
-//! the checkpoints from which verdicts restart, and the drawn [`past`].
+//! value. A [`Run`] moves back and forth in time, and undoes edits. [`Observations`] follow the run's race. They are
+//! the [`Menu`], the checkpoints from which verdicts restart, and the drawn [`past`].
 //!
 //! Each tick updates the [`METRICS`]. A [`trace`] tabulates them, and [`diff`] compares two such tables. A [`link`]
 //! is a run in an address.
@@ -44,14 +44,14 @@ pub use recording::{Reached, RecordingError, Replay, text as recording_text};
 pub use session::Session;
 pub(crate) use start::StartSettings;
 
-/// Default memory limit (bytes) for snapshots and the drawn pasts of kept runs.
+/// Default memory limit in bytes for snapshots and the drawn pasts of kept runs.
 pub const SNAPSHOT_BYTES: usize = 64 << 20;
 
-/// Initial spacing of snapshots (ticks): few enough to repeat in less than a frame.
+/// Initial spacing of snapshots in ticks. These are few enough to repeat in less than a frame.
 const SPACING: u64 = 32;
 
-/// Most work that recording another coordinate may repeat, about a second. Work is evaluations of accelerations,
-/// times a body's coordinates plus [`WORK_OF_AN_EVALUATION`].
+/// Maximum work that recording another coordinate may repeat, which takes about a second. Work is the number of
+/// evaluations of accelerations, multiplied by a body's number of coordinates plus [`WORK_OF_AN_EVALUATION`].
 const MAX_REPEATED_WORK: u64 = 10_000_000;
 
 /// Fixed cost of an evaluation, in units of the cost per coordinate.
@@ -59,9 +59,9 @@ const WORK_OF_AN_EVALUATION: u64 = 4;
 
 /// A session that moves back and forth in time, with its drawn past and the settings of its next restart.
 ///
-/// It keeps snapshots of the session at regular ticks. It reaches any tick from the nearest earlier snapshot by
-/// repeating the journal's actions. When the snapshots reach their memory limit, their spacing doubles. A person's
-/// edits can be undone and redone.
+/// The run keeps snapshots of the session at regular ticks. To reach a tick, it starts from the nearest earlier
+/// snapshot and repeats the journal's actions. When the snapshots reach their memory limit, their spacing doubles. A
+/// person's edits can be undone and redone.
 pub struct Run {
     course: Course,
     /// Settings of the next restart.
@@ -72,7 +72,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// The run of a session at its start.
+    /// Creates the run of a session at its start.
     pub fn new(session: Session) -> Self {
         Self::with_limit(session, SNAPSHOT_BYTES)
     }
@@ -82,7 +82,7 @@ impl Run {
         Self { limit, ..Self::of(StartSettings::of_session(&session), session) }
     }
 
-    /// A run that starts with these settings.
+    /// Creates a run that starts with these settings.
     pub(crate) fn starting_with(next: StartSettings) -> Self {
         let session = next.session();
         Self::of(next, session)
@@ -93,45 +93,45 @@ impl Run {
         Self { course, next, spacing: SPACING, limit: SNAPSHOT_BYTES, changes }
     }
 
-    /// The session at the present tick.
+    /// Returns the session at the present tick.
     pub fn session(&self) -> &Session {
         &self.course.session
     }
-    /// Settings of the next restart: those of this start, plus a person's edits since.
+    /// Returns the settings of the next restart, which are those of this start, plus a person's edits since.
     pub(crate) fn next(&self) -> &StartSettings {
         &self.next
     }
-    /// The settings of the next restart, for changes that undo should skip.
+    /// Returns the settings of the next restart, for changes that undo skips.
     pub(crate) fn next_mut(&mut self) -> &mut StartSettings {
         &mut self.next
     }
-    /// The race at tick 0, before any action; without its journal.
+    /// Returns the race at tick 0, before any action, without its journal.
     pub fn start(&self) -> &Race {
         self.course.session.start()
     }
-    /// The time of every tick, from past and pending changes of the tick rate.
+    /// Returns the time of every tick, from past and pending changes of the tick rate.
     pub fn times(&self) -> TimeScale {
         let rows = self.course.session.journal().rows().iter();
         let changes = rows.filter_map(|row| Some((row.tick, row.action.tick_hz()?)));
         TimeScale::new((0, 0.0), self.start().tick_hz(), changes)
     }
-    /// The lanes and the truth at the present tick.
+    /// Returns the lanes and the truth at the present tick.
     pub fn race(&self) -> &Race {
         self.course.race()
     }
-    /// The drawn past.
+    /// Returns the drawn past.
     pub fn past(&self) -> &Past {
         self.course.seen.past()
     }
-    /// The methods to which digits and rows refer.
+    /// Returns the methods to which digits and rows refer.
     pub fn menu(&self) -> &Menu {
         self.course.seen.menu()
     }
-    /// The checkpoints from which verdicts and clouds restart.
+    /// Returns the checkpoints from which verdicts and clouds restart.
     pub(crate) fn checkpoints(&self) -> &Checkpoints {
         self.course.seen.checkpoints()
     }
-    /// The last tick reached.
+    /// Returns the last tick reached.
     pub fn end(&self) -> u64 {
         self.course.record.end
     }
@@ -139,12 +139,12 @@ impl Run {
     pub fn is_in_past(&self) -> bool {
         self.race().tick() < self.course.record.end
     }
-    /// Memory (bytes) of the snapshots, and of the drawn pasts from before restarts.
+    /// Returns the memory in bytes of the snapshots, and of the drawn pasts from before restarts.
     pub fn bytes(&self) -> usize {
         let all = self.course.record.snapshots.iter().chain(self.changes.snapshots());
         all.map(|snapshot| snapshot.bytes).sum::<usize>() + self.changes.past_bytes()
     }
-    /// Limit for [`Run::bytes`].
+    /// Returns the limit for [`Run::bytes`].
     pub fn limit(&self) -> usize {
         self.limit
     }
@@ -152,16 +152,16 @@ impl Run {
     pub fn set_limit(&mut self, limit: usize) {
         self.limit = limit;
     }
-    /// Description of the change that [`Run::undo`] would take back; `None` if there is none.
+    /// Returns the description of the change that [`Run::undo`] would take back; `None` if there is none.
     pub fn undoes(&self) -> Option<&str> {
         self.changes.done.last().map(|change| &change.what[..])
     }
-    /// Description of the change that [`Run::redo`] would repeat; `None` if there is none.
+    /// Returns the description of the change that [`Run::redo`] would repeat; `None` if there is none.
     pub fn redoes(&self) -> Option<&str> {
         self.changes.undone.last().map(|change| &change.what[..])
     }
 
-    /// Events up to the last tick reached, in order.
+    /// Returns the events up to the last tick reached, in order.
     pub fn events(&self) -> Vec<Event> {
         let rows = self.course.session.journal().rows().iter();
         let is_solo = self.start().mode() == Mode::Solo;
@@ -188,7 +188,7 @@ impl Run {
         self.course.catch_up(observer);
     }
 
-    /// Makes a tick and notifies the observer; in the past, repeats the recorded tick.
+    /// Makes a tick and notifies the observer. In the past, this repeats the recorded tick.
     pub fn tick(&mut self, observer: &mut dyn Observer) {
         self.course.tick(observer);
         if self.race().tick().is_multiple_of(self.spacing) {
@@ -196,8 +196,8 @@ impl Run {
         }
     }
 
-    /// Performs an action at the present tick, like [`Session::act`], as a change that [`Run::undo`] takes back. In
-    /// the past, it begins another future. Returns whether it changed anything.
+    /// Performs an action at the present tick, like [`Session::act`], as a change that [`Run::undo`] takes back. In the
+    /// past, the action begins another future. Returns whether the action changed anything.
     pub fn act(&mut self, action: Action) -> bool {
         self.close_change();
         self.act_within(action, &mut ()).is_some()
@@ -230,8 +230,8 @@ impl Run {
         Some(done)
     }
 
-    /// Changes a setting of the next start, as part of the open change, or of a new one. Like this function, `set`
-    /// returns whether it changed anything.
+    /// Changes a setting of the next start, as part of the open change, or of a new one. Both `set` and this function
+    /// return whether a setting changed.
     pub(crate) fn set_next(
         &mut self,
         what: &str,
@@ -246,8 +246,8 @@ impl Run {
         is_changed
     }
 
-    /// Applies `set` to the next start's settings and begins a run with them. With a description in `kept`,
-    /// [`Run::undo`] can bring back the present run; otherwise it is lost.
+    /// Applies `set` to the next start's settings and begins a run with these. With a description in `kept`,
+    /// [`Run::undo`] can bring back the present run; otherwise the present run is lost.
     pub(crate) fn restart(&mut self, kept: Option<&str>, set: impl FnOnce(&mut StartSettings)) {
         let before = self.next.clone();
         set(&mut self.next);
@@ -266,13 +266,13 @@ impl Run {
         self.changes.close();
     }
 
-    /// Clears the undo stack: all edits so far become part of the start.
+    /// Clears the undo stack, so that all edits up to now become part of the start.
     pub(crate) fn forget_changes(&mut self) {
         self.changes = UndoStack::default();
     }
 
-    /// Takes back the newest change, and returns to its tick. Undoing a restart brings back the earlier run at its
-    /// former tick. Returns whether there was a change.
+    /// Takes back the newest change, and returns to the tick of that change. Undoing a restart brings back the earlier
+    /// run at its former tick. Returns whether there was a change.
     pub fn undo(&mut self) -> bool {
         let Some(mut change) = self.changes.done.pop() else { return false };
         self.swap_change(&mut change);
@@ -280,7 +280,7 @@ impl Run {
         true
     }
 
-    /// Repeats the change that was undone last, and moves to its tick. Returns whether there was one.
+    /// Repeats the change that was undone last, and moves to the tick of that change. Returns whether there was one.
     pub fn redo(&mut self) -> bool {
         let Some(mut change) = self.changes.undone.pop() else { return false };
         self.swap_change(&mut change);
@@ -288,7 +288,7 @@ impl Run {
         true
     }
 
-    /// Swaps in the other side of a change, and leaves this side there.
+    /// Exchanges the present side of a change for the other side, which the change holds.
     fn swap_change(&mut self, change: &mut Change) {
         self.changes.close();
         swap(&mut self.next, &mut change.next);
@@ -302,14 +302,14 @@ impl Run {
                 journal.swap_tail(rows);
                 self.course.session.follow(journal);
                 self.restore(*tick);
-                // The recorded future belongs to the side just left.
+                // The recorded future belongs to the side that was just left.
                 self.course.seen.forget_future();
                 self.catch_up(&mut ());
             }
         }
     }
 
-    /// Moves to a tick, at most the last one reached, in the state before its actions.
+    /// Moves to a tick, at most the last one reached, in the state before the actions of that tick.
     pub fn seek(&mut self, tick: u64) {
         let tick = tick.min(self.course.record.end);
         if tick != self.race().tick() {
@@ -317,8 +317,8 @@ impl Run {
         }
     }
 
-    /// Records these coordinates, one index per body, from now on, and from the start by repeating the run. Returns
-    /// `false` and keeps its record if that would take more than about a second.
+    /// Records these coordinates, one index per body, from now on, and also from the start by repeating the run. If
+    /// that would take more than about a second, it returns `false` and keeps the previous coordinates.
     pub fn record_coordinates(&mut self, coordinates: &[usize]) -> bool {
         if self.past().coordinates().eq(coordinates.iter().copied()) {
             return true;
@@ -345,12 +345,12 @@ impl Run {
         true
     }
 
-    /// The hashes noted so far, in order of ticks.
+    /// Returns the hashes noted so far, in order of ticks.
     fn hashes(&self) -> &[Hashes] {
         &self.course.record.hashes
     }
 
-    /// The race at the last tick reached, before its actions.
+    /// Returns the race at the last tick reached, before the actions of that tick.
     fn race_at_end(&self) -> Race {
         let Course { session, record: RunRecord { snapshots, end, .. }, .. } = &self.course;
         let before = session.journal().rows().partition_point(|row| row.tick < *end);
@@ -370,7 +370,7 @@ impl Run {
         let nearest = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick) - 1;
         let is_ahead = (snapshots[nearest].race.tick()..tick).contains(&session.race.tick());
         if !is_ahead {
-            // Start far enough back to complete the drawn past again.
+            // The repetition starts far enough back to complete the drawn past again.
             let wanted = &snapshots[nearest].mark;
             let fills = |snapshot: &&Snapshot| seen.fills(&snapshot.mark, wanted);
             let from = snapshots[..=nearest].iter().rfind(fills);
@@ -412,7 +412,7 @@ impl Run {
         self.thin_to_limit();
     }
 
-    /// Thins the snapshots to the memory limit, and then forgets changes. Drawn pasts may take up to half of the
+    /// Thins the snapshots to the memory limit, and after that drops changes. Drawn pasts may take up to half of the
     /// limit.
     fn thin_to_limit(&mut self) {
         while self.bytes() > self.limit {

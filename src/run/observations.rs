@@ -20,15 +20,15 @@ pub(super) struct ObservationsMark {
 }
 
 impl ObservationsMark {
-    /// Heap memory in bytes.
+    /// Returns the heap memory of the mark in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.menu.heap_bytes() + self.checkpoints.heap_bytes() + self.past.heap_bytes()
     }
 }
 
 impl Observations {
-    /// Observations from the present of `race` on. The drawn past covers `span_s` seconds of the coordinates that
-    /// plots show by default.
+    /// Creates observations from the present of `race` on. The drawn past covers `span_s` seconds of the coordinates
+    /// that plots show by default.
     pub fn new(race: &Race, span_s: f64) -> Self {
         let menu = Menu::new(race);
         Self { past: Past::new(race, span_s, &menu), checkpoints: Checkpoints::default(), menu }
@@ -45,17 +45,17 @@ impl Observations {
         Self { past, checkpoints: Checkpoints::default(), menu }
     }
 
-    /// The methods from which a person picks.
+    /// Returns the menu of methods from which a person picks.
     pub fn menu(&self) -> &Menu {
         &self.menu
     }
 
-    /// The checkpoints from which verdicts and clouds restart.
+    /// Returns the checkpoints from which verdicts and clouds restart.
     pub(super) fn checkpoints(&self) -> &Checkpoints {
         &self.checkpoints
     }
 
-    /// The drawn past.
+    /// Returns the drawn past.
     pub fn past(&self) -> &Past {
         &self.past
     }
@@ -75,7 +75,7 @@ impl Observations {
         self.past.fills(&from.past, &mark.past)
     }
 
-    /// Rewinds to a mark of the present of `race`, which may also lie in the recorded future.
+    /// Rewinds to a mark of the present of `race`. The mark may also lie in the recorded future.
     pub(super) fn rewind(&mut self, mark: &ObservationsMark, race: &Race) {
         self.menu = mark.menu.clone();
         self.checkpoints = mark.checkpoints.clone();

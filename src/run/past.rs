@@ -1,7 +1,8 @@
-//! The recorded past of a race for drawing: recent samples of every body in every lane, and the truth as a curve.
+//! The recorded past of a race for drawing, which has recent samples of every body in every lane, and the truth as a
+//! curve.
 //!
-//! It follows a race without being part of it, so a copy of the race has none. A race that returns to an earlier tick
-//! shows the same past as it did then. Samples name a lane's method by its index on the [`Menu`].
+//! The past follows a race without being part of it, so that a copy of the race has no past. A race that returns to an
+//! earlier tick shows the same past as it did at that time. Samples name a lane's method by its index on the [`Menu`].
 
 use super::Menu;
 use super::race::{Entrant, PerformedAction, Race, Resumed, ResumedFrom, Switch};
@@ -21,17 +22,17 @@ pub use sample::{CAPACITY, Energies, Sample, Summary, SweptRange};
 use truth_curve::TruthMark;
 pub use truth_curve::{TruthCurve, TruthSample};
 
-/// Share of the duration shown during which a motion counts as just begun: two swings of the harbour's 1 Hz spring.
-/// Axes that fit its first samples alone would be too narrow.
+/// Share of the displayed duration during which a motion counts as just begun, which is two swings of the harbour's 1
+/// Hz spring. Axes that fit only the first samples of a motion would be too narrow.
 const BEGUN: f64 = 0.1;
 
-/// Most memory of the histories in bytes: room for 130 with [`CAPACITY`] samples each. With more lanes and bodies,
-/// histories are coarser.
+/// Maximum memory of the histories in bytes, which has room for 130 with [`CAPACITY`] samples each. With more lanes and
+/// bodies, histories are coarser.
 const MAX_BYTES: usize = 64 << 20;
 
-/// Capacity at which this number of histories fits into [`MAX_BYTES`].
+/// Returns the capacity at which this number of histories fits into [`MAX_BYTES`].
 fn capacity_of(histories: usize) -> usize {
-    // The product needs 64 bits; in a browser, `usize` has 32.
+    // The product needs 64 bits, but `usize` has only 32 in a browser.
     let all = CAPACITY as u64 * (MAX_BYTES / histories.max(1)) as u64;
     CAPACITY.min((all / History::heap_bytes(CAPACITY) as u64) as usize)
 }
@@ -40,11 +41,11 @@ fn capacity_of(histories: usize) -> usize {
 pub struct Past {
     /// One history per body for each lane, in the order of the race.
     histories: Vec<(LaneId, Vec<History>)>,
-    /// One per body.
+    /// The curves of the truth, one per body.
     truth_curves: Vec<TruthCurve>,
-    /// Duration of the histories (s).
+    /// Duration of the histories in seconds.
     span_s: f64,
-    /// Most samples of a history.
+    /// Maximum number of samples of a history.
     capacity: usize,
     /// Time (s) of the last placement or parameter change; before the start if there was none.
     changed_s: f64,
@@ -55,7 +56,7 @@ pub struct Past {
 /// The end of the recorded past at some tick, for [rewinding](Past::rewind).
 #[derive(Clone, Debug)]
 pub(super) struct PastMark {
-    /// By lane and body.
+    /// Marks of the histories, by lane and body.
     histories: Box<[(LaneId, Box<[HistoryMark]>)]>,
     truth_curves: Box<[TruthMark]>,
     changed_s: f64,
@@ -63,7 +64,7 @@ pub(super) struct PastMark {
 }
 
 impl PastMark {
-    /// Heap memory in bytes.
+    /// Returns the heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         let row = |(_, marks): &(LaneId, Box<[HistoryMark]>)| size_of_val(&marks[..]);
         size_of_val(&self.histories[..])
@@ -73,8 +74,8 @@ impl PastMark {
 }
 
 impl Past {
-    /// A past of `span_s` seconds that begins at the present of `race`. It records the coordinate of each body that
-    /// plots show by default.
+    /// Creates a past of `span_s` seconds that begins at the present of `race`. For each body it records the coordinate
+    /// that plots show by default.
     pub(super) fn new(race: &Race, span_s: f64, menu: &Menu) -> Self {
         let bodies = race.truth().bodies().iter();
         Self::of_coordinates(race, span_s, menu, bodies.map(|body| body.plotted_coordinate()))
@@ -104,14 +105,14 @@ impl Past {
         past
     }
 
-    /// Heap memory in bytes.
+    /// Returns the heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         let histories: usize = self.histories.iter().map(|(_, histories)| histories.len()).sum();
         histories * History::heap_bytes(self.capacity)
             + self.truth_curves.iter().map(TruthCurve::heap_bytes).sum::<usize>()
     }
 
-    /// The histories of the bodies of a lane in the race.
+    /// Returns the histories of the bodies of a lane in the race.
     ///
     /// # Panics
     /// If the lane is not in the race.
@@ -123,57 +124,58 @@ impl Past {
         self.histories.iter().position(|(id, _)| *id == lane)
     }
 
-    /// The recent past of the truth, one curve for each body.
+    /// Returns the recent past of the truth, one curve for each body.
     pub fn truth_curves(&self) -> &[TruthCurve] {
         &self.truth_curves
     }
 
-    /// The indices of the recorded coordinates, one for each body.
+    /// Returns the indices of the recorded coordinates, one for each body.
     pub fn coordinates(&self) -> impl Iterator<Item = usize> {
         self.truth_curves.iter().map(TruthCurve::coordinate)
     }
 
-    /// The recorded coordinate of the body with this index in the scene, and the coordinate's index.
+    /// Returns the recorded coordinate of the body with this index in the scene, and the coordinate's index.
     pub fn coordinate(&self, race: &Race, body: usize) -> (Coordinate, usize) {
         let index = self.truth_curves[body].coordinate();
         (race.truth().bodies()[body].coordinates().at(index), index)
     }
 
-    /// Time (s) of the last placement or parameter change; before the start if there was none.
+    /// Returns the time (s) of the last placement or parameter change; before the start if there was none.
     pub fn changed_s(&self) -> f64 {
         self.changed_s
     }
 
-    /// Time (s) of the last kick or [change](Self::changed_s), since when bodies swing as they do.
+    /// Returns the time (s) of the last kick or [change](Self::changed_s). Since then, bodies swing as they do now.
     pub fn swings_since_s(&self) -> f64 {
         self.swings_since_s
     }
 
-    /// Start (s) of the samples that show at `t` how far bodies swing. This is the last [change](Self::changed_s), or
-    /// before the start while the motion after it has just begun.
+    /// Returns the start (s) of the samples that show at `t` how far bodies swing. It is the last
+    /// [change](Self::changed_s), or before the start while the motion after that change has just begun.
     pub fn swing_since_s(&self, t: f64) -> f64 {
         let has_just_begun = t - self.changed_s < BEGUN * self.span_s;
         if has_just_begun { f64::NEG_INFINITY } else { self.changed_s }
     }
 
-    /// True coordinates and velocities of the body with this index in the scene, within or beyond the last tick of
-    /// `race`. During the tick, `part` runs from 0 to 1.
+    /// Returns the true coordinates and velocities of the body with this index in the scene, within or beyond the last
+    /// tick of `race`. During the tick, `part` runs from 0 to 1.
     pub fn truth_between(&self, race: &Race, body: usize, part: f64) -> (Vec<f64>, Vec<f64>) {
         self.truth_curves[body].state(&race.truth().bodies()[body], race.last_tick(), part)
     }
 
-    /// Shows the present of `race` until the next sample, so that the drawn past reaches it. Never allocates.
+    /// Shows the present of `race` until the next sample, so that the drawn past ends at the present. Never allocates.
     pub(super) fn show_present(&mut self, race: &Race, menu: &Menu) {
         self.add_samples(race, menu, History::record_passing);
     }
 
-    /// Ticks between samples.
+    /// Returns the number of ticks from one sample to the next.
     fn stride(&self, race: &Race) -> u64 {
         let samples = self.span_s * f64::from(race.tick_hz());
         ((samples / self.capacity as f64).ceil() as u64).max(1)
     }
 
-    /// Adds the present to the histories if a sample is due, or else to the range that the next sample sweeps.
+    /// Adds the present to the histories if a sample is due. Otherwise extends the range that belongs to the next
+    /// sample.
     fn sample(&mut self, race: &Race, menu: &Menu) {
         if race.tick().is_multiple_of(self.stride(race)) {
             return self.add_samples(race, menu, History::push_present);
@@ -214,7 +216,7 @@ impl Past {
         self.histories.retain(|(lane, _)| race.entrant(*lane).is_some());
     }
 
-    /// The present end of the recorded past.
+    /// Returns a mark of the end of the recorded past.
     pub(super) fn mark(&self) -> PastMark {
         let marks = |(lane, histories): &(LaneId, Vec<History>)| {
             (*lane, histories.iter().map(History::mark).collect())
@@ -240,7 +242,7 @@ impl Past {
         histories && curves.all(|(curve, (&begun, &mark))| curve.fills(begun, mark))
     }
 
-    /// Rewinds to a mark of the present of `race`, which may also lie in the recorded future.
+    /// Rewinds to a mark of the present of `race`. The mark may also lie in the recorded future.
     pub(super) fn rewind(&mut self, mark: &PastMark, race: &Race) {
         (self.changed_s, self.swings_since_s) = (mark.changed_s, mark.swings_since_s);
         self.leave_with(race);
@@ -361,7 +363,7 @@ impl Past {
         self.note_most(race);
     }
 
-    /// Adds the present to the largest values of each history.
+    /// Updates the largest values of each history with the present.
     fn note_most(&mut self, race: &Race) {
         for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
             let bodies = entrant.lane.bodies().iter().zip(race.truth().bodies()).zip(histories);
@@ -398,7 +400,7 @@ mod tests {
 
     #[test]
     fn histories_cover_the_scene_with_enough_samples() {
-        // One tick less than the capacity, as many, and one more.
+        // The run has one tick less than the capacity, the same number, and one tick more.
         for (ticks, stride) in
             [(CAPACITY as u32 - 1, 1), (CAPACITY as u32, 1), (CAPACITY as u32 + 1, 2)]
         {

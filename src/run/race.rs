@@ -1,4 +1,4 @@
-//! All lanes and the truth, stepped tick by tick in integer time, with the actions on them.
+//! All lanes and the truth, stepped tick by tick in integer time, and the actions on them.
 //!
 //! A [`Race`] ticks its [`Entrant`]s and performs the actions of its [`Journal`], and notifies an [`Observer`] of
 //! both. A [`Lane`] is one method on its own copy of the scene's bodies. A [`Ticker`] ticks a single lane outside a
@@ -39,7 +39,7 @@ pub use observer::{Observer, PerformedAction, Switch};
 pub(crate) use run_start::Checkpoints;
 use run_start::{BodyStart, RunStart};
 
-/// One method at a time, or all of them at once.
+/// Whether one method runs at a time, or all of them at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// One lane, whose method can be switched in flight.
@@ -49,7 +49,7 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// The mode in which a scene opens.
+    /// Returns the mode in which a scene opens.
     pub fn opening(scene: &Scene) -> Self {
         if scene.opens_as_race { Mode::Race } else { Mode::Solo }
     }
@@ -58,24 +58,24 @@ impl Mode {
 /// The last tick of a race.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LastTick {
-    /// Time (s) at which it began.
+    /// Time (s) at which the tick began.
     pub(crate) from_s: f64,
-    /// Time (s) at which it ended.
+    /// Time (s) at which the tick ended.
     pub(crate) to_s: f64,
 }
 
 /// A lane in a race, with its identity and its method.
 #[derive(Clone)]
 pub struct Entrant {
-    /// Identity of the lane, fixed at the race's start.
+    /// Number of the lane, fixed at the race's start.
     pub id: LaneId,
-    /// Its method, substeps and tolerance.
+    /// Method, substeps and tolerance of the lane.
     pub spec: LaneSpec,
-    /// The lane.
+    /// The lane with its bodies.
     pub lane: Lane,
 }
 
-/// Lanes against the truth; in solo mode, one lane.
+/// Lanes against the truth; in solo mode, only one lane.
 #[derive(Clone)]
 pub struct Race {
     mode: Mode,
@@ -88,7 +88,7 @@ pub struct Race {
     throttle: f64,
     rudder: f64,
     tick: u64,
-    /// Ticks since the last change of the tick rate. Time counts from there, and is never a running sum.
+    /// Ticks since the last change of the tick rate. Time counts from that change, and is never a running sum.
     piece: Piece,
     /// Length of the last tick (s).
     last_step_s: f64,
@@ -98,8 +98,8 @@ pub struct Race {
 }
 
 impl Race {
-    /// The race of a body that moves as `system` does, from `start`: the truth, and a lane for each method in the
-    /// options.
+    /// Creates the race of a body that moves as `system` does, from `start`. It has the truth, and a lane for each
+    /// method in the options.
     ///
     /// ```
     /// use regatta::prelude::*;
@@ -129,16 +129,16 @@ impl Race {
         Self::of_scene(&custom::scene(system, start, options))
     }
 
-    /// The tick nearest to `seconds` of simulated time, given the pending changes of the tick rate. The present tick
-    /// if that time has passed.
+    /// Returns the tick nearest to `seconds` of simulated time, given the pending changes of the tick rate; the present
+    /// tick if that time has passed.
     pub fn nearest_tick(&self, seconds: f64) -> u64 {
         TimeScale::new((self.tick(), self.t()), self.tick_hz(), self.rates_to_come())
             .nearest_tick(seconds)
     }
 
-    /// The race of all the scene's lanes at its start. Each [`step`](Self::step) performs the script's actions at its
-    /// tick. Each lane keeps its method, so actions that name a method without a lane have no effect. `regatta
-    /// capture --race` draws this race:
+    /// Creates the race of all the scene's lanes at its start. Each [`step`](Self::step) performs the script's actions
+    /// at its tick. Each lane keeps its method, so actions that name a method without a lane have no effect.
+    /// `regatta capture --race` draws this race:
     ///
     /// ```
     /// use regatta::run::Race;
@@ -156,12 +156,12 @@ impl Race {
         Self::new(scene, lanes).with_script(&scene.script)
     }
 
-    /// The same race at its start, with this script at the present tick rate.
+    /// Returns the same race at its start, with this script at the present tick rate.
     pub(crate) fn with_script(self, script: &[Scripted]) -> Self {
         Self { journal: Journal::of_script(script, self.tick_hz()), ..self }
     }
 
-    /// The scene at its start with these lanes, and without its script.
+    /// Creates the race of these lanes at the scene's start, without the scene's script.
     pub fn new(scene: &Scene, lanes: impl IntoIterator<Item = LaneSpec>) -> Self {
         Self::with_methods(scene, scene.method_list(), lanes)
     }
@@ -193,8 +193,8 @@ impl Race {
         }
     }
 
-    /// The scene at its start without its script, with one lane. `index` is the lane's index in `methods`, which
-    /// begin with the scene's lanes.
+    /// Creates the race of one lane at the scene's start, without the scene's script. `index` is the lane's index in
+    /// `methods`, which begin with the scene's lanes.
     pub(crate) fn solo(scene: &Scene, methods: Vec<LaneSpec>, index: usize) -> Self {
         let spec = methods[index];
         let mut race = Self::with_methods(scene, methods, [spec]);
@@ -206,7 +206,7 @@ impl Race {
         race
     }
 
-    /// The same race at its start, at this tick rate and without its script.
+    /// Returns the same race at its start, at this tick rate and without its script.
     pub(crate) fn at_rate(self, tick_hz: TickRate) -> Self {
         Self { piece: Piece::first(tick_hz), journal: Journal::default(), ..self }
     }
@@ -215,49 +215,50 @@ impl Race {
     pub fn mode(&self) -> Mode {
         self.mode
     }
-    /// The tick reached.
+    /// Returns the tick reached.
     pub fn tick(&self) -> u64 {
         self.tick
     }
-    /// The tick rate in Hz.
+    /// Returns the tick rate in Hz.
     pub fn tick_hz(&self) -> TickRate {
         self.piece.tick_hz
     }
-    /// The time reached, in seconds.
+    /// Returns the time reached, in seconds.
     pub fn t(&self) -> f64 {
         self.piece.t(self.tick)
     }
-    /// Length of the last tick (s) at its own rate; 0 at the start.
+    /// Returns the length of the last tick in seconds, at the rate of that tick; 0 at the start.
     pub fn last_step_s(&self) -> f64 {
         self.last_step_s
     }
-    /// Throttle, from -1 to 1.
+    /// Returns the throttle, from -1 to 1.
     pub fn throttle(&self) -> f64 {
         self.throttle
     }
-    /// Rudder, from -1 (hard right) to 1 (hard left).
+    /// Returns the rudder, from -1 (hard right) to 1 (hard left).
     pub fn rudder(&self) -> f64 {
         self.rudder
     }
-    /// The truth: the exact solution, or a reference where a body has no closed form.
+    /// Returns the truth, which is the exact solution, or a reference if a body has no closed form.
     pub fn truth(&self) -> &Lane {
         &self.truth
     }
-    /// The lanes, in list order.
+    /// Returns the lanes, in list order.
     pub fn entrants(&self) -> &[Entrant] {
         &self.entrants
     }
-    /// The scene's lanes at the start, then all other methods that fit its bodies.
-    /// [`Action::Method`](crate::scene::Action::Method) takes the lane's settings from here.
+    /// Returns the scene's lanes at the start, then all other methods that fit the scene's bodies.
+    /// [`Action::Method`](crate::scene::Action::Method) gets the lane's settings from here.
     pub fn methods(&self) -> &[LaneSpec] {
         &self.methods
     }
-    /// Present parameters of the body with this index in the scene, in the order of
+    /// Returns the present parameters of the body with this index in the scene, in the order of
     /// [`Kind::build`](crate::sim::bodies::Kind::build).
     pub fn values(&self, body: usize) -> &[f64] {
         &self.values[body]
     }
-    /// Bodies that halted in the last tick, each with its entrant. The truth's bodies come first, with `None`.
+    /// Returns the bodies that halted in the last tick, each with its entrant. The truth's bodies come first, with
+    /// `None`.
     pub fn just_halted(&self) -> impl Iterator<Item = (Option<&Entrant>, &Halt)> {
         let lanes = self.entrants.iter().map(|entrant| (Some(entrant), &entrant.lane));
         std::iter::once((None, &self.truth)).chain(lanes).flat_map(|(entrant, lane)| {
@@ -265,31 +266,31 @@ impl Race {
             halts.map(move |halt| (entrant, halt))
         })
     }
-    /// The entrant in this lane; `None` if it has left the race.
+    /// Returns the entrant in this lane; `None` if the lane has left the race.
     pub fn entrant(&self, lane: LaneId) -> Option<&Entrant> {
         self.entrants.iter().find(|entrant| entrant.id == lane)
     }
-    /// The [hash](Self::lane_hashes) of this lane; `None` if it has left the race.
+    /// Returns the [hash](Self::lane_hashes) of this lane; `None` if the lane has left the race.
     pub fn lane_hash(&self, lane: LaneId) -> Option<u64> {
         let index = self.entrants.iter().position(|entrant| entrant.id == lane)?;
         self.lane_hashes().nth(index)
     }
-    /// Performed and pending actions.
+    /// Returns the performed and the pending actions.
     pub fn journal(&self) -> &Journal {
         &self.journal
     }
-    /// Number of journal rows already performed.
+    /// Returns the number of journal rows already performed.
     pub(crate) fn done(&self) -> usize {
         self.done
     }
 
-    /// Pending changes of the tick rate, each with its tick.
+    /// Returns the pending changes of the tick rate, each with its tick.
     pub fn rates_to_come(&self) -> impl Iterator<Item = (u64, TickRate)> {
         let pending = self.journal.rows()[self.done..].iter();
         pending.filter_map(|row| Some((row.tick, row.action.tick_hz()?)))
     }
 
-    /// Replaces the journal. The new one must begin with as many performed rows.
+    /// Replaces the journal. The new journal must begin with the rows that are already performed.
     pub(crate) fn set_journal(&mut self, journal: Journal) {
         self.journal = journal;
     }
@@ -299,7 +300,7 @@ impl Race {
         LastTick { from_s: to_s - self.last_step_s, to_s }
     }
 
-    /// An upper bound of the memory in bytes, without the journal and the methods, which copies share.
+    /// Returns an upper limit of the memory in bytes, without the journal and the methods, which copies share.
     pub(crate) fn bytes(&self) -> usize {
         let lanes = self.entrants.iter().map(|entrant| &entrant.lane).chain([&self.truth]);
         let values =
@@ -310,7 +311,7 @@ impl Race {
             + lanes.map(Lane::heap_bytes).sum::<usize>()
     }
 
-    /// Performs the journal's actions at this tick, steps every lane and the truth to the next, and notifies the
+    /// Performs the journal's actions at this tick, steps every lane and the truth to the next tick, and notifies the
     /// observer. Allocates for actions only.
     pub fn step(&mut self, observer: &mut dyn Observer) {
         self.catch_up(observer);
@@ -324,13 +325,13 @@ impl Race {
         observer.ticked(self);
     }
 
-    /// Steps `ticks` ticks.
+    /// Makes `ticks` ticks.
     pub fn run(&mut self, ticks: u64) {
         (0..ticks).for_each(|_| self.step(&mut ()));
     }
 
-    /// A hash of the tick and of the state bits in every lane, without the truth. Equal physics has equal hashes on
-    /// every platform and in every build. The hash is 64-bit FNV-1a over little-endian words, with -0 as 0.
+    /// Returns a hash of the tick and of the state bits in every lane, without the truth. Equal physics has equal
+    /// hashes on every platform and in every build. The hash is 64-bit FNV-1a over little-endian words, with -0 as 0.
     pub fn state_hash(&self) -> u64 {
         let mut hash = Fnv::new();
         hash.word(self.tick);
@@ -338,7 +339,7 @@ impl Race {
         hash.0
     }
 
-    /// For each lane, the [`Race::state_hash`] of a race of this lane alone.
+    /// Returns for each lane the [`Race::state_hash`] of a race of this lane alone.
     pub fn lane_hashes(&self) -> impl Iterator<Item = u64> {
         self.entrants.iter().map(|entrant| {
             let mut hash = Fnv::new();
@@ -348,7 +349,7 @@ impl Race {
         })
     }
 
-    /// [`Race::lane_hashes`] with the id of each lane's method, in list order.
+    /// Returns [`Race::lane_hashes`] with the id of each lane's method, in list order.
     pub fn hashes_by_method(&self) -> impl Iterator<Item = (&'static str, u64)> {
         let methods = self.entrants.iter().map(|entrant| {
             let method = entrant.lane.solver().method();

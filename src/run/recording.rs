@@ -1,4 +1,5 @@
-//! A run as a scene: its start, its actions, and its states as checks. [`Replay`] repeats such a scene and compares.
+//! A run as a scene, with the run's start, its actions, and its states as checks. [`Replay`] repeats such a scene and
+//! compares.
 
 use std::sync::Arc;
 
@@ -7,21 +8,22 @@ use super::race::{Mode, Observer, PerformedAction, Race, Switch};
 use super::{Run, Session};
 use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
 
-/// Most checks of a recording, to keep its file readable. A long run has fewer than one per second.
+/// Maximum number of checks of a recording, which keeps the file readable. A long run has fewer than one check per
+/// second.
 const MAX_CHECKS: usize = 8_000;
 
-/// Why a run cannot be recorded.
+/// The reason why a run cannot be recorded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RecordingError {
-    /// Its scene file would be too long to read.
+    /// The run's scene file would be too long to read.
     #[error(
         "this run has so many actions that its file would be {bytes} bytes long, and a scene file may be at most {MAX_FILE_BYTES}; record a shorter run"
     )]
     TooLong {
-        /// Size of its file in bytes.
+        /// Size of the scene file in bytes.
         bytes: usize,
     },
-    /// It has a body or a method written in Rust.
+    /// The run has a body or a method written in Rust.
     #[error("{what} is written in Rust, and a scene file cannot hold it; compare hashes instead")]
     InRust {
         /// Name of the body, or id of the method.
@@ -30,16 +32,16 @@ pub enum RecordingError {
 }
 
 impl Session {
-    /// The text of the [recording](Session::recording) to tick `end`.
+    /// Returns the text of the [recording](Session::recording) to tick `end`.
     ///
     /// # Errors
-    /// If it is too long for a scene file, or if the run has a body or a method written in Rust.
+    /// If the text is too long for a scene file, or if the run has a body or a method written in Rust.
     pub fn recording_text(&self, end: u64) -> Result<String, RecordingError> {
         text(&self.recording(end))
     }
 
-    /// A scene whose race repeats this run to the bit, from its start to tick `end`: see [`Run::recording`]. Repeats
-    /// the ticks.
+    /// Returns a scene whose race repeats this run to the bit, from its start to tick `end`; see [`Run::recording`].
+    /// Repeats the ticks.
     pub fn recording(&self, end: u64) -> Scene {
         let mut run = Run::new(self.before_its_first_tick());
         (0..end).for_each(|_| run.tick(&mut ()));
@@ -47,10 +49,10 @@ impl Session {
     }
 }
 
-/// The text of a recording, in the words of its scene's author.
+/// Returns the text of a recording, in the words of the scene's author.
 ///
 /// # Errors
-/// If it is too long for a scene file, or if the run has a body or a method written in Rust.
+/// If the text is too long for a scene file, or if the run has a body or a method written in Rust.
 pub fn text(recording: &Scene) -> Result<String, RecordingError> {
     if let Some(what) = recording.in_rust() {
         return Err(RecordingError::InRust { what: what.to_owned() });
@@ -61,11 +63,11 @@ pub fn text(recording: &Scene) -> Result<String, RecordingError> {
 }
 
 impl Run {
-    /// A scene whose race repeats this run to the bit, from its start to the last tick reached.
+    /// Returns a scene whose race repeats this run to the bit, from its start to the last tick reached.
     ///
-    /// It lasts that long, or as long as the scene if no tick was made. It has the run's initial parameters, lanes
-    /// and rate, and all its actions as script. A [`Check`] covers every lane at every second and at the end. A
-    /// recorded race [opens as a race](Scene::opens_as_race).
+    /// The scene lasts until the last tick reached, or as long as the run's scene if no tick was made. It has the run's
+    /// initial parameters, lanes and rate, and all actions of the run as script. A [`Check`] covers every lane at every
+    /// second and at the end. A recorded race [opens as a race](Scene::opens_as_race).
     ///
     /// An action that names a method without a lane becomes a switch of its lane, so that it works in a race, too.
     pub fn recording(&self) -> Scene {
@@ -99,9 +101,9 @@ impl Run {
     }
 }
 
-/// A solo recording with its lane among `lanes`, so that the menu offers the same methods as before. It opens with
-/// its own method, and its script and checks refer to that lane. If `lanes` has another spec for its method, the
-/// recording stays unchanged.
+/// Returns a solo recording with its lane among `lanes`, so that the menu offers the same methods as before. The
+/// recording opens with its own method, and its script and checks refer to that lane. If `lanes` has another spec for
+/// its method, the recording stays unchanged.
 pub(crate) fn with_menu_lanes(recording: Scene, lanes: &[LaneSpec]) -> Scene {
     let ([flown], false) = (&recording.lanes[..], recording.opens_as_race) else {
         return recording;
@@ -127,7 +129,7 @@ struct ScriptRecorder {
 }
 
 impl ScriptRecorder {
-    /// The scene's number for this lane of the run.
+    /// Returns the scene's number for this lane of the run.
     fn lane(&self, id: LaneId) -> LaneId {
         let index = self.lanes.iter().position(|lane| *lane == id);
         LaneId::of_index(index.expect("a lane is there from the start"))
@@ -150,28 +152,28 @@ impl Observer for ScriptRecorder {
 pub struct Reached {
     /// Index of the check in the scene.
     pub row: usize,
-    /// Simulated time in seconds.
+    /// Simulated time of the check in seconds.
     pub t: f64,
-    /// Hash of its lane; `None` if the lane has left the race.
+    /// Hash of the lane; `None` if the lane has left the race.
     pub hash: Option<u64>,
 }
 
-/// The race of a scene, run past all its checks in the order of their ticks.
+/// The race of a scene, which runs past all checks of the scene in the order of their ticks.
 pub struct Replay {
     session: Session,
-    /// Indices of the checks still ahead, the next one last.
+    /// Indices of the checks still ahead, with the next one last.
     rows: Vec<usize>,
 }
 
 impl Replay {
-    /// A replay at the start of the race.
+    /// Creates a replay at the start of the race.
     pub fn new(scene: Arc<Scene>) -> Self {
         let mut rows: Vec<usize> = (0..scene.checks.len()).rev().collect();
         rows.sort_by_key(|&row| std::cmp::Reverse(scene.checks[row].tick));
         Self { session: Session::racing(scene), rows }
     }
 
-    /// The scene with its checks.
+    /// Returns the scene with its checks.
     pub fn scene(&self) -> &Arc<Scene> {
         self.session.scene()
     }
@@ -181,8 +183,8 @@ impl Replay {
         self.rows.is_empty()
     }
 
-    /// Runs to the next check, for at most this number of ticks, and notifies the observer. Returns `None` if the
-    /// check is farther away, or if there is none.
+    /// Runs to the next check, for at most this number of ticks, and notifies the observer. Returns `None` if the check
+    /// is farther away, or if there is no check left.
     pub fn run_to_next_check(
         &mut self,
         ticks: u64,

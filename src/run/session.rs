@@ -1,4 +1,4 @@
-//! A run as a value: only [actions](Action) and ticks change it, and a copy continues identically to the bit.
+//! A run as a value, which only [actions](Action) and ticks change. A copy continues identically to the bit.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// The race of all the scene's lanes, at its start, with the scene's script.
+    /// Creates the race of all the scene's lanes, at its start, with the scene's script.
     ///
     /// ```
     /// use regatta::run::Session;
@@ -43,30 +43,30 @@ impl Session {
         Self { scene, race, start: Box::new(start) }
     }
 
-    /// The scene at its start with one lane, under the method with index `entry` in the scene's
-    /// [list](Scene::method_list). The scene's script may switch it.
+    /// Creates a run of the scene from its start with one lane, under the method with index `entry` in the scene's
+    /// [list](Scene::method_list). The scene's script may switch the method.
     pub fn solo(scene: Arc<Scene>, entry: MenuIndex) -> Self {
         let race = Race::solo(&scene, scene.method_list(), entry).with_script(&scene.script);
         Self::new(scene, race)
     }
 
-    /// The same run before its first tick, with all its actions pending.
+    /// Returns the same run before its first tick, with all its actions pending.
     pub(crate) fn before_its_first_tick(&self) -> Self {
         let mut race = self.start().clone();
         race.set_journal(self.journal().clone());
         Self { race, ..self.clone() }
     }
 
-    /// The race at its start, before any action; without its journal.
+    /// Returns the race at its start, before any action, without its journal.
     pub(super) fn start(&self) -> &Race {
         &self.start
     }
 
-    /// The scene, as it was opened.
+    /// Returns the scene, as it was opened.
     pub fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
-    /// The lanes and the truth.
+    /// Returns the lanes and the truth.
     pub fn race(&self) -> &Race {
         &self.race
     }
@@ -74,7 +74,7 @@ impl Session {
     pub fn mode(&self) -> Mode {
         self.race.mode()
     }
-    /// Performed and pending actions.
+    /// Returns the performed and the pending actions.
     pub fn journal(&self) -> &Journal {
         self.race.journal()
     }
@@ -85,12 +85,12 @@ impl Session {
     }
 
     /// Performs an action at the present tick, after the journal's actions there. Removes later actions by hand from
-    /// the journal; the script's stay. Returns whether the action changed anything; if not, the journal omits it.
+    /// the journal, but not the script's. Returns whether the action changed anything; if not, the journal omits it.
     pub fn act(&mut self, action: Action) -> bool {
         self.race.act(action, &mut ()).is_some()
     }
 
-    /// Performs the journal's actions at this tick, steps to the next, and notifies the observer. Allocates for
+    /// Performs the journal's actions at this tick, steps to the next tick, and notifies the observer. Allocates for
     /// actions only.
     pub fn tick(&mut self, observer: &mut dyn Observer) {
         self.race.step(observer);

@@ -1,4 +1,5 @@
-//! The settings with which a run starts: a scene with a person's edits, and the chosen methods, lanes and tick rate.
+//! The settings with which a run starts, which are a scene with a person's edits, and the chosen methods, lanes and
+//! tick rate.
 
 use std::sync::Arc;
 
@@ -10,7 +11,7 @@ use crate::scene::{
 use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 
-/// The settings of the next restart. They include a person's choices, and no effects of a script.
+/// The settings of the next restart. They include a person's choices, but no effects of a script.
 #[derive(Clone, Debug)]
 pub(crate) struct StartSettings {
     /// The scene as it was opened.
@@ -25,12 +26,12 @@ pub(crate) struct StartSettings {
     /// Index in `list` of the solo method, which also joins a race.
     pub(crate) entry: MenuIndex,
     pub(crate) tick_hz: TickRate,
-    /// The lanes before equal cost was switched on; `None` while it is off.
+    /// The lanes before equal cost was switched on; `None` while equal cost is off.
     pub(crate) before_equal_cost: Option<Vec<(LaneId, LaneSpec)>>,
 }
 
 impl StartSettings {
-    /// The settings of an unedited scene: solo, under its opening method.
+    /// Returns the settings of an unedited scene, which opens solo under its opening method.
     pub(crate) fn of(scene: Scene) -> Self {
         let scene = Scene { lanes: lanes_that_race(&scene), equal_cost: false, ..scene };
         let opens_with = |spec: &LaneSpec| Some(spec.method) == scene.opening_method;
@@ -48,7 +49,7 @@ impl StartSettings {
         }
     }
 
-    /// The settings with which this run began.
+    /// Creates the settings with which this run began.
     pub(crate) fn of_session(session: &Session) -> Self {
         let menu = Menu::new(session.race());
         let lanes = entries(session.race(), &menu);
@@ -62,8 +63,8 @@ impl StartSettings {
         }
     }
 
-    /// Adds a person's own method to the race, in place of one with the same id, and selects it. Returns whether
-    /// there is a lane for it.
+    /// Adds a person's own method to the race, in place of one with the same id, and selects it. Returns whether the
+    /// race has room for the method's lane.
     pub(crate) fn race_own(&mut self, method: &'static Method) -> bool {
         let spec = LaneSpec::plain(method);
         let known = self.list.iter().position(|listed| listed.method.id == method.id);
@@ -90,7 +91,7 @@ impl StartSettings {
         true
     }
 
-    /// The run at its start.
+    /// Returns the run at its start.
     pub(crate) fn session(&self) -> Session {
         let race = match self.mode {
             Mode::Solo => Race::solo(&self.scene, self.list.clone(), self.entry),
@@ -105,7 +106,7 @@ impl StartSettings {
         Session::new(Arc::clone(&self.scene), race)
     }
 
-    /// Sets the scene's length (s), if it is in the allowed range. Returns whether it changed.
+    /// Sets the scene's length (s), if the length is in the allowed range. Returns whether the length changed.
     pub(crate) fn set_seconds(&mut self, seconds: f64) -> bool {
         let changes =
             (MIN_SECONDS..=MAX_SECONDS).contains(&seconds) && seconds != self.scene.seconds;
@@ -115,8 +116,8 @@ impl StartSettings {
         changes
     }
 
-    /// Sets a parameter that acts at the start, if the value is in range and fits the others. Returns whether it
-    /// changed.
+    /// Sets a parameter that acts at the start, if the value is in range and fits the other values. Returns whether the
+    /// parameter changed.
     pub(crate) fn set(&mut self, body: usize, parameter: usize, value: f64) -> bool {
         let SceneBody { kind, values, .. } = &self.scene.bodies[body];
         if values[parameter] != value
@@ -147,7 +148,7 @@ impl StartSettings {
     }
 }
 
-/// Menu index of each lane's method.
+/// Returns the menu index of each lane's method.
 fn entries(race: &Race, menu: &Menu) -> Vec<MenuIndex> {
     race.entrants().iter().map(|entrant| menu.entry(entrant.id)).collect()
 }

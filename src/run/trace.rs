@@ -1,4 +1,4 @@
-//! The rows of a run: every coordinate of every body of the truth and of each lane, tick by tick.
+//! The rows of a run, with every coordinate of every body of the truth and of each lane, tick by tick.
 
 use std::convert::Infallible;
 use std::sync::Arc;
@@ -18,22 +18,22 @@ pub const COLUMNS: [&str; 8] = ["tick", "t", "lane", "method", "body", "coordina
 pub struct TraceRow<'a> {
     /// The lane's number from 1; 0 is the truth.
     pub lane: usize,
-    /// Id of its method.
+    /// Id of the lane's method.
     pub method: &'static str,
     /// Name of the body.
     pub body: &'a str,
     /// Name of the coordinate, or id of a metric.
     pub coordinate: &'a str,
-    /// The coordinate in metres or radians, or the metric.
+    /// Value of the coordinate in metres or radians, or of the metric.
     pub q: f64,
-    /// Velocity per second; `None` for a metric.
+    /// Velocity of the coordinate, per second; `None` for a metric.
     pub v: Option<f64>,
 }
 
 /// Passes the present of the truth and of every lane to `row`, without bodies that have halted.
 ///
 /// # Errors
-/// The first that `row` returns.
+/// Fails with the first error that `row` returns.
 pub fn each_row<E>(
     race: &Race,
     scene: &Scene,
@@ -63,7 +63,7 @@ pub fn each_row<E>(
     Ok(())
 }
 
-/// Id of a lane's method; for a body of the truth, its kind of truth.
+/// Returns the id of a lane's method; for a body of the truth, the id of its kind of truth.
 pub(crate) fn method_id(solver: Solver, body: &LaneBody) -> &'static str {
     solver.method().map_or(body.truth().id(), |method| method.id)
 }
@@ -72,7 +72,7 @@ pub(crate) fn method_id(solver: Solver, body: &LaneBody) -> &'static str {
 pub struct Made {
     header: ByteRecord,
     rows: std::vec::IntoIter<ByteRecord>,
-    /// Returns the rows of the next tick; `None` after the last.
+    /// Returns the rows of the next tick; `None` after the last tick.
     tick: Box<dyn FnMut() -> Option<Vec<ByteRecord>>>,
 }
 
@@ -83,7 +83,7 @@ impl Made {
         Self { header, rows: Vec::new().into_iter(), tick: Box::new(tick) }
     }
 
-    /// The run of a scene or recording through tick `last`.
+    /// Creates the rows of a scene or recording through tick `last`.
     pub fn of_scene(scene: Scene, last: u64) -> Self {
         let scene = Arc::new(scene);
         let mut session = Session::racing(scene.clone());
@@ -119,7 +119,7 @@ impl Records for Made {
     }
 }
 
-/// A row of these cells: tick, time, lane and method, then those of a coordinate.
+/// Returns a row of these cells: tick, time, lane and method, and then the cells of a coordinate.
 pub(crate) fn row(at: [&str; 4], body: &str, coordinate: &str, [q, v]: [f64; 2]) -> ByteRecord {
     let mut row = ByteRecord::new();
     at.iter().chain([&body, &coordinate]).for_each(|cell| row.push_field(cell.as_bytes()));
@@ -127,7 +127,7 @@ pub(crate) fn row(at: [&str; 4], body: &str, coordinate: &str, [q, v]: [f64; 2])
     row
 }
 
-/// The last tick of a scene or a recording: its end, or its last check.
+/// Returns the last tick of a scene or a recording, which is its end, or its last check if that is later.
 pub fn last_tick(scene: &Scene) -> u64 {
     let checked = scene.checks.iter().map(|check| check.tick).max().unwrap_or(0);
     Race::of_scene(scene).nearest_tick(scene.seconds).max(checked)

@@ -4,10 +4,10 @@ use super::course::{Course, RunRecord, Snapshot};
 use super::race::JournalTail;
 use super::start::StartSettings;
 
-/// Most changes that can be undone.
+/// Maximum number of changes that can be undone.
 const MAX_CHANGES: usize = 200;
 
-/// Most runs kept from before a restart.
+/// Maximum number of runs that are kept from before a restart.
 const MAX_RUNS: usize = 4;
 
 /// An edit by a person, with the state on its other side.
@@ -21,7 +21,7 @@ pub(super) struct Change {
 
 /// The state on the other side of a change.
 pub(super) enum Replaced {
-    /// The run did not change, only the next start.
+    /// The run did not change, but only the next start.
     Nothing,
     Future(ReplacedFuture),
     Course(Box<Course>),
@@ -29,9 +29,9 @@ pub(super) enum Replaced {
 
 /// The future of a run from a tick on.
 pub(super) struct ReplacedFuture {
-    /// Tick of the change. Until then, before its actions, both futures are the same.
+    /// Tick of the change. Until this tick, before its actions, both futures are the same.
     pub(super) tick: u64,
-    /// Its own rows of the journal. The whole journal grows for as long as a person steers the run.
+    /// Rows of the journal that only this future has. The whole journal grows for as long as a person steers the run.
     pub(super) rows: JournalTail,
     pub(super) record: RunRecord,
 }
@@ -46,7 +46,7 @@ impl Replaced {
     }
 }
 
-/// Edits by a person, newest last.
+/// Edits by a person, with the newest last.
 #[derive(Default)]
 pub(super) struct UndoStack {
     pub(super) done: Vec<Change>,
@@ -69,7 +69,7 @@ impl UndoStack {
         }
     }
 
-    /// Renames the newest change after its latest edit.
+    /// Renames the newest change after the change's latest edit.
     pub(super) fn rename_newest(&mut self, what: String) {
         self.done.last_mut().expect("a change is open").what = what;
     }
@@ -85,7 +85,7 @@ impl UndoStack {
         self.is_open
     }
 
-    /// Closes the newest change, so that the next edit starts another.
+    /// Closes the newest change, so that the next edit starts another one.
     pub(super) fn close(&mut self) {
         self.is_open = false;
     }
@@ -94,17 +94,17 @@ impl UndoStack {
         self.done.iter().chain(&self.undone)
     }
 
-    /// The records of all replaced futures and runs.
+    /// Returns the records of all replaced futures and runs.
     fn records(&self) -> impl Iterator<Item = &RunRecord> {
         self.changes().filter_map(|change| change.replaced.record())
     }
 
-    /// The snapshots of all replaced futures and runs.
+    /// Returns the snapshots of all replaced futures and runs.
     pub(super) fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
         self.records().flat_map(|record| &record.snapshots)
     }
 
-    /// Memory (bytes) of the drawn pasts of the kept runs.
+    /// Returns the memory (bytes) of the drawn pasts of the kept runs.
     pub(super) fn past_bytes(&self) -> usize {
         let pasts = self.changes().filter_map(|change| match &change.replaced {
             Replaced::Course(course) => Some(course.seen.past().heap_bytes()),
@@ -113,7 +113,7 @@ impl UndoStack {
         pasts.sum()
     }
 
-    /// Last tick of all replaced futures and runs.
+    /// Returns the last tick of all replaced futures and runs.
     pub(super) fn end(&self) -> u64 {
         self.records().map(|record| record.end).max().unwrap_or(0)
     }
@@ -129,7 +129,7 @@ impl UndoStack {
         }
     }
 
-    /// Drops the snapshots of all replaced futures, whose past recorded other coordinates.
+    /// Drops the snapshots of all replaced futures, because their past has other coordinates.
     pub(super) fn clear_futures(&mut self) {
         for change in self.done.iter_mut().chain(&mut self.undone) {
             if let Replaced::Future(future) = &mut change.replaced {
@@ -138,8 +138,8 @@ impl UndoStack {
         }
     }
 
-    /// Drops the change that undo would reach last, or else the one that redo would reach last. Returns whether there
-    /// was one.
+    /// Drops the change that undo would reach last or, if there is none, the one that redo would reach last. Returns
+    /// whether there was a change to drop.
     pub(super) fn drop_last(&mut self) -> bool {
         let from = if self.done.is_empty() { &mut self.undone } else { &mut self.done };
         let is_there = !from.is_empty();

@@ -7,48 +7,48 @@ use crate::sim::integrators::Method;
 use crate::sim::number::round;
 use crate::sim::{Stepper, TickRate};
 
-/// An action on a run at a tick. It states the new value rather than a change: except for a kick, performing it twice
-/// has the same effect as once.
+/// An action on a run at a tick. It states the new value rather than a change, so that performing it twice has the same
+/// effect as once; only a kick adds up.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Action {
-    /// In solo, puts the bodies under this method, with its substeps and tolerance [at the
+    /// In solo, puts the bodies under this method, with the substeps and the tolerance that the method has [at the
     /// start](crate::run::Race::methods). In a race it does nothing, because each lane keeps its method.
     Method(&'static Method),
     /// Puts a lane under this method, with these substeps and this tolerance.
     Lane {
-        /// The lane.
+        /// Number of the lane.
         lane: LaneId,
         /// The new method, substeps and tolerance.
         spec: LaneSpec,
     },
     /// Sets the substeps of a lane.
     Substeps {
-        /// The lane.
+        /// Number of the lane.
         lane: LaneId,
-        /// Steps per tick, 1 to [`MAX_SUBSTEPS`](super::MAX_SUBSTEPS).
+        /// Number of steps per tick, 1 to [`MAX_SUBSTEPS`](super::MAX_SUBSTEPS).
         substeps: u32,
     },
     /// Sets the tolerance of a lane under an adaptive method.
     Tolerance {
-        /// The lane.
+        /// Number of the lane.
         lane: LaneId,
-        /// Within [`TOLERANCES`](super::TOLERANCES).
+        /// The tolerance, within [`TOLERANCES`](super::TOLERANCES).
         tolerance: f64,
     },
     /// Sets the tick rate.
     TickHz(TickRate),
     /// Sets the throttle of every body that has one, -1 to 1.
     Throttle(f64),
-    /// Sets the rudder of every body that has one, from -1, hard right, to 1, hard left.
+    /// Sets the rudder of every body that has one, from -1 (hard right) to 1 (hard left).
     Rudder(f64),
-    /// Gives every body an impulse of this many times its own kick.
+    /// Gives every body an impulse, as a multiple of the body's own kick.
     Kick(f64),
     /// Sets a parameter of a body.
     Set {
         /// The body's index in the scene.
         body: usize,
-        /// The parameter's index among those of its kind.
+        /// The parameter's index among those of the body's kind.
         parameter: usize,
         /// The new value.
         value: f64,
@@ -57,20 +57,27 @@ pub enum Action {
     Place {
         /// The body's index in the scene.
         body: usize,
-        /// Its coordinates.
+        /// The body's coordinates.
         q: Box<[f64]>,
-        /// Its velocities.
+        /// The body's velocities.
         v: Box<[f64]>,
     },
-    /// Leaves only this lane in the race.
+    /// Changes the velocities of a body by an impulse, in every lane and in truth.
+    Push {
+        /// The body's index in the scene.
+        body: usize,
+        /// The change of each velocity, in the coordinate's unit per second.
+        by: Box<[f64]>,
+    },
+    /// Removes all lanes but this one from the race.
     Solo {
-        /// The lane.
+        /// Number of the lane.
         lane: LaneId,
     },
 }
 
 impl Action {
-    /// The tick rate that it sets, if any.
+    /// Returns the tick rate that the action sets, if it sets one.
     pub(crate) fn tick_hz(&self) -> Option<TickRate> {
         match *self {
             Action::TickHz(tick_hz) => Some(tick_hz),
@@ -78,23 +85,28 @@ impl Action {
         }
     }
 
-    /// Whether it changes the body at this index of the scene, provided that the body takes it.
+    /// Whether the action changes the body at this index of the scene, provided that the body accepts the action.
     pub(crate) fn acts_on(&self, body: usize) -> bool {
         match self {
-            Action::Set { body: changed, .. } | Action::Place { body: changed, .. } => {
-                *changed == body
-            }
+            Action::Set { body: changed, .. }
+            | Action::Place { body: changed, .. }
+            | Action::Push { body: changed, .. } => *changed == body,
             other => other.input().is_some(),
         }
     }
 
-    /// Applies its effect on a body that it [acts on](Self::acts_on) to `stepper` at time `t` (s).
+    /// Applies the action to the `stepper` of a body that it [acts on](Self::acts_on), at time `t` (s).
     pub(crate) fn apply_to(&self, stepper: &mut dyn Stepper, t: f64) {
         match self {
             Action::Set { parameter, value, .. } => {
                 stepper.set_parameter(t, *parameter, *value);
             }
             Action::Place { q, v, .. } => stepper.set(t, q, v),
+            Action::Push { by, .. } => {
+                let q: Vec<f64> = stepper.q().into();
+                let v: Vec<f64> = stepper.v().iter().zip(by).map(|(v, by)| v + by).collect();
+                stepper.set(t, &q, &v);
+            }
             other => {
                 if let Some(input) = other.input() {
                     stepper.input(t, input);
@@ -103,7 +115,7 @@ impl Action {
         }
     }
 
-    /// The input that it gives to the bodies, if any.
+    /// Returns the input that the action gives to the bodies, if it gives one.
     pub fn input(&self) -> Option<Input> {
         match *self {
             Action::Throttle(part) => Some(Input::Throttle(part.clamp(-1.0, 1.0))),
@@ -113,7 +125,8 @@ impl Action {
         }
     }
 
-    /// The changed quantity in `scene`, for people. For a parameter, also its new value.
+    /// Names the quantity of `scene` that the action changes, for people. For a parameter, the text includes the new
+    /// value.
     pub(crate) fn in_words(&self, scene: &Scene) -> String {
         let &Action::Set { body, parameter, value } = self else { return self.noun().into() };
         let parameter = &scene.bodies[body].kind.parameters[parameter];
@@ -121,7 +134,7 @@ impl Action {
         words.trim_end().to_owned()
     }
 
-    /// A noun for the action, for people.
+    /// Returns a noun for the action, for people.
     pub(crate) fn noun(&self) -> &'static str {
         match self {
             Action::Method(_) | Action::Lane { .. } => "the switch",
@@ -133,11 +146,12 @@ impl Action {
             Action::Kick(_) => "the kick",
             Action::Set { .. } => "the parameter",
             Action::Place { .. } => "the placement",
+            Action::Push { .. } => "the pull",
             Action::Solo { .. } => "the end of the race",
         }
     }
 
-    /// The control that it sets, if any.
+    /// Returns the control that the action sets, if it sets one.
     pub(crate) fn control(&self) -> Option<Control> {
         match *self {
             Action::Method(_)
@@ -148,7 +162,9 @@ impl Action {
             Action::Throttle(_) => Some(Control::Throttle),
             Action::Rudder(_) => Some(Control::Rudder),
             Action::Set { body, parameter, .. } => Some(Control::Parameter { body, parameter }),
-            Action::Kick(_) | Action::Place { .. } | Action::Solo { .. } => None,
+            Action::Kick(_) | Action::Place { .. } | Action::Push { .. } | Action::Solo { .. } => {
+                None
+            }
         }
     }
 }
@@ -164,7 +180,7 @@ pub(crate) enum Control {
 }
 
 impl Control {
-    /// Its name for people.
+    /// Returns the control's name for people.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Control::Method => "method",

@@ -5,8 +5,8 @@ use crate::scene::{Action, LaneSpec, Swing};
 use crate::sim::bodies::MAX_VALUE;
 
 impl Action {
-    /// The action with throttle and rudder clamped to -1 to 1. `None` if a number is out of its range, so that no
-    /// scene file could express it.
+    /// Returns the action with throttle and rudder clamped to -1 to 1. `None` if a number is out of its range, because
+    /// then no scene file could express the action.
     pub fn clamped_in_range(mut self) -> Option<Self> {
         if let Action::Throttle(part) | Action::Rudder(part) = &mut self {
             *part = part.clamp(-1.0, 1.0);
@@ -21,6 +21,7 @@ impl Action {
             }
             Action::TickHz(tick_hz) => tick_hz.is_in_range(),
             Action::Kick(value) | Action::Set { value, .. } => value.abs() <= MAX_VALUE,
+            Action::Push { by, .. } => by.iter().all(|x| x.abs() <= MAX_COORDINATE),
             Action::Place { q, v, .. } => q.iter().chain(&v[..]).all(|x| x.abs() <= MAX_COORDINATE),
         };
         is_in_range.then_some(self)
@@ -28,7 +29,7 @@ impl Action {
 }
 
 impl LaneSpec {
-    /// Whether its numbers are in their ranges, and its method takes them.
+    /// Whether the lane's numbers are in their ranges and its method accepts them.
     pub(crate) fn is_in_range(&self) -> bool {
         let Self { method, substeps, tolerance, joint } = self;
         let takes = |given: f64| {

@@ -1,4 +1,4 @@
-//! The data that a picture of a body needs besides its state: its author's drawing, and the range of its first
+//! The data that a picture of a body needs besides the body's state: its author's drawing, and the range of its first
 //! seconds.
 
 use std::any::Any;
@@ -17,15 +17,15 @@ mod node_lines;
 
 pub(super) use node_lines::NodeLine;
 
-/// Draws a system of a type known to its author, at these coordinates.
+/// Draws a system at these coordinates. The author of the drawing knows the system's type.
 pub(crate) type Drawing = dyn Fn(&dyn Any, &[f64]) -> Vec<Mark> + Send + Sync;
 
-/// The drawing of a scene's body. The default is the usual look of its kind.
+/// The drawing of a scene's body. By default a body has the usual look of its kind.
 #[derive(Default)]
 pub struct Appearance {
     /// The drawing by a custom body's author; `None` for the usual look.
     pub(crate) drawing: Option<Box<Drawing>>,
-    /// The last preview, with its parameter values.
+    /// The last computed preview, with the parameter values that it belongs to.
     preview: Mutex<Option<(Vec<f64>, Arc<Preview>)>>,
 }
 
@@ -35,10 +35,10 @@ impl fmt::Debug for Appearance {
     }
 }
 
-/// The range of a body's motion in its first seconds, found by a short run.
+/// The range of a body's motion in its first seconds, found by a short simulation.
 #[derive(Debug)]
 pub(crate) struct Preview {
-    /// Least and largest value of each coordinate; empty for a net.
+    /// Smallest and largest value of each coordinate; empty for a net.
     pub(crate) ranges: Vec<(f64, f64)>,
     /// Index of the coordinate that moves farthest.
     pub(crate) farthest: usize,
@@ -59,24 +59,25 @@ pub(crate) struct Springs {
     pub(crate) shortest: f64,
 }
 
-/// A coordinate has moved farther than another if by more than this part, because mirrored nodes differ by rounding.
+/// Relative difference by which a range must be larger to count as wider, because mirrored nodes differ by rounding.
 const FARTHER: f64 = 1e-6;
 
 impl Appearance {
-    /// The appearance of a custom body, with its author's drawing if there is one.
+    /// Creates the appearance of a custom body, with its author's drawing if there is one.
     pub(crate) fn drawn(drawing: Option<Box<Drawing>>) -> Self {
         Self { drawing, preview: Mutex::default() }
     }
 
-    /// The range of a body of this `kind` from its start, with its present parameters. A net keeps the preview of its
-    /// first parameters, so that the stage stays still while a person edits them.
+    /// Returns the preview of a body of this `kind` from its start, with its present parameters. A net keeps the
+    /// preview of its first parameters, so that the stage stays still while a person edits them.
     ///
     /// # Panics
     /// If the kind is in the table of bodies.
     pub(crate) fn preview(&self, kind: &Kind, body: &dyn Any) -> Arc<Preview> {
         let (law, custom) = (body.downcast_ref::<Law>(), body.downcast_ref::<Custom>());
         let values = law.map(Law::values).or(custom.map(Custom::values)).unwrap_or_default();
-        // The lock is free during the run: a large net waits for other threads, which may want a preview too.
+        // The lock is free during the simulation, because a large net waits for other threads, which may want a preview
+        // too.
         let last = || self.preview.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, preview)) = last().as_ref().filter(|(of, _)| of == values) {
             return preview.clone();
@@ -94,7 +95,7 @@ impl Appearance {
 }
 
 impl Preview {
-    /// Index of the coordinate with the widest range.
+    /// Returns the index of the coordinate with the widest range.
     fn widest(&self) -> usize {
         let far = |index: usize| self.ranges[index].1 - self.ranges[index].0;
         let farther =
@@ -102,7 +103,7 @@ impl Preview {
         (0..self.ranges.len()).fold(0, farther)
     }
 
-    /// A preview without any motion yet.
+    /// Creates a preview that covers no moment yet.
     fn new(coordinates: usize) -> Self {
         Self {
             ranges: vec![(f64::INFINITY, f64::NEG_INFINITY); coordinates],
@@ -112,7 +113,7 @@ impl Preview {
         }
     }
 
-    /// Adds a moment: the coordinates, and the nodes or places there.
+    /// Adds the coordinates of a moment, and the places of the nodes or of the law at that moment.
     fn add_moment(&mut self, q: &[f64], places: impl IntoIterator<Item = DVec2>) {
         for ((low, high), &q) in self.ranges.iter_mut().zip(q) {
             (*low, *high) = (low.min(q), high.max(q));
@@ -121,7 +122,7 @@ impl Preview {
         self.corners = places.into_iter().fold(self.corners, hold);
     }
 
-    /// The preview of a net.
+    /// Creates the preview of a net.
     fn of_net(net: &Net, plan: &NetPlan) -> Self {
         let fixed: Vec<DVec2> = plan.fixed_places().map(DVec2::from).collect();
         let mut state = net.start();
@@ -140,7 +141,7 @@ impl Preview {
         Self { springs, farthest: preview.widest(), ranges: Vec::new(), ..preview }
     }
 
-    /// The preview of a body with these `places` for its coordinates, followed until it runs away.
+    /// Returns the preview of a body with these `places` for its coordinates. The body is followed until it runs away.
     fn of<B: Body<Vector = Vec<f64>>>(body: &B, places: impl Fn(&[f64]) -> Vec<DVec2>) -> Self {
         let mut state = body.start();
         let mut preview = Self::new(state.q.len());
@@ -168,23 +169,25 @@ impl Preview {
     }
 }
 
-/// Length of a net's run, in seconds: long enough for a hanging cloth to fall and swing back.
+/// Length of the simulation of a net, in seconds, which is long enough for a hanging cloth to fall and swing back.
 const NET_S: f64 = 4.0;
 
-/// Most evaluations of a net's springs: some tens of milliseconds in an unoptimised build.
+/// Maximum number of evaluations of a net's springs, which take some tens of milliseconds in an unoptimised build.
 const MAX_SPRINGS: f64 = 3e6;
 
-/// Longest step of a net's run, times its fastest rate: less than half the stability limit of semi-implicit Euler.
+/// Longest step of a net's simulation, multiplied by the net's fastest rate. It is less than half the stability limit
+/// of semi-implicit Euler.
 const NET_STEP: f64 = 0.5;
 
-/// Length of other runs, in ticks, and length of a tick in seconds: as long as people look before they judge.
+/// Length of the simulation of any other body, in ticks, and length of a tick in seconds. People look about as long
+/// before they judge.
 const TICKS: u32 = 1200;
 const TICK_S: f64 = 1.0 / 60.0;
 
-/// Most evaluations in other runs: a few milliseconds.
+/// Maximum number of evaluations in the simulation of any other body, which take a few milliseconds.
 const MAX_EVALUATIONS: u64 = 30_000;
 
-/// A coordinate beyond this multiple of its reach in the first second has run away.
+/// A coordinate has run away if it exceeds its largest magnitude in the first second by this factor.
 const RUNAWAY: f64 = 1e4;
 
 #[cfg(test)]

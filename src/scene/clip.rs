@@ -1,9 +1,9 @@
 //! Shortens the text of a file or of an argument for messages.
 
-/// Most characters of a file's text in one message, so that it stays a line.
+/// Maximum number of characters of a file's text in one message, so that the message stays a line.
 const MAX_QUOTED_CHARS: usize = 40;
 
-/// Most characters of a list of names from a file, such as a header.
+/// Maximum number of characters of a list of names from a file, such as a header.
 const MAX_LISTED_CHARS: usize = 200;
 
 /// Shortens a text for a message, and escapes its control characters.
@@ -13,12 +13,12 @@ pub(crate) fn clip(text: &str) -> String {
 
 /// Joins names from a file with commas, for a message.
 pub(crate) fn clip_list<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    // Takes no more of a file's text than a message can show.
+    // No more of a file's text is read than a message can show.
     let shown = names.take(MAX_LISTED_CHARS).map(clip).collect::<Vec<_>>().join(", ");
     clip_to(MAX_LISTED_CHARS, &shown)
 }
 
-/// The first characters of a text, with a sign if more follow.
+/// Returns the first characters of a text, with an ellipsis if more follow.
 pub(crate) fn truncate(max_chars: usize, text: &str) -> String {
     match text.char_indices().nth(max_chars) {
         Some((end, _)) => format!("{}…", &text[..end]),

@@ -5,20 +5,20 @@ use std::f64::consts::TAU;
 /// The picture of a cloud of starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CloudKind {
-    /// A shape at the start, and its image at the present tick.
+    /// The image at the present tick of a shape at the start.
     Shape(CloudShape),
-    /// All places that the points reach at each period of a drive, or at each tick without a drive.
+    /// All places that the points reach at the periods of a drive or, if there is no drive, at the ticks.
     Section,
 }
 
 impl CloudKind {
-    /// All kinds; the usual one comes first.
+    /// All kinds, with the usual one first.
     pub const ALL: [Self; 4] = {
         let [usual, second, third] = CloudShape::ALL;
         [Self::Shape(usual), Self::Shape(second), Self::Shape(third), Self::Section]
     };
 
-    /// Its name.
+    /// Returns the name of the kind.
     pub fn name(self) -> &'static str {
         match self {
             Self::Shape(shape) => shape.id(),
@@ -26,7 +26,7 @@ impl CloudKind {
         }
     }
 
-    /// The kind with this name.
+    /// Returns the kind with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
@@ -40,28 +40,28 @@ pub enum CloudShape {
     Cat,
     /// A disc.
     Disc,
-    /// A ring, a fifth of its radius wide.
+    /// A ring whose width is a fifth of its radius.
     Ring,
 }
 
-/// The inner radius of the ring.
+/// The inner radius of the ring. The outer radius is 1.
 const RING: f64 = 0.8;
-/// The head of the cat: the height of its middle, below the centre, and its radius.
+/// The head of the cat, by the height of its middle, which is below the centre, and its radius.
 const HEAD: (f64, f64) = (-0.2, 0.8);
-/// The right ear: its corners, two of which lie within the head.
+/// The corners of the right ear, two of which lie within the head.
 const EAR: [[f64; 2]; 3] = [[0.1, 0.5], [0.75, 1.0], [0.78, -0.1]];
-/// The right eye: its middle, and its radius.
+/// The middle and the radius of the right eye.
 const EYE: ([f64; 2], f64) = ([0.3, 0.05], 0.13);
 
-/// Steps of a point's coordinates, as parts of 1. They are powers of the reciprocal of the plastic number, which fill
-/// a square evenly (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
+/// Steps of a point's coordinates, as fractions of 1. They are powers of the reciprocal of the plastic number, which
+/// fill a square evenly (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
 const EVENLY: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 
 impl CloudShape {
-    /// All shapes; the usual one comes first.
+    /// All shapes, with the usual one first.
     pub const ALL: [Self; 3] = [Self::Cat, Self::Disc, Self::Ring];
 
-    /// Its name on the command line.
+    /// Returns the name of the shape on the command line.
     pub fn id(self) -> &'static str {
         match self {
             Self::Disc => "disc",
@@ -70,7 +70,8 @@ impl CloudShape {
         }
     }
 
-    /// The first `count` points of a sequence that covers the shape evenly. It is the same in every run.
+    /// Returns the first `count` points of a sequence that covers the shape evenly. The sequence is the same in every
+    /// run.
     pub fn points(self, count: usize) -> impl Iterator<Item = [f64; 2]> {
         let square = (1_u64..).map(|n| EVENLY.map(|part| (n as f64 * part).fract() * 2.0 - 1.0));
         square.filter(move |&point| self.contains(point)).take(count)
@@ -96,7 +97,7 @@ impl CloudShape {
         }
     }
 
-    /// Its borders: closed lines with about `count` points in all.
+    /// Returns the shape's borders as closed lines with about `count` points in all.
     pub fn borders(self, count: usize) -> Vec<Vec<[f64; 2]>> {
         let arc = |[x, y]: [f64; 2], radius: f64, from: f64, to: f64, count: usize| {
             let angle = move |n| from + (to - from) * n as f64 / count as f64;
@@ -108,8 +109,8 @@ impl CloudShape {
             Self::Disc => vec![circle([0.0, 0.0], 1.0, count)],
             Self::Ring => [1.0, RING].map(|radius| circle([0.0, 0.0], radius, count / 2)).into(),
             Self::Cat => {
-                // Counter-clockwise from the inner foot of the right ear: over the head, over the left ear, below the
-                // head to the right ear's outer foot, and over that ear.
+                // The line runs counter-clockwise from the inner foot of the right ear: over the head, over the left
+                // ear, below the head to the right ear's outer foot, and over that ear.
                 let (middle, radius) = ([0.0, HEAD.0], HEAD.1);
                 let meets = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| {
                     let (dx, dy, fy) = (bx - ax, by - ay, ay - HEAD.0);

@@ -1,4 +1,4 @@
-//! Makes a scene of a custom body: a [`System`] and a start are enough.
+//! Makes a scene of a custom body, for which a [`System`] and a start are enough.
 
 use std::any::Any;
 use std::fmt;
@@ -16,29 +16,29 @@ use crate::sim::{State, System, TickRate, Vector};
 /// Draws a system at these coordinates, in metres, x right and y up.
 pub type Draw<S> = fn(&S, &<S as System>::Vector) -> Vec<Mark>;
 
-/// Most work of a run, in evaluations of one coordinate: a second or two.
+/// Maximum work of advice by default, in evaluations of one coordinate. It takes a second or two.
 pub const MAX_WORK: u64 = 100_000_000;
 
 /// Options of an experiment on a custom body. Every field has a [default](Options::default).
 #[derive(Clone)]
 pub struct Options<S: System> {
-    /// Name of the body, for people: at most [`MAX_NAME_CHARS`] characters. The default is `body`.
+    /// Name of the body for people, with at most [`MAX_NAME_CHARS`] characters. The default is `body`.
     pub name: &'static str,
     /// Ticks per second, in [`Clock::TICK_HZ`](crate::sim::Clock::TICK_HZ). The default is 60.
     pub tick_hz: TickRate,
     /// Length of the run in seconds, from [`MIN_SECONDS`] to [`MAX_SECONDS`]. The default is 20. Verdicts are on the
     /// first minute.
     pub seconds: f64,
-    /// The methods, at most [`MAX_LANES`], from [`METHODS`] or custom ones. If empty, all methods that step such a
-    /// body.
+    /// The methods in the race, at most [`MAX_LANES`], from [`METHODS`] or custom ones. If the list is empty, all
+    /// methods race that step such a body.
     pub methods: Vec<&'static Method>,
-    /// Most work of [advice](crate::advise), in evaluations of one coordinate. This count makes advice the same on
-    /// every machine; lanes beyond it stay unknown. The default, [`MAX_WORK`], takes a second or two; `u64::MAX` is
-    /// no limit.
+    /// Maximum work of [advice](crate::advise), in evaluations of one coordinate. Because work is counted and not
+    /// timed, advice is the same on every machine; lanes beyond the limit stay unknown. The default, [`MAX_WORK`],
+    /// takes a second or two; `u64::MAX` is no limit.
     pub max_work: u64,
     /// Facts about the body beyond its equation.
     pub extras: Extras<S>,
-    /// Draws the body. If `None`, a bead in the plane, or one on a rail for each coordinate.
+    /// Draws the body. If it is `None`, the picture shows a bead in the plane, or a bead on a rail for each coordinate.
     pub draw: Option<Draw<S>>,
 }
 
@@ -61,9 +61,9 @@ impl<S: System> Default for Options<S> {
 pub struct OptionsError {
     /// The field of [`Options`] or [`Extras`], or `start`, or `acceleration`.
     pub field: &'static str,
-    /// The fault.
+    /// Description of the fault.
     pub what: String,
-    /// The remedy.
+    /// Description of the remedy.
     pub remedy: String,
 }
 
@@ -87,8 +87,8 @@ fn error(field: &'static str, what: String, remedy: impl Into<String>) -> Option
 }
 
 impl Scene {
-    /// The scene of one body that moves as `system` does, from `start`. It has no source text, so it cannot be
-    /// recorded.
+    /// Returns the scene of one body that moves as `system` does, from `start`. The scene has no source text, so it
+    /// cannot be recorded.
     ///
     /// # Errors
     /// If an option is out of its range or unfit, or if the equation contradicts an energy or an exact solution.
@@ -160,7 +160,7 @@ impl Scene {
     }
 }
 
-/// The scene of these options.
+/// Returns the scene of these options.
 ///
 /// # Panics
 /// If an option is invalid.
@@ -201,7 +201,7 @@ fn check_methods(chosen: &[&'static Method]) -> Result<(), OptionsError> {
     Ok(())
 }
 
-/// The drawing function of a custom body. `like` is a vector with its number of coordinates.
+/// Returns the drawing function of a custom body. `like` is a vector with the body's number of coordinates.
 fn drawing<S: System<Vector: Vector> + 'static>(draw: Draw<S>, like: S::Vector) -> Box<Drawing> {
     let like = Mutex::new(like);
     let draw = move |system: &dyn Any, q: &[f64]| {

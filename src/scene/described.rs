@@ -1,4 +1,4 @@
-//! Reads the bodies of a scene file, and checks the methods that it names against them.
+//! Reads the bodies of a scene file, and checks whether the methods that the file names fit them.
 
 use std::ops::Range as Span;
 use std::sync::Arc;
@@ -21,14 +21,14 @@ pub(super) const NAME: Field = Field::optional(
     Wanted::Text(MAX_NAME_CHARS),
 );
 
-/// A body as the file describes it, faults included.
+/// A body as described in the file, even with faults.
 pub(super) struct BodyDraft {
-    /// Its kind; `None` for a law or a net with faults.
+    /// Kind of the body; `None` for a law or a net with faults.
     pub(super) kind: Option<Arc<Kind>>,
-    /// Name of its table array.
+    /// Name of the body's table array.
     id: &'static str,
     pub(super) name: Option<String>,
-    /// Bytes of the name, or of the table's header if it has no name.
+    /// Bytes of the name, or of the table's header if the body has no name.
     name_at: Span<usize>,
     pub(super) values: Option<Vec<f64>>,
 }
@@ -69,7 +69,7 @@ pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Bod
     bodies
 }
 
-/// The key of a parameter.
+/// Returns the key of a parameter.
 pub(super) fn field_of(parameter: &'static Parameter) -> Field {
     let Parameter { key, about, default, range, .. } = parameter;
     Field { key, is_required: default.is_none(), about, wanted: Wanted::of(*range) }
@@ -118,7 +118,7 @@ pub(super) fn name_the_nameless(bodies: &mut [BodyDraft]) {
     }
 }
 
-/// The bodies with all their parameters.
+/// Returns the bodies with all their parameters.
 pub(super) fn complete_bodies(bodies: Vec<BodyDraft>) -> Vec<SceneBody> {
     let finish = |BodyDraft { kind, name, values, .. }| {
         Some(SceneBody::new(name.expect("each has one by now"), kind?, values?))
@@ -126,7 +126,7 @@ pub(super) fn complete_bodies(bodies: Vec<BodyDraft>) -> Vec<SceneBody> {
     bodies.into_iter().filter_map(finish).collect()
 }
 
-/// Reports the method of `key` at `span` if it refuses a body.
+/// Reports the method of `key` at `span` if the method refuses a body.
 pub(super) fn check_method(
     key: &'static str,
     method: &'static Method,
@@ -147,7 +147,7 @@ pub(super) fn check_method(
     }
 }
 
-/// A plain lane for each [method for games](Method::is_for_games) that steps all of these bodies.
+/// Returns a plain lane for each [method for games](Method::is_for_games) that steps all of these bodies.
 pub(super) fn every_lane(bodies: &[BodyDraft], own: &[&'static Method]) -> Vec<LaneSpec> {
     let steps = |method: &Method, body: &BodyDraft| {
         let known = body.kind.as_ref().zip(body.values.as_ref());

@@ -30,13 +30,13 @@ use crate::sim::integrators::Method;
 /// Name of the table array of lanes.
 pub(super) const LANE: &str = "lane";
 
-/// Most characters in a title, which appears in the window's title bar.
+/// Maximum number of characters in a title, which appears in the window's title bar.
 const MAX_TITLE_CHARS: usize = 80;
 
-/// Most characters in `about`: a few lines of a panel.
+/// Maximum number of characters in `about`, which fills a few lines of a panel.
 const MAX_ABOUT_CHARS: usize = 400;
 
-/// Most characters in a hint, the line under the stage.
+/// Maximum number of characters in a hint, which is the line under the stage.
 const MAX_HINT_CHARS: usize = 120;
 
 pub(super) const METHOD_LIST: Field = Field::optional(
@@ -154,7 +154,7 @@ pub(super) static TOP: [Key<Draft, Scene>; 10] = [
     },
 ];
 
-/// The scene's opening method, if this key is the one that writes it.
+/// Returns the scene's opening method, if this key is the one that writes it.
 fn opening_method(scene: &Scene, is_plain: bool) -> Option<String> {
     let method = scene.opening_method.filter(|_| scene.own_methods.is_empty() == is_plain)?;
     Some(quoted(method.id))
@@ -190,19 +190,19 @@ pub(super) static RACE: [Key<Scene, Scene>; 2] = [
     },
 ];
 
-/// The key above the first table with this name.
+/// Returns the key above the first table with this name.
 fn at_top(key: &str) -> Option<&'static str> {
     TOP.iter().map(|it| it.field.key).find(|it| *it == key)
 }
 
-/// Reads the scene called `name`, and returns it with warnings about deprecated syntax.
+/// Reads the scene called `name`, and returns the scene with warnings about deprecated syntax.
 ///
 /// # Errors
-/// All faults of the text, in no particular order.
+/// Fails with all faults of the text, in no particular order.
 pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), Vec<SceneError>> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let mut errors = syntax::errors(text, errors);
-    // After a duplicate key, the rest of the file can be read; after other syntax errors it cannot.
+    // After a duplicate key, the rest of the file can be read. After other syntax errors it cannot.
     if errors.iter().any(|error| !matches!(error.fault.kind, FaultKind::Duplicate { .. })) {
         return Err(errors);
     }
@@ -220,7 +220,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         title: String::new(),
         about: String::new(),
         hint: None,
-        // A placeholder. A scene without a rate is refused, even if its laws' claims hold.
+        // This rate is a placeholder. A scene without a rate is refused, even if the claims of its laws hold.
         tick_hz: TickRate::whole(1),
         seconds: USUAL_SECONDS,
         lanes: Vec::new(),
@@ -310,7 +310,7 @@ fn read_lanes(
     every_lane(bodies, top.own())
 }
 
-/// A lane in the words of a message.
+/// Describes a lane in the words of a message.
 fn described(lane: &LaneSpec) -> String {
     let LaneSpec { method, substeps, tolerance, joint } = lane;
     let within = tolerance.map(|tolerance| format!(" and `tolerance = {tolerance:e}`"));
@@ -319,7 +319,7 @@ fn described(lane: &LaneSpec) -> String {
     format!("{:?} with `substeps = {substeps}`{beside}", method.id)
 }
 
-/// Reports an opening method that no lane has, because it would not race.
+/// Reports an opening method that no lane has, because that method would not race.
 fn check_opening_method(Scene { lanes, opening_method, .. }: &Scene, top: &mut Table<'_>) {
     if let Some(method) = opening_method
         && !lanes.is_empty()

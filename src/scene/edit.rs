@@ -11,7 +11,7 @@ use crate::sim::bodies::{Fault, Kind, Parameter, Range};
 pub struct EditError(#[from] SceneFault);
 
 impl EditError {
-    /// The fault of the values as a whole, if that is the reason.
+    /// Returns the fault of the values as a whole, if the fault is the reason.
     pub(super) fn fault(self) -> Option<Fault> {
         match self.0.kind {
             FaultKind::Values(fault) => Some(fault),
@@ -20,8 +20,8 @@ impl EditError {
     }
 }
 
-/// The `values` of a body of `kind`, in the form of [`SceneBody::values`](super::SceneBody::values), with `value` for
-/// the parameter with this index.
+/// Returns the `values` of a body of `kind`, in the form of [`SceneBody::values`](super::SceneBody::values), with
+/// `value` for the parameter with this index.
 ///
 /// # Errors
 /// If the value is out of the parameter's range or does not go with the others, or if the parameter is a curve.
@@ -49,13 +49,13 @@ pub fn edited_values(
     Ok(edited)
 }
 
-/// Least positive and largest number that a person may enter: products of several of them stay finite.
+/// Smallest positive and largest number that a person may enter. Products of several such numbers stay finite.
 const ENTERED: [f64; 2] = [1e-12, 1e12];
 
 /// Checks that a person may enter a number in this range. Files may hold more extreme numbers.
 ///
 /// # Errors
-/// A message with the name and its valid range.
+/// Fails with a message that has the name and its valid range.
 pub fn check_entered(name: &str, value: f64, range: Range) -> Result<(), String> {
     let [least, most] = ENTERED;
     let range = match range {
@@ -76,10 +76,10 @@ pub fn check_entered(name: &str, value: f64, range: Range) -> Result<(), String>
     }
 }
 
-/// The tick rate that a person enters in Hz, to nine digits after the point.
+/// Returns the tick rate that a person enters in Hz, with up to nine digits after the point.
 ///
 /// # Errors
-/// A message with the valid range.
+/// Fails with a message that has the valid range.
 pub fn entered_tick_rate(hz: f64) -> Result<TickRate, String> {
     let [least, most] = [TickRate::MIN, TickRate::MAX].map(TickRate::hz);
     check_entered("tick rate", hz, Range::Between(least, most))?;
@@ -98,15 +98,15 @@ mod tests {
     use crate::scene::Scene;
     use crate::sim::bodies::{BODIES, MAX_VALUE, kind};
 
-    /// The values of the only body of a scene with this table, or the error message.
+    /// Returns the values of the only body of a scene with this table, or the error message.
     fn parsed(table: &str) -> Result<Vec<f64>, String> {
         let text = format!("title = 'one'\ntick_hz = 60\nseconds = 1\n{table}");
         let scene = Scene::parse("one.toml", &text).map_err(|errors| errors.to_string())?;
         Ok(scene.bodies[0].values.clone())
     }
 
-    /// A table with all required parameters, every number 1, and with the value of `edit` for the parameter at its
-    /// index.
+    /// Returns a table with all required parameters, in which every number is 1, except that the parameter with the
+    /// index in `edit` has the value there.
     fn table(kind: &Kind, edit: Option<(usize, f64)>) -> String {
         let row = |(index, parameter): (usize, &Parameter)| {
             let Parameter { key, default, range, .. } = parameter;

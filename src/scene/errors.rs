@@ -8,10 +8,10 @@ use super::fault::SceneFault;
 use super::nearest::words;
 use crate::sim::law::ExpressionFault;
 
-/// Number of errors shown for one file: as many as a person fixes before trying again.
+/// Number of errors shown for one file, which is about as many as a person fixes before trying again.
 pub const MAX_SHOWN: usize = 10;
 
-/// A longer remedy, such as the list of all methods, appears only once in the errors of a file.
+/// A remedy longer than this, in bytes, such as the list of all methods, appears only once in the errors of a file.
 const MAX_REPEATED_BYTES: usize = 200;
 
 /// All errors of one scene file. Its display has one line for each error.
@@ -21,7 +21,7 @@ pub struct SceneErrors {
     pub file: String,
     /// The text to which the errors' spans refer.
     pub text: String,
-    /// The first [`MAX_SHOWN`] errors in the order of the text; at least one.
+    /// The first [`MAX_SHOWN`] errors in the order of the text. There is at least one.
     pub errors: Vec<SceneError>,
     /// Number of further errors.
     pub more: usize,
@@ -32,11 +32,11 @@ pub struct SceneErrors {
 pub struct ShownError {
     /// The error message, with its place.
     pub message: String,
-    /// The lines of the file at fault, with marks; empty if there are none.
+    /// The faulty lines of the file, with marks; empty if there are none.
     pub quoted: String,
 }
 
-/// A shown error without lines of a file.
+/// Makes a shown error without lines of a file.
 impl<T: Into<String>> From<T> for ShownError {
     fn from(message: T) -> Self {
         Self { message: message.into(), quoted: String::new() }
@@ -53,18 +53,19 @@ impl From<SceneErrors> for Vec<ShownError> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{fault}")]
 pub struct SceneError {
-    /// Bytes of the text at fault. For a missing key, the header of its table, or nothing at the top of the file.
+    /// Range of the faulty bytes of the text. For a missing key it is the header of the table, or an empty range at the
+    /// top of the file.
     pub span: Range<usize>,
     pub(super) fault: SceneFault,
 }
 
 impl SceneError {
-    /// The fault, in lower case: the title of a longer message.
+    /// Returns the fault in lower case, as the title of a longer message.
     pub fn fault(&self) -> &str {
         &self.fault.what
     }
 
-    /// The remedy: the label of the span in a longer message.
+    /// Returns the remedy, as the label of the span in a longer message.
     pub fn remedy(&self) -> &str {
         &self.fault.remedy
     }
@@ -88,14 +89,14 @@ impl SceneErrors {
         Self { file: file.into(), text: text.into(), errors, more }
     }
 
-    /// The error for a file with more bytes than a scene file may have.
+    /// Returns the error for a file with more bytes than a scene file may have.
     pub fn too_large(file: &str) -> Self {
         let what = format!("the file holds more than {MAX_FILE_BYTES} bytes");
         let fault = SceneFault::new(what, "give a scene file, with a shorter script");
         Self::new(file, "", vec![SceneError { span: 0..0, fault }])
     }
 
-    /// The error for a fault in the lines of a step. `file` names their file or argument.
+    /// Returns the error for a fault in the lines of a step. `file` names the file or the argument with these lines.
     pub fn of_step(file: &str, text: &str, fault: ExpressionFault) -> Self {
         let ExpressionFault { span, what, remedy } = fault;
         let fault = SceneFault::new(what, words(remedy));
@@ -110,7 +111,7 @@ impl SceneErrors {
         Self::new(file, &text, vec![SceneError { span, fault }])
     }
 
-    /// A line for each of [`errors`](Self::errors), and one for the further errors if there are any.
+    /// Returns a line for each of [`errors`](Self::errors), and one line for the further errors if there are any.
     pub fn messages(&self) -> impl Iterator<Item = String> {
         let Self { file, errors, more, .. } = self;
         let message = move |error: &SceneError| {
@@ -121,7 +122,7 @@ impl SceneErrors {
         errors.iter().map(message).chain(rest)
     }
 
-    /// Line and column of a byte of the text, both from 1. The column counts characters.
+    /// Returns the line and column of a byte of the text, both from 1. The column counts characters.
     pub fn position(&self, byte: usize) -> (usize, usize) {
         position(&self.text, byte)
     }

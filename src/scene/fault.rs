@@ -1,4 +1,4 @@
-//! A fault of a scene file: its description, its remedy, and the kinds that the reader distinguishes.
+//! A fault of a scene file, with its description, its remedy, and the kinds of fault that the reader distinguishes.
 
 use super::clip::clip;
 use super::nearest::offer;
@@ -22,13 +22,13 @@ pub(super) enum FaultKind {
     Duplicate {
         is_table: bool,
     },
-    /// An unknown key, with the known one that is like it.
+    /// An unknown key, with the known key that is most like it.
     Unknown(Option<String>),
-    /// A key of the top in a table.
+    /// A key of the top of the file in a table.
     Misplaced(&'static str),
     /// None of these keys is present.
     Missing(Vec<&'static str>),
-    /// A value that may be meant as a body's table, but is none.
+    /// A value that may be meant as a body's table, but is not a table.
     NoTable,
     /// The values of a body do not go together.
     Values(Fault),
@@ -43,7 +43,7 @@ impl SceneFault {
         Self { kind, ..self }
     }
 
-    /// An unknown key, in a place for `known` keys.
+    /// Returns an unknown key, in a place for `known` keys.
     pub(super) fn unknown_key(
         key: &str,
         place: Place,
@@ -55,7 +55,8 @@ impl SceneFault {
         Self::new(what, offer(nearest, known, '`')).of(kind)
     }
 
-    /// A value of the wrong type. A table array may be meant as a body's.
+    /// Returns the fault of a value of the wrong type. A value in the place of a table array may be meant as a body's
+    /// table.
     pub(super) fn wrong_type(subject: &str, found: &str, wanted: &Wanted) -> Self {
         let fault =
             Self::new(format!("{subject} is {found}, not {}", wanted.noun()), wanted.remedy());
@@ -70,7 +71,7 @@ impl SceneFault {
     }
 }
 
-/// The values of a body do not go together.
+/// Makes the fault of values that do not go together.
 impl From<Fault> for SceneFault {
     fn from(fault: Fault) -> Self {
         Self::new(&*fault.what, &*fault.remedy).of(FaultKind::Values(fault))

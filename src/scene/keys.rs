@@ -1,4 +1,4 @@
-//! Keys of a scene file, each with its reader and its writer; among them the keys of a lane.
+//! Keys of a scene file, each with its reader and its writer. Among them are the keys of a lane.
 
 use super::nearest::listed;
 use super::table::Table;
@@ -12,9 +12,9 @@ use crate::sim::integrators::{METHODS, Method};
 /// A key with a reader into a draft `D` and a writer from a `T`.
 pub(super) struct Key<D: 'static, T: 'static> {
     pub(super) field: Field,
-    /// Stores the value in the draft; a value with a fault is left out.
+    /// Reads the value into the draft. A value with a fault is left out.
     pub(super) read: fn(&mut D, &mut Table<'_>, &Field),
-    /// The value as TOML; `None` if the key is left out.
+    /// Writes the value as TOML; `None` if the key is left out.
     pub(super) write: fn(&T) -> Option<String>,
 }
 
@@ -26,7 +26,7 @@ impl<D, T> Key<D, T> {
         }
     }
 
-    /// A line for each of these keys, except for keys left out.
+    /// Returns a line for each of these keys, except for those that are left out.
     pub(super) fn lines(keys: &'static [Self], of: &T) -> String {
         let line = |key: &Self| Some(format!("{} = {}\n", key.field.key, (key.write)(of)?));
         keys.iter().filter_map(line).collect()
@@ -40,7 +40,7 @@ pub(super) fn replace_if_read<T>(value: &mut T, read: Option<T>) {
     }
 }
 
-/// The shortest number that reads back as the same, with the point or exponent that TOML requires.
+/// Returns the shortest text that reads back as the same number, with the point or exponent that TOML requires.
 pub(super) fn number(value: f64) -> String {
     format!("{value:?}")
 }
@@ -53,7 +53,7 @@ pub(super) fn numbers(values: &[f64]) -> String {
     list(values.iter().copied().map(number))
 }
 
-/// A string in double quotes. Texts of a scene hold no control characters.
+/// Returns a string in double quotes. Texts of a scene contain no control characters.
 pub(super) fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
@@ -85,23 +85,23 @@ pub(super) const STEP_S: Field = Field::optional(
     Wanted::Step,
 );
 
-/// A tick rate in Hz as TOML; `None` if [`step_s`] writes it.
+/// Returns a tick rate in Hz as TOML; `None` if [`step_s`] writes the rate.
 pub(super) fn tick_hz(rate: TickRate) -> Option<String> {
     let is_step = rate.decimal_step_s().is_some();
     rate.decimal_hz().or_else(|| (!is_step).then(|| quoted(&rate.to_string())))
 }
 
-/// A rate that no other key can say, as TOML.
+/// Returns a rate as TOML, for a key that must express any rate.
 pub(super) fn rate(rate: TickRate) -> String {
     rate.decimal_hz().unwrap_or_else(|| quoted(&rate.to_string()))
 }
 
-/// The length of a tick as TOML, if the length is a decimal number and the rate is not.
+/// Returns the length of a tick as TOML, if the length is a decimal number and the rate is not.
 pub(super) fn step_s(rate: TickRate) -> Option<String> {
     rate.decimal_step_s().filter(|_| rate.decimal_hz().is_none())
 }
 
-/// The line at the top of a scene that sets its tick rate.
+/// Returns the line at the top of a scene that sets the tick rate.
 pub(crate) fn tick_rate_line(rate: TickRate) -> String {
     let line = |key: &str, value| Some(format!("{key} = {}\n", value?));
     [line(TICK_HZ.key, tick_hz(rate)), line(STEP_S.key, step_s(rate))]
@@ -152,7 +152,7 @@ pub(super) static SPEC: [Key<SpecDraft, LaneSpec>; 5] = [
     },
 ];
 
-/// Reads a lane, and reports settings that its method does not take.
+/// Reads a lane, and reports settings that the lane's method does not take.
 pub(super) fn read_lane_spec(row: &mut Table<'_>) -> Option<LaneSpec> {
     let mut draft = SpecDraft::default();
     Key::read_all(&SPEC, &mut draft, row);
@@ -165,7 +165,7 @@ pub(super) fn read_lane_spec(row: &mut Table<'_>) -> Option<LaneSpec> {
     Some(LaneSpec { method, substeps, tolerance, joint })
 }
 
-/// Reports a joint for a method that has none, and a damping ratio without a frequency.
+/// Reports a joint for a method that takes none, and a damping ratio without a frequency.
 fn check_joint(row: &mut Table<'_>, method: Option<&'static Method>) {
     let joint = [JOINT_HZ, JOINT_DAMPING_RATIO];
     let Some(Field { key, .. }) = joint.into_iter().find(|field| row.has(field.key)) else {
@@ -184,7 +184,7 @@ fn check_joint(row: &mut Table<'_>, method: Option<&'static Method>) {
     }
 }
 
-/// Reads a tolerance. If the lane's method is known and takes none, reports the tolerance.
+/// Reads a tolerance. If the lane's method is known and takes no tolerance, reports the tolerance.
 pub(super) fn read_tolerance(row: &mut Table<'_>, method: Option<&'static Method>) -> Option<f64> {
     let tolerance = row.number(&TOLERANCE);
     if let (Some(method), true) = (method, row.has(TOLERANCE.key))
@@ -201,7 +201,7 @@ pub(super) fn read_tolerance(row: &mut Table<'_>, method: Option<&'static Method
     tolerance
 }
 
-/// Ids of the methods that choose their own steps.
+/// Returns the ids of the methods that choose their own steps.
 pub(super) fn adaptive_methods() -> String {
     methods(|method| method.tolerance.is_some())
 }

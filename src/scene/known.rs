@@ -15,21 +15,21 @@ use crate::sim::bodies::Net;
 /// A key of a scene file.
 #[derive(Clone, Debug)]
 pub struct SceneKey {
-    /// Its name.
+    /// Name of the key.
     pub key: &'static str,
-    /// Whether it is required, at least in its way of writing the table.
+    /// Whether the key is required, at least in one way of writing the table.
     pub is_required: bool,
-    /// Description for people.
+    /// Description of the key for people.
     pub about: &'static str,
-    /// Its valid values, in words.
+    /// Valid values of the key, in words.
     pub value: String,
 }
 
-/// The tables of a scene file, named as in the file, each with its keys in order. Bodies of the table
+/// Returns the tables of a scene file, named as in the file, each with its keys in order. Bodies of the table
 /// [`BODIES`](crate::sim::bodies::BODIES) have a `name` and their parameters.
 pub fn scene_tables() -> Vec<(String, Vec<SceneKey>)> {
     let array = |name: &str| format!("[[{name}]]");
-    let [set, place] = OF_A_BODY.map(|(name, keys)| (format!("`{name}`"), keys.to_vec()));
+    let [set, place, push] = OF_A_BODY.map(|(name, keys)| (format!("`{name}`"), keys.to_vec()));
     let of_commands = COMMAND_KEYS.iter().map(|command| command.field.clone());
     let of_nets = Net::descriptions().iter().map(field_of).collect();
     let of_nets =
@@ -46,6 +46,7 @@ pub fn scene_tables() -> Vec<(String, Vec<SceneKey>)> {
         (array(COMMAND), [AT_S, TICK, LANE_NUMBER].into_iter().chain(of_commands).collect()),
         set,
         place,
+        push,
         (array(CHECKS), fields(&CHECK)),
     ];
     let described = |Field { key, is_required, about, wanted }: Field| {

@@ -1,4 +1,4 @@
-//! The lanes of a scene: their numbers, and their methods with substeps, tolerance and joint.
+//! The lanes of a scene, with their numbers, methods, substeps, tolerances and joints.
 
 use std::fmt;
 
@@ -6,24 +6,24 @@ use crate::sim::integrators::{Method, Override};
 use crate::sim::number::round;
 use crate::sim::{Range, Solver};
 
-/// Number of a lane, from 1 in the order of the scene. It stays the same when other lanes leave the run or return,
-/// and when the lane changes its method.
+/// Number of a lane, from 1 in the order of the scene. The number stays the same when other lanes leave the run or
+/// return, and when the lane changes its method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct LaneId(pub usize);
 
 impl LaneId {
-    /// The lane at this index of a scene's lanes.
+    /// Returns the lane at this index of a scene's lanes.
     pub const fn of_index(index: usize) -> Self {
         Self(index + 1)
     }
 
-    /// Its index among the scene's lanes.
+    /// Returns the lane's index among the scene's lanes.
     pub fn index(self) -> usize {
         self.0 - 1
     }
 }
 
-/// Writes the number.
+/// Writes the lane's number.
 impl fmt::Display for LaneId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
@@ -33,12 +33,12 @@ impl fmt::Display for LaneId {
 /// The method of a lane, with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaneSpec {
-    /// The method of its bodies.
+    /// The method of the lane's bodies.
     pub method: &'static Method,
-    /// Equal steps per tick, 1 to [`MAX_SUBSTEPS`](super::MAX_SUBSTEPS).
+    /// Number of equal steps per tick, 1 to [`MAX_SUBSTEPS`](super::MAX_SUBSTEPS).
     pub substeps: u32,
-    /// Overrides the absolute and the relative tolerance of an adaptive method's card, within
-    /// [`TOLERANCES`](super::TOLERANCES); `None` keeps the card's tolerance, and is the only value for other methods.
+    /// Absolute and relative tolerance of an adaptive method, within [`TOLERANCES`](super::TOLERANCES), in place of
+    /// those of the method's card. `None` keeps the card's tolerances, and is the only value for other methods.
     pub tolerance: Option<f64>,
     /// Joint settings that an engine uses for every spring, in place of the body's own. `None` is the only value for
     /// methods without a joint.
@@ -58,13 +58,13 @@ impl Swing {
     /// Ranges of the frequency and the damping ratio.
     pub const RANGES: [Range; 2] = [Range::POSITIVE, Range::NON_NEGATIVE];
 
-    /// Whether both are in their ranges.
+    /// Whether both numbers are in their ranges.
     pub fn is_in_range(self) -> bool {
         let both = [self.frequency_hz, self.damping_ratio];
         Self::RANGES.into_iter().zip(both).all(|(range, value)| range.contains(value))
     }
 
-    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass.
+    /// Returns the stiffness in 1/s² and damping in 1/s, each per unit of mass.
     pub fn per_mass(self) -> [f64; 2] {
         let omega = std::f64::consts::TAU * self.frequency_hz;
         [omega * omega, 2.0 * self.damping_ratio * omega]
@@ -72,12 +72,12 @@ impl Swing {
 }
 
 impl LaneSpec {
-    /// A method with its card's tolerance and substeps.
+    /// Creates a lane under a method with the tolerance and the substeps of the method's card.
     pub fn plain(method: &'static Method) -> Self {
         Self { method, substeps: method.default_substeps, tolerance: None, joint: None }
     }
 
-    /// The method's `name`, followed by each setting in which another of `lanes` with this method differs.
+    /// Returns the method's `name`, followed by each setting in which another of `lanes` with this method differs.
     pub fn distinct_name(&self, name: &str, lanes: &[LaneSpec]) -> String {
         let alike = || lanes.iter().filter(|other| other.method == self.method);
         let has_others = alike().any(|other| other.substeps != self.substeps);
@@ -88,14 +88,15 @@ impl LaneSpec {
         format!("{name}{times}{within}{}", self.joint_suffix(lanes))
     }
 
-    /// The joint's frequency as a suffix, if another of `lanes` with this method has another joint.
+    /// Returns the joint's frequency as a suffix, if another of `lanes` with this method has another joint.
     fn joint_suffix(&self, lanes: &[LaneSpec]) -> String {
         let mut alike = lanes.iter().filter(|other| other.method == self.method);
         let told = self.joint.filter(|_| alike.any(|other| other.joint != self.joint));
         told.map(|it| format!(", set to {} Hz", round(it.frequency_hz, 3))).unwrap_or_default()
     }
 
-    /// The method's name with the substeps, unless these are 1 and no other of `lanes` with this method has more.
+    /// Returns the method's name with the substeps, unless these are 1 and no other of `lanes` with this method has
+    /// more.
     pub fn name_with_substeps(&self, lanes: &[LaneSpec]) -> String {
         let mut others = lanes.iter().filter(|other| other.method == self.method);
         let name = self.method.name;
@@ -106,7 +107,7 @@ impl LaneSpec {
         }
     }
 
-    /// The solver of the lane's bodies.
+    /// Returns the solver of the lane's bodies.
     pub fn solver(&self) -> Solver {
         match (self.joint.map(Swing::per_mass), self.tolerance) {
             (Some(joint), _) => Solver::With(self.method, Override::Joint(joint)),

@@ -134,7 +134,7 @@ pub(super) static COORDINATE_KEYS: [Key<WrittenCoordinate, CoordinateValues>; 7]
     },
 ];
 
-/// Replaces a number if its key is present; by `None` if the value has a fault.
+/// Replaces a number if its key is present. If the value has a fault, the number becomes `None`.
 fn read_number_into(number: &mut Option<f64>, table: &mut Table<'_>, field: &Field) {
     let read = table.number(field);
     if table.has(field.key) {
@@ -149,7 +149,7 @@ type WrittenName = (String, Span<usize>);
 #[derive(Default)]
 pub(super) struct WrittenLaw {
     constants: Vec<WrittenName>,
-    /// Values of the constants; `None` if one has a fault.
+    /// Values of the constants; `None` if one of them has a fault.
     numbers: Option<Vec<f64>>,
     coordinates: Option<Vec<WrittenCoordinate>>,
     energy: Option<TextBlock>,
@@ -196,7 +196,7 @@ pub(super) fn read_law(
     (Some(kind), values)
 }
 
-/// Reads the names of the constants and their values. The values are `None` if one has a fault.
+/// Reads the names of the constants and their values. The values are `None` if one of them has a fault.
 fn read_constants(row: &mut Table<'_>, field: &Field) -> (Vec<WrittenName>, Option<Vec<f64>>) {
     let entries = row.entries(field).unwrap_or_default();
     check_count(row, "constants", &entries, MAX_CONSTANTS);
@@ -329,7 +329,7 @@ fn offer(written: &str, known: &[&str]) -> String {
     nearest::offer(nearest(written, known.iter().map(|name| (*name, *name))), known, '`')
 }
 
-/// The tables of a law's coordinates.
+/// Returns the tables of a law's coordinates.
 pub(super) fn coordinate_tables(SceneBody { values, .. }: &SceneBody, law: &LawText) -> String {
     let (n, rest) = (law.coordinates.len(), &values[law.constants.len()..]);
     let table = |(i, text): (usize, &CoordinateText)| {
@@ -349,7 +349,7 @@ impl WrittenLaw {
         self.coordinates.as_deref().unwrap_or_default()
     }
 
-    /// The text of the law; `None` if it has no coordinate or lacks an acceleration.
+    /// Returns the text of the law; `None` if it has no coordinate or lacks an acceleration.
     fn text(&self) -> Option<LawText> {
         let text = |written: &TextBlock| written.text.clone();
         let coordinate = |of: &WrittenCoordinate| {

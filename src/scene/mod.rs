@@ -1,9 +1,9 @@
-//! A scene: the bodies of a simulation, with the methods, the tick rate and the script of its run. It is read from
-//! TOML text and checked as a whole.
+//! A scene, which is the bodies of a simulation, with the methods, the tick rate and the script of its run. It is read
+//! from TOML text and checked as a whole.
 //!
-//! The tables of [methods](crate::sim::integrators::METHODS) and [bodies](crate::sim::bodies::BODIES) drive the
-//! reader: a scene may name any of their entries. The reader reports all faults of a file at once, each with its
-//! place and its remedy; a [`Scene`] has none.
+//! The tables of [methods](crate::sim::integrators::METHODS) and [bodies](crate::sim::bodies::BODIES) drive the reader,
+//! so that a scene may name any entry of them. The reader reports all faults of a file at once, each with its place and
+//! its remedy; a [`Scene`] has no faults.
 
 use std::path::Path;
 use std::sync::{Arc, LazyLock, OnceLock};
@@ -65,49 +65,49 @@ pub use refusal::Refusal;
 pub use time_scale::TimeScale;
 pub(crate) use time_scale::{Piece, nearest_tick};
 
-/// Largest scene file in bytes: tens of thousands of scripted commands. For a file full of mistakes, the parser takes
-/// some hundred times its size in memory.
+/// Largest scene file in bytes, with room for tens of thousands of scripted commands. For a file full of mistakes, the
+/// parser needs some hundred times the size of the file in memory.
 pub const MAX_FILE_BYTES: usize = 1 << 20;
 
-/// Highest tick rate in Hz: ten times the finest rate of physics in games.
+/// Highest tick rate in Hz, which is ten times the finest rate of physics in games.
 pub const MAX_TICK_HZ: u32 = 10_000;
 
-/// The ticks at which a scene of this length (s) and rate checks the claims of its bodies against their motion.
+/// Returns the ticks at which a scene of this length (s) and rate checks the claims of its bodies against their motion.
 pub(crate) fn claim_horizon(seconds: f64, tick_hz: TickRate) -> ClaimHorizon {
     ClaimHorizon { tick_hz, ticks: (seconds * tick_hz.hz()).round() as u64 }
 }
 
-/// Longest run of a scene in seconds: a year. At [`MAX_TICK_HZ`] its last tick is far below 2⁵³, so that
+/// Longest run of a scene in seconds, which is a year. At [`MAX_TICK_HZ`] its last tick is far below 2⁵³, so that
 /// `tick / rate` is exact to the last bit of an f64.
 pub const MAX_SECONDS: f64 = 365.0 * 86_400.0;
 
-/// Shortest run of a scene in seconds: a tick at [`MAX_TICK_HZ`].
+/// Shortest run of a scene in seconds, which is a tick at [`MAX_TICK_HZ`].
 pub const MIN_SECONDS: f64 = 1.0 / MAX_TICK_HZ as f64;
 
-/// Length in seconds of a scene that gives none: twenty swings of a spring at 1 Hz.
+/// Length in seconds of a scene that gives none, which is twenty swings of a spring at 1 Hz.
 pub const USUAL_SECONDS: f64 = 20.0;
 
 /// The last tick of the longest scene at the highest rate.
 pub const LAST_TICK: u64 = 365 * 86_400 * MAX_TICK_HZ as u64;
 
-/// Most bodies in a scene: with more, the cells on a stage are indistinguishable.
+/// Maximum number of bodies in a scene. With more, the cells on a stage are indistinguishable.
 pub const MAX_BODIES: usize = 64;
 
-/// Most lanes in a scene: twice the number of distinguishable colours.
+/// Maximum number of lanes in a scene, which is twice the number of distinguishable colours.
 pub const MAX_LANES: usize = 32;
 
-/// Most substeps in a tick of a lane.
+/// Maximum number of substeps in a tick of a lane.
 pub const MAX_SUBSTEPS: u32 = 1_000;
 
-/// Range of a lane's tolerance. Below it, round-off alone is larger; at its upper end, an error may be as large as
-/// the value.
+/// Range of a lane's tolerance. Below this range, round-off alone is larger; at its upper end, an error may be as large
+/// as the value.
 pub const TOLERANCES: (f64, f64) = (1e-14, 1.0);
 
-/// Largest magnitude of a coordinate at which a body can be placed. Bodies halt beyond it; see
+/// Largest magnitude of a coordinate at which a body can be placed. Bodies halt beyond
 /// [`ESCAPE`](crate::run::race::ESCAPE).
 const MAX_COORDINATE: f64 = 1e38;
 
-/// Most characters in a body's name, which appears in one line beside its cell.
+/// Maximum number of characters in a body's name, which appears in one line beside the body's cell.
 pub const MAX_NAME_CHARS: usize = 64;
 
 /// The bodies of a simulation, with the settings of its run.
@@ -116,38 +116,38 @@ pub const MAX_NAME_CHARS: usize = 64;
 pub struct Scene {
     /// Name of the built-in scene, or of its file without directory and ending.
     pub name: String,
-    /// The text that it was read from; `None` if there is none.
+    /// The text from which the scene was read; `None` if there is none.
     pub source: Option<Arc<str>>,
-    /// Its name for people.
+    /// Name of the scene for people.
     pub title: String,
-    /// Description for people; empty if the file has none.
+    /// Description of the scene for people; empty if the file has none.
     pub about: String,
     /// A suggestion to try, for the line under the stage.
     pub hint: Option<String>,
     /// Ticks per second, in [`Clock::TICK_HZ`](crate::sim::Clock::TICK_HZ).
     pub tick_hz: TickRate,
-    /// Length of its run in seconds, from [`MIN_SECONDS`] to [`MAX_SECONDS`].
+    /// Length of the scene's run in seconds, from [`MIN_SECONDS`] to [`MAX_SECONDS`].
     pub seconds: f64,
-    /// Methods in the author's own lines, each with an id of its own.
+    /// Methods in the author's own lines, each with a unique id.
     pub own_methods: Vec<&'static Method>,
-    /// The methods that race, 1 to [`MAX_LANES`], no two alike.
+    /// The lanes in the race, 1 to [`MAX_LANES`], all different.
     pub lanes: Vec<LaneSpec>,
-    /// The method of the lane that the program opens the scene with; `None` for the first lane.
+    /// The method of the lane with which the program opens the scene; `None` for the first lane.
     pub opening_method: Option<&'static Method>,
-    /// Whether each lane gets the substeps that bring its cost nearest to the dearest lane's.
+    /// Whether each lane gets the substeps that bring its cost nearest to that of the most expensive lane.
     pub equal_cost: bool,
-    /// Whether the program opens it as a race rather than under one method.
+    /// Whether the program opens the scene as a race rather than under one method.
     pub opens_as_race: bool,
-    /// The clouds of many starts that it opens with; `None` if it opens with the bodies.
+    /// The kind of the clouds of many starts with which the scene opens; `None` if it opens with the bodies.
     pub clouds: Option<CloudKind>,
-    /// The bodies in the order of the file, 1 to [`MAX_BODIES`], each with a name of its own.
+    /// The bodies in the order of the file, 1 to [`MAX_BODIES`], each with a unique name.
     pub bodies: Vec<SceneBody>,
     /// The scripted commands by time. Commands with the same time keep the order of the file.
     pub script: Vec<Scripted>,
     /// States that a race of the scene must reproduce, in the order of the file. A scene with checks is a recording,
     /// and its file gives the script in ticks.
     pub checks: Vec<Check>,
-    /// Deprecated syntax in the file, with its replacement; `None` if there is none.
+    /// Warnings about deprecated syntax in the file, with its replacement; `None` if there is none.
     pub outdated: Option<Arc<SceneErrors>>,
 }
 
@@ -155,29 +155,29 @@ pub struct Scene {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SceneBody {
-    /// Its name, unique in the scene.
+    /// Name of the body, unique in the scene.
     pub name: String,
-    /// Its kind.
+    /// Kind of the body.
     pub kind: Arc<Kind>,
     /// Argument of [`Kind::build`]: one value for each parameter of the kind, in their order, and two for each point
     /// of a curve.
     pub values: Vec<f64>,
-    /// Its drawing, shared with its copies.
+    /// Drawing of the body, shared with the body's copies.
     pub appearance: Arc<Appearance>,
 }
 
 impl SceneBody {
-    /// A body with the usual look of its kind.
+    /// Creates a body with the usual look of its kind.
     pub(crate) fn new(name: impl Into<String>, kind: Arc<Kind>, values: Vec<f64>) -> Self {
         Self { name: name.into(), kind, values, appearance: Arc::default() }
     }
 }
 
-/// A command of a scene's script: an action and its time.
+/// A command of a scene's script, which is an action at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scripted {
-    /// Time in seconds, at most [`MAX_SECONDS`]. The action comes before the nearest tick at the rate in force, in
-    /// every lane and in the truth.
+    /// Time of the action in seconds, at most [`MAX_SECONDS`]. The action comes before the nearest tick at the rate in
+    /// force, in every lane and in the truth.
     pub at_s: f64,
     /// The action.
     pub action: Action,
@@ -205,11 +205,12 @@ impl Scripted {
 /// The state that a lane must reach in a race of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Check {
-    /// The tick, at most [`LAST_TICK`].
+    /// Tick of the check, at most [`LAST_TICK`].
     pub tick: u64,
-    /// The lane.
+    /// Number of the lane.
     pub lane: LaneId,
-    /// The lane's [hash](crate::run::Race::lane_hashes) when it reaches the tick, before the actions of that tick.
+    /// The lane's [hash](crate::run::Race::lane_hashes) when the lane reaches the tick, before the actions of that
+    /// tick.
     pub hash: u64,
 }
 
@@ -217,7 +218,7 @@ impl Scene {
     /// Reads a scene from the bytes of a file; `file` is the file's name, for messages.
     ///
     /// # Errors
-    /// As [`Scene::parse`], and if the bytes are not UTF-8.
+    /// Fails as [`Scene::parse`] does, and if the bytes are not UTF-8.
     pub fn from_bytes(file: &str, bytes: &[u8]) -> Result<Scene, SceneErrors> {
         if bytes.len() > MAX_FILE_BYTES {
             return Err(SceneErrors::too_large(file));
@@ -231,7 +232,7 @@ impl Scene {
     /// Reads a scene from the text of a file; `file` is the file's name, for messages.
     ///
     /// # Errors
-    /// All faults of the text, in its order.
+    /// Fails with all faults of the text, in the order of the text.
     pub fn parse(file: &str, text: &str) -> Result<Scene, SceneErrors> {
         if text.len() > MAX_FILE_BYTES {
             return Err(SceneErrors::too_large(file));
@@ -247,32 +248,32 @@ impl Scene {
         Ok(scene)
     }
 
-    /// For each command of the script, its tick in a run at the scene's rate, and the tick's time in seconds.
+    /// Returns for each command of the script its tick in a run at the scene's rate, and the tick's time in seconds.
     pub(crate) fn script_on_ticks(&self) -> impl Iterator<Item = (u64, f64)> {
         let script = self.script.iter().map(|row| (row.at_s, &row.action));
         Piece::first(self.tick_hz).put_on_ticks(script)
     }
 
-    /// The actions of the script in order, each with its tick's time in seconds.
+    /// Returns the actions of the script in order, each with its tick's time in seconds.
     pub(crate) fn timed_script(&self) -> impl Iterator<Item = (f64, &Action)> {
         let actions = self.script.iter().map(|row| &row.action);
         self.script_on_ticks().map(|(_, t)| t).zip(actions)
     }
 
-    /// The methods that digits and lanes refer to: the scene's lanes, then plain lanes of all others that step its
-    /// bodies.
+    /// Returns the methods that digits and lanes refer to: the scene's lanes, then plain lanes of all other methods
+    /// that step the scene's bodies.
     pub fn method_list(&self) -> Vec<LaneSpec> {
         let is_listed = |method: &Method| self.lanes.iter().any(|spec| spec.method == method);
         let others = self.fitting_methods().filter(|method| !is_listed(method));
         self.lanes.iter().copied().chain(others.map(LaneSpec::plain)).collect()
     }
 
-    /// The scene with the body at this index alone. It has no checks, because these cover all bodies.
+    /// Returns the scene with only the body at this index. The result has no checks, because these cover all bodies.
     pub(crate) fn of_one_body(mut self, index: usize) -> Scene {
         self.bodies = vec![self.bodies.swap_remove(index)];
         self.checks.clear();
         self.script.retain_mut(|scripted| match &mut scripted.action {
-            Action::Set { body, .. } | Action::Place { body, .. } => {
+            Action::Set { body, .. } | Action::Place { body, .. } | Action::Push { body, .. } => {
                 std::mem::replace(body, 0) == index
             }
             _ => true,
@@ -280,8 +281,8 @@ impl Scene {
         self
     }
 
-    /// Name of a body, or id of a lane's method, that is written in Rust and so cannot be in a scene file; `None` if
-    /// there is none.
+    /// Returns the name of a body, or the id of a lane's method, that is written in Rust and so cannot be in a scene
+    /// file; `None` if there is none.
     pub fn in_rust(&self) -> Option<&str> {
         let mut bodies =
             self.bodies.iter().filter(|body| matches!(body.kind.origin, Origin::Custom(_)));
@@ -290,7 +291,7 @@ impl Scene {
         body.or_else(|| lanes.next().map(|lane| lane.method.id))
     }
 
-    /// The scene of [`SCENES`] with this name. It is read once, and all copies share its drawing data.
+    /// Returns the scene of [`SCENES`] with this name. The scene is read once, and all copies share its drawing data.
     pub fn built_in(name: &str) -> Option<Scene> {
         static READ: LazyLock<Vec<OnceLock<Scene>>> =
             LazyLock::new(|| SCENES.iter().map(|_| OnceLock::new()).collect());
@@ -300,7 +301,7 @@ impl Scene {
         Some(READ[index].get_or_init(read).clone())
     }
 
-    /// The harbour with a second spring, for tests on several springs.
+    /// Returns the harbour with a second spring, for tests on several springs.
     #[cfg(test)]
     pub(crate) fn with_two_springs() -> Scene {
         let [mut scene, mut damped] =
@@ -314,24 +315,24 @@ impl Scene {
 /// A scene that is part of the program.
 #[derive(Debug)]
 pub struct BuiltIn {
-    /// Name of its file in `assets/scenes`, without the ending.
+    /// Name of the scene's file in `assets/scenes`, without the ending.
     pub name: &'static str,
-    /// Its group in menus and lists.
+    /// Group of the scene in menus and lists.
     pub group: SceneGroup,
-    /// Text of the file.
+    /// Text of the scene's file.
     pub text: &'static str,
 }
 
 /// The group of a built-in scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SceneGroup {
-    /// For the first minutes.
+    /// Scenes for the first minutes.
     StartHere,
-    /// On the chapter's topics and warnings.
+    /// Scenes on the chapter's topics and warnings.
     Chapter,
-    /// Methods of physics engines.
+    /// Scenes with the methods of physics engines.
     Engines,
-    /// All others.
+    /// All other scenes.
     More,
 }
 
@@ -339,7 +340,7 @@ impl SceneGroup {
     /// All groups, in the order of menus.
     pub const ALL: [Self; 4] = [Self::StartHere, Self::Chapter, Self::Engines, Self::More];
 
-    /// Its heading.
+    /// Returns the heading of the group.
     pub fn title(self) -> &'static str {
         match self {
             Self::StartHere => "Start here",

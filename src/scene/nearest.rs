@@ -2,15 +2,16 @@
 
 use crate::sim::law::Remedy;
 
-/// Least Jaro-Winkler similarity, from 0 to 1, at which a known name is offered for a misspelt one. The tests below
+/// Smallest Jaro-Winkler similarity, from 0 to 1, at which a known name is offered for a misspelt one. The tests below
 /// show its effect.
 const ALIKE: f64 = 0.8;
 
-/// Longer words are not compared: no known name comes near, and comparing takes time.
+/// Longer words are not compared, because no known name is like them, and comparing takes time.
 const MAX_CHARS: usize = 64;
 
-/// The only name that contains `written`; if there is none or several, the name with the most similar spelling, if
-/// any is similar enough. A name may have several spellings. Case, blanks and the kind of hyphen do not matter.
+/// Returns the only name that contains `written`. If there is none or several, it returns the name with the most
+/// similar spelling, if one is similar enough. A name may have several spellings. Case, blanks and the kind of hyphen
+/// do not matter.
 pub fn nearest<'n>(
     written: &str,
     names: impl Iterator<Item = (&'n str, &'n str)>,
@@ -39,7 +40,7 @@ pub fn nearest<'n>(
         .map(|(_, name)| name)
 }
 
-/// The remedy for an unknown name.
+/// Returns the remedy for an unknown name.
 pub(super) fn offer(nearest: Option<&str>, known: &[impl AsRef<str>], quote: char) -> String {
     match nearest {
         Some(name) => format!("did you mean {}?", listed(&[name], quote, "")),
@@ -47,7 +48,7 @@ pub(super) fn offer(nearest: Option<&str>, known: &[impl AsRef<str>], quote: cha
     }
 }
 
-/// The remedy for a fault of an expression, in words.
+/// Returns the remedy for a fault of an expression, in words.
 pub(super) fn words(remedy: Remedy) -> String {
     match remedy {
         Remedy::Words(words) => words,
@@ -57,7 +58,7 @@ pub(super) fn words(remedy: Remedy) -> String {
     }
 }
 
-/// Puts names in quotes and joins them with `between`. The quote `[` writes a table array.
+/// Puts names in quotes and joins them with `between`. With the quote `[`, a name is written as a table array.
 pub(super) fn listed(names: &[impl AsRef<str>], quote: char, between: &str) -> String {
     let quoted = names.iter().map(AsRef::as_ref).map(|name| match quote {
         '[' => format!("`[[{name}]]`"),

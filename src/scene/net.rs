@@ -1,4 +1,4 @@
-//! Reads a `[[net]]`: masses joined by springs, as a grid or as lists.
+//! Reads a `[[net]]`, which is masses joined by springs, as a grid or as lists.
 
 use std::ops::Range as Span;
 use std::sync::Arc;
@@ -110,7 +110,7 @@ pub(super) static LIST_KEYS: [Key<(Lists, Spans), Lists>; 3] = [
     },
 ];
 
-/// The keys of a spring in such a list.
+/// The keys of a spring in the list of springs.
 pub(super) static SPRING_KEYS: [Key<PlannedSpring, PlannedSpring>; 4] = [
     Key {
         field: BETWEEN,

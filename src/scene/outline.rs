@@ -1,4 +1,4 @@
-//! The outline of a body: its parts in metres. Their colour comes from the lane.
+//! The outline of a body, as parts in metres. Their colour comes from the lane.
 
 use glam::DVec2;
 
@@ -6,71 +6,71 @@ use glam::DVec2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Mark {
-    /// A wall that the body hangs on: a line that does not move.
+    /// A wall on which the body hangs, drawn as a line that does not move.
     Wall {
-        /// One end.
+        /// One end of the line.
         from: DVec2,
-        /// The other end.
+        /// The other end of the line.
         to: DVec2,
     },
     /// A disc that does not move, such as a pivot or a target.
     Anchor {
-        /// Its centre.
+        /// Centre of the disc.
         centre: DVec2,
-        /// Its radius.
+        /// Radius of the disc.
         radius: f64,
     },
     /// A planet, which does not move.
     Planet {
-        /// Its centre.
+        /// Centre of the planet.
         centre: DVec2,
-        /// Its radius.
+        /// Radius of the planet.
         radius: f64,
     },
     /// A coil spring.
     Coil {
-        /// One end.
+        /// One end of the spring.
         from: DVec2,
-        /// The other end.
+        /// The other end of the spring.
         to: DVec2,
-        /// The radius of its turns.
+        /// Radius of the spring's turns.
         radius: f64,
     },
     /// A block.
     Block {
-        /// Its centre.
+        /// Centre of the block.
         centre: DVec2,
-        /// Half its width and half its height.
+        /// Half the width and half the height of the block.
         half: DVec2,
     },
     /// A rod or a thread.
     Rod {
-        /// One end.
+        /// One end of the rod.
         from: DVec2,
-        /// The other end.
+        /// The other end of the rod.
         to: DVec2,
     },
     /// A thin line that does not move, along which a bead slides.
     Rail {
-        /// One end.
+        /// One end of the rail.
         from: DVec2,
-        /// The other end.
+        /// The other end of the rail.
         to: DVec2,
     },
-    /// A bead, a bob, a satellite.
+    /// A disc such as a bead, a bob or a satellite.
     Disc {
-        /// Its centre.
+        /// Centre of the disc.
         centre: DVec2,
-        /// Its radius.
+        /// Radius of the disc.
         radius: f64,
     },
-    /// A block at [`Outline::at`] on a coil spring moored at the left. The picture decides their size.
+    /// A block at [`Outline::at`] on a coil spring that is fixed at the left. The picture decides the sizes of both.
     Sprung,
     /// The hull of a ship at [`Outline::at`].
     Hull {
-        /// Direction of its bow, of length 1.
+        /// Direction of the bow, as a vector of length 1.
         bow: DVec2,
-        /// Its length.
+        /// Length of the hull.
         length: f64,
     },
 }
@@ -80,7 +80,7 @@ pub enum Mark {
 pub struct Thread {
     /// The nodes, in metres.
     pub points: Vec<DVec2>,
-    /// Whether it belongs to the border. A net in the background shows only its border.
+    /// Whether the thread belongs to the border. A net in the background shows only its border.
     pub is_border: bool,
 }
 
@@ -89,14 +89,14 @@ pub struct Thread {
 pub struct Outline {
     /// Parts to draw, from bottom to top.
     pub marks: Vec<Mark>,
-    /// Names of rails. Each is written to the left of its point.
+    /// Names of rails, each with its point. A name is written to the left of its point.
     pub names: Vec<(DVec2, String)>,
     /// Threads of a net, drawn below the marks.
     pub threads: Vec<Thread>,
     /// Closed course that the exact body will follow if nothing intervenes.
     pub course: Vec<DVec2>,
-    /// Time shown, in seconds.
+    /// Time of the picture, in seconds.
     pub t: f64,
-    /// Position of the body, by its [`place`](crate::sim::bodies::Body::place).
+    /// Position of the body, as its [`place`](crate::sim::bodies::Body::place) returns it.
     pub at: DVec2,
 }

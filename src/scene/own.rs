@@ -1,4 +1,4 @@
-//! Reads a `[[method]]`: a method in its author's own lines.
+//! Reads a `[[method]]`, which is a method in its author's own lines.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::sim::integrators::Method;
 use crate::sim::law::{ExpressionFault, Remedy, StepText};
 use crate::sim::{MAX_OWN_ID_CHARS, TickRate, check_own_id, own_method, own_method_id, own_rule};
 
-/// Name of the table array. The top of a file has a key of the same name, for the method shown first.
+/// Name of the table array. The top of a file has a key of the same name, for the method with which the scene opens.
 pub(super) const OWN: &str = "method";
 
 const ID: Field =
@@ -50,11 +50,11 @@ pub(super) static OWN_KEYS: [Key<OwnDraft, Method>; 3] = [
 ];
 
 impl LaneSpec {
-    /// The lane of a method in a person's own lines, from the bytes of a file. The method's name is the stem of
+    /// Creates the lane of a method in a person's own lines, from the bytes of a file. The method's name is the stem of
     /// `file`.
     ///
     /// # Errors
-    /// The first fault of the lines, or of the name.
+    /// Fails with the first fault of the lines, or of the name.
     pub fn from_step(file: &str, bytes: &[u8]) -> Result<Self, SceneErrors> {
         let text = str::from_utf8(bytes)
             .map_err(|error| SceneErrors::not_utf8(file, bytes, error.valid_up_to()))?;
@@ -68,16 +68,16 @@ impl LaneSpec {
     }
 }
 
-/// Whether these are the lines of a rule: they call no acceleration.
+/// Whether these are the lines of a rule, which call no acceleration.
 pub fn is_rule(bytes: &[u8]) -> bool {
     let read = str::from_utf8(bytes).ok().and_then(|text| StepText::read(text).ok());
     read.is_some_and(|text| text.acceleration_at().is_none())
 }
 
-/// The method or the rule of these lines.
+/// Returns the method or the rule of these lines.
 ///
 /// # Errors
-/// The first fault.
+/// Fails with the first fault.
 pub(crate) fn own(
     id: &str,
     text: &str,
@@ -89,7 +89,7 @@ pub(crate) fn own(
     }
 }
 
-/// An own method or rule as a table of a scene file, with an empty line before it.
+/// Returns an own method or rule as a table of a scene file, after an empty line.
 pub(crate) fn own_table(method: &Method) -> String {
     format!("\n[[{OWN}]]\n{}", Key::lines(&OWN_KEYS, method))
 }

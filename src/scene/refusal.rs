@@ -12,14 +12,14 @@ use crate::sim::integrators::{Family, METHODS, Method};
 pub struct Refusal {
     /// Id of the method.
     pub method: &'static str,
-    /// Name of the first body that it refuses.
+    /// Name of the first body that the method refuses.
     pub body: String,
-    /// The reason, as on the method's card.
+    /// The reason, as written on the method's card.
     pub reason: &'static str,
 }
 
 impl Scene {
-    /// The reason why `method` cannot step this scene; `None` if it steps every body.
+    /// Returns the reason why `method` cannot step this scene; `None` if it steps every body.
     pub fn refusal(&self, method: &Method) -> Option<Refusal> {
         self.bodies.iter().find_map(|SceneBody { name, kind, values, .. }| {
             let reason = incompatibility(method, kind, values)?;
@@ -27,21 +27,21 @@ impl Scene {
         })
     }
 
-    /// The methods of the table, in its order, and then the scene's own, if they step every body. Engines' methods
-    /// only appear if the scene names one.
+    /// Returns the methods of the table, in its order, and then the scene's own methods, if they step every body.
+    /// Engines' methods only appear if the scene names one.
     pub fn fitting_methods(&self) -> impl Iterator<Item = &'static Method> {
         let is_shown = |method: &&Method| !method.is_engine() || self.names_an_engine();
         let all = METHODS.iter().chain(self.own_methods.iter().copied());
         all.filter(is_shown).filter(|method| self.refusal(method).is_none())
     }
 
-    /// The [methods that fit](Scene::fitting_methods) and are [for a game to implement](Method::is_for_games).
+    /// Returns the [methods that fit](Scene::fitting_methods) and are [for a game to implement](Method::is_for_games).
     pub fn methods_for_games(&self) -> impl Iterator<Item = &'static Method> {
         self.fitting_methods().filter(|method| method.is_for_games())
     }
 
-    /// The lanes of these methods in the order named, each method once. The scene's lanes keep their settings; a
-    /// method without one gets a plain lane.
+    /// Returns the lanes of these methods in the given order, each method once. The scene's lanes keep their settings;
+    /// a method without a lane gets a plain lane.
     pub fn lanes_of(&self, methods: &[&'static Method]) -> Vec<LaneSpec> {
         let mut lanes: Vec<LaneSpec> = Vec::new();
         for &method in methods {
@@ -57,15 +57,17 @@ impl Scene {
         lanes
     }
 
-    /// The scene at this tick rate. Its hint assumes the file's rate, so another rate drops it.
+    /// Returns the scene at this tick rate. A rate other than the file's drops the hint, because the hint assumes the
+    /// file's rate.
     pub fn at_tick_hz(self, tick_hz: impl Into<TickRate>) -> Self {
         let tick_hz = tick_hz.into();
         let hint = self.hint.filter(|_| tick_hz == self.tick_hz);
         Self { tick_hz, hint, ..self }
     }
 
-    /// The scene with the lanes of these methods if there are several. A single method leaves the lanes alone, except
-    /// that an engine's method gets a lane. If the lanes change, the hint goes, because it is about the scene's own.
+    /// Returns the scene with the lanes of these methods if there are several. A single method leaves the lanes alone,
+    /// except that an engine's method gets a lane. If the lanes change, the hint is dropped, because it is about the
+    /// scene's own lanes.
     pub fn with_methods(mut self, methods: &[&'static Method]) -> Self {
         let own = self.lanes.clone();
         if methods.len() > 1 {
@@ -82,8 +84,8 @@ impl Scene {
         self
     }
 
-    /// Adds a method in a person's own lines to the scene's [own](Scene::own_methods). It replaces an earlier one
-    /// with the same id, in the lanes too.
+    /// Adds a method in a person's own lines to the scene's [own](Scene::own_methods). The method replaces an earlier
+    /// one with the same id, in the lanes too.
     pub(crate) fn know_own(&mut self, method: &'static Method) {
         if method.own_text().is_none() {
             return;
@@ -98,15 +100,15 @@ impl Scene {
             self.opening_method.map(|opens| if opens.id == method.id { method } else { opens });
     }
 
-    /// The lane that the scene opens with unless the user names a method.
+    /// Returns the lane with which the scene opens unless the user names a method.
     pub fn opening_lane(&self) -> &LaneSpec {
         let named = self.lanes.iter().find(|lane| Some(lane.method) == self.opening_method);
         named.or(self.lanes.first()).expect("a scene has a lane")
     }
 
-    /// The lanes that advice considers. For a scene with a source text, these are all its [methods for
-    /// games](Scene::methods_for_games), with the substeps of their cards; for a body written in Rust, the scene's
-    /// own lanes.
+    /// Returns the lanes that advice considers. For a scene with a source text, these are all its [methods for
+    /// games](Scene::methods_for_games), with the substeps of their cards. For a body written in Rust, they are the
+    /// scene's own lanes.
     pub fn advised_lanes(&self) -> Vec<LaneSpec> {
         match self.source {
             Some(_) => self.methods_for_games().map(LaneSpec::plain).collect(),
@@ -114,7 +116,7 @@ impl Scene {
         }
     }
 
-    /// The methods of a family that step every body of this scene.
+    /// Returns the methods of a family that step every body of this scene.
     pub fn methods_of(&self, family: Family) -> impl Iterator<Item = &'static Method> {
         let all = METHODS.iter().filter(move |method| method.family == family);
         all.filter(|method| self.refusal(method).is_none())

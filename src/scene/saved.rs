@@ -1,4 +1,4 @@
-//! Saves a scene in the form of the file that it was read from.
+//! Saves a scene in the form of the file from which it was read.
 
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TableLike};
 
@@ -6,15 +6,15 @@ use super::Scene;
 use super::document::{LANE, METHOD_LIST};
 use super::script::COMMAND;
 
-/// Table arrays whose rows are rewritten if they change, because a key left out of a row may depend on another.
+/// Table arrays in which a changed row is rewritten, because a key that is left out of a row may depend on another one.
 const REWRITTEN_ARRAYS: [&str; 2] = [LANE, COMMAND];
 
 impl Scene {
-    /// The text of a scene file that [reads](Scene::parse) as this scene. If the scene was read from a file, the
-    /// author's comments, order and spelling stay, and only changed values differ. Lines end as on Unix.
+    /// Returns the text of a scene file that [reads](Scene::parse) as this scene. If the scene was read from a file,
+    /// the author's comments, order and spelling stay, and only changed values differ. Lines end as on Unix.
     pub fn to_saved_toml(&self) -> String {
         let plain = self.to_toml();
-        // The author's text may have a form that the changes do not fit.
+        // The author's text may have a form in which the changes are impossible.
         let is_read = |saved: &String| {
             Scene::parse(&self.name, saved).is_ok_and(|read| read.to_toml() == plain)
         };
@@ -22,8 +22,8 @@ impl Scene {
     }
 }
 
-/// The author's text of a scene and the plain text of the scene as read. `None` without a file, or if its text is no
-/// longer readable.
+/// Returns the author's text of a scene and the plain text of the scene as read. `None` if there is no file, or if its
+/// text is no longer readable.
 fn documents(scene: &Scene) -> Option<[DocumentMut; 2]> {
     let source = scene.source.as_deref()?.replace("\r\n", "\n");
     let scene = Scene::parse("", &source).ok()?;
@@ -34,11 +34,11 @@ fn documents(scene: &Scene) -> Option<[DocumentMut; 2]> {
     Some(documents)
 }
 
-/// The author's text of a scene, with the differences between its own plain text and `plain`.
+/// Returns the author's text of a scene, changed where the scene's own plain text differs from `plain`.
 fn changed_to(scene: &Scene, plain: &str) -> Option<String> {
     let [mut author, before] = documents(scene)?;
     let after = parse_document(plain)?;
-    // Plain lanes may also be tables.
+    // Plain lanes may also be written as tables.
     let lanes = METHOD_LIST.key;
     if !is_same(before.get(lanes), after.get(lanes)) {
         author.remove(LANE);
@@ -51,13 +51,13 @@ fn parse_document(text: &str) -> Option<DocumentMut> {
     text.parse().ok()
 }
 
-/// Applies the changes between two tables to the author's.
+/// Applies the changes between the tables `before` and `after` to the author's table.
 fn apply_changes(author: &mut dyn TableLike, before: &dyn TableLike, after: &dyn TableLike) {
     for (key, _) in before.iter().filter(|(key, _)| !after.contains_key(key)) {
         author.remove(key);
     }
     for (key, new) in after.iter().filter(|(key, new)| !is_same(before.get(key), Some(new))) {
-        // Removes a key that becomes a table, whose spaces would otherwise stay.
+        // A key that becomes a table is removed, because its spaces would otherwise stay.
         if before.get(key).is_some_and(|old| old.is_value() != new.is_value()) {
             author.remove(key);
         }
@@ -92,7 +92,7 @@ fn change_item(key: &str, author: &mut Item, before: &Item, after: &Item) {
     }
 }
 
-/// The rows `after`, with the author's own text for rows that were there before.
+/// Returns the rows `after`, with the author's own text for rows that are also in `before`.
 fn with_known_rows(
     author: &ArrayOfTables,
     before: &ArrayOfTables,

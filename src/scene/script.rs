@@ -1,4 +1,4 @@
-//! Reads a scene's script and the hashes that its race must reproduce: `[[command]]` and `[[check]]`.
+//! Reads a scene's script and the hashes that the scene's race must reproduce: `[[command]]` and `[[check]]`.
 
 use std::ops::Range as Span;
 
@@ -49,9 +49,10 @@ const KEY: Field = Field::required("key", "the parameter's key", NAME);
 const VALUE: Field = Field::required("value", "its new value", Wanted::ANY);
 const Q: Field = Field::required("q", "the coordinates", Wanted::Numbers(1));
 const V: Field = Field::required("v", "the velocities", Wanted::Numbers(1));
-/// The keys of `set` and of `place`.
-pub(super) static OF_A_BODY: [(&str, &[Field]); 2] =
-    [("set", &[BODY, KEY, VALUE]), ("place", &[BODY, Q, V])];
+const BY: Field = Field::required("by", "the changes of the velocities", Wanted::Numbers(1));
+/// The keys of `set`, `place` and `push`.
+pub(super) static OF_A_BODY: [(&str, &[Field]); 3] =
+    [("set", &[BODY, KEY, VALUE]), ("place", &[BODY, Q, V]), ("push", &[BODY, BY])];
 
 /// The keys of `[[check]]`. The reader needs the number of lanes.
 pub(super) static CHECK: [Key<(Check, usize), Check>; 3] = [
@@ -74,9 +75,9 @@ pub(super) static CHECK: [Key<(Check, usize), Check>; 3] = [
     },
 ];
 
-/// The bodies and lanes that a script can name, and the tick rate at its start.
+/// The bodies and lanes that a script can name, and the tick rate at the script's start.
 pub(super) struct SceneContext<'d> {
-    /// Each has a name.
+    /// The bodies, each of which has a name.
     pub(super) bodies: &'d [BodyDraft],
     pub(super) lanes: &'d [LaneSpec],
     pub(super) tick_hz: TickRate,
@@ -85,13 +86,13 @@ pub(super) struct SceneContext<'d> {
 type Read = fn(&SceneContext<'_>, &mut Table<'_>, &Field) -> Option<Action>;
 type Write = fn(&Scene, &Action) -> Option<String>;
 
-/// A key of `[[command]]` with its action.
+/// A key of `[[command]]` with the action that it stands for.
 pub(super) struct CommandKey {
     pub(super) field: Field,
-    /// Whether the action is an input: it has an effect only if some body takes an input of this name.
+    /// Whether the action is an input, which has an effect only if some body takes an input of this name.
     is_input: bool,
     read: Read,
-    /// The value, if the action belongs to this key.
+    /// Writes the value, if the action belongs to this key.
     write: Write,
 }
 
@@ -113,7 +114,7 @@ const fn input(
 /// The keys that change a lane, which `lane` selects.
 const OF_A_LANE: [&str; 3] = [METHOD.key, SUBSTEPS.key, TOLERANCE.key];
 
-pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
+pub(super) static COMMAND_KEYS: [CommandKey; 12] = [
     command_key(
         Field::optional("method", "the method, for a lane with what else it has", Wanted::Method),
         |context, row, _| read_method(context, row),
@@ -206,6 +207,20 @@ pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
         },
     ),
     command_key(
+        Field::optional("push", "changes a body's velocities", Wanted::Table("push")),
+        |context, row, field| {
+            let mut push = row.table(field)?;
+            let action = read_push(context, &mut push);
+            row.add_faults_of(push);
+            action
+        },
+        |scene, action| {
+            let Action::Push { body, by } = action else { return None };
+            let name = quoted(&scene.bodies[*body].name);
+            Some(inline(&[(BODY, name), (BY, numbers(by))]))
+        },
+    ),
+    command_key(
         Field::optional("solo", "the only lane that stays", LANE_NUMBER),
         |context, row, field| {
             read_number(row, field, context.lanes.len()).map(|lane| Action::Solo { lane })
@@ -214,13 +229,13 @@ pub(super) static COMMAND_KEYS: [CommandKey; 11] = [
     ),
 ];
 
-/// An inline table.
+/// Returns an inline table.
 fn inline(entries: &[(Field, String)]) -> String {
     let entries = entries.iter().map(|(field, value)| format!("{} = {value}", field.key));
     format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
 }
 
-/// A parameter's value as TOML, if the parameter is not a curve.
+/// Returns a parameter's value as TOML, if the parameter is not a curve.
 pub(super) fn parameter_value(range: Range, value: f64) -> String {
     match range {
         Range::Count(_) => format!("{}", value as u64),
@@ -228,7 +243,7 @@ pub(super) fn parameter_value(range: Range, value: f64) -> String {
     }
 }
 
-/// The tables of the commands of `scene`, in ticks for a recording and in seconds otherwise.
+/// Returns the tables of the commands of `scene`, in ticks for a recording and in seconds otherwise.
 pub(super) fn command_tables(scene: &Scene) -> impl Iterator<Item = String> {
     let is_recording = !scene.checks.is_empty();
     scene.script.iter().zip(scene.script_on_ticks()).map(move |(row, (tick, _))| {
@@ -265,7 +280,7 @@ enum When {
     Tick(u64),
 }
 
-/// A command as read.
+/// A command as read from the file.
 struct Command {
     when: When,
     action: Action,
@@ -312,7 +327,7 @@ pub(super) fn read(
     let mut script = Scripted::of_ticks(context.tick_hz, in_ticks);
     let mut warnings = Vec::new();
     if !top.has(CHECKS) {
-        // No scene is longer.
+        // Later times are cut, because no scene is longer.
         script.iter_mut().for_each(|row| row.at_s = row.at_s.min(MAX_SECONDS));
         warnings = script.iter().zip(&commands).map(outdated).collect();
     }
@@ -325,7 +340,7 @@ pub(super) fn read(
     (script, warnings)
 }
 
-/// Reads the time of a command. Reports a tick if `is_mixed`, that is if other commands have seconds.
+/// Reads the time of a command. Reports a tick if `is_mixed` is true, which means that other commands have seconds.
 fn read_when(row: &mut Table<'_>, is_mixed: bool) -> Option<When> {
     [AT_S, TICK].iter().for_each(|field| row.allow_key(field.key));
     if is_mixed && row.has(TICK.key) {
@@ -340,7 +355,7 @@ fn read_when(row: &mut Table<'_>, is_mixed: bool) -> Option<When> {
     }
 }
 
-/// The warning about a tick in a scene, with the time in seconds as its remedy.
+/// Returns the warning about a tick in a scene, with the time in seconds as its remedy.
 fn outdated((Scripted { at_s, .. }, command): (&Scripted, &Command)) -> SceneError {
     let (tick, at_s) = (TICK.key, format!("`{} = {}`", AT_S.key, number(*at_s)));
     let what = format!(
@@ -403,7 +418,7 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
         if !found.contains(&field.key) {
             continue;
         }
-        // Reads all of them, even if only one is allowed, to find all faults.
+        // All keys are read, even if only one is allowed, so that all faults are found.
         action = read(context, row, field).or(action);
         let input = field.key;
         let takes =
@@ -536,6 +551,15 @@ fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Actio
     let mut read = |field| place.coordinates(&Field { wanted: Wanted::Numbers(count), ..field });
     let (q, v) = (read(Q), read(V));
     Some(Action::Place { body: at, q: q?.into(), v: v?.into() })
+}
+
+fn read_push(context: &SceneContext<'_>, push: &mut Table<'_>) -> Option<Action> {
+    let body = read_body(context, push);
+    push.allow_key(BY.key);
+    let (at, BodyDraft { kind, values, .. }) = body?;
+    let count = kind.as_ref()?.coordinates(values.as_ref()?).len();
+    let by = push.coordinates(&Field { wanted: Wanted::Numbers(count), ..BY })?;
+    Some(Action::Push { body: at, by: by.into() })
 }
 
 /// Reads the states that lanes must reach.

@@ -10,7 +10,7 @@ use super::fault::{FaultKind, SceneFault};
 
 const MISSING_COMMA: &str = "missing comma between array elements";
 
-/// The errors in the order of the text, without those that merely follow from an earlier one.
+/// Returns the errors in the order of the text, without those that merely follow from an earlier one.
 pub(super) fn errors(text: &str, found: Vec<Error>) -> Vec<SceneError> {
     let place = |error: Error| {
         let span = error.span().unwrap_or(text.len()..text.len());
@@ -26,7 +26,7 @@ pub(super) fn errors(text: &str, found: Vec<Error>) -> Vec<SceneError> {
             continue;
         }
         let fault = fault(text, span.clone(), error.message());
-        // The parser merges the keys of both tables.
+        // If a table occurs twice, the parser merges the keys of both tables.
         if is_table_twice && matches!(fault.kind, FaultKind::Duplicate { .. }) {
             continue;
         }
@@ -34,7 +34,7 @@ pub(super) fn errors(text: &str, found: Vec<Error>) -> Vec<SceneError> {
         let newline = text.as_bytes()[span.start..].iter().position(|byte| *byte == b'\n');
         next_line = newline.map_or(usize::MAX, |n| span.start + n + 1);
         errors.push(SceneError { span, fault });
-        // To the parser, an unclosed list continues through all the following lines.
+        // If a list is not closed, the parser reads all the following lines as part of it.
         if error.message().starts_with(MISSING_COMMA) {
             break;
         }

@@ -19,23 +19,23 @@ mod named;
 
 pub(super) use named::{Named, TextBlock};
 
-/// A table with the faults found in it so far. A value with a fault is read as `None`.
+/// A table with the faults found in it so far. Reading a value with a fault gives `None`.
 pub(super) struct Table<'t> {
     text: &'t str,
     place: Place,
-    /// Finds the key at the top of the file with a given name.
+    /// Returns the key at the top of the file with a given name.
     at_top: fn(&str) -> Option<&'static str>,
     /// The file's own methods.
     own: Vec<&'static Method>,
     /// Ids of the file's own methods with faults.
     faulty: Vec<String>,
-    /// Bytes of its header; empty at the top.
+    /// Range of the header's bytes; empty at the top of the file.
     pub(super) header: Range<usize>,
     entries: &'t DeTable<'t>,
     keys: Vec<&'static str>,
     arrays: Vec<&'static str>,
     errors: Vec<SceneError>,
-    /// Faults of the tables below it.
+    /// Faults of the tables below this one.
     below: Vec<SceneError>,
 }
 
@@ -62,7 +62,7 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// Another table of this file.
+    /// Creates another table of this file.
     fn subtable(&self, place: Place, header: Range<usize>, entries: &'t DeTable<'t>) -> Self {
         let (own, faulty) = (self.own.clone(), self.faulty.clone());
         Self { place, header, own, faulty, ..Self::top(self.text, self.at_top, entries) }
@@ -86,7 +86,7 @@ impl<'t> Table<'t> {
         self.errors.is_empty() && self.below.is_empty()
     }
 
-    /// Bytes of the value of `key`, or of the header if the key is absent.
+    /// Returns the bytes of the value of `key`, or of the header if the key is absent.
     pub(super) fn span(&self, key: &str) -> Range<usize> {
         self.entries.get(key).map_or(self.header.clone(), Spanned::span)
     }
@@ -95,12 +95,12 @@ impl<'t> Table<'t> {
         self.entries.contains_key(key)
     }
 
-    /// The file's own methods.
+    /// Returns the file's own methods.
     pub(super) fn own(&self) -> &[&'static Method] {
         &self.own
     }
 
-    /// Lets keys name a method of the file. If the method has faults, it is `None`, and keys that name it are not
+    /// Lets keys name a method of the file. For a method with faults, `method` is `None`, and keys that name it are not
     /// reported.
     pub(super) fn add_own_method(&mut self, id: &str, method: Option<&'static Method>) {
         match method {
@@ -121,7 +121,7 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// A text of at most [`Wanted::max_chars`].
+    /// Reads a text of at most [`Wanted::max_chars`] characters.
     pub(super) fn text(&mut self, field: &Field) -> Option<String> {
         let value = self.value(field)?;
         let (span, Field { key, wanted, .. }) = (value.span(), field);
@@ -141,14 +141,14 @@ impl<'t> Table<'t> {
         None
     }
 
-    /// A number of [`Wanted::Number`].
+    /// Reads a number as [`Wanted::Number`] demands.
     pub(super) fn number(&mut self, field: &Field) -> Option<f64> {
         let value = self.value(field)?;
         let Some(number) = number(value) else { return self.wrong_type(field, value) };
         self.in_range(field, value, field.wanted.accepts_number(number).then_some(number))
     }
 
-    /// A number of [`Wanted::Whole`].
+    /// Reads a whole number as [`Wanted::Whole`] demands.
     pub(super) fn whole<T: TryFrom<u64>>(&mut self, field: &Field) -> Option<T> {
         let value = self.value(field)?;
         if !value.get_ref().is_integer() {
@@ -159,12 +159,12 @@ impl<'t> Table<'t> {
         self.in_range(field, value, whole.and_then(|whole| T::try_from(whole).ok()))
     }
 
-    /// A tick rate, from [`Wanted::TickRate`] or from the length of a [`Wanted::Step`]. A ratio of numbers is a
-    /// string.
+    /// Reads a tick rate, from [`Wanted::TickRate`] or from the length of a [`Wanted::Step`]. A ratio of numbers is
+    /// written as a string.
     pub(super) fn tick_rate(&mut self, field: &Field) -> Option<TickRate> {
         let value = self.value(field)?;
         let ratio = value.get_ref().as_str().filter(|text| text.contains('/')).map(str::to_owned);
-        // The shortest decimal of a number is the file's own: no rate has as many digits as an `f64`.
+        // The shortest decimal of a number is the one in the file, because no rate has as many digits as an `f64`.
         let Some(written) = ratio.or_else(|| number(value).map(|number| number.to_string())) else {
             return self.wrong_type(field, value);
         };
@@ -189,7 +189,7 @@ impl<'t> Table<'t> {
         self.method_named(field.key, format!("`{}`", field.key), value)
     }
 
-    /// Methods with the bytes of their names. At most [`MAX_LANES`] entries are read.
+    /// Reads methods with the bytes of their names. At most [`MAX_LANES`] entries are read.
     pub(super) fn methods(
         &mut self,
         field: &Field,
@@ -212,7 +212,7 @@ impl<'t> Table<'t> {
         Some(methods)
     }
 
-    /// The tables of the array `name`, in the order of the file.
+    /// Returns the tables of the array `name`, in the order of the file.
     pub(super) fn rows(&mut self, name: &'static str) -> Vec<Table<'t>> {
         self.arrays.push(name);
         let Some(value) = self.entries.get(name) else { return vec![] };
@@ -231,7 +231,7 @@ impl<'t> Table<'t> {
         rows.unwrap_or_default()
     }
 
-    /// The table of [`Wanted::Table`], if there is one.
+    /// Reads the table of [`Wanted::Table`], if there is one.
     pub(super) fn table(&mut self, field: &Field) -> Option<Table<'t>> {
         let value = self.value(field)?;
         match value.get_ref().as_table() {
@@ -245,7 +245,7 @@ impl<'t> Table<'t> {
         value.get_ref().as_bool().or_else(|| self.wrong_type(field, value))
     }
 
-    /// A hash of 16 hexadecimal digits.
+    /// Reads a hash of 16 hexadecimal digits.
     pub(super) fn hash(&mut self, field: &Field) -> Option<u64> {
         let value = self.value(field)?;
         let (span, key) = (value.span(), field.key);
@@ -266,7 +266,7 @@ impl<'t> Table<'t> {
         self.below.extend(row.finish());
     }
 
-    /// All faults of the table. Keys that were not read by now are unknown.
+    /// Returns all faults of the table. Keys that were not read until now are unknown.
     pub(super) fn finish(mut self) -> Vec<SceneError> {
         let mut unknown = Vec::new();
         for (key, value) in self.entries {
@@ -275,7 +275,7 @@ impl<'t> Table<'t> {
                 unknown.push(SceneError { span, fault: self.unknown(key, value.get_ref()) });
             }
         }
-        // A misspelt or misplaced key is not also reported as missing.
+        // A misspelt or misplaced key is not reported as missing too.
         let misspelt = unknown.iter().filter_map(|error| match &error.fault.kind {
             FaultKind::Unknown(nearest) => nearest.as_deref(),
             _ => None,
@@ -325,7 +325,7 @@ impl<'t> Table<'t> {
         value
     }
 
-    /// A list and its entries.
+    /// Reads a list, and returns it with its entries.
     fn list(
         &mut self,
         field: &Field,
@@ -410,7 +410,7 @@ fn is_table(value: &DeValue<'_>) -> bool {
     value.is_table() || first.is_some_and(|first| first.get_ref().is_table())
 }
 
-/// A number, whole or not. A number too large for its type is out of every range.
+/// Reads a number, whole or not. A number too large for its type is out of every range.
 fn number(value: &Spanned<DeValue<'_>>) -> Option<f64> {
     match value.get_ref() {
         DeValue::Integer(_) => Some(integer(value).map_or(f64::INFINITY, |whole| whole as f64)),

@@ -3,13 +3,14 @@
 use super::action::Action;
 use crate::sim::TickRate;
 
-/// Tolerance, in ticks, by which a tie between two ticks goes to the later one: a time may be off by its last bit.
+/// Tolerance in ticks for a time half-way between two ticks. Such a time goes to the later tick, although it may be off
+/// by its last bit.
 const TIE: f64 = 1e-6;
 
 /// Converts between the ticks and the times of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeScale {
-    /// In order, never empty.
+    /// The pieces in order. There is at least one.
     pieces: Vec<Piece>,
 }
 
@@ -22,33 +23,33 @@ pub(crate) struct Piece {
 }
 
 impl Piece {
-    /// The ticks from 0 on, at this rate.
+    /// Creates the piece of the ticks from 0 on, at this rate.
     pub(crate) fn first(tick_hz: impl Into<TickRate>) -> Self {
         Self { tick: 0, t: 0.0, tick_hz: tick_hz.into() }
     }
 
-    /// The ticks from `tick` on, at another rate.
+    /// Creates the piece of the ticks from `tick` on, at another rate.
     pub(crate) fn then(self, tick: u64, tick_hz: TickRate) -> Self {
         Self { tick, t: self.t(tick), tick_hz }
     }
 
-    /// Time of a tick, in seconds.
+    /// Returns the time of a tick, in seconds.
     pub(crate) fn t(self, tick: u64) -> f64 {
         self.t + self.tick_hz.seconds(tick - self.tick)
     }
 
-    /// The fractional tick at a time in seconds; the first tick for all earlier times.
+    /// Returns the fractional tick at a time in seconds; the first tick for all earlier times.
     fn tick_at(self, t: f64) -> f64 {
         self.tick as f64 + ((t - self.t) * f64::from(self.tick_hz)).max(0.0)
     }
 
-    /// The tick nearest to a time in seconds; the first tick for all earlier times.
+    /// Returns the tick nearest to a time in seconds; the first tick for all earlier times.
     pub(crate) fn nearest_tick(self, t: f64) -> u64 {
         self.tick + nearest_tick(t - self.t, self.tick_hz)
     }
 
-    /// For each action of a script in seconds, in order, the tick before which it comes and the tick's time. It is
-    /// the nearest tick at the rate in force, which the actions themselves may change.
+    /// Returns for each action of a script in seconds, in order, the tick before which it comes and the tick's time. It
+    /// is the nearest tick at the rate in force, which the actions themselves may change.
     pub(crate) fn put_on_ticks<'a>(
         mut self,
         script: impl IntoIterator<Item = (f64, &'a Action)>,
@@ -64,14 +65,14 @@ impl Piece {
     }
 }
 
-/// The tick nearest to `seconds` after the first; the first tick for all earlier times.
+/// Returns the tick nearest to `seconds` after the first one; the first tick for all earlier times.
 pub(crate) fn nearest_tick(seconds: f64, tick_hz: TickRate) -> u64 {
     (seconds * tick_hz.hz() + TIE).max(0.0).round() as u64
 }
 
 impl TimeScale {
-    /// The times from `tick` on, which comes at `t` seconds. The rate is `tick_hz` and, from each tick of `changes`
-    /// on, in order, the rate paired with it.
+    /// Creates the scale from `tick` on, which comes at `t` seconds. The rate is `tick_hz` at first. From each tick of
+    /// `changes` on, in order, it is the rate paired with that tick.
     pub(crate) fn new(
         (tick, t): (u64, f64),
         tick_hz: TickRate,
@@ -86,23 +87,23 @@ impl TimeScale {
         Self { pieces }
     }
 
-    /// Time of a tick, in seconds.
+    /// Returns the time of a tick, in seconds.
     pub fn t(&self, tick: u64) -> f64 {
         let next = self.pieces.partition_point(|piece| piece.tick <= tick);
         self.pieces[next - 1].t(tick)
     }
 
-    /// A tick and its time, for people: `tick 30 (0.500 s)`.
+    /// Returns a tick and its time, for people: `tick 30 (0.500 s)`.
     pub fn moment(&self, tick: u64) -> String {
         format!("tick {tick} ({:.3} s)", self.t(tick))
     }
 
-    /// The fractional tick at a time in seconds; the first tick for all earlier times.
+    /// Returns the fractional tick at a time in seconds; the first tick for all earlier times.
     pub fn tick_at(&self, t: f64) -> f64 {
         self.piece_at(t).tick_at(t)
     }
 
-    /// The tick nearest to a time in seconds; the first tick for all earlier times.
+    /// Returns the tick nearest to a time in seconds; the first tick for all earlier times.
     pub fn nearest_tick(&self, t: f64) -> u64 {
         self.piece_at(t).nearest_tick(t)
     }
@@ -135,7 +136,7 @@ mod tests {
         assert_eq!(scale.nearest_tick(1.06), 61);
     }
 
-    /// A scene at 1 Hz, at 100 Hz from tick 5 on, and at 2 Hz from tick 45 on.
+    /// Returns a scene at 1 Hz, at 100 Hz from tick 5 on, and at 2 Hz from tick 45 on.
     fn scene() -> Scene {
         let text = "title = 'x'\ntick_hz = 1\nseconds = 9\n[[spring]]\nmass_kg = 1\n\
                     stiffness_n_per_m = 1\n[[command]]\nat_s = 5\ntick_hz = 100\n\
@@ -149,7 +150,7 @@ mod tests {
         let script = || scene.script.iter().map(|row| (row.at_s, &row.action));
         let put = |tick_hz: u32| Piece::first(tick_hz).put_on_ticks(script()).collect::<Vec<_>>();
         assert_eq!(put(1), [(5, 5.0), (45, 5.4), (46, 5.9)]);
-        // Another rate before the script sets its own does not move the actions in time.
+        // If another rate is set before the script sets its own, the actions do not move in time.
         assert_eq!(put(3), [(15, 5.0), (55, 5.4), (56, 5.9)]);
     }
 

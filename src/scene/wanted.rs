@@ -1,4 +1,4 @@
-//! The values that keys of a scene file take, with their wording in messages.
+//! The values that keys of a scene file take, and their wording in messages.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -9,17 +9,17 @@ use crate::sim::TickRate;
 use crate::sim::bodies::{self, Pin};
 use crate::sim::law::Layout;
 
-/// Most characters in the name of a layout or a pin.
+/// Maximum number of characters in the name of a layout or a pin.
 const MAX_WORD_CHARS: usize = 16;
 
-/// The place of a key.
+/// The part of a scene file in which a key stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
-    /// Before the first table.
+    /// The part before the first table.
     Top,
-    /// In a table array of this name.
+    /// A table array of this name.
     Table(&'static str),
-    /// In a table of this name.
+    /// A table of this name.
     Within(&'static str),
 }
 
@@ -91,7 +91,7 @@ pub(super) enum Wanted {
     /// The numbers of two nodes.
     Ends,
     Springs,
-    /// A spring in such a list.
+    /// A spring in the list of springs.
     Spring,
     /// The name of a [`Pin`].
     Pin,
@@ -117,7 +117,7 @@ impl Wanted {
     /// Any number.
     pub(super) const ANY: Self = Self::Number(bodies::Range::ANY);
 
-    /// The kind of value that a parameter of this range takes.
+    /// Returns the kind of value that a parameter of this range takes.
     pub(super) fn of(range: bodies::Range) -> Self {
         match range {
             bodies::Range::Count(most) => Wanted::Whole(1..=most.into()),
@@ -136,17 +136,17 @@ impl Wanted {
         matches!(self, Wanted::Whole(range) if range.contains(&whole))
     }
 
-    /// Most characters of a text.
+    /// Returns the maximum number of characters of a text.
     pub(super) fn max_chars(&self) -> usize {
         if let Wanted::Text(most) = self { *most } else { MAX_WORD_CHARS }
     }
 
-    /// The remedy for any other value.
+    /// Returns the remedy for a value that does not fit.
     pub(super) fn remedy(&self) -> String {
         format!("write {self}")
     }
 
-    /// The kind of value, for messages.
+    /// Returns the kind of value, for messages.
     pub(super) fn noun(&self) -> &'static str {
         match self {
             Wanted::Text(_)

@@ -22,14 +22,14 @@ impl Scene {
         let rows = rows.into_iter().flatten().filter_map(|row| row.get_ref().as_table());
         let spans: Vec<_> = rows.filter_map(|row| Some(row.get("hash")?.span())).collect();
         let mut text = text.to_owned();
-        // From the end, so that the earlier spans stay valid.
+        // The replacements go from the end to the beginning, so that the earlier spans stay valid.
         for (span, hash) in spans.into_iter().zip(hashes).rev() {
             text.replace_range(span, &format!("\"{hash:016x}\""));
         }
         text
     }
 
-    /// The text of a scene file that [reads](Scene::parse) as this scene.
+    /// Returns the text of a scene file that [reads](Scene::parse) as this scene.
     ///
     /// No text can describe a body or a method [in Rust](Scene::in_rust), so the text of such a scene cannot be read
     /// again.
@@ -65,13 +65,13 @@ impl Scene {
 }
 
 impl Check {
-    /// The check as a table of a scene file, after an empty line.
+    /// Returns the check as a table of a scene file, after an empty line.
     pub fn to_toml(&self) -> String {
         format!("\n[[{CHECKS}]]\n{}", Key::lines(&CHECK, self))
     }
 }
 
-/// The table of a body.
+/// Returns the table of a body.
 fn body_table(body: &SceneBody) -> String {
     let SceneBody { name, kind, values, .. } = body;
     let id = if kind.law().is_some() { LAW } else { kind.id };
@@ -83,7 +83,7 @@ fn body_table(body: &SceneBody) -> String {
     text.extend(kind.net().map(|plan| net_lines(plan)));
     for (parameter, index) in kind.parameters.iter().zip(0..) {
         let value = match parameter.range {
-            // A curve is the last parameter, and takes all remaining values.
+            // A curve is the last parameter, and has all remaining values.
             Range::Curve { .. } => list(values[index..].chunks_exact(2).map(numbers)),
             range => parameter_value(range, values[index]),
         };
@@ -92,7 +92,7 @@ fn body_table(body: &SceneBody) -> String {
     text
 }
 
-/// The nodes and springs of a net.
+/// Returns the nodes and springs of a net.
 fn net_lines(NetPlan { form, kicked }: &NetPlan) -> String {
     let lines = match form {
         NetLayout::Grid(grid) => Key::lines(&GRID_KEYS, grid),

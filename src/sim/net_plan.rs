@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use super::number::counted;
 
-/// The most nodes of a net. On a grid with shear of this size, two cores make a few hundred evaluations a second, so
-/// that a few lanes of explicit methods race at the rate of a display.
+/// The most nodes of a net. On a grid with shear of this size, two cores make a few hundred evaluations a second. That
+/// lets a few lanes of explicit methods race at the rate of a display.
 pub const MAX_NODES: usize = 100_000;
 
 /// The most springs of a net: eight per node, twice the springs of a grid with shear.

@@ -48,8 +48,9 @@ pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFau
     })
 }
 
-/// The rule of these lines under this id, written for this many frames per second. As a method it steps followers of first
-/// order, or bodies with a force: a rule of one number the former, one of two the latter. It knows nothing of their forces.
+/// The rule of these lines under this id, written for this many frames per second. As a method it steps followers of
+/// first order, or bodies with a force: a rule of one number the former, one of two the latter. It knows nothing of
+/// their forces.
 ///
 /// # Errors
 /// The first fault of the lines, or why no body moves like them.

@@ -268,6 +268,15 @@ impl BodyCell<'_> {
             for (outline, style) in rivals.drain(..) {
                 OutlineView { outline: &outline, ..shown }.draw_behind(picture, style);
             }
+            let pulled = studio.deck.pulled().filter(|pulled| pulled.body == index);
+            if let Some(pulled) = pulled.filter(|pulled| pulled.lane == lane.id) {
+                let handles = look.handles(&shown_state(&studio.deck, &studio.viewer, body).0);
+                let ends = handles.get(pulled.handle).map(|handle| [handle.at, pulled.hand]);
+                for [handle, hand] in ends.into_iter().map(|ends| ends.map(|at| camera.points(at)))
+                {
+                    picture.pen(camera.rect).dashed([handle, hand], 2.0, palette.text, [6.0, 4.0]);
+                }
+            }
             if let Some(held) = held.filter(|held| held.lane == lane.id) {
                 let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
                 picture.pen(camera.rect).line(handle, hand, 1.0, palette.text);

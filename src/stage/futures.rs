@@ -18,7 +18,10 @@ const APART: f32 = 7.0;
 const DIGIT: f32 = 15.0;
 const WORD: f32 = 40.0;
 /// Least distance of a digit from the edge of the stage, in points.
-const MARGIN: f32 = 10.0;
+const MARGIN: f32 = 26.0;
+/// From the end of a thread down to its digit, and half the height of a digit, in points.
+const BELOW: f32 = 11.0;
+const HALF_LINE: f32 = 7.0;
 
 /// Draws the futures of a body.
 pub(super) fn draw(
@@ -52,8 +55,10 @@ pub(super) fn draw(
         if let Some(end) =
             places.iter().position(|at| !clip.contains(*at)).or(places.len().checked_sub(1))
         {
+            // The order of the bounds suits a stage of no size too.
             let at = [0, 1].map(|axis| {
-                places[end][axis].clamp(clip.min[axis] + MARGIN, clip.max[axis] - MARGIN)
+                let at = places[end][axis].max(clip.min[axis] + MARGIN);
+                at.min(clip.max[axis] - MARGIN)
             });
             ends.push((at, *entry));
         }
@@ -68,18 +73,26 @@ pub(super) fn draw(
             }
         }
     }
-    ends.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
-    let mut free = f32::NEG_INFINITY;
+    // From the top, so that a digit gives way downwards or to the left.
+    ends.sort_by(|a, b| a.0[1].total_cmp(&b.0[1]).then(a.0[0].total_cmp(&b.0[0])));
+    let mut taken: Vec<([f32; 2], f32)> = Vec::new();
     for ([x, y], entry) in ends {
         let (words, colour, size) = match entry {
             Some(entry) => (format!("{}", entry + 1), moment.style(entry).0, DIGIT),
             None => ("exact".to_owned(), palette.exact, WORD),
         };
-        let half = size / 2.0;
-        let middle = x.max(free + half);
-        free = middle + half;
-        let at = [middle, (y + 11.0).min(clip.max[1] - 7.0)];
-        let label = captions::text(palette, at, Align::Centre, 12.0, colour, words);
+        let y = (y + BELOW).min(clip.max[1] - HALF_LINE);
+        let is_free = |x: f32| {
+            let is_apart = |([at_x, at_y], wide): &([f32; 2], f32)| {
+                (at_x - x).abs() >= (wide + size) / 2.0 || (at_y - y).abs() >= 2.0 * HALF_LINE
+            };
+            let is_within = x - size / 2.0 >= clip.min[0] && x + size / 2.0 <= clip.max[0];
+            is_within && taken.iter().all(is_apart)
+        };
+        let steps = (0..40).flat_map(|n| [1.0, -1.0].map(|way| x + way * n as f32 * DIGIT / 2.0));
+        let Some(x) = steps.into_iter().find(|x| is_free(*x)) else { continue };
+        taken.push(([x, y], size));
+        let label = captions::text(palette, [x, y], Align::Centre, 12.0, colour, words);
         picture.labels.push(label.strong());
     }
 }

@@ -7,7 +7,7 @@ use super::sketch::Camera;
 use crate::look::{Look, Pull};
 use crate::run::MenuIndex;
 use crate::scene::LaneId;
-use crate::studio::{HeldBody, Studio};
+use crate::studio::{HeldBody, PulledBody, Studio};
 
 /// Least radius (points) of a handle: as close as people aim.
 const MIN_RADIUS: f32 = 14.0;
@@ -149,6 +149,12 @@ impl Grasp {
         let pull = Pull { handle: *handle, to: held.hand - *offset_m, velocity };
         look.pull(&mut held.q, &mut held.v, pull);
         held.handle = look.handles(&held.q)[*handle].at;
+    }
+
+    /// The body on a spring to the hand.
+    pub fn pulled(&self) -> PulledBody {
+        let HeldBody { lane, body, hand, .. } = self.held;
+        PulledBody { lane, body, handle: self.handle, to: hand - self.offset_m, hand }
     }
 
     /// The body in the hand.

@@ -34,6 +34,7 @@ use crate::look::palette::{Palette, Rgba, fade};
 // The items of `sim` that the view names; it has no other access to `sim`.
 #[cfg(feature = "view")]
 pub(crate) use crate::sim::{
+    TickRate,
     bodies::{Coordinate, Parameter, Range, TakesEffect},
     number,
 };

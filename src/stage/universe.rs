@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::captions::{self, text};
 use super::framed::BodyView;
 use super::moment::DrawContext;
-use super::sketch::{Camera, circle};
+use super::sketch::{Camera, PEN, circle};
 use super::{Align, Label, Picture, Rect};
 use crate::look::landmarks::SilhouetteShape::{Disc, Outline, Ring};
 use crate::look::landmarks::{LANDMARKS, Landmark};
@@ -21,6 +21,8 @@ const GROWN: f64 = 3.0;
 const LENGTHS: [f32; 2] = [0.42, 0.035];
 /// Largest extent up and down, relative to the height of the cell.
 const HEIGHT: f32 = 0.2;
+/// Least height of a trail above landmarks, in points.
+const LEAST_TRAIL: f32 = 24.0;
 /// Distance (points) of landmarks from the middle, where the true body is; and heights of their middles, their
 /// measures and the sentence above the foot of the cell.
 const ASIDE: f32 = 16.0;
@@ -39,7 +41,9 @@ pub(super) fn is_shown(moment: &DrawContext<'_>, view: &BodyView, camera: &Camer
 pub(super) fn with_short_paper(camera: &Camera) -> Camera {
     let height = camera.rect.max[1] - camera.rect.min[1];
     let bottom = camera.rect.max[1] - FEET[0] - HEIGHT * height;
-    Camera { paper: f64::from(bottom - camera.at[1]).min(camera.paper), ..*camera }
+    // On a low stage they meet, but a trail of no height would show no swing.
+    let least = camera.at[1] + PEN * camera.block + LEAST_TRAIL;
+    Camera { paper: f64::from(bottom.max(least) - camera.at[1]).min(camera.paper), ..*camera }
 }
 
 /// Draws landmarks about as long as the stage is wide: the largest right of the middle, the next left of it.

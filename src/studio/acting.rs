@@ -1,4 +1,4 @@
-//! Edits of a run by hand: actions, picks, steps in time.
+//! Edits of a run by hand: actions, choices of methods, and steps in time.
 
 use super::deck::Deck;
 use super::driving::make_tick;
@@ -30,7 +30,7 @@ pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {
     let (done, mut told) = deck.with_notices(|run, notices| run.act_within(action, notices));
     let Some(done) = done else { return viewer.set_notice_parts(told) };
     deck.edits += 1;
-    // Run, so that the person sees the effect of an input at rest.
+    // The run starts, so that the person sees the effect of an input that was given at rest.
     deck.running |= is_input && rests;
     if let Action::Lane { .. } = done.action {
         deck.run.next_mut().entry = deck.active();
@@ -57,7 +57,7 @@ pub(super) fn pick(deck: &mut Deck, viewer: &mut Viewer, entry: MenuIndex) {
     deck.run.next_mut().entry = entry;
 }
 
-/// Menu index of a method. If the menu lacks it, a notice explains why.
+/// Returns the menu index of a method. If the method is not on the menu, a notice explains why.
 pub(super) fn menu_index(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -76,8 +76,8 @@ pub(super) fn menu_index(
     listed
 }
 
-/// Gives a menu method new substeps and a new tolerance, switches its racing lane to them, and picks it. A race
-/// without the method restarts with it.
+/// Gives a menu method new substeps and a new tolerance, applies them to the method's lane, and picks the method. A
+/// race that lacks the method restarts with it.
 pub(super) fn set_lane(deck: &mut Deck, viewer: &mut Viewer, spec: LaneSpec) {
     let Some(entry) = menu_index(deck, viewer, spec.method) else { return };
     if !spec.is_in_range() {
@@ -147,7 +147,7 @@ pub(super) fn toggle_equal_cost(deck: &mut Deck, viewer: &mut Viewer) {
     viewer.set_notice(notice);
 }
 
-/// Pauses and moves `ticks` ticks forward, or back if negative.
+/// Pauses and moves by `ticks` ticks, forward if the number is positive, back if it is negative.
 pub(super) fn step_by(deck: &mut Deck, viewer: &mut Viewer, ticks: i64) {
     deck.running = false;
     let tick = deck.race().tick().saturating_add_signed(ticks);
@@ -158,7 +158,7 @@ pub(super) fn step_by(deck: &mut Deck, viewer: &mut Viewer, ticks: i64) {
     deck.run.show_present();
 }
 
-/// Reports how far the run has come, if that is before this tick.
+/// Reports how far the run has come, if it has not yet come to this tick.
 pub(super) fn tell_of_the_future(deck: &mut Deck, viewer: &mut Viewer, tick: u64) {
     let (end, times) = (deck.run.end(), deck.run.times());
     if tick > end {
@@ -173,7 +173,7 @@ pub(super) fn seek(deck: &mut Deck, viewer: &mut Viewer, tick: u64) {
     follow(deck, viewer, Jump::ToAnotherTick);
 }
 
-/// Notice for an action whose number is out of range.
+/// Returns the notice for an action whose number is out of range.
 fn out_of_range(noun: &str) -> String {
     format!("out of range, so nothing changed: {noun}")
 }

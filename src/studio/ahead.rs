@@ -1,4 +1,4 @@
-//! The near future of the selected lane: the anatomy of its next tick, and a fan of futures.
+//! The near future of the selected lane: the anatomy of its next tick, and the futures under each method.
 
 use super::Studio;
 use super::deck::Deck;
@@ -7,8 +7,8 @@ use crate::measure;
 use crate::measure::{FutureCurve, OneStep};
 use crate::sim::stability::Tick;
 
-/// The anatomy of the next tick of the displayed body in the selected lane. `None` if the body has halted. While a
-/// person is [asked](Viewer::is_asked) for a prediction, it omits the end.
+/// Returns the anatomy of the next tick of the displayed body in the selected lane, or `None` if the body has halted.
+/// While a person is [asked](Viewer::is_asked) for a prediction, the anatomy omits the end of the tick.
 pub fn one_step(deck: &Deck, viewer: &Viewer) -> Option<OneStep> {
     let (entrant, race) = (deck.selected(), deck.race());
     let spec = entrant.spec;
@@ -22,8 +22,8 @@ pub fn one_step(deck: &Deck, viewer: &Viewer) -> Option<OneStep> {
     })
 }
 
-/// Lines of constant energy in the displayed body's phase plane, through the state `through`, for coordinates in
-/// `range`. Empty if the body has several coordinates, or conserves no energy.
+/// Returns the lines of constant energy through the state `through` in the displayed body's phase plane, for
+/// coordinates in `range`. There are none if the body has several coordinates, or if it conserves no energy.
 pub fn orbit(
     deck: &Deck,
     viewer: &Viewer,
@@ -34,8 +34,8 @@ pub fn orbit(
     measure::orbit(body, deck.race().t(), through, range)
 }
 
-/// Whether the stage shows futures: while a person holds or drags the tick rate, for a second after a key has changed
-/// it, or on request while time stands still.
+/// Whether the stage shows futures. It shows them while a person holds or drags the tick rate, for a second after a key
+/// has changed the rate, or on request while time stands still.
 pub fn shows_futures(studio: &Studio) -> bool {
     let is_dragged = studio.viewer.hz_at_press.is_some_and(|hz| hz != studio.deck.race().tick_hz());
     studio.loop_lab().is_none()
@@ -45,8 +45,8 @@ pub fn shows_futures(studio: &Studio) -> bool {
             || studio.viewer.display().futures && !studio.deck.time_runs())
 }
 
-/// The next second of the body with this index in the scene, in the selected lane; the truth comes last. Empty if the
-/// body has halted, or has too many coordinates.
+/// Returns the next second of the body with this index in the scene, from its state in the selected lane, under each
+/// method. The truth comes last. There is none if the body has halted, or has too many coordinates.
 pub fn futures(deck: &Deck, body: usize) -> Vec<FutureCurve> {
     let of = &deck.selected().lane.bodies()[body];
     let held = deck.held().filter(|held| held.body == body);

@@ -17,11 +17,11 @@ use super::restarting::plot_coordinate;
 use super::viewer::{Dialog, Viewer};
 use crate::loops::loop_lab::LoopCommand;
 
-/// Asked before quitting with unsaved edits.
+/// Question before the program quits with unsaved edits.
 const QUIT_QUESTION: &str = "this run is not saved: F5 saves it, Esc again quits";
 
 impl Studio {
-    /// Executes a command. Returns the driver's part of it, if any.
+    /// Executes a command. Returns the part of the command that the driver has to execute, if any.
     pub fn apply(&mut self, command: impl Into<Command>) -> Option<DriverRequest> {
         let command = command.into();
         self.viewer.hints.mark_followed(&command, self.deck.run.next().scene.hint.as_deref());
@@ -68,6 +68,7 @@ impl Studio {
             ViewCommand::PointerDown(is_down) => {
                 self.viewer.hz_at_press = is_down.then(|| self.deck.race().tick_hz());
                 self.deck.tick_rate_is_held &= is_down;
+                self.deck.pulled.take_if(|_| !is_down);
             }
             ViewCommand::HoldTickRate => self.deck.tick_rate_is_held = !is_in_loop_lab,
             ViewCommand::ToggleFutures => {
@@ -116,7 +117,7 @@ impl Studio {
             ViewCommand::PointAt(entry) => self.viewer.pointed = entry,
             ViewCommand::AdviseOnOneBody(is_one) => display.advises_on_one_body = is_one,
             ViewCommand::ToggleHelp => display.help = !display.help,
-            ViewCommand::LetGo => self.deck.held = None,
+            ViewCommand::LetGo => _ = self.deck.let_go(),
             ViewCommand::ZoomPan { body, zoom_pan } => {
                 self.viewer.view.set_zoom_pan(body, zoom_pan)
             }
@@ -146,16 +147,16 @@ impl Studio {
                 return if self.escape() { None } else { quit(&mut self.deck, &mut self.viewer) };
             }
         }
-        // A stop of the guide opens a scene with its own run.
+        // A stop of the guide opens a scene, which has a run of its own.
         if self.deck.openings != openings {
             self.loops = None;
         }
         None
     }
 
-    /// Closes the foremost open thing. Returns whether there was one.
+    /// Closes the foremost thing that is open. Returns whether anything was open.
     fn escape(&mut self) -> bool {
-        self.deck.held.take().is_some()
+        self.deck.let_go()
             || self.viewer.dialog.take().is_some()
             || take(&mut self.viewer.preferences.display.help)
             || self.close_guide()
@@ -164,7 +165,7 @@ impl Studio {
             || leave_loop_lab(self)
     }
 
-    /// Closes the guide, and the loop lab on the motion of its stop. Returns whether the guide was open.
+    /// Closes the guide, and a loop lab that shows the motion of the guide's stop. Returns whether the guide was open.
     fn close_guide(&mut self) -> bool {
         let is_closed = close_guide(&mut self.deck, &mut self.viewer);
         self.loops.take_if(|_| is_closed);
@@ -172,7 +173,7 @@ impl Studio {
     }
 }
 
-/// The request, unless the driver would have nothing to copy.
+/// Returns the request, or `None` if it would leave the driver nothing to copy.
 fn if_copyable(deck: &Deck, viewer: &Viewer, request: DriverRequest) -> Option<DriverRequest> {
     match request {
         DriverRequest::CopyMethod(entry) => deck.entries().get(entry).map(|_| request),
@@ -181,7 +182,7 @@ fn if_copyable(deck: &Deck, viewer: &Viewer, request: DriverRequest) -> Option<D
     }
 }
 
-/// Quits. With unsaved edits, asks first and quits at the second request.
+/// Quits. If there are unsaved edits, asks first and quits at the second request.
 fn quit(deck: &mut Deck, viewer: &mut Viewer) -> Option<DriverRequest> {
     let is_asked = viewer.notice.as_deref() == Some(QUIT_QUESTION);
     if is_asked || deck.edits == deck.saved_edits || viewer.preferences.is_recorded {

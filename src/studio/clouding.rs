@@ -1,4 +1,4 @@
-//! The clouds of the studio: which ones to compute, and which results to accept.
+//! The clouds of the studio: which clouds to compute, and which results to accept.
 
 use std::sync::Arc;
 
@@ -10,9 +10,9 @@ use super::viewer::Viewer;
 use crate::measure::cloud::{CloudKind, CloudRequest, CloudWorker, FoundCloud, NoCloud};
 use crate::run::race::Interventions;
 
-/// The clouds that the studio needs now, for a [`CloudWorker`]. They surround its lanes from the start of the run, or
-/// from the last action on the bodies by a person or the script. `None` while another instrument is shown, or if the
-/// displayed body has no cloud.
+/// Returns the clouds that the studio needs now, as a request to a [`CloudWorker`]. The clouds surround the lanes from
+/// the start of the run, or from the last action on the bodies by a person or the script. Returns `None` while another
+/// instrument is shown, or if the displayed body has no cloud.
 pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
     let Studio { deck, viewer, loops } = studio;
     let is_shown = viewer.display().instrument == Instrument::Cloud && loops.is_none();
@@ -41,7 +41,7 @@ pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
     })
 }
 
-/// Why the displayed body has no cloud, if it has several coordinates.
+/// Returns the reason why the displayed body has no cloud, if it has several coordinates.
 pub fn cloud_refusal(deck: &Deck, viewer: &Viewer) -> Option<NoCloud> {
     let body = &deck.race().truth().bodies()[viewer.view.body];
     let coordinates = body.coordinates().len();
@@ -49,19 +49,19 @@ pub fn cloud_refusal(deck: &Deck, viewer: &Viewer) -> Option<NoCloud> {
     (coordinates > 1).then(|| NoCloud::SeveralCoordinates { body: name(), coordinates })
 }
 
-/// The latest [accepted](accept_cloud) clouds, at a tick near the present one. `None` while there are none, or if
-/// they are not shown.
+/// Returns the latest [accepted](accept_cloud) clouds, at a tick near the present one. Returns `None` while there are
+/// none, or if they are not shown.
 pub fn shown_cloud(studio: &Studio) -> Option<&FoundCloud> {
     let wanted = cloud_request(studio)?;
     studio.viewer.cloud.as_ref().filter(|found| found.request.is_alike(&wanted))
 }
 
-/// Time for which the clouds with which a scene opens show their start, and the longest wait for them, in nanoseconds.
+/// Time for which the clouds of an opened scene stay at their start, and maximum time to wait for them, in nanoseconds.
 const START_NS: i64 = 1_000_000_000;
 const MAX_WAIT_NS: i64 = 3_000_000_000;
 
-/// Whether time waits at the start of a scene that opens with clouds, so that a person sees them whole before they
-/// move. Counts this frame.
+/// Whether time waits at the start of a scene that opens with clouds, so that a person sees the clouds whole before
+/// they move. Adds this frame to the time waited.
 pub(super) fn wait_for_cloud(studio: &mut Studio, frame_ns: i64) -> bool {
     let is_watched = studio.display().motion != Motion::Recorded;
     let is_at_start = studio.race().tick() == 0 && studio.scene().clouds.is_some();
@@ -74,7 +74,7 @@ pub(super) fn wait_for_cloud(studio: &mut Studio, frame_ns: i64) -> bool {
             studio.viewer.start_shown_ns = shown_ns.max(0).saturating_add(frame_ns);
             shown_ns < START_NS
         }
-        // Time without a picture counts below nought.
+        // Time without a picture of the clouds counts as negative.
         false => {
             studio.viewer.start_shown_ns = shown_ns.min(0).saturating_sub(frame_ns);
             shown_ns > -MAX_WAIT_NS
@@ -89,9 +89,10 @@ pub fn accept_cloud(studio: &mut Studio, found: FoundCloud) {
     }
 }
 
-/// Steps the clouds to the present tick, now, with a worker that may hold earlier ones. `stop` ends the work early.
+/// Steps the clouds to the present tick at once. The worker may have earlier clouds already. `stop` ends the work
+/// early.
 pub fn complete_clouds(studio: &mut Studio, worker: &mut CloudWorker, stop: impl Fn() -> bool) {
-    // A caller that waits gets all points.
+    // A caller that waits gets all points of the clouds.
     let wanted = cloud_request(studio).map(|wanted| CloudRequest { in_time: false, ..wanted });
     worker.set_request(wanted.map(Arc::new));
     let mut last = None;
@@ -107,7 +108,7 @@ pub fn complete_clouds(studio: &mut Studio, worker: &mut CloudWorker, stop: impl
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::studio::{StageCommand, Studio};
+    use crate::studio::{StageCommand, Studio, show_clouds_of_scene};
 
     #[test]
     fn a_lone_cloud_never_leaves_its_picture() {
@@ -131,5 +132,27 @@ mod tests {
                 assert!(border.iter().all(is_in), "{scene}: the exact cloud is in it too");
             }
         }
+    }
+
+    #[test]
+    fn a_scene_of_clouds_shows_its_start_for_a_second() {
+        const FRAME_NS: i64 = 16_666_667;
+        let mut studio = Studio::new(Scene::built_in("liouville").unwrap());
+        studio.viewer.preferences.display.motion = Motion::Live;
+        show_clouds_of_scene(&mut studio.deck, &mut studio.viewer);
+        // Half a second passes until the first picture.
+        (0..30).for_each(|_| _ = studio.advance(FRAME_NS));
+        complete_clouds(&mut studio, &mut CloudWorker::default(), || false);
+        let frames = (0..600).take_while(|_| {
+            studio.advance(FRAME_NS);
+            studio.race().tick() == 0
+        });
+        let frames = frames.count();
+        assert!((60..80).contains(&frames), "{frames} frames, and up to a tick of 1/12 s");
+        let mut blind = Studio::new(Scene::built_in("liouville").unwrap());
+        blind.viewer.preferences.display.motion = Motion::Live;
+        show_clouds_of_scene(&mut blind.deck, &mut blind.viewer);
+        (0..60 * 4).for_each(|_| _ = blind.advance(FRAME_NS));
+        assert!(blind.race().tick() > 0, "without a worker it waits no longer than three seconds");
     }
 }

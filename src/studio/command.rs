@@ -1,4 +1,5 @@
-//! All commands of a person. Keyboard, panels, scene scripts and tests all make the same [`Command`]s.
+//! All commands that a person can give. The keyboard, the panels, the scripts of scenes and the tests all make the same
+//! [`Command`]s.
 
 use std::collections::BTreeMap;
 
@@ -6,6 +7,7 @@ use super::deck::HeldBody;
 use super::display::{DriverRequest, Splits};
 use super::instrument::Instrument;
 use super::my_spring::MySpring;
+use super::pulling::PulledBody;
 use super::step::Step;
 use super::zoom_pan::ZoomPan;
 use crate::loops::loop_lab::LoopCommand;
@@ -17,19 +19,18 @@ use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 use crate::tools::source_code::Language;
 
-/// A command of a person. A command on the run becomes an [`Action`], which states the new value rather than a
-/// change.
+/// A command of a person. A command on the run becomes an [`Action`], which states the new value instead of the change.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Commands on the run and its displays; the loop lab refuses them.
+    /// A command on the run and its displays. The loop lab refuses it.
     Run(RunCommand),
-    /// Commands on the run, or on the loop lab while it is open.
+    /// A command on the run, or on the loop lab while that is open.
     Stage(StageCommand),
-    /// Opens, leaves or changes the loop lab.
+    /// A command that opens, leaves or changes the loop lab.
     Loop(LoopCommand),
-    /// Commands on the window around the stage, and on the whole program.
+    /// A command on the window around the stage, or on the whole program.
     View(ViewCommand),
-    /// Requests to the driver. The loop lab has no run to record.
+    /// A request to the driver. The loop lab refuses to record, because it has no run.
     Ask(DriverRequest),
 }
 
@@ -51,67 +52,70 @@ from_each! {
 pub enum RunCommand {
     /// Performs this action on the run.
     Act(Action),
-    /// Sets the substeps and the tolerance of this menu method, and switches to it like [`StageCommand::Method`]. A
-    /// racing lane keeps its state.
+    /// Sets the substeps and the tolerance of this menu method, and then switches to it like [`StageCommand::Method`].
+    /// A racing lane keeps its state.
     SetLane(LaneSpec),
-    /// Pauses and moves to this tick, at most the last one reached. For a later tick, a notice reports how far the
-    /// run has come.
+    /// Pauses and moves to this tick, but at most to the last one reached. If the tick is later, a notice reports how
+    /// far the run has come.
     Seek(u64),
-    /// Rewinds to before the selected lane blew up, and runs.
+    /// Rewinds to some time before the selected lane blew up, and runs.
     WatchAgain,
-    /// Undoes the last edit of the run or of its next start.
+    /// Undoes the last edit, whether of the run or of the next start.
     Undo,
     /// Redoes the edit that was undone last.
     Redo,
     /// Sets the speed in percent of real time.
     SpeedPercent(u32),
-    /// A tenth more throttle.
+    /// Raises the throttle by a tenth.
     ThrottleUp,
-    /// A tenth less throttle.
+    /// Lowers the throttle by a tenth.
     ThrottleDown,
-    /// A tenth more rudder to the left.
+    /// Turns the rudder to the left by a tenth.
     RudderLeft,
-    /// A tenth more rudder to the right.
+    /// Turns the rudder to the right by a tenth.
     RudderRight,
     /// Selects the next [interpolation](crate::run::race::Interpolation::ALL) between ticks.
     NextInterpolation,
-    /// Shows this parameter of the displayed body on the stability map, by its index.
+    /// Shows the displayed body's parameter with this index on the stability map.
     MapParameter(usize),
     /// Chooses the clouds of the cloud instrument.
     Cloud(CloudChoice),
-    /// Holds a body; time stands still until its release. Placing it is an [`Action`].
+    /// Holds a body. Time stands still until the person releases it. Placing the body is an [`Action`].
     Hold(HeldBody),
+    /// Pulls a body by a spring to the pointer while time runs, until its release. Each tick of it is an [`Action`].
+    Pull(PulledBody),
     /// Opens or closes the inspector.
     ToggleInspector,
     /// Sets the length of the scene in seconds, within [`MIN_SECONDS`](crate::scene::MIN_SECONDS) and
-    /// [`MAX_SECONDS`](crate::scene::MAX_SECONDS). Plots and verdicts cover it.
+    /// [`MAX_SECONDS`](crate::scene::MAX_SECONDS). Plots and verdicts cover this length.
     Seconds(f64),
-    /// Switches equal cost on or off. With it, substeps bring the cost of each lane nearest to that of the most
-    /// expensive one.
+    /// Switches equal cost on or off. At equal cost, each lane takes the substeps that bring its cost nearest to that
+    /// of the most expensive lane.
     ToggleEqualCost,
 }
 
-/// Commands on the run, or on the loop lab while it is open.
+/// Commands on the run, or on the loop lab while that is open.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StageCommand {
-    /// Solo: switches the bodies to this method in flight. Race: selects its lane.
+    /// In solo mode, switches the bodies to this method in flight. In a race, selects the method's lane.
     Method(&'static Method),
-    /// Solo: switches to the method with this menu index, from 0. Race: selects its lane.
+    /// In solo mode, switches to the method with this menu index, from 0. In a race, selects the method's lane.
     Pick(MenuIndex),
     /// Selects the next or the previous menu entry, cyclically.
     MethodBeside(Step),
-    /// Solo to race, from the start line; race to solo, in the present state of the selected lane.
+    /// Switches from solo to a race, from the start line, or from a race to solo, in the present state of the selected
+    /// lane.
     ToggleRace,
     /// Pauses and moves one tick forward or back.
     Tick(Step),
     /// Pauses and moves one second forward or back.
     Second(Step),
-    /// Returns to tick 0, with the bodies at their start and the script at its beginning. A person's choice of method
-    /// and tick rate stays; a script's does not.
+    /// Returns to tick 0, with the bodies at their start and the script at its beginning. The method and tick rate that
+    /// a person has chosen stay. Those that a script has set do not.
     Restart,
     /// Sets the tick rate in Hz.
     TickHz(TickRate),
-    /// Sets the next higher or lower rate of [`TICK_LADDER`].
+    /// Sets the next higher or lower tick rate of [`TICK_LADDER`].
     TickRate(Step),
     /// Sets the next higher or lower speed of [`SPEED_LADDER`].
     Speed(Step),
@@ -119,9 +123,9 @@ pub enum StageCommand {
     Scene(usize),
     /// Opens the next or the previous scene of the list, cyclically.
     SceneBeside(Step),
-    /// Opens the spring of the dialog as a scene, with advice on it.
+    /// Opens the spring of the dialog as a scene, and shows advice on it.
     OpenSpring,
-    /// Race: toggles between overlaid lanes and lanes side by side.
+    /// Toggles between the two arrangements of a race: all lanes over each other, and lanes side by side.
     ToggleArrangement,
     /// Shows this instrument.
     Instrument(Instrument),
@@ -129,7 +133,7 @@ pub enum StageCommand {
     InstrumentBeside(Step),
     /// Shows the metric with this index in [`METRICS`](crate::run::METRICS) in the error instrument.
     Metric(usize),
-    /// Selects the body of the plots and the lane list, by its index in the scene, from 0.
+    /// Selects the displayed body of the plots and the lane list, by its index in the scene, from 0.
     Body(usize),
 }
 
@@ -138,29 +142,29 @@ pub enum StageCommand {
 pub enum ViewCommand {
     /// Runs or pauses.
     TogglePause,
-    /// The pointer's button goes down or up. Undo treats all edits while it is down as one.
+    /// Reports that the pointer's button goes down or up. Undo treats all edits while the button is down as one.
     PointerDown(bool),
-    /// Holds the tick rate: time waits, and the stage shows futures, until the pointer's button goes up.
+    /// Holds the tick rate until the pointer's button goes up. Meanwhile time waits, and the stage shows futures.
     HoldTickRate,
     /// Opens a field for the path of a scene file.
     AskForPath,
-    /// Opens the same field for a recording to compare with the run.
+    /// Opens the field for the path of a recording to compare with the run.
     AskForRun,
-    /// Sets the text of that field.
+    /// Sets the text of the field for a path.
     TypePath(String),
     /// Opens a dialog with the numbers of a custom spring.
     AskForSpring,
-    /// Sets those numbers.
+    /// Sets the numbers of the spring in the dialog.
     DescribeSpring(MySpring),
     /// Sets the tick rate (Hz) for the spring of the dialog.
     SpringTickHz(TickRate),
     /// Closes the open dialog.
     CloseDialog,
-    /// Puts instruments, table and timeline around the stage, or lets the stage fill the window.
+    /// Puts the instruments, the table and the timeline around the stage, or lets the stage fill the window.
     ToggleMeasure,
-    /// Moves the boundaries between stage, instruments and table, within their limits.
+    /// Moves the boundaries between stage, instruments and table, as far as their limits allow.
     Split(Splits),
-    /// Shows the next second under each method, and pauses for it; or hides it.
+    /// Pauses and shows the next second under each method, or hides it.
     ToggleFutures,
     /// Shows or hides the exact ghost.
     ToggleGhost,
@@ -168,24 +172,24 @@ pub enum ViewCommand {
     ToggleTheme,
     /// Sets the next larger or smaller size of type and panels from [`SCALE_LADDER`].
     Scale(Step),
-    /// Sets the usual size of type and panels.
+    /// Restores the usual size of type and panels.
     UsualScale,
-    /// Shows this quantity in the motion instrument; `None` restores each body's default.
+    /// Shows this quantity in the motion instrument. `None` restores the usual quantity of each body.
     Quantity(Option<Quantity>),
     /// Shows this coordinate of a body in the plots.
     Coordinate {
         /// The body's index in the scene.
         body: usize,
-        /// The index of the coordinate.
+        /// Index of the coordinate.
         coordinate: usize,
     },
-    /// Zooms and pans the plots to these ranges of their axes, by name; all other axes are fitted.
+    /// Zooms and pans the plots to these ranges of their axes, by the names of the axes. All other axes are fitted.
     PlotRanges(BTreeMap<String, [f64; 2]>),
-    /// Shows the instrument over the stage, or beside it again.
+    /// Puts the instrument over the stage, or back beside it.
     ToggleEnlarged,
-    /// Copies the method of the lane that is [pointed at](ViewCommand::PointAt) as source code, in the language of
-    /// the last copy. For an engine, copies the lines that set the displayed spring; without a lane, the instrument's
-    /// values.
+    /// Copies the method of the lane that is [pointed at](ViewCommand::PointAt) as source code, in the language of the
+    /// last copy. If the method is an engine, copies the lines that set the displayed spring. If no lane is pointed at,
+    /// copies the instrument's values.
     Copy,
     /// Sets the language of the next copied method.
     Language(Language),
@@ -196,13 +200,13 @@ pub enum ViewCommand {
         /// The language.
         language: Language,
     },
-    /// The pointer or the keyboard's focus moves to the lane at this menu index, or leaves the list.
+    /// Reports that the pointer or the keyboard's focus moves to the lane at this menu index, or leaves the list.
     PointAt(Option<MenuIndex>),
     /// Limits the advice to the displayed body, or extends it to all bodies.
     AdviseOnOneBody(bool),
-    /// Releases the held body, which resumes from where it was taken.
+    /// Releases the held body, which moves on from where it was taken.
     LetGo,
-    /// Zooms and pans a body's part of the stage.
+    /// Zooms and pans the part of the stage that shows a body.
     ZoomPan {
         /// The body's index in the scene.
         body: usize,
@@ -219,20 +223,20 @@ pub enum ViewCommand {
     StopBeside(Step),
     /// Predicts this choice at the guide's stop, from 0.
     Predict(usize),
-    /// Releases or closes the first of these: held body, overlay, guide, enlarged instrument, inspector, loop lab.
-    /// Otherwise quits; with unsaved edits, at the second time.
+    /// Releases or closes the first of these that there is: held body, dialog, help, guide, enlarged instrument,
+    /// inspector, loop lab. Otherwise quits, but at the second time only if there are unsaved edits.
     Escape,
 }
 
-/// Tick rates of the bracket keys in Hz: the usual ones of games and screens, and 49 and 50 next to the limit of the
-/// stiff spring.
+/// Tick rates that the bracket keys set, in Hz. They are the usual rates of games and screens, and 49 and 50, between
+/// which lies the limit of the stiff spring.
 pub const TICK_LADDER: [u32; 14] = [2, 5, 10, 15, 20, 30, 49, 50, 60, 100, 120, 144, 240, 1000];
 
-/// Speeds of the keys `-` and `=`, in percent of real time.
+/// Speeds that the keys `-` and `=` set, in percent of real time.
 pub const SPEED_LADDER: [u32; 6] = [25, 50, 100, 200, 400, 1600];
 
-/// Sizes of type and panels for the keys `Ctrl +` and `Ctrl −`, in percent of the usual one. Type is legible at the
-/// smallest, and the panels fit a screen of 1920 × 1080 up to the largest.
+/// Sizes of type and panels that the keys `Ctrl +` and `Ctrl −` set, in percent of the usual size. Type is legible at
+/// the smallest one, and the panels fit a screen of 1920 × 1080 up to the largest one.
 pub const SCALE_LADDER: [u32; 8] = [75, 90, 100, 110, 125, 150, 175, 200];
 
 /// Default size of type and panels, in percent.

@@ -1,4 +1,4 @@
-//! A person's controls for a run: the run, its clock, the selected lane, and a body in hand.
+//! A person's controls of a run: the run, its clock, the selected lane, and a body in hand.
 
 use std::sync::Arc;
 
@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::compared::Compared;
 use super::display::{Display, View};
 use super::notices::Notices;
+use super::pulling::PulledBody;
 use super::scene_list::SceneList;
 use crate::measure::cloud::MAX_CLOUDS;
 use crate::run::past::Past;
@@ -17,35 +18,37 @@ use crate::run::{
 use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::sim::Clock;
 
-/// A run under a person's control.
+/// A run that a person controls.
 pub struct Deck {
     pub(super) scene_list: SceneList,
     pub(super) run: Run,
     pub(super) clock: Clock,
     pub(super) running: bool,
-    /// The body that the person holds.
+    /// The body that the person holds in hand.
     pub(super) held: Option<HeldBody>,
+    /// The body that the person pulls while time runs.
+    pub(super) pulled: Option<PulledBody>,
     /// Whether the person holds the tick rate.
     pub(super) tick_rate_is_held: bool,
-    /// Lane selected in a race; it stays selected through switches of method.
+    /// The lane that is selected in a race. It stays selected through switches of its method.
     pub(super) selected: LaneId,
-    /// Whether a person, a script or a verdict has selected it.
+    /// Whether a person, a script or a verdict has selected the lane.
     pub(super) is_selected: bool,
-    /// Number of menu methods that the person has seen: all up to the last active one.
+    /// Number of menu methods that the person has met, which are all those up to the last that was active.
     met: usize,
     pub(super) dropped: u64,
-    /// Number of scenes opened so far. A driver does not count the time of an opening.
+    /// Number of scenes opened so far. A driver excludes the time that an opening takes.
     pub(super) openings: u64,
-    /// Number of edits, and how many are saved.
+    /// Number of edits, and number of edits that are saved.
     pub(super) edits: u64,
     pub(super) saved_edits: u64,
-    /// The recording to which the run was compared, if they differ.
+    /// The recording to which the run was compared, if the two differ.
     pub(super) compared: Option<Box<Compared>>,
-    /// The run that a person left for the guide, while a stop is on the stage.
+    /// The run that the person left for the guide, while a stop of the guide is on the stage.
     pub(super) left: Option<Box<LeftRun>>,
 }
 
-/// A run that a person left for the guide, with its view.
+/// A run that a person left for the guide, and the person's view of it.
 pub(super) struct LeftRun {
     pub(super) deck: Deck,
     pub(super) view: View,
@@ -53,7 +56,7 @@ pub(super) struct LeftRun {
 }
 
 impl Deck {
-    /// A run at its start, not paused.
+    /// Creates the controls of a run at its start, without a pause.
     pub(super) fn new(scene_list: SceneList, run: Run) -> Self {
         let clock = Clock::new(run.start().tick_hz());
         let selected = run.race().entrants()[0].id;
@@ -63,6 +66,7 @@ impl Deck {
             clock,
             running: true,
             held: None,
+            pulled: None,
             tick_rate_is_held: false,
             selected,
             is_selected: false,
@@ -76,75 +80,77 @@ impl Deck {
         }
     }
 
-    /// The open scene with the person's parameters and length.
+    /// Returns the open scene, with the person's parameters and length.
     pub fn scene(&self) -> &Scene {
         &self.run.next().scene
     }
 
-    /// The scene as it was opened.
+    /// Returns the scene as it was opened.
     pub fn scene_as_opened(&self) -> &Scene {
         &self.run.next().opened
     }
 
-    /// The run, its past and its future.
+    /// Returns the run with its past and its future.
     pub fn run(&self) -> &Run {
         &self.run
     }
 
-    /// The lanes and the truth.
+    /// Returns the lanes and the truth.
     pub fn race(&self) -> &Race {
         self.run.race()
     }
 
-    /// The recorded past of the lanes and the truth.
+    /// Returns the recorded past of the lanes and the truth.
     pub fn past(&self) -> &Past {
         self.run.past()
     }
 
-    /// The methods to which digits and rows refer: those of the [menu](crate::run::Menu).
+    /// Returns the methods of the [menu](crate::run::Menu). Digits and rows of the table refer to them.
     pub fn entries(&self) -> &[LaneSpec] {
         self.run().menu().specs()
     }
 
-    /// Name of the method with this menu index, with its settings if another entry has the same method.
+    /// Returns the name of the method with this menu index. If another entry has the same method, the name includes the
+    /// settings.
     pub fn lane_name(&self, entry: MenuIndex) -> String {
         let spec = &self.entries()[entry];
         spec.distinct_name(spec.method.name, self.entries())
     }
 
-    /// Number of menu methods to show at first: the scene's, and all up to the last active one.
+    /// Returns the number of menu methods to show at first. They are the scene's methods, and all up to the last that
+    /// was active.
     pub fn offered(&self) -> usize {
         let met = self.met.max(self.active() + 1);
         self.scene().lanes.len().max(met).min(self.entries().len())
     }
 
-    /// Solo or race.
+    /// Returns whether the run is solo or a race.
     pub fn mode(&self) -> Mode {
         self.race().mode()
     }
 
-    /// Menu index of the solo method, or of the selected lane's in a race.
+    /// Returns the menu index of the method in solo mode, or of the selected lane's method in a race.
     pub fn active(&self) -> MenuIndex {
         self.entry(self.selected())
     }
 
-    /// Menu index of a lane's method.
+    /// Returns the menu index of a lane's method.
     pub fn entry(&self, entrant: &Entrant) -> MenuIndex {
         self.run().menu().entry(entrant.id)
     }
 
-    /// The lane under the method with this menu index, if there is one.
+    /// Returns the lane that flies the method with this menu index, if there is one.
     pub fn lane_of(&self, entry: MenuIndex) -> Option<&Entrant> {
         self.race().entrant(self.run().menu().lane(entry)?)
     }
 
-    /// The lane in solo mode, or the selected lane in a race.
+    /// Returns the only lane in solo mode, or the selected lane of a race.
     pub fn selected(&self) -> &Entrant {
         let lanes = self.race().entrants();
         self.race().entrant(self.selected).unwrap_or(&lanes[0])
     }
 
-    /// The lane that a pick of this menu index selects; in solo mode, the only one.
+    /// Returns the lane that a pick of this menu index selects. In solo mode it is the only lane.
     pub(super) fn lane_to_pick(&self, entry: MenuIndex) -> Option<LaneId> {
         let picked = match self.mode() {
             Mode::Solo => self.race().entrants().first().filter(|_| entry < self.entries().len()),
@@ -153,7 +159,7 @@ impl Deck {
         picked.map(|lane| lane.id)
     }
 
-    /// The clock.
+    /// Returns the clock.
     pub fn clock(&self) -> &Clock {
         &self.clock
     }
@@ -163,45 +169,45 @@ impl Deck {
         self.running
     }
 
-    /// Whether time runs: the run is not paused, and neither a body nor the tick rate is in hand.
+    /// Whether time runs, which it does if the run is not paused and neither a body nor the tick rate is in hand.
     pub fn time_runs(&self) -> bool {
         self.running && self.held.is_none() && !self.tick_rate_is_held
     }
 
-    /// Whether the person holds the tick rate, by the last [`ViewCommand::HoldTickRate`](super::ViewCommand).
+    /// Whether the person holds the tick rate, according to the last [`ViewCommand::HoldTickRate`](super::ViewCommand).
     pub fn is_tick_rate_held(&self) -> bool {
         self.tick_rate_is_held
     }
 
-    /// Simulated time (s) including the pending part of a tick. It advances evenly with real time, while the race
-    /// advances by ticks.
+    /// Returns the simulated time (s) with the pending part of a tick. It advances evenly with real time, while the
+    /// race advances tick by tick.
     pub fn time_with_owed_s(&self) -> f64 {
         self.race().t() + self.clock.tick_hz().seconds_of(self.clock.alpha())
     }
 
-    /// Ticks dropped since the scene was opened or restarted.
+    /// Returns the number of ticks dropped since the scene was opened or restarted.
     pub fn dropped_ticks(&self) -> u64 {
         self.dropped
     }
 
-    /// Number of scenes opened or read again so far.
+    /// Returns the number of times that a scene was opened or read again.
     pub fn openings(&self) -> u64 {
         self.openings
     }
 
-    /// The scenes of the list.
+    /// Returns the list of scenes.
     pub fn scene_list(&self) -> &SceneList {
         &self.scene_list
     }
 
-    /// The open scene's name on the list.
+    /// Returns the name that the open scene has on the list.
     pub fn scene_name(&self) -> String {
         let listed = self.scene_list.open().and_then(|index| self.scene_list.names().nth(index));
         listed.unwrap_or_else(|| self.scene().name.clone())
     }
 
-    /// The recording to which the run was [compared](super::show_comparison). `None` if there was none, if they are
-    /// equal, or if another run has begun.
+    /// Returns the recording to which the run was [compared](super::show_comparison). Returns `None` if there was none,
+    /// if the two are equal, or if another run has begun.
     pub fn compared(&self) -> Option<&Compared> {
         self.compared.as_deref()
     }
@@ -213,19 +219,20 @@ impl Deck {
         }
     }
 
-    /// Whether a person has acted after the start, so that a restart would run differently.
+    /// Whether a person has acted after the start of the run. If so, a restart would run differently.
     pub(crate) fn was_changed_on_the_way(&self) -> bool {
         let race = self.race();
         let rows = &race.journal().rows()[..race.done()];
         rows.iter().any(|row| row.tick > 0 && row.author == Author::Person)
     }
 
-    /// Whether the verdicts describe another run than the one on the screen, which has changed since.
+    /// Whether the run on the screen has changed since it was judged, so that the verdicts describe another run.
     pub fn is_judged_apart(&self) -> bool {
         self.run().checkpoints().was_changed_since_judged(self.race())
     }
 
-    /// Menu indices of the lanes with a cloud: all, or with very many lanes, the first ones and the selected one.
+    /// Returns the menu indices of the lanes with a cloud. They are all lanes, or if there are too many, the first ones
+    /// and the selected one.
     pub(super) fn clouded_lanes(&self) -> impl Iterator<Item = usize> {
         let lanes = self.race().entrants();
         let selected = lanes.iter().position(|lane| self.entry(lane) == self.active()).unwrap_or(0);
@@ -234,8 +241,8 @@ impl Deck {
         (0..lanes.len()).filter(is_shown).map(|index| self.entry(&lanes[index]))
     }
 
-    /// Evaluations in the next tick under the method with this menu index. Takes its lane, or else switches a copy of
-    /// the selected one.
+    /// Returns the number of evaluations in the next tick under the method with this menu index. If no lane flies the
+    /// method, a copy of the selected lane is switched to it.
     pub fn evaluations_of_next_tick(&self, entry: MenuIndex) -> u64 {
         let (race, spec) = (self.race(), &self.entries()[entry]);
         let mut lane = self.lane_of(entry).unwrap_or(self.selected()).lane.clone();
@@ -247,12 +254,12 @@ impl Deck {
         lane.evaluations() - before
     }
 
-    /// File name of a recording.
+    /// Returns the name of the file for a recording.
     pub fn recording_file_name(&self) -> String {
         format!("regatta-{}-recording.toml", self.scene().name)
     }
 
-    /// The run up to the last tick reached, as the text of a scene file.
+    /// Returns the run up to the last tick reached as the text of a scene file.
     ///
     /// # Errors
     /// As [`Session::recording_text`](crate::run::Session::recording_text).
@@ -260,7 +267,7 @@ impl Deck {
         recording_text(&self.recorded())
     }
 
-    /// The run up to the last tick reached as a scene, together with the methods on the menu.
+    /// Returns the run up to the last tick reached as a scene, with the methods on the menu.
     pub fn recorded(&self) -> Scene {
         let menu = Menu::new(self.run.start());
         let start = menu.entry(self.run.start().entrants()[0].id) + 1;
@@ -268,8 +275,8 @@ impl Deck {
         recording_among(self.run.recording(), &menu.specs()[..offered])
     }
 
-    /// The link to the run up to the last tick reached, with the methods on the menu. An unchanged built-in scene is
-    /// linked by name.
+    /// Returns the link to the run up to the last tick reached, with the methods on the menu. The link to an unchanged
+    /// built-in scene has only its name.
     ///
     /// # Errors
     /// As [`Session::recording_text`](crate::run::Session::recording_text).
@@ -278,23 +285,23 @@ impl Deck {
             return Ok(named);
         }
         let recording = self.recorded();
-        // A link holds only runs that fit into a scene file.
+        // A link may contain only a run that fits into a scene file.
         recording_text(&recording)?;
         link::link_to_run(&recording)
             .map_err(|_| RecordingError::TooLong { bytes: recording.to_toml().len() })
     }
 
-    /// Sets the memory limit (bytes) for rewinding the run; see [`Run`].
+    /// Sets the memory limit (bytes) for rewinding the run, as described at [`Run`].
     pub fn set_rewind_bytes(&mut self, bytes: usize) {
         self.run.set_limit(bytes);
     }
 
-    /// Notes that a file holds all edits so far.
+    /// Notes that all edits so far are saved in a file.
     pub fn note_saved(&mut self) {
         self.saved_edits = self.edits;
     }
 
-    /// Clears the undo stack: all edits so far become part of the start.
+    /// Clears the undo stack, so that all edits so far become part of the start.
     pub fn forget_changes(&mut self) {
         self.run.forget_changes();
         self.note_saved();
@@ -306,9 +313,10 @@ impl Deck {
         self.selected = picked.unwrap_or(self.race().entrants()[0].id);
     }
 
-    /// Runs time from the moment shown at rest.
+    /// Lets time run on from the moment that was shown at rest.
     pub(super) fn run_on(&mut self, interpolation: Interpolation) {
-        // If bodies are drawn a tick late, the present tick appears only when the next one is due.
+        // The present tick appears only when the next one is due if bodies are drawn a tick late, so the clock starts
+        // with a full tick.
         match interpolation {
             Interpolation::Raw | Interpolation::Extrapolated => self.clock.restart(),
             Interpolation::Linear | Interpolation::Hermite | Interpolation::Monotone => {
@@ -317,12 +325,12 @@ impl Deck {
         }
     }
 
-    /// Edits a setting of the next start. `set` returns whether it changed anything.
+    /// Edits a setting of the next start. `set` returns whether it changed the setting.
     pub(super) fn set_start(&mut self, what: &str, set: impl FnOnce(&mut StartSettings) -> bool) {
         self.edits += u64::from(self.run.set_next(what, set));
     }
 
-    /// Applies `change` to the run, and returns its result with the parts of a notice about it.
+    /// Applies `change` to the run. Returns its result, and the parts of a notice about it.
     pub(super) fn with_notices<T>(
         &mut self,
         change: impl FnOnce(&mut Run, &mut Notices<'_>) -> T,
@@ -338,7 +346,7 @@ impl Deck {
         (changed, told)
     }
 
-    /// In a race, selects the lane whose method the script named after the first `done` rows of the journal.
+    /// Selects the lane of a race whose method the script selected in the rows of the journal after the first `done`.
     fn select_as_scripted(&mut self, done: usize) {
         let race = self.run.race();
         if race.mode() == Mode::Solo || race.done() <= done {
@@ -354,26 +362,37 @@ impl Deck {
         }
     }
 
+    /// The body that the person pulls, if any.
+    pub fn pulled(&self) -> Option<&PulledBody> {
+        self.pulled.as_ref()
+    }
+
+    /// Lets go of a held or a pulled body. Returns whether there was one.
+    pub(super) fn let_go(&mut self) -> bool {
+        let had_pulled = self.pulled.take().is_some();
+        self.held.take().is_some() || had_pulled
+    }
+
     /// The body that the person holds, if any.
     pub fn held(&self) -> Option<&HeldBody> {
         self.held.as_ref()
     }
 }
 
-/// A body that the pointer holds in place. Time stands still until its release. Otherwise the body would move
-/// meanwhile, and the lanes of a race would diverge before they start from the new state.
+/// A body that the pointer holds in place. Time stands still until the person releases it. Otherwise the body would
+/// move meanwhile, and the lanes of a race would diverge before they start from the new state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeldBody {
-    /// Lane in whose cell it is held.
+    /// Lane in whose cell the body is held.
     pub lane: LaneId,
     /// Index of the body in the scene.
     pub body: usize,
-    /// Coordinates at its release.
+    /// Coordinates that the body will have when it is released.
     pub q: Box<[f64]>,
-    /// Velocities at its release.
+    /// Velocities that the body will have when it is released.
     pub v: Box<[f64]>,
     /// Place of the pointer, in metres.
     pub hand: DVec2,
-    /// Place (m) of the held point of the body: as near to the pointer as the body can be.
+    /// Place (m) of the point at which the body is held. It is as near to the pointer as the body can be.
     pub handle: DVec2,
 }

@@ -1,4 +1,4 @@
-//! Passes commands on the run, and on the stage while it shows the run, to the functions that execute them.
+//! Passes commands on the run to the functions that execute them, and so commands on the stage while it shows the run.
 
 use super::acting::{
     act, menu_index, pick, pick_beside, seek, set_lane, step_by, tell_of_the_future,
@@ -16,7 +16,7 @@ use crate::run::METRICS;
 use crate::run::race::Mode;
 use crate::scene::Action;
 
-/// Time for which futures show a tick rate that a key has set, in nanoseconds.
+/// Time for which futures are shown after a key has set the tick rate, in nanoseconds.
 const FUTURES_NS: i64 = 1_000_000_000;
 
 pub(super) fn carry_out_on_run(deck: &mut Deck, viewer: &mut Viewer, command: RunCommand) {
@@ -53,6 +53,7 @@ pub(super) fn carry_out_on_run(deck: &mut Deck, viewer: &mut Viewer, command: Ru
             deck.set_start("the length", |start| start.set_seconds(seconds));
         }
         RunCommand::Hold(held) => deck.held = Some(held),
+        RunCommand::Pull(pulled) => deck.pulled = Some(pulled),
         RunCommand::ToggleEqualCost => toggle_equal_cost(deck, viewer),
     }
 }
@@ -86,7 +87,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
         }
         StageCommand::Restart => {
             viewer.view.zoom_pans.clear();
-            // The hint has the next step; the old run is a click away on the timeline.
+            // A hint suggests the next step, and the old run is a click away on the timeline.
             if restart_keeping_run(deck, viewer) && hint(deck, viewer, false).is_none() {
                 viewer.set_notice("restarted: Ctrl Z brings the run back");
             }
@@ -109,7 +110,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
     }
 }
 
-/// Switches between solo and race. Later scenes open in the chosen mode, unless the guide made the choice.
+/// Switches between solo and race. Later scenes open in the chosen mode, unless the guide is open.
 fn toggle_race(deck: &mut Deck, viewer: &mut Viewer) {
     match deck.mode() {
         Mode::Solo => {
@@ -129,7 +130,8 @@ fn toggle_race(deck: &mut Deck, viewer: &mut Viewer) {
     }
 }
 
-/// `part` plus `more` tenths, rounded to tenths, so that ten steps up and ten down end at the initial value.
+/// Returns `part` plus `more` tenths, rounded to tenths. Because of the rounding, ten steps up and ten steps down end
+/// at the initial value.
 fn tenths(part: f64, more: f64) -> f64 {
     ((part * 10.0).round() + more) / 10.0
 }

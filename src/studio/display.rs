@@ -13,32 +13,33 @@ use crate::run::race::Interpolation;
 /// Arrangement of a race's lanes on the stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Arrangement {
-    /// All lanes of a body over each other, the selected one in front.
+    /// All lanes of a body lie over each other, with the selected one in front.
     #[default]
     Overlay,
-    /// Each lane in its own cells.
+    /// Each lane has its own cells.
     SideBySide,
 }
 
-/// Motion on the stage besides that of the bodies.
+/// Amount of motion on the stage besides that of the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// The least for a person who watches: trails do not fade, the camera turns pages, and the stage zooms out in
-    /// steps.
+    /// The least motion for a person who watches. Trails do not fade, the camera turns pages, and the stage zooms out
+    /// in steps.
     Reduced,
     /// Trails fade, and the camera follows bodies smoothly.
     Recorded,
-    /// The most for a person who watches: the stage also zooms out evenly after a lane that outgrows it, while time
-    /// slows down. A run rests at the end of its scene or bodies.
+    /// The most motion for a person who watches. The stage also zooms out evenly after a lane that outgrows it, while
+    /// time slows down. The run rests at the end of its scene or when its bodies are lost.
     Live,
 }
 
-/// Display settings, independent of the scene. They do not affect the physics.
+/// Display settings, which are independent of the scene and do not affect the physics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Display {
-    /// Whether instruments, table and timeline surround the stage; otherwise it fills the window, above the methods.
+    /// Whether the instruments, the table and the timeline surround the stage. Otherwise the stage fills the window
+    /// above the methods.
     pub measure: bool,
-    /// Boundaries between stage, instruments and table as the person set them.
+    /// Boundaries between stage, instruments and table, as far as the person has set them.
     pub splits: Splits,
     /// Whether the stage shows the next second under each method while time stands still.
     pub futures: bool,
@@ -48,41 +49,41 @@ pub struct Display {
     pub interpolation: Interpolation,
     /// Instrument in the panel beside the stage.
     pub instrument: Instrument,
-    /// Whether the instrument covers the stage, too.
+    /// Whether the instrument also covers the stage.
     pub enlarged: bool,
-    /// Quantity of every body in the motion instrument; `None` for the [usual](Quantity::usual) one.
+    /// Quantity of every body in the motion instrument, or `None` for the [usual](Quantity::usual) one of each.
     pub quantity: Option<Quantity>,
-    /// Metric of the error instrument, by its index in [`METRICS`](crate::run::METRICS).
+    /// Index in [`METRICS`](crate::run::METRICS) of the metric in the error instrument.
     pub metric: usize,
     /// Whether the advice covers only the [displayed body](View::body).
     pub advises_on_one_body: bool,
-    /// The clouds of the cloud instrument.
+    /// The clouds that the cloud instrument shows.
     pub cloud: CloudChoice,
     /// Arrangement of a race's lanes on the stage.
     pub arrangement: Arrangement,
-    /// A dark or a light chart.
+    /// The dark or the light theme.
     pub theme: Theme,
-    /// Chosen size of type and panels, in percent of the usual one.
+    /// Chosen size of type and panels, in percent of the usual size.
     pub scale_percent: u32,
     /// Whether the help overlay is open.
     pub help: bool,
     /// Whether the inspector is open.
     pub inspector: bool,
-    /// Motion besides that of the bodies.
+    /// Amount of motion on the stage besides that of the bodies.
     pub motion: Motion,
 }
 
-/// Shares of the window for instruments and table, in percent; `None` for the usual share.
+/// Shares of the window for the instruments and the table, in percent. `None` is the usual share.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Splits {
-    /// Width of the instruments, from 20 to 70.
+    /// Width of the instruments, from 20 to 70 % of the window's.
     pub instruments: Option<u32>,
-    /// Height of the table, from 8 to 60.
+    /// Height of the table, from 8 to 60 % of the window's.
     pub table: Option<u32>,
 }
 
 impl Splits {
-    /// Clamps both to their ranges.
+    /// Returns both shares, clamped to their ranges.
     pub fn clamped(self) -> Self {
         Self {
             instruments: self.instruments.map(|percent| percent.clamp(20, 70)),
@@ -91,24 +92,25 @@ impl Splits {
     }
 }
 
-/// The person's view of one scene, discarded with it.
+/// The person's view of one scene. It is discarded with the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct View {
-    /// The body of the plots and the lane list, by its index in the scene.
+    /// Index in the scene of the displayed body, which is the one of the plots and the lane list.
     pub body: usize,
-    /// Chosen coordinate of each body in the plots, by its index. A body beyond the end has the [usual
-    /// one](crate::run::race::LaneBody::plotted_coordinate).
+    /// Coordinate that is chosen for each body's plots, by the body's index. A body beyond the end of the list has the
+    /// [usual one](crate::run::race::LaneBody::plotted_coordinate).
     pub coordinates: Vec<Option<usize>>,
-    /// Indices of the body and its parameter chosen for the stability map.
+    /// Indices of the body and the parameter that are chosen for the stability map.
     pub mapped_parameter: Option<(usize, usize)>,
-    /// Ranges to which the person zoomed and panned the plots' axes, by name. An axis without a range is fitted.
+    /// Ranges to which the person has zoomed and panned the axes of plots, by the names of the axes. An axis without a
+    /// range is fitted.
     pub plot_ranges: BTreeMap<String, [f64; 2]>,
-    /// Zoom and pan of each body, by its index in the scene; a body beyond the end is fitted.
+    /// Zoom and pan of each body, by its index in the scene. A body beyond the end of the list is fitted.
     pub zoom_pans: Vec<ZoomPan>,
 }
 
 impl View {
-    /// The zoom and the pan of the body with this index in the scene.
+    /// Returns the zoom and the pan of the body with this index in the scene.
     pub fn zoom_pan(&self, body: usize) -> ZoomPan {
         self.zoom_pans.get(body).copied().unwrap_or_default()
     }
@@ -128,7 +130,7 @@ impl View {
     }
 }
 
-/// Real-time pace of a driver, by its own measurement.
+/// A driver's pace in real time, as measured by the driver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
     /// Time has not run long enough for a measurement.
@@ -158,13 +160,13 @@ pub enum DriverRequest {
     CopyMethod(MenuIndex),
     /// Copy the lines of code that set the displayed body's spring in the engine with this menu index.
     CopyJoint(MenuIndex),
-    /// Save the instrument as a picture, a drawing and a table.
+    /// Save the instrument as a picture, as a drawing and as a table.
     ExportInstrument,
     /// Enter or leave full screen.
     ToggleFullScreen,
     /// Open the scene file at the typed path.
     OpenTypedPath,
-    /// Complete the typed path up to its first ambiguity.
+    /// Complete the typed path as far as it is unambiguous.
     CompletePath,
     /// End the program.
     Quit,

@@ -1,9 +1,10 @@
-//! Time in a studio: the ticks due in a frame, and the moment shown between two of them. Time slows down while a lane
+//! Time in a studio: the ticks due in a frame, and the displayed moment between two ticks. Time slows down while a lane
 //! outgrows the stage too fast to see.
 
 use super::Motion;
 use super::deck::Deck;
 use super::pace::LiveFrame;
+use super::pulling::pull;
 use super::viewer::Viewer;
 use crate::look::landmarks::decades_to_next;
 use crate::look::{Framing, Look};
@@ -14,16 +15,18 @@ use crate::sim::number::significant;
 
 /// Fastest zoom that people can follow, in powers of ten per second of real time.
 const MAX_ZOOM: f64 = 6.0;
-/// Slowest slow motion, in thousandths of the speed.
+/// Slowest speed of slow motion, in thousandths of the set speed.
 const MIN_THOUSANDTHS: u32 = 10;
-/// Width of a stage, relative to a landmark that stands out on it.
+/// Width of a stage on which a landmark stands out, relative to the landmark's size.
 const STANDS_OUT: f64 = 4.0;
-/// Number of newest samples that measure a motion's growth, and time (s) for which its past reach counts: longer than
-/// any swing that people wait for.
+/// Number of newest samples over which a motion's growth is measured, and time (s) for which its past reach counts. The
+/// time is longer than any swing that people wait for.
 const MEASURED: usize = 4;
 const REMEMBERED_S: f64 = 2.0;
+/// Time over which slow growth is measured, in seconds.
+const SWING_S: f64 = 1.0;
 
-/// Adds a frame of `frame_ns` nanoseconds of real time to a run: see
+/// Adds a frame of `frame_ns` nanoseconds of real time to a run, as described at
 /// [`Studio::advance_in_time`](super::Studio::advance_in_time).
 pub(super) fn advance(
     deck: &mut Deck,
@@ -33,7 +36,7 @@ pub(super) fn advance(
     is_time_left: &mut dyn FnMut() -> bool,
     observer: &mut dyn Observer,
 ) -> Due {
-    // A tick rate that the script sets at this tick applies to the time from here on.
+    // A tick rate that the script sets at this tick already applies to the time after it.
     let ((), told) = deck.with_notices(|run, notices| run.catch_up(&mut (notices, &mut *observer)));
     viewer.set_notice_parts(told);
     let thousandths = slow_motion(deck, viewer);
@@ -42,11 +45,12 @@ pub(super) fn advance(
         if deck.race().tick() >= last {
             break;
         }
+        pull(deck, viewer);
         make_tick(deck, viewer, observer);
         if last == u64::MAX && deck.comes_to_rest(viewer.motion()) {
             due.ticks = made;
             deck.running = false;
-            // A hint suggests the next step instead.
+            // A hint replaces the notice and suggests the next step.
             viewer.notice = None;
             break;
         }
@@ -64,7 +68,7 @@ pub(super) fn advance(
     due
 }
 
-/// Performs the actions at this tick, and steps to the next.
+/// Performs the actions at this tick, and steps to the next tick.
 pub(super) fn make_tick(deck: &mut Deck, viewer: &mut Viewer, observer: &mut dyn Observer) {
     viewer.notice.take_if(|notice| notice.is_of_tick());
     let ((), told) = deck.with_notices(|run, notices| run.tick(&mut (notices, observer)));
@@ -81,41 +85,41 @@ fn note_frame(deck: &mut Deck, viewer: &mut Viewer, duration_ns: i64, due: Due) 
     viewer.live.add(frame, shown_s, speed);
 }
 
-/// Present interpolation: raw at rest, so that bodies appear at their tick.
+/// Returns the interpolation at present. It is raw while time stands still, so that bodies appear at their tick.
 fn drawn_interpolation(deck: &Deck, viewer: &Viewer) -> Interpolation {
     if deck.time_runs() { viewer.display().interpolation } else { Interpolation::Raw }
 }
 
-/// The moment shown, in ticks from the last one.
+/// Returns the displayed moment, in ticks after the last tick. It is negative before that tick.
 fn shown_ticks(deck: &Deck, viewer: &Viewer) -> f64 {
     drawn_interpolation(deck, viewer).shown(deck.clock.alpha())
 }
 
-/// The moment shown (s). Everything on the stage, numbers included, belongs to this moment.
+/// Returns the displayed moment (s). Everything on the stage belongs to this moment, including the numbers.
 pub fn shown_s(deck: &Deck, viewer: &Viewer) -> f64 {
     deck.race().t() + deck.race().last_step_s() * shown_ticks(deck, viewer)
 }
 
-/// The last tick at or before the moment shown.
+/// Returns the last tick at or before the displayed moment.
 pub fn shown_tick(deck: &Deck, viewer: &Viewer) -> u64 {
     let is_before = shown_ticks(deck, viewer) < 0.0;
     deck.race().tick().saturating_sub(u64::from(is_before))
 }
 
-/// Coordinates and velocities of a lane's body at the moment shown.
+/// Returns the coordinates and velocities of a lane's body at the displayed moment.
 pub fn shown_state(deck: &Deck, viewer: &Viewer, body: &LaneBody) -> (Vec<f64>, Vec<f64>) {
     let (drawn, alpha, h) =
         (drawn_interpolation(deck, viewer), deck.clock.alpha(), deck.race().last_step_s());
     (drawn.coordinates(body, alpha, h), drawn.velocities(body, alpha))
 }
 
-/// True coordinates and velocities, at the moment shown, of the body with this index in the scene.
+/// Returns the true coordinates and velocities, at the displayed moment, of the body with this index in the scene.
 pub fn shown_truth(deck: &Deck, viewer: &Viewer, body: usize) -> (Vec<f64>, Vec<f64>) {
     deck.past().truth_between(deck.race(), body, 1.0 + shown_ticks(deck, viewer))
 }
 
-/// Speed at which a person can follow a lane that outgrows the stage, in thousandths of the speed set: a landmark
-/// passes each second.
+/// Returns the speed at which a person can follow a lane that outgrows the stage, in thousandths of the set speed. At
+/// this speed a landmark passes each second.
 pub(super) fn slow_motion(deck: &Deck, viewer: &Viewer) -> u32 {
     if viewer.display().motion != Motion::Live || deck.mode() != Mode::Solo || !deck.time_runs() {
         return 1000;
@@ -146,23 +150,33 @@ pub(super) fn slow_motion(deck: &Deck, viewer: &Viewer) -> u32 {
     }
 }
 
-/// The slow motion in words; `None` without one.
+/// Describes the slow motion, or returns `None` if there is none.
 pub fn slowed_in_words(deck: &Deck, viewer: &Viewer) -> Option<String> {
     let thousandths = slow_motion(deck, viewer);
     let times = significant(f64::from(thousandths) / 1e3, 1);
     (thousandths < 1000).then(|| format!("slowed ×{times}"))
 }
 
-/// Rate at which a body exceeds both this distance and its own past reach, in powers of ten per simulated second; and
-/// the distance (m) that it has reached.
+/// Returns the rate at which a body exceeds both this distance and its own past reach, in powers of ten per simulated
+/// second. Also returns the distance (m) that the body has reached.
 fn growth(history: &History, base_m: f64) -> (f64, f64) {
     let newest = history.samples().rev();
     let Some(now) = newest.clone().next() else { return (0.0, base_m) };
-    let Some(then) = newest.clone().nth(MEASURED) else { return (0.0, base_m) };
     let reach = |from: usize| {
         let lately = newest.clone().skip(from).take_while(|sample| now.t - sample.t < REMEMBERED_S);
         lately.map(|sample| sample.at.length()).fold(base_m, f64::max)
     };
     let reach_m = reach(0);
-    (libm::log10(reach_m / reach(MEASURED)) / (now.t - then.t), reach_m)
+    let since = |count: usize| {
+        let then = newest.clone().nth(count).filter(|then| then.t < now.t);
+        then.map_or(0.0, |then| libm::log10(reach_m / reach(count)) / (now.t - then.t))
+    };
+    let known = newest.clone().take(MEASURED + 1).count() - 1;
+    let sudden = since(known);
+    if sudden > MAX_ZOOM {
+        return (sudden, reach_m);
+    }
+    // Slow growth is measured over a swing or more, because a swing grows only on its way out.
+    let lately = newest.clone().take_while(|sample| now.t - sample.t <= SWING_S);
+    (since(lately.count().max(known + 1) - 1), reach_m)
 }

@@ -1,9 +1,9 @@
-//! Names of the files that a driver saves, after their contents.
+//! Names of the files that a driver saves. A name describes the file's contents.
 
 use super::Studio;
 use crate::run::race::Mode;
 
-/// Name of a picture of the frame, without its extension.
+/// Returns the name of the file for a picture of the frame, without an extension.
 pub fn picture_file_name(studio: &Studio) -> String {
     let scene = &studio.deck.scene().name;
     if let Some(loops) = studio.loop_lab() {
@@ -17,7 +17,7 @@ pub fn picture_file_name(studio: &Studio) -> String {
     format!("regatta-{scene}-{method}-tick-{}", studio.deck.race().tick())
 }
 
-/// Name of the instrument's picture and values, without an extension.
+/// Returns the name of the files for the instrument's picture and values, without an extension.
 pub fn instrument_file_name(studio: &Studio) -> String {
     let (scene, instrument) = (&studio.deck.scene().name, studio.viewer.display().instrument.id());
     match studio.loop_lab() {

@@ -1,4 +1,4 @@
-//! The verdicts and the advice of a studio: which ones to compute, and which findings to accept.
+//! The verdicts and the advice of a studio: which of them to compute, and which findings to accept.
 
 use std::sync::Arc;
 
@@ -10,12 +10,12 @@ use crate::run::race::{Entrant, Interventions, Mode};
 use crate::scene::SceneBody;
 use crate::sim::bodies::{Parameter, Range, TakesEffect};
 
-/// The verdicts and the advice that the studio needs now, for an [`AnalysisWorker`]. It judges each
-/// [offered](Deck::offered) method at the present tick rate, in a race also the rest of the menu. Advice is included
-/// while it is shown.
+/// Returns the request to an [`AnalysisWorker`] for the verdicts and the advice that the studio needs now. Each
+/// [offered](Deck::offered) method is judged at the present tick rate. In a race the rest of the menu is judged too.
+/// The advice is included while it is shown.
 ///
-/// They apply to the scene from its start, with a person's settings and the parameters that the script has set by the
-/// present tick. If a person has placed or kicked a body, they start at the true state right after that.
+/// The findings apply to the scene from its start, with a person's settings and the parameters that the script has set
+/// by the present tick. If a person has placed or kicked a body, the findings start at the true state right after that.
 pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     let flown = deck.race().entrants().iter().map(|lane| deck.entry(lane) + 1);
     let first = flown.max().unwrap_or_default().max(deck.offered());
@@ -37,7 +37,7 @@ pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     }
 }
 
-/// The bodies that advice is about.
+/// Returns the bodies that advice is about.
 fn advised_bodies(deck: &Deck, viewer: &Viewer) -> AdvisedBodies {
     match viewer.display().advises_on_one_body && deck.scene().bodies.len() > 1 {
         true => AdvisedBodies::One(viewer.view.body),
@@ -45,7 +45,7 @@ fn advised_bodies(deck: &Deck, viewer: &Viewer) -> AdvisedBodies {
     }
 }
 
-/// The map of the scene's lanes, and of the selected method, at the present values.
+/// Returns the request for a map of the scene's lanes, and of the selected method, at the present values.
 fn map_request(deck: &Deck, viewer: &Viewer) -> Option<MapRequest> {
     let (body, parameter) = (viewer.view.body, mapped_parameter(deck, viewer)?);
     let lanes = 0..deck.scene().lanes.len();
@@ -56,13 +56,13 @@ fn map_request(deck: &Deck, viewer: &Viewer) -> Option<MapRequest> {
     Some(MapRequest::new((body, parameter), opened, values, deck.clock.tick_hz(), specs))
 }
 
-/// Indices of the displayed body's parameters that a stability map can show. They act at once and cannot be negative,
-/// so they have a logarithmic scale.
+/// Returns the indices of the displayed body's parameters that a stability map can show. These parameters act at once.
+/// They cannot be negative, so that their scale can be logarithmic.
 pub fn mappable_parameters(deck: &Deck, viewer: &Viewer) -> impl Iterator<Item = usize> {
     let SceneBody { kind, values, .. } = &deck.scene().bodies[viewer.view.body];
     let parameters = kind.parameters.iter();
     let is_mappable = |(index, parameter): &(usize, &Parameter)| {
-        // The constants of a law may have any sign.
+        // A constant of a law may have any sign.
         let is_constant = kind.law().is_some_and(|law| *index < law.text().constants.len());
         let is_signless = is_constant && values[*index] > 0.0
             || matches!(parameter.range, Range::Positive(_) | Range::NonNegative(_));
@@ -71,8 +71,8 @@ pub fn mappable_parameters(deck: &Deck, viewer: &Viewer) -> impl Iterator<Item =
     parameters.enumerate().filter(is_mappable).map(|(index, _)| index)
 }
 
-/// The parameter on the stability map: the one chosen for the displayed body, or else the one that makes it stiffer.
-/// `None` if the body has none.
+/// Returns the index of the parameter on the stability map. It is the one chosen for the displayed body, or else the
+/// one that makes the body stiffer. Returns `None` if the body has neither.
 pub fn mapped_parameter(deck: &Deck, viewer: &Viewer) -> Option<usize> {
     let body = viewer.view.body;
     let chosen = viewer.view.mapped_parameter.filter(|(of, _)| *of == body);
@@ -94,8 +94,8 @@ pub fn accept_findings(deck: &mut Deck, viewer: &mut Viewer, findings: Findings)
     }
 }
 
-/// Selects the best lane of a race once all are judged, since the first may be the first to leave the stage. Skips
-/// this if anybody, or a scene that opens as a race, has selected one.
+/// Selects the best lane of a race once all lanes are judged, because the first lane may be the first to leave the
+/// stage. Does nothing if anybody has selected a lane, or if the scene opens as a race under a method of its own.
 pub(super) fn select_best(deck: &mut Deck, viewer: &mut Viewer) {
     let lanes = deck.race().entrants();
     let scene = deck.scene();
@@ -115,9 +115,9 @@ pub(super) fn select_best(deck: &mut Deck, viewer: &mut Viewer) {
     deck.is_selected = true;
 }
 
-/// Computes the present request, as a capture does before each frame. Verdicts that exceed a fixed amount of work
-/// stay unjudged. `finish` runs the worker to its end; if it is interrupted, it returns `None` and this function
-/// `false`.
+/// Computes the findings for the present request, as a capture does before each frame. Verdicts that exceed a fixed
+/// amount of work stay unjudged. `finish` runs the worker to its end. If it is interrupted it returns `None`, and this
+/// function returns `false`.
 pub fn analyse_bounded(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -128,7 +128,7 @@ pub fn analyse_bounded(
     found.map(|findings| accept_findings(deck, viewer, findings)).is_some()
 }
 
-/// The present request for verdicts and advice, unless the findings answer it in full.
+/// Returns the present request for verdicts and advice, or `None` if the findings answer all of it.
 pub fn unanswered_request(deck: &Deck, viewer: &Viewer) -> Option<AnalysisRequest> {
     let request = analysis_request(deck, viewer);
     let known = &viewer.findings;

@@ -1,48 +1,49 @@
-//! The loop of a driver, without a clock and without a screen: commands → ticks → picture → commands.
+//! The loop of a driver, without a clock and without a screen. A turn goes from commands to ticks, to a picture, and to
+//! the next commands.
 //!
 //! A driver counts time in nanoseconds from any origin. For each frame it calls [`begin`](FrameLoop::begin), executes
-//! the requests, calls [`advance`](FrameLoop::advance), draws, and calls [`end`](FrameLoop::end) with the commands of the
-//! panels.
+//! the requests, calls [`advance`](FrameLoop::advance), draws, and calls [`end`](FrameLoop::end) with the commands of
+//! the panels.
 
 use super::pace::PaceMeter;
 use super::{Command, DriverRequest, Studio, ViewCommand};
 
-/// Most time that a frame spends on simulation, in nanoseconds. A race that needs more drops ticks, so that the
+/// Maximum time that a frame spends on simulation, in nanoseconds. A race that needs more time drops ticks, so that the
 /// driver stays responsive.
 const MAX_SIMULATION_NS: u64 = 50_000_000;
 
 /// A task that a command leaves to the driver.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ToDo {
-    /// The studio has executed the command up to this request.
+    /// A request that remains after the studio has executed its part of the command.
     Request(DriverRequest),
-    /// The driver executes this command itself.
+    /// A command that the driver executes itself.
     Own(Command),
 }
 
-/// A studio in real time.
+/// A studio that runs in real time.
 pub struct FrameLoop {
     /// The studio.
     pub studio: Studio,
     /// Whether the driver executes a command itself.
     is_own: fn(&Command) -> bool,
-    /// Commands for the next frame to execute before time passes, the next one first.
+    /// Commands that the next frame executes before time passes, in their order.
     asked: Vec<Command>,
-    /// Tick to reach before time passes, and whether time then runs.
+    /// Tick to reach before time passes, and whether time runs after that.
     goal: Option<(u64, bool)>,
-    /// Start of the last frame; `None` after a pause or after skipped time.
+    /// Start of the last frame, or `None` after a pause or after time was skipped.
     last_frame_ns: Option<u64>,
     /// Real time of the last [`advance`](Self::advance).
     passed_ns: u64,
-    /// Number of openings when time last passed.
+    /// Number of opened scenes when time last passed.
     openings: u64,
-    /// Whether the next frame takes longer to draw, as the first of a scene does.
+    /// Whether the next frame takes longer to draw, as the first frame of a scene does.
     draws_long: bool,
     meter: PaceMeter,
 }
 
 impl FrameLoop {
-    /// A loop whose driver executes the commands that `is_own` selects.
+    /// Creates a loop whose driver executes the commands that `is_own` selects.
     pub fn new(studio: Studio, is_own: fn(&Command) -> bool, now_ns: u64) -> Self {
         Self {
             openings: studio.deck.openings(),
@@ -57,23 +58,23 @@ impl FrameLoop {
         }
     }
 
-    /// Queues commands for the next frame.
+    /// Queues commands, which the next frame executes.
     pub fn queue(&mut self, commands: impl IntoIterator<Item = Command>) {
         self.asked.extend(commands);
     }
 
-    /// The commands queued for the next frame, in order.
+    /// Returns the commands queued for the next frame, in their order.
     pub fn queued(&self) -> &[Command] {
         &self.asked
     }
 
-    /// Moves to this tick before time passes; `runs` is whether time then runs.
+    /// Moves to this tick before time passes. `runs` sets whether time runs after that.
     pub fn go_to(&mut self, tick: u64, runs: bool) {
         self.goal = Some((tick, runs));
     }
 
-    /// Begins a frame: executes commands up to the first that needs the driver. The driver does its task and calls
-    /// this again, until it returns `None`.
+    /// Begins a frame: executes commands up to the first one that needs the driver, and returns the driver's part of
+    /// it. The driver does its part and calls this function again, until the function returns `None`.
     pub fn begin(&mut self) -> Option<ToDo> {
         while !self.asked.is_empty() {
             let command = self.asked.remove(0);
@@ -87,10 +88,10 @@ impl FrameLoop {
         None
     }
 
-    /// Passes the time since the last frame, for a frame that began at `now_ns`. Makes the ticks due, up to tick
-    /// `last`, while `clock` shows that the driver stays responsive.
+    /// Passes the time since the last frame. The present frame began at `now_ns`. Makes the ticks that are due, up to
+    /// the tick `last`, as long as `clock` shows that the driver stays responsive.
     pub fn advance(&mut self, now_ns: u64, last: u64, clock: &dyn Fn() -> u64) {
-        // Building another scene takes no time of its run.
+        // The time to build another scene does not count as time of its run.
         if std::mem::replace(&mut self.openings, self.studio.deck.openings())
             != self.studio.deck.openings()
         {
@@ -110,7 +111,7 @@ impl FrameLoop {
         self.studio.viewer.pace = Some(self.meter.pace());
     }
 
-    /// Ticks towards the goal, if there is one. Returns whether it is reached.
+    /// Makes ticks until the goal, if there is one. Returns whether no goal is left.
     fn reach_goal(&mut self, is_time_left: &mut dyn FnMut() -> bool) -> bool {
         let Some((goal, runs)) = self.goal else { return true };
         while self.studio.race().tick() < goal {
@@ -128,7 +129,7 @@ impl FrameLoop {
     }
 
     /// Ends a frame that began at `now_ns` and was displayed at `shown_ns`, and queues the commands of its panels.
-    /// Returns the nanoseconds until the studio needs the next frame: 0 while time runs.
+    /// Returns the nanoseconds until the studio needs the next frame, which are 0 while time runs.
     pub fn end(&mut self, now_ns: u64, shown_ns: u64, commands: Vec<Command>) -> u64 {
         if std::mem::take(&mut self.draws_long) {
             self.stand_still(shown_ns);
@@ -143,14 +144,14 @@ impl FrameLoop {
         notice.into_iter().chain(futures).min().map_or(u64::MAX, i64::unsigned_abs)
     }
 
-    /// Call this if the frame could not be drawn: until the first of a scene is, no time passes in its run.
+    /// Notes that the frame could not be drawn. Until the first frame of a scene is drawn, no time passes in its run.
     pub fn not_drawn(&mut self) {
         if self.draws_long {
             self.last_frame_ns = None;
         }
     }
 
-    /// Excludes the time up to `now_ns` from the run, after long work of the driver.
+    /// Excludes the time up to `now_ns` from the run. A driver calls this after long work.
     pub fn stand_still(&mut self, now_ns: u64) {
         self.last_frame_ns = self.last_frame_ns.map(|_| now_ns);
     }
@@ -169,7 +170,7 @@ mod tests {
 
     const FRAME_NS: u64 = 16_666_667;
 
-    /// A loop on a scene, after its first frame, and the time of the next.
+    /// Returns a loop on a scene after its first frame, and the time of the next frame.
     fn begun(scene: &str) -> (FrameLoop, u64) {
         let studio = Studio::new(Scene::built_in(scene).unwrap());
         let mut frames = FrameLoop::new(studio, |_| false, 0);
@@ -177,7 +178,7 @@ mod tests {
         (frames, FRAME_NS)
     }
 
-    /// A frame that begins at `now_ns` and takes no time, with these commands of its panels.
+    /// Makes a frame that begins at `now_ns` and takes no time. Its panels give these commands.
     fn frame(frames: &mut FrameLoop, now_ns: u64, commands: Vec<Command>) -> u64 {
         assert_eq!(frames.begin(), None);
         frames.advance(now_ns, u64::MAX, &|| now_ns);
@@ -210,7 +211,7 @@ mod tests {
         for command in [StageCommand::SceneBeside(Step::Previous), StageCommand::Restart] {
             let is_opened = command != StageCommand::Restart;
             frames.queue([command.into()]);
-            // The frame before takes long, and so does the next one if a scene was opened.
+            // The previous frame takes long, and so does the next one if a scene was opened.
             now_ns += 10 * FRAME_NS;
             frame(&mut frames, now_ns, Vec::new());
             assert_eq!(frames.studio.race().tick(), if is_opened { 0 } else { 10 });

@@ -1,11 +1,11 @@
 //! The gestures of the mouse, for the help overlay.
 
-/// A gesture of the mouse.
+/// A gesture of the mouse, and its effect.
 #[derive(Debug)]
 pub struct Gesture {
-    /// The gesture, as the help shows it.
+    /// The gesture, as the help names it.
     pub shown: &'static str,
-    /// Its effect, for people.
+    /// Description of the gesture's effect, for people.
     pub about: &'static str,
 }
 
@@ -15,6 +15,7 @@ pub static GESTURES: &[Gesture] = &[
         shown: "Drag a body",
         about: "move it and throw it at the speed of the drag; with Shift, put it down at rest",
     },
+    Gesture { shown: "Ctrl drag a body", about: "pull it by a spring while time runs" },
     Gesture { shown: "Wheel, pinch", about: "zoom the stage, a plot, the timeline" },
     Gesture { shown: "Drag the water", about: "pan; in a plot too" },
     Gesture { shown: "Double click", about: "fit the view; on a number in Edit: type a value" },

@@ -1,8 +1,8 @@
-//! The guide: the chapter in stops. Each stop opens a scene, asks for a prediction and for a key, and shows its
-//! answer when the person has done the task. After the scene's own hint, further hints under the stage show the next
+//! The guide leads through the chapter in stops. Each stop opens a scene and asks for a prediction and for a key. When
+//! the person has done the task, the stop shows its answer. Outside the guide, hints under the stage show the next
 //! steps.
 //!
-//! `tests/library/guide.rs` measures the claims of the stops.
+//! `tests/library/guide.rs` checks the claims of the stops by measurement.
 
 use super::display::Display;
 use super::instrument::Instrument;
@@ -21,33 +21,33 @@ pub use stops::STOPS;
 /// A stop of the guide.
 #[derive(Debug)]
 pub struct Stop {
-    /// The topic.
+    /// The topic of the stop.
     pub title: &'static str,
-    /// The built-in scene that it opens.
+    /// Name of the built-in scene that the stop opens.
     pub scene: &'static str,
-    /// Id of the method with which it opens the scene.
+    /// Id of the method under which the stop opens the scene.
     pub method: &'static str,
-    /// Ticks per second.
+    /// Tick rate, in Hz.
     pub tick_hz: u32,
-    /// Solo or a race.
+    /// Whether the stop is solo or a race.
     pub mode: Mode,
-    /// The instrument that it opens, which shows the answer.
+    /// The instrument that the stop opens. It shows the answer.
     pub instrument: Instrument,
-    /// The quantity in *Motion*, and of the error in *Error*.
+    /// The quantity that *Motion* shows, and whose error *Error* shows.
     pub quantity: Quantity,
     /// The situation and the question. Keys stand between backticks.
     pub question: &'static str,
     /// The predictions to choose from.
     pub choices: &'static [&'static str],
-    /// Index of the right one.
+    /// Index of the right prediction.
     pub right: usize,
-    /// The task, with its key.
+    /// The task, with the key that performs it.
     pub task: &'static str,
     /// The keys that perform the task.
     pub keys: &'static [Key],
-    /// When the task is done.
+    /// The state in which the task is done.
     pub goal: Goal,
-    /// The explanation afterwards.
+    /// The explanation that appears when the task is done.
     pub answer: &'static str,
 }
 
@@ -76,26 +76,26 @@ pub enum Goal {
     Interpolation(Interpolation),
 }
 
-/// The state of a studio that goals and hints depend on.
+/// The state of a studio on which goals and hints depend.
 pub(super) struct HintContext<'a> {
     pub(super) scene: &'a Scene,
     pub(super) race: &'a Race,
-    /// The menu, and the index on it of the selected lane's method.
+    /// The methods of the menu, and the index among them of the selected lane's method.
     pub(super) menu: &'a [LaneSpec],
     pub(super) active: usize,
-    /// Whether all parameters have the values of the scene as opened.
+    /// Whether all parameters have the values that they had when the scene was opened.
     pub(super) has_own_values: bool,
-    /// Whether nobody has changed the run on the way, so that a restart would run alike.
+    /// Whether nobody has changed the run on the way. If so, a restart would run alike.
     pub(super) is_from_the_start: bool,
     pub(super) speed_percent: u32,
-    /// Whether a person has paused it.
+    /// Whether a person has paused the run.
     pub(super) is_paused: bool,
     pub(super) is_in_loop_lab: bool,
     pub(super) display: &'a Display,
 }
 
 impl HintContext<'_> {
-    /// The method of the selected lane.
+    /// Returns the method of the selected lane.
     fn method(&self) -> &'static Method {
         self.menu[self.active].method
     }
@@ -127,24 +127,24 @@ pub struct Tour {
 }
 
 impl Tour {
-    /// At this stop, before the prediction and the task.
+    /// Creates the progress at this stop, before the prediction and the task.
     pub(super) fn at(stop: usize) -> Self {
         Self { stop: stop.min(STOPS.len() - 1), guess: None, is_done: false }
     }
 
-    /// The present stop.
+    /// Returns the present stop.
     pub fn stop(&self) -> &'static Stop {
         &STOPS[self.stop]
     }
-    /// Index of the stop, from 0.
+    /// Returns the index of the stop, from 0.
     pub fn index(&self) -> usize {
         self.stop
     }
-    /// The prediction, by its index among the choices.
+    /// Returns the person's prediction, as an index among the choices.
     pub fn guess(&self) -> Option<usize> {
         self.guess
     }
-    /// Whether the task is done.
+    /// Whether the person has done the task.
     pub fn is_done(&self) -> bool {
         self.is_done
     }
@@ -160,8 +160,8 @@ impl Tour {
         }
     }
 
-    /// Marks the task as done if its goal is met. If the stop asks for `Home`, the run must also be unchanged since
-    /// its start. A task once done stays done.
+    /// Marks the task as done if its goal is met. If the stop asks for `Home`, the run must also be unchanged since its
+    /// start. A task that is done once stays done.
     pub(super) fn check_goal(&mut self, now: &HintContext<'_>) {
         let is_begun = now.is_from_the_start || !self.stop().keys.contains(&Key::Home);
         self.is_done |= is_begun && self.stop().goal.is_met(now);

@@ -1,4 +1,4 @@
-//! The guide and the hints of a studio: opens stops, and notes when their tasks are done.
+//! The guide and the hints of a studio. Opens stops, and notes when their tasks are done.
 
 use super::deck::{Deck, LeftRun};
 use super::display::Display;
@@ -13,7 +13,7 @@ use crate::run::past::Quantity;
 use crate::run::race::Interpolation;
 use crate::scene::{SCENES, SceneBody};
 
-/// Index of the metric that compares this quantity with the truth's.
+/// Returns the index of the metric that is the error of this quantity.
 fn error_of(quantity: Quantity) -> usize {
     match quantity {
         Quantity::Position => Metric::POSITION_ERROR,
@@ -21,7 +21,7 @@ fn error_of(quantity: Quantity) -> usize {
     }
 }
 
-/// The studio's state for goals and hints.
+/// Returns the state of the studio on which goals and hints depend.
 fn hint_context<'a>(deck: &'a Deck, viewer: &'a Viewer, is_in_loop_lab: bool) -> HintContext<'a> {
     let own = &deck.scene_as_opened().bodies;
     let has_own_values = |(index, body): (usize, &SceneBody)| {
@@ -50,18 +50,19 @@ pub(super) fn toggle_guide(deck: &mut Deck, viewer: &mut Viewer) {
     }
 }
 
-/// Closes the guide, and brings back the run that the person left for it. Returns whether there was either.
+/// Closes the guide, and brings back the run that the person left for it. Returns whether there was a guide or a run.
 pub(super) fn close_guide(deck: &mut Deck, viewer: &mut Viewer) -> bool {
     let was_open = viewer.close_guide();
     return_from_guide(deck, viewer) || was_open
 }
 
-/// Brings back the run that the person left for the guide, with its view. Returns whether there was one.
+/// Brings back the run that the person left for the guide, with the person's view of it. Returns whether there was such
+/// a run.
 pub(super) fn return_from_guide(deck: &mut Deck, viewer: &mut Viewer) -> bool {
     let Some(left) = deck.left.take() else { return false };
     let LeftRun { deck: own, view, display: before } = *left;
     let stop = std::mem::replace(deck, own);
-    // A file may have changed meanwhile.
+    // A file on the list may have changed meanwhile, so the newer list stays.
     let open = deck.scene_list.open();
     deck.scene_list = stop.scene_list;
     deck.scene_list.set_open(open);
@@ -92,8 +93,8 @@ pub(super) fn go_to_stop_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step
     }
 }
 
-/// Opens this stop of the guide: its scene at the start under its method and rate, and its instrument. Time stands
-/// still until the person predicts.
+/// Opens this stop of the guide: its scene at the start, under the stop's method and rate, and the stop's instrument.
+/// Time stands still until the person predicts.
 pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     let (view, display) = (viewer.view.clone(), viewer.preferences.display.clone());
     let hints = viewer.hints.clone();
@@ -115,7 +116,7 @@ pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     });
     deck.clock.set_speed_percent(100);
     deck.running = false;
-    // A scene of clouds opens with the cloud in place of the stage.
+    // A scene of clouds would open with the cloud in place of the stage.
     viewer.preferences.display.enlarged = false;
     viewer.preferences.display.instrument = instrument;
     viewer.preferences.display.quantity = Some(quantity);
@@ -124,8 +125,8 @@ pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     viewer.tour = Some(tour);
 }
 
-/// Marks the stop's task as done if it is. Time starts when a stop that asked before the command (`was_asked`) has
-/// its prediction, unless its task is to step.
+/// Marks the stop's task as done if its goal is met. `was_asked` is whether the stop waited for a prediction before the
+/// command. If it did and no longer does, time starts, unless the task is to step.
 pub(super) fn look_at_goal(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -139,7 +140,8 @@ pub(super) fn look_at_goal(
     viewer.tour = Some(tour);
 }
 
-/// The next thing to try: the scene's own hint, then a later one. Keys stand between backticks.
+/// Returns the next thing to try, which a run at rest, the guide, the scene or the program suggests. Keys stand between
+/// backticks.
 pub(super) fn hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option<String> {
     if let Some(rest) = rest_hint(deck, viewer) {
         return Some(rest);

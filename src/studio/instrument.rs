@@ -1,4 +1,4 @@
-//! The instruments beside the stage. One table defines the tabs, the keys and the tests.
+//! The instruments beside the stage. The tabs, the keys and the tests follow from one table.
 
 /// An instrument in the panel beside the stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -7,7 +7,7 @@ pub enum Instrument {
     Motion,
     /// The chosen metric over time.
     Error,
-    /// Kinetic, potential and total energy, and the drift of every lane.
+    /// Kinetic, potential and total energy, and the drift of each lane.
     Energy,
     /// Velocity over coordinate.
     Phase,
@@ -15,24 +15,24 @@ pub enum Instrument {
     StabilityMap,
     /// The anatomy of the selected method's next tick.
     OneStep,
-    /// The effect of each method on the area of many starts.
+    /// The effect of each method on the area of a cloud of starts.
     Cloud,
-    /// Advice on methods and rates.
+    /// Advice on methods and tick rates.
     Advice,
     /// The moments that game loops show, and the timing of this program's own loop.
     Loop,
-    /// The cost of each lane's tick.
+    /// The cost of a tick in each lane.
     Cost,
 }
 
 /// The groups of tabs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstrumentGroup {
-    /// Shows the run.
+    /// Instruments that show the run.
     See,
-    /// Explains it.
+    /// Instruments that explain the run.
     Why,
-    /// Suggests a remedy.
+    /// Instruments that suggest a remedy.
     Do,
 }
 
@@ -41,11 +41,11 @@ pub enum InstrumentGroup {
 pub struct InstrumentCard {
     /// The instrument.
     pub instrument: Instrument,
-    /// Group of its tab.
+    /// Group in which the instrument's tab is.
     pub group: InstrumentGroup,
-    /// Text of its tab.
+    /// Text of the instrument's tab.
     pub name: &'static str,
-    /// Its measurement, and how to read it.
+    /// Description of what the instrument measures, and how to read it.
     pub about: &'static str,
 }
 
@@ -128,10 +128,10 @@ pub static INSTRUMENTS: &[InstrumentCard] = &[
 ];
 
 impl InstrumentGroup {
-    /// Every group, from the left.
+    /// Every group, from left to right.
     pub const ALL: [InstrumentGroup; 3] = [See, Why, Do];
 
-    /// The word before its tabs.
+    /// Returns the word before the group's tabs.
     pub fn name(self) -> &'static str {
         match self {
             See => "See",
@@ -142,34 +142,34 @@ impl InstrumentGroup {
 }
 
 impl Instrument {
-    /// Every instrument, in the order of the tabs.
+    /// Returns every instrument, in the order of the tabs.
     pub fn all() -> impl DoubleEndedIterator<Item = Instrument> + Clone {
         INSTRUMENTS.iter().map(|card| card.instrument)
     }
 
-    /// Its entry in the table.
+    /// Returns the instrument's entry in the table.
     pub fn card(self) -> &'static InstrumentCard {
         let card = INSTRUMENTS.iter().find(|card| card.instrument == self);
         card.expect("every instrument has a line in the table")
     }
 
-    /// Text of its tab.
+    /// Returns the text of the instrument's tab.
     pub fn name(self) -> &'static str {
         self.card().name
     }
 
-    /// Its name on the command line and in file names.
+    /// Returns the instrument's name on the command line and in file names.
     pub fn id(self) -> String {
         self.name().to_lowercase().replace(' ', "-")
     }
 
-    /// The instrument with this [id](Self::id), or with this former id.
+    /// Returns the instrument with this [id](Self::id), which may also be a former id.
     pub fn of_id(id: &str) -> Option<Self> {
         let id = if id == "phase-portrait" { "phase" } else { id };
         Self::all().find(|instrument| instrument.id() == id)
     }
 
-    /// Whether the loop lab has it. Its loops have different motions, but share one method.
+    /// Whether the loop lab has the instrument. The loops there have different motions, but share one method.
     pub fn is_in_loop_lab(self) -> bool {
         match self {
             Self::Motion | Self::Error | Self::Energy | Self::Phase | Self::Loop => true,
@@ -177,7 +177,7 @@ impl Instrument {
         }
     }
 
-    /// The instrument of the next or previous tab, cyclically.
+    /// Returns the instrument of the next or previous tab, cyclically.
     pub(super) fn neighbour(self, step: Step) -> Self {
         let index = Self::all().position(|instrument| instrument == self).unwrap_or(0);
         INSTRUMENTS[step.cyclic_index(index, INSTRUMENTS.len())].instrument

@@ -1,4 +1,4 @@
-//! A spring of a studio's scene as the joint of an engine.
+//! A spring of a studio's scene, described as the joint of an engine.
 
 use super::deck::Deck;
 use super::viewer::Viewer;
@@ -7,16 +7,16 @@ use crate::run::race::LaneBody;
 use crate::scene::{Action, Swing};
 use crate::tools::port::{Setup, setups};
 
-/// A spring, by the indices and the values of its parameters.
+/// The spring of a scene: the indices and the values of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpringJoint {
-    /// Index of its body in the scene.
+    /// Index of the spring in the scene.
     pub body: usize,
-    /// Indices of mass, stiffness and damping among the parameters of the body.
+    /// Indices of the mass, the stiffness and the damping among the spring's parameters.
     indices: [usize; 3],
-    /// The mass in kg.
+    /// Mass in kg.
     pub mass_kg: f64,
-    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass.
+    /// Stiffness in 1/s² and damping in 1/s, both per unit of mass.
     pub joint: [f64; 2],
 }
 
@@ -24,7 +24,7 @@ pub struct SpringJoint {
 const KEYS: [&str; 3] = ["mass_kg", "stiffness_n_per_m", "damping_n_s_per_m"];
 
 impl SpringJoint {
-    /// The actions that set this setting of a mode to `value`; the other setting stays.
+    /// Returns the actions that set one setting of a mode to `value` and keep its other setting.
     pub fn set(&self, setup: Setup, setting: usize, value: f64) -> [Action; 2] {
         let mut values = setup.mode.values(self.joint, self.mass_kg);
         values[setting] = value;
@@ -38,7 +38,8 @@ impl SpringJoint {
 }
 
 impl Deck {
-    /// The body's present spring settings, if an engine's joint can represent it.
+    /// Returns the present settings of a body that is a spring, or `None` if an engine's joint cannot represent the
+    /// body.
     pub fn spring_joint(&self, body: usize) -> Option<SpringJoint> {
         let LaneBody { kind, stepper, .. } = &self.race().truth().bodies()[body];
         let joint = kind.joint(&**stepper)?;
@@ -47,14 +48,14 @@ impl Deck {
         Some(SpringJoint { body, indices, mass_kg: self.race().values(body)[indices[0]], joint })
     }
 
-    /// Every mode of every engine, at the race's tick rate.
+    /// Returns the setups of every mode of every engine, at the race's tick rate.
     pub fn joint_setups(&self) -> Vec<Setup> {
         setups(None, f64::from(self.race().tick_hz()), None)
     }
 }
 
-/// The lines of code that set the displayed body's spring in the engine with this menu index. `None` if that is not
-/// an engine with a joint, or if the body is not a spring.
+/// Returns the lines of code that set the displayed body's spring in the engine with this menu index. Returns `None` if
+/// the entry is not an engine with a joint, or if the body is not a spring.
 pub fn joint_code(deck: &Deck, viewer: &Viewer, entry: MenuIndex) -> Option<String> {
     let spring = deck.spring_joint(viewer.view.body)?;
     let spec = deck.entries().get(entry)?;
@@ -96,14 +97,14 @@ mod tests {
         );
         studio.apply(ViewCommand::PointAt(Some(entry)));
         assert_eq!(studio.apply(ViewCommand::Copy), Some(DriverRequest::CopyJoint(entry)));
-        // A custom method is copied as source code, and so is an engine's step by its menu.
+        // The method for any other body is copied as source code, and so is an engine's step by its menu.
         let ship = studio.scene().bodies.iter().position(|body| body.kind.id == "ship").unwrap();
         assert_eq!(studio.deck.spring_joint(ship), None);
         studio.apply(StageCommand::Body(ship));
         studio.apply(ViewCommand::PointAt(Some(entry)));
         assert_eq!(studio.apply(ViewCommand::Copy), Some(DriverRequest::CopyMethod(entry)));
         assert_eq!(studio.apply(DriverRequest::CopyJoint(entry)), None);
-        // An engine lane with its own spring settings copies those.
+        // An engine lane that has its own spring settings copies these.
         let alike = Studio::new(Scene::built_in("alike").unwrap());
         let told = [0, 3].map(|entry| joint_code(&alike.deck, &alike.viewer, entry).unwrap());
         assert!(told[0].contains("= 1.5;") && told[1].contains("= 1.50169895;"), "{told:?}");

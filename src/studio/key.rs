@@ -1,4 +1,5 @@
-//! The keys and their commands. [`KEYS`] is the one table for the window, the help overlay and `regatta list keys`.
+//! The keys and their commands. The table [`KEYS`] is the only source for the window, the help overlay and `regatta
+//! list keys`.
 
 use std::fmt;
 
@@ -12,11 +13,11 @@ use crate::scene::Action;
 /// A key that can have a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Key {
-    /// A digit by its position on the keyboard, so that it works unshifted on every layout.
+    /// A digit by its position on the keyboard, so that it needs no Shift on any layout.
     Digit(u8),
-    /// A lower-case letter or a sign, as the layout produces it.
+    /// A lower-case letter or a sign, as the keyboard's layout produces it.
     Sign(char),
-    /// The same letter with Shift held.
+    /// A lower-case letter or a sign with Shift held.
     ShiftSign(char),
     /// A letter or a sign with Control held, or with Command on a Mac.
     ControlSign(char),
@@ -46,7 +47,7 @@ pub enum Key {
     Function(u8),
 }
 
-/// Its name for people.
+/// The name of the key for people.
 impl fmt::Display for Key {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -71,8 +72,8 @@ impl fmt::Display for Key {
 }
 
 impl Key {
-    /// Whether browsers use the key in a way that visitors expect on every page: reload, developer tools, full
-    /// screen, zoom. A page leaves it to the browser.
+    /// Whether browsers use the key for something that visitors expect on every page: reload, developer tools, full
+    /// screen, zoom. A page leaves such a key to the browser.
     pub fn is_browsers(self) -> bool {
         matches!(
             self,
@@ -86,18 +87,19 @@ impl Key {
 pub struct Binding {
     /// The keys, as the help shows them.
     pub shown: &'static str,
-    /// Their effect, for people.
+    /// Description of the keys' effect, for people.
     pub about: &'static str,
-    /// Their effect on a page, if it differs.
+    /// Description of the effect on a page, if it differs there.
     pub about_on_page: Option<&'static str>,
-    /// The keys, each with its command.
+    /// Each key with its command.
     pub keys: &'static [(Key, Command)],
-    /// Whether holding the key repeats it.
+    /// Whether the command repeats while the key is held.
     pub repeats: bool,
 }
 
 impl Binding {
-    /// The keys and their effect, as the help of a page shows them; `None` if all belong to the browser.
+    /// Returns the keys and their effect, as the help of a page shows them, or `None` if all the keys belong to the
+    /// browser.
     pub fn on_page(&self) -> Option<(String, &'static str)> {
         let about = self.about_on_page.unwrap_or(self.about);
         let own = self.keys.iter().map(|(key, _)| key).filter(|key| !key.is_browsers());
@@ -110,8 +112,8 @@ impl Binding {
     }
 }
 
-/// Builds the table. An entry has `once` or `repeating`, the keys as shown, their effect, optionally that on a page,
-/// and each key with its command.
+/// Builds the table of keys. An entry has `once` or `repeating`, the keys as shown, their effect, their effect on a
+/// page if it differs, and each key with its command.
 macro_rules! keys {
     ($($often:ident $shown:literal $about:literal $(or $page:literal)?: $($key:ident $(($of:literal))? => $command:expr),+;)+) => {
         &[$(Binding {
@@ -123,7 +125,7 @@ macro_rules! keys {
     (@page $page:literal) => { Some($page) };
 }
 
-/// Number of methods that digits pick: 1 to 9, and 0.
+/// Number of methods that digits pick: with the keys 1 to 9, and 0.
 pub const DIGITS: usize = 10;
 
 /// Every key and its command.
@@ -223,7 +225,7 @@ pub static KEYS: &[Binding] = keys! {
         Escape => View(ViewCommand::Escape);
 };
 
-/// An entry whose keys do not repeat while held.
+/// Creates an entry whose keys do not repeat while held.
 const fn once(
     shown: &'static str,
     about: &'static str,
@@ -232,7 +234,7 @@ const fn once(
     Binding { shown, about, about_on_page: None, keys, repeats: false }
 }
 
-/// An entry whose keys repeat while held.
+/// Creates an entry whose keys repeat while held.
 const fn repeating(
     shown: &'static str,
     about: &'static str,
@@ -241,7 +243,7 @@ const fn repeating(
     Binding { repeats: true, ..once(shown, about, keys) }
 }
 
-/// The command of `key`, with its entry in the table.
+/// Returns the command of `key`, and the entry of the table that has the key.
 pub fn command_for(key: Key) -> Option<(Command, &'static Binding)> {
     KEYS.iter().find_map(|binding| {
         let (_, command) = binding.keys.iter().find(|(bound, _)| *bound == key)?;

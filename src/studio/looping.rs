@@ -1,4 +1,4 @@
-//! The loop lab as a mode of the studio: opens and leaves it, and executes commands in it.
+//! The loop lab as a mode of the studio. Opens and leaves the lab, and executes commands in it.
 
 use std::sync::Arc;
 
@@ -16,18 +16,18 @@ use crate::loops::loop_lab::{FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopW
 use crate::scene::SceneBody;
 use crate::sim::integrators::{Method, method};
 
-/// Initial method of the body: one with a small error.
+/// Initial method of the body in the loop lab. Its error is small.
 const METHOD_AT_FIRST: &str = "rk4";
 
-/// Why the loop lab refuses the displayed body: preparing a net for every loop would take too long. `None` if it
-/// accepts the body.
+/// Returns the reason why the loop lab refuses the displayed body, or `None` if it accepts the body. It refuses a net,
+/// because preparing a net for every loop would take too long.
 pub fn loop_lab_refusal(deck: &Deck, viewer: &Viewer) -> Option<String> {
     let SceneBody { name, kind, .. } = &deck.scene().bodies[viewer.view.body];
     let refusal = "is a net, which the loop lab does not take; open another scene";
     kind.net().is_some().then(|| format!("{name} {refusal}"))
 }
 
-/// Opens the loop lab with the displayed body, unless it is [refused](loop_lab_refusal).
+/// Opens the loop lab with the displayed body, unless the body is [refused](loop_lab_refusal).
 pub(super) fn open_loop_lab(studio: &mut Studio) {
     let method = method(METHOD_AT_FIRST).expect("a built-in method");
     let body = studio.viewer.view.body;
@@ -42,7 +42,7 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
     studio.loops = Some(loops.into());
     studio.viewer.preferences.display.instrument = Instrument::Loop;
     studio.viewer.preferences.display.inspector = false;
-    studio.deck.held = None;
+    studio.deck.let_go();
     studio.viewer.notice = None;
     if studio.viewer.tour.as_ref().is_some_and(|tour| tour.stop().goal != Goal::LoopLab) {
         studio.viewer.leave_guide(studio.deck.left.as_deref());
@@ -51,7 +51,7 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
     studio.deck.running = true;
 }
 
-/// Leaves the loop lab. The run resumes or stays paused as before; if a guide was closed meanwhile, the run that the
+/// Leaves the loop lab. The run resumes or stays paused as before. If the guide was closed meanwhile, the run that the
 /// person left for it returns. Returns whether the loop lab was open.
 pub(super) fn leave_loop_lab(studio: &mut Studio) -> bool {
     let Some(loops) = studio.loops.take() else { return false };
@@ -78,7 +78,7 @@ pub fn open_loop_lab_on(studio: &mut Studio, trace: &str) {
     }
 }
 
-/// Opens the loop lab, if it is closed, on the first of these traces.
+/// Opens the loop lab if it is closed, on the first of these traces.
 pub fn open_traces(studio: &mut Studio, traces: Vec<FrameTrace>) {
     if studio.loop_lab().is_none() {
         open_loop_lab(studio);
@@ -95,7 +95,8 @@ pub fn open_traces(studio: &mut Studio, traces: Vec<FrameTrace>) {
     }
 }
 
-/// The loops that the open loop lab needs now, for a [`LoopWorker`]; `None` if it has all, or is closed.
+/// Returns the loops that the open loop lab needs now, as a request to a [`LoopWorker`]. Returns `None` if the lab has
+/// all its loops, or is closed.
 pub fn loop_request(studio: &Studio) -> Option<Arc<LoopRequest>> {
     let loops = studio.loop_lab().filter(|loops| !loops.is_complete());
     loops.map(|loops| Arc::clone(loops.request()))
@@ -108,7 +109,7 @@ pub fn accept_loop(studio: &mut Studio, found: FoundLoop) {
     }
 }
 
-/// Runs all loops that the open loop lab needs, now.
+/// Runs at once all loops that the open loop lab needs.
 pub fn run_loops(studio: &mut Studio) {
     let mut worker = LoopWorker::default();
     worker.set_request(loop_request(studio));
@@ -117,7 +118,7 @@ pub fn run_loops(studio: &mut Studio) {
     }
 }
 
-/// Executes a command on the stage while the loop lab is on it.
+/// Executes a command on the stage while the stage shows the loop lab.
 pub(super) fn carry_out_in_loop_lab(studio: &mut Studio, command: StageCommand) {
     let Some(loops) = &mut studio.loops else { return };
     let tick_hz = loops.scene().tick_hz;
@@ -184,7 +185,7 @@ pub(super) fn carry_out_in_loop_lab(studio: &mut Studio, command: StageCommand) 
     }
 }
 
-/// Notes that the loop lab accepts no command on the run.
+/// Shows a notice that the loop lab accepts no command on the run.
 pub(super) fn refuse_in_loop_lab(viewer: &mut Viewer, loops: &mut LoopLab) {
     viewer.set_notice("not in the loop lab: L leaves it");
     loops.end_opening();

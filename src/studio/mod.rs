@@ -1,9 +1,9 @@
-//! A person's control of a run: the studio, with the run and its past, its clock, and its display. Commands come in;
-//! state goes out.
+//! A person's control of a run: the studio, with the run and its past, its clock, and its display. Commands go in, and
+//! state comes out.
 //!
-//! A [`Studio`] executes [`Command`]s, which [`KEYS`] and [`GESTURES`] produce. It passes anything beyond its means
-//! to the driver as a [`DriverRequest`]. Its [`Viewer`] holds the [`Preferences`], which survive the scene, and the
-//! [`View`], which does not. [`INSTRUMENTS`] surround the stage, and the [`guide`] leads through the scenes.
+//! A [`Studio`] executes [`Command`]s, which come from [`KEYS`] and [`GESTURES`]. It passes anything that it cannot do
+//! itself to the driver, as a [`DriverRequest`]. Its [`Viewer`] has the [`Preferences`], which outlast the scene, and
+//! the [`View`], which does not. [`INSTRUMENTS`] surround the stage, and the [`guide`] leads through the scenes.
 
 use crate::loops::Due;
 use crate::loops::loop_lab::LoopLab;
@@ -44,6 +44,7 @@ mod notice;
 mod notices;
 mod opening;
 mod pace;
+mod pulling;
 mod restarting;
 mod resting;
 mod saved_preferences;
@@ -85,6 +86,7 @@ pub use opening::{
     show_clouds_of_scene, show_comparison, show_mistakes,
 };
 pub use pace::{LiveFrame, LiveLoop, PaceMeter};
+pub use pulling::PulledBody;
 pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
 pub use spring_field::SpringField;
@@ -97,21 +99,21 @@ pub use zoom_pan::ZoomPan;
 pub struct Studio {
     /// The run, its clock and the selected lane.
     pub deck: Deck,
-    /// A person's view, and the texts beside it.
+    /// The person's view, and the texts beside it.
     pub viewer: Viewer,
-    /// The loop lab, while it is on the stage and the run waits.
+    /// The loop lab, while the stage shows it and the run waits.
     pub(super) loops: Option<Box<LoopLab>>,
 }
 
 impl Studio {
-    /// Opens a scene, running and solo, under its [opening method](Scene::opening_method), or else under the first of
-    /// its lanes. The caller decides on [`Scene::opens_as_race`].
+    /// Opens a scene in solo mode, without a pause. The method is the scene's [opening method](Scene::opening_method),
+    /// or else that of its first lane. The caller decides whether to follow [`Scene::opens_as_race`].
     pub fn new(scene: Scene) -> Self {
         Self::starting_with(StartSettings::of(scene))
     }
 
-    /// Opens a scene at tick 0 as options ask, under the method `selected`, or else the scene's opening method. In a
-    /// race without `selected`, the verdicts select a lane. A single lane opens solo.
+    /// Opens a scene at tick 0 as the options ask, under the method `selected`, or else under the scene's opening
+    /// method. In a race without `selected`, the verdicts select a lane. A scene with a single lane opens solo.
     pub fn opened(scene: Scene, selected: Option<&'static Method>, mode: Mode) -> Self {
         let method = selected.unwrap_or_else(|| scene.opening_lane().method);
         let mut next = StartSettings::of(scene);
@@ -138,7 +140,7 @@ impl Studio {
         Self { deck, viewer: Viewer::default(), loops: None }
     }
 
-    /// Continues a session at its current tick, in its mode.
+    /// Continues a session at its present tick and in its mode.
     pub fn of_session(session: Session) -> Self {
         let tick = session.race().tick();
         let scene_list = SceneList::of(session.scene());
@@ -147,47 +149,48 @@ impl Studio {
         Self::of_deck(Deck::new(scene_list, run))
     }
 
-    /// The open scene with the person's parameters and length.
+    /// Returns the open scene, with the person's parameters and length.
     pub fn scene(&self) -> &Scene {
         self.deck.scene()
     }
-    /// The run, its past and its future.
+    /// Returns the run with its past and its future.
     pub fn run(&self) -> &Run {
         self.deck.run()
     }
-    /// The lanes and the truth.
+    /// Returns the lanes and the truth.
     pub fn race(&self) -> &Race {
         self.deck.race()
     }
-    /// The recorded past of the lanes and the truth.
+    /// Returns the recorded past of the lanes and the truth.
     pub fn past(&self) -> &Past {
         self.deck.past()
     }
-    /// The methods to which digits and rows refer: those of the [menu](crate::run::Menu).
+    /// Returns the methods of the [menu](crate::run::Menu). Digits and rows of the table refer to them.
     pub fn entries(&self) -> &[LaneSpec] {
         self.deck.entries()
     }
-    /// Menu index of a lane's method.
+    /// Returns the menu index of a lane's method.
     pub fn entry(&self, entrant: &Entrant) -> MenuIndex {
         self.deck.entry(entrant)
     }
-    /// Name of the method with this menu index, with its settings if another entry has the same method.
+    /// Returns the name of the method with this menu index. If another entry has the same method, the name includes the
+    /// settings.
     pub fn lane_name(&self, entry: MenuIndex) -> String {
         self.deck.lane_name(entry)
     }
-    /// Solo or race.
+    /// Returns whether the run is solo or a race.
     pub fn mode(&self) -> Mode {
         self.deck.mode()
     }
-    /// Menu index of the solo method, or of the selected lane's in a race.
+    /// Returns the menu index of the method in solo mode, or of the selected lane's method in a race.
     pub fn active(&self) -> MenuIndex {
         self.deck.active()
     }
-    /// The lane in solo mode, or the selected lane in a race.
+    /// Returns the only lane in solo mode, or the selected lane of a race.
     pub fn selected(&self) -> &Entrant {
         self.deck.selected()
     }
-    /// The clock.
+    /// Returns the clock.
     pub fn clock(&self) -> &Clock {
         self.deck.clock()
     }
@@ -195,20 +198,20 @@ impl Studio {
     pub fn running(&self) -> bool {
         self.deck.running()
     }
-    /// The display settings.
+    /// Returns the display settings.
     pub fn display(&self) -> &Display {
         self.viewer.display()
     }
-    /// The person's view of the scene.
+    /// Returns the person's view of the scene.
     pub fn view(&self) -> &View {
         &self.viewer.view
     }
-    /// The open loop lab; `None` in solo and in a race.
+    /// Returns the open loop lab, or `None` while the stage shows a run.
     pub fn loop_lab(&self) -> Option<&LoopLab> {
         self.loops.as_deref()
     }
 
-    /// The window's title: people and tests read it.
+    /// Returns the title of the window, which people and tests read.
     pub fn title(&self) -> String {
         if let Some(loops) = &self.loops {
             return title_of_loops(&self.deck, loops);
@@ -224,23 +227,24 @@ impl Studio {
         )
     }
 
-    /// The next thing to try: the scene's own hint, then a later one. Keys stand between backticks.
+    /// Returns the next thing to try, which a run at rest, the guide, the scene or the program suggests. Keys stand
+    /// between backticks.
     pub fn hint(&self) -> Option<String> {
         hint(&self.deck, &self.viewer, self.loops.is_some())
     }
 
-    /// Performs the actions at this tick, and steps to the next.
+    /// Performs the actions at this tick, and steps to the next tick.
     pub fn tick(&mut self) {
         make_tick(&mut self.deck, &mut self.viewer, &mut ());
     }
 
-    /// Adds a frame of `frame_ns` nanoseconds of real time, and makes the ticks due.
+    /// Adds a frame of `frame_ns` nanoseconds of real time, and makes the ticks that are due.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
         self.advance_in_time(u64::MAX, frame_ns, &mut || true, &mut ())
     }
 
-    /// Like [`Studio::advance`], but stops at tick `last`, and notifies an observer. Calls `is_time_left` after each
-    /// tick; if it returns `false`, drops the remaining ticks.
+    /// Like [`Studio::advance`], but stops at the tick `last`, and notifies an observer. Calls `is_time_left` after
+    /// each tick, and drops the remaining ticks if it returns `false`.
     pub fn advance_in_time(
         &mut self,
         last: u64,
@@ -265,12 +269,12 @@ impl Studio {
         advance(deck, viewer, last, frame_ns, is_time_left, observer)
     }
 
-    /// The verdicts and the advice that the studio needs now: see [`analysis_request`].
+    /// Returns the verdicts and the advice that the studio needs now, as described at [`analysis_request`].
     pub fn analysis_request(&self) -> AnalysisRequest {
         analysis_request(&self.deck, &self.viewer)
     }
 
-    /// Computes all requested verdicts and advice now.
+    /// Computes all requested verdicts and advice at once.
     pub fn analyse(&mut self) {
         if let Some(request) = unanswered_request(&self.deck, &self.viewer) {
             let findings = AnalysisWorker::new(request).finish();

@@ -1,4 +1,4 @@
-//! A custom spring: a scene from its numbers.
+//! A custom spring, and the scene that is made from its numbers.
 
 use std::f64::consts::TAU;
 
@@ -10,10 +10,10 @@ use crate::sim::integrators::method;
 use crate::sim::number::round;
 use crate::tools::port::Wish;
 
-/// Fewest periods in the scene of a slow spring.
+/// Minimum number of periods in the scene of a slow spring.
 const MIN_PERIODS: f64 = 10.0;
 
-/// A damped spring on a mass.
+/// A mass on a damped spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MySpring {
     /// Mass in kg.
@@ -31,7 +31,7 @@ pub struct MySpring {
 }
 
 impl Default for MySpring {
-    /// The example of the documentation.
+    /// Returns the example of the documentation.
     fn default() -> Self {
         Self {
             mass_kg: 12.0,
@@ -45,12 +45,12 @@ impl Default for MySpring {
 }
 
 impl MySpring {
-    /// The spring on this mass in kg with this undamped frequency in Hz and this damping ratio (1 = critical).
+    /// Creates a spring from its mass in kg, its undamped frequency in Hz and its damping ratio (1 is critical).
     pub fn of_frequency(mass_kg: f64, frequency_hz: f64, damping_ratio: f64) -> Self {
         Self { mass_kg, ..Self::default() }.swinging(frequency_hz, damping_ratio)
     }
 
-    /// The same mass and start with this undamped frequency in Hz and this damping ratio.
+    /// Returns a spring with the same mass and start, but with this undamped frequency in Hz and this damping ratio.
     pub fn swinging(self, frequency_hz: f64, damping_ratio: f64) -> Self {
         let omega = TAU * frequency_hz;
         Self {
@@ -60,36 +60,36 @@ impl MySpring {
         }
     }
 
-    /// The motion that a player should see.
+    /// Returns the motion that a player should see.
     pub fn wish(self) -> Wish {
         let [frequency_hz, damping_ratio] = [self.frequency_hz(), self.damping_ratio()];
         Wish { frequency_hz, damping_ratio, mass_kg: self.mass_kg }
     }
 
-    /// The same start on a spring that moves as `wish` asks.
+    /// Returns a spring with the same start that moves as `wish` asks.
     pub fn with_wish(self, wish: &Wish) -> Self {
         Self { mass_kg: wish.mass_kg, ..self }.swinging(wish.frequency_hz, wish.damping_ratio)
     }
 
-    /// Stretch at rest under gravity, in m.
+    /// Returns the stretch at rest under gravity, in m.
     pub fn sag_m(self) -> f64 {
         self.mass_kg * self.gravity_m_per_s2 / self.stiffness_n_per_m
     }
 
-    /// Undamped frequency in Hz.
+    /// Returns the undamped frequency in Hz.
     pub fn frequency_hz(self) -> f64 {
         libm::sqrt(self.stiffness_n_per_m / self.mass_kg) / TAU
     }
 
-    /// Damping ratio (1 = critical).
+    /// Returns the damping ratio (1 is critical).
     pub fn damping_ratio(self) -> f64 {
         self.damping_n_s_per_m / (2.0 * libm::sqrt(self.stiffness_n_per_m * self.mass_kg))
     }
 
-    /// Checks whether a scene may have these numbers.
+    /// Checks that a scene may have these numbers.
     ///
     /// # Errors
-    /// If a number is out of range, or if the mass would rest; the message names the number.
+    /// If a number is out of range, or if the mass would not move. The message names the number.
     pub fn check(self) -> Result<(), String> {
         for (name, value, range) in [
             ("mass", self.mass_kg, Range::POSITIVE),
@@ -108,8 +108,8 @@ impl MySpring {
         }
     }
 
-    /// The text of a scene of the spring alone, at this tick rate in Hz. The coordinate counts from the mass's place
-    /// of rest, around which gravity does not change the motion.
+    /// Returns the text of a scene with only the spring, at this tick rate in Hz. The coordinate counts from the place
+    /// where the mass hangs at rest, because gravity does not change the motion around it.
     pub fn scene_text(self, tick_hz: impl Into<TickRate>) -> String {
         let Self { mass_kg, stiffness_n_per_m, damping_n_s_per_m, v0_m_per_s, .. } = self;
         let (sag_m, x0_m) = (self.sag_m(), self.x0_m - self.sag_m());
@@ -129,7 +129,7 @@ impl MySpring {
             0.0 => "undamped".to_owned(),
             ratio => format!("damping ratio {}", round(ratio, 3)),
         };
-        // A number in TOML has a point or an exponent; `{:?}` writes either.
+        // A number in TOML needs a point or an exponent, and `{:?}` writes one of them.
         format!(
             "title = \"My spring\"\n\
              about = \"{} Hz, {damped}, pulled out by {} m{pushed}.{hung}\"\n\
@@ -149,7 +149,8 @@ impl MySpring {
         )
     }
 
-    /// The scene under the method recommended for it to look right, with explicit Euler one key away.
+    /// Returns the scene under the method that is recommended for the spring to look right. Explicit Euler is one key
+    /// away.
     ///
     /// # Errors
     /// If a scene may not have these numbers.
@@ -171,7 +172,7 @@ impl MySpring {
         Scene::parse(&scene.name, &scene.to_toml())
     }
 
-    /// The scene of [`scene_text`](Self::scene_text).
+    /// Returns the scene that [`scene_text`](Self::scene_text) describes.
     ///
     /// # Errors
     /// If a scene may not have these numbers.
@@ -180,7 +181,7 @@ impl MySpring {
     }
 }
 
-/// The next thing to try under the recommended method.
+/// Returns the hint at the next thing to try under the recommended method.
 fn hint(best: LaneSpec, lanes: &[LaneSpec]) -> String {
     let (name, first) = (best.name_with_substeps(lanes), lanes[0].method.name);
     match best == lanes[0] {
@@ -224,7 +225,7 @@ mod tests {
     fn the_start_of_a_hanging_spring_is_relative_to_its_rest() {
         let hung =
             MySpring { x0_m: 0.5, v0_m_per_s: -2.0, gravity_m_per_s2: 9.0, ..MySpring::default() };
-        // 12 kg · 9 m/s² / 900 N/m.
+        // The sag is 12 kg · 9 m/s² / 900 N/m.
         assert!((hung.sag_m() - 0.12).abs() < 1e-15);
         let scene = hung.scene(60).unwrap();
         let body = &scene.bodies[0];
@@ -250,7 +251,7 @@ mod tests {
             let scene = spring.advised_scene(tick_hz).unwrap();
             assert_eq!(scene.lanes[0].method.id, "explicit-euler");
             let adviser = Adviser::new(&scene, tick_hz);
-            // No more expensive method can be the recommended one.
+            // A more expensive method cannot be the recommended one.
             let methods = scene.methods_for_games().filter(|it| it.evaluations == Some(1));
             let mut all: Vec<_> = methods.map(|it| adviser.judged(LaneSpec::plain(it))).collect();
             adviser.search_until_decided(&mut all);

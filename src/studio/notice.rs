@@ -1,43 +1,44 @@
-//! A message that disappears by itself.
+//! A message to the person that disappears by itself.
 
 use std::ops::Deref;
 
-/// Least display time of a message, and extra time per letter, in nanoseconds: time to find and to read it.
+/// Minimum time for which a message is shown, and additional time per letter, in nanoseconds. People need the time to
+/// find and to read it.
 const MIN_NS: i64 = 3_000_000_000;
 const LETTER_NS: i64 = 60_000_000;
 
-/// A message to the person, such as a screenshot's file name. It shows for some seconds.
+/// A message to the person, for example with the name of a screenshot's file. It is shown for some seconds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
     text: String,
     parts: Vec<String>,
     left_ns: i64,
-    /// Whether it belongs to the present tick only.
+    /// Whether the message belongs only to the present tick.
     is_of_tick: bool,
 }
 
 impl Notice {
-    /// A notice that also disappears at the next tick.
+    /// Creates a notice that also disappears at the next tick.
     pub(super) fn of_tick(parts: Vec<String>) -> Self {
         Self { is_of_tick: true, ..parts.into() }
     }
 
-    /// Whether it disappears at the next tick.
+    /// Whether the notice also disappears at the next tick.
     pub(super) fn is_of_tick(&self) -> bool {
         self.is_of_tick
     }
 
-    /// Parts of its text, the most important first.
+    /// Returns the parts of the notice's text, the most important first.
     pub fn parts(&self) -> &[String] {
         &self.parts
     }
 
-    /// Remaining display time, in nanoseconds.
+    /// Returns the remaining time for which the notice is shown, in nanoseconds.
     pub fn left_ns(&self) -> i64 {
         self.left_ns
     }
 
-    /// Reduces the remaining display time by `ns` nanoseconds.
+    /// Reduces the remaining time by `ns` nanoseconds.
     pub(super) fn pass_time(&mut self, ns: i64) {
         self.left_ns = self.left_ns.saturating_sub(ns.max(0)).max(0);
     }

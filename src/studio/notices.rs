@@ -4,10 +4,10 @@ use crate::run::race::{Halt, Observer, PerformedAction, Race, Resumed, ResumedFr
 use crate::scene::{Action, LaneSpec, Scene};
 use crate::sim::bodies::FalseClaims;
 
-/// Collects notices from a race.
+/// An observer that collects notices from a race.
 pub(super) struct Notices<'s> {
     scene: &'s Scene,
-    /// Parts of the latest notice; empty without one.
+    /// Parts of the latest notice, or none if there was no notice.
     pub(super) parts: Vec<String>,
 }
 
@@ -34,8 +34,8 @@ impl Observer for Notices<'_> {
     }
 }
 
-/// The notice about bodies that halted in the last tick. Allocates nothing if none did. Omits a reference that would
-/// take too much work, since the stage reports it.
+/// Returns the notice about bodies that halted in the last tick, without an allocation if none did. It omits a
+/// reference that would take too much work, because the stage reports that.
 fn of_halts(scene: &Scene, race: &Race) -> Vec<String> {
     let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
     let told = halts.flat_map(|(entrant, halt)| {
@@ -54,14 +54,14 @@ fn of_halts(scene: &Scene, race: &Race) -> Vec<String> {
                 let fate = entrant.lane.bodies()[*index].fate().unwrap_or_default();
                 vec![format!("{name}: {} {fate}", body.name)]
             }
-            // The solver's reason gets its own line.
+            // The reason that the solver gave has its own line.
             false => vec![format!("{name}: {} {}", body.name, halt.fate()), failure.to_string()],
         }
     });
     told.collect()
 }
 
-/// The notice about halted bodies that a switch has resumed.
+/// Returns the notice about halted bodies that a switch has resumed.
 fn resumed_notice(scene: &Scene, resumed: &[Resumed]) -> Vec<String> {
     let told = resumed.iter().map(|Resumed { halt, from }| {
         let body = &scene.bodies[halt.body];
@@ -75,7 +75,7 @@ fn resumed_notice(scene: &Scene, resumed: &[Resumed]) -> Vec<String> {
     told.collect()
 }
 
-/// The notice about claims of a law that fail with the constants of an action.
+/// Returns the notice about claims of a law that fail with the constants that an action set.
 fn of_claims(scene: &Scene, race: &Race, action: &Action) -> Option<String> {
     let &Action::Set { body, .. } = action else { return None };
     let FalseClaims { energy, exact } = race.truth().bodies()[body].false_claims();

@@ -1,4 +1,4 @@
-//! Opening built-in scenes and scene files, which may change while they run.
+//! Opens built-in scenes and scene files. A file may change while its scene runs.
 
 use std::path::Path;
 
@@ -19,16 +19,16 @@ use crate::scene::{LaneSpec, Scene, SceneErrors, ShownError};
 use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 
-/// Name of a custom spring on the list of scenes.
+/// Name that a custom spring has on the list of scenes.
 const MY_SPRING: &str = "my spring";
-/// From this number of named methods on, none is selected.
+/// Number of named methods from which none of them is selected.
 pub const MANY_LANES: usize = 10;
-/// Most ticks for which a changed scene is run again: an hour at 60 Hz, which takes about a second.
+/// Maximum tick to which a changed scene is run again. It is an hour at 60 Hz, which takes about a second to compute.
 const MAX_RERUN: u64 = 60 * 3600;
 
-/// The mode and the selected method of a scene for options that name `methods`. Several methods race. Without any, a
-/// scene that opens as a race does so; otherwise `asked` decides. The first method is selected, unless there are
-/// [`MANY_LANES`] or more.
+/// Returns the mode and the selected method of a scene, for options that name `methods`. Several methods race. Without
+/// any method, a scene that opens as a race does so. In all other cases, `asked` is the mode. The first method is
+/// selected, unless there are [`MANY_LANES`] or more.
 pub fn lineup(
     scene: &Scene,
     methods: &[&'static Method],
@@ -42,7 +42,8 @@ pub fn lineup(
     (mode, methods.first().filter(|_| methods.len() < MANY_LANES).copied())
 }
 
-/// Whether a run of one scene can continue in the other: they need equal lanes and bodies of the same kinds.
+/// Whether a run of one scene can continue in the other one. It can if both scenes have equal lanes, and bodies of the
+/// same kinds.
 fn is_alike(a: &Scene, b: &Scene) -> bool {
     let kinds = |scene: &Scene| -> Vec<_> {
         let bodies = scene.bodies.iter();
@@ -51,7 +52,7 @@ fn is_alike(a: &Scene, b: &Scene) -> bool {
     a.lanes == b.lanes && kinds(a) == kinds(b)
 }
 
-/// Lists the open scene as the file at `path`.
+/// Puts the open scene on the list as the file at `path`.
 pub fn list_as_file(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
     let index = deck.scene_list.add_or_replace(path, deck.scene().clone());
     deck.scene_list.set_open(Some(index));
@@ -66,7 +67,7 @@ pub fn open_file(studio: &mut Studio, path: &Path, scene: Scene) {
     tell_outdated(&mut studio.deck, &mut studio.viewer);
 }
 
-/// Adds a person's own method to a race in the open scene, from its start. An undo brings back the run before.
+/// Adds a person's own method to a race in the open scene, which restarts. An undo brings back the previous run.
 pub fn race_own_method(studio: &mut Studio, lane: LaneSpec) {
     let method = lane.method;
     let Studio { deck, viewer, loops, .. } = studio;
@@ -87,7 +88,7 @@ pub fn race_own_method(studio: &mut Studio, lane: LaneSpec) {
     viewer.set_notice(format!("{}: {}", method.id, method.about));
 }
 
-/// Warns about a file whose commands use the deprecated key `tick`.
+/// Warns about a scene file whose commands use the deprecated key `tick`.
 fn tell_outdated(deck: &mut Deck, viewer: &mut Viewer) {
     if deck.scene().outdated.is_some() {
         let name = deck.scene_name();
@@ -97,14 +98,15 @@ fn tell_outdated(deck: &mut Deck, viewer: &mut Viewer) {
     }
 }
 
-/// Opens the spring that a person has described, solo and running, under the recommended method, and shows advice on
-/// it. Its name on the list of scenes is not a file's.
+/// Opens the spring that a person has described under the recommended method, in solo mode and running, and shows
+/// advice on it. Its entry on the list of scenes is not a file.
 pub(super) fn open_spring(deck: &mut Deck, viewer: &mut Viewer) {
     let (spring, tick_hz) = described_spring(deck, viewer);
     open_described(deck, viewer, spring.advised_scene(tick_hz));
 }
 
-/// The spring that a person has described, and its tick rate: that of the dialog, or else the present one.
+/// Returns the spring that a person has described, and its tick rate, which is that of the dialog or else the present
+/// one.
 pub fn described_spring(deck: &Deck, viewer: &Viewer) -> (MySpring, TickRate) {
     let tick_hz = match viewer.dialog {
         Some(Dialog::Spring { tick_hz }) => tick_hz,
@@ -113,7 +115,7 @@ pub fn described_spring(deck: &Deck, viewer: &Viewer) -> (MySpring, TickRate) {
     (viewer.preferences.my_spring, tick_hz)
 }
 
-/// Opens the result of `MySpring::advised_scene` for a person's spring, or shows its mistakes.
+/// Opens the result of `MySpring::advised_scene` for a person's spring, or shows the mistakes in it.
 pub fn open_advised_spring(studio: &mut Studio, scene: Result<Scene, SceneErrors>) {
     if scene.is_ok() {
         studio.loops = None;
@@ -137,9 +139,9 @@ fn open_described(deck: &mut Deck, viewer: &mut Viewer, scene: Result<Scene, Sce
     }
 }
 
-/// Replaces the scene of a changed file. If it is open and equal, the run continues. If it has the same lanes and
-/// kinds of bodies, the new scene runs to the present tick; otherwise it starts at tick 0. A notice reports that the
-/// person's actions are left out.
+/// Replaces the scene of a changed file. If the scene is open and equal, its run continues. If it has the same lanes
+/// and kinds of bodies, the new scene runs to the present tick, unless that would take too long. Otherwise it starts at
+/// tick 0. A notice reports if the person's actions were left out.
 pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
     let is_open = studio.deck.scene_list.open_path() == Some(path);
     let tick = studio.deck.race().tick();
@@ -170,14 +172,14 @@ pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
     let left_out = match (is_by_hand, keeps) {
         (false, _) => "",
         (true, true) => " (your kicks and edits left out; Ctrl Z: old run)",
-        // Opening another scene drops the undo stack.
+        // The undo stack is lost when another scene is opened.
         (true, false) => " (your kicks and edits left out)",
     };
     studio.viewer.set_notice(format!("{name}: {told}{left_out}"));
 }
 
-/// Shows why the scene at the typed path, which is that of the file at `path`, cannot be opened. The field for the
-/// path stays open.
+/// Shows why the scene at the typed path cannot be opened. `path` is the file at that path. The field for the path
+/// stays open.
 pub fn refuse_typed_path(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -189,7 +191,8 @@ pub fn refuse_typed_path(
     viewer.dialog = Some(Dialog::Path { compares, refused: Some(report) });
 }
 
-/// Moves to the first difference between a recording and the run, and shows the recording beside the run from there.
+/// Moves to the first difference between a recording and the run. From there on, the stage shows the recording beside
+/// the run.
 pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison, recording: Scene) {
     studio.viewer.dialog = None;
     studio.deck.compared = None;
@@ -206,7 +209,7 @@ pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison, reco
             let lines = compared.lines();
             studio.deck.compared = Some(compared.into());
             studio.apply(RunCommand::Seek(first.tick));
-            // The run may not have reached that tick yet.
+            // The run may not yet have reached the tick of the difference.
             let ahead = first.tick.saturating_sub(studio.race().tick()).min(MAX_RERUN);
             (0..ahead).for_each(|_| studio.tick());
             studio.deck.follow_with_compared();
@@ -216,7 +219,7 @@ pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison, reco
     studio.viewer.set_notice(told);
 }
 
-/// Reports that a file on the list is gone. The run continues.
+/// Reports that a file on the list no longer exists. The run continues.
 pub fn file_is_gone(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
     if let Some(name) = deck.scene_list.name_of(path) {
         viewer.set_notice(format!(
@@ -225,20 +228,20 @@ pub fn file_is_gone(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
     }
 }
 
-/// Reports that a file on the list is back, with the same text.
+/// Reports that a file on the list exists again, with the same text.
 pub fn file_is_back(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
     if let Some(name) = deck.scene_list.name_of(path) {
         viewer.set_notice(format!("{name} is back, unchanged"));
     }
 }
 
-/// Shows the errors of a file. The open run continues.
+/// Shows the errors of a file. The run of the open scene continues.
 pub fn show_mistakes(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: Vec<ShownError>) {
     deck.scene_list.mark(path, report.clone());
     viewer.dialog = Some(Dialog::Mistakes { file: path.display().to_string(), report });
 }
 
-/// Records the errors of a changed file, and shows them if it is open. The run continues.
+/// Records the errors of a changed file, and shows them if the file is open. The run continues.
 pub fn reload_failed(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: Vec<ShownError>) {
     if deck.scene_list.open_path() == Some(path) {
         show_mistakes(deck, viewer, path, report);
@@ -247,12 +250,12 @@ pub fn reload_failed(deck: &mut Deck, viewer: &mut Viewer, path: &Path, report: 
     }
 }
 
-/// Runs the open scene with this index, which has changed, to a tick. Keeps the chosen methods, rate and display, and
-/// leaves out actions by hand.
+/// Runs the open scene, which has changed, to a tick again. `index` is its place on the list. The chosen methods, rate
+/// and display stay, but actions by hand are left out.
 fn run_again(deck: &mut Deck, viewer: &mut Viewer, index: usize, tick: u64) {
     let scene = deck.scene_list.scene(index);
     restart(deck, viewer, Some("the change of the file"), |next| {
-        // Without a choice the scene's rate applies.
+        // The rate of the new scene applies if nobody has chosen a rate.
         if next.tick_hz == next.scene.tick_hz {
             next.tick_hz = scene.tick_hz;
         }
@@ -267,7 +270,7 @@ fn run_again(deck: &mut Deck, viewer: &mut Viewer, index: usize, tick: u64) {
     deck.run.show_present();
 }
 
-/// Shows the clouds with which the scene opens, if any, at full size.
+/// Shows the clouds with which the scene opens, if any, in place of the stage.
 pub fn show_clouds_of_scene(deck: &mut Deck, viewer: &mut Viewer) {
     let Some(kind) = deck.scene().clouds else { return };
     let display = &mut viewer.preferences.display;
@@ -280,13 +283,14 @@ pub(super) fn open_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step) {
     open(deck, viewer, deck.scene_list.open().map_or(0, |here| step.cyclic_index(here, count)));
 }
 
-/// Opens the scene with this index in the list, modulo its length, under its opening method, and closes the guide,
-/// which is about another. The preferences stay. A person's chosen mode prevails over the scene's.
+/// Opens the scene at this index of the list, modulo the list's length, under the scene's opening method. Closes the
+/// guide, which is about another scene. The preferences stay, and a mode that a person has chosen takes precedence over
+/// the scene's.
 pub(super) fn open(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     open_with(deck, viewer, index, |_| ());
 }
 
-/// Like [`open`], after `set` has edited the settings of its start. Returns the deck before.
+/// Opens a scene like [`open`], but lets `set` edit the settings of its start. Returns the previous deck.
 pub(super) fn open_with(
     deck: &mut Deck,
     viewer: &mut Viewer,

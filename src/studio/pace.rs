@@ -5,22 +5,23 @@ use std::collections::VecDeque;
 use super::{Pace, Studio};
 use crate::sim::TickRate;
 
-/// Shortest measured span, in nanoseconds: long enough for a steady figure, short enough to follow a change.
+/// Minimum span of a measurement, in nanoseconds. It is long enough for a steady figure, and short enough to follow a
+/// change.
 const SPAN_NS: u64 = 1_000_000_000;
 
-/// Measures a driver's frames per second and its real-time factor.
+/// Measures a driver's frames per second and real-time factor.
 #[derive(Debug, Default)]
 pub struct PaceMeter {
-    /// Start of each recent frame, in nanoseconds, and the simulated time then (s) including the pending part of a
-    /// tick. With whole ticks alone, the figure would jump at low rates.
+    /// Start of each recent frame in nanoseconds, and the simulated time (s) at that start, with the pending part of a
+    /// tick. If only whole ticks counted, the figure would jump at low rates.
     frames: VecDeque<(u64, f64)>,
-    /// Tick rate and speed of those frames.
+    /// Tick rate and speed under which the frames were measured.
     under: Option<(TickRate, u32)>,
 }
 
 impl PaceMeter {
-    /// Adds a frame that began at `now_ns`, in nanoseconds of real time. A pause, a jump in time or a change of rate
-    /// starts the measurement again.
+    /// Adds a frame that began at `now_ns` nanoseconds of real time. The measurement starts again after a pause, a jump
+    /// in time, or a change of the rate or the speed.
     pub fn frame(&mut self, now_ns: u64, studio: &Studio) {
         let under = Some((studio.clock().tick_hz(), studio.clock().speed_percent()));
         let t = studio.deck.time_with_owed_s();
@@ -38,7 +39,7 @@ impl PaceMeter {
         }
     }
 
-    /// The pace, after at least a second of measurement.
+    /// Returns the pace, which is unknown before a second of measurement.
     pub fn pace(&self) -> Pace {
         let (Some(&(first, from)), Some(&(last, to))) = (self.frames.front(), self.frames.back())
         else {
@@ -56,7 +57,7 @@ impl PaceMeter {
     }
 }
 
-/// Most frames to keep: ten seconds at 60 Hz.
+/// Maximum number of frames to keep. It is ten seconds at 60 Hz.
 const MAX_FRAMES: usize = 600;
 
 /// A frame of the studio's own loop.
@@ -64,37 +65,37 @@ const MAX_FRAMES: usize = 600;
 pub struct LiveFrame {
     /// Duration of the previous frame, in nanoseconds.
     pub duration_ns: i64,
-    /// Number of ticks made.
+    /// Number of ticks made in the frame.
     pub ticks: u32,
-    /// Number of ticks dropped.
+    /// Number of ticks dropped in the frame.
     pub dropped: u64,
-    /// The change of the moment shown minus that of real time, in milliseconds of real time. The moment of display is
-    /// unknown, so frames count as displayed when they begin.
+    /// Change of the displayed moment minus the change of real time, in milliseconds of real time. The moment of
+    /// display is unknown, so a frame counts as displayed when it begins.
     pub animation_error_ms: f64,
 }
 
-/// The last frames of the studio's own loop, the latest at the end.
+/// The last frames of the studio's own loop, oldest first.
 #[derive(Clone, Debug)]
 pub struct LiveLoop {
     frames: VecDeque<LiveFrame>,
-    /// The moment that the last frame showed, in seconds.
+    /// The moment that the last frame displayed, in seconds.
     shown_s: Option<f64>,
 }
 
 impl Default for LiveLoop {
-    /// Reserves room for all frames, so that adding one allocates nothing.
+    /// Reserves room for all frames, so that adding one does not allocate.
     fn default() -> Self {
         Self { frames: VecDeque::with_capacity(MAX_FRAMES), shown_s: None }
     }
 }
 
 impl LiveLoop {
-    /// The frames, the latest at the end.
+    /// Returns the frames, oldest first.
     pub fn frames(&self) -> impl ExactSizeIterator<Item = &LiveFrame> + Clone {
         self.frames.iter()
     }
 
-    /// Adds a frame that shows the moment `shown_s` (s) at `speed` times real time.
+    /// Adds a frame that displays the moment `shown_s` (s), at `speed` times real time.
     pub(super) fn add(&mut self, frame: LiveFrame, shown_s: f64, speed: f64) {
         let before_s = self.shown_s.replace(shown_s);
         let progress_ms = before_s.map(|before_s| 1000.0 * (shown_s - before_s) / speed);
@@ -106,7 +107,7 @@ impl LiveLoop {
         self.frames.push_back(LiveFrame { animation_error_ms, ..frame });
     }
 
-    /// Forgets the moment shown after a jump.
+    /// Forgets the displayed moment after a jump in time.
     pub(super) fn jump(&mut self) {
         self.shown_s = None;
     }
@@ -118,7 +119,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::studio::{Command, RunCommand, StageCommand, Step, ViewCommand};
 
-    /// A studio at this tick rate, its meter, and the start of the last frame.
+    /// A studio at this tick rate, the meter of its pace, and the start of the last frame.
     struct Run(Studio, PaceMeter, u64);
 
     impl Run {

@@ -1,4 +1,4 @@
-//! Jumps of the run: restarts, undo and redo, and their followers: clock, plots, hand and selection.
+//! Jumps of the run, which are restarts, undo and redo. The clock, the plots, the hand and the selection follow them.
 
 use std::sync::Arc;
 
@@ -7,14 +7,14 @@ use super::viewer::Viewer;
 use crate::run::race::{Author, Mode};
 use crate::run::{Run, StartSettings};
 
-/// Target of a jump.
+/// Kind of a jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Jump {
-    /// Another tick.
+    /// A jump to another tick.
     ToAnotherTick,
-    /// The other side of an edit.
+    /// A jump to the other side of an edit.
     OverAnEdit,
-    /// The start of another run.
+    /// A jump to the start of another run.
     ToAnotherRun,
 }
 
@@ -23,7 +23,7 @@ pub(super) fn follow(deck: &mut Deck, viewer: &mut Viewer, jump: Jump) {
     deck.clock.set_tick_hz(deck.race().tick_hz());
     viewer.live.jump();
     if jump != Jump::ToAnotherTick {
-        deck.held = None;
+        deck.let_go();
         record_chosen_coordinates(deck, viewer);
     }
     if jump == Jump::ToAnotherRun {
@@ -36,13 +36,13 @@ pub(super) fn follow(deck: &mut Deck, viewer: &mut Viewer, jump: Jump) {
     deck.run.show_present();
 }
 
-/// Whether a person has acted on a run.
+/// Whether a person has acted on the run.
 pub(super) fn is_by_hand(run: &Run) -> bool {
     run.session().journal().rows().iter().any(|row| row.author == Author::Person)
 }
 
-/// Restarts the run after `set` has edited its settings. With a description in `kept`, an undo can bring back the run
-/// so far; otherwise it is lost.
+/// Restarts the run after `set` has edited its settings. If `kept` has a description, an undo can bring back the run so
+/// far. Otherwise that run is lost.
 pub(super) fn restart(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -54,8 +54,8 @@ pub(super) fn restart(
     follow(deck, viewer, Jump::ToAnotherRun);
 }
 
-/// Restarts. Keeps the run for an undo if a person has acted on it, or if it began with other settings; any other
-/// would only repeat itself. Returns whether it was kept.
+/// Restarts the run. An undo can bring back the old run if a person has acted on it, or if it began with other
+/// settings. Any other run would only repeat itself. Returns whether the old run was kept.
 pub(super) fn restart_keeping_run(deck: &mut Deck, viewer: &mut Viewer) -> bool {
     let is_edited = !Arc::ptr_eq(deck.run.session().scene(), &deck.run.next().scene);
     let keeps = is_by_hand(&deck.run) || is_edited;
@@ -77,7 +77,7 @@ pub(super) fn redo(deck: &mut Deck, viewer: &mut Viewer) {
     exchange(deck, viewer, Run::redo, redone.as_deref().unwrap_or("nothing to redo"));
 }
 
-/// Calls `exchange` to move to the other side of an edit, and shows `notice`.
+/// Calls `exchange`, which moves the run to the other side of an edit, and shows `notice`.
 fn exchange(deck: &mut Deck, viewer: &mut Viewer, exchange: fn(&mut Run) -> bool, notice: &str) {
     let rested = deck.comes_to_rest(viewer.motion());
     let StartSettings { entry, ref opened, .. } = *deck.run.next();
@@ -85,7 +85,7 @@ fn exchange(deck: &mut Deck, viewer: &mut Viewer, exchange: fn(&mut Run) -> bool
     if !exchange(&mut deck.run) {
         return viewer.set_notice(notice);
     }
-    // Selecting a lane is not an edit, so the selection stays.
+    // The selection stays, because selecting a lane is not an edit.
     let is_there = deck.race().entrant(deck.selected).is_some();
     if deck.mode() == Mode::Race && is_there {
         deck.run.next_mut().entry = entry;
@@ -100,8 +100,8 @@ fn exchange(deck: &mut Deck, viewer: &mut Viewer, exchange: fn(&mut Run) -> bool
     viewer.set_notice(notice);
 }
 
-/// Shows this coordinate of a body in the plots. If repeating the run for it would take too long, it is plotted only
-/// after the next restart.
+/// Shows this coordinate of a body in the plots. This may repeat the run. If that would take too long, the coordinate
+/// is plotted only after the next restart.
 pub(super) fn plot_coordinate(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -118,7 +118,7 @@ pub(super) fn plot_coordinate(
     viewer.set_notice(format!("{name} is plotted from the next restart on: press Home"));
 }
 
-/// Records the chosen coordinates, and the usual ones of other bodies. Returns whether it could.
+/// Records the chosen coordinates, and for other bodies the usual ones. Returns whether this was possible.
 pub(super) fn record_chosen_coordinates(deck: &mut Deck, viewer: &mut Viewer) -> bool {
     let chosen = &viewer.view.coordinates;
     let coordinate = |(index, usual): (usize, usize)| {

@@ -1,5 +1,5 @@
-//! Rests of a watched run: at its scene's length, and when all its bodies have blown up. The blow-up can be watched
-//! again.
+//! A run that is watched comes to rest at its scene's length, and when all its bodies have blown up. The blow-up can be
+//! watched again.
 
 use super::acting::seek;
 use super::deck::Deck;
@@ -8,29 +8,29 @@ use super::viewer::Viewer;
 use crate::run::race::{Halt, Mode};
 use crate::sim::number::{round, significant};
 
-/// Lead before a repeated blow-up, in seconds, and at least in ticks.
+/// Time before a blow-up at which watching it again starts, in seconds, and its minimum in ticks.
 const LEAD_S: f64 = 1.0;
 const MIN_LEAD: u64 = 24;
 
 impl Deck {
-    /// Whether the run rests at this tick.
+    /// Whether the run comes to rest at this tick.
     pub(super) fn comes_to_rest(&self, motion: Motion) -> bool {
         self.is_at_its_end(motion) || self.just_lost(motion).is_some()
     }
 
-    /// Whether the run is at the scene's length.
+    /// Whether the run is at the end of the scene's length.
     fn is_at_its_end(&self, motion: Motion) -> bool {
         let race = self.race();
         let (late_s, half_s) = (race.t() - self.scene().seconds, race.last_step_s() / 2.0);
         late_s > -half_s && late_s <= half_s && motion == Motion::Live
     }
 
-    /// Whether the next run starts unpaused: a run that stopped by itself counts as running.
+    /// Whether the run is not paused. A run that has come to rest by itself counts as not paused.
     pub(crate) fn runs_or_rests(&self, motion: Motion) -> bool {
         self.running || self.comes_to_rest(motion)
     }
 
-    /// The halt of the last body of the lane on the stage, if it has just halted.
+    /// Returns the halt of the last body in the only lane, if that body has just halted.
     fn just_lost(&self, motion: Motion) -> Option<&Halt> {
         let are_lost = motion == Motion::Live
             && self.mode() == Mode::Solo
@@ -38,19 +38,19 @@ impl Deck {
         self.last_halt().filter(|halt| are_lost && halt.tick + 1 == self.race().tick())
     }
 
-    /// The latest halt in the selected lane.
+    /// Returns the latest halt in the selected lane.
     fn last_halt(&self) -> Option<&Halt> {
         let bodies = self.selected().lane.bodies().iter();
         bodies.filter_map(|body| body.halted()).max_by_key(|halt| halt.tick)
     }
 
-    /// Tick of the latest halt in the selected lane.
+    /// Returns the tick of the latest halt in the selected lane.
     pub fn lost_at(&self) -> Option<u64> {
         self.last_halt().map(|halt| halt.tick)
     }
 }
 
-/// The hint for a run at rest. Keys stand between backticks.
+/// Returns the hint for a run at rest. Keys stand between backticks.
 pub(super) fn rest_hint(deck: &Deck, viewer: &Viewer) -> Option<String> {
     if deck.running || !deck.comes_to_rest(viewer.motion()) {
         return None;
@@ -66,7 +66,7 @@ pub(super) fn rest_hint(deck: &Deck, viewer: &Viewer) -> Option<String> {
     Some(format!("The {seconds} s of this scene are over. `Home` starts again, `Space` goes on."))
 }
 
-/// Rewinds to before the latest halt in the selected lane, and runs.
+/// Rewinds to some time before the latest halt in the selected lane, and runs.
 pub(super) fn watch_again(deck: &mut Deck, viewer: &mut Viewer) {
     let Some(tick) = deck.lost_at() else {
         return viewer.set_notice("nothing has halted in this lane");
@@ -84,7 +84,7 @@ mod tests {
     use crate::studio::driving::slow_motion;
     use crate::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
 
-    /// A studio with a person watching.
+    /// Returns a studio that a person watches.
     fn watched(scene: &str) -> Studio {
         let mut studio = Studio::new(Scene::built_in(scene).unwrap());
         studio.viewer.preferences.display.motion = Motion::Live;
@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn a_watched_run_rests_once_at_the_length_of_its_scene() {
         let mut studio = watched("spring");
-        // Covers the scene's length: nothing is slowed.
+        // The time covers the scene's length, because nothing is slowed down.
         watch(&mut studio, 21);
         assert_eq!((studio.race().t(), studio.running()), (studio.scene().seconds, false));
         assert_eq!(

@@ -1,4 +1,4 @@
-//! A person's preferences from one run of the driver to the next, as text for the driver to store.
+//! A person's preferences, which are kept from one run of the program to the next. The driver stores their text.
 
 use std::path::{Path, PathBuf};
 
@@ -10,22 +10,22 @@ use crate::look::palette::Theme;
 /// The saved preferences.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SavedPreferences {
-    /// Last open scene: a built-in one's name, or a file's path.
+    /// The scene that was last open: the name of a built-in one, or the path of a file.
     pub scene: Option<PathBuf>,
     /// The chosen theme.
     pub theme: Option<Theme>,
-    /// Size of type and panels in percent of the usual one.
+    /// Size of type and panels, in percent of the usual size.
     pub scale_percent: Option<u32>,
     /// Size of the window in points.
     pub size: Option<[u32; 2]>,
-    /// Whether instruments surround the stage; on a first start it is alone.
+    /// Whether the instruments surround the stage. On the first start they do not.
     pub measure: bool,
     /// Chosen boundaries between stage, instruments and table.
     pub splits: Splits,
 }
 
 impl SavedPreferences {
-    /// The preferences of a studio. The driver adds its scene and the size of its window.
+    /// Returns the preferences of a studio. The driver adds the scene and the size of the window.
     pub fn of(studio: &Studio) -> Self {
         let &Display { scale_percent, measure, splits, .. } = studio.display();
         let theme = studio.viewer.preferences.chosen_theme();
@@ -46,7 +46,7 @@ impl SavedPreferences {
         preferences.display.splits = self.splits;
     }
 
-    /// Parses text from [`to_text`](Self::to_text) of this or a newer release.
+    /// Parses text from [`to_text`](Self::to_text), which may come from this or a newer release.
     ///
     /// # Errors
     /// If the text is not TOML, or if a known key has an invalid value.
@@ -105,17 +105,17 @@ impl SavedPreferences {
                     | "table_percent",
                     _,
                 ) => return Err(wrong()),
-                // A key of a newer release.
+                // The key may come from a newer release.
                 _ => {}
             }
         }
         Ok(preferences)
     }
 
-    /// The preferences as lines of TOML.
+    /// Returns the preferences as lines of TOML.
     pub fn to_text(&self) -> String {
         let scene = self.scene.as_deref().and_then(Path::to_str);
-        // A path with a quotation mark or a line break is not worth the trouble.
+        // A path that contains a quotation mark or a line break is not worth the trouble.
         let scene = scene.filter(|scene| !scene.contains(['\'', '\n', '\r']));
         let theme = self.theme.map(|theme| if theme == Theme::Dark { "dark" } else { "light" });
         [

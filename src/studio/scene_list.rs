@@ -1,4 +1,4 @@
-//! The scenes that a person can open: the built-in scenes, then the opened files.
+//! The scenes that a person can open. The built-in scenes come before the opened files.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -12,38 +12,38 @@ use crate::sim::bodies::Origin;
 #[derive(Clone, Debug)]
 pub struct SceneList {
     files: Vec<SceneFile>,
-    /// Index of the open scene; `None` if it is not on the list.
+    /// Index of the open scene, or `None` if that is not on the list.
     open: Option<usize>,
 }
 
 /// A scene from a file.
 #[derive(Clone, Debug)]
 pub(super) struct SceneFile {
-    /// The path as given.
+    /// The path, as it was given.
     path: PathBuf,
-    /// The scene as last read without errors.
+    /// The scene, as it was last read without errors.
     pub(super) scene: Scene,
-    /// Errors of the file's present text, if it has any.
+    /// Errors in the file's present text, if it has any.
     pub(super) mistakes: Option<Vec<ShownError>>,
 }
 
 impl SceneFile {
-    /// Its path, for people.
+    /// Returns the path for people.
     pub(super) fn name(&self) -> String {
         self.path.display().to_string()
     }
 }
 
 impl SceneList {
-    /// The built-in scenes. The open one has the name of `scene`.
+    /// Creates a list of the built-in scenes. The one with the name of `scene` is open.
     pub(super) fn of(scene: &Scene) -> Self {
         let is_open = |built_in: &BuiltIn| built_in.name == scene.name && scene.in_rust().is_none();
         let open = SCENES.iter().position(is_open);
         Self { files: Vec::new(), open }
     }
 
-    /// Parses every built-in scene, and previews bodies whose drawing depends on their motion. Without this, opening
-    /// such a scene would wait for it.
+    /// Parses every built-in scene, and previews bodies whose drawing depends on their motion. Otherwise the first
+    /// opening of such a scene would wait for this.
     pub fn prepare() {
         let scenes = SCENES.iter().filter_map(|scene| Scene::built_in(scene.name));
         scenes.for_each(|scene| Self::prepare_scene(&scene));
@@ -60,18 +60,19 @@ impl SceneList {
         SCENES.len() + self.files.len()
     }
 
-    /// Index of the open scene, if it is on the list.
+    /// Returns the index of the open scene, if it is on the list.
     pub fn open(&self) -> Option<usize> {
         self.open
     }
 
-    /// Names of all scenes. A file's name includes its extension; several files of one name are listed by path.
+    /// Returns the names of all scenes. The name of a file includes its extension. If several files have the same name,
+    /// their paths are listed.
     pub fn names(&self) -> impl Iterator<Item = String> {
         let built_in = SCENES.iter().map(|scene| scene.name.to_owned());
         built_in.chain(self.files.iter().map(|file| self.file_name(&file.path)))
     }
 
-    /// The name under which the file at `path` is listed, if it is.
+    /// Returns the name under which the file at `path` is listed, if it is on the list.
     pub(super) fn name_of(&self, path: &Path) -> Option<String> {
         self.paths().any(|listed| listed == path).then(|| self.file_name(path))
     }
@@ -82,12 +83,12 @@ impl SceneList {
         name.unwrap_or(path.as_os_str()).display().to_string()
     }
 
-    /// Path of the open scene, if it comes from a file.
+    /// Returns the path of the open scene's file, if it comes from a file.
     pub fn open_path(&self) -> Option<&Path> {
         Some(&self.file(self.open?)?.path)
     }
 
-    /// Paths of all files, in the order in which they were first opened.
+    /// Returns the paths of all files, in the order in which they were first opened.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         self.files.iter().map(|file| &*file.path)
     }
@@ -96,7 +97,7 @@ impl SceneList {
         self.files.get(index.checked_sub(SCENES.len())?)
     }
 
-    /// The scene with this index, as last read from its file.
+    /// Returns the scene at this index, as it was last read from its file.
     pub(super) fn scene(&self, index: usize) -> Scene {
         let built_in = || Scene::built_in(SCENES[index].name).expect("a name of SCENES");
         self.file(index).map_or_else(built_in, |file| file.scene.clone())
@@ -106,7 +107,7 @@ impl SceneList {
         self.open = index;
     }
 
-    /// Puts the scene of a file on the list, or replaces the file's earlier scene. Returns its index.
+    /// Puts the scene of a file on the list, or replaces the earlier scene of the same file. Returns its index.
     pub(super) fn add_or_replace(&mut self, path: &Path, scene: Scene) -> usize {
         let file = SceneFile { path: path.to_owned(), scene, mistakes: None };
         match self.files.iter().position(|known| known.path == path) {

@@ -6,21 +6,21 @@ use crate::scene::entered_tick_rate;
 use crate::sim::TickRate;
 use crate::tools::port::{Key, UiSpring, Wish};
 
-/// A number of a spring, or its tick rate.
+/// A number of a spring, or the spring's tick rate.
 pub struct SpringField {
-    /// Name for people.
+    /// Name of the number, for people.
     pub name: &'static str,
-    /// Unit; empty if it has none.
+    /// Unit of the number. Empty if it has none.
     pub unit: &'static str,
-    /// Present value.
+    /// Present value of the number.
     pub value: f64,
-    /// Whether a drag moves in whole numbers.
+    /// Whether a drag changes the number in whole steps.
     pub is_whole: bool,
-    /// The command that sets another value, or an error message.
+    /// Returns the command that sets another value, or an error message.
     pub set: Box<dyn Fn(f64) -> Result<ViewCommand, String>>,
 }
 
-/// The command that sets this spring, if a scene may have its numbers.
+/// Returns the command that sets this spring, or an error message if no scene may have its numbers.
 fn describe(spring: MySpring) -> Result<ViewCommand, String> {
     spring.check().map(|()| ViewCommand::DescribeSpring(spring))
 }
@@ -35,7 +35,7 @@ impl SpringField {
         Self { name, unit, value, is_whole: false, set: Box::new(move |it| describe(with(it))) }
     }
 
-    /// Mass, stiffness and damping.
+    /// Creates the fields for the mass, the stiffness and the damping.
     pub fn constant_fields(spring: MySpring) -> [Self; 3] {
         let MySpring { mass_kg, stiffness_n_per_m, damping_n_s_per_m, .. } = spring;
         [
@@ -51,7 +51,7 @@ impl SpringField {
         ]
     }
 
-    /// Frequency and damping ratio, which describe the motion independently of the mass.
+    /// Creates the fields for the frequency and the damping ratio, which describe the motion independently of the mass.
     pub fn motion_fields(spring: MySpring) -> [Self; 2] {
         let [hz, ratio] = [spring.frequency_hz(), spring.damping_ratio()];
         [
@@ -60,14 +60,14 @@ impl SpringField {
         ]
     }
 
-    /// The numbers of a library's joint. If it has no mass, the spring keeps its own.
+    /// Creates the fields for the numbers of a library's spring. If the library has no mass, the spring keeps its own.
     pub fn of_dialect(dialect: &'static UiSpring, values: &[f64], spring: MySpring) -> Vec<Self> {
         let number = |(index, key): (usize, &'static Key)| {
             let (value, values) = (values[index], values.to_vec());
             let set = move |value| {
                 let mut told = values.clone();
                 told[index] = value;
-                // The line of code turns a switch on where the motion needs it.
+                // The line of code turns on any switch that the motion needs.
                 let switches =
                     dialect.keys.iter().zip(&mut told).filter(|(key, _)| key.switch.is_some());
                 switches.for_each(|(_, told)| *told = 1.0);
@@ -86,7 +86,7 @@ impl SpringField {
             .collect()
     }
 
-    /// The release: the start, and gravity.
+    /// Creates the fields for the release: stretch and velocity at the start, and gravity.
     pub fn of_release(spring: MySpring) -> [Self; 3] {
         let MySpring { x0_m, v0_m_per_s, gravity_m_per_s2, .. } = spring;
         [
@@ -102,7 +102,7 @@ impl SpringField {
         ]
     }
 
-    /// The tick rate of the spring.
+    /// Creates the field for the tick rate of the spring.
     pub fn tick_rate(tick_hz: impl Into<TickRate>) -> Self {
         let set = |value: f64| entered_tick_rate(value).map(ViewCommand::SpringTickHz);
         let (value, set) = (tick_hz.into().hz(), Box::new(set));
@@ -143,7 +143,7 @@ mod tests {
         let told = |value: f64| (SpringField::constant_fields(spring)[0].set)(value).unwrap_err();
         assert_eq!(told(-5.0), "mass would be -5; it must be from 1e-12 to 1e12");
         assert_eq!(told(1e-300), "mass would be 1e-300; it must be from 1e-12 to 1e12");
-        // Errors also name derived numbers.
+        // Errors also name numbers that are derived from the entered ones.
         let [frequency, _] = SpringField::motion_fields(spring);
         let words = (frequency.set)(1e200).unwrap_err();
         assert!(words.starts_with("stiffness would be too large for a number; it must"), "{words}");

@@ -1,16 +1,16 @@
-//! A step to the next or the previous item of a list, or rung of a ladder.
+//! A step to the next or the previous item of a list, or to the next or the previous rung of a ladder.
 
 /// A step along a list, or along a ladder of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// The next, or the next higher.
+    /// The next item, or the next higher rung.
     Next,
-    /// The previous, or the next lower.
+    /// The previous item, or the next lower rung.
     Previous,
 }
 
 impl Step {
-    /// 1 for the next, -1 for the previous.
+    /// Returns 1 for the next item, or -1 for the previous one.
     pub(super) fn sign(self) -> i64 {
         match self {
             Self::Next => 1,
@@ -18,7 +18,7 @@ impl Step {
         }
     }
 
-    /// The next or previous index of a cyclic list.
+    /// Returns the index of the next or previous item of a cyclic list.
     pub(super) fn cyclic_index(self, index: usize, count: usize) -> usize {
         match self {
             Self::Next => (index + 1) % count,
@@ -26,7 +26,7 @@ impl Step {
         }
     }
 
-    /// The opposite step.
+    /// Returns the opposite step.
     pub(super) fn opposite(self) -> Self {
         match self {
             Self::Next => Self::Previous,
@@ -34,7 +34,7 @@ impl Step {
         }
     }
 
-    /// The next or previous rung; `None` at the end of the ladder.
+    /// Returns the next or previous rung of the ladder, or `None` at its end.
     pub(super) fn next_rung(self, ladder: &[u32], rung: impl PartialOrd<u32>) -> Option<u32> {
         match self {
             Self::Next => ladder.iter().copied().find(|other| rung < *other),

@@ -24,14 +24,14 @@ use crate::tools::source_code::Language;
 pub enum Dialog {
     /// The numbers of a custom spring.
     Spring {
-        /// Its tick rate in Hz.
+        /// Tick rate of the spring, in Hz.
         tick_hz: TickRate,
     },
     /// A field for the path of a scene file.
     Path {
         /// Whether the file is a recording to compare with the run.
         compares: bool,
-        /// Why the scene at the typed path could not be opened; `None` once the path is edited.
+        /// Why the scene at the typed path could not be opened, or `None` once the path has been edited.
         refused: Option<Vec<ShownError>>,
     },
     /// The errors of a scene file.
@@ -49,47 +49,47 @@ impl Dialog {
     }
 }
 
-/// A person's choices, which survive the scene.
+/// A person's choices that outlast the scene.
 #[derive(Clone, Debug)]
 pub struct Preferences {
     /// The display settings.
     pub display: Display,
-    /// A person's choice of a mode other than the scene's, for all scenes.
+    /// The mode for all scenes, if a person has chosen one that differs from the scene's.
     pub(super) mode: Option<Mode>,
-    /// Whether a person chose the theme, so that it no longer follows the system's.
+    /// Whether a person has chosen the theme. If so, it no longer follows the system's theme.
     pub(super) theme_is_chosen: bool,
     /// Language of the next copied method.
     pub(super) language: Language,
     pub(super) typed_path: String,
     pub(super) my_spring: MySpring,
-    /// The stop at which the guide was closed.
+    /// Index of the stop at which the guide was last closed.
     pub(super) left_at: usize,
-    /// Whether the driver keeps a recording of the run, so that the end of the program loses nothing.
+    /// Whether the driver keeps a recording of the run. If so, nothing is lost when the program ends.
     pub is_recorded: bool,
-    /// Whether the driver is a page in a browser, which keeps some keys and has nothing to quit.
+    /// Whether the driver is a page in a browser. A browser keeps some keys for itself, and a page cannot quit.
     pub is_page: bool,
 }
 
 impl Preferences {
-    /// Shows the system's theme, unless a person has chosen one.
+    /// Shows the theme of the system, unless a person has chosen a theme.
     pub fn follow_theme(&mut self, theme: Theme) {
         if !self.theme_is_chosen {
             self.display.theme = theme;
         }
     }
 
-    /// Shows this theme instead of the system's.
+    /// Shows this theme instead of the system's theme.
     pub fn choose_theme(&mut self, theme: Theme) {
         self.theme_is_chosen = true;
         self.display.theme = theme;
     }
 
-    /// The chosen theme; `None` while it follows the system's.
+    /// Returns the theme that a person has chosen, or `None` while the theme follows the system's.
     pub fn chosen_theme(&self) -> Option<Theme> {
         self.theme_is_chosen.then_some(self.display.theme)
     }
 
-    /// Opens later scenes in this mode, unless it is the one in which this scene opens.
+    /// Opens later scenes in this mode, unless it is the mode in which this scene opens anyway.
     pub(super) fn choose_mode(&mut self, mode: Mode, scene: &Scene) {
         self.mode = (mode != Mode::opening(scene)).then_some(mode);
     }
@@ -138,39 +138,40 @@ impl Default for Preferences {
 /// The display of a run for a person, and the texts beside it.
 #[derive(Clone, Debug, Default)]
 pub struct Viewer {
-    /// The person's choices.
+    /// The person's choices that outlast the scene.
     pub preferences: Preferences,
     /// The person's view of the scene.
     pub view: View,
     /// Menu index of the lane under the pointer or the keyboard's focus.
     pub(super) pointed: Option<MenuIndex>,
-    /// The driver's pace while time runs; `None` without real time, as in a capture.
+    /// The driver's pace while time runs, or `None` if there is no real time, as in a capture.
     pub pace: Option<Pace>,
-    /// Time (ns) of each lane's tick as the driver last measured it; `None` for a lane that halted.
+    /// Duration (ns) of each lane's tick, as last measured by the driver, or `None` for a lane that halted.
     pub tick_times: Vec<(LaneSpec, Option<f64>)>,
-    /// The latest message, while it shows.
+    /// The latest message, while it is shown.
     pub notice: Option<Notice>,
     /// The last frames of the studio's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
-    /// Time for which the clouds of the scene have shown their start, in nanoseconds.
+    /// Time for which the clouds of the scene have stayed at their start, in nanoseconds. It is negative while they are
+    /// not yet computed.
     pub(super) start_shown_ns: i64,
-    /// The latest clouds.
+    /// The latest accepted clouds.
     pub(super) cloud: Option<FoundCloud>,
-    /// Tick rate (Hz) when the pointer's button went down, while it is down.
+    /// Tick rate (Hz) at the moment when the pointer's button went down, while the button is down.
     pub(super) hz_at_press: Option<TickRate>,
-    /// Time for which the stage still shows futures after a key has changed the tick rate, in nanoseconds.
+    /// Remaining time for which the stage shows futures after a key has changed the tick rate, in nanoseconds.
     pub(super) futures_left_ns: i64,
     pub(super) dialog: Option<Dialog>,
     pub(super) hints: Hints,
-    /// Hints of the run that the person left for the guide.
+    /// Hints for the run that the person left for the guide.
     pub(super) hints_of_left: Hints,
-    /// The open guide.
+    /// The person's progress in the guide, if it is open.
     pub(super) tour: Option<Tour>,
 }
 
 impl Viewer {
-    /// The viewer for another scene: preferences and an open guide stay.
+    /// Returns the viewer for another scene. The preferences and an open guide stay.
     pub(super) fn before_next_scene(&mut self) -> Self {
         Self {
             preferences: self.preferences.clone(),
@@ -182,73 +183,72 @@ impl Viewer {
         }
     }
 
-    /// The display settings.
+    /// Returns the display settings.
     pub fn display(&self) -> &Display {
         &self.preferences.display
     }
 
-    /// Motion on the stage besides that of the bodies.
+    /// Returns the amount of motion on the stage besides that of the bodies.
     pub(super) fn motion(&self) -> Motion {
         self.preferences.display.motion
     }
 
-    /// Menu index of the lane under the pointer or the keyboard's focus, if there is one.
+    /// Returns the menu index of the lane under the pointer or the keyboard's focus, if there is one.
     pub fn pointed_lane(&self) -> Option<MenuIndex> {
         self.pointed
     }
 
-    /// Whether the pointer's button is down, by the last
+    /// Whether the pointer's button is down, according to the last
     /// [`ViewCommand::PointerDown`](super::ViewCommand::PointerDown).
     pub fn pointer_is_down(&self) -> bool {
         self.hz_at_press.is_some()
     }
 
-    /// Language of the next copied method: the last one used or chosen, and Rust at first.
+    /// Returns the language of the next copied method. It is the last one used or chosen, or Rust at first.
     pub fn language(&self) -> Language {
         self.preferences.language
     }
 
-    /// The open dialog.
+    /// Returns the open dialog, if there is one.
     pub fn dialog(&self) -> Option<&Dialog> {
         self.dialog.as_ref()
     }
 
-    /// The person's progress in the guide, if it is open.
+    /// Returns the person's progress in the guide, if it is open.
     pub fn tour(&self) -> Option<&Tour> {
         self.tour.as_ref()
     }
 
-    /// The path typed so far.
+    /// Returns the path typed so far.
     pub fn typed_path(&self) -> &str {
         &self.preferences.typed_path
     }
 
-    /// The spring last described.
+    /// Returns the spring that was last described in the dialog.
     pub fn my_spring(&self) -> MySpring {
         self.preferences.my_spring
     }
 
-    /// Whether a stop of the guide waits for a prediction. Until then, nothing on the screen may give away its
-    /// answer.
+    /// Whether a stop of the guide waits for a prediction. Until then, nothing on the screen may give away the answer.
     pub fn is_asked(&self) -> bool {
         self.tour.as_ref().is_some_and(Tour::is_asking)
     }
 
-    /// The verdict on the method with this menu index, for the run that
-    /// [`Studio::analysis_request`](super::Studio::analysis_request) describes. `None` until it is
+    /// Returns the verdict on the method with this menu index, for the run that
+    /// [`Studio::analysis_request`](super::Studio::analysis_request) describes. Returns `None` until the verdict is
     /// [found](super::accept_findings), and while a person is [asked](Self::is_asked).
     pub fn verdict(&self, entry: MenuIndex) -> Option<&Verdict> {
         self.judged(entry).filter(|_| !self.is_asked())
     }
 
     /// Whether the verdict on the method with this menu index was found at this tick rate. After a change of the rate,
-    /// verdicts at the former one stay until the next are found.
+    /// a verdict at the old rate stays until the next one is found.
     pub fn is_judged_at(&self, entry: MenuIndex, tick_hz: TickRate) -> bool {
         let found = self.findings.as_ref();
         found.is_some_and(|found| found.request.tick_hz == tick_hz && entry < found.judged)
     }
 
-    /// The same verdict, also while a person is asked.
+    /// Returns the same as [`verdict`](Self::verdict), but also while a person is asked for a prediction.
     pub(super) fn judged(&self, entry: MenuIndex) -> Option<&Verdict> {
         self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
     }
@@ -258,12 +258,13 @@ impl Viewer {
         matches!(self.dialog, Some(Dialog::Path { compares: true, .. }))
     }
 
-    /// The advice on this scene [found](super::accept_findings) so far; `None` while it is not shown.
+    /// Returns the advice on this scene that was [found](super::accept_findings) so far, or `None` while the advice is
+    /// not shown.
     pub fn advice(&self) -> Option<&Advice> {
         self.findings.as_ref()?.advice.as_ref()
     }
 
-    /// The stability map [found](super::accept_findings) so far; `None` while it is not shown.
+    /// Returns the stability map that was [found](super::accept_findings) so far, or `None` while the map is not shown.
     pub fn stability_map(&self) -> Option<&StabilityMap> {
         self.findings.as_ref()?.map.as_ref()
     }
@@ -273,7 +274,7 @@ impl Viewer {
         self.notice = Some(notice.into());
     }
 
-    /// Lets `ns` nanoseconds of real time pass, and removes an expired notice.
+    /// Lets `ns` nanoseconds of real time pass, and removes a notice whose time is over.
     pub fn pass_time(&mut self, ns: i64) {
         self.futures_left_ns = self.futures_left_ns.saturating_sub(ns).max(0);
         if let Some(notice) = &mut self.notice {
@@ -282,7 +283,7 @@ impl Viewer {
         self.notice.take_if(|notice| notice.left_ns() == 0);
     }
 
-    /// Switches to the next interpolation between ticks, and shows its name.
+    /// Switches to the next interpolation between ticks, and shows the name of that interpolation.
     pub(super) fn next_interpolation(&mut self) {
         self.preferences.display.interpolation = self.preferences.display.interpolation.next();
         let name = self.preferences.display.interpolation.name();
@@ -310,8 +311,8 @@ impl Viewer {
         self.hints = Hints::default();
     }
 
-    /// Closes the guide, whose scene is no longer shown, and restores the choices made before it. The instrument
-    /// stays, since it is visible.
+    /// Closes the guide, because its scene is no longer shown, and restores the choices made before it. The instrument
+    /// stays, because it is visible.
     pub(super) fn leave_guide(&mut self, left: Option<&LeftRun>) {
         if let Some(LeftRun { display: before, .. }) = left {
             let display = &mut self.preferences.display;
@@ -346,7 +347,7 @@ impl Viewer {
         }
     }
 
-    /// Shows the instruments if this command affects them.
+    /// Shows the instruments if this command is about one of them.
     pub(super) fn measure_for(&mut self, command: &Command) {
         let is_about = match command {
             Command::Stage(command) => matches!(

@@ -1,5 +1,5 @@
-//! Work beside a studio's run. A driver does it on separate threads, or between frames; a step can take longer than a
-//! frame.
+//! Work beside a studio's run. A driver does this work on separate threads, or between frames. A step of the work can
+//! take longer than a frame.
 
 use std::sync::Arc;
 
@@ -9,19 +9,19 @@ use crate::measure::{AnalysisRequest, AnalysisWorker, Findings};
 
 /// Work that proceeds step by step.
 pub trait Work {
-    /// The task.
+    /// The task that the work is about.
     type Request: Clone;
-    /// A result.
+    /// A result of a step.
     type Found;
 
-    /// Whether two requests ask for the same, so that work on one also serves the other.
+    /// Whether two requests ask for the same task, so that work on one also serves the other.
     fn is_same(one: &Self::Request, other: &Self::Request) -> bool;
 
     /// Replaces the request.
     fn set_request(&mut self, request: Self::Request);
 
-    /// Does one step, which may end early once `stop` returns `true`. Returns its result, if it has one, and whether
-    /// there is more to do.
+    /// Does one step, which may end early once `stop` returns `true`. Returns the step's result, if there is one, and
+    /// whether there is more to do.
     fn step(&mut self, stop: &dyn Fn() -> bool) -> (Option<Self::Found>, bool);
 }
 
@@ -29,7 +29,8 @@ pub trait Work {
 pub struct CurrentRequest<W: Work>(pub W::Request);
 
 impl<W: Work> CurrentRequest<W> {
-    /// Replaces the request. Returns it for the worker, unless it asks for the same.
+    /// Replaces the request. Returns the new request if the worker needs it, or `None` if it asks for the same task as
+    /// before.
     pub fn replace(&mut self, request: W::Request) -> Option<W::Request> {
         let is_other = !W::is_same(&request, &self.0);
         if is_other {
@@ -41,7 +42,7 @@ impl<W: Work> CurrentRequest<W> {
 
 /// A result for a studio.
 pub enum Found {
-    /// Further findings of the analysis.
+    /// Further findings of an analysis.
     Analysed(Box<Findings>),
     /// A finished loop of the loop lab.
     LoopRun(Box<FoundLoop>),

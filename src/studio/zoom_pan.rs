@@ -1,50 +1,51 @@
 //! The zoom and the pan of a body's cell on the stage.
 
-/// The least and the greatest zoom: from a body that has left the frame far behind, to its last pixels.
+/// Minimum and maximum zoom. The first shows a body that has left the frame far behind, the second the last pixels of a
+/// body.
 const ZOOMS: (f64, f64) = (1.0 / 8.0, 64.0);
 
-/// Largest distance of the view's middle from the middle of the fitted frame, in frames. It is the extent of the view
-/// at the least zoom, so that a person can zoom in on everything visible.
+/// Maximum distance of the view's middle from the middle of the fitted frame, relative to the frame. Up to this
+/// distance a person can zoom in on everything that is visible at the minimum zoom.
 const FARTHEST: f64 = 4.5;
 
-/// A zoom and a pan relative to the frame that the camera fits. They are in units of the frame, so that they do not
-/// depend on the size of the window.
+/// A zoom and a pan relative to the frame that the camera fits. Their unit is the size of the frame, so that they do
+/// not depend on the size of the window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ZoomPan {
     /// Magnification relative to the fitted frame, within [`ZOOMS`].
     zoom: f64,
-    /// The place in the middle of the view: across and down from the middle of the fitted frame, in its widths and
-    /// heights.
+    /// Place of the middle of the view, across and down from the middle of the fitted frame, in widths and heights of
+    /// the frame.
     centre: [f64; 2],
 }
 
 impl Default for ZoomPan {
-    /// The whole frame, as the camera fits it.
+    /// Creates the view of the whole frame, as the camera fits it.
     fn default() -> Self {
         Self { zoom: 1.0, centre: [0.0; 2] }
     }
 }
 
 impl ZoomPan {
-    /// Magnification relative to the fitted frame, 1/8 to 64.
+    /// Returns the magnification relative to the fitted frame, from 1/8 to 64.
     pub fn zoom(&self) -> f64 {
         self.zoom
     }
 
-    /// The place in the view of a place of the fitted frame. Both are across and down from the middle, in widths and
-    /// heights.
+    /// Converts a place of the fitted frame to a place in the view. Both are given across and down from the middle, in
+    /// widths and heights.
     pub fn place_in_view(&self, place: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|i| self.zoom * (place[i] - self.centre[i]))
     }
 
-    /// Zooms in by the factor `times`; the place shown at `about` stays there.
+    /// Zooms in by the factor `times`. The place that is at `about` stays there.
     pub fn zoomed(self, times: f64, about: [f64; 2]) -> Self {
         let zoom = (self.zoom * times).clamp(ZOOMS.0, ZOOMS.1);
         let centre = [0, 1].map(|i| self.centre[i] + about[i] / self.zoom - about[i] / zoom);
         Self { zoom, centre: centre.map(within_reach) }
     }
 
-    /// Pans by parts of the frame's width and height.
+    /// Pans by fractions of the frame's width and height.
     pub fn panned(self, by: [f64; 2]) -> Self {
         let centre = [0, 1].map(|i| within_reach(self.centre[i] - by[i] / self.zoom));
         Self { centre, ..self }

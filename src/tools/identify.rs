@@ -1,4 +1,4 @@
-//! Identifies the method behind a log of one body: the methods of the table run beside the log, and the one that fits
+//! Identifies the method behind a log of one body. The methods of the table run beside the log, and the one that fits
 //! is named.
 //!
 //! Every fixed-step method runs with 1 to 16 substeps, from a start fitted to the log by least squares. A method is
@@ -37,16 +37,16 @@ pub struct Fitted {
 /// The conclusion about a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Conclusion {
-    /// One method fits, alone or with others that move this body alike.
+    /// One method fits, alone or with other methods that move this body alike.
     Identified,
-    /// The log does not single out a method: others fit as well, or the residual is doubtful.
+    /// The log does not single out a method, because others fit as well, or because the residual is doubtful.
     CannotTell,
     /// No method fits to noise level.
     Unknown,
 }
 
 impl Conclusion {
-    /// The word used in output.
+    /// Returns the word used in output.
     pub fn id(self) -> &'static str {
         match self {
             Conclusion::Identified => "identified",
@@ -61,26 +61,26 @@ impl Conclusion {
 pub struct Identification {
     /// The conclusion.
     pub conclusion: Conclusion,
-    /// The candidate that fits best; `None` if no method can run beside the log, for example because its rows are
+    /// The candidate that fits best; `None` if no method can run beside the log, for example because the log's rows are
     /// uneven.
     pub best: Option<Fitted>,
-    /// Others that move this body alike.
+    /// Other candidates that move this body alike.
     pub also: Vec<Candidate>,
-    /// Others that move it differently and fit as well, but are set aside as rare.
+    /// Other candidates that move this body differently and fit as well, but are set aside as rare.
     pub unusual: Vec<Candidate>,
-    /// The best candidate that moves it differently or, if nearly all methods fit, one of another method that moves
-    /// it alike. `None` if there is neither.
+    /// The best candidate that moves this body differently. If nearly all methods fit, it is a candidate of another
+    /// method that moves this body alike. `None` if there is neither.
     pub runner_up: Option<Fitted>,
-    /// Whether the spring was fitted.
+    /// Whether the stiffness and damping of the spring were fitted.
     pub is_spring_fitted: bool,
     /// The spring's rest, in metres.
     pub rest: f64,
-    /// Whether the rest was fitted.
+    /// Whether the position of the rest was fitted.
     pub is_rest_fitted: bool,
     /// Whether the conclusion assumes that the body starts at rest, because x alone does not decide.
     pub supposes_start_at_rest: bool,
     /// Signed distance of the last row from the exact motion of the same start, in metres, and the row's time in
-    /// seconds. `None` unless a method was identified.
+    /// seconds. `None` if no method was identified.
     pub from_exact: Option<(f64, f64)>,
     /// The nearest damped swing, if the method is unknown.
     pub swing: Option<FittedSwing>,
@@ -89,19 +89,19 @@ pub struct Identification {
     pub effective: Option<Effective>,
     /// The exact motion, by the equation of motion.
     pub exact: Option<Effective>,
-    /// Methods whose visible motion at one step a tick is within 1 % of the exact one, each with that motion. The
-    /// cheapest come first.
+    /// Methods whose visible motion at one step a tick is within 1 % of the exact one, each with its visible motion.
+    /// The cheapest method comes first.
     pub recommended: Vec<(&'static Method, Effective)>,
 }
 
 const MAX_RECOMMENDED: usize = 3;
 
-/// A swing whose residual exceeds this share of its amplitude is not that of the log.
+/// Largest residual of a swing, relative to its amplitude, at which the swing counts as that of the log.
 const NO_SWING: f64 = 0.2;
 
-/// Finds the method behind `log`, a motion of `body` at `tick_hz`. Unknown numbers of the body are fitted too, but
-/// its rest only if no method fits with the rest at 0. If x alone does not decide, a start at rest is assumed,
-/// provided that this decides.
+/// Finds the method behind `log`, a motion of `body` at `tick_hz`. Unknown numbers of the body are fitted too, but the
+/// rest is fitted only if no method fits with the rest at 0. If x alone does not decide, a start at rest is assumed,
+/// provided that this assumption decides.
 ///
 /// Returns `None` if no method can run on the body and no swing is near.
 pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identification> {
@@ -174,7 +174,8 @@ fn identify_with(
     })
 }
 
-/// Signed distance of the last row from the exact motion of the fitted start, in metres, and the row's time.
+/// Returns the signed distance of the last row from the exact motion of the fitted start, in metres, and the row's
+/// time.
 fn from_exact(log: &Log, fit: &Fit, tick_s: f64) -> Option<(f64, f64)> {
     let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringForm::Acceleration };
     let last = log.rows().last()?;
@@ -183,7 +184,7 @@ fn from_exact(log: &Log, fit: &Fit, tick_s: f64) -> Option<(f64, f64)> {
 }
 
 impl Identification {
-    /// The result for a log that shows only the visible motion, not the method.
+    /// Returns the result for a log that shows only the visible motion, and not the method.
     fn of_swing(swing: FittedSwing, body: &LoggedBody, tick_hz: f64) -> Self {
         let spring = swing.seen.spring();
         let fitted = LoggedBody { spring: body.spring.or(spring), ..body.clone() };
@@ -207,7 +208,7 @@ impl Identification {
     }
 }
 
-/// The cheapest methods whose visible motion is near the exact one.
+/// Returns the cheapest methods whose visible motion is near the exact one.
 fn recommended(
     body: &LoggedBody,
     tick_s: f64,
@@ -228,15 +229,15 @@ fn recommended(
     found
 }
 
-/// Length of a log's head in ticks. Every candidate is fitted to the head first.
+/// Length of a log's head in ticks. First, every candidate is fitted to the head.
 const HEAD_TICKS: u64 = 60;
-/// A candidate whose sum of squares exceeds the smallest by this factor does not explain a log.
+/// A candidate does not explain a log if its sum of squares exceeds the smallest one by this factor.
 const APART: f64 = 4.0;
 
 /// Fits the candidates that may explain `log`, and the nearest one that does not.
 ///
-/// The residual on a log's head is a lower bound of the residual on the whole log. Candidates are therefore fitted in
-/// the order of this bound, until the next bound is too large.
+/// The residual on a log's head is a lower bound of the residual on the whole log. Candidates are therefore fitted to
+/// the whole log in the order of this bound, until the next bound is too large.
 fn search(
     log: &Log,
     body: &LoggedBody,
@@ -263,7 +264,7 @@ fn search(
     fits
 }
 
-/// Largest sum of squares on the head that is worth a fit to the whole log.
+/// Returns the largest sum of squares on the head that is worth a fit to the whole log.
 fn max_head_squares(squares: &[f64], log: &Log) -> f64 {
     let numbers = log.numbers() as f64;
     let nearest = squares.iter().copied().fold(f64::INFINITY, f64::min);
@@ -276,7 +277,7 @@ fn max_head_squares(squares: &[f64], log: &Log) -> f64 {
 /// Id of a method that is exact on springs with drag.
 const EXACT: &str = "exponential-rosenbrock-euler";
 
-/// The exact motion of the body that fits a log best; `None` if none comes near.
+/// Returns the exact motion of the body that fits a log best; `None` if no motion is near the log.
 fn nearest(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Effective> {
     let seen = Effective::of_log(log, body, 1.0 / tick_hz)?;
     let mut free = body.clone();

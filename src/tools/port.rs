@@ -1,8 +1,8 @@
 //! Finds the settings with which a spring moves the same in every engine.
 //!
-//! [`Setup::visible_motion`] measures an engine's map of a tick on its stepper. Inverting that map gives the stiffness
-//! and damping under which the engine shows a wished motion. The body is on a line and has no drag; the anchor of the
-//! spring rests.
+//! [`Setup::visible_motion`] measures an engine's map of a tick on the engine's stepper. Inverting that map gives the
+//! stiffness and damping under which the engine shows a wished motion. The body is on a line and has no drag; the
+//! anchor of the spring rests.
 
 use super::identify::Effective;
 use crate::scene::Swing;
@@ -41,9 +41,9 @@ pub enum WishError {
     OutOfRange {
         /// Name of the number.
         what: &'static str,
-        /// Its value.
+        /// Value of the number.
         value: f64,
-        /// Its valid range, in words.
+        /// Valid range of the number, in words.
         wanted: &'static str,
     },
     /// A swing takes two ticks or fewer.
@@ -54,10 +54,10 @@ pub enum WishError {
     BeyondNyquist {
         /// The wished frequency, in hertz.
         frequency_hz: f64,
-        /// Ticks per second.
+        /// The tick rate, in hertz.
         tick_hz: f64,
     },
-    /// A swing takes too many ticks: rounding hides it.
+    /// A swing takes such a large number of ticks that rounding hides it.
     #[error(
         "a swing of {frequency_hz} Hz takes more than {MAX_TICKS} ticks at {tick_hz} Hz, so that rounding hides it; give more than {} Hz, or tick slower",
         tick_hz / MAX_TICKS
@@ -65,7 +65,7 @@ pub enum WishError {
     TooSlow {
         /// The wished frequency, in hertz.
         frequency_hz: f64,
-        /// Ticks per second.
+        /// The tick rate, in hertz.
         tick_hz: f64,
     },
     /// A part of the motion is over within a tick.
@@ -77,26 +77,25 @@ pub enum WishError {
         damping_ratio: f64,
         /// The wished frequency, in hertz.
         frequency_hz: f64,
-        /// Ticks per second.
+        /// The tick rate, in hertz.
         tick_hz: f64,
     },
 }
 
-/// Largest exponent by which the fast part of a damped motion may decay in a tick; beyond it, rounding hides that
-/// part.
+/// Largest exponent by which the fast part of a damped motion may decay in a tick. Beyond it, rounding hides that part.
 const MAX_DECAY: f64 = 16.0;
-/// Most ticks in a swing. With more, the map of a tick equals, to rounding, the one without a spring.
+/// Maximum number of ticks in a swing. With more, the map of a tick equals, to rounding, the map without a spring.
 const MAX_TICKS: f64 = 30_000.0;
 /// Largest error of a reached wish: relative in the frequency, absolute in the damping ratio.
 const REACHED: f64 = 1e-8;
-/// Most substeps tried.
+/// Maximum number of substeps that are tried.
 const MAX_SUBSTEPS: u32 = 64;
 
 impl Wish {
     /// Checks that the wish's numbers and a tick rate in hertz have a meaning.
     ///
     /// # Errors
-    /// The first number without a meaning.
+    /// Fails with the first number without a meaning.
     pub fn check_numbers(&self, tick_hz: f64) -> Result<(), WishError> {
         let &Self { frequency_hz, damping_ratio, mass_kg } = self;
         let positive = |value: f64| value > 0.0 && value.is_finite();
@@ -120,7 +119,7 @@ impl Wish {
     /// Checks that an engine can show the wish at this tick rate in hertz.
     ///
     /// # Errors
-    /// The first reason against it.
+    /// Fails with the first reason against the wish.
     pub fn check(&self, tick_hz: f64) -> Result<(), WishError> {
         self.check_numbers(tick_hz)?;
         let &Self { frequency_hz, damping_ratio, .. } = self;
@@ -137,34 +136,35 @@ impl Wish {
         Ok(())
     }
 
-    /// Angular frequency, in rad/s.
+    /// Returns the angular frequency, in rad/s.
     fn omega(&self) -> f64 {
         std::f64::consts::TAU * self.frequency_hz
     }
 
-    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation of motion.
+    /// Returns the stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation of motion.
     pub fn joint(&self) -> [f64; 2] {
         let &Self { frequency_hz, damping_ratio, .. } = self;
         Swing { frequency_hz, damping_ratio }.per_mass()
     }
 
-    /// The wish for a spring with this stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation
-    /// of motion.
+    /// Returns the wish for a spring with this stiffness in 1/s² and damping in 1/s, each per unit of mass, by the
+    /// equation of motion.
     pub fn of_joint([stiffness, damping]: [f64; 2], mass_kg: f64) -> Self {
         let omega = stiffness.sqrt();
         Self::of(Effective { omega, decay: damping / 2.0 }, mass_kg)
     }
 
-    /// The visible spring of `v = (v + (target - x) * stiffness) * kept; x += v` once a frame, on this mass in kg.
+    /// Returns the wish for the visible spring of `v = (v + (target - x) * stiffness) * kept; x += v` once a frame, on
+    /// this mass in kg.
     ///
     /// # Errors
-    /// If the rule grows or changes sides in each frame, in words.
+    /// If the rule grows or changes sides in each frame; the error explains this in words.
     pub fn of_decay_per_frame(
         [stiffness, kept]: [f64; 2],
         fps: f64,
         mass_kg: f64,
     ) -> Result<Self, String> {
-        // A frame maps x and v by [[1 - dk, d], [-dk, d]], with k the stiffness and d the part kept.
+        // A frame maps x and v by [[1 - dk, d], [-dk, d]], with k the stiffness and d the kept part.
         let [trace, determinant] = [1.0 + kept - kept * stiffness, kept];
         if kept > 1.0 {
             return Err(format!("so set it grows: {kept} of v is left; leave at most 1"));
@@ -181,12 +181,12 @@ impl Wish {
         Ok(Self::of(seen, mass_kg))
     }
 
-    /// The wished motion.
+    /// Returns the wished motion.
     fn effective(&self) -> Effective {
         Effective { omega: self.omega(), decay: self.damping_ratio * self.omega() }
     }
 
-    /// The wish for this visible motion, on this mass in kg.
+    /// Returns the wish for this visible motion, on this mass in kg.
     pub fn of(seen: Effective, mass_kg: f64) -> Self {
         let damping_ratio = seen.damping_ratio().unwrap_or(0.0);
         Self { frequency_hz: seen.undamped_hz(), damping_ratio, mass_kg }
@@ -196,16 +196,16 @@ impl Wish {
 /// Whether an engine shows a wish.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PortOutcome {
-    /// It does, to rounding.
+    /// The engine shows the wish, to rounding.
     Reached,
-    /// It does not; the settings come nearest.
+    /// The engine does not show the wish; the settings come nearest.
     Nearest,
-    /// It does not, because the engine itself damps more; the settings come nearest.
+    /// The engine does not show the wish, because the engine itself damps more; the settings come nearest.
     Unreachable,
 }
 
 impl PortOutcome {
-    /// The word used in output.
+    /// Returns the word for output.
     pub fn id(self) -> &'static str {
         match self {
             PortOutcome::Reached => "reached",
@@ -220,10 +220,10 @@ impl PortOutcome {
 pub struct Relief {
     /// The engine with twice the substeps or, if that does not help, at twice the tick rate.
     pub setup: Setup,
-    /// Least damping ratio with this change.
+    /// Smallest damping ratio with this change.
     pub damping_ratio: f64,
-    /// Fewest substeps that reach the wished damping ratio, doubled from the present ones; `None` if more do not
-    /// help.
+    /// Minimum number of substeps that reach the wished damping ratio, doubled from the present number; `None` if more
+    /// substeps do not help.
     pub enough: Option<u32>,
 }
 
@@ -238,24 +238,24 @@ pub struct Ported {
     pub values: [f64; 2],
     /// The visible motion with these values.
     pub sees: Effective,
-    /// Least damping ratio at the wished frequency, if the engine itself damps.
+    /// Smallest damping ratio at the wished frequency, if the engine itself damps.
     pub floor: Option<f64>,
-    /// The change that lowers `floor`, if the wish is below it.
+    /// The change that lowers `floor`, if the wish is below `floor`.
     pub relief: Option<Relief>,
-    /// Stiffness in N/m and damping in N s/m of a custom force that reaches the wish if held through each tick. Only
-    /// set if the joint does not reach it.
+    /// Stiffness in N/m and damping in N s/m of a custom force that reaches the wish if it is held through each tick.
+    /// They are given only if the joint does not reach the wish.
     pub own_force: Option<[f64; 2]>,
 }
 
 impl Ported {
-    /// The code for these values, with the substeps unless they are the engine's default.
+    /// Returns the code for these values, with the substeps unless they are the engine's default.
     pub fn code(&self) -> String {
         self.setup.code(self.values)
     }
 }
 
-/// Every joint mode of these engines at this tick rate in hertz, with these substeps or else each method's default.
-/// Every engine if `methods` is `None`.
+/// Returns every joint mode of these engines at this tick rate in hertz, with these substeps or else each method's
+/// default. If `methods` is `None`, all engines are included.
 pub fn setups(
     methods: Option<&[&'static Method]>,
     tick_hz: f64,
@@ -273,8 +273,8 @@ pub fn setups(
     modes.map(setup).collect()
 }
 
-/// The settings with which an engine shows a wish, or comes nearest. On a tie, the settings that keep the frequency
-/// win. `None` if the engine shows no spring that is near.
+/// Returns the settings with which an engine shows a wish, or comes nearest. On a tie, the settings that keep the
+/// frequency win. `None` if the engine shows no spring that is near.
 ///
 /// The wish must pass its [check](Wish::check) at the tick rate.
 pub fn port(wish: &Wish, setup: Setup) -> Option<Ported> {
@@ -308,7 +308,7 @@ pub fn port(wish: &Wish, setup: Setup) -> Option<Ported> {
     })
 }
 
-/// The change that lowers `floor`: twice the substeps or, if they do not help, twice the tick rate.
+/// Returns the change that lowers `floor`, which is twice the substeps or, if they do not help, twice the tick rate.
 fn damping_relief(wish: &Wish, setup: Setup, floor: Option<f64>) -> Option<Relief> {
     let least =
         |setup: Setup| Some(min_damping(&|joint| setup.visible_motion(joint), wish.omega())?.1);

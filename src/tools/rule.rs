@@ -1,6 +1,6 @@
 //! Analyses the lines with which a game moves a value once a frame, at every frame rate.
 //!
-//! A linear rule of up to two carried numbers is a map. Its eigenvalues give the visible motion, and its powers,
+//! A linear rule of up to two carried numbers is a map. The map's eigenvalues give the visible motion, and its powers,
 //! whole or not, the motion at any frame rate. For a rule that is not linear, this holds for small motions about its
 //! rest.
 
@@ -20,28 +20,29 @@ pub use scene::rule_scene;
 mod any_rate;
 mod scene;
 
-/// Frame rates at which a rule is shown, besides its author's.
+/// Frame rates at which a rule is shown, besides the author's rate.
 const FRAME_RATES: [f64; 7] = [30.0, 50.0, 60.0, 120.0, 144.0, 165.0, 240.0];
-/// Lowest frame rate in the search for ringing and growth, highest rate for each, and ratio of successive rates.
+/// Lowest frame rate in the search for ringing and growth, highest rate in the search for each, and ratio of successive
+/// rates.
 const SLOWEST: f64 = 0.1;
 const FASTEST_RINGING: f64 = 1e4;
 const FASTEST_GROWTH: f64 = 1e5;
 const RATIO: f64 = 1.02;
 const HALVINGS: u32 = 60;
-/// Share of the way, of a speed or of a swing, below which nothing is visible.
+/// Fraction of the way, of a speed or of a swing, below which nothing is visible.
 const OVER: f64 = 0.01;
 /// A rule grows if an eigenvalue exceeds 1 by `GROWTH`. If `MORE_GROWTH` moves the frame rate at which growth begins,
-/// no frame rate decides it.
+/// no frame rate decides the growth.
 const GROWTH: f64 = 1e-12;
 const MORE_GROWTH: f64 = 1e-11;
 const SAME_RATE: f64 = 1e-3;
-/// Distance from the rest at which a rule that is not linear is tried, and its largest deviation from a linear one,
-/// as a share of that distance.
+/// Distance from the rest at which a rule that is not linear is tried, and its largest deviation from a linear rule, as
+/// a fraction of that distance.
 const SMALL: f64 = 1e-6;
 const SMOOTH: f64 = 1e-3;
-/// Parts of a swing, or of a decay, in the search for the last visible moment.
+/// Number of parts of a swing, or of a decay, in the search for the last visible moment.
 const PARTS: u32 = 64;
-/// Length of the run that shows whether a rule without a map grows: in seconds, and at most in frames.
+/// Length of the run that shows whether a rule without a map grows, in seconds, and its maximum in frames.
 const WATCHED_S: f64 = 20.0;
 const MAX_WATCHED: f64 = 20_000.0;
 
@@ -50,10 +51,10 @@ const MAX_WATCHED: f64 = 20_000.0;
 pub struct Rule {
     text: Arc<StepText>,
     fps: f64,
-    /// Indices of the carried numbers that decide the motion; the visible one comes first.
+    /// Indices of the carried numbers that decide the motion. The visible number comes first.
     state: Vec<usize>,
     is_linear: bool,
-    /// Whether the value stays wherever it is, as under friction and not on a spring.
+    /// Whether the value stays wherever it is, as under friction, but not on a spring.
     stays: bool,
 }
 
@@ -62,11 +63,11 @@ pub struct Rule {
 pub struct VisibleMotion {
     /// Frames per second.
     pub fps: f64,
-    /// Frequency of the swing in hertz; `None` if it does not swing.
+    /// Frequency of the swing in hertz; `None` if the motion does not swing.
     pub hz: Option<f64>,
     /// The damped spring with the same motion; `None` if there is none.
     pub spring: Option<Effective>,
-    /// How far it first passes the target, as a share of the way.
+    /// Distance by which the motion first passes the target, as a fraction of the way.
     pub overshoot: Option<f64>,
     /// Time until less than a hundredth of the way, or of the speed, is left, in seconds.
     pub settles_s: Option<f64>,
@@ -79,11 +80,11 @@ pub struct VisibleMotion {
 /// The kind of motion that a rule makes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Motion {
-    /// It keeps this part of its distance to the target, or of its speed, in a frame.
+    /// The value keeps this fraction of its distance to the target, or of its speed, in a frame.
     Approach { kept: f64 },
-    /// It stays where it is, and keeps this part of its speed in a frame.
+    /// The value stays where it is, and keeps this fraction of its speed in a frame.
     Coast { kept: f64 },
-    /// A frame maps two numbers.
+    /// A frame maps two numbers by this matrix.
     Swing(Matrix2<f64>),
 }
 
@@ -91,7 +92,7 @@ impl Rule {
     /// Reads the lines of a rule written for this many frames per second.
     ///
     /// # Errors
-    /// The first fault of the text.
+    /// Fails with the first fault of the text.
     pub fn read(text: &str, fps: f64) -> Result<Self, ExpressionFault> {
         let remedy = "give lines that call one in a file, as a method: `--method my.step`, `regatta show my.step`";
         let text = StepText::read_rule(text, remedy)?;
@@ -100,7 +101,7 @@ impl Rule {
         Ok(Self::with_state(Arc::new(text), fps, vec![seen]))
     }
 
-    /// The rule as a map of these carried numbers and those that they depend on.
+    /// Creates the rule as a map of these carried numbers and of those on which they depend.
     fn with_state(text: Arc<StepText>, fps: f64, state: Vec<usize>) -> Self {
         let (state, is_linear) = (text.with_causes(state), text.is_linear());
         let mut rule = Self { text, fps, state, is_linear, stays: false };
@@ -108,7 +109,8 @@ impl Rule {
         rule
     }
 
-    /// The rule as a map of all numbers that a game reads, including `x` and `v` if its lines change them.
+    /// Returns the rule as a map of all numbers that a game reads, including `x` and `v` if the rule's lines change
+    /// these.
     fn whole(&self) -> Self {
         let changed = (0..2).filter(|index| !self.text.leaves_unchanged(*index));
         let mut state = self.state.clone();
@@ -120,7 +122,7 @@ impl Rule {
         Self::with_state(Arc::clone(&self.text), self.fps, state)
     }
 
-    /// Frames per second for which it was written.
+    /// Returns the frames per second for which the rule was written.
     pub fn fps(&self) -> f64 {
         self.fps
     }
@@ -130,17 +132,18 @@ impl Rule {
         self.is_linear
     }
 
-    /// Whether it depends on the length of a frame.
+    /// Whether the rule depends on the length of a frame.
     pub fn takes_step(&self) -> bool {
         self.text.takes_step()
     }
 
-    /// Names of the numbers that decide the motion.
+    /// Returns the names of the numbers that decide the motion.
     pub fn state(&self) -> impl Iterator<Item = &str> {
         self.state.iter().map(|index| &*self.text.carried()[*index].name)
     }
 
-    /// A frame as a map; `None` for more than two numbers, or if not even small motions about a rest at 0 are linear.
+    /// Returns a frame as a map; `None` for more than two numbers, or if not even small motions about a rest at 0 are
+    /// linear.
     fn frame(&self, fps: f64) -> Option<Frame> {
         let frame = self.text.frame(&self.state, 1.0 / fps)?;
         (self.is_linear || self.is_smooth(&frame, fps)).then_some(frame)
@@ -171,7 +174,7 @@ impl Rule {
         })
     }
 
-    /// The visible motion at the usual frame rates and at the author's, the lowest rate first.
+    /// Returns the visible motion at the usual frame rates and at the author's, with the lowest rate first.
     pub fn motions(&self) -> Vec<VisibleMotion> {
         let mut rates: Vec<f64> = FRAME_RATES.into_iter().chain([self.fps]).collect();
         rates.sort_by(f64::total_cmp);
@@ -179,7 +182,7 @@ impl Rule {
         rates.into_iter().map(|fps| self.motion_at(fps)).collect()
     }
 
-    /// The visible motion at this many frames per second.
+    /// Returns the visible motion at this many frames per second.
     pub fn motion_at(&self, fps: f64) -> VisibleMotion {
         let nothing = VisibleMotion {
             fps,
@@ -221,26 +224,26 @@ impl Rule {
         }
     }
 
-    /// Frame rate below which the rule begins to ring, that is to swing or to pass its target. `None` if the frame
-    /// rate does not decide that.
+    /// Returns the frame rate below which the rule begins to ring, that is to swing or to pass its target. `None` if
+    /// the frame rate does not decide that.
     pub fn rings_below_fps(&self) -> Option<f64> {
         self.begins_below(FASTEST_RINGING, Motion::rings)
     }
 
-    /// Frame rate below which the rule grows; `None` if the frame rate does not decide that.
+    /// Returns the frame rate below which the rule grows; `None` if the frame rate does not decide that.
     pub fn explodes_below_fps(&self) -> Option<f64> {
         let above = |least| self.begins_below(FASTEST_GROWTH, |motion| motion.grows(least));
-        // A rule that grows at every rate, but ever less, passes each bound somewhere.
+        // A rule that grows at every rate, but ever less, passes each limit somewhere.
         let (found, next) = (above(GROWTH)?, above(MORE_GROWTH)?);
         ((next / found - 1.0).abs() < SAME_RATE).then_some(found)
     }
 
-    /// Whether it grows at the author's frame rate.
+    /// Whether the rule grows at the author's frame rate.
     pub fn grows(&self) -> bool {
         self.motion_at(self.fps).grows
     }
 
-    /// Frame rate below which a property begins that does not hold at `fastest`.
+    /// Returns the frame rate below which a property begins to hold that does not hold at `fastest`.
     fn begins_below(&self, fastest: f64, holds: impl Fn(&Motion) -> bool) -> Option<f64> {
         let holds_at = |fps: f64| self.motion(fps).is_some_and(|motion| holds(&motion));
         if !self.takes_step() || holds_at(fastest) {
@@ -259,19 +262,21 @@ impl Rule {
         None
     }
 
-    /// The spring with the same motion at the author's frame rate, with a mass of 1 kg; `None` if there is none.
+    /// Returns the spring with the same motion at the author's frame rate, with a mass of 1 kg; `None` if there is
+    /// none.
     pub fn spring(&self) -> Option<Wish> {
         Some(Wish::of(self.motion_at(self.fps).spring?, 1.0))
     }
 
-    /// The approach to the target, if the rule does nothing else.
+    /// Returns the approach to the target, if the rule does nothing else.
     pub fn approach(&self) -> Option<Approach> {
         let half_life_s = self.motion_at(self.fps).halves_s?;
         self.text.takes_target().then_some(Approach { half_life_s })
     }
 
-    /// Distance that a body coasts under friction alone at the author's frame rate, in seconds of its speed. A rule
-    /// that changes no place has two: if the body moves after the friction of a frame, and if it moves before.
+    /// Returns the distance that a body coasts under friction alone at the author's frame rate, in seconds of its
+    /// speed. A rule that changes no place has two distances, one if the body moves after the friction of a frame, and
+    /// one if it moves before.
     pub fn coasts_s(&self) -> Option<Vec<f64>> {
         let frame = self.frame(self.fps)?;
         let is_still = frame.by_target == Vector2::zeros() && frame.offset == Vector2::zeros();
@@ -290,7 +295,7 @@ impl Rule {
         }
     }
 
-    /// Whether a run from 1 goes far beyond its first half. For rules without a map.
+    /// Whether a run from 1 goes far beyond its first half. This test is for rules without a map.
     fn grows_when_watched(&self, fps: f64) -> bool {
         let mut registers = self.text.registers();
         let first = self.state[0];
@@ -311,7 +316,7 @@ impl Rule {
 }
 
 impl Motion {
-    /// Largest modulus of an eigenvalue, without the 1 of a coasting motion.
+    /// Returns the largest modulus of an eigenvalue, without the 1 of a coasting motion.
     fn radius(&self) -> f64 {
         match self {
             Motion::Approach { kept } | Motion::Coast { kept } => kept.abs(),
@@ -341,13 +346,13 @@ impl Motion {
             Motion::Approach { kept } | Motion::Coast { kept } => *kept < 0.0,
             Motion::Swing(map) => {
                 let (half, determinant) = (map.trace() / 2.0, map.determinant());
-                // The difference of a double eigenvalue is rounding.
+                // Such a small difference of a double eigenvalue is rounding.
                 half * half - determinant < -4.0 * f64::EPSILON || determinant < 0.0 || half < 0.0
             }
         }
     }
 
-    /// Frames until less than [`OVER`] is left, not necessarily whole.
+    /// Returns the number of frames until less than [`OVER`] is left, not necessarily whole.
     fn frames_to_settle(&self) -> f64 {
         let by_radius = -libm::log(OVER) / -libm::log(self.radius());
         let Motion::Swing(map) = self else { return by_radius };
@@ -376,15 +381,15 @@ impl Motion {
     }
 }
 
-/// Coefficient of the odd power in a motion that starts at rest from 1: the first number after a frame minus half the
-/// trace, over the root of the determinant. The second number also starts at 1 if it echoes the first of a frame
-/// before.
+/// Returns the coefficient of the odd power in a motion that starts at rest from 1. It is the first number after a
+/// frame minus half the trace, over the root of the determinant. The second number also starts at 1 if it repeats the
+/// first number of the frame before.
 fn odd_coefficient(map: &Matrix2<f64>) -> f64 {
     let first = if remembers_place(map) { map.m11 + map.m12 } else { map.m11 };
     (first - map.trace() / 2.0) / libm::sqrt(map.determinant())
 }
 
-/// How far a motion that starts at rest from 1 first passes 0; `None` if it never does.
+/// Returns the distance by which a motion that starts at rest from 1 first passes 0; `None` if it never does.
 fn overshoot(map: &Matrix2<f64>) -> Option<f64> {
     let powers = Powers::of(map.trace(), map.determinant()).filter(|powers| powers.swings)?;
     let Powers { log_scale, apart, .. } = powers;

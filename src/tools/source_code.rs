@@ -1,9 +1,9 @@
-//! Prints the methods as source code for a game: one function of `x`, `v` and the step `h` for each method, in each
-//! of four languages.
+//! Prints the methods as source code for a game. For each method, it is one function of `x`, `v` and the step `h`, in
+//! each of four languages.
 //!
-//! A method is written once, in `assets/methods`, in a small language of its own with one statement a line and
-//! numbers only. The printer translates it line by line with the table of dialects, and makes the header from the
-//! method's card. `tests/library/source_code` compiles the printed functions and compares their steps with the
+//! A method is written once, in `assets/methods`, in a small language of its own with one statement per line, in which
+//! all values are numbers. The printer translates it line by line with the table of dialects, and makes the header from
+//! the method's card. `tests/library/source_code` compiles the printed functions and compares their steps with the
 //! method's.
 //!
 //! | statement | meaning |
@@ -21,8 +21,8 @@
 //! | `several: how`, `held: where` | the header's words on several coordinates, and on forces that depend on time |
 //! | `refused c: why`, `refused: why` | excludes the function from this language, or from all |
 //!
-//! A comment begins with `#`; comments before the first statement go to the header. A line that begins with an
-//! operator continues the one before.
+//! A comment begins with `#`. Comments before the first statement belong to the header. A line that begins with an
+//! operator continues the line before.
 
 use std::fmt;
 
@@ -42,17 +42,17 @@ mod program;
 pub struct MethodSource(Program<'static>);
 
 impl MethodSource {
-    /// Reads the source on a method's [card](Method::code); `None` if it has none.
+    /// Reads the source on a method's [card](Method::code); `None` if the card has no source.
     pub fn of(method: &Method) -> Option<Self> {
         (!method.code.is_empty()).then(|| Self(Program::read(method.code)))
     }
 
-    /// The function's inputs besides `x`, `v` and `h`.
+    /// Returns the function's inputs besides `x`, `v` and `h`.
     pub fn inputs(&self) -> &[MethodInput<'static>] {
         &self.0.inputs
     }
 
-    /// The source's own words for a claim of the card: `order`, `stability` or `symplectic`.
+    /// Returns the source's own words for a claim of the card: `order`, `stability` or `symplectic`.
     pub fn claim(&self, claim: &str) -> Option<&'static str> {
         self.0.claim(claim)
     }
@@ -70,7 +70,7 @@ pub struct NoSourceCode {
     pub method: &'static str,
     /// The language.
     pub language: Language,
-    /// A clause in lower case.
+    /// The reason, as a clause in lower case.
     pub reason: &'static str,
 }
 
@@ -82,7 +82,7 @@ impl fmt::Display for NoSourceCode {
     }
 }
 
-/// A method's function in a language and a precision, below a comment made from its card.
+/// Returns a method's function in a language and a precision, below a comment made from its card.
 ///
 /// # Errors
 /// If the method is [custom](Method::custom), or cannot be written as such a function, or the language has no such
@@ -97,10 +97,10 @@ pub fn source_code(
     Ok(printer::print(method.id, &program, language, precision, &header))
 }
 
-/// The same function without the comment above it.
+/// Returns the same function without the comment above it.
 ///
 /// # Errors
-/// As [`source_code`].
+/// Fails as [`source_code`] does.
 pub fn function_code(
     method: &Method,
     language: Language,
@@ -110,7 +110,7 @@ pub fn function_code(
     Ok(printer::print(method.id, &program, language, precision, &[]))
 }
 
-/// The function `rule` of a source, below a comment of these paragraphs.
+/// Returns the function `rule` of a source, below a comment of these paragraphs.
 ///
 /// # Panics
 /// If the source is malformed.
@@ -120,7 +120,7 @@ pub(super) fn rule_code(text: &str, about: &[String], language: Language) -> Str
     printer::print("rule", &program, language, Precision::Double, &header)
 }
 
-/// The method's program, unless the language or the precision rules it out.
+/// Returns the method's program, unless the language or the precision rules it out.
 fn program(
     method: &Method,
     language: Language,

@@ -51,6 +51,10 @@ pub fn bound_key(place: Option<char>, meaning: Meaning<'_>, held: Modifiers) -> 
             (_, Meaning::Named(key)) => Some(key),
             (_, Meaning::Text(text)) => {
                 let sign = sign_of(text)?;
+                // A keyboard on a screen has digits without a place.
+                if let Some(digit) = sign.to_digit(10).filter(|_| place.is_none()) {
+                    return Some(Key::Digit(digit as u8));
+                }
                 Some(match shift && sign.is_alphabetic() {
                     true => Key::ShiftSign(lower(sign)),
                     false => Key::Sign(lower(sign)),

@@ -49,12 +49,11 @@ enum PressTarget {
     Body {
         grasp: Grasp,
         entry: MenuIndex,
+        /// Whether time runs on while the hand pulls.
+        pulls: bool,
     },
     /// A cell without a body there, with its zoom at that time.
-    Sea {
-        cell: Cell,
-        zoom_pan: ZoomPan,
-    },
+    Sea { cell: Cell, zoom_pan: ZoomPan },
 }
 
 /// The stage of a frame.
@@ -109,7 +108,8 @@ impl Touch {
                     if !pressed {
                         self.release(&stage, time, pos, !modifiers.shift, commands);
                     } else if over_stage(pos) {
-                        self.press(&stage, time, pos, commands);
+                        let pulls = modifiers.command && studio.deck.time_runs();
+                        self.press(&stage, time, (pos, pulls), commands);
                     }
                 }
                 Event::PointerMoved(at) => self.drag(&stage, time, at, commands),
@@ -129,14 +129,20 @@ impl Touch {
     /// state forgot.
     fn sync_held_body(&mut self, studio: &Studio, commands: &mut Vec<Command>) {
         let holds = matches!(self.press, Some(Press { on: PressTarget::Body { .. }, .. }));
-        match studio.deck.held() {
-            None if holds => self.press = None,
-            Some(_) if !holds => commands.push(Command::View(ViewCommand::LetGo)),
+        match studio.deck.held().is_some() || studio.deck.pulled().is_some() {
+            false if holds => self.press = None,
+            true if !holds => commands.push(Command::View(ViewCommand::LetGo)),
             _ => {}
         }
     }
 
-    fn press(&mut self, stage: &Stage<'_>, time: f64, at: Pos2, commands: &mut Vec<Command>) {
+    fn press(
+        &mut self,
+        stage: &Stage<'_>,
+        time: f64,
+        (at, pulls): (Pos2, bool),
+        commands: &mut Vec<Command>,
+    ) {
         let point = stage.point(at);
         if stage.is_on_chip(at) {
             if !stage.studio.display().measure {
@@ -148,12 +154,12 @@ impl Touch {
         let grip = cell.grip_at(stage.studio, point);
         let on = match grip.and_then(|grip| Grasp::new(stage.studio, cell, &grip, point)) {
             Some(grasp) => {
-                commands.push(Command::Run(RunCommand::Hold(grasp.held().clone())));
+                commands.push(Command::Run(hold_or_pull(&grasp, pulls)));
                 let entry = match grip.map(|grip| grip.whose) {
                     Some(Whose::Lane { entry, .. }) => entry,
                     Some(Whose::Truth) | None => cell.entry,
                 };
-                PressTarget::Body { grasp, entry }
+                PressTarget::Body { grasp, entry, pulls }
             }
             None => {
                 let zoom_pan = stage.studio.view().zoom_pan(cell.zoomed_as);
@@ -173,9 +179,9 @@ impl Touch {
             return;
         }
         match &mut press.on {
-            PressTarget::Body { grasp, .. } => {
+            PressTarget::Body { grasp, pulls, .. } => {
                 grasp.pull(stage.studio, stage.point(at), [0.0; 2]);
-                commands.push(Command::Run(RunCommand::Hold(grasp.held().clone())));
+                commands.push(Command::Run(hold_or_pull(grasp, *pulls)));
             }
             PressTarget::Sea { cell, zoom_pan } => {
                 let [from, to] = [press.from, at].map(|at| cell.part(stage.point(at)));
@@ -199,8 +205,8 @@ impl Touch {
         self.drag(stage, time, at, commands);
         let Some(Press { is_drag, on, .. }) = self.press.take() else { return };
         let entry = match on {
-            PressTarget::Body { mut grasp, entry } => {
-                if is_drag {
+            PressTarget::Body { mut grasp, entry, pulls } => {
+                if is_drag && !pulls {
                     let speed = f64::from(stage.studio.clock().speed_percent()) / 100.0;
                     let velocity = if is_thrown { self.track.velocity() } else { Vec2::ZERO };
                     let velocity = [velocity.x, velocity.y].map(|points| f64::from(points) / speed);
@@ -253,6 +259,13 @@ impl Touch {
             }
         };
         ui.ctx().set_cursor_icon(cursor);
+    }
+}
+
+fn hold_or_pull(grasp: &Grasp, pulls: bool) -> RunCommand {
+    match pulls {
+        true => RunCommand::Pull(grasp.pulled()),
+        false => RunCommand::Hold(grasp.held().clone()),
     }
 }
 

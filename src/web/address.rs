@@ -1,4 +1,4 @@
-//! Parses the part of a page's address after its `#`: a run, or a scene with methods, and display settings.
+//! Parses the part of a page's address after its `#`, which names a run, or a scene with methods, and display settings.
 
 use regatta::look::palette::Theme;
 use regatta::run::link::{Link, LinkError};
@@ -10,14 +10,14 @@ use regatta::studio::{Instrument, Studio, lineup, open_loop_lab_on, show_clouds_
 #[derive(Debug, Default)]
 pub(crate) struct Address {
     link: Link,
-    /// The run in the link, if it has one.
+    /// The run that the link contains, if any.
     pub(crate) run: Option<Scene>,
-    /// Whether another page embeds the stage and the digits of its methods.
+    /// Whether another page embeds this one, so that it shows only the stage and the digits of its methods.
     pub(crate) is_embedded: bool,
-    /// Whether time runs from the start even where it would normally wait.
+    /// Whether time runs from the start even if it would normally wait.
     pub(crate) plays: bool,
     pub(crate) theme: Option<Theme>,
-    /// The tick to go to.
+    /// The tick at which the run opens.
     pub(crate) tick: Option<u64>,
     pub(crate) instrument: Option<Instrument>,
     /// Trace on which the loop lab opens.
@@ -25,10 +25,10 @@ pub(crate) struct Address {
 }
 
 impl Address {
-    /// Reads an address, or a text that contains one.
+    /// Reads an address, or finds one in a text.
     ///
     /// # Errors
-    /// A sentence about the part that this page does not have.
+    /// A sentence about the part of the address that this page does not have.
     pub(crate) fn of(written: &str) -> Result<Self, String> {
         let refused = |error: LinkError| error.to_string();
         let link = Link::read(written).map_err(refused)?;
@@ -52,7 +52,7 @@ impl Address {
                     address.instrument = Some(Instrument::of_id(id).ok_or_else(|| unknown(&ids))?);
                 }
                 ("loop", trace) => address.loop_trace = Some(trace.into()),
-                // `play`, the last setting of a page.
+                // The setting is `play`, the last one that a page has.
                 _ => address.plays = true,
             }
         }
@@ -66,10 +66,11 @@ impl Address {
         Ok(Self { link, ..address })
     }
 
-    /// The studio at tick 0 of the named scene; for a link to a run, of the first scene.
+    /// Returns a studio at tick 0 of the scene that the link names. If the link contains a run, the studio shows the
+    /// first scene instead.
     ///
     /// # Errors
-    /// A sentence about the part that this page does not have.
+    /// A sentence about the part of the address that this page does not have.
     pub(crate) fn studio(&self) -> Result<Studio, String> {
         let named = self.link.named().map_err(|error| error.to_string())?;
         let asked = if named.races { Mode::Race } else { Mode::Solo };
@@ -89,7 +90,7 @@ impl Address {
         Ok(studio)
     }
 
-    /// The link in the form that ends a page's address.
+    /// Returns the link in the form in which it ends a page's address.
     pub(crate) fn fragment(&self) -> String {
         self.link.to_string()
     }
@@ -99,7 +100,7 @@ impl Address {
         self.instrument.is_some() || self.link.asks_to_race() || self.loop_trace.is_some()
     }
 
-    /// Whether time runs at the start. An embedded stage, or one with a requested tick, waits for a person.
+    /// Whether time runs at the start. On an embedded stage, or at a requested tick, time waits for a person.
     pub(crate) fn runs_at_first(&self) -> bool {
         self.plays || !self.is_embedded && self.tick.is_none()
     }

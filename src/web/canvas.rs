@@ -1,4 +1,4 @@
-//! The canvas and the renderer that draws on it.
+//! The canvas of the page, and the renderer that draws on it.
 
 use regatta::studio::{Command, Studio};
 use regatta::view::{FrameOutput, FrameRenderer, Gpu, GpuExecutor, Screen, egui, wgpu};
@@ -15,7 +15,7 @@ pub(crate) struct Canvas {
 
 impl Canvas {
     /// # Errors
-    /// The reason why nothing can be drawn on it.
+    /// The reason why nothing can be drawn on the canvas.
     pub(crate) async fn new(element: HtmlCanvasElement) -> Result<Self, String> {
         let refused = |reason: &dyn std::error::Error| {
             log::error!("{reason}");
@@ -29,8 +29,8 @@ impl Canvas {
         Ok(Self { element, renderer, executor, screen, gpu, size_px: [0, 0] })
     }
 
-    /// Draws a frame and shows it, with `scale` pixels per point of the page. Returns the commands from the panels,
-    /// or `None` if the canvas cannot be drawn on now.
+    /// Draws a frame and shows it, with `scale` pixels per point of the page. Returns the commands from the panels, or
+    /// `None` if the canvas cannot be drawn on at present.
     pub(crate) fn draw(
         &mut self,
         scale: f64,
@@ -65,13 +65,13 @@ impl Canvas {
     }
 }
 
-/// The surface for frames.
+/// Returns the surface on which frames are drawn.
 #[cfg(target_arch = "wasm32")]
 fn target(element: HtmlCanvasElement) -> wgpu::SurfaceTarget<'static> {
     wgpu::SurfaceTarget::Canvas(element)
 }
 
-/// Outside a browser, lints read this crate and tests run it without a canvas.
+/// Outside a browser there is no canvas, but lints read this crate and tests run it.
 #[cfg(not(target_arch = "wasm32"))]
 fn target(_: HtmlCanvasElement) -> wgpu::SurfaceTarget<'static> {
     unreachable!("only a browser has a canvas")

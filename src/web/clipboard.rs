@@ -1,4 +1,4 @@
-//! The clipboard, which a browser gives only to pages of secure addresses, and asynchronously.
+//! The clipboard. A browser gives it only to pages of secure addresses, and asynchronously.
 
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::Window;

@@ -1,18 +1,18 @@
-//! Tests that the colours of the pages have enough contrast for everybody to read.
+//! Tests that the colours of the pages have enough contrast for everybody.
 
 const SHEETS: [&str; 2] = [
     include_str!("../../assets/web/page.css"),
     include_str!("../../assets/web/questions/questions.css"),
 ];
 
-/// Least contrast between text and its background, by the guidelines for the accessibility of pages (level AA).
+/// Minimum contrast between text and its background, by the guidelines for the accessibility of pages (level AA).
 const LEAST: f64 = 4.5;
 
-/// Colours behind text, and colours that are never text.
+/// Colours that lie behind text, and colours that text never has.
 const BEHIND: [&str; 2] = ["water", "sunk"];
 const LINES: [&str; 1] = ["line"];
 
-/// Relative luminance of a colour of six hexadecimal digits.
+/// Returns the relative luminance of a colour of six hexadecimal digits.
 fn luminance(hex: &str) -> f64 {
     let channel = |at: usize| {
         let value = f64::from(u8::from_str_radix(&hex[at..at + 2], 16).unwrap()) / 255.0;
@@ -29,7 +29,7 @@ fn contrast(a: &str, b: &str) -> f64 {
     a.max(b) / a.min(b)
 }
 
-/// The named colours of each theme of a style sheet.
+/// Returns the named colours of each theme of a style sheet.
 fn themes(sheet: &str) -> Vec<Vec<(&str, &str)>> {
     let roots = sheet.split(":root {").skip(1).map(|rest| rest.split('}').next().unwrap());
     let roots = roots.filter(|root| root.contains(": #"));

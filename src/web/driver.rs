@@ -1,4 +1,4 @@
-//! The driver: a studio, its canvas, and the page's events since the last frame.
+//! The driver, which is a studio, its canvas, and the page's events since the last frame.
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -20,13 +20,13 @@ use crate::canvas::Canvas;
 use crate::pointer::Fingers;
 use crate::work::Workers;
 
-/// Memory for rewinding a run. Phones have little, and a page that is left open must not grow.
+/// Memory limit for rewinding a run, in bytes. Phones have little memory, and a page that is left open must not grow.
 const REWIND_BYTES: usize = 16 << 20;
 
-/// Key of the browser's storage for a person's preferences.
+/// Key under which the browser stores a person's preferences.
 const STORED: &str = "regatta";
 
-/// Name of a scene from an address.
+/// Name of a scene that comes from an address.
 const LINK: &str = "a link";
 
 pub(crate) struct Driver {
@@ -34,24 +34,26 @@ pub(crate) struct Driver {
     pub(crate) canvas: Canvas,
     pub(crate) frames: FrameLoop,
     pub(crate) workers: Workers,
-    /// The run of a link, until it is known whether it is the same here.
+    /// The run of a link, until its replay has shown whether it is the same here.
     pub(crate) arrival: Option<Replay>,
     /// Whether another page embeds the stage.
     pub(crate) is_embedded: bool,
     /// Whether the stage is in sight on a page that embeds it.
     pub(crate) is_in_sight: bool,
-    /// Whether to store the display settings. Settings from an address are nobody's choice, and not stored.
+    /// Whether to store the display settings. Settings that come from an address are nobody's choice, so they are not
+    /// stored.
     remembers: bool,
-    /// Input for the panels, for the next frame.
+    /// Input that the panels receive with the next frame.
     pub(crate) input: egui::RawInput,
     pub(crate) held: egui::Modifiers,
-    /// Whether a person has entered the stage, whose panels then have Tab. Escape and Tab lead out.
+    /// Whether a person has entered the stage. The Tab key then belongs to its panels, and Escape and Tab lead out of
+    /// it.
     pub(crate) is_entered: bool,
     pub(crate) was_escaped: bool,
-    /// The last text for a screen reader.
+    /// The text that a screen reader last received.
     pub(crate) spoken: String,
-    /// The stage that the page's link explains: the number of opened scenes, the method, and whether it is the loop
-    /// lab.
+    /// The stage for which the page has its link to an explanation: the number of opened scenes, the method, and
+    /// whether it is the loop lab.
     pub(crate) explained: Option<(u64, usize, bool)>,
     pub(crate) fingers: Fingers,
     /// Number of frames drawn.
@@ -71,7 +73,7 @@ pub(crate) fn set(driver: Driver) {
     DRIVER.set(Some(driver));
 }
 
-/// Runs `does` on the page's driver. Re-entrant calls, such as the click of a download, are ignored.
+/// Runs `does` on the page's driver. Calls from within another such call, as by the click of a download, are ignored.
 pub(crate) fn with(does: impl FnOnce(&mut Driver)) {
     DRIVER.with(|driver| {
         if let Ok(mut driver) = driver.try_borrow_mut()
@@ -82,23 +84,23 @@ pub(crate) fn with(does: impl FnOnce(&mut Driver)) {
     });
 }
 
-/// The browser's storage for the page, if there is any.
+/// Returns the browser's storage for the page, if there is any.
 fn storage(window: &Window) -> Option<Storage> {
     window.local_storage().ok().flatten()
 }
 
-/// The page's time in nanoseconds.
+/// Returns the page's time in nanoseconds.
 pub(crate) fn now_ns(window: &Window) -> u64 {
     let ms = window.performance().map_or(0.0, |performance| performance.now());
     (ms * 1e6) as u64
 }
 
-/// Whether the page handles this command itself: it picks a file, and does not compare recordings.
+/// Whether the page handles this command itself. It lets the browser pick a file, and does not compare recordings.
 fn is_own(command: &Command) -> bool {
     matches!(command, Command::View(ViewCommand::AskForPath | ViewCommand::AskForRun))
 }
 
-/// The system's theme.
+/// Returns the system's theme.
 pub(crate) fn theme_of(window: &Window) -> Theme {
     if prefers(window, "(prefers-color-scheme: light)") { Theme::Light } else { Theme::Dark }
 }
@@ -114,7 +116,7 @@ impl Driver {
         address: Address,
         mut studio: Studio,
     ) -> Self {
-        // Unless a person has stored another choice, the stage is alone at first, as in the window.
+        // The stage is alone at first, as in the window, unless a person has stored another choice.
         let remembered = storage(&window).and_then(|storage| storage.get_item(STORED).ok()?);
         let remembered = remembered.and_then(|text| SavedPreferences::parse(&text).ok());
         remembered.unwrap_or_default().apply(&mut studio);
@@ -165,9 +167,9 @@ impl Driver {
         driver
     }
 
-    /// Goes to a requested tick. `runs` decides whether time runs from there.
+    /// Goes to a requested tick. `runs` decides whether time runs on from there.
     fn go_to(&mut self, tick: u64, runs: bool) {
-        // Beyond the end of a run there is nothing that an address could mean.
+        // An address cannot mean a tick beyond the end of a run.
         let last = regatta::run::trace::last_tick(self.frames.studio.scene());
         self.frames.go_to(tick.min(last), runs);
     }
@@ -176,7 +178,7 @@ impl Driver {
         now_ns(&self.window)
     }
 
-    /// Opens the run in a link, if there is one.
+    /// Opens the run that a link contains, if there is one.
     fn open_run(&mut self, run: Option<Scene>) {
         if let Some(scene) = run {
             self.arrival = Some(Replay::new(scene.clone().into()));
@@ -184,7 +186,7 @@ impl Driver {
         }
     }
 
-    /// Opens a pasted link and puts it into the address. If it leads to no run, shows the reason.
+    /// Opens a pasted link and puts it into the page's address. If the link leads to no run, shows the reason.
     pub(crate) fn open_link(&mut self, written: &str) {
         match Address::of(written).and_then(|address| address.studio().map(|_| address)) {
             Ok(address) if address.run.is_some() => {
@@ -194,7 +196,7 @@ impl Driver {
                     self.go_to(tick, address.plays);
                 }
             }
-            // A link that names a scene opens by a reload of the page.
+            // The page has to be reloaded to open the scene that a link names.
             Ok(address) => {
                 self.put_fragment(&address.fragment());
                 _ = self.window.location().reload();
@@ -210,7 +212,8 @@ impl Driver {
         _ = history.map(|h| h.replace_state_with_url(&JsValue::NULL, "", Some(link)));
     }
 
-    /// Puts the run into the page's address, unless another page embeds the stage. Returns the whole address.
+    /// Puts the run into the page's address, unless another page embeds the stage. Returns the whole address of the
+    /// run.
     ///
     /// # Errors
     /// The reason why no link can hold the run.
@@ -219,7 +222,7 @@ impl Driver {
         let link = copied.unwrap_or_else(|| Err("there is no run".into()))?.text;
         let address = self.window.location().href().unwrap_or_default();
         let page = address.split('#').next().unwrap_or_default();
-        // An embedded stage must stay embedded when its page is opened again.
+        // An embedded stage must still be embedded when its page is opened again.
         if !self.is_embedded {
             self.put_fragment(&link);
         }
@@ -233,7 +236,7 @@ impl Driver {
         }
     }
 
-    /// Reloads the page at the current tick of the run, after the graphics driver has taken the canvas away.
+    /// Reloads the page at the present tick of the run, after the graphics driver has taken the canvas away.
     pub(crate) fn reload_page(&self) {
         let plays = if self.frames.studio.running() { "&play" } else { "" };
         let tick = self.frames.studio.race().tick();
@@ -244,7 +247,7 @@ impl Driver {
         _ = self.window.location().reload();
     }
 
-    /// Resumes or pauses time.
+    /// Resumes time, or pauses it.
     pub(crate) fn toggle_pause(&mut self) {
         self.frames.queue([Command::View(ViewCommand::TogglePause)]);
         self.request_frame();
@@ -267,7 +270,7 @@ impl Driver {
         }
     }
 
-    /// Requests a frame from the browser, unless one is already due.
+    /// Requests a frame from the browser, unless a frame is already due.
     pub(crate) fn request_frame(&mut self) {
         if !std::mem::replace(&mut self.frame_is_due, true) {
             let frame = Closure::once_into_js(|| with(Self::frame));
@@ -275,7 +278,7 @@ impl Driver {
         }
     }
 
-    /// Schedules work between frames, if there is any.
+    /// Schedules work between frames, if there is any to do.
     pub(crate) fn request_work(&mut self) {
         let has_more = self.workers.have_more() || self.arrival.is_some();
         if has_more && !std::mem::replace(&mut self.work_is_due, true) {
@@ -283,7 +286,7 @@ impl Driver {
         }
     }
 
-    /// Calls `does` on the driver after some milliseconds.
+    /// Calls `does` on the driver after this number of milliseconds.
     pub(crate) fn run_after_ms(&self, ms: i32, does: fn(&mut Self)) {
         let does = Closure::once_into_js(move || with(does));
         let set = Window::set_timeout_with_callback_and_timeout_and_arguments_0;

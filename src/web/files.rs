@@ -16,7 +16,7 @@ use web_sys::{
 
 use crate::driver::{Driver, with};
 
-/// Asks for a file and opens it.
+/// Lets a person pick a file, and opens it.
 pub(crate) fn pick_file() {
     let Some(input) = element::<HtmlInputElement>("input") else { return };
     input.set_type("file");
@@ -40,7 +40,7 @@ pub(crate) fn open(file: File) {
     });
 }
 
-/// Saves the canvas as a picture. The browser allows this only in the turn that drew it.
+/// Saves the canvas as a picture. The browser allows this only in the turn in which the canvas was drawn.
 pub(crate) fn save_picture(canvas: &HtmlCanvasElement, name: String) {
     let save = Closure::once_into_js(move |picture: Option<Blob>| {
         let notice = match picture {
@@ -83,7 +83,7 @@ fn save_blob(blob: &Blob, name: &str) {
 }
 
 impl Driver {
-    /// Opens a scene, or the loop lab on a trace of frames. Shows mistakes in a dialog.
+    /// Opens a scene, or the loop lab on a trace of frames. A dialog shows any mistakes.
     fn open_bytes(&mut self, name: &str, bytes: &[u8]) {
         let path = Path::new(name);
         let is = |known| path.extension().is_some_and(|end| end.eq_ignore_ascii_case(known));

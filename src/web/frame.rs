@@ -1,4 +1,4 @@
-//! A frame: commands → ticks → picture → canvas; and the work between frames.
+//! A frame goes from commands to ticks, to a picture, and onto the canvas. Work is done between frames.
 
 use regatta::studio::{Command, DriverRequest, ToDo, ViewCommand, picture_file_name};
 use regatta::view::{clipboard_text, egui, spoken};
@@ -7,9 +7,9 @@ use web_sys::Document;
 use crate::driver::{Driver, now_ns};
 use crate::{clipboard, files, questions};
 
-/// Longest time that work may delay a frame, in nanoseconds.
+/// Maximum time by which work may delay a frame, in nanoseconds.
 const SLICE_NS: u64 = 5_000_000;
-/// Longest wait to request from the browser, in milliseconds.
+/// Maximum wait that is requested from the browser, in milliseconds.
 const MAX_WAIT_MS: u128 = 60_000;
 
 impl Driver {
@@ -46,7 +46,7 @@ impl Driver {
         }
     }
 
-    /// Carries out the commands and advances time.
+    /// Executes the commands and advances time.
     fn simulate(&mut self, began_ns: u64) {
         while let Some(to_do) = self.frames.begin() {
             match to_do {
@@ -66,7 +66,7 @@ impl Driver {
         self.frames.advance(began_ns, u64::MAX, &|| now_ns(&window));
     }
 
-    /// Copies the requested text to the clipboard, if the request is one to copy.
+    /// Copies the requested text to the clipboard, if the request asks for one.
     fn copy(&mut self, request: DriverRequest) {
         let copied = match clipboard_text(&self.frames.studio, request) {
             Some(Ok(copied)) => copied,
@@ -88,7 +88,7 @@ impl Driver {
         });
     }
 
-    /// Updates the title, the state and the pointer of the page. Copies text that the panels want copied.
+    /// Updates the title, the state and the pointer of the page, and copies any text that the panels ask to copy.
     fn show(&mut self, output: &egui::PlatformOutput) {
         if let Some(document) = self.window.document() {
             let title = self.frames.studio.title();
@@ -116,13 +116,13 @@ impl Driver {
         _ = self.canvas.element.style().set_property("cursor", pointer);
     }
 
-    /// Updates the page's play state, its link to an explanation, and the text for a screen reader.
+    /// Updates the page's play state, the link to an explanation, and the text for a screen reader.
     fn show_state(&mut self, document: &Document) {
         let studio = &self.frames.studio;
         let (is_running, is_alone) = (studio.running(), !studio.display().measure);
         let classes = [
             ("running", is_running),
-            // A paused stage without a bar has a button over it.
+            // A paused stage that has no bar shows a button over it.
             ("still", !is_running && is_alone),
             ("entered", self.is_entered),
         ];
@@ -150,7 +150,7 @@ impl Driver {
         }
     }
 
-    /// Works for a slice of time, and schedules the rest between the next frames.
+    /// Works for a slice of time, and schedules the remaining work between the next frames.
     pub(crate) fn work(&mut self) {
         self.work_is_due = false;
         let end_ns = self.now_ns() + SLICE_NS;

@@ -1,18 +1,18 @@
-//! Hashes and verdicts with which a test checks that a browser steps the same bits and judges alike.
+//! Hashes and verdicts. With them a test checks that a browser computes the same bits and judges alike.
 
 use regatta::measure::Judge;
 use regatta::run::Session;
 use regatta::scene::{LaneSpec, Scene, SceneBody};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The lines of a built-in scene in `tests/early_hashes.txt`, stepped here: its name, a method, and the hash of its
-/// lane. The second text is the same at tick 0. Empty if there is no such scene.
+/// Returns the lines of a built-in scene in `tests/early_hashes.txt`, as computed here: the scene's name, a method, and
+/// the hash of its lane. The second text is the same at tick 0. Returns nothing if there is no such scene.
 #[wasm_bindgen]
 pub fn early_hashes(scene: &str) -> Vec<String> {
     let Some(mut scene) = Scene::built_in(scene) else { return Vec::new() };
     let spec = |method| LaneSpec { method, ..scene.lanes[0] };
     scene.lanes = scene.fitting_methods().map(spec).collect();
-    // As in `tests/determinism.rs`, for a twentieth of the way.
+    // The number of ticks is a twentieth of that in `tests/determinism.rs`.
     let coordinates = |body: &SceneBody| body.kind.coordinates(&body.values).len() as u64;
     let ticks = 400_000 / scene.bodies.iter().map(coordinates).sum::<u64>().max(4) / 20;
     let lines = |ticks| {
@@ -27,8 +27,8 @@ pub fn early_hashes(scene: &str) -> Vec<String> {
     [ticks, 0].map(lines).into()
 }
 
-/// The lines of a built-in scene in `tests/judged_words.txt`, judged here: its name, a method, and its verdict. Empty
-/// if there is no such scene.
+/// Returns the lines of a built-in scene in `tests/judged_words.txt`, as judged here: the scene's name, a method, and
+/// its verdict. Returns an empty text if there is no such scene.
 #[wasm_bindgen]
 pub fn judged_words(scene: &str) -> String {
     let Some(scene) = Scene::built_in(scene) else { return String::new() };

@@ -1,12 +1,12 @@
-//! The keys of a page, for the program and for its panels.
+//! The keys of a page, as the program and its panels receive them.
 
 use regatta::studio::Key;
 use regatta::view::{Meaning, Modifiers, bound_key, egui};
 use web_sys::KeyboardEvent;
 
-/// A key that was pressed or released.
+/// A press or a release of a key.
 pub(crate) struct Press {
-    /// The browser's names of the key: by the layout, and by its place.
+    /// The browser's two names of the key: by the layout, and by its place on the keyboard.
     key: String,
     code: String,
     held: Modifiers,
@@ -15,7 +15,7 @@ pub(crate) struct Press {
 
 impl Press {
     pub(crate) fn of(event: &KeyboardEvent, is_mac: bool) -> Self {
-        // AltGr selects another sign of a key. Windows reports it as Control and Alt.
+        // AltGr selects another sign of a key, but Windows reports it as Control and Alt.
         let is_alt_gr = event.get_modifier_state("AltGraph");
         let (control, other) = match is_mac {
             true => (event.meta_key(), event.ctrl_key()),
@@ -29,7 +29,7 @@ impl Press {
         Self { key: event.key(), code: event.code(), held, is_repeated: event.repeat() }
     }
 
-    /// The program's key, unless it is the [browser's](Key::is_browsers).
+    /// Returns the program's name of the key, unless the key is the [browser's](Key::is_browsers).
     pub(crate) fn bound(&self) -> Option<Key> {
         let place = self.code.strip_prefix("Digit").or(self.code.strip_prefix("Numpad"));
         let place = match self.code.as_str() {
@@ -41,7 +41,7 @@ impl Press {
         bound_key(place, meaning, self.held).filter(|key| !key.is_browsers())
     }
 
-    /// Whether it is a chord, which writes nothing.
+    /// Whether the key is part of a chord, which writes nothing.
     pub(crate) fn is_chord(&self) -> bool {
         self.held.control || self.held.other
     }
@@ -59,25 +59,25 @@ impl Press {
         self.key == "Escape"
     }
 
-    /// Whether it writes a letter or another sign.
+    /// Whether the key writes a letter or another sign.
     fn is_sign(&self) -> bool {
         self.key.chars().count() == 1 && !self.is_chord()
     }
 
-    /// Whether it changes the text of a field, or moves in one.
+    /// Whether the key changes the text of a field, or moves in the text.
     pub(crate) fn edits(&self) -> bool {
         let moves = named(&self.key).is_some_and(|key| !matches!(key, Key::Function(_)));
         let is_named = moves || matches!(self.key.as_str(), "Backspace" | "Delete" | "End");
         self.is_sign() || is_named && !self.is_chord()
     }
 
-    /// The modifiers in the panels' type.
+    /// Returns the held modifiers in the type of the panels.
     pub(crate) fn modifiers(&self) -> egui::Modifiers {
         let Modifiers { shift, control, other } = self.held;
         egui::Modifiers { alt: other, ctrl: control, shift, mac_cmd: false, command: control }
     }
 
-    /// The events of this press or release, for panels.
+    /// Returns the events of this press or release for the panels.
     pub(crate) fn events(&self, pressed: bool) -> Vec<egui::Event> {
         let modifiers = self.modifiers();
         let event = |key| {
@@ -136,7 +136,7 @@ mod tests {
         ] {
             assert_eq!(bound(key, code, control), None, "{key}");
         }
-        // Neither a letter nor a known name.
+        // These keys are neither a letter nor a known name.
         assert_eq!(bound("Shift", "ShiftLeft", false), None);
         assert_eq!(bound("Dead", "Quote", false), None);
     }

@@ -1,7 +1,9 @@
-//! Regatta in a browser. It drives a [`Studio`](regatta::studio::Studio) by the frames and events of a page, and
-//! draws it with the [`FrameRenderer`](regatta::view::FrameRenderer) on a canvas, like the window of the program.
+//! Regatta in a browser. This crate drives a [`Studio`](regatta::studio::Studio) by the frames and events of a page. It
+//! draws the studio with the [`FrameRenderer`](regatta::view::FrameRenderer) on a canvas, as the window of the program
+//! does.
 //!
-//! The page has one thread. Work that takes longer than a frame runs in slices between frames; see [`work`].
+//! The page has one thread. Work that takes longer than a frame runs in slices between frames, as described in
+//! [`work`].
 
 mod address;
 mod canvas;
@@ -28,10 +30,10 @@ use driver::Driver;
 pub use hashes::{early_hashes, judged_words};
 pub use questions::number;
 
-/// Shows the program on the page's canvas, and returns when the first frame is drawn.
+/// Shows the program on the page's canvas. Returns when the first frame has been drawn.
 ///
 /// # Errors
-/// A sentence for the page about why nothing can be drawn.
+/// A sentence for the page with the reason why nothing can be drawn.
 #[wasm_bindgen]
 pub async fn start() -> Result<(), JsValue> {
     std::panic::set_hook(Box::new(|panic| web_sys::console::error_1(&panic.to_string().into())));
@@ -40,7 +42,7 @@ pub async fn start() -> Result<(), JsValue> {
     open().await.map_err(|reason| reason.into())
 }
 
-/// Opens the run in the address and draws the first frame.
+/// Opens the run in the address, and draws the first frame.
 ///
 /// # Errors
 /// The reason why nothing can be drawn.
@@ -48,7 +50,7 @@ async fn open() -> Result<(), String> {
     let window = web_sys::window().ok_or("there is no page")?;
     let element = window.document().and_then(|document| document.get_element_by_id("stage"));
     let element = element.and_then(|element| element.dyn_into().ok()).ok_or("there is no stage")?;
-    // An address that leads nowhere starts no run.
+    // An address that leads nowhere does not start a run.
     let led = |refused: String| {
         let end = if refused.ends_with('?') { "" } else { "." };
         format!("This address leads to no run: {refused}{end}")
@@ -63,7 +65,7 @@ async fn open() -> Result<(), String> {
     Ok(())
 }
 
-/// Current tick of the run on the page.
+/// Returns the present tick of the run on the page.
 #[wasm_bindgen]
 pub fn tick() -> f64 {
     let mut tick = 0;
@@ -71,7 +73,7 @@ pub fn tick() -> f64 {
     tick as f64
 }
 
-/// Puts the run into the page's address and returns the whole address.
+/// Puts the run into the page's address, and returns the whole address.
 ///
 /// # Errors
 /// The reason why no link can hold the run.
@@ -82,13 +84,13 @@ pub fn link() -> Result<String, JsValue> {
     link.map_err(JsValue::from)
 }
 
-/// Resumes or pauses time.
+/// Resumes time, or pauses it.
 #[wasm_bindgen]
 pub fn pause() {
     driver::with(Driver::toggle_pause);
 }
 
-/// Number of frames drawn so far.
+/// Returns the number of frames drawn so far.
 #[wasm_bindgen]
 pub fn frames() -> u32 {
     let mut frames = 0;
@@ -102,13 +104,13 @@ pub fn restart() {
     driver::with(Driver::restart);
 }
 
-/// Sets whether any part of the page is in sight. Out of sight, nothing is drawn and no time passes.
+/// Sets whether any part of the page is in sight. While it is out of sight, nothing is drawn and no time passes.
 #[wasm_bindgen]
 pub fn set_in_sight(is_in_sight: bool) {
     driver::with(|driver| driver.set_in_sight(is_in_sight));
 }
 
-/// Sends wgpu's warnings to the browser's console.
+/// A log that writes wgpu's warnings to the browser's console.
 struct Console;
 
 impl log::Log for Console {

@@ -1,4 +1,4 @@
-//! Listens to the page: keys, pointers, files, and the page itself coming and going.
+//! Listeners for events of the page: keys, pointers, files, and the page's becoming visible or hidden.
 
 use regatta::run::link;
 use regatta::view::{command_of, egui};
@@ -14,14 +14,14 @@ use crate::files;
 use crate::keyboard::Press;
 use crate::pointer::{self, PointerAction};
 
-/// Calls a function with the driver at each event of this name.
+/// Calls a function with the driver at each event with this name.
 fn add_listener<E>(target: &EventTarget, name: &str, handler: impl Fn(&mut Driver, E) + 'static)
 where
     E: FromWasmAbi + 'static,
 {
     let handler = Closure::<dyn Fn(E)>::new(move |event| with(|driver| handler(driver, event)));
     _ = target.add_event_listener_with_callback(name, handler.as_ref().unchecked_ref());
-    // The listener lives as long as the page.
+    // The listener must live as long as the page.
     handler.forget();
 }
 
@@ -44,11 +44,11 @@ pub(crate) fn listen() {
         ] {
             add_listener(&canvas, name, move |driver, event| driver.pointer(&event, action));
         }
-        // After the stage has lost the focus, a person has to enter it again.
+        // A person has to enter the stage again after it has lost the focus.
         add_listener(&canvas, "blur", |driver, _: Event| driver.set_entered(false));
         add_listener(&canvas, "contextmenu", |_, event: Event| event.prevent_default());
         add_listener(&canvas, "wheel", |driver: &mut Driver, event: WheelEvent| {
-            // The wheel scrolls the page around a stage until a person has entered the stage.
+            // The wheel scrolls a page that embeds the stage until a person has entered the stage.
             let is_passed = driver.is_embedded && !driver.has_focus();
             let turned = pointer::wheel_event(&event, driver.held).filter(|_| !is_passed);
             if let Some(turned) = turned {
@@ -75,7 +75,7 @@ pub(crate) fn listen() {
         });
         add_listener(&window, "resize", |driver, _: Event| driver.request_frame());
         if let Some(document) = window.document() {
-            // Do not simulate time during which nobody could see the page.
+            // Time during which nobody could see the page is not simulated.
             add_listener(&document, "visibilitychange", |driver, _: Event| {
                 driver.frames.skip_time();
                 driver.remember();
@@ -93,12 +93,12 @@ pub(crate) fn listen() {
 }
 
 impl Driver {
-    /// Whether this page has the keyboard focus, and not a page around it.
+    /// Whether this page has the keyboard focus, rather than a page around it.
     fn has_focus(&self) -> bool {
         self.window.document().is_some_and(|document| document.has_focus().unwrap_or(false))
     }
 
-    /// Gives events to the panels with the next frame.
+    /// Sends events to the panels, which receive them with the next frame.
     fn send_to_panels(&mut self, events: impl IntoIterator<Item = egui::Event>) {
         self.input.events.extend(events);
         self.request_frame();
@@ -111,7 +111,7 @@ impl Driver {
         }
     }
 
-    /// Whether an event belongs to the stage. Other elements of the page handle their own.
+    /// Whether an event belongs to the stage. Other elements of the page handle their own events.
     fn is_for_stage(&self, event: &Event) -> bool {
         let target = event.target().and_then(|target| target.dyn_into::<Element>().ok());
         target.is_none_or(|target| matches!(&*target.tag_name(), "CANVAS" | "BODY" | "HTML"))
@@ -150,7 +150,7 @@ impl Driver {
             self.frames.queue(command);
             return self.request_frame();
         }
-        // Tab leaves an embedded stage: only the page around it has other elements to focus.
+        // The Tab key leaves an embedded stage, because only the page around it has other elements to focus.
         let moves_focus = press.is_tab() && self.is_entered && !self.is_embedded;
         if press.is_tab() && !moves_focus {
             return;

@@ -1,17 +1,17 @@
-//! Events of mouse, pen and fingers on the canvas, for panels.
+//! Translates events of mouse, pen and fingers on the canvas for the panels.
 
 use regatta::view::egui;
 use web_sys::{PointerEvent, WheelEvent};
 
-/// The fingers on the screen.
+/// The fingers that touch the screen.
 #[derive(Debug, Default)]
 pub(crate) struct Fingers {
     down: Vec<i32>,
-    /// Whether the first finger presses, as a mouse would. Two fingers zoom instead.
+    /// Whether the first finger presses like a mouse button. Two fingers zoom instead.
     is_pressing: bool,
 }
 
-/// Kind of a pointer's event.
+/// Kind of event of a pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PointerAction {
     Down,
@@ -20,7 +20,7 @@ pub(crate) enum PointerAction {
     Cancel,
 }
 
-/// Translates a pointer's event at a place of the frame, in points.
+/// Translates an event of a pointer at a place of the frame, in points.
 pub(crate) fn events(
     fingers: &mut Fingers,
     event: &PointerEvent,
@@ -94,10 +94,10 @@ impl Fingers {
     }
 }
 
-/// Translates a turn of the wheel, or a pinch on a touchpad; `None` if the browser handles it.
+/// Translates a turn of the wheel, or a pinch on a touchpad. Returns `None` if the browser handles it.
 pub(crate) fn wheel_event(event: &WheelEvent, modifiers: egui::Modifiers) -> Option<egui::Event> {
     let delta = -egui::vec2(event.delta_x() as f32, event.delta_y() as f32);
-    // Browsers report a pinch as a wheel with Control. With the key itself held, the browser enlarges the page.
+    // Browsers report a pinch as a wheel with Control. If the key itself is held, the browser enlarges the page.
     if event.ctrl_key() {
         return (!modifiers.ctrl).then(|| egui::Event::Zoom((delta.y / 200.0).exp()));
     }

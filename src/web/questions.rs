@@ -1,4 +1,4 @@
-//! The numbers on the question pages, computed in the reader's browser.
+//! The numbers on the question pages. The reader's browser computes them.
 
 use regatta::loops::{LoopRun, RefreshRate, policy, trace_card};
 use regatta::measure::{Adviser, Criterion, Judge};
@@ -10,10 +10,10 @@ use regatta::studio::Studio;
 use regatta::tools::port::{Approach, Setup, Wish, port, setups};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Computes a number, with as many digits as the text has.
+/// Computes a number, with as many digits as the text of the page has.
 type Number = fn() -> Option<String>;
 
-/// The number of each claim in `assets/web/questions/pages.toml`, in the same order.
+/// The function for the number of each claim in `assets/web/questions/pages.toml`, in the order of that file.
 const NUMBERS: &[(&str, Number)] = &[
     ("euler-doubles", || {
         let verdict = Judge::new(&spring()).verdict(lane("explicit-euler")?, 60);
@@ -53,26 +53,26 @@ const NUMBERS: &[(&str, Number)] = &[
     ("jump-at-144", || Some(significant(percent_lower(144)?, 1))),
 ];
 
-/// Computes the number of a claim on a question page; `None` for an unknown claim.
+/// Computes the number of a claim on a question page. Returns `None` if the claim is unknown.
 #[wasm_bindgen]
 pub fn number(claim: &str) -> Option<String> {
     NUMBERS.iter().find(|(id, _)| *id == claim)?.1()
 }
 
-/// Source of the pages.
+/// Source text of the question pages.
 const PAGES: &str = include_str!("../../assets/web/questions/pages.toml");
 
-/// Key and value of each line in the pages' source.
+/// Returns the key and the value of each line in the source of the pages.
 fn lines() -> impl Iterator<Item = (&'static str, &'static str)> {
     let pairs = PAGES.lines().filter_map(|line| line.split_once(" = "));
     pairs.map(|(key, value)| (key, value.trim_matches('"')))
 }
 
-/// Address of the page that explains a stage. Prefers a page with the same method in the same scene, then one with
-/// the scene, then the list of all.
+/// Returns the address of the page that explains a stage. A page with the same method in the same scene is preferred.
+/// The next choice is a page with the same scene, and the last one the list of all pages.
 pub(crate) fn page_of(studio: &Studio) -> String {
     let title = &studio.scene().title;
-    // A run from a link is recognised by the title of its scene.
+    // The scene of a run from a link is recognised by its title.
     let is_it = |name: &&str| Scene::built_in(name).is_some_and(|known| known.title == *title);
     let scene = SCENES.iter().map(|scene| scene.name).find(is_it).unwrap_or_default();
     let method = studio.entries()[studio.active()].method.id;
@@ -97,8 +97,8 @@ pub(crate) fn page_of(studio: &Studio) -> String {
     }
 }
 
-/// How much of a stage a page with these settings shows: 0 for nothing, 1 for the scene, 2 for the method too, 3 for
-/// the loop lab.
+/// Ranks a page with these settings by how much of a stage it shows: 0 for nothing, 1 for the scene, 2 for the scene
+/// and the method, 3 for the loop lab.
 fn rank(shows: &str, is_in_loop_lab: bool, scene: &str, method: &str) -> u32 {
     let has = |key, wanted| shows.split('&').any(|it| it.split_once('=') == Some((key, wanted)));
     match shows.contains("loop=") {
@@ -116,18 +116,18 @@ fn lane(id: &str) -> Option<LaneSpec> {
     method(id).map(LaneSpec::plain)
 }
 
-/// The slowest rate in Hz at which the spring meets a criterion in one step per tick.
+/// Returns the lowest rate in Hz at which the spring meets a criterion with one step per tick.
 fn slowest_hz(method: &str, criterion: Criterion) -> Option<String> {
     let adviser = Adviser::new(&spring(), spring().tick_hz);
     adviser.slowest(lane(method)?, criterion).map(|hz| hz.to_string())
 }
 
-/// The first mode of an engine's spring, at 60 Hz.
+/// Returns the setup of the first mode of an engine's spring, at 60 Hz.
 fn engine(id: &str) -> Option<Setup> {
     setups(Some(&[method(id)?]), 60.0, None).into_iter().next()
 }
 
-/// The least damping ratio that an engine shows at 1 Hz.
+/// Returns the lowest damping ratio that an engine can show at 1 Hz.
 fn least_damping_ratio(id: &str) -> Option<String> {
     Some(significant(port(&wish(1.0, 0.0), engine(id)?)?.floor?, 3))
 }
@@ -136,7 +136,7 @@ fn wish(frequency_hz: f64, damping_ratio: f64) -> Wish {
     Wish { frequency_hz, damping_ratio, mass_kg: 1.0 }
 }
 
-/// Shortfall of a jump's height from the exact one under semi-implicit Euler after half a second, in percent.
+/// Returns by how much a jump under semi-implicit Euler is lower than the exact one after half a second, in percent.
 fn percent_lower(tick_hz: u32) -> Option<f64> {
     let mut jump = Scene::built_in("jump")?;
     (jump.tick_hz, jump.lanes) = (tick_hz.into(), vec![lane("semi-implicit-euler")?]);

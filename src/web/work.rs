@@ -1,4 +1,4 @@
-//! Work beside the run, in slices between frames: a page has one thread.
+//! Work beside the run. It is done in slices between frames, because a page has one thread.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use regatta::run::Replay;
 use regatta::scene::Check;
 use regatta::studio::{CurrentRequest, Found, Studio, Work, cloud_request, loop_request};
 
-/// A worker with its current request.
+/// A worker and its present request.
 struct Worker<W: Work> {
     worker: W,
     current: CurrentRequest<W>,
@@ -28,12 +28,12 @@ impl<W: Work<Found = Found>> Worker<W> {
         }
     }
 
-    /// Does one step, if there is one to do. Returns whether it found something.
+    /// Does one step if the worker has work. Returns whether the step found something.
     fn step(&mut self, studio: &mut Studio) -> bool {
         if !self.has_more {
             return false;
         }
-        // Never stop a step: a stopped loop would begin again with the next slice.
+        // A step is never stopped, because a stopped loop would begin again with the next slice.
         let (found, has_more) = self.worker.step(&|| false);
         self.has_more = has_more;
         found.map(|found| studio.accept(found)).is_some()
@@ -57,7 +57,7 @@ impl Workers {
         }
     }
 
-    /// Passes the studio's current requests to the workers.
+    /// Passes the studio's present requests to the workers.
     pub(crate) fn set_requests(&mut self, studio: &Studio) {
         self.analysis.set_request(studio.analysis_request());
         self.loops.set_request(loop_request(studio));
@@ -76,7 +76,7 @@ impl Workers {
     }
 }
 
-/// Ticks in a slice of a replay: little work, even with many lanes.
+/// Number of ticks in a slice of a replay. They are little work even with many lanes.
 const TICKS: u64 = 50;
 
 /// Continues the replay for a slice. Returns a notice about the run once the outcome is known.

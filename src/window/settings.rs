@@ -37,6 +37,10 @@ pub struct Closed {
     pub size: Option<[u32; 2]>,
 }
 
+/// Name of the desktop file.
+#[cfg(target_os = "linux")]
+const NAME: &str = "regatta";
+
 /// Default size of a window in points, and the smallest size.
 const USUAL_SIZE: [u32; 2] = [1280, 720];
 const MIN_SIZE: [u32; 2] = [320, 240];
@@ -53,9 +57,23 @@ pub(super) fn attributes(size: Option<[u32; 2]>, event_loop: &ActiveEventLoop) -
         let PhysicalSize { width, height } = screen.size();
         on_screen(wanted, [width, height], screen.scale_factor())
     });
-    Window::default_attributes()
+    let attributes = Window::default_attributes()
         .with_inner_size(LogicalSize::<u32>::from(size))
-        .with_min_inner_size(LogicalSize::<u32>::from(MIN_SIZE))
+        .with_min_inner_size(LogicalSize::<u32>::from(MIN_SIZE));
+    named(attributes)
+}
+
+/// The window with the name by which a desktop finds `regatta.desktop` and its icon.
+#[cfg(target_os = "linux")]
+fn named(attributes: WindowAttributes) -> WindowAttributes {
+    use winit::platform::{wayland, x11};
+    let attributes = wayland::WindowAttributesExtWayland::with_name(attributes, NAME, "");
+    x11::WindowAttributesExtX11::with_name(attributes, NAME, NAME)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn named(attributes: WindowAttributes) -> WindowAttributes {
+    attributes
 }
 
 /// Cuts a size in points to the room on a screen of this size in pixels, with `scale` pixels per point.

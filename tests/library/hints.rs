@@ -197,7 +197,7 @@ fn a_restart_shows_the_next_hint_or_after_the_last_how_to_undo_it() {
         (studio.hint(), studio.viewer.notice.as_deref().map(str::to_owned))
     };
     let (hint, notice) = restart_later(&mut studio);
-    assert_eq!((hint.unwrap().contains("`C`"), notice), (true, None));
+    assert_eq!((hint.unwrap().contains("`[`"), notice), (true, None));
     for command in [
         Command::Stage(StageCommand::ToggleRace),
         Command::Stage(StageCommand::Tick(Step::Previous)),

@@ -2,9 +2,12 @@
 
 use image::RgbaImage;
 use regatta::look::palette::{Theme, mix};
+use regatta::scene::Scene;
 use regatta::sim::integrators::method;
+use regatta::studio::Studio;
 
 use crate::desk::{Desk, until};
+use crate::twin::Twin;
 
 /// Half the side of a square that fits into a mass, and into nothing else of its colour.
 const INSIDE: u32 = 8;
@@ -184,5 +187,43 @@ fn the_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
         let [before, after] = [at[i], zoomed[i]].map(|place| place.abs_diff(pointer[i]));
         assert!(after > before + 3, "{at:?} {zoomed:?} about {pointer:?}");
     }
+    desk.quit();
+}
+
+#[test]
+fn dragging_the_tick_rate_holds_time_and_is_undone_in_one_step() {
+    let test = "dragging_the_tick_rate_holds_time_and_is_undone_in_one_step";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    let mut twin = Twin::new(Studio::new(Scene::built_in("spring").unwrap()));
+    twin.studio.viewer.preferences.display.measure = false;
+    let scale = twin.slider("tick rate 60 Hz");
+    // Half a handle is left at each end.
+    let line = scale.shrink2(egui::vec2(0.0, 11.0));
+    let y = |hz: f32| line.bottom() - line.height() * (hz / 5.0).ln() / 200_f32.ln();
+    let x = line.left() + 16.0;
+    let slowly = |hz: f32, then: &str| {
+        let aside = y(hz) + 9.0;
+        desk.xdotool(&format!("mousemove --window WINDOW {x} {aside} sleep 0.3"));
+        desk.xdotool(&format!("mousemove --window WINDOW {x} {} sleep 0.4 {then}", y(hz)));
+    };
+    until("a run", || (desk.screenshot().0 > 30).then_some(()));
+    slowly(60.0, "mousedown 1");
+    let (tick, _) = desk.screenshot();
+    for hz in [10, 120, 10] {
+        slowly(hz as f32, "");
+        desk.titled(&format!("Regatta - spring - Explicit Euler - {hz} Hz"));
+    }
+    let (held, fan) = desk.screenshot();
+    assert_eq!(held, tick, "time went by");
+    let threads = ["explicit-euler", "semi-implicit-euler", "rk4"].map(|id| {
+        let (colour, _) = Theme::Dark.style(method(id).unwrap());
+        let is_own = |pixel: &&image::Rgba<u8>| (0..3).all(|i| pixel.0[i].abs_diff(colour[i]) <= 2);
+        fan.pixels().filter(is_own).count()
+    });
+    assert!(threads.iter().all(|&pixels| pixels > 100), "{threads:?}");
+    desk.xdotool("mouseup 1");
+    until("time", || (desk.screenshot().0 > tick).then_some(()));
+    desk.press("ctrl+z");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     desk.quit();
 }

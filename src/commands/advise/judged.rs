@@ -1,4 +1,4 @@
-//! Judges and times the methods.
+//! Judges the methods and measures their times.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,14 +18,15 @@ use crate::stopwatch;
 /// The measured cost of a lane.
 #[derive(Clone, Copy, Debug)]
 struct Timing {
-    /// Nanoseconds per simulated second, in the fastest run.
+    /// Time of the fastest run, in nanoseconds per simulated second.
     ns_per_s: f64,
-    /// The relative excess of the median run over the fastest.
+    /// Excess of the median run's time over that of the fastest run, relative to the latter.
     spread: f64,
 }
 
 impl Timing {
-    /// Takes run times in nanoseconds per tick, sorted upwards. Returns `None` without runs.
+    /// Computes the timing from the times of several runs in nanoseconds per tick, sorted upwards. Returns `None` if
+    /// there are no runs.
     fn of(runs: &[f64], tick_hz: TickRate) -> Option<Self> {
         let least = *runs.first()?;
         let spread = runs[runs.len() / 2] / least - 1.0;
@@ -33,22 +34,23 @@ impl Timing {
     }
 }
 
-/// A method's advice and its measured costs.
+/// The advice on a method, and the method's measured costs.
 pub(super) struct Row {
     pub(super) advised: MethodAdvice,
-    /// One per criterion; `None` where the criterion is not met or not yet timed.
+    /// Measured cost for each criterion. `None` for a criterion that is not met, or not yet timed.
     timings: [Option<Timing>; CRITERIA.len()],
-    /// Slowest tick rate in Hz for each criterion; `None` without `--rates`.
+    /// Slowest tick rate in Hz at which each criterion is met. `None` without `--rates`.
     pub(super) rates: Option<[Option<u32>; CRITERIA.len()]>,
 }
 
-/// Duration of one measurement, so short that six dozen of them do not keep a person waiting.
+/// Duration of one measurement. It is so short that six dozen of them do not keep a person waiting.
 const EFFORT: Duration = Duration::from_millis(5);
 
-/// Median spread of run times above which a warning is printed.
+/// Median spread of the run times above which a warning is printed.
 const NOISE: f64 = 0.2;
 
-/// Judges the methods in the order given, without margins. After an interrupt, returns the methods judged so far.
+/// Judges the methods in their order, but does not search margins. After an interrupt, returns the methods judged so
+/// far.
 pub(super) fn judge_all(
     pool: &ThreadPool,
     adviser: &Arc<Adviser>,
@@ -63,7 +65,7 @@ pub(super) fn judge_all(
     rows.into_iter().flatten().collect()
 }
 
-/// Searches margins until the recommendations are decided or the user interrupts.
+/// Searches margins until the recommendations are decided, or until the user interrupts.
 pub(super) fn decide(
     pool: &ThreadPool,
     adviser: &Arc<Adviser>,
@@ -79,7 +81,8 @@ pub(super) fn decide(
     }
 }
 
-/// Searches these margins, each a pair of row and criterion indices. An interrupt leaves the rest unsearched.
+/// Searches these margins. Each is given as the indices of a row and of a criterion. An interrupt leaves the remaining
+/// margins unsearched.
 pub(super) fn search_margins(
     pool: &ThreadPool,
     adviser: &Arc<Adviser>,
@@ -114,7 +117,7 @@ impl Row {
         }
     }
 
-    /// Times each criterion that is met. Nothing else should run meanwhile.
+    /// Measures the cost of meeting each criterion that the method meets. Nothing else should run meanwhile.
     pub(super) fn time(&mut self, scene: &Scene) {
         let ticks = (scene.seconds.min(10.0) * f64::from(scene.tick_hz)).round() as u64;
         for (i, met) in self.advised.met.iter().enumerate() {
@@ -158,15 +161,15 @@ pub(super) fn advised(rows: &[Row]) -> Vec<MethodAdvice> {
     rows.iter().map(|row| row.advised.clone()).collect()
 }
 
-/// The row and the recommendation for a criterion.
+/// Returns the row of the method that is recommended for a criterion, and the recommendation.
 pub(super) fn recommended_row(rows: &[Row], criterion: usize) -> Option<(&Row, Recommendation)> {
     let advised = advised(rows);
     let row = &rows[recommended(&advised, criterion)?];
     Some((row, Recommendation::of(&advised, criterion)?))
 }
 
-/// At most `most` rows, best first: the row recommended for each criterion, then the runners-up, and so on. Rows that
-/// meet no criterion come last.
+/// Returns at most `most` rows, best first. They are the rows that are recommended for each criterion, then the
+/// runners-up, and so on. Rows that meet no criterion come last.
 pub(super) fn best_rows(rows: &[Row], most: usize) -> Vec<&Row> {
     let advised = advised(rows);
     let ranked: Vec<Vec<usize>> = (0..CRITERIA.len()).map(|i| ranked(&advised, i)).collect();

@@ -1,4 +1,4 @@
-//! Advice as text, for people, and as JSON, for programs.
+//! Advice as text for people, and as JSON for programs.
 
 use serde_json::{Map, Value, json};
 
@@ -12,10 +12,11 @@ use crate::scene::Scene;
 use crate::tools::source_code;
 use crate::tools::source_code::{Language, Precision};
 
-/// Maximum number of rows without `--all`.
+/// Maximum number of rows that are shown without `--all`.
 const MOST_ROWS: usize = 8;
 
-/// The answer as text: recommendations, then the code of the recommended method in `language`, if given.
+/// Returns the answer as text: the recommendations, then the code of the recommended method in `language`, if one is
+/// given.
 pub(super) fn answer(
     scene: &Scene,
     adviser: &Adviser,
@@ -30,7 +31,7 @@ pub(super) fn answer(
     text
 }
 
-/// The best rows as text: how each meets each criterion, and its verdict.
+/// Returns the best rows as text: how each method meets each criterion, and its verdict.
 pub(super) fn best(rows: &[Row]) -> String {
     let best = best_rows(rows, MOST_ROWS);
     if best.is_empty() {
@@ -50,7 +51,7 @@ pub(super) fn best(rows: &[Row]) -> String {
     text
 }
 
-/// All rows as text: the verdicts, and the methods that meet each criterion with their costs.
+/// Returns all rows as text: the verdicts, and the methods that meet each criterion with their costs.
 pub(super) fn all_tables(rows: &[Row]) -> String {
     if rows.is_empty() {
         return String::new();
@@ -83,7 +84,7 @@ fn slowest_rates<'r>(rows: impl IntoIterator<Item = &'r Row>) -> String {
     format!("\nslowest tick rates in one step a tick, in Hz\n{}", table::text(RATES, rows, "  "))
 }
 
-/// Recommends a method for each criterion, or gives the reason why there is none.
+/// Recommends a method for each criterion, or gives the reason why no method is recommended.
 fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> String {
     let mut text = String::new();
     if rows.len() < wanted {
@@ -103,7 +104,8 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
     text
 }
 
-/// Code of the method recommended for `LooksRight`, else for `Bounded`, with the number of calls per tick.
+/// Returns the code of the method that is recommended for `LooksRight`, or else for `Bounded`, with the number of calls
+/// per tick.
 fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
     let index = |criterion| CRITERIA.iter().position(|one| *one == criterion);
     let wanted = [Criterion::LooksRight, Criterion::Bounded];
@@ -116,7 +118,7 @@ fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
     Some(format!("Call this {times} a tick with h = 1/{hz:.6} s:\n\n{code}"))
 }
 
-/// Why no method is recommended for a criterion.
+/// Explains why no method is recommended for a criterion.
 fn why_none(scene: &Scene, rows: &[Row], criterion: usize) -> String {
     if rows.iter().any(|row| row.advised.met[criterion] != CriterionResult::No) {
         return "not known: no exact motion to compare with, or too much work".into();
@@ -131,7 +133,7 @@ fn why_none(scene: &Scene, rows: &[Row], criterion: usize) -> String {
     )
 }
 
-/// The answer as JSON.
+/// Returns the answer as JSON.
 pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> Value {
     let recommended = CRITERIA.iter().enumerate().map(|(i, criterion)| {
         let take = match recommended_row(rows, i) {
@@ -223,8 +225,8 @@ impl MetRow {
     }
 }
 
-/// Text for an unknown margin. Either its search reached a run without a truth or with too much work, or nobody
-/// searched it.
+/// Returns the text for an unknown margin. Either nobody searched the margin, or the search came to a run that has no
+/// truth or takes too much work.
 fn unknown(met: &CriterionMet) -> &'static str {
     if met.are_margins_searched { "not known" } else { "not searched" }
 }

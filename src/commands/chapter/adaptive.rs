@@ -1,4 +1,4 @@
-//! The adaptive listing, as printed and as intended.
+//! The listing with adaptive steps, both as printed and as intended.
 
 use std::fmt::Write;
 
@@ -8,11 +8,11 @@ use crate::sim::integrators::{AdaptiveEuler, AdaptiveEulerAsPrinted, Integrator,
 use crate::sim::number::significant;
 use crate::sim::{Counted, State};
 
-/// The chapter's tolerances of the speed, in m/s.
+/// The tolerances of the speed in the chapter, in m/s.
 const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
 const TICKS: u32 = 17;
 
-/// Both listings side by side.
+/// Returns the results of both listings side by side.
 pub(super) fn listings() -> String {
     let scene = scene("ship");
     let h = scene.tick_hz.step_s();
@@ -58,7 +58,7 @@ pub(super) fn listings() -> String {
         + "\n  As printed a step that is cut short is never made up for: the ship sails in slow motion.\n"
 }
 
-/// Steps the ship through all ticks. Returns its final state and the number of evaluations.
+/// Steps the ship through all ticks. Returns its final state, and the number of evaluations.
 fn run(integrator: &mut dyn Integrator<Counted<Ship>>, ship: &Ship, h: f64) -> (State<f64>, u64) {
     let system = Counted::new(ship.clone());
     let mut state = ship.start();

@@ -9,12 +9,12 @@ use crate::scene::Scene;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
 pub(super) struct Diagram {
-    /// Number in the book.
+    /// Number of the figure in the book.
     pub(super) number: &'static str,
     pub(super) figure: Figure,
 }
 
-/// All figures, in order.
+/// Returns all figures in their order.
 pub(super) fn all() -> Vec<Diagram> {
     let (ship, spring) = (scene("ship"), scene("spring"));
     let euler = |seconds| vec![exact(&ship, seconds), speed(&ship, "explicit-euler", seconds)];
@@ -84,10 +84,10 @@ fn figure(
     Figure { title: title.into(), note, columns: 1, charts: vec![chart] }
 }
 
-/// Start of every table's header.
+/// The first columns in the header of every table.
 pub(super) const CSV_BEGINS: &str = "curve,time_s,";
 
-/// The points of all curves as one tidy table: `curve`, then the axes.
+/// Returns the points of all curves as one tidy table. Its columns are `curve` and the axes.
 pub(super) fn csv(figure: &Figure) -> io::Result<Vec<u8>> {
     let chart = &figure.charts[0];
     let name = |axis: &Axis| axis.name.replace(['(', ')'], "").replace('/', " per ");
@@ -101,7 +101,7 @@ pub(super) fn csv(figure: &Figure) -> io::Result<Vec<u8>> {
     rows.end()
 }
 
-/// Points per second of an exact curve, more than the eye resolves.
+/// Points per second of an exact curve. They are more than the eye resolves.
 const SMOOTH_HZ: u32 = 100;
 
 fn exact(ship: &Scene, seconds: f64) -> FigureCurve {
@@ -123,7 +123,7 @@ fn truth(points: Vec<[f64; 2]>) -> FigureCurve {
     }
 }
 
-/// Speed by this method. Runs of at most 20 s have a dot at every step.
+/// Returns the curve of the speed under this method. A run of at most 20 s has a dot at every step.
 fn speed(ship: &Scene, id: &str, seconds: f64) -> FigureCurve {
     let dots = if seconds > 20.0 { 0.0 } else { 2.6 };
     stepped(id, dots, &by_method(ship, id, seconds), |m| [m.t, m.v])
@@ -161,7 +161,7 @@ fn spring_note(scene: &Scene) -> String {
     )
 }
 
-/// The first body's parameters as its scene gives them.
+/// Describes the parameters of the first body, as its scene gives them.
 fn parameters(scene: &Scene) -> String {
     let body = &scene.bodies[0];
     let shown = body.kind.parameters.iter().zip(&body.values).filter_map(|(parameter, value)| {

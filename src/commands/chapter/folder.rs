@@ -1,4 +1,4 @@
-//! Output directory of the figures. Each file appears whole or not at all.
+//! The output directory of the figures. Each file in it appears whole or not at all.
 
 use std::ffi::OsString;
 use std::fs;
@@ -15,14 +15,14 @@ use crate::regular_file;
 
 pub(super) struct FigureFolder {
     path: PathBuf,
-    /// Figures of an earlier run, complete or partial.
+    /// Figures of an earlier run, whether complete or partial.
     old: Vec<OsString>,
     /// Names of entries that this command did not make.
     others: Vec<OsString>,
 }
 
 impl FigureFolder {
-    /// Inspects the folder at `path`, which need not exist yet. Changes nothing.
+    /// Inspects the folder at `path`, which need not exist yet, without changing anything.
     pub(super) fn inspect(path: &Path) -> Result<Self, Error> {
         let fail = Error::of_file("read", path, "--out");
         let mut folder = Self { path: path.to_owned(), old: Vec::new(), others: Vec::new() };
@@ -54,7 +54,7 @@ impl FigureFolder {
         self.old.is_empty() && self.others.is_empty()
     }
 
-    /// Creates the folder if necessary and removes the figures of an earlier run.
+    /// Creates the folder if necessary, and removes the figures of an earlier run.
     pub(super) fn clear(&mut self) -> Result<(), Error> {
         fs::create_dir_all(&self.path).map_err(Error::of_file(
             "make the directory",
@@ -68,7 +68,7 @@ impl FigureFolder {
         Ok(())
     }
 
-    /// Writes a file under a temporary name and renames it once it is whole.
+    /// Writes a file under a temporary name, and renames it when it is whole.
     pub(super) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
         let path = self.path.join(name);
         let written = begin_file(&path).and_then(|file| file.write_whole(bytes, IfExists::Replace));
@@ -79,7 +79,7 @@ impl FigureFolder {
         &self.path
     }
 
-    /// Names of entries that this command did not make and has left alone.
+    /// Returns the names of the entries that this command did not make and has left alone.
     pub(super) fn others(&self) -> &[OsString] {
         &self.others
     }
@@ -92,7 +92,8 @@ fn is_a_figures(name: &str) -> bool {
     number.is_some_and(|n| n.len() == 1 && n.bytes().all(|b| (b'2'..=b'8').contains(&b)))
 }
 
-/// Whether a killed run left the file at `path`. Its name must match, and so must its content unless it is empty.
+/// Whether a run that was killed left the file at `path`. The file's name must match, and so must its content unless it
+/// is empty.
 fn is_left_over(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let begins = || regular_file::read_start(path, CSV_BEGINS.len());

@@ -1,15 +1,15 @@
-//! Table 7-1, its averages and the matching distances, next to the printed numbers.
+//! Table 7-1 with its averages, and the distances that belong to it, next to the printed numbers.
 
 use std::fmt::Write;
 
 use super::{Moment, by_method, exactly, method_of, scene};
 use crate::sim::number::significant;
 
-/// The time of the table's last row, in seconds.
+/// Time of the table's last row, in seconds.
 const END_S: f64 = 8.5;
 
-/// The methods whose distances are compared: the listings as printed, and the same methods with the
-/// whole state carried through every stage.
+/// The methods whose distances are compared. They are the listings as printed, and the same methods with the whole
+/// state carried through every stage.
 const DISTANCES: [&str; 6] = [
     "explicit-euler",
     "semi-implicit-euler",
@@ -19,7 +19,7 @@ const DISTANCES: [&str; 6] = [
     "rk4",
 ];
 
-/// Table 7-1 and the averages below it.
+/// Returns Table 7-1 and the averages below it.
 pub(super) fn table_7_1() -> String {
     let scene = scene("ship");
     let hz = f64::from(scene.tick_hz);
@@ -54,13 +54,13 @@ pub(super) fn table_7_1() -> String {
     text
 }
 
-/// Relative error of the speed after `tick` ticks, in percent.
+/// Returns the relative error of the speed after `tick` ticks, in percent.
 fn off(found: &[Moment], truth: &[Moment], tick: usize) -> f64 {
     100.0 * (found[tick].v - truth[tick].v) / truth[tick].v
 }
 
-/// The distances run, which the chapter does not print. Its listings carry only the speed through their stages, and so
-/// lose their order in the distance.
+/// Returns the table of the distances run, which the chapter does not print. The chapter's listings carry only the
+/// speed through their stages, so that the distance loses their order.
 pub(super) fn displacements() -> String {
     let scene = scene("ship");
     let hz = f64::from(scene.tick_hz);
@@ -88,7 +88,7 @@ pub(super) fn displacements() -> String {
     text + "\n  Semi-implicit Euler is what the chapter's listing of Euler's method does.\n"
 }
 
-/// A row of Table 7-1: time (s), exact speed (m/s), speed by Euler's method (m/s), and error.
+/// A row of Table 7-1: the time (s), the exact speed (m/s), the speed by Euler's method (m/s), and the error.
 const TABLE_7_1: [(f64, [&str; 3]); 5] = [
     (6.5, ["9.559084", "9.733158", "1.82%"]),
     (7.0, ["10.06829", "10.2465", "1.77%"]),
@@ -97,11 +97,11 @@ const TABLE_7_1: [(f64, [&str; 3]); 5] = [
     (8.5, ["11.4517", "11.63759", "1.62%"]),
 ];
 
-/// Average errors of three methods over these rows.
+/// Average errors of three methods over the rows of the table.
 const AVERAGES: [(&str, &str); 3] =
     [("explicit-euler", "1.72%"), ("improved-euler", "0.03%"), ("rk4", "3.6e-6%")];
 
-/// The number with a tick if the chapter prints the same, else followed by the printed number.
+/// Returns the number with a check mark if the chapter prints the same number, or else followed by the printed one.
 fn marked(found: &str, printed: &str) -> String {
     if found == printed { format!("{found} ✓") } else { format!("{found} (printed: {printed})") }
 }
@@ -109,7 +109,7 @@ fn marked(found: &str, printed: &str) -> String {
 /// Formats a number like C's `%.7g`, for magnitudes from 1e-4 up to 1e7.
 fn seven_digits(x: f64) -> String {
     let digits_before = libm::floor(libm::log10(x.abs())) as i32;
-    // Rounding may carry into another digit.
+    // Rounding may carry into a further digit.
     let carried = format!("{x:.6e}").rsplit('e').next().and_then(|e| e.parse().ok());
     let decimals = usize::try_from(6 - carried.unwrap_or(digits_before)).unwrap_or(0);
     let fixed = format!("{x:.decimals$}");
@@ -119,7 +119,7 @@ fn seven_digits(x: f64) -> String {
     }
 }
 
-/// Formats a number like C's `%.2f%%`, or with two digits and a power of ten if that would print 0.
+/// Formats a number like C's `%.2f%%`. If that would print 0, the number has two digits and a power of ten.
 fn percent(x: f64) -> String {
     if x.abs() < 0.005 { format!("{x:.1e}%") } else { format!("{x:.2}%") }
 }

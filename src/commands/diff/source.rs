@@ -1,4 +1,4 @@
-//! Sources of rows to compare: a table, a run, or the states in a manifest.
+//! Sources of the rows to compare: a table, a run, or the states in a manifest.
 
 use std::io::{self, BufReader, Read};
 use std::path::Path;
@@ -15,11 +15,11 @@ use crate::run::diff::{NotComparable, Records, is_header};
 use crate::run::trace::{Made, row};
 use crate::table::{BUFFER_BYTES, Reading, TableError, TableFault, TableReader, Utf8};
 
-/// Most rows in a batch between threads.
+/// Maximum number of rows in a batch that is passed between threads.
 const BATCH: usize = 1024;
-/// Most bytes in a batch between threads. Long rows reach this limit first.
+/// Maximum number of bytes in a batch that is passed between threads. Long rows reach this limit first.
 const BATCH_BYTES: usize = 1 << 20;
-/// Rows of more bytes are dropped instead of reused, to free their memory.
+/// Maximum size of a row buffer that is used again, in bytes. A larger buffer is dropped to free its memory.
 const LARGE_ROW_BYTES: usize = 1 << 14;
 /// The rows of one run.
 pub(super) enum Source {
@@ -27,22 +27,22 @@ pub(super) enum Source {
     Made(Made),
 }
 
-/// A table that a separate thread reads.
+/// A table, which a separate thread reads.
 pub(super) struct Table {
     header: ByteRecord,
     batch: Vec<ByteRecord>,
-    /// Number of rows in the batch, and number of rows already taken.
+    /// Number of rows in the batch, and number of rows already taken from it.
     filled: usize,
     taken: usize,
     batches: Receiver<Result<Batch, Error>>,
     used: SyncSender<Vec<ByteRecord>>,
 }
 
-/// Row buffers, and the number of filled ones.
+/// Buffers of rows, and the number of buffers that are filled.
 type Batch = (Vec<ByteRecord>, usize);
 
 impl Source {
-    /// Opens the run at `path`.
+    /// Opens the table or the run at `path`.
     pub(super) fn open(path: &Path) -> Result<Self, Error> {
         let is_scene = scene_file::is_link(path)
             || scene_file::is_built_in(path) && !path.exists()
@@ -94,7 +94,7 @@ impl From<NotComparable> for Error {
     }
 }
 
-/// Memory of a row in bytes.
+/// Returns the size of a row in memory, in bytes.
 fn footprint(row: &ByteRecord) -> usize {
     row.as_slice().len() + row.len() * size_of::<usize>()
 }
@@ -139,7 +139,7 @@ impl Table {
                     }
                 };
                 let has_more = matches!(read, Ok(Some(_)));
-                // The receiver is gone if the other table had a fault.
+                // The receiver is gone if there was an error in the other table.
                 let is_heard = send.send(Ok((batch, filled))).is_ok();
                 if let Err(error) = read {
                     drop(send.send(Err(fault(error))));
@@ -156,7 +156,7 @@ impl Table {
         if self.taken == self.filled {
             let Ok(next) = self.batches.recv() else { return Ok(false) };
             let (batch, filled) = next?;
-            // If the channel is full, the batch is dropped and the reader allocates another.
+            // The batch is dropped if the channel is full, and the reader then allocates another one.
             drop(self.used.try_send(std::mem::replace(&mut self.batch, batch)));
             (self.filled, self.taken) = (filled, 0);
             if filled == 0 {
@@ -169,14 +169,14 @@ impl Table {
     }
 }
 
-/// The run of the scene or recording at `path`, up to its end or its last check.
+/// Returns the run of the scene or recording at `path`, up to its end or to its last check.
 fn of_scene(path: &Path) -> Result<Made, Error> {
     let scene = scene_file::load(path)?.0;
     let last = verify::recording::end_of(path, &scene)?;
     Ok(Made::of_scene(scene, last))
 }
 
-/// The states in the manifest of the capture in `dir`.
+/// Returns the run whose states are in the manifest of the capture in `dir`.
 fn of_capture(dir: &Path) -> Result<Made, Error> {
     let (manifest, experiment) = verify::manifest_of(dir)?;
     let studio = experiment.studio();

@@ -1,8 +1,8 @@
-//! New frames for an existing clip, drawn into a directory inside it and swapped in once all are written. The clip
-//! itself may be a link, a mount point or the working directory, none of which can be renamed.
+//! New frames for an existing clip. They are drawn into a directory inside the clip, and swapped in once all of them
+//! are written. The clip itself may be a link, a mount point or the working directory, which cannot be renamed.
 //!
-//! A process killed at any moment leaves the old clip whole, or the new one whole in the directory
-//! `.regatta-blessed`. [`complete`] finishes the swap from there.
+//! A process that is killed leaves either the old clip whole, or the new one whole in the directory `.regatta-blessed`.
+//! In the second case, [`complete`] finishes the swap.
 
 use std::fs;
 use std::io;
@@ -14,10 +14,10 @@ use crate::atomic_file::{is_random, sync_directory};
 use crate::commands::frame_names::{self, READY, frame_number, frames_claimed, is_marked};
 use crate::commands::manifest;
 
-/// Prefix of the directory that receives the new frames.
+/// Prefix of the directory into which the new frames are written.
 const UNDER_WAY: &str = ".regatta-bless-";
 
-/// New frames for a clip. Dropping them before [`swap`](Self::swap) removes them.
+/// New frames for a clip. They are removed if the value is dropped before [`swap`](Self::swap).
 #[derive(Debug)]
 pub(crate) struct Blessing {
     clip: PathBuf,
@@ -25,18 +25,18 @@ pub(crate) struct Blessing {
 }
 
 impl Blessing {
-    /// Creates a directory for the new frames inside the clip's.
+    /// Creates a directory for the new frames inside that of the clip.
     pub(crate) fn begin(clip: &Path) -> io::Result<Self> {
         let place = tempfile::Builder::new().prefix(UNDER_WAY).tempdir_in(clip)?;
         Ok(Self { clip: clip.to_owned(), place })
     }
 
-    /// The directory for the new frames and their manifest.
+    /// Returns the directory for the new frames and their manifest.
     pub(crate) fn place(&self) -> &Path {
         self.place.path()
     }
 
-    /// Replaces the clip's frames and manifest with the new ones, which must be synced.
+    /// Replaces the clip's frames and manifest by the new ones, which must already be synced.
     pub(crate) fn swap(self) -> io::Result<()> {
         let ready = self.clip.join(READY);
         // An earlier swap leaves an empty directory, which blocks the rename on some systems.
@@ -49,7 +49,7 @@ impl Blessing {
     }
 }
 
-/// Whether an interrupted blessing left the directory at `path`. Both its name and all its entries must match.
+/// Whether an interrupted blessing left the directory at `path`. The directory's name and all its entries must match.
 pub(crate) fn is_left_over(path: &Path) -> io::Result<bool> {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     if !name.strip_prefix(UNDER_WAY).is_some_and(is_random) {
@@ -62,15 +62,15 @@ pub(crate) fn is_left_over(path: &Path) -> io::Result<bool> {
     })
 }
 
-/// Finishes a [pending](crate::commands::frame_names::is_pending) swap. Moves the frames that the new manifest lists,
-/// and no other file. Every step can be repeated, and the manifest comes last.
+/// Finishes a [pending](crate::commands::frame_names::is_pending) swap. Moves only the frames that the new manifest
+/// lists. Every step can be repeated, and the manifest is moved last.
 pub(crate) fn complete(clip: &Path) -> io::Result<()> {
     let ready = clip.join(READY);
     let [older, newer] = [clip, &ready]
         .map(|folder| frames_claimed(&folder.join(manifest::FILE_NAME)).unwrap_or_default());
     for name in newer.iter().filter(|name| frame_number(name).is_some()) {
         match fs::rename(ready.join(name), clip.join(name)) {
-            // Moved before the interruption.
+            // The frame was moved before the interruption.
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             moved => moved?,
         }
@@ -87,7 +87,7 @@ pub(crate) fn complete(clip: &Path) -> io::Result<()> {
     }
     sync_directory(clip)?;
     fs::rename(ready.join(manifest::FILE_NAME), clip.join(manifest::FILE_NAME))?;
-    // If the directory holds another file, that file is not ours to remove.
+    // The removal fails if the directory contains another file, which is not ours to remove.
     _ = fs::remove_dir(&ready);
     sync_directory(clip)
 }
@@ -156,7 +156,7 @@ mod tests {
                 }
                 fs::rename(ready.join(&name), clip.path().join(&name)).unwrap();
             }
-            // Once the manifest is in place, only an empty directory remains.
+            // After the manifest has been moved, only an empty directory remains.
             assert_eq!(is_pending(clip.path()), moved < 3);
             if moved < 3 {
                 complete(clip.path()).unwrap();

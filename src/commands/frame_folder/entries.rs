@@ -1,4 +1,4 @@
-//! Sorts the entries of a frame folder by who made them: a capture or somebody else.
+//! Sorts the entries of a frame folder into those that a capture made and all others.
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -13,16 +13,16 @@ use crate::commands::frame_names::{
 use crate::commands::manifest;
 use crate::commands::output::is_lock;
 
-/// The entries of a folder, by name.
+/// The entries of a folder, sorted by their makers.
 #[derive(Debug, Default)]
 pub(super) struct Entries {
-    /// Files of an earlier capture, complete or partial.
+    /// Files of an earlier capture, whether complete or partial.
     pub(super) ours: BTreeSet<OsString>,
-    /// Directories that an interrupted blessing left.
+    /// Directories that an interrupted blessing left behind.
     pub(super) our_directories: Vec<OsString>,
     /// Entries that no capture made, except `foreign`.
     pub(super) others: Vec<OsString>,
-    /// A file that has the name of a capture's file but that no capture made.
+    /// A file that has the name of a capture's file, although no capture made it.
     pub(super) foreign: Option<PathBuf>,
     /// A directory that has the name of a capture's file.
     pub(super) in_the_way: Option<PathBuf>,

@@ -7,7 +7,7 @@ fn inspect(path: &Path, existing: FolderPolicy) -> Result<FrameFolder, Error> {
     FrameFolder::inspect(path, existing, PlaceOf::Option("--out"))
 }
 
-/// A picture of one grey pixel, encoded as in a capture.
+/// Returns a picture of one grey pixel, encoded as in a capture.
 fn frame(grey: u8) -> Vec<u8> {
     png::encode([1, 1], &[grey, grey, grey, 255])
 }
@@ -81,7 +81,7 @@ fn only_leftovers_of_a_killed_capture_are_removed() {
     for name in kept {
         fs::write(at(name), "mine").unwrap();
     }
-    // A copy of one of our frames.
+    // The file is a copy of one of our frames.
     fs::write(at(kept[2]), frame(0)).unwrap();
     let mut frames = inspect(folder.path(), FolderPolicy::Replace).unwrap();
     frames.clear().unwrap();
@@ -152,7 +152,7 @@ fn a_frame_that_cannot_be_written_leaves_nothing_behind() {
     let parent = tempfile::tempdir().unwrap();
     let mut frames = inspect(parent.path(), FolderPolicy::Refuse).unwrap();
     frames.clear().unwrap();
-    // A file cannot replace a directory of that name.
+    // A file cannot replace a directory that has its name.
     fs::create_dir_all(parent.path().join("frame-000001.png/in the way")).unwrap();
     frames.push(&frame(0)).unwrap();
     let error = frames.push(&frame(0)).unwrap_err().to_string();

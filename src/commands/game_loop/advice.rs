@@ -1,18 +1,18 @@
-//! Advice below the rows of `regatta loop`: which policy to take, and which motion depends on the frame rate.
+//! The advice below the rows of `regatta loop`: which policy to take, and which motion depends on the frame rate.
 
 use super::measured::Measured;
 use crate::commands::terminal::print_status;
 use crate::loops::{FrameLimits, MeasuredLoops, NoLoop, POLICIES};
 use crate::sim::number::{counted, round};
 
-/// Prints which of the policies measured on one trace to take.
+/// Prints which of the policies to take that were measured on one trace.
 pub(super) fn print_advice(rows: &[Measured], latency_ms: f64, limits: FrameLimits) {
     let Some(first) = rows.first() else { return };
     let trace =
         format!("{} ({} Hz display, {:.3} Hz ticks)", first.trace, first.refresh, first.tick_hz);
     let measured = rows.iter().map(|row| (row.card, &row.report));
     let loops = MeasuredLoops::new(measured, first.tick_hz, first.has_one_clock);
-    // Name no subset if all policies were measured, as in the window.
+    // The message does not speak of a subset if all policies were measured, just as in the window.
     let are_all = rows.len() == POLICIES.len();
     match loops.advised(latency_ms) {
         Ok(advised) => {
@@ -64,9 +64,9 @@ pub(super) fn print_advice(rows: &[Measured], latency_ms: f64, limits: FrameLimi
     }
 }
 
-/// A policy with its measurements and its constants, or the limits set in their place.
+/// Describes a policy by its measurements, and by its constants or the limits that replace them.
 fn advice_text(row: &Measured, latency_ms: Option<f64>, limits: FrameLimits) -> String {
-    // Traces count whole nanoseconds, so anything below a microsecond is rounding.
+    // Traces count whole nanoseconds, so that a difference below a microsecond is only rounding.
     let to_microseconds = |ms: f64| (1000.0 * ms).round() / 1000.0;
     let ms = |value: Option<f64>| {
         value.map_or("unknown".into(), |ms| format!("{} ms", round(to_microseconds(ms), 3)))

@@ -1,4 +1,4 @@
-//! The picture of `regatta loop`: the moment shown against the moment of display, and the cost of each policy.
+//! The picture of `regatta loop`: the displayed moment against the moment of display, and the cost of each policy.
 
 use super::measured::Measured;
 use crate::look::palette::Theme;
@@ -6,24 +6,24 @@ use crate::scene::Scene;
 use crate::sim::number::round;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
-/// Most traces in a picture.
+/// Maximum number of traces in a picture.
 const MAX_TRACES: usize = 4;
 
-/// Smallest animation error (ms) drawn. No display shows less.
+/// Minimum animation error (ms) that is drawn. No display shows a smaller one.
 const MIN_MS: f64 = 1e-3;
-/// Radius of a dot, and its growth for each dot drawn over it, in points.
+/// Radius of a dot, and the amount by which it grows for each dot that is drawn over it, in points.
 const DOT: f32 = 4.0;
 const RING: f32 = 3.0;
 const EXPLAINED: &str = "Animation error is the change of the moment shown minus the change of the moment of display, \
                          from frame to frame";
-/// Largest latency (ms) in the chart. A loop beyond it, behind or ahead, does not keep time.
+/// Maximum latency (ms) in the chart. A loop that is further behind or ahead does not keep time.
 const MAX_LATENCY_MS: f64 = 200.0;
 
 pub(super) fn charts(traces: usize) -> usize {
     2 * traces.min(MAX_TRACES)
 }
 
-/// The picture of `rows`, grouped by trace. Each of the first traces gets two charts.
+/// Returns the picture of `rows`, which are grouped by trace. Each of the first traces has two charts.
 pub(super) fn figure(scene: &Scene, rows: &[Measured]) -> Figure {
     let mut by_trace: Vec<&[Measured]> =
         rows.chunk_by(|one, other| one.trace == other.trace).collect();
@@ -47,7 +47,8 @@ fn curve(index: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> Figu
     FigureCurve { name: row.card.id.into(), colour, dash, dots, points }
 }
 
-/// The moment shown against the moment of display. The display holds each picture until the next.
+/// Returns the chart of the displayed moment against the moment of display. The display holds each picture until the
+/// next.
 fn chart_of_moments(rows: &[Measured], before: &str) -> Chart {
     let along = rows.iter().flat_map(|row| &row.drawn).map(|point| point[0]);
     let start = along.clone().reduce(f64::min).unwrap_or(0.0);
@@ -79,7 +80,7 @@ fn chart_of_moments(rows: &[Measured], before: &str) -> Chart {
     }
 }
 
-/// The animation error against the latency: the best loop is at the lower left.
+/// Returns the chart of the animation error against the latency. The best loop is at the lower left.
 fn costs(rows: &[Measured], before: &str) -> Chart {
     let known: Vec<[f64; 2]> = rows.iter().filter_map(point).collect();
     let points = rows.iter().enumerate().map(|(n, row)| {
@@ -111,7 +112,7 @@ fn costs(rows: &[Measured], before: &str) -> Chart {
     }
 }
 
-/// Whether two points look like one.
+/// Whether two points of the chart look like one.
 fn is_near([x, y]: [f64; 2], [other_x, other_y]: [f64; 2]) -> bool {
     (x - other_x).abs() < 0.5 && (y / other_y - 1.0).abs() < 0.1
 }
@@ -121,7 +122,7 @@ fn point(row: &Measured) -> Option<[f64; 2]> {
     Some([report.latency_mean_ms()?, report.animation_error_rms_ms?.max(MIN_MS)])
 }
 
-/// A title with its prefix, or capitalised if there is none.
+/// Returns a title with its prefix, or the capitalised title if there is no prefix.
 fn sentence(before: &str, title: &str) -> String {
     match before {
         "" => title[..1].to_uppercase() + &title[1..],
@@ -129,7 +130,7 @@ fn sentence(before: &str, title: &str) -> String {
     }
 }
 
-/// A note that names the loop with the least error on each trace.
+/// Returns a note that names the loop with the least error on each trace.
 fn note_on_several(by_trace: &[&[Measured]], left_out: usize) -> String {
     let error = |row: &Measured| row.report.animation_error_rms_ms.unwrap_or(f64::INFINITY);
     let least = by_trace.iter().filter_map(|rows| {
@@ -151,7 +152,7 @@ fn note_on_several(by_trace: &[&[Measured]], left_out: usize) -> String {
     )
 }
 
-/// Why the charts do not show a loop: its speed, or its mean latency.
+/// Explains why the charts do not show a loop, which is because of its speed or its mean latency.
 fn beyond_chart(row: &Measured) -> Option<String> {
     if row.report.keeps_speed() == Some(false) {
         return Some("another speed at another frame rate".into());
@@ -169,7 +170,7 @@ fn outside<'r>(rows: impl Iterator<Item = &'r Measured>) -> String {
     }
 }
 
-/// A note that ranks the loops by animation error.
+/// Returns a note that ranks the loops by animation error.
 fn note(rows: &[Measured]) -> String {
     let mut ranked: Vec<(&str, f64)> = rows
         .iter()

@@ -12,39 +12,41 @@ use crate::loops::{
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::TickRate;
 
-/// Frames in the picture of a run, and how many of them precede a long frame.
+/// Number of frames in the picture of a run, and number of frames before a long one.
 const DRAWN: usize = 30;
 const BEFORE: usize = 8;
-/// A frame of at least this number of refreshes is long.
+/// Minimum duration of a long frame, in refreshes of the display.
 const LONG: f64 = 2.5;
-/// Most frames searched for a long one.
+/// Maximum number of frames that are searched for a long one.
 const MAX_SEARCHED: usize = 100_000;
 
-/// A row of the table.
+/// A row of the table, which is the measurement of a policy.
 pub(super) struct Measured {
     pub(super) card: &'static PolicyCard,
     pub(super) trace: String,
     pub(super) refresh: RefreshRate,
     pub(super) tick_hz: TickRate,
-    /// Whether one clock times both the start and the display of frames. Logs of tools use two.
+    /// Whether one clock times both the start and the display of frames. In the logs of some tools they have two
+    /// clocks.
     pub(super) has_one_clock: bool,
-    /// Remark on a log without times of display.
+    /// A remark on a log that has no times of display.
     pub(super) missing_display: Option<&'static str>,
     pub(super) report: PacingReport,
-    /// Moment of display and moment shown of each drawn frame, in milliseconds.
+    /// Moment of display, and displayed moment, of each drawn frame, in milliseconds.
     pub(super) drawn: Vec<[f64; 2]>,
 }
 
-/// The measured part of a trace.
+/// The part of a trace that is measured.
 #[derive(Clone, Copy)]
 pub(super) struct Stretch {
-    /// End of the measurement.
+    /// Time at which the measurement ends.
     pub(super) until_ns: i64,
-    /// Start of the frames to draw, if there is a picture.
+    /// Time at which the drawn frames start, if there is a picture.
     pub(super) drawn_from_ns: Option<i64>,
 }
 
-/// Measures a policy on a trace until its end or until `stop` returns true. Writes a row per frame to `frames`.
+/// Measures a policy on a trace, until the end of the measured part or until `stop` returns true. Writes a row for each
+/// frame to `frames`.
 pub(super) fn measure(
     scene: &Scene,
     spec: LaneSpec,
@@ -99,7 +101,8 @@ fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [
     ]
 }
 
-/// Display time of the first frame to draw: the start, or shortly before the longest frame if one is long.
+/// Returns the display time of the first frame to draw. If a frame is long, it is shortly before the longest one, and
+/// otherwise at the start.
 pub(super) fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
     let mut frames = trace.frames();
     let displayed: Vec<i64> = iter::from_fn(|| frames.next(0))
@@ -110,7 +113,7 @@ pub(super) fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
     let gaps = displayed.windows(2).map(|pair| pair[1] - pair[0]).enumerate();
     let refresh_ns = 1e9 / trace.refresh().hz();
     let long = gaps.filter(|(_, gap)| *gap as f64 > LONG * refresh_ns);
-    // The first of equally long frames.
+    // The first of several equally long frames counts.
     let longest = long.min_by_key(|(_, gap)| -gap);
     longest.map_or(0, |(index, _)| displayed[index.saturating_sub(BEFORE)])
 }

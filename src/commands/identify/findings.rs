@@ -8,15 +8,15 @@ use crate::tools::identify::{
     Candidate, Conclusion, Effective, Fitted, Identification, Log, SpringForm,
 };
 
-/// Residual beyond which no method is named as the nearest.
+/// Maximum residual of a method that is named as the nearest.
 const FAR: f64 = 0.1;
-/// A fitted rest position counts as 0 if it is below this part of the largest x.
+/// Share of the largest x below which a fitted rest position counts as 0.
 const NO_REST: f64 = 1e-5;
 /// Hint for a log that no method explains.
 const HINT: &str = "give --k, --c, --drag and --mass to their last digit, with the drag that an engine has by default \
 (Jolt 0.05, Godot 0.1)";
 
-/// The identification as JSON; `found` is `None` if no method can run.
+/// Returns the identification as JSON. `found` is `None` if no method can run on the body.
 pub(super) fn object(found: Option<&Identification>, mass: f64) -> Value {
     let best = found.and_then(|found| found.best);
     let rival = found.and_then(|found| found.runner_up);
@@ -82,7 +82,7 @@ fn named(candidate: &Candidate) -> Value {
     })
 }
 
-/// Id of the joint's mode, if the spring is a joint.
+/// Returns the id of the joint's mode, if the candidate's spring is a joint.
 fn mode(candidate: &Candidate) -> Option<&'static str> {
     match candidate.spring {
         SpringForm::Joint(mode) => Some(mode.id),
@@ -90,7 +90,7 @@ fn mode(candidate: &Candidate) -> Option<&'static str> {
     }
 }
 
-/// Lists each method once, with its substeps.
+/// Lists the methods, each of them once, with its substeps.
 fn names(candidates: &[Candidate]) -> String {
     let mut all: Vec<(&str, Option<&str>, Vec<u32>)> = Vec::new();
     for candidate in candidates {
@@ -120,7 +120,7 @@ fn signed(number: f64) -> String {
     format!("{}{}", if number < 0.0 { "" } else { "+" }, significant(number, 4))
 }
 
-/// Describes a motion.
+/// Describes a motion by its frequency and damping.
 fn motion_text(effective: &Effective) -> String {
     let ratio = effective.damping_ratio().map(|ratio| {
         let ratio = if ratio.abs() < 5e-7 { 0.0 } else { ratio };
@@ -147,11 +147,11 @@ fn motion_text(effective: &Effective) -> String {
     [swing, ratio, lasting].into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-/// Most methods in the first line.
+/// Maximum number of methods in the first line.
 const MAX_MAKERS: usize = 3;
 
-/// The best candidate of an identified log, then the others with the same map on this body. Each method appears once
-/// for each form of its spring. If the best candidate holds its force, joints come first.
+/// Returns the best candidate of an identified log, then the others that have the same map on this body. Each method
+/// appears once for each form of its spring. If the best candidate holds its force, joints come first.
 fn makers<'a>(best: &'a Candidate, also: &'a [Candidate]) -> Vec<&'a Candidate> {
     let mut all: Vec<&Candidate> = Vec::new();
     for candidate in [best].into_iter().chain(also) {
@@ -168,7 +168,7 @@ fn makers<'a>(best: &'a Candidate, also: &'a [Candidate]) -> Vec<&'a Candidate> 
     all
 }
 
-/// Lists the makers in one phrase.
+/// Lists the candidates in one phrase.
 fn listed(all: &[&Candidate]) -> String {
     let mut named: Vec<String> = all.iter().take(MAX_MAKERS).map(ToString::to_string).collect();
     match (named.len(), all.len() - named.len()) {
@@ -178,7 +178,7 @@ fn listed(all: &[&Candidate]) -> String {
     }
 }
 
-/// The first line: the method and its residual.
+/// Returns the first line, which is the method and its residual.
 fn verdict(found: &Identification, log: &Log) -> String {
     let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);
     let Some(best) = &found.best else {

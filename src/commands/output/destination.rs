@@ -1,5 +1,5 @@
-//! Destination of one stream of bytes: standard output, a device or a pipe, or a file that appears whole or not at
-//! all.
+//! The destination of one stream of bytes. It is standard output, a device, a pipe, or a file that appears whole or not
+//! at all.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, Write};
@@ -13,36 +13,37 @@ use crate::commands::interrupt;
 use crate::commands::terminal::print_status;
 use crate::commands::visible::{visible, visible_json};
 
-/// The path that means standard output.
+/// The path that stands for standard output.
 pub(crate) const STDOUT: &str = "-";
 
-/// Links to files that the process has open, such as standard error. Their targets are in use and not replaced.
+/// Links to files that the process has open, such as standard error. Their targets are in use, so they are not
+/// replaced.
 const OPEN_ALREADY: [&str; 4] = ["/dev/fd", "/dev/stdout", "/dev/stderr", "/proc/self/fd"];
 
-/// A longer chain of links is a ring on every system.
+/// Maximum length of a chain of links. On every system, a longer chain is a ring.
 const MAX_LINKS: usize = 40;
 
-/// Begins a file that appears whole or not at all. Watches for an interrupt first: an unhandled one would leave the
-/// temporary name behind.
+/// Begins a file that appears whole or not at all. Watches for interrupts first, because an unhandled one would leave
+/// the temporary name behind.
 pub(crate) fn begin_file(path: &Path) -> io::Result<AtomicFile> {
     interrupt::watch_for_interrupt();
     AtomicFile::create(path)
 }
 
-/// Path of an output, and the option to name in its errors.
+/// The path of an output, and the option that errors name.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Destination<'a> {
-    /// A file, a link to one, a device, or [`STDOUT`].
+    /// Path of a file, of a link to one or of a device, or [`STDOUT`].
     pub(crate) path: &'a Path,
-    /// The option that names the path, such as `--out`.
+    /// Option with which the user gives the path, such as `--out`.
     pub(crate) option: &'static str,
     /// Policy for an existing file.
     pub(crate) if_exists: IfExists,
-    /// Files that the command reads, which are never replaced.
+    /// Files that the command reads. They are never replaced.
     pub(crate) inputs: &'a [Input<'a>],
 }
 
-/// A file that a command reads, with its role, such as `the scene that is run`.
+/// A file that a command reads, and its role, such as `the scene that is run`.
 pub(crate) type Input<'a> = (&'a Path, &'static str);
 
 impl Destination<'_> {
@@ -74,14 +75,14 @@ impl Destination<'_> {
                 Err(Error::mistake(format!("{path} is a directory; give {option} a file")))
             }
             Ok(_) if self.replaces().is_none() => {
-                // Opening a pipe blocks until something reads it.
+                // Opening a pipe blocks until a program reads from it.
                 let (name, device) = (brief(path), path.to_owned());
                 let open = move || File::options().append(true).open(device);
                 let device = interrupt::wait_for(&name, open)
                     .map_err(explain(Error::of_file("write", path, option)))?;
                 Ok(self.output(Target::Device(Arc::new(device))))
             }
-            // A link that leads nowhere yet counts as existing too.
+            // A link whose target does not exist counts as existing too.
             _ if if_exists != IfExists::Replace && fs::symlink_metadata(path).is_ok() => {
                 Err(taken(path, option))
             }
@@ -89,16 +90,16 @@ impl Destination<'_> {
         }
     }
 
-    /// The file that the output would replace. Standard output, devices, pipes and files that the process has open
-    /// are never replaced.
+    /// Returns the file that the output would replace. Standard output, devices, pipes and files that the process has
+    /// open are never replaced.
     pub(crate) fn replaces(&self) -> Option<&Path> {
         let is_open = OPEN_ALREADY.iter().any(|open| self.path.starts_with(open));
         let is_replaced = self.path != Path::new(STDOUT) && !is_open && self.path.is_file();
         is_replaced.then_some(self.path)
     }
 
-    /// Begins a file, whether or not there is one of its name. If the name is a link, writes to its target and keeps
-    /// the link.
+    /// Begins a file, even if a file with its name exists. If the name is a link, the target is written and the link
+    /// stays.
     pub(crate) fn begin(self) -> Result<Output, Error> {
         let begin = || {
             let file = begin_file(&end_of_links(self.path)?)?;
@@ -111,7 +112,7 @@ impl Destination<'_> {
         Ok(self.output(Target::File(file, self.if_exists)))
     }
 
-    /// Opens the destination, writes text and closes it.
+    /// Opens the destination, writes text to it and closes it.
     pub(crate) fn write(self, text: &str) -> Result<(), Error> {
         let mut output = self.open_for_text()?;
         output.write_all(text.as_bytes())?;
@@ -125,20 +126,20 @@ impl Destination<'_> {
     }
 }
 
-/// A stream being written. Its errors contain the command's message.
+/// A stream that is being written. Its errors contain the message of the command.
 pub(crate) struct Output(BufWriter<Sink>);
 
 struct Sink {
     target: Target,
     path: PathBuf,
     option: &'static str,
-    /// Whether an interrupt ended a wait for this stream. Dropping it must not wait again.
+    /// Whether an interrupt ended a wait for this stream. If so, dropping the stream must not wait again.
     is_stuck: bool,
 }
 
 enum Target {
     Stdout,
-    /// A device or a pipe. It is written to, never replaced.
+    /// A device or a pipe, which is written to but never replaced.
     Device(Arc<File>),
     File(AtomicFile, IfExists),
 }
@@ -150,18 +151,18 @@ impl Output {
         place.output(Target::Stdout)
     }
 
-    /// Name in messages.
+    /// Returns the name of the output in messages.
     pub(crate) fn name(&self) -> String {
         self.0.get_ref().name()
     }
 
-    /// Path of the file, if the output is one.
+    /// Returns the path of the file, if the output is a file.
     pub(crate) fn file(&self) -> Option<&Path> {
         let Sink { target, path, .. } = self.0.get_ref();
         matches!(target, Target::File(..)).then_some(path)
     }
 
-    /// Flushes the stream and gives a file its final name. Returns the name for messages.
+    /// Flushes the stream, and gives a file its final name. Returns the name of the output for messages.
     pub(crate) fn close(mut self) -> Result<String, Error> {
         self.flush()?;
         let name = self.name();
@@ -171,10 +172,10 @@ impl Output {
         };
         let asked = file.path().to_owned();
         match file.commit(if_exists) {
-            // Report a link by its own name, unless the data went to another file.
+            // A link is reported by its own name, unless the data went to another file than its target.
             Ok(written) if written == asked => Ok(name),
             Ok(written) => Ok(written.display().to_string()),
-            // Another program made a file of that name in the meantime.
+            // Another program has made a file with that name in the meantime.
             Err(error)
                 if if_exists == IfExists::Keep && error.kind() == io::ErrorKind::AlreadyExists =>
             {
@@ -184,7 +185,7 @@ impl Output {
         }
     }
 
-    /// Closes the stream. Reports the content of a file on standard error.
+    /// Closes the stream. If it is a file, reports its content on standard error.
     pub(crate) fn finish(self, what: &str) -> Result<(), Error> {
         let is_file = self.file().is_some();
         let name = self.close()?;
@@ -213,7 +214,7 @@ impl Sink {
         }
     }
 
-    /// Acts on the stream. A full pipe blocks until its reader continues.
+    /// Calls `act` on the stream. A full pipe blocks until its reader continues.
     fn with_stream<T: Send + 'static>(
         &mut self,
         bytes: &[u8],
@@ -239,7 +240,8 @@ impl Sink {
         self.explained(done)
     }
 
-    /// Puts the command's message into the error. Keeps its kind, because writers decide by it whether to retry.
+    /// Puts the command's message into an I/O error. The error keeps its kind, because writers decide by the kind
+    /// whether to retry.
     fn explained<T>(&self, result: io::Result<T>) -> io::Result<T> {
         result.map_err(|error| {
             let kind = error.kind();
@@ -265,17 +267,17 @@ impl Write for Sink {
     }
 }
 
-/// Keeps the command's own error, such as an interrupt. Otherwise converts the I/O error with `explain`.
+/// Keeps an error that is the command's own, such as an interrupt. Converts any other I/O error with `explain`.
 fn explain(explain: impl Fn(io::Error) -> Error) -> impl Fn(io::Error) -> Error {
     move |error| error.downcast::<Error>().unwrap_or_else(&explain)
 }
 
-/// Writes text to standard output, with visible signs for control characters.
+/// Writes text to standard output. Control characters become visible signs.
 pub(crate) fn print(text: impl AsRef<str>) -> Result<(), Error> {
     print_bytes(visible(text.as_ref()).as_bytes())
 }
 
-/// Writes JSON to standard output, with escapes for control characters.
+/// Writes JSON to standard output. Control characters become escapes.
 pub(crate) fn print_json(text: impl AsRef<str>) -> Result<(), Error> {
     print_bytes(visible_json(text.as_ref()).as_bytes())
 }
@@ -286,7 +288,7 @@ fn print_bytes(bytes: &[u8]) -> Result<(), Error> {
     out.close().map(drop)
 }
 
-/// The error for a file that could not be written to its end.
+/// Returns the error for a file that could not be written to its end.
 fn unfinished(path: &Path, option: &'static str, error: io::Error) -> Error {
     let error = Error::of_file("write", path, option)(error);
     error.and("nothing is left of it, and the same command writes all of it")
@@ -299,7 +301,7 @@ fn taken(path: &Path, option: &str) -> Error {
     ))
 }
 
-/// A path that identifies a file, however it is spelled or linked, and whether it exists or not.
+/// Returns a path that identifies a file, however the file is spelled or linked, and whether it exists or not.
 pub(crate) fn same_file_path(path: &Path) -> PathBuf {
     let of_new = |_| {
         let end = end_of_links(path)?;
@@ -311,7 +313,7 @@ pub(crate) fn same_file_path(path: &Path) -> PathBuf {
     found.unwrap_or_else(|_| path.to_owned())
 }
 
-/// The end of the chain of links at `path`, whether a file exists there or not.
+/// Returns the path at the end of the chain of links at `path`, whether a file exists there or not.
 fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..MAX_LINKS {

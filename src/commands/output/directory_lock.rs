@@ -1,27 +1,27 @@
-//! One writer to a directory at a time, or any number of readers.
+//! A lock that gives a directory one writer at a time, or any number of readers.
 //!
-//! The operating system holds the lock and releases it when the process ends, however it ends.
+//! The operating system keeps the lock, and releases it when the process ends in any way.
 
 use std::fs::{File, TryLockError};
 use std::io;
 use std::path::Path;
 
-/// Name of the lock file, for systems that cannot lock a directory itself.
+/// Name of the lock file, which is used on systems that cannot lock a directory itself.
 const LOCK_NAME: &str = ".regatta-lock";
 
-/// A lock on a directory, released when dropped.
+/// A lock on a directory, which is released when the value is dropped.
 #[derive(Debug)]
 pub(crate) struct DirectoryLock {
     _file: File,
 }
 
 impl DirectoryLock {
-    /// A writer's lock on a directory; `None` if another process holds a lock.
+    /// Takes the lock of a writer on a directory, or returns `None` if another process has a lock.
     pub(crate) fn exclusive(directory: &Path) -> io::Result<Option<Self>> {
         Self::lock(directory, File::try_lock)
     }
 
-    /// A reader's lock on a directory; `None` if another process writes.
+    /// Takes the lock of a reader on a directory, or returns `None` if another process writes.
     pub(crate) fn shared(directory: &Path) -> io::Result<Option<Self>> {
         Self::lock(directory, File::try_lock_shared)
     }

@@ -1,4 +1,4 @@
-//! One description of a table's columns, written as aligned text, as CSV or as JSON.
+//! A table whose columns are described once, and which is written as aligned text, as CSV or as JSON.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -42,23 +42,23 @@ pub(crate) enum RowFormat {
     Json,
 }
 
-/// One property of the listed items.
+/// A column of a table, which is one property of the listed items.
 pub(crate) struct Column<T> {
-    /// Name in JSON.
+    /// Name of the column in JSON.
     pub(crate) key: &'static str,
-    /// Heading in text; `None` for a long property, which text leaves out.
+    /// Heading of the column in text. `None` for a long property, which is left out of the text.
     heading: Option<&'static str>,
-    /// Reads the property; `Null` if it has no meaning.
+    /// Returns the property of an item, or `Null` if it has no meaning.
     value: fn(&T) -> Value,
 }
 
 impl<T> Column<T> {
-    /// A column that text leaves out.
+    /// Creates a column that is left out of the text.
     pub(crate) const fn new(key: &'static str, value: fn(&T) -> Value) -> Self {
         Self { key, heading: None, value }
     }
 
-    /// A column with a heading in text.
+    /// Creates a column that has a heading in the text.
     pub(crate) const fn shown(
         key: &'static str,
         heading: &'static str,
@@ -68,7 +68,7 @@ impl<T> Column<T> {
     }
 }
 
-/// An array with one object for each of `items`.
+/// Returns a JSON array that has one object for each of `items`.
 pub(crate) fn json<T>(columns: &[Column<T>], items: &[T]) -> Value {
     let object = |item: &T| -> Value {
         let fields = columns.iter().map(|column| (column.key.to_owned(), (column.value)(item)));
@@ -77,7 +77,7 @@ pub(crate) fn json<T>(columns: &[Column<T>], items: &[T]) -> Value {
     items.iter().map(object).collect()
 }
 
-/// Writes a tidy table row by row: CSV below a header, or an array with one JSON object per line.
+/// Writes a tidy table row by row. As CSV it has a header, and as JSON it is an array with one object per line.
 pub(crate) struct RowWriter<W> {
     out: W,
     format: RowFormat,
@@ -107,7 +107,7 @@ impl<W: Write> RowWriter<W> {
             let cells = cells.iter().map(|cell| match in_a_cell(cell) {
                 Value::Null => "".into(),
                 Value::String(text) => visible(text),
-                // Write numbers as in JSON, so that they read back the same.
+                // Numbers are written as in JSON, so that they read back the same.
                 cell => Cow::Owned(cell.to_string()),
             });
             let cells: Vec<Cow<'_, str>> = cells.collect();
@@ -131,7 +131,7 @@ impl<W: Write> RowWriter<W> {
     }
 }
 
-/// Writes a whole table to `out`. Reports the number of rows in a file on standard error.
+/// Writes a whole table to `out`. If it is a file, reports the number of rows on standard error.
 pub(crate) fn write_rows<T>(
     out: Output,
     format: RowFormat,
@@ -156,12 +156,13 @@ fn append_rows<W: Write, T>(
     writer.end()
 }
 
-/// The value to show in a cell. An object, such as a verdict, shows its word.
+/// Returns the value that a cell shows. If the value is an object, such as a verdict, the cell shows its word.
 fn in_a_cell(value: &Value) -> &Value {
     value.get("word").unwrap_or(value)
 }
 
-/// A line of headings and a line for each of `items`, aligned, each after `indent`.
+/// Returns a line of headings and a line for each of `items`. The columns are aligned, and each line begins with
+/// `indent`.
 pub(crate) fn text<'i, T: 'i>(
     columns: &[Column<T>],
     items: impl IntoIterator<Item = &'i T>,

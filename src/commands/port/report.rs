@@ -1,4 +1,4 @@
-//! Ported settings, in words and as JSON.
+//! Settings that were ported, in words and as JSON.
 
 use serde_json::{Map, Value, json};
 
@@ -11,7 +11,7 @@ use crate::tools::port::{
     Setup, UiSpring, UiSpringPort, Wish,
 };
 
-/// Describes a frequency, a damping ratio and how long the energy lasts.
+/// Describes a motion by its frequency, its damping ratio, and how long its energy lasts.
 fn sees(seen: &Effective) -> String {
     let ratio = seen.damping_ratio().unwrap_or(0.0);
     let ratio = if ratio.abs() < 5e-7 { 0.0 } else { ratio };
@@ -64,7 +64,7 @@ fn object(wish: &Wish, tick_hz: f64, rows: Value) -> String {
     format!("{object:#}\n")
 }
 
-/// The settings of every engine and of these user interfaces.
+/// Returns the settings of every engine, and those of these user interfaces.
 pub(super) fn springs(
     wish: &Wish,
     tick_hz: f64,
@@ -180,7 +180,7 @@ fn engine_text(wish: &Wish, PortedEngine { setup, ported }: &PortedEngine) -> St
     lines.join("\n") + "\n"
 }
 
-/// How far and why the settings miss the wish.
+/// Describes how far the settings miss the wish, and why, if they do.
 fn miss_note(wish: &Wish, ported: &Ported) -> Option<String> {
     let Setup { method, substeps, tick_hz, .. } = ported.setup;
     let three = |ratio: f64| significant(ratio, 3);
@@ -252,7 +252,7 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
                 };
                 let kept = limits.spectral_radius.map_or("unstable".into(), |radius| {
                     let word = if radius <= 1.0 + 1e-9 { "stable" } else { "unstable" };
-                    // Near 1, the difference from 1 counts.
+                    // The difference from 1 counts if the radius is near 1.
                     let digits = if (radius - 1.0).abs() < 0.01 { 6 } else { 3 };
                     format!("{word}, a tick leaves {}", significant(radius, digits))
                 });
@@ -280,7 +280,7 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
     }
 }
 
-/// A friction at other frame rates, and as a drag.
+/// Describes a friction at other frame rates, and as a drag.
 pub(super) fn friction(friction: &Friction, format: TableFormat) -> String {
     let [half_life_s, rate] = [friction.half_life_s(), friction.rate()];
     let ([explicit, implicit], [exact, after, before]) = (friction.drags(), friction.coasts_m());
@@ -317,7 +317,7 @@ pub(super) fn friction(friction: &Friction, format: TableFormat) -> String {
     }
 }
 
-/// The settings of every follower.
+/// Returns the settings of every follower.
 pub(super) fn followers(approach: Approach, all: &[FollowerPort], format: TableFormat) -> String {
     match format {
         TableFormat::Json => {

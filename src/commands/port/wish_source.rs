@@ -1,4 +1,5 @@
-//! Parser of `--from`: settings of an engine or of a user interface, a log, or a value that chases its target.
+//! Parser of `--from`, which gives settings of an engine or of a user interface, a log, or a value that chases its
+//! target.
 
 use std::path::PathBuf;
 
@@ -7,22 +8,22 @@ use crate::scene::{MAX_SUBSTEPS, clip};
 use crate::sim::integrators::{JointMode, Method, Setting};
 use crate::tools::port::{Approach, Friction, Key, Setup, UiSpring, Wish};
 
-/// Source of a wish.
+/// The source of a wish.
 pub(super) enum WishSource {
     /// Settings of an engine.
     Engine(EngineSettings),
-    /// Settings of a user interface: the motion that it shows, and the spring of these numbers. The interface may
-    /// damp less than that spring.
+    /// Settings of a user interface. `shown` is the motion that the interface shows, and `as_given` that of a spring
+    /// with these numbers. The interface may damp less than that spring.
     UiSpring { shown: Wish, as_given: Wish },
-    /// A velocity that keeps a part of itself in each frame.
+    /// A velocity of which a constant part remains after each frame.
     Friction(Friction),
-    /// A chase, and its frame rate if it has one.
+    /// A value that chases its target, and the frame rate if it has one.
     Approach(Approach, Option<f64>),
-    /// A log.
+    /// The path of a log.
     Log(PathBuf),
 }
 
-/// Parses a number with or without this unit.
+/// Parses a number, with this unit or without it.
 fn with_unit(written: &str, unit: &str) -> Result<f64, String> {
     let number = written.strip_suffix(unit).unwrap_or(written).trim_end();
     let found = number.parse::<f64>().ok().filter(|number| number.is_finite());
@@ -37,7 +38,7 @@ fn above_0(written: &str, unit: &str, what: &str) -> Result<f64, String> {
     if found > 0.0 { Ok(found) } else { Err(format!("{what} is {written}; it must be above 0")) }
 }
 
-/// Splits a setting from the frames per second after the `@`.
+/// Splits an argument into a setting before the `@`, and a number of frames per second after it.
 fn with_frames<'a>(written: &'a str, example: &str) -> Result<(&'a str, f64), String> {
     let parts = written.split_once('@');
     let (setting, fps) = parts.ok_or_else(|| format!("give the frames too: {example}"))?;
@@ -45,7 +46,7 @@ fn with_frames<'a>(written: &'a str, example: &str) -> Result<(&'a str, f64), St
 }
 
 impl WishSource {
-    /// Parses the argument, for a tick rate in hertz and a body of this mass in kg.
+    /// Parses the argument of `--from`, for a tick rate in hertz and a body with this mass in kg.
     pub(super) fn parse(written: &str, tick_hz: f64, mass_kg: f64) -> Result<Self, String> {
         let Some((head, rest)) = written.split_once(':') else {
             return match TARGET.find(written) {
@@ -100,7 +101,7 @@ impl WishSource {
                 let half_life_s = above_0(rest, "s", "the half-life")?;
                 Ok(WishSource::Approach(Approach { half_life_s }, None))
             }
-            // One letter is the drive of a path.
+            // A single letter before the colon is the drive of a path.
             _ if head.len() == 1 => Ok(WishSource::Log(written.into())),
             _ => match TARGET.find(head)? {
                 Target::Engine(method) => {
@@ -113,7 +114,8 @@ impl WishSource {
     }
 }
 
-/// The motion of `v = (v + (target - x) * stiffness) * decay; x += v` once a frame.
+/// Returns the motion of a value for which `v = (v + (target - x) * stiffness) * decay; x += v` is computed once a
+/// frame.
 fn of_decay(written: &str, fps: f64, mass_kg: f64) -> Result<Wish, String> {
     let how = "write per-frame-decay:stiffness=0.2,decay=0.85, where decay is what is left of v";
     let mut values = [None; 2];
@@ -136,8 +138,8 @@ fn example(method: &Method) -> String {
     format!("{}:{stiffness}=NUMBER,{damping}=NUMBER", method.id)
 }
 
-/// The motion of a user interface with settings in the form `key=value,…`. Missing settings have the library's own
-/// values, except the mass in kg.
+/// Returns the motion of a user interface with settings of the form `key=value,…`. A setting that is missing has the
+/// library's own value, except for the mass, which is `mass_kg`.
 fn of_ui_spring(dialect: &UiSpring, written: &str, mass_kg: f64) -> Result<WishSource, String> {
     let usual = |key: &Key| if key.name == "mass" { mass_kg } else { key.usual };
     let mut values: Vec<f64> = dialect.keys.iter().map(usual).collect();
@@ -167,7 +169,7 @@ fn of_ui_spring(dialect: &UiSpring, written: &str, mass_kg: f64) -> Result<WishS
         Ok::<_, String>(if dialect.has_mass() { wish } else { Wish { mass_kg, ..wish } })
     };
     let shown = wish(&values)?;
-    // With its switch on, the interface does not bound the numbers.
+    // The interface does not limit the numbers if its switch is on.
     for (index, key) in dialect.keys.iter().enumerate() {
         if key.switch.is_some() && !given.contains(&index) {
             values[index] = 1.0;
@@ -185,12 +187,12 @@ pub(super) struct EngineSettings {
 }
 
 impl EngineSettings {
-    /// The spring in the equation of motion.
+    /// Returns the motion of the spring by its equation of motion.
     pub(super) fn as_given(&self) -> Wish {
         Wish::of_joint(self.joint, self.mass_kg)
     }
 
-    /// The motion that the engine shows with these settings.
+    /// Returns the motion that the engine shows with these settings.
     pub(super) fn as_visible(&self) -> Result<Wish, String> {
         let Setup { method, tick_hz, substeps, .. } = self.setup;
         let seen = self.setup.visible_motion(self.joint).ok_or_else(|| {

@@ -1,5 +1,5 @@
-//! The picture of a sweep: a work-precision diagram for each scene (Hairer, Nørsett & Wanner, *Solving Ordinary
-//! Differential Equations I*, II.10). On request it adds the round-off of f32 and f64 on the chapter's ship.
+//! The picture of a sweep, which has a work-precision diagram for each scene (Hairer, Nørsett & Wanner, *Solving
+//! Ordinary Differential Equations I*, II.10). On request it adds the round-off of f32 and f64 on the chapter's ship.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,10 @@ use crate::sim::integrators::Method;
 use crate::sim::number::round;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
-/// Largest error in the charts, in amplitudes. Beyond it the method has failed.
+/// Maximum error in the charts, in amplitudes. If the error is larger, the method has failed.
 const LOST: f64 = 10.0;
 
-/// The picture of these rows, and of the round-off curves if there are any.
+/// Returns the picture of these rows, with the round-off curves if there are any.
 pub(super) fn figure(swept: &Swept, rows: &[Row], rounded: Vec<ErrorCurve>) -> Figure {
     let work = swept.scenes.iter().map(|(name, scene)| {
         let curves = swept.methods.iter().map(|method| {
@@ -35,8 +35,8 @@ pub(super) fn figure(swept: &Swept, rows: &[Row], rounded: Vec<ErrorCurve>) -> F
     Figure { title: title.into(), note, columns: columns(charts.len()), charts }
 }
 
-/// A method's error against its evaluations, with a point for each tick rate. The worst of several bodies counts, as
-/// in advice.
+/// Returns the curve of a method's error against its evaluations, with a point for each tick rate. The largest error
+/// counts if there are several bodies, as in advice.
 fn work_curve<'a>(method: &Method, rows: impl Iterator<Item = &'a Row>) -> FigureCurve {
     let mut by_rate = BTreeMap::new();
     for row in rows {
@@ -66,7 +66,7 @@ fn work_precision(title: &str, curves: Vec<FigureCurve>) -> Chart {
     }
 }
 
-/// The error of the ship's speed against the step, in both widths.
+/// Returns the chart of the error of the ship's speed against the step, in numbers of both widths.
 fn v_curves(rounded: Vec<ErrorCurve>) -> Chart {
     let curve = |curve: ErrorCurve| {
         let (colour, _) = Theme::Dark.style(curve.method);
@@ -92,7 +92,8 @@ fn v_curves(rounded: Vec<ErrorCurve>) -> Chart {
     }
 }
 
-/// The range of the positive values with a margin, at least one power of ten, so that the axis has a mark.
+/// Returns the range of the positive values, with a margin. It covers at least one power of ten, so that the axis has a
+/// mark.
 fn view(curves: &[FigureCurve], axis: usize) -> [f64; 2] {
     const ROOM: f64 = 1.6;
     let points = curves.iter().flat_map(|curve| &curve.points);

@@ -1,4 +1,4 @@
-//! Every method at every rate on every body: the parallel runs and their rows.
+//! Runs every method at every rate on every body, in parallel, and makes the rows.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -18,27 +18,28 @@ use crate::stopwatch;
 
 /// The scenes, methods and rates to run.
 pub(super) struct Swept {
-    /// Each scene with the name that the user gave. Names are unique.
+    /// The scenes, each with the name that the user gave. The names are unique.
     pub(super) scenes: Vec<(String, Scene)>,
-    /// In the order of the table.
+    /// The methods, in the order of the table.
     pub(super) methods: Vec<&'static Method>,
-    /// In Hz, ascending. If empty, each scene runs at octaves of its own rate.
+    /// The tick rates in Hz, ascending. If there are none, each scene runs at octaves of its own rate.
     pub(super) rates: Vec<TickRate>,
-    /// Length of every run in seconds; `None` for each scene's own.
+    /// Length of every run in seconds, or `None` for the own length of each scene.
     pub(super) seconds: Option<f64>,
-    /// The varied parameter; `None` to leave each body as in its scene.
+    /// The parameter that is varied, or `None` to leave each body as it is in its scene.
     pub(super) varied: Option<Varied>,
 }
 
-/// One body, alone in its scene: bodies do not affect each other.
+/// One body, alone in its scene, because bodies do not affect each other.
 struct Subject {
     /// Name of the scene, as the user gave it.
     scene_name: String,
     alone: Scene,
-    /// Key and value of the varied parameter, if the body has it.
+    /// Key and value of the varied parameter, if the body has this parameter.
     varied: Option<(Text, f64)>,
     horizon_s: f64,
-    /// Built by the first run that needs it. A truth over years takes minutes, during which an interrupt must work.
+    /// The judge, which the first run that needs it builds. A truth over years takes minutes, during which an interrupt
+    /// must work.
     judge: OnceLock<Judge>,
 }
 
@@ -56,11 +57,11 @@ struct PlannedRun {
 
 pub(super) struct Grid {
     subjects: Vec<Subject>,
-    /// In the order of the rows.
+    /// The planned runs, in the order of the rows.
     runs: Vec<PlannedRun>,
 }
 
-/// A finished run.
+/// A row of the table, which is a finished run.
 pub(super) struct Row {
     pub(super) scene: String,
     pub(super) body: String,
@@ -72,16 +73,16 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// Simulated seconds of the run.
+    /// Returns the simulated seconds of the run.
     pub(super) fn seconds(&self) -> f64 {
         let verdict = &self.verdict;
         verdict.failure().map_or(verdict.seconds, |failure| failure.t)
     }
 
-    /// Evaluations of the body's acceleration per simulated second.
+    /// Returns the number of evaluations of the body's acceleration per simulated second.
     pub(super) fn evaluations_per_s(&self) -> f64 {
         let (verdict, hz) = (&self.verdict, f64::from(self.tick_hz));
-        // Count whole ticks, so that a method with a fixed number of evaluations per step has a whole number.
+        // Whole ticks are counted, so that a method with a fixed number of evaluations per step has a whole number.
         verdict.evaluations as f64 * hz / (verdict.seconds * hz).round()
     }
 }
@@ -117,7 +118,7 @@ impl Grid {
         grid
     }
 
-    /// Makes the runs on `threads` threads, by default one per core, and then times each run alone.
+    /// Makes the runs on `threads` threads, by default one per core, and then measures the time of each run by itself.
     /// The rows come in the order of the grid.
     pub(super) fn run(
         self,
@@ -160,7 +161,7 @@ impl Grid {
     }
 }
 
-/// A body with each value of the varied parameter, or the unchanged body.
+/// Returns a body with each value of the varied parameter, or only the unchanged body.
 fn variants(body: &SceneBody, varied: &Option<Varied>) -> Vec<(SceneBody, Option<(Text, f64)>)> {
     let found = varied.as_ref().and_then(|varied| {
         let (index, parameter) = body.kind.parameter(&varied.key)?;
@@ -175,18 +176,18 @@ fn variants(body: &SceneBody, varied: &Option<Varied>) -> Vec<(SceneBody, Option
     values.iter().map(variant).collect()
 }
 
-/// Longest and shortest time for timing one run, and about that for timing all. Runs are timed one after the other:
-/// thousands of them would otherwise take longer to time than to judge.
+/// Maximum and minimum time for measuring one run, and approximate time for measuring all of them. Runs are measured
+/// one after the other, so that thousands of them would otherwise take longer to measure than to judge.
 const MAX_EFFORT: Duration = Duration::from_millis(1);
 const MIN_EFFORT: Duration = Duration::from_micros(100);
 const EFFORT_ON_ALL: Duration = Duration::from_millis(500);
 
-/// Time for timing each of `runs` runs.
+/// Returns the time for measuring each of `runs` runs.
 fn effort(runs: usize) -> Duration {
     (EFFORT_ON_ALL / (runs as u32).max(1)).clamp(MIN_EFFORT, MAX_EFFORT)
 }
 
-/// The verdict on every run, in the order of the grid.
+/// Returns the verdict on every run, in the order of the grid.
 fn judge_all(
     grid: &Arc<Grid>,
     threads: Option<usize>,
@@ -204,8 +205,8 @@ fn judge_all(
     whole.ok_or_else(Error::nothing_written)
 }
 
-/// Octaves from a quarter of this rate to eight times, within the clock's range. The methods differ in this region.
-/// If the rate is whole, its octaves are rounded down to whole rates.
+/// Returns the octaves from a quarter of this rate to eight times the rate, within the clock's range. The methods
+/// differ in this region. If the rate is a whole number, its octaves are rounded down to whole numbers.
 fn octaves(tick_hz: TickRate) -> Vec<TickRate> {
     let rates = [(1, 4), (1, 2), (1, 1), (2, 1), (4, 1), (8, 1)].map(|(times, parts)| {
         let rate = tick_hz.scaled(times, parts);

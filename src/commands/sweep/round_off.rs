@@ -1,11 +1,11 @@
-//! How the width of numbers affects a method: the chapter's ship under explicit Euler and Runge-Kutta 4, stepped in
-//! `f32` and in `f64` at finer and finer steps. Only this experiment is generic over its numbers; the rest of the
-//! program uses `f64`.
+//! Measures how the width of numbers affects a method. The chapter's ship is stepped under explicit Euler and
+//! Runge-Kutta 4, in `f32` and in `f64`, at finer and finer steps. Only this experiment is generic over its numbers.
+//! The rest of the program uses `f64`.
 //!
-//! A finer step makes a method's own error smaller, as the p-th power of the step, and its roundings more numerous.
-//! On logarithmic axes the error falls to a minimum and rises again, a V. Sources: Henrici, *Discrete Variable
-//! Methods in Ordinary Differential Equations*, 1962; Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd
-//! edition, section 4.3, for Euler's method.
+//! With a finer step, a method's own error is smaller, as the p-th power of the step, but its roundings are more
+//! numerous. On logarithmic axes the error falls to a minimum and rises again, like a V. Sources: Henrici, *Discrete
+//! Variable Methods in Ordinary Differential Equations*, 1962; Higham, *Accuracy and Stability of Numerical
+//! Algorithms*, 2nd edition, section 4.3, for Euler's method.
 
 use std::ops::{Add, Div, Mul, RangeInclusive, Sub};
 
@@ -15,12 +15,12 @@ use crate::sim::State;
 use crate::sim::bodies::{Body, Ship};
 use crate::sim::integrators::Method;
 
-/// Times at which the speed is compared with the exact one, in simulated seconds. There are several, because
-/// roundings go either way and the error at one of them may vanish by chance.
+/// Times at which the speed is compared with the exact speed, in simulated seconds. There are several times, because
+/// roundings go either way, so that the error at one time may vanish by chance.
 pub(super) const MOMENTS_S: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
 
-/// Powers of two to try as the step in seconds. They are exact in both widths, so the step itself is never rounded.
-/// The finest makes two million steps.
+/// Powers of two that are tried as the step, in seconds. They are exact in both widths, so the step itself is never
+/// rounded. The finest step needs two million steps.
 pub(super) const STEPS_LOG2: RangeInclusive<i32> = -18..=1;
 
 /// A width of floating-point numbers.
@@ -33,7 +33,7 @@ pub(super) enum Width {
 }
 
 impl Width {
-    /// The name of the type.
+    /// Returns the name of the type.
     pub(super) fn text(self) -> &'static str {
         match self {
             Width::Single => "f32",
@@ -42,7 +42,7 @@ impl Width {
     }
 }
 
-/// A step and the resulting error of the ship's speed.
+/// A step, and the error of the ship's speed that results from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StepError {
     /// Step in seconds.
@@ -51,24 +51,24 @@ pub(super) struct StepError {
     pub(super) error_m_per_s: f64,
 }
 
-/// Errors of a method in numbers of one width.
+/// The errors of a method in numbers of one width.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ErrorCurve {
     pub(super) method: &'static Method,
     pub(super) width: Width,
-    /// One for each of [`STEPS_LOG2`], from the finest step to the coarsest.
+    /// One error for each of [`STEPS_LOG2`], from the finest step to the coarsest.
     pub(super) errors: Vec<StepError>,
 }
 
 impl ErrorCurve {
-    /// The step with the least error, the bottom of the V.
+    /// Returns the step with the smallest error, which is at the bottom of the V.
     pub(super) fn best(&self) -> StepError {
         let least = self.errors.iter().min_by(|a, b| a.error_m_per_s.total_cmp(&b.error_m_per_s));
         *least.expect("some steps were tried")
     }
 }
 
-/// The built-in scene with the ship.
+/// Name of the built-in scene that has the ship.
 const SCENE: &str = "ship";
 
 /// Whether the sweep includes the chapter's ship under Runge-Kutta 4.
@@ -77,8 +77,8 @@ pub(super) fn is_swept(swept: &Swept) -> bool {
         && swept.methods.iter().any(|method| method.id == RUNGE_KUTTA)
 }
 
-/// Error curves of explicit Euler and Runge-Kutta 4 on the built-in ship, in both widths. A method that is not among
-/// `methods` is left out.
+/// Returns the error curves of explicit Euler and Runge-Kutta 4 on the built-in ship, in both widths. A method that is
+/// not among `methods` is left out.
 pub(super) fn error_curves(methods: &[&'static Method]) -> Vec<ErrorCurve> {
     let ship = chapters_ship();
     let named = FORMULAS.iter().filter_map(|&(id, formula)| {
@@ -111,7 +111,7 @@ fn step_error(ship: &Ship, formula: Formula, width: Width, h_log2: i32) -> StepE
     StepError { h_s, error_m_per_s: errors.fold(0.0, f64::max) }
 }
 
-/// A method for `v′ = T/m - C/m v` alone: a ship's speed does not depend on its position.
+/// A method that steps only `v′ = T/m - C/m v`, because the speed of a ship does not depend on its position.
 #[derive(Clone, Copy, Debug)]
 enum Formula {
     ExplicitEuler,
@@ -122,7 +122,7 @@ const FORMULAS: [(&str, Formula); 2] =
     [("explicit-euler", Formula::ExplicitEuler), (RUNGE_KUTTA, Formula::RungeKutta4)];
 const RUNGE_KUTTA: &str = "rk4";
 
-/// Speeds at [`MOMENTS_S`] with steps of `h_s`. All arithmetic is in `R`.
+/// Returns the speeds at [`MOMENTS_S`] with steps of `h_s`. All arithmetic is in the type `R`.
 fn speeds<R: Real>(ship: &Ship, formula: Formula, h_s: f64) -> [f64; MOMENTS_S.len()] {
     let mass = R::rounded(ship.mass);
     let push = R::rounded(ship.thrust * ship.throttle) / mass;
@@ -151,11 +151,11 @@ fn speeds<R: Real>(ship: &Ship, formula: Formula, h_s: f64) -> [f64; MOMENTS_S.l
     })
 }
 
-/// A floating-point number.
+/// A type of floating-point numbers.
 trait Real:
     Copy + Into<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// The value nearest to `x`.
+    /// Returns the value nearest to `x`.
     fn rounded(x: f64) -> Self;
 }
 
@@ -190,7 +190,8 @@ mod tests {
         curve.errors[(h_log2 - STEPS_LOG2.start()) as usize].error_m_per_s
     }
 
-    /// Doublings of the error per doubling of the step, between two powers of two.
+    /// Returns how many times the error doubles per doubling of the step, on average from the step `2^from` to the step
+    /// `2^to`.
     fn slope(curve: &ErrorCurve, from: i32, to: i32) -> f64 {
         libm::log2(at(curve, to) / at(curve, from)) / f64::from(to - from)
     }
@@ -228,16 +229,16 @@ mod tests {
         }
     }
 
-    /// Predicts the step with the least error, and that error. The model treats each rounding of the speed as random:
-    /// in n steps of m additions the error grows to √(n m) times that of one. The error of one is the spacing of the
-    /// numbers about v over √12. The truncation error C h^p adds to this.
+    /// Predicts the step with the smallest error, and that error. The model treats each rounding of the speed as
+    /// random. In n steps of m additions, the error grows to √(n m) times that of one rounding. The error of one
+    /// rounding is the spacing of the numbers near v, divided by √12. The truncation error C h^p is added to this.
     fn bottom(id: &str, width: Width) -> (f64, f64) {
         let ship = chapters_ship();
         let (t, v) = (8.0_f64, ship.exact(8.0, &ship.start()).unwrap().v);
         let bits = if width == Width::Single { 24 } else { 53 };
         let spacing = libm::exp2(libm::floor(libm::log2(v)) + 1.0 - f64::from(bits));
-        // Runge-Kutta's factor for a step is e^-z (1 + z⁵/120 + …), Euler's e^-z (1 - z²/2 + …). The remaining
-        // difference to the final speed is 20 e^(-t/10).
+        // The factor of a step is e^-z (1 + z⁵/120 + …) under Runge-Kutta, and e^-z (1 - z²/2 + …) under Euler. The
+        // remaining difference to the final speed is 20 e^(-t/10).
         let rest = 20.0 * (-0.1 * t).exp();
         let (c, p, m) = match id {
             "rk4" => (rest * t * 0.1_f64.powi(5) / 120.0, 4.0, 4.0),
@@ -255,7 +256,7 @@ mod tests {
         {
             let StepError { h_s, error_m_per_s } = curve(id, width).best();
             let (h, error) = bottom(id, width);
-            // Within an octave, because a V is flat at its bottom.
+            // The steps agree to within an octave, because a V is flat at its bottom.
             let octaves = libm::log2(h_s / h);
             assert!(octaves.abs() < 1.0, "{id} in {}: {h_s} s, not {h}", width.text());
             let ratio = error_m_per_s / error;
@@ -267,8 +268,8 @@ mod tests {
     fn f32_errors_rise_again_at_fine_steps_but_f64_euler_errors_do_not() {
         for id in ["explicit-euler", "rk4"] {
             let single = curve(id, Width::Single);
-            // Between h^-½ for random roundings, and h^-2. The latter comes from roundings that go one way in ever
-            // longer runs while an increment is a few units in the last place.
+            // The slope lies between those of h^-½ and h^-2. Random roundings give h^-½. Roundings that go one way in
+            // ever longer runs, while an increment is a few units in the last place, give h^-2.
             let slope = slope(&single, -18, -13);
             assert!((-2.2..-1.2).contains(&slope), "{id}: {slope}");
             assert!(at(&single, -18) > 100.0 * single.best().error_m_per_s);

@@ -3,14 +3,14 @@
 use crate::commands::error::Error;
 use crate::scene::{Scene, edited_values, nearest};
 
-/// Key of a parameter, and its values.
+/// The key of a parameter, and the values that it takes.
 #[derive(Clone, Debug)]
 pub(super) struct Varied {
     pub(super) key: String,
     pub(super) values: Vec<f64>,
 }
 
-/// Parses `KEY=V,V,...`.
+/// Parses an argument of the form `KEY=V,V,...`.
 pub(super) fn varied(text: &str) -> Result<Varied, String> {
     let (key, values) =
         text.split_once('=').ok_or("has no `=`; write `stiffness_n_per_m=90,900`")?;

@@ -1,4 +1,4 @@
-//! Judges a capture: repeats the run of its manifest once, and compares its states and its frames.
+//! Judges a capture. It repeats the run of the manifest once, and compares the states and the frames.
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -29,7 +29,7 @@ use crate::regular_file::{self, Unreadable};
 use crate::sim::number::counted;
 use crate::studio::Studio;
 
-/// The error for a capture in `dir` that cannot be judged, with its reason.
+/// Returns a function that makes the error for a capture in `dir` that cannot be judged, from the reason.
 fn unjudged(dir: &Path) -> impl Fn(String) -> Error {
     let manifest = dir.join(FILE_NAME);
     move |reason| Error::mistake(format!("cannot judge {}: {reason}", brief(&manifest)))
@@ -83,7 +83,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     let physics_differs = report.differing() > 0;
     match failed {
         Some(error) if !physics_differs => return Err(error),
-        // Different physics is a result, so print this error and continue.
+        // The result that the physics differs is still reported, so this error is only printed.
         Some(error) => print_status(&error.to_string()),
         None => {}
     }
@@ -156,10 +156,10 @@ fn add_pixels(report: &mut Report, rerun: &Rerun, frames: Option<Frames>) -> Res
     Ok(())
 }
 
-/// Draws the capture in `dir` again and replaces the old one once the new one is complete.
+/// Draws the capture in `dir` again, and replaces the old one once the new one is complete.
 #[cfg(feature = "view")]
 pub(super) fn bless(dir: &Path) -> Result<(), Error> {
-    // Check this first, so that a missing clip is not reported as a problem with the folder.
+    // This is checked first, so that a missing clip is not reported as a problem with the folder.
     if !dir.join(FILE_NAME).exists() && !is_pending(dir) {
         read_run(dir)?;
     }
@@ -169,7 +169,7 @@ pub(super) fn bless(dir: &Path) -> Result<(), Error> {
     drawn.map(drop).map_err(|error| error.within("not blessed"))
 }
 
-/// Locks `dir` against writers while it is judged. Returns `None` if there is no such directory.
+/// Locks `dir` against writers while the capture in it is judged. Returns `None` if there is no such directory.
 fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
     let busy = || "another regatta is writing to it; wait until it has finished".to_owned();
     let lock = match DirectoryLock::shared(dir) {
@@ -194,7 +194,7 @@ fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
 /// Reads the manifest at `path`.
 ///
 /// # Errors
-/// The reason why it cannot be used: it is missing, incomplete, altered or of another schema.
+/// The reason why the manifest cannot be used: it is missing, incomplete, altered or of another schema.
 fn read(path: &Path) -> Result<Manifest, String> {
     let bytes = regular_file::read(path, manifest::MAX_BYTES).map_err(|error| match error {
         Unreadable::System(error) => format!("{error}; `regatta capture` writes it"),

@@ -5,16 +5,16 @@ use super::super::state_log::{self, StateLog};
 use crate::run::diff::is_same_number;
 use crate::studio::Studio;
 
-/// The first mark that differs.
+/// The first mark of a run that differs from the manifest.
 pub(super) struct PhysicsChange {
     pub(super) tick: u64,
-    /// Number of the lane, from 1, and its method.
+    /// Number of the lane, from 1, and id of its method.
     pub(super) lane: Option<(usize, &'static str)>,
     pub(super) what: String,
 }
 
-/// The first mark in which the run differs from the manifest, or else the first lane that ended differently. The
-/// studio must be at the end of the run.
+/// Returns the first mark in which the run differs from the manifest, or else the first lane that ended differently.
+/// The studio must be at the end of the run.
 pub(super) fn first_change(
     manifest: &Manifest,
     studio: &Studio,
@@ -28,7 +28,7 @@ pub(super) fn first_change(
         .or_else(|| other_end(&manifest.lanes, studio))
 }
 
-/// The first difference in how the lanes ended, if there is one. Metrics are not compared.
+/// Returns the first difference in how the lanes ended, if there is one. Metrics are not compared.
 fn other_end(then: &[LaneEnd], studio: &Studio) -> Option<PhysicsChange> {
     let tick = studio.race().tick();
     let now = state_log::ends(studio);
@@ -55,7 +55,7 @@ fn other_end(then: &[LaneEnd], studio: &Studio) -> Option<PhysicsChange> {
     )
 }
 
-/// The first difference between two marks, if there is one.
+/// Returns the first difference between two marks, if there is one.
 fn change(then: &Mark, now: &Mark, studio: &Studio) -> Option<PhysicsChange> {
     if then.tick != now.tick || then.lanes.len() != now.lanes.len() {
         let what = format!(
@@ -82,7 +82,7 @@ fn change(then: &Mark, now: &Mark, studio: &Studio) -> Option<PhysicsChange> {
         .next()
 }
 
-/// Describes the first coordinate or velocity of a lane that differs, and by how much.
+/// Describes the first coordinate or velocity of a lane that differs, and the size of the difference.
 fn first_coordinate(then: &LaneMark, now: &LaneMark, studio: &Studio, lane: usize) -> String {
     let bodies = studio.race().entrants()[lane].lane.bodies();
     for (n, body) in bodies.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Draws the frames of a capture again and compares them with its files.
+//! Draws the frames of a capture again, and compares them with the capture's files.
 
 use std::fs;
 
@@ -23,18 +23,18 @@ use crate::view::png;
 /// differences seen so far.
 const OTHER_ADAPTER: (u8, f64) = (2, 0.01);
 
-/// Most bytes per pixel in a picture file: four channels of 16 bits.
+/// Maximum number of bytes per pixel in a picture file, which has up to four channels of 16 bits.
 const BYTES_PER_PIXEL: usize = 8;
 
-/// Most bytes of a picture file besides its pixels.
+/// Maximum number of bytes in a picture file besides its pixels.
 const MAX_NOTES_BYTES: usize = 1 << 20;
 
-/// Allowed difference of a frame.
+/// The difference that a frame may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limits {
-    /// Largest difference of a channel.
+    /// Maximum difference of a channel of a pixel.
     pub(super) max_channel: u8,
-    /// Most pixels off by more than 1, in percent.
+    /// Maximum share of the pixels that may differ by more than 1, in percent.
     pub(super) max_pixels_percent: f64,
 }
 
@@ -54,7 +54,7 @@ impl Limits {
     }
 }
 
-/// The difference of two pictures of the same size.
+/// The difference between two pictures of the same size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct PixelDifference {
     pixels: usize,
@@ -76,7 +76,7 @@ fn difference(a: &[u8], b: &[u8]) -> PixelDifference {
     difference
 }
 
-/// Draws every frame of the capture again and compares it with its file. Also returns the studio at the end and the
+/// Draws every frame of the capture again, and compares it with its file. Also returns the studio at the end, and the
 /// log of its states.
 pub(super) fn judge(
     args: &VerifyArgs,
@@ -130,7 +130,8 @@ fn limits(args: &VerifyArgs, was: &Adapter, is: &Adapter) -> Limits {
     limits
 }
 
-/// Creates the directory for pictures of differences, if requested. Fails if a picture would replace a foreign file.
+/// Creates the directory for pictures of differences, if one is requested. Fails if a picture would replace a foreign
+/// file.
 fn check_differences(args: &VerifyArgs, manifest: &Manifest) -> Result<(), Error> {
     let Some(path) = &args.diff else { return Ok(()) };
     let refused =
@@ -148,7 +149,7 @@ fn check_differences(args: &VerifyArgs, manifest: &Manifest) -> Result<(), Error
     fs::create_dir_all(path).map_err(Error::of_file("make the directory", path, "--diff"))
 }
 
-/// Describes a frame's difference from its file, if it exceeds the limits.
+/// Describes how a frame differs from its file, if the difference exceeds the limits.
 fn compare(
     entry: &FrameEntry,
     size_px: [u32; 2],
@@ -192,7 +193,7 @@ fn compare(
     Some(what)
 }
 
-/// A picture of each channel's difference, scaled so that the largest is 255.
+/// Returns a picture of the difference in each channel, scaled so that the largest difference is 255.
 fn picture_of(a: &[u8], b: &[u8], worst: u8) -> Vec<u8> {
     let scaled =
         |(a, b): (&u8, &u8)| (u32::from(a.abs_diff(*b)) * 255 / u32::from(worst.max(1))) as u8;

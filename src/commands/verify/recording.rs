@@ -1,4 +1,4 @@
-//! Judges a scene file by its own checks: runs its race again, without graphics, and compares hashes.
+//! Judges a scene file by its own checks. Its race is run again without graphics, and hashes are compared.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -19,20 +19,21 @@ use crate::scene::{Check, Scene};
 use crate::sim::number::counted;
 use crate::studio::Studio;
 
-/// Most ticks of a race that is run for its checks: over a day at 1000 Hz, which takes minutes for a body.
+/// Maximum number of ticks of a race that is run for its checks. It is over a day at 1000 Hz, which takes minutes for a
+/// body.
 const MAX_TICKS: u64 = 100_000_000;
 
-/// Verdict on a lane.
+/// The verdict on a lane.
 #[derive(Clone, Debug, PartialEq)]
 struct JudgedLane {
-    /// From 1.
+    /// Number of the lane, from 1.
     number: usize,
-    /// Ids of its methods in order of use.
+    /// Ids of the methods of the lane, in the order of their use.
     methods: Vec<&'static str>,
     checks: usize,
     last_tick: u64,
     difference: Option<Difference>,
-    /// Tick of the first check that names the lane after it has left the race.
+    /// Tick of the first check that names the lane although the lane has left the race.
     left_at: Option<u64>,
 }
 
@@ -43,14 +44,14 @@ struct Difference {
     /// Simulated time of the check, in seconds.
     t: f64,
     was: u64,
-    /// `None` if the lane has left the race.
+    /// The hash now, or `None` if the lane has left the race.
     is: Option<u64>,
-    /// Tick of the last check before it, which holds.
+    /// Tick of the last check before this one, which still holds.
     same_at: Option<u64>,
 }
 
 impl JudgedLane {
-    /// Number and methods of the lane, such as `lane 2, rk4 then midpoint`.
+    /// Returns the number and the methods of the lane, such as `lane 2, rk4 then midpoint`.
     fn name(&self) -> String {
         let methods = match &self.methods[..] {
             [first, between @ .., last] if between.len() > 1 => {
@@ -140,7 +141,7 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
     Ok(report)
 }
 
-/// The message about a check that no run meets and no `--bless` mends.
+/// Returns the message about a check that no run can meet and that `--bless` cannot mend.
 fn of_no_lane(path: &Path, lane: impl Display, tick: u64) -> String {
     format!(
         "lane {lane} of {} has left the race at tick {tick}, where a [[check]] names it; \
@@ -149,7 +150,7 @@ fn of_no_lane(path: &Path, lane: impl Display, tick: u64) -> String {
     )
 }
 
-/// Fails if a check lies beyond the last tick that a race may run to.
+/// Fails if a check is later than the last tick to which a race may run.
 pub(in crate::commands) fn refuse_late_checks(path: &Path, scene: &Scene) -> Result<(), Error> {
     let last = scene.checks.iter().map(|check| check.tick).max();
     match last.filter(|tick| *tick > MAX_TICKS) {
@@ -161,7 +162,8 @@ pub(in crate::commands) fn refuse_late_checks(path: &Path, scene: &Scene) -> Res
     }
 }
 
-/// The tick at which the run of a scene is over: its end, or its last check. Fails if that would take too long.
+/// Returns the tick at which the run of a scene is over, which is that of its end or of its last check. Fails if the
+/// run would take too long.
 pub(in crate::commands) fn end_of(path: &Path, scene: &Scene) -> Result<u64, Error> {
     refuse_late_checks(path, scene)?;
     let last = last_tick(scene);
@@ -174,8 +176,8 @@ pub(in crate::commands) fn end_of(path: &Path, scene: &Scene) -> Result<u64, Err
     }
 }
 
-/// Reports checks beyond the scene's end. They are judged too, which can take longer than the scene. Fails if that
-/// would take too long.
+/// Reports checks that are later than the scene's end. They are judged too, which can take longer than the scene. Fails
+/// if that would take too long.
 fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
     refuse_late_checks(path, scene)?;
     let end = Studio::new(scene.clone()).race().nearest_tick(scene.seconds);
@@ -193,9 +195,9 @@ fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
     Ok(())
 }
 
-/// Replaces the hashes in the checks of the file at `path` with those of a new run. A file without checks gets the
-/// checks of a [recording](Session::recording). They cover each lane at every second, or less often in a long run,
-/// and at the end.
+/// Replaces the hashes in the checks of the file at `path` by those of a new run. A file that has no checks gets those
+/// of a [recording](Session::recording). They cover each lane at every second, or less often in a long run, and at the
+/// end.
 pub(super) fn bless(path: &Path) -> Result<(), Error> {
     if scene_file::is_link(path) {
         return Err(Error::mistake(
@@ -222,13 +224,14 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Checks for a scene that has none. They cover every lane once a second and at the end.
+/// Returns checks for a scene that has none. They cover every lane once a second and at the end.
 pub(in crate::commands) fn checks_of(path: &Path, scene: &Scene) -> Result<Vec<Check>, Error> {
     let last = end_of(path, scene)?;
     Ok(Session::racing(scene.clone().into()).recording(last).checks)
 }
 
-/// The text with CRLF at the end of every line if the first line of `before` ends so, or else the text unchanged.
+/// Returns the text with CRLF at the end of every line if the first line of `before` ends so, or else the unchanged
+/// text.
 fn with_line_ends_of(before: &str, text: &str) -> String {
     match before.lines().next().is_some_and(|first| before[first.len()..].starts_with("\r\n")) {
         true => text.replace("\r\n", "\n").replace('\n', "\r\n"),
@@ -236,7 +239,7 @@ fn with_line_ends_of(before: &str, text: &str) -> String {
     }
 }
 
-/// Ids of the methods that each lane had, by lane number.
+/// Ids of the methods that each lane has had, by the number of the lane.
 struct MethodsSeen(Vec<Vec<&'static str>>);
 
 impl MethodsSeen {
@@ -261,7 +264,7 @@ fn replay(scene: &Scene, observer: &mut dyn Observer) -> Vec<Reached> {
     std::iter::from_fn(|| replay.run_to_next_check(u64::MAX, observer)).collect()
 }
 
-/// Runs the race of a scene and compares every lane with its checks.
+/// Runs the race of a scene, and compares every lane with its checks.
 fn compare(scene: &Scene) -> Vec<JudgedLane> {
     let mut methods = MethodsSeen(vec![Vec::new(); scene.lanes.len()]);
     methods.record_methods(&Race::of_scene(scene));

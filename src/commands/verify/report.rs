@@ -1,4 +1,4 @@
-//! The result of `regatta verify`, for a capture or a recording, as text, JSON or JUnit XML.
+//! The result of `regatta verify` for a capture or a recording, as text, as JSON or as JUnit XML.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -20,14 +20,14 @@ pub(super) enum ReportFormat {
     Json,
 }
 
-/// A file for the result.
+/// A file into which the result is written.
 pub(super) struct ReportFile {
     format: ReportFormat,
     output: Output,
 }
 
 impl ReportFile {
-    /// Opens the file before the work: a refusal should not come after it.
+    /// Opens the file before the work, so that a refusal does not come after it.
     pub(super) fn open(
         format: ReportFormat,
         path: &Path,
@@ -51,18 +51,18 @@ impl ReportFile {
     }
 }
 
-/// Start of a JUnit report.
+/// The start of a JUnit report.
 const JUNIT_BEGINS: &str =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"regatta verify ";
 
-/// JSON keys of the path: for a capture, and for a recording.
+/// JSON keys for the path of a capture, and for that of a recording.
 pub(super) const DIRECTORY: &str = "dir";
 pub(super) const FILE: &str = "file";
 
-/// Bytes within which a report is recognised: more than a path has with its escapes.
+/// Number of bytes within which a report is recognised. It is more than a path has with its escapes.
 const KNOWN_WITHIN: usize = 1 << 16;
 
-/// Whether the file at `path` is empty or begins like a report in either format.
+/// Whether the file at `path` is empty, or begins like a report in one of the formats.
 fn is_report(path: &Path) -> bool {
     let Ok(start) = regular_file::read_start(path, KNOWN_WITHIN) else { return false };
     let start = String::from_utf8_lossy(&start);
@@ -78,28 +78,28 @@ fn is_report(path: &Path) -> bool {
     start.is_empty() || start.starts_with(JUNIT_BEGINS) || is_json()
 }
 
-/// The result. Each of its lines also goes to standard output at once.
+/// The result of a command. Each line that is added also goes to standard output at once.
 #[derive(Debug)]
 pub(super) struct Report {
     path: PathBuf,
-    /// Name of each judged case, with its difference, if any.
+    /// Name of each judged case, and the difference in it, if there is one.
     cases: Vec<(String, Option<String>)>,
-    /// JSON fields beyond those that all reports have.
+    /// JSON fields besides those that all reports have.
     fields: Map<String, Value>,
-    /// JSON key of the path.
+    /// JSON key for the path.
     key: &'static str,
-    /// Message if something differs.
+    /// The message for the case that something differs.
     differs: String,
 }
 
 impl Report {
-    /// An empty report. `key` is the JSON key of the path.
+    /// Creates an empty report. `key` is the JSON key for the path.
     pub(super) fn new(key: &'static str, path: &Path) -> Self {
         let (cases, fields) = (Vec::new(), Map::new());
         Self { path: path.to_owned(), cases, fields, key, differs: String::new() }
     }
 
-    /// Adds a case with its difference, if any.
+    /// Adds a case, with the difference in it, if there is one.
     pub(super) fn judged(&mut self, name: impl Into<String>, difference: Option<String>) {
         self.cases.push((name.into(), difference));
     }
@@ -109,17 +109,17 @@ impl Report {
         self.fields.insert(key.to_owned(), value);
     }
 
-    /// Sets the message with which the command ends if something differs: the difference and the remedy.
+    /// Sets the message with which the command ends if something differs. It states the difference and the remedy.
     pub(super) fn if_different(&mut self, message: String) {
         self.differs = message;
     }
 
-    /// Number of cases that differ.
+    /// Returns the number of cases that differ.
     pub(super) fn differing(&self) -> usize {
         self.cases.iter().filter(|(_, difference)| difference.is_some()).count()
     }
 
-    /// Result of the command.
+    /// Returns the result with which the command ends.
     pub(super) fn outcome(self) -> Result<(), Error> {
         match self.differing() {
             0 => Ok(()),
@@ -136,7 +136,7 @@ impl Report {
         format!("{object:#}\n")
     }
 
-    /// JUnit XML with a test for each case.
+    /// Returns the report as JUnit XML, with a test for each case.
     fn to_junit(&self) -> String {
         let mut text = format!(
             "{JUNIT_BEGINS}{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n",
@@ -162,13 +162,13 @@ impl Report {
 /// Prints a line to standard output.
 pub(super) fn print_line(line: &str) -> Result<(), Error> {
     match print(format!("{line}\n")) {
-        // A reader that has closed the pipe still gets the exit code.
+        // The command still ends with its exit code if the reader has closed the pipe.
         Err(error) if error.is_closed_pipe() => Ok(()),
         printed => printed,
     }
 }
 
-/// Escapes text for an attribute's value in XML.
+/// Escapes a text for the value of an attribute in XML.
 fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {

@@ -16,13 +16,13 @@ const HALF_ROAD: f64 = 5.0;
 /// Distance that the carriage covers in a second, in the same unit, and the number of road segments in view.
 const SPEED: f64 = HALF_ROAD;
 const PIECES: u32 = 80;
-/// Distance from the middle to the spring on one side and the damper on the other, and the radius of the coil.
+/// Distance of the spring on one side and of the damper on the other side from the middle, and the radius of the coil.
 const ASIDE: f64 = 0.75;
 const TURNS: f64 = 0.35;
 
 pub(super) struct Carriage<'a> {
     law: &'a Law,
-    /// Largest displacement from rest.
+    /// Largest displacement of carriage or wheel from rest.
     unit: f64,
 }
 
@@ -32,7 +32,7 @@ impl<'a> Carriage<'a> {
         Self { law, unit: high.max(-low) }
     }
 
-    /// Height of the road under the wheel at time `t` (s): the height at which wheel and carriage would rest
+    /// Returns the height of the road under the wheel at time `t` (s). At this height, wheel and carriage would rest
     /// together.
     fn road(&self, t: f64) -> f64 {
         let n = self.law.equations().text().coordinates.len();
@@ -46,7 +46,8 @@ impl<'a> Carriage<'a> {
         if height.is_finite() { height.clamp(-self.unit, self.unit) } else { 0.0 }
     }
 
-    /// The visible road at time `t`, as it passes under the wheel. Corners are kept only where the slope changes.
+    /// Returns the visible road at time `t`, as the road passes under the wheel. Corners are kept only where the slope
+    /// changes.
     fn roadway(&self, t: f64) -> Vec<DVec2> {
         let step = 2.0 * HALF_ROAD / f64::from(PIECES);
         let places = (0..=PIECES).map(|i| {
@@ -66,7 +67,7 @@ impl<'a> Carriage<'a> {
         corners
     }
 
-    /// Position of the wheel's hub at this height above its rest.
+    /// Returns the position of the wheel's hub when the wheel is at this height above its rest.
     fn hub(&self, height: f64) -> DVec2 {
         DVec2::new(0.0, height - ABOVE_HUB * self.unit)
     }

@@ -5,26 +5,27 @@ use glam::{DMat2, DVec2};
 use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::bodies::Law;
 
-/// Radius of a disc, relative to half the picture.
+/// Radius of a disc, relative to half the picture's size.
 const DISC: f64 = 0.045;
 
-/// Half-size of the picture relative to half the motion's, and its minimum in either direction.
+/// Half the size of the picture, relative to half the size of the motion, and the minimum half-size in either
+/// direction, relative to the other.
 const BEYOND: f64 = 1.25;
 const MIN_PART: f64 = 0.4;
 
 /// Length of the trail, in seconds.
 const TRAIL_S: f64 = 4.0;
 
-/// Displacement for slopes, relative to a coordinate, or in its unit near 0.
+/// Displacement of a coordinate to measure slopes, relative to the coordinate, or in its unit near 0.
 const DISPLACEMENT: f64 = 1e-6;
 
-/// Newton iterations that bring a disc to the hand.
+/// Number of Newton iterations that bring a disc to the hand.
 const ITERATIONS: usize = 12;
 
-/// Largest change of a coordinate in one iteration, relative to its size, or in its unit near 0.
+/// Largest change of a coordinate in one iteration, relative to the coordinate, or in its unit near 0.
 const MAX_CHANGE: f64 = 1.0;
 
-/// Added to the diagonal of a matrix that may be singular, relative to its trace.
+/// Share of the trace that is added to the diagonal of a matrix, because the matrix may be singular.
 const DAMPING: f64 = 1e-9;
 
 pub(super) struct Places<'a> {
@@ -34,7 +35,7 @@ pub(super) struct Places<'a> {
 }
 
 impl Places<'_> {
-    /// Centre of the picture, and half its size.
+    /// Returns the centre of the picture, and half its size.
     fn room(&self) -> [DVec2; 2] {
         let [low, high] = self.corners;
         let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
@@ -51,7 +52,7 @@ impl Places<'_> {
         DISC * half.max_element()
     }
 
-    /// Derivative of a place by each coordinate.
+    /// Returns the derivative of a place with respect to each coordinate.
     fn slopes(&self, place: usize, q: &[f64]) -> Vec<DVec2> {
         let mut moved = q.to_vec();
         let slope = |(i, &q): (usize, &f64)| {
@@ -67,7 +68,8 @@ impl Places<'_> {
     }
 }
 
-/// Smallest change of the coordinates that moves a place with these slopes by `by`, or as close to that as possible.
+/// Returns the smallest change of the coordinates that moves a place with these slopes by `by`, or as close to `by` as
+/// possible.
 fn smallest_change(slopes: &[DVec2], by: DVec2) -> Vec<f64> {
     let outer = |slope: &DVec2| DMat2::from_cols(slope.x * *slope, slope.y * *slope);
     let square = slopes.iter().fold(DMat2::ZERO, |sum, slope| sum + outer(slope));

@@ -9,7 +9,7 @@ use super::reach;
 const BODY: f64 = 0.05;
 const APART: f64 = 0.3;
 const HALF_GROUND: f64 = 0.4;
-/// Margin above and below, in the same unit.
+/// Margin above and below the motion, relative to the range of heights.
 const MARGIN: f64 = 0.12;
 
 pub(super) struct Vertical {
@@ -22,7 +22,7 @@ impl Vertical {
         high - low
     }
 
-    /// Position in the picture of a coordinate at this height.
+    /// Returns the position of a coordinate in the picture if the coordinate has this height.
     fn at(&self, coordinate: usize, height: f64) -> DVec2 {
         DVec2::new(APART * self.range() * coordinate as f64, height)
     }

@@ -1,6 +1,6 @@
 use super::*;
 
-/// Relative luminance, as the Web Content Accessibility Guidelines 2.1 define it.
+/// Returns the relative luminance, as the Web Content Accessibility Guidelines 2.1 define it.
 fn luminance(colour: Rgba) -> f64 {
     let linear = |i: usize| {
         let part = f64::from(colour[i]) / 255.0;
@@ -39,8 +39,8 @@ fn text_contrasts_with_its_background_in_both_themes() {
     assert!((contrast(rgb(0xFFFFFF), rgb(0)) - 21.0).abs() < 1e-9);
 }
 
-/// Matrices from linear sRGB to the colours that a deuteranope sees, by Machado, Oliveira and Fernandes (2009), and
-/// that most people see.
+/// Matrices from linear sRGB to the colours that a deuteranope sees, by Machado, Oliveira and Fernandes (2009), and to
+/// the colours that most people see.
 const DEUTERANOPE: [[f64; 3]; 3] = [
     [0.367322, 0.860646, -0.227968],
     [0.280085, 0.672501, 0.047413],
@@ -48,13 +48,13 @@ const DEUTERANOPE: [[f64; 3]; 3] = [
 ];
 const MOST_PEOPLE: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Distance of two colours in CIE L*a*b*, seen with these eyes.
+/// Returns the distance of two colours in CIE L*a*b*, as they look to these eyes.
 fn distance_seen(a: Rgba, b: Rgba, eyes: [[f64; 3]; 3]) -> f64 {
     let (a, b) = (seen_by(a, eyes), seen_by(b, eyes));
     (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The colour in CIE L*a*b*, seen with these eyes.
+/// Returns the colour in CIE L*a*b*, as it looks to these eyes.
 fn seen_by(colour: Rgba, eyes: [[f64; 3]; 3]) -> [f64; 3] {
     let linear = |i: usize| {
         let part = f64::from(colour[i]) / 255.0;
@@ -79,7 +79,7 @@ fn seen_by(colour: Rgba, eyes: [[f64; 3]; 3]) -> [f64; 3] {
 
 #[test]
 fn a_deuteranope_can_distinguish_the_first_nine_lanes_by_hue_or_dash() {
-    /// Below this distance, a person who looks from curve to legend confuses two colours.
+    /// Distance below which a person who looks from curve to legend confuses two colours.
     const ALIKE: f64 = 25.5;
     let distance = |a: Rgba, b: Rgba| distance_seen(a, b, DEUTERANOPE);
     let white = seen_by([255; 4], DEUTERANOPE);

@@ -7,7 +7,7 @@ use crate::run::{Scale, Unit};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::Method;
 
-/// Maximum length of a run, in seconds of the display.
+/// Maximum length of a loop's run, in seconds of the display.
 const MAX_S: f64 = 20.0;
 
 /// The body in one loop, with all frames once the loop has run.
@@ -43,7 +43,7 @@ pub struct LoopFrame {
 pub struct LoopState {
     /// First coordinate.
     pub q: f64,
-    /// Its velocity.
+    /// Velocity of the first coordinate.
     pub v: f64,
     /// Energies, if the body conserves energy.
     pub energies: Option<Energies>,
@@ -57,14 +57,14 @@ impl LoopState {
 }
 
 impl LoopFrame {
-    /// Delay between the simulated time in the picture and the display, in milliseconds.
+    /// Returns the delay between the simulated time in the picture and the display, in milliseconds.
     pub fn latency_ms(&self) -> f64 {
         self.displayed_ns as f64 / 1e6 - self.shown_ms
     }
 }
 
 impl LoopLane {
-    /// A placeholder without frames for a loop that has not run yet.
+    /// Creates a placeholder without frames for a loop that has not run yet.
     pub(super) fn awaited(card: &'static PolicyCard) -> Self {
         Self { card, frames: Vec::new(), report: None }
     }
@@ -98,11 +98,11 @@ impl LoopLane {
         Self { card, frames, report: Some(report) }
     }
 
-    /// Card of its policy.
+    /// Returns the card of the loop's policy.
     pub fn card(&self) -> &'static PolicyCard {
         self.card
     }
-    /// The displayed frames, in order.
+    /// Returns the displayed frames, in order.
     pub fn frames(&self) -> &[LoopFrame] {
         &self.frames
     }
@@ -110,11 +110,11 @@ impl LoopLane {
     pub fn was_run(&self) -> bool {
         self.report.is_some()
     }
-    /// Measurements over all frames, once the loop has run.
+    /// Returns the measurements over all frames, once the loop has run.
     pub fn report(&self) -> Option<&PacingReport> {
         self.report.as_ref()
     }
-    /// Index of the frame on the display at `now_ns`.
+    /// Returns the index of the frame on the display at `now_ns`.
     pub fn frame_at(&self, now_ns: i64) -> Option<usize> {
         self.frames.partition_point(|frame| frame.displayed_ns <= now_ns).checked_sub(1)
     }
@@ -123,15 +123,15 @@ impl LoopLane {
 /// A metric of a displayed frame.
 #[derive(Debug)]
 pub struct FrameMetric {
-    /// Its name in output, `snake_case`.
+    /// Name of the metric in output, `snake_case`.
     pub id: &'static str,
-    /// Its name for people.
+    /// Name of the metric for people.
     pub name: &'static str,
-    /// Its unit.
+    /// Unit of the metric.
     pub unit: Unit,
-    /// Scale of its plot.
+    /// Scale of the metric's plot.
     pub scale: Scale,
-    /// Computes its value.
+    /// Computes the metric's value.
     pub measure: fn(&LoopFrame) -> f64,
 }
 

@@ -1,4 +1,4 @@
-//! Runs the loops one at a time, so that this can happen off the window's thread: a [`LoopRequest`] goes in, and each
+//! Runs the loops one at a time, so that they can run outside the window's thread. A [`LoopRequest`] goes in, and each
 //! [`FoundLoop`] comes back.
 
 use std::collections::VecDeque;
@@ -11,7 +11,7 @@ use crate::sim::integrators::Method;
 
 /// One body under one method, to run in every loop over the frames of a trace.
 pub struct LoopRequest {
-    /// Contains only the one body.
+    /// The scene with this one body only.
     pub(super) scene: Arc<Scene>,
     pub(super) method: &'static Method,
     pub(super) trace: FrameTrace,
@@ -20,7 +20,7 @@ pub struct LoopRequest {
 }
 
 impl LoopRequest {
-    /// Indices of all loops, in the order of their runs.
+    /// Returns the indices of all loops, in the order of their runs.
     fn indices(&self) -> VecDeque<usize> {
         let is_first = |index: &usize| self.first.contains(index);
         let (first, others): (VecDeque<_>, VecDeque<_>) = (0..POLICIES.len()).partition(is_first);
@@ -31,7 +31,7 @@ impl LoopRequest {
 /// Result of a [`LoopRequest`] for one loop.
 pub struct FoundLoop {
     pub(super) request: Arc<LoopRequest>,
-    /// Its index in [`POLICIES`].
+    /// Index of the loop in [`POLICIES`].
     pub(super) index: usize,
     pub(super) lane: LoopLane,
 }
@@ -56,8 +56,8 @@ impl LoopWorker {
         self.left.is_empty()
     }
 
-    /// Runs the next loop. Returns `None` if none is left, or if `stop` interrupts it; the next call then runs it
-    /// again.
+    /// Runs the next loop. Returns `None` if none is left, or if `stop` interrupts the run; the next call then runs the
+    /// same loop again.
     pub fn work(&mut self, stop: &dyn Fn() -> bool) -> Option<FoundLoop> {
         let (request, index) = (self.request.as_ref()?, *self.left.front()?);
         let LoopRequest { scene, method, trace, .. } = &**request;

@@ -16,7 +16,7 @@ fn durations(frames: &[Frame]) -> Vec<i64> {
     frames.windows(2).map(|pair| pair[1].began_ns - pair[0].began_ns).collect()
 }
 
-/// Index and duration of each frame that does not last one refresh of 60 Hz.
+/// Returns the index and the duration of each frame that does not last one refresh of 60 Hz.
 fn odd_durations(frames: &[Frame]) -> Vec<(usize, i64)> {
     let long = durations(frames).into_iter().enumerate();
     long.filter(|&(_, ns)| (ns - REFRESH_NS).abs() > 1).collect()

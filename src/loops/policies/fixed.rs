@@ -14,7 +14,8 @@ pub(super) struct Fixed {
 }
 
 impl Fixed {
-    /// Limits the ticks to those of the longest frame, which lasts [`MAX_FRAME_MS`] unless set.
+    /// Limits the ticks in a frame to those of the longest frame, which lasts [`MAX_FRAME_MS`] unless another limit is
+    /// set.
     pub(super) fn new(base: TimeBase, limits: FrameLimits) -> Self {
         let longest_ms = limits.max_frame_ms.unwrap_or(MAX_FRAME_MS);
         let most = max_ticks(base.tick_hz(), 100, longest_ms);
@@ -53,8 +54,8 @@ impl Policy for Fixed {
     }
 }
 
-/// A fixed tick with at most one tick per frame, or a set number. At most one more tick is kept, so that the game
-/// slows down when frames are too long.
+/// Fixed ticks, at most one in a frame or at most a set number. The time of at most one further tick is kept, so that
+/// the game slows down when frames are too long.
 #[derive(Clone, Copy)]
 pub(super) struct SlowDown {
     tick: i128,
@@ -74,7 +75,7 @@ impl Policy for SlowDown {
         let count = self.owed.div_euclid(self.tick).min(self.max_ticks.into());
         let span = count * self.tick;
         let left = self.owed - span;
-        // If none were kept, each frame that timer noise lengthens would lose a tick.
+        // If no time were kept, each frame that timer noise lengthens would lose a tick.
         self.owed = left.min(self.tick);
         Steps { count: count as u32, span, dropped: left - self.owed }
     }

@@ -5,34 +5,34 @@ use crate::loops::time_base::TimeBase;
 
 /// Number of recent frames that are compared.
 const FRAMES: usize = 12;
-/// Maximum number of ticks in a frame; any more are dropped.
+/// Maximum number of ticks in a frame. Further ticks are dropped.
 const MAX_TICKS: u32 = 8;
 
-/// Whole ticks, the same number each frame as long as that is off by at most half a tick.
+/// Makes whole ticks, the same number in each frame as long as that number is off by at most half a tick.
 ///
-/// Any k successive frames make a typical number of ticks, or one more. At 144 Hz, for example, one frame makes none
-/// or one, and twelve make five. Each frame makes the ticks that keep this true for every k.
+/// Any k successive frames make a typical number of ticks, or one more. At 144 Hz, for example, one frame makes none or
+/// one, and twelve make five. Each frame makes the number of ticks that keeps this true for every k.
 #[derive(Clone, Copy)]
 pub(super) struct Hysteresis {
     tick: i128,
     max_ticks: u32,
-    /// Time since the last tick: from -H/2 to 3H/2, for a tick may be early or late by half.
+    /// Time since the last tick: from -H/2 to 3H/2, because a tick may be early or late by half a tick.
     owed: i128,
-    /// At index k, the ticks of the last k frames.
+    /// At index k, the number of ticks of the last k frames.
     made: [i128; FRAMES],
     /// At index k, the smaller of the two typical numbers of ticks of k + 1 frames.
     typical: [i128; FRAMES],
 }
 
 impl Hysteresis {
-    /// Starts with one tick per frame as typical, and one missing tick in twelve frames.
+    /// Starts as if each frame had made one tick. Up to twelve frames together may also make one tick fewer.
     pub(super) fn new(base: TimeBase, limits: FrameLimits) -> Self {
         let counts = std::array::from_fn(|k| k as i128);
         let max_ticks = limits.max_ticks.unwrap_or(MAX_TICKS);
         Self { tick: base.tick(), max_ticks, owed: 0, made: counts, typical: counts }
     }
 
-    /// Number of ticks to make for the time owed.
+    /// Returns the number of ticks to make for the time owed.
     fn due(&self) -> i128 {
         let whole = self.owed.div_euclid(self.tick);
         let fewest = (2 * self.owed - self.tick).div_euclid(2 * self.tick).max(0);
@@ -44,7 +44,7 @@ impl Hysteresis {
         held.clamp(fewest, most)
     }
 
-    /// Records this frame's ticks and shifts the typical numbers if they no longer cover them.
+    /// Records this frame's ticks, and shifts the typical numbers if they no longer fit.
     fn remember(&mut self, ticks: i128) {
         for (typical, made) in self.typical.iter_mut().zip(&self.made) {
             let now = made + ticks;
@@ -80,7 +80,8 @@ mod tests {
     use super::*;
     use crate::loops::time_base::RefreshRate;
 
-    /// Ticks of frames with these durations in hundredths of a tick. Checks that no tick is too early or too late.
+    /// Returns the ticks of frames with these durations in hundredths of a tick. Checks that no tick is too early or
+    /// too late.
     fn ticks(hundredths: impl IntoIterator<Item = i128>) -> Vec<u32> {
         let mut policy =
             Hysteresis::new(TimeBase::new(60, RefreshRate::new(60, 1)), FrameLimits::default());

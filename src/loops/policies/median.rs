@@ -1,17 +1,18 @@
-//! One step per frame, as long as frames typically are.
+//! Makes one step per frame, as long as frames typically are.
 
 use crate::loops::policy::{Policy, Steps};
 use crate::loops::time_base::TimeBase;
 
 /// Number of recent durations in the mean.
 const LAST: usize = 11;
-/// How many of the longest and of the shortest durations are left out. Hitches of at most this many frames do not
-/// affect the mean.
+/// Number of the longest and number of the shortest durations that are left out of the mean. Hitches of at most this
+/// many frames do not affect the mean.
 const LEFT_OUT: usize = 2;
-/// Divisor of the step's approach to the mean per frame. A larger one is smoother, and slower to adapt to another
-/// rate.
+/// Divisor of the difference between the mean and the step, by which the step approaches the mean in each frame. A
+/// larger divisor is smoother, but slower to adapt to another rate.
 const EASING: i128 = 4;
-/// Divisor of the debt that a frame pays back. A larger one is smoother, and lags longer after a hitch.
+/// Divisor of the debt that gives the part paid back in each frame. A larger divisor is smoother, but lags longer after
+/// a hitch.
 const PAYING_BACK: i128 = 16;
 
 /// A smoothed step that makes up for its error over time.
@@ -24,12 +25,12 @@ pub(super) struct Median {
 }
 
 impl Median {
-    /// Starts as after a series of frames of one refresh.
+    /// Starts as if all previous frames had lasted one refresh.
     pub(super) fn new(base: TimeBase) -> Self {
         Self { last: [base.refresh(); LAST], eased: base.refresh(), debt: 0 }
     }
 
-    /// Mean of the last durations without the longest and the shortest.
+    /// Returns the mean of the last durations without the longest and the shortest ones.
     fn mean(&self) -> i128 {
         let mut sorted = self.last;
         sorted.sort_unstable();
@@ -58,7 +59,7 @@ mod tests {
     use super::*;
     use crate::loops::time_base::RefreshRate;
 
-    /// A policy at 60 Hz, and a hundredth of a refresh.
+    /// Returns a policy at 60 Hz, and a hundredth of a refresh.
     fn policy() -> (Median, i128) {
         let policy = Median::new(TimeBase::new(60, RefreshRate::new(60, 1)));
         (policy, policy.eased / 100)

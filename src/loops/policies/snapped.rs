@@ -1,10 +1,11 @@
-//! Snaps durations near a whole number of refreshes to it, and averages them.
+//! Snaps a duration to a whole number of refreshes if it is near one, and averages the durations.
 
 use super::fixed::Fixed;
 use crate::loops::policy::{FrameLimits, Policy, Steps};
 use crate::loops::time_base::TimeBase;
 
-/// Tolerance for snapping: more than a timer's noise, and less than the 0.5 ms between refreshes of 60 and 62 Hz.
+/// Tolerance for snapping, in nanoseconds. It is more than a timer's noise, and less than the 0.5 ms between refreshes
+/// of 60 and 62 Hz.
 const NEAR_NS: i64 = 200_000;
 /// Longest snapped duration, in refreshes.
 const MAX_REFRESHES: i128 = 8;
@@ -13,7 +14,7 @@ const AVERAGED: usize = 4;
 /// Maximum number of owed ticks. A longer frame counts as one tick.
 const MAX_TICKS: u32 = 8;
 
-/// A fixed tick whose time is snapped to refreshes.
+/// A fixed tick that counts durations snapped to refreshes.
 #[derive(Clone, Copy)]
 pub(super) struct Snapped {
     tick: i128,
@@ -21,13 +22,13 @@ pub(super) struct Snapped {
     refresh: i128,
     near: i128,
     last: [i128; AVERAGED],
-    /// Remainder of the previous division, carried over so that averaging loses no time.
+    /// Remainder of the previous division, which is carried over so that averaging loses no time.
     remainder: i128,
     fixed: Fixed,
 }
 
 impl Snapped {
-    /// Starts the mean with frames of one refresh.
+    /// Starts as if all previous frames had lasted one refresh.
     pub(super) fn new(base: TimeBase, limits: FrameLimits) -> Self {
         let max_ticks = limits.max_ticks.unwrap_or(MAX_TICKS);
         Self {

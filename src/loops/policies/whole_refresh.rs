@@ -4,11 +4,11 @@ use super::fixed::Fixed;
 use crate::loops::policy::{FrameLimits, Policy, Steps};
 use crate::loops::time_base::TimeBase;
 
-/// A fixed tick whose time comes in whole refreshes.
+/// A fixed tick that counts time in whole refreshes.
 #[derive(Clone, Copy)]
 pub(super) struct WholeRefresh {
     refresh: i128,
-    /// Real time not yet counted; negative if more than the real time was counted.
+    /// Real time that is not yet counted; negative if more than the real time was counted.
     debt: i128,
     fixed: Fixed,
 }
@@ -18,11 +18,11 @@ impl WholeRefresh {
         Self { refresh: base.refresh(), debt: 0, fixed: Fixed::new(base, limits) }
     }
 
-    /// Number of refreshes to count, where `time` is the frame's duration plus the debt.
+    /// Returns the number of refreshes to count, where `time` is the frame's duration plus the debt.
     fn refreshes(&self, time: i128) -> i128 {
         let nearest = (2 * time + self.refresh).div_euclid(2 * self.refresh);
-        // A picture stays for at least one refresh. If frames do not wait for the display, though, counting one each
-        // time would make the game too fast.
+        // A picture stays for at least one refresh. If frames do not wait for the display, however, one refresh per
+        // frame would make the game too fast.
         let a_refresh_ahead = 2 * time <= -self.refresh;
         if a_refresh_ahead { 0 } else { nearest.max(1) }
     }
@@ -50,7 +50,7 @@ mod tests {
     use super::*;
     use crate::loops::time_base::RefreshRate;
 
-    /// Refreshes counted for frames with these durations in hundredths of a refresh.
+    /// Returns the refreshes counted for frames with these durations in hundredths of a refresh.
     fn counted(hundredths: impl IntoIterator<Item = i128>) -> Vec<i128> {
         let mut policy =
             WholeRefresh::new(TimeBase::new(60, RefreshRate::new(60, 1)), FrameLimits::default());

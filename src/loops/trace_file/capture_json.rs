@@ -2,10 +2,10 @@
 
 use serde_json::Value;
 
-/// The array that every capture has.
+/// Name of the array that every capture has.
 const FRAMES: &str = "MsBetweenPresents";
 
-/// Converts a capture to a table, or explains why it cannot.
+/// Converts a capture to a table. If this fails, the error explains why.
 pub(super) fn table(bytes: &[u8]) -> Result<String, String> {
     let capture: Value = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
     let program = capture.pointer("/Info/ProcessName").and_then(Value::as_str).unwrap_or_default();

@@ -9,14 +9,14 @@ use crate::scene::{clip, clip_list};
 /// Whether a row's time ends or starts at its frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Span {
-    /// Since the previous frame: PresentMon 1 and 2, OCAT, CapFrameX, FrameView, MangoHud.
+    /// The time counts since the previous frame, as in PresentMon 1 and 2, OCAT, CapFrameX, FrameView and MangoHud.
     Before,
-    /// Until the next frame: the metrics of PresentMon 2.0, `--v2_metrics`.
+    /// The time counts until the next frame, as in the metrics of PresentMon 2.0, `--v2_metrics`.
     After,
 }
 
-/// Known formats: the tool, the span of a row, the column of frame times, and a column that must occur beside it.
-/// Each name also matches without its `Ms`.
+/// Known formats: the tool, the span of a row, the column of frame times, and a column that must occur beside it. Each
+/// column name also matches without its `Ms`.
 const FORMATS: [(&str, Span, &str, CompanionColumn); 9] = [
     (PRESENTMON, Span::Before, "MsBetweenPresents", CompanionColumn::Until("MsUntilDisplayed")),
     (
@@ -34,7 +34,7 @@ const FORMATS: [(&str, Span, &str, CompanionColumn); 9] = [
     (PRESENTMON, Span::Before, "MsBetweenPresents", CompanionColumn::Nothing),
 ];
 
-/// Tools that write PresentMon's columns, recognized by a column of theirs. The first match counts.
+/// Tools that write PresentMon's columns, each with a column by which it is recognized. The first match counts.
 const OF_PRESENTMON: [(&str, &str); 9] = [
     ("Motherboard", "OCAT"),
     ("Resolution", "FrameView"),
@@ -47,21 +47,21 @@ const OF_PRESENTMON: [(&str, &str); 9] = [
     ("Dropped", "PresentMon 1"),
 ];
 
-/// Columns with a log's own time, the nanoseconds in their unit, and whether every version uses that unit.
+/// Columns with a log's own time, the number of nanoseconds in their unit, and whether every version uses that unit.
 const TIMES: [(&str, f64, bool); 3] =
     [("TimeInSeconds", 1e9, true), ("elapsed", 1.0, true), ("CPUStartTime", 1e6, false)];
 /// Columns that only MangoHud writes.
 const OF_MANGOHUD: [&str; 3] = ["elapsed", "cpu_load", "gpu_load"];
 
-/// The column expected beside a column of frame times.
+/// The column that is expected beside a column of frame times.
 enum CompanionColumn {
-    /// The times from each frame to its own display, in a log without a column of dropped frames.
+    /// The column of the times from each frame to its own display, in a log without a column of dropped frames.
     Until(&'static str),
-    /// The times between displays.
+    /// The column of the times between displays.
     Display(&'static str),
     /// A column of a tool that does not measure the display.
     Other(&'static str),
-    /// No column in particular.
+    /// No particular column.
     Nothing,
 }
 
@@ -78,7 +78,7 @@ const OF_TABLE: [&str; 8] = [
     "delta_time",
     "dt",
 ];
-/// Words for the unit in such a name.
+/// Words for the unit in the name of such a column.
 const UNITS: [(&str, Unit); 6] = [
     ("s", Unit::Seconds),
     ("sec", Unit::Seconds),
@@ -88,8 +88,8 @@ const UNITS: [(&str, Unit); 6] = [
     ("µs", Unit::Microseconds),
 ];
 
-/// PresentMon's types for frames that the program rendered, or whose origin is unknown. All others are generated or
-/// repeated frames.
+/// PresentMon's types for frames that the program rendered, or whose origin is unknown. Frames of all other types are
+/// generated or repeated.
 const RENDERED: [&str; 4] = ["", "Application", "NotSet", "Unspecified"];
 
 /// The columns of a log.
@@ -103,11 +103,11 @@ pub(super) struct Columns {
     displayed: Option<Column>,
     /// Whether display times count from the frame's own beginning.
     is_until: bool,
-    /// Frames per second, beside the frame times.
+    /// Column of the frames per second, beside the frame times.
     pub(super) fps: Option<usize>,
-    /// The log's own time, the nanoseconds in its unit, and whether that unit is certain.
+    /// Column of the log's own time, the number of nanoseconds in its unit, and whether that unit is certain.
     time: Option<(usize, f64, bool)>,
-    /// Times from each frame to its own display, in a log where the times between displays are used.
+    /// Column of the times from each frame to its own display, in a log whose times between displays are used.
     until: Option<usize>,
     dropped: Option<Column>,
     frame_type: Option<usize>,
@@ -122,10 +122,10 @@ const MANGOHUD: &str = "MangoHud";
 const LIST: &str = "a list";
 /// The first versions of MangoHud, which wrote no frame times.
 const OLD_MANGOHUD: &str = "MangoHud before 0.6";
-/// The tool whose rows record when a frame began, not the time since the previous one.
+/// The tool whose rows record when a frame began instead of the time since the previous frame.
 const FRAPS: &str = "FRAPS";
 
-/// The column of frame times in a list with a heading or in a table, and its unit if the name gives one.
+/// Returns the column of frame times in a list with a heading or in a table, and its unit if the name gives one.
 fn of_list(header: &StringRecord) -> Option<(Column, Option<Unit>)> {
     let of = |(index, name): (usize, &str)| {
         let name = name.trim();
@@ -157,16 +157,16 @@ struct Column {
 
 /// The values of a row.
 pub(super) struct Cells<'a> {
-    /// Program, process and window; empty if the log has no such column.
+    /// Names of the program, process and window; empty if the log has no such column.
     pub(super) application: &'a str,
     pub(super) process: &'a str,
     pub(super) swap_chain: &'a str,
-    /// Span of the two times below.
+    /// Direction in which the two times below count.
     pub(super) span: Span,
     /// Time between the beginnings of two frames, in nanoseconds. A missing time is an error only where it is needed.
     pub(super) began_ns: Result<i64, Fault>,
-    /// Time between the displays of two frames, or from the frame's beginning to its display; `None` if it was not
-    /// displayed.
+    /// Time between the displays of two frames, or from the frame's beginning to its display, in nanoseconds; `None` if
+    /// the frame was not displayed.
     pub(super) displayed_ns: Option<i64>,
     /// Whether `displayed_ns` counts from the frame's own beginning.
     pub(super) is_until: bool,
@@ -174,16 +174,17 @@ pub(super) struct Cells<'a> {
     pub(super) fps: Option<f64>,
     /// The log's own time in nanoseconds.
     pub(super) time_ns: Option<f64>,
-    /// Time from beginning to display in nanoseconds, beside the times between displays.
+    /// Time from the frame's beginning to its display in nanoseconds, in a log that also has the times between
+    /// displays.
     pub(super) until_ns: Option<f64>,
-    /// Whether a column confirms that it was displayed.
+    /// Whether a column confirms that the frame was displayed.
     pub(super) surely_displayed: bool,
     /// Whether a driver generated or repeated the frame, so that the program did not begin it.
     pub(super) is_generated: bool,
 }
 
 impl Columns {
-    /// Finds the columns by the header, ignoring case.
+    /// Finds the columns by the names in the header, ignoring case.
     pub(super) fn find(header: &StringRecord) -> Result<Self, Fault> {
         let index = |name: &str| header.iter().position(|h| h.trim().eq_ignore_ascii_case(name));
         let column = |name: &str| {
@@ -242,7 +243,7 @@ impl Columns {
         })
     }
 
-    /// The columns of a list of frame times.
+    /// Returns the columns of a list of frame times.
     pub(super) fn of_list() -> Self {
         let began = Column { index: 0, name: "1".into() };
         Self {
@@ -268,7 +269,7 @@ impl Columns {
         self.is_until
     }
 
-    /// Whether rows record when a frame began, not the time since the previous one.
+    /// Whether rows record when a frame began instead of the time since the previous frame.
     pub(super) fn is_since_start(&self) -> bool {
         [FRAPS, OLD_MANGOHUD].contains(&self.format)
     }
@@ -283,7 +284,7 @@ impl Columns {
         [LIST, MANGOHUD].contains(&self.format)
     }
 
-    /// Whether the frames end before this row: Unreal repeats the header at the end and describes the build.
+    /// Whether the frames end before this row. Unreal repeats the header at the end and describes the build there.
     pub(super) fn end_before(&self, row: &StringRecord) -> bool {
         let is_of_build = row.get(0).is_some_and(|cell| cell.trim_start().starts_with('['));
         is_of_build || row.get(self.began.index).is_some_and(|cell| cell.trim() == self.began.name)
@@ -294,7 +295,7 @@ impl Columns {
         self.displayed.is_some()
     }
 
-    /// Minimum number of cells in a row, up to the last one in use.
+    /// Returns the minimum number of cells in a row, which is the number up to the last used cell.
     fn needed(&self) -> usize {
         let columns = [Some(&self.began), self.displayed.as_ref(), self.dropped.as_ref()];
         let columns = columns.into_iter().flatten().map(|column| column.index);

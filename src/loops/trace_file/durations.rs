@@ -14,7 +14,7 @@ pub(super) enum Unit {
 }
 
 impl Unit {
-    /// Number of decimals of this unit in a nanosecond.
+    /// Returns the number of decimals that a nanosecond has in this unit.
     fn places(self) -> i64 {
         match self {
             Self::Seconds => 9,
@@ -24,7 +24,7 @@ impl Unit {
         }
     }
 
-    /// Its name for people.
+    /// Returns the name of the unit for people.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Seconds => "seconds",
@@ -35,7 +35,7 @@ impl Unit {
     }
 }
 
-/// Why a cell is not a time.
+/// The reason why a cell is not a time.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum Unreadable {
     #[error("expected a time, found \"{0}\"; write a number such as 16.683, or NA")]
@@ -46,8 +46,8 @@ pub(super) enum Unreadable {
     TooLong(String),
 }
 
-/// Converts a decimal number in this unit to nanoseconds, rounding its digits once; `None` if the log marks it as
-/// missing. The decimal sign may be a comma.
+/// Converts a decimal number in this unit to nanoseconds, rounding its digits once; `None` if the log marks the number
+/// as missing. The decimal sign may be a comma.
 pub(super) fn nanoseconds(cell: &str, unit: Unit) -> Result<Option<i64>, Unreadable> {
     let cell = cell.trim();
     if ["", "na", "n/a"].iter().any(|none| cell.eq_ignore_ascii_case(none)) {
@@ -65,10 +65,10 @@ pub(super) fn nanoseconds(cell: &str, unit: Unit) -> Result<Option<i64>, Unreada
     }
 }
 
-/// Parses a number without a sign, capped at a day; `None` if it is not a number.
+/// Parses a number without a sign, capped at a day; `None` if the text is not a number.
 fn unsigned(number: &str, unit_places: i64) -> Option<i64> {
     let (decimal, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
-    // No tool writes longer exponents, and they would only take time.
+    // No tool writes longer exponents, and these would only take time.
     let exponent = exponent.parse::<i64>().ok().filter(|e| (-99..=99).contains(e))?;
     let (whole, fraction) = decimal.split_once(['.', ',']).unwrap_or((decimal, ""));
     let digits = || whole.bytes().chain(fraction.bytes());

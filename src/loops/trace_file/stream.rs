@@ -11,31 +11,32 @@ const YEAR_NS: i64 = 365 * 86_400_000_000_000;
 pub(super) struct Stream {
     application: String,
     process: String,
-    /// Line of its first row.
+    /// Line number of the stream's first row.
     line: u64,
     frames: Vec<Frame>,
-    /// When the last displayed frame appeared.
+    /// Time when the last displayed frame appeared, in nanoseconds.
     last_shown_ns: Option<i64>,
-    /// When the next frame begins and appears, in logs whose rows record how long their own frame lasted and stayed.
+    /// Times when the next frame begins and appears, in logs whose rows record how long their own frame lasted and
+    /// stayed.
     next_began_ns: Result<i64, Fault>,
     next_shown_ns: i64,
-    /// Time from the last frame to the generated frames after it.
+    /// Time that the generated frames after the last frame have lasted up to now, in nanoseconds.
     generated_ns: i64,
-    /// First and last frame that have the log's own time, and that have a time until display, with these times in
-    /// nanoseconds.
+    /// First and last frame that have the log's own time, each with that time in nanoseconds. Below, the same for the
+    /// time until display.
     timed: Option<[(Frame, f64); 2]>,
     shown: Option<[(Frame, f64); 2]>,
-    /// Duration of the first frame before it began.
+    /// Duration of the first frame before it began, in nanoseconds.
     lead_ns: i64,
 }
 
-/// Replaces control characters, since names appear in messages and on screens.
+/// Replaces control characters, because names appear in messages and on screens.
 fn printable(name: &str) -> String {
     name.replace(char::is_control, "\u{fffd}")
 }
 
 impl Stream {
-    /// An empty stream for the program, process and line of its first row. The row itself is not added.
+    /// Creates an empty stream for the program, process and line of its first row. The row itself is not added.
     pub(super) fn new(first: &Cells, line: u64) -> Self {
         Self {
             application: printable(first.application),
@@ -52,11 +53,11 @@ impl Stream {
         }
     }
 
-    /// Name of the program; empty if the log has none.
+    /// Returns the name of the program; empty if the log has none.
     pub(super) fn application(&self) -> &str {
         &self.application
     }
-    /// Its process; empty if the log has none.
+    /// Returns the process; empty if the log has none.
     pub(super) fn process(&self) -> &str {
         &self.process
     }
@@ -65,23 +66,23 @@ impl Stream {
         self.line
     }
 
-    /// Number of its frames.
+    /// Returns the number of the stream's frames.
     pub(super) fn frames(&self) -> usize {
         self.frames.len()
     }
 
-    /// Whether it has several frames with no time between them.
+    /// Whether the stream has several frames with no time between them.
     pub(super) fn stands_still(&self) -> bool {
         let ends = self.frames.first().zip(self.frames.last());
         self.frames.len() > 1 && ends.is_some_and(|(first, last)| first.began_ns == last.began_ns)
     }
 
-    /// Whether it has no frame of the program.
+    /// Whether the stream has no frame of the program.
     pub(super) fn is_empty(&self) -> bool {
         self.frames.is_empty()
     }
 
-    /// Adds the frame of a row. A generated frame only lets time pass, since the program's loop has no part in it.
+    /// Adds the frame of a row. A generated frame only lets time pass, because the program's loop has no part in it.
     pub(super) fn push(&mut self, cells: &Cells) -> Result<(), Fault> {
         if cells.is_generated {
             self.skip_generated_frame(cells);
@@ -110,7 +111,7 @@ impl Stream {
         Ok(())
     }
 
-    /// Lets the times of a generated frame pass. Its own beginning may be unknown.
+    /// Lets the times of a generated frame pass. The beginning of such a frame may be unknown.
     fn skip_generated_frame(&mut self, cells: &Cells) {
         let (began, shown) = (cells.began_ns.as_ref().copied().unwrap_or(0), cells.displayed_ns);
         match cells.span {
@@ -135,7 +136,7 @@ impl Stream {
             (Some(until), _) if cells.is_until => Some(began_ns + until),
             // The previous display came before the recording.
             (Some(_), None) => Some(began_ns),
-            // Logs without NA write 0 instead.
+            // Logs without NA write 0 for a frame that was not displayed.
             (Some(0), Some(_)) if !cells.surely_displayed => None,
             (Some(change), Some(last)) => Some(last + change),
         };
@@ -155,15 +156,15 @@ impl Stream {
         Ok(Frame { began_ns, displayed_ns })
     }
 
-    /// Ratio of the log's own time to the frame times; `None` if the log has no time.
+    /// Returns the ratio of the log's own time to the frame times; `None` if the log has no time of its own.
     pub(super) fn time_ratio(&self) -> Option<f64> {
         let [(first, from), (last, to)] = self.timed?;
         let frames_ns = (last.began_ns - first.began_ns) as f64;
         Some((to - from) / frames_ns).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
     }
 
-    /// Which times contradict the frame times: the log's own time or the display times. If the unit of the log's own
-    /// time is not certain, a factor of a power of 1000 is ignored.
+    /// Returns which times contradict the frame times: the log's own time or the display times. If the unit of the
+    /// log's own time is not certain, a factor of a power of 1000 is ignored.
     fn parting(&self, is_sure: bool) -> Option<ClockConflict> {
         let ratio = self.time_ratio().map(|ratio| match is_sure {
             true => ratio,
@@ -176,8 +177,8 @@ impl Stream {
         is_late.then_some(ClockConflict::Time).or(are_parted.then_some(ClockConflict::Display))
     }
 
-    /// The trace of all its frames. If times contradict each other, or `known` is a contradiction, frames count as
-    /// displayed when they begin. `is_sure` is whether the unit of the log's own time is certain.
+    /// Returns the trace of all frames of the stream. If times contradict each other, or `known` is a contradiction,
+    /// frames count as displayed when they begin. `is_sure` is whether the unit of the log's own time is certain.
     pub(super) fn into_trace(
         mut self,
         name: String,
@@ -197,7 +198,7 @@ impl Stream {
         }
     }
 
-    /// Duration of the first frame before it began.
+    /// Returns the duration of the first frame before it began, in nanoseconds.
     pub(super) fn lead_ns(&self) -> i64 {
         self.lead_ns
     }
@@ -207,7 +208,7 @@ impl Stream {
 const PARTED: f64 = 0.01;
 const MAX_QUEUE: f64 = 6.0;
 
-/// Whether the times between displays and between beginnings add up to different lengths.
+/// Whether the sum of the times between displays differs from the sum of the times between beginnings.
 fn are_parted(frames: &[Frame], until: Option<[(Frame, f64); 2]>) -> bool {
     let mut shown = frames.iter().filter(|frame| frame.displayed_ns.is_some());
     let (Some(first), Some(last)) = (shown.next(), shown.next_back()) else { return false };
@@ -215,7 +216,7 @@ fn are_parted(frames: &[Frame], until: Option<[(Frame, f64); 2]>) -> bool {
     let began_ns = span(|frame| frame.began_ns);
     let apart_ns = (span(|frame| frame.displayed_ns.unwrap_or_default()) - began_ns).abs();
     let queue_ns = MAX_QUEUE * 1e9 / nominal_refresh(frames).hz();
-    // The change of latency by the two clocks, compared with the times until display.
+    // This is the change of latency by the two clocks, compared with the times until display.
     let against_ns = until.map_or(0.0, |[(first, from), (last, to)]| {
         let late = |frame: Frame| (frame.displayed_ns.unwrap_or_default() - frame.began_ns) as f64;
         ((late(last) - late(first)) - (to - from)).abs()
@@ -224,8 +225,8 @@ fn are_parted(frames: &[Frame], until: Option<[(Frame, f64); 2]>) -> bool {
     apart_ns > most_ns || against_ns > most_ns
 }
 
-/// The refresh rate whose period is the median time between displayed frames, since most frames last one refresh. 60
-/// Hz with fewer than two displays.
+/// Returns the refresh rate whose period is the median time between displayed frames, because most frames last one
+/// refresh. With fewer than two displayed frames it is 60 Hz.
 fn nominal_refresh(frames: &[Frame]) -> RefreshRate {
     let shown: Vec<i64> = frames.iter().filter_map(|frame| frame.displayed_ns).collect();
     let changes = shown.windows(2).map(|pair| pair[1] - pair[0]);

@@ -45,7 +45,7 @@ fn cost_ranks_before_substeps_and_substeps_before_table_order() {
         let met = [CriterionResult::With(met), CriterionResult::No, CriterionResult::Unknown];
         MethodAdvice { spec, verdict: judge.verdict(spec, 60), met }
     };
-    // The first name is the recommended one, in every order.
+    // The first name is that of the recommended method, in every order.
     for all in [
         [("velocity-verlet", 1, 60.0), ("rk4", 1, 240.0), ("rk4-as-printed", 1, 30.0)],
         [("pefrl", 3, 720.0), ("exponential-rosenbrock-euler", 1, 360.0), ("rk4", 8, 1920.0)],
@@ -77,10 +77,11 @@ fn the_stiffness_search_stays_within_the_limits_of_a_scene() {
     assert!(adviser.stiffen(2.1).is_none());
 }
 
-/// Work of the advice on all methods of a scene and on its truths, in millions of evaluations of one coordinate. It
-/// does not depend on the machine, and results from modes are not counted.
+/// Work of the advice on all methods of a scene and on the scene's truths, in millions of evaluations of one
+/// coordinate. This work does not depend on the machine, and results from modes are not counted.
 ///
-/// For most nets it is hundreds of runs over twenty times the scene's length, on which the claim *bounded* rests.
+/// For most nets, this work is hundreds of runs over twenty times the scene's length, on which the claim *bounded*
+/// rests.
 const MILLIONS: [(&str, f64); 26] = [
     ("ship", 4.2),
     ("spring", 136.0),
@@ -110,7 +111,7 @@ const MILLIONS: [(&str, f64); 26] = [
     ("stiff-in-engines", 71.0),
 ];
 
-/// In an unoptimised build, all scenes would take half an hour.
+/// Limit in an unoptimised build, in which all scenes would take half an hour.
 const MAX_MILLIONS: f64 = if cfg!(debug_assertions) { 12.0 } else { f64::INFINITY };
 
 #[test]

@@ -1,10 +1,10 @@
-//! Finds the part of the phase plane to show for a run of clouds. A few points run ahead to find it.
+//! Finds the part of the phase plane to show for a run of clouds. A few points run ahead to find this part.
 
 use super::{Cloud, CloudBody, CloudBorder, CloudStart, NoCloud, PlaneView};
 use crate::scene::LaneSpec;
 use crate::sim::TickRate;
 
-/// Number of points of each method that run ahead, and of the exact border.
+/// Number of points of each method that run ahead, and number of points of the exact border.
 const SCOUTS: usize = 100;
 const BORDER_SCOUTS: usize = 90;
 
@@ -13,22 +13,23 @@ const NARROWEST: f64 = 0.25;
 
 /// Number of moments that the axes in a studio take into account.
 const MOMENTS: u64 = 60;
-/// Maximum number of ticks that they take into account: at most a second of work.
+/// Maximum number of ticks that the axes in a studio take into account, which is at most a second of work.
 const MAX_TICKS: u64 = 3000;
-/// How far a point of a lone cloud may lie beyond the cloud's middle half, in widths of that half.
+/// Maximum distance of a point of a lone cloud beyond the cloud's middle half, in widths of that half.
 const MAX_STRAY_WIDTHS: f64 = 3.0;
-/// How far other clouds may widen the axes of a run and those at one moment, in widths of the exact cloud.
+/// Largest widths by which other clouds may widen the axes of a run, and the axes at one moment, relative to the width
+/// of the exact cloud.
 const MAX_WIDENING: f64 = 0.1;
-const MAX_WIDENING_AT_ONCE: f64 = 0.25;
+const MAX_WIDENING_AT_ONCE: f64 = 0.5;
 
-/// The moments that a picture covers: `times` of them, spread evenly over the first `ticks` of a run.
+/// The moments that a picture covers, which are `times` moments spread evenly over the first `ticks` of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ShownTicks {
     /// The last tick.
     pub(super) ticks: u64,
     /// Number of moments.
     pub(super) times: u64,
-    /// Size of the exact cloud relative to the start above which the axes ignore it.
+    /// Size of the exact cloud relative to the start above which the axes ignore the exact cloud.
     pub(super) spread: f64,
 }
 
@@ -38,7 +39,7 @@ impl ShownTicks {
 }
 
 impl From<u64> for ShownTicks {
-    /// The moments for clouds in a studio, in a run of `ticks`.
+    /// Returns the moments for clouds in a studio, in a run of `ticks`.
     fn from(ticks: u64) -> Self {
         let ticks = ticks.min(MAX_TICKS);
         Self { ticks, times: ticks.min(MOMENTS), spread: f64::INFINITY }
@@ -55,10 +56,10 @@ pub(super) struct CloudAxes {
 }
 
 impl CloudAxes {
-    /// The axes for these lanes.
+    /// Finds the axes for these lanes.
     ///
     /// # Errors
-    /// As [`Cloud::new`].
+    /// Fails as [`Cloud::new`] does.
     pub(super) fn of_run(
         of: CloudBody<'_>,
         start: CloudStart,
@@ -94,9 +95,9 @@ impl CloudAxes {
         Ok(Self { whole, widest })
     }
 
-    /// The view at one moment, given the exact border and some points of each cloud. With one cloud, it shows all of
-    /// its points that stay together. With several, it fits the exact cloud, with a little room for the others, on
-    /// axes no larger than the whole region.
+    /// Returns the view at one moment, given the exact border and some points of each cloud. With one cloud, the view
+    /// shows all points that stay together. With several clouds, it fits the exact cloud, with a little room for the
+    /// others, on axes no larger than the whole region.
     pub(super) fn around(&self, border: &[[f64; 2]], clouds: &[Vec<[f64; 2]>]) -> PlaneView {
         let mut view = self.whole;
         let is_alone = clouds.len() == 1;
@@ -122,7 +123,7 @@ impl CloudAxes {
     }
 }
 
-/// The points within a few widths of the cloud's middle half; others fly off.
+/// Returns the points within a few widths of the cloud's middle half. The other points fly off.
 fn without_strays(cloud: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let ranges = [0, 1].map(|i| {
         let mut values: Vec<f64> = cloud.iter().map(|point| point[i]).collect();

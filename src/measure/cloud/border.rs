@@ -1,4 +1,4 @@
-//! The border of a cloud: closed lines of points, and the area inside.
+//! The border of a cloud, which is closed lines of points, and the area inside.
 
 use super::course::{Course, Memory, Subject, copies_of};
 use super::{CloudBody, CloudStart, NoCloud};
@@ -6,15 +6,15 @@ use crate::sim::batch::Ticks;
 use crate::sim::integrators::{Override, method};
 use crate::sim::{Solver, TickRate};
 
-/// Number of points of a border, and minimum for a cloud with few points.
+/// Number of points of a border, and the minimum for a cloud with few points.
 const POINTS: usize = 1200;
 const MIN_POINTS: usize = 90;
 
 /// Tolerance of the exact border, far below a pixel.
 const TOLERANCE: f64 = 1e-9;
 
-/// If every other point encloses an area that differs by more than this fraction, the area is unknown. The shape is
-/// then finer than the points or the method's tolerance can resolve. The error is about a third of the difference.
+/// The area is unknown if every other point encloses an area that differs by more than this fraction. In this case, the
+/// shape is finer than the points or the method's tolerance can resolve. The error is about a third of the difference.
 const ROUGH: f64 = 5e-3;
 
 /// The border of a cloud, and the area inside.
@@ -27,11 +27,11 @@ pub struct CloudBorder {
 }
 
 impl CloudBorder {
-    /// The border of an exactly moving cloud, at the start. A method of high order steps it with a tolerance below
-    /// any picture's resolution.
+    /// Creates the border of an exactly moving cloud, at the start. A method of high order steps the border with a
+    /// tolerance below any picture's resolution.
     ///
     /// # Errors
-    /// As [`Cloud::new`](super::Cloud::new).
+    /// Fails as [`Cloud::new`](super::Cloud::new) does.
     pub fn exact(
         of: CloudBody<'_>,
         start: CloudStart,
@@ -52,7 +52,7 @@ impl CloudBorder {
         Self::new(Subject::new(of.name, &copies), solver, start.ticks(tick_hz, 1), start, points)
     }
 
-    /// The border of a cloud under a solver, at the start, with about `points` points.
+    /// Creates the border of a cloud under a solver, at the start, with about `points` points.
     pub(super) fn new(
         subject: Subject<'_>,
         solver: (Solver, Memory),
@@ -70,7 +70,7 @@ impl CloudBorder {
         Ok(border)
     }
 
-    /// The same border, storing earlier states so that it can go back.
+    /// Returns the same border, which from now on stores states so that it can go back.
     pub fn rewindable(self) -> Self {
         Self { course: self.course.rewindable(), ..self }
     }
@@ -80,21 +80,21 @@ impl CloudBorder {
         self.course.go_to(tick);
     }
 
-    /// Area relative to the start; `None` if unknown.
+    /// Returns the area relative to the start; `None` if unknown.
     pub fn area_ratio(&self) -> Option<f64> {
         let (now, at_start) = (self.areas(), self.areas_at_start);
         let [ratio, of_half] = [0, 1].map(|i| now[i] / at_start[i]);
         ((ratio - of_half).abs() <= ROUGH * ratio).then_some(ratio)
     }
 
-    /// The lines, as coordinates and velocities. The first one surrounds the cloud, and the others surround its
-    /// holes.
+    /// Returns the lines, as coordinates and velocities. The first line surrounds the cloud, and the others surround
+    /// the cloud's holes.
     pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
         let mut states = self.course.q().iter().zip(self.course.v()).map(|(&q, &v)| [q, v]);
         self.lengths.iter().map(|&length| states.by_ref().take(length).collect()).collect()
     }
 
-    /// Area inside all points, and inside every other point.
+    /// Returns the area inside all points, and the area inside every other point.
     fn areas(&self) -> [f64; 2] {
         [1, 2].map(|every| self.area(every))
     }
@@ -102,7 +102,7 @@ impl CloudBorder {
     fn area(&self, every: usize) -> f64 {
         let reach = self.start.reach;
         let around = |line: Vec<[f64; 2]>| {
-            // Relative to the first point, so that a small area far from the origin keeps its digits.
+            // Points are taken relative to the first one, so that a small area far from the origin keeps its digits.
             let from_first = |to: &[f64; 2]| [0, 1].map(|i| (to[i] - line[0][i]) / reach[i]);
             let points: Vec<_> = line.iter().step_by(every).map(from_first).collect();
             let twice =

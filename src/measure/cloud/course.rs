@@ -5,7 +5,7 @@ use super::{CloudBody, NoCloud};
 use crate::sim::batch::{Batch, InstructionSet, NewBatch, Ticks};
 use crate::sim::{Solver, State};
 
-/// Initial number of ticks between two stored states; repeating them takes a frame or two.
+/// Initial number of ticks between two stored states. Repeating these ticks takes a frame or two.
 const SPACING: u64 = 32;
 
 /// Memory limit for the stored states of a course, in bytes.
@@ -14,19 +14,19 @@ const KEPT_BYTES: usize = 12 << 20;
 /// A method's memory across steps, and how a course stores it.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Memory {
-    /// No memory: the method continues from a stored state as if it had never stopped.
+    /// The method has no memory, and continues from a stored state as if it had never stopped.
     Absent,
-    /// Memory that is dropped at each point where a state may be stored.
+    /// The method's memory is dropped at each point where a state may be stored.
     Dropped,
-    /// Memory that cannot be dropped: rewinding replays from the start.
+    /// The method's memory cannot be dropped, so that rewinding replays the course from the start.
     Carried,
 }
 
-/// The body that a cloud is made of.
+/// The body from which a cloud is made.
 #[derive(Clone, Copy)]
 pub(super) struct Subject<'a> {
     name: &'a str,
-    /// Copies the body to these starts; `None` if that is not possible.
+    /// Makes copies of the body with these starts; `None` if that is not possible.
     copies: &'a dyn Fn(Solver, Vec<State<f64>>) -> Option<NewBatch>,
 }
 
@@ -39,7 +39,7 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// A function that copies a body of a scene.
+/// Returns a function that copies a body of a scene.
 pub(super) fn copies_of(
     CloudBody { kind, body, .. }: CloudBody<'_>,
 ) -> impl Fn(Solver, Vec<State<f64>>) -> Option<NewBatch> + '_ {
@@ -61,15 +61,15 @@ pub(super) struct Course {
     /// The ticks of the last step.
     ticks: Ticks,
     memory: Memory,
-    /// Stored states by tick, the start first; empty if the course never goes back.
+    /// Stored states by tick, with the start first; empty if the course never goes back.
     kept: Vec<StoredState>,
     spacing: u64,
-    /// The small areas whose corners the copies are.
+    /// The small areas, if the copies are the corners of such areas.
     lozenges: Option<Lozenges>,
 }
 
 impl Course {
-    /// Copies the subject to the starts if there is memory for them. `ticks` is empty, at the start of the run.
+    /// Copies the subject to the starts if there is memory for the copies. `ticks` is empty, at the start of the run.
     pub(super) fn new(
         subject: Subject<'_>,
         (solver, memory): (Solver, Memory),
@@ -85,18 +85,18 @@ impl Course {
         Ok(Self { batch, ticks, memory, kept: Vec::new(), spacing: SPACING, lozenges: None })
     }
 
-    /// The same course, storing states so that it can go back.
+    /// Returns the same course, which from now on stores states so that it can go back.
     pub(super) fn rewindable(mut self) -> Self {
         self.store_state();
         self
     }
 
-    /// The same course, with copies that are the corners of lozenges.
+    /// Returns the same course, with copies that are the corners of lozenges.
     pub(super) fn around(self, lozenges: Lozenges) -> Self {
         Self { lozenges: Some(lozenges), ..self }
     }
 
-    /// Area of each lozenge relative to the start; `None` if it is lost.
+    /// Returns the area of each lozenge relative to the start; `None` if the lozenge is lost.
     pub(super) fn areas(&self) -> Vec<Option<f64>> {
         let areas = |lozenges: &Lozenges| lozenges.areas(self.tick(), self.q(), self.v());
         self.lozenges.as_ref().map_or(Vec::new(), areas)
@@ -114,12 +114,12 @@ impl Course {
         self.ticks.first + self.ticks.count
     }
 
-    /// Time of the current tick, in seconds.
+    /// Returns the time of the current tick, in seconds.
     pub(super) fn t(&self) -> f64 {
         self.ticks.t(self.tick())
     }
 
-    /// Steps to a tick; an earlier one only if the course is [rewindable](Self::rewindable).
+    /// Steps to a tick. The tick may be an earlier one only if the course is [rewindable](Self::rewindable).
     pub(super) fn go_to(&mut self, tick: u64) {
         if tick < self.tick() {
             self.rewind_to(tick);
@@ -153,7 +153,8 @@ impl Course {
         self.ticks = Ticks { first: *tick, count: 0, ..self.ticks };
     }
 
-    /// Called where a state may be stored: drops the method's memory if necessary, and stores the state if it is due.
+    /// Drops the method's memory if necessary, and stores the state if it is due. This is called wherever a state may
+    /// be stored.
     fn store_if_due(&mut self) {
         if self.memory == Memory::Dropped {
             self.batch.change(|_, _| ());
@@ -176,7 +177,7 @@ impl Course {
     }
 }
 
-/// Sets the states of all copies. Those that fill the last block repeat the last state.
+/// Sets the states of all copies. The copies that fill the last block repeat the last state.
 fn place(batch: &mut Batch, q: &[f64], v: &[f64]) {
     let mut states = q.iter().zip(v);
     let mut last = (f64::NAN, f64::NAN);

@@ -1,5 +1,5 @@
-//! Counts the points on each pixel of a picture. The processor does this, so the result is the same everywhere. The
-//! cost of the image depends on the pixels, and hardly on the points.
+//! Counts the points on each pixel of a picture. The processor does this, so that the result is the same everywhere.
+//! The cost of the image depends on the pixels, and hardly on the points.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,12 +19,12 @@ pub struct PlaneView {
 }
 
 impl PlaneView {
-    /// A view of all exact points with a margin. It also shows other points up to `beside` times the width of the
-    /// exact ones to each side. An angle that turns over is shown all around.
+    /// Creates a view of all exact points with a margin. The view also shows other points up to `beside` times the
+    /// width of the exact ones to each side. An angle that turns over is shown all around.
     pub fn around(exact: &[[f64; 2]], others: &[[f64; 2]], beside: f64, is_angle: bool) -> Self {
         let [q, v] = [0, 1].map(|i| {
             let (exact, others) = (Self::range(exact, i), Self::range(others, i));
-            // If all exact points are lost the others are shown, and if both are lost the middle.
+            // If all exact points are lost, the other points are shown; if both are lost, the middle is shown.
             let is_some = |range: &[f64; 2]| range[0] <= range[1];
             let [least, most] = [exact, others].into_iter().find(is_some).unwrap_or([-1.0, 1.0]);
             let [low, high] = Some(others).filter(is_some).unwrap_or([least, most]);
@@ -38,7 +38,7 @@ impl PlaneView {
         Self { q: if wraps { [-PI, PI] } else { q }, v, wraps }
     }
 
-    /// Minimum and maximum coordinate or velocity of points that have not blown up.
+    /// Returns the minimum and maximum coordinate or velocity of points that have not blown up.
     pub(super) fn range<'p>(points: impl IntoIterator<Item = &'p [f64; 2]>, i: usize) -> [f64; 2] {
         let numbers =
             points.into_iter().map(|point| point[i]).filter(|number| number.abs() <= ESCAPE);
@@ -47,13 +47,13 @@ impl PlaneView {
         })
     }
 
-    /// Distance between minimum and maximum.
+    /// Returns the distance between the minimum and maximum of `range`.
     pub(super) fn width(points: &[[f64; 2]], i: usize) -> f64 {
         let [least, most] = Self::range(points, i);
         most - least
     }
 
-    /// Position of a point in the view, from 0 to 1 to the right and up.
+    /// Returns the position of a point in the view, from 0 to 1 to the right and up.
     pub fn place(&self, q: f64, v: f64) -> [f64; 2] {
         let q = if self.wraps { q - TAU * ((q + PI) / TAU).floor() } else { q };
         let part = |number: f64, [least, most]: [f64; 2]| (number - least) / (most - least);
@@ -72,18 +72,18 @@ const GRAIN: usize = 1 << 17;
 pub struct Density {
     size_px: [usize; 2],
     view: PlaneView,
-    /// Row by row from the top.
+    /// Number of points on each pixel, row by row from the top.
     counts: Vec<u32>,
 }
 
 impl Density {
-    /// An empty picture of this size.
+    /// Creates an empty picture of this size.
     pub fn new(size_px: [usize; 2], view: PlaneView) -> Self {
         Self { size_px, view, counts: vec![0; size_px[0] * size_px[1]] }
     }
 
-    /// Adds the points within the view and ignores those that are not finite. Large numbers of points are shared
-    /// among all cores.
+    /// Adds the points within the view and ignores points that are not finite. Large numbers of points are shared among
+    /// all cores.
     pub fn add(&mut self, q: &[f64], v: &[f64]) {
         if q.len() <= GRAIN {
             return self.add_here(q, v);
@@ -111,17 +111,17 @@ impl Density {
         }
     }
 
-    /// Number of points within the view.
+    /// Returns the number of points within the view.
     pub fn points(&self) -> usize {
         self.counts.iter().map(|&count| count as usize).sum()
     }
 
-    /// The counts, row by row from the top.
+    /// Returns the counts, row by row from the top.
     pub fn counts(&self) -> &[u32] {
         &self.counts
     }
 
-    /// Width and height in pixels.
+    /// Returns the width and the height in pixels.
     pub fn size_px(&self) -> [usize; 2] {
         self.size_px
     }

@@ -1,30 +1,30 @@
-//! Measures a method's effect on small areas: lozenges, whose corners are stepped like every point.
+//! Measures a method's effect on small areas. The areas are lozenges, whose corners are stepped like every point.
 //!
-//! The product of a lozenge's changes over all ticks is the determinant of the total map at its middle, however far
-//! that map separates points. So the corners are reset wherever the method does not notice.
+//! The product of a lozenge's changes over all ticks is the determinant of the total map at the lozenge's middle,
+//! however far that map separates points. So the corners are reset wherever the method does not notice it.
 
 use crate::sim::integrators::{Family, Method};
 
-/// The corners around a middle.
+/// Positions of the corners around a middle.
 const CORNERS: [[f64; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
-/// Distance of the corners from the middle, in units of the cloud's half-width. It is small enough that the map is
-/// linear between them.
+/// Distance of the corners from the middle, in units of the cloud's half-width. This distance is so small that the map
+/// is linear between the corners.
 const BESIDE: f64 = 1e-4;
-/// Under a linear map any distance works.
+/// Distance of the corners under a linear map, for which any distance works.
 const BESIDE_LINEAR: f64 = 1.0;
 
-/// Ticks after which a method with memory restarts around new corners. It is long because the first step is another
-/// method's.
+/// Number of ticks after which a method with memory restarts around new corners. It is large because the first step is
+/// another method's.
 const TICKS_WITH_MEMORY: u64 = 32;
 
-/// An area has significant digits if the longer diagonal exceeds this fraction of the largest corner, and the area
-/// this fraction of their product.
+/// An area has significant digits if the longer diagonal exceeds the first fraction of the largest corner, and the area
+/// exceeds the second fraction of the product of both.
 const RESOLVED: f64 = 1e-9;
 const RESOLVED_AREA: f64 = 1e-12;
 
-/// The diagonals of a lozenge bisect each other. If their middles are further apart than this fraction of its width,
-/// the lozenge is folded and has no meaningful area.
+/// The diagonals of a lozenge bisect each other. If their middles are further apart than this fraction of the lozenge's
+/// width, the lozenge is folded and has no meaningful area.
 const FOLDED: f64 = 0.1;
 
 /// Small areas, each with four copies as corners.
@@ -32,14 +32,15 @@ pub(super) struct Lozenges {
     /// Distance of fresh corners from the middle, in coordinate and velocity.
     beside: [f64; 2],
     is_linear: bool,
-    /// Ticks until the corners are reset; `None` if they never are, as under a linear map.
+    /// Number of ticks until the corners are reset; `None` if they never are, as under a linear map.
     renewed_every: Option<u64>,
     /// Change of each area up to the last reset.
     pub(super) factors: Vec<f64>,
 }
 
 impl Lozenges {
-    /// Lozenges for this method. `reach` is that of the cloud, and `is_linear` whether a tick is a linear map.
+    /// Creates lozenges for this method. `reach` is that of the cloud, and `is_linear` is whether a tick is a linear
+    /// map.
     pub(super) fn new(count: usize, method: &Method, is_linear: bool, reach: [f64; 2]) -> Self {
         let beside = if is_linear { BESIDE_LINEAR } else { BESIDE };
         let renewed_every = match (method.family, method.restart) {
@@ -51,7 +52,7 @@ impl Lozenges {
         Self { beside, is_linear, renewed_every, factors: vec![1.0; count] }
     }
 
-    /// Coordinates and velocities of the corners around a middle.
+    /// Returns the coordinates and velocities of the corners around a middle.
     pub(super) fn corners(&self, [q, v]: [f64; 2]) -> [[f64; 2]; 4] {
         CORNERS.map(|[x, y]| [q + x * self.beside[0], v + y * self.beside[1]])
     }
@@ -61,12 +62,12 @@ impl Lozenges {
         self.renewed_every.is_some()
     }
 
-    /// The next tick after this one at which the corners are reset.
+    /// Returns the next tick after this one at which the corners are reset.
     pub(super) fn renewal_after(&self, tick: u64) -> u64 {
         self.renewed_every.map_or(u64::MAX, |every| (tick / every + 1) * every)
     }
 
-    /// Areas relative to the start, given the corners at a tick; `None` for a lost lozenge.
+    /// Returns the areas relative to the start, given the corners at a tick; `None` for a lost lozenge.
     pub(super) fn areas(&self, tick: u64, q: &[f64], v: &[f64]) -> Vec<Option<f64>> {
         let is_new = self.renewed_every.is_some_and(|every| tick.is_multiple_of(every));
         let now = |q: &[f64], v: &[f64]| if is_new { 1.0 } else { self.area(q, v) };
@@ -76,7 +77,7 @@ impl Lozenges {
     }
 
     /// Records the change of the areas, and returns new corners around their middles. A linear map changes every area
-    /// alike, so its corners are then placed around 0, where rounding never hides them.
+    /// alike, so its corners are placed around 0, where rounding never hides them.
     pub(super) fn renew(&mut self, q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
         let lozenges = q.chunks_exact(CORNERS.len()).zip(v.chunks_exact(CORNERS.len()));
         let areas: Vec<f64> = lozenges.clone().map(|(q, v)| self.area(q, v)).collect();
@@ -92,7 +93,8 @@ impl Lozenges {
             .into()
     }
 
-    /// Area between four corners relative to their reset; NaN if the lozenge is lost, folded or finer than rounding.
+    /// Returns the area between four corners relative to their reset; NaN if the lozenge is lost, folded or finer than
+    /// rounding.
     fn area(&self, q: &[f64], v: &[f64]) -> f64 {
         let corner = |n: usize| [q[n] / self.beside[0], v[n] / self.beside[1]];
         let corners = [0, 1, 2, 3].map(corner);

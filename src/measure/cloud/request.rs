@@ -14,10 +14,10 @@ pub const POINTS: [usize; 3] = [10_000, USUAL_POINTS, 1_000_000];
 /// Maximum number of lanes with a cloud.
 pub(crate) const MAX_CLOUDS: usize = 9;
 
-/// Cells of a density image in each direction: more than a cloud has pixels in most windows.
+/// Number of cells of a density image in each direction, which is more than a cloud has pixels in most windows.
 pub(super) const GRID: usize = 512;
 
-/// Cost of stepping a single copy, relative to one in a block.
+/// Cost of stepping a single copy, relative to the cost of a copy in a block.
 const ALONE: u64 = 30;
 
 /// A person's choice of clouds.
@@ -83,7 +83,7 @@ impl CloudRequest {
             && self.choice == other.choice
     }
 
-    /// Tick of the clouds.
+    /// Returns the tick of the clouds.
     pub fn tick(&self) -> u64 {
         self.tick
     }
@@ -93,18 +93,18 @@ impl CloudRequest {
         self.in_time
     }
 
-    /// Time of a picture in the run, in seconds.
+    /// Returns the time of a picture in the run, in seconds.
     pub fn t_s(&self, picture: &CloudPicture) -> f64 {
         self.changes.starts_at_s() + self.tick_hz.seconds(picture.tick)
     }
 
-    /// Time between the request and a picture, in seconds of the run.
+    /// Returns the time between the request and a picture, in seconds of the run.
     pub fn behind_s(&self, picture: &CloudPicture) -> f64 {
         self.tick_hz.seconds(self.tick.abs_diff(picture.tick))
     }
 }
 
-/// Result of a [`CloudRequest`]: the clouds, or why there are none.
+/// Result of a [`CloudRequest`], which is the clouds, or the reason why there are none.
 #[derive(Clone, Debug)]
 pub struct FoundCloud {
     /// The request.
@@ -118,17 +118,17 @@ pub struct FoundCloud {
 pub struct CloudPicture {
     /// Ticks since the start of the clouds; 0 for a section.
     pub tick: u64,
-    /// Number of points per cloud, less than the chosen number if the clouds fell behind; 0 for a section.
+    /// Number of points per cloud, which is less than the chosen number if the clouds fell behind; 0 for a section.
     pub points: usize,
-    /// When a section takes its points, in words; `None` for a cloud.
+    /// Description of the moments at which a section samples its points; `None` for a cloud.
     pub section: Option<String>,
     /// The part of the plane in the density images.
     pub view: PlaneView,
     /// Border of the exact cloud.
     pub border: Vec<Vec<[f64; 2]>>,
-    /// Times in seconds and areas of the exact cloud relative to the start, where known.
+    /// Times in seconds and areas of the exact cloud relative to the start, at the moments at which these are known.
     pub exact: Vec<[f64; 2]>,
-    /// In the order of the lanes.
+    /// The clouds of the lanes, in the order of the lanes.
     pub lanes: Vec<LaneCloud>,
 }
 
@@ -137,25 +137,25 @@ pub struct CloudPicture {
 pub struct LaneCloud {
     /// Index of the lane's method in the list.
     pub entry: usize,
-    /// The number of its points on each pixel.
+    /// The number of the cloud's points on each pixel.
     pub density: Arc<Density>,
     /// Number of points that blew up and are left out.
     pub lost: usize,
     /// Number of remaining points beyond the axes; 0 for a section.
     pub hidden: usize,
-    /// Those of them on each side: left, right, below, above.
+    /// Number of the `hidden` points on each side: left, right, below, above.
     pub beyond: [usize; 4],
-    /// Area relative to the start, as [`crate::measure::cloud::Cloud::area_ratio`].
+    /// Area relative to the start, as [`crate::measure::cloud::Cloud::area_ratio`] returns it.
     pub area_ratio: Option<f64>,
     /// The change of the area, in words.
     pub words: String,
-    /// How the area is measured, in words.
+    /// Description of how the area is measured.
     pub measured: String,
-    /// Times in seconds and areas so far.
+    /// Times in seconds and areas of the cloud relative to the start, up to now.
     pub areas: Vec<[f64; 2]>,
 }
 
-/// Cost of a point's tick, in evaluations of a copy in a block.
+/// Returns the cost of a point's tick, in evaluations of a copy in a block.
 pub(super) fn cost(spec: &LaneSpec) -> u64 {
     let evaluations = u64::from(spec.method.evaluations.unwrap_or(2)).max(1);
     let alone = if steps_in_blocks(spec.method) { 1 } else { ALONE };

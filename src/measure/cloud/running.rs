@@ -1,7 +1,8 @@
-//! The clouds of a run, one per lane, stepped off the window's thread: a [`CloudRequest`] goes in, and each
-//! [`FoundCloud`] comes back.
+//! The clouds of a run, one per lane, which are stepped outside the window's thread. A [`CloudRequest`] goes in, and
+//! each [`FoundCloud`] comes back.
 //!
-//! A cloud depends only on the run, the tick and the choice: its picture at a tick is the same from either direction.
+//! A cloud depends only on the run, the tick and the choice, so that its picture at a tick is the same from either
+//! direction.
 
 use std::sync::Arc;
 
@@ -17,15 +18,14 @@ use crate::sim::TickRate;
 
 /// Number of samples of an area over the length of a run.
 const SAMPLES: u64 = 200;
-/// Enlargement of a studio's clouds, since they appear small.
+/// Enlargement of a studio's clouds, which would otherwise look small.
 const REACH: f64 = 2.0;
 
-/// The axes show the exact cloud until its size has grown by this factor. On larger axes, the initial cloud would be
-/// a speck.
+/// Growth of the exact cloud up to which the axes show it. On larger axes, the initial cloud would be a speck.
 const SPREAD: f64 = 10.0;
 
-/// If a run is more seconds behind than this and does not catch up soon, it continues with a tenth of its points, but
-/// not with fewer than the minimum.
+/// A run that is more seconds behind than this, and does not catch up soon, continues with a tenth of its points. Their
+/// number does not fall below the minimum.
 const BEHIND_S: f64 = 0.125;
 const LEAST_POINTS: usize = 1_000;
 
@@ -43,9 +43,9 @@ pub struct CloudWorker {
     /// The run of the last request.
     run: Option<Result<CloudInProgress, NoCloud>>,
     is_done: bool,
-    /// Stride: every n-th point is stepped.
+    /// Stride through the points, of which every n-th is stepped.
     stride: usize,
-    /// Requested and reached tick at the last check of whether the run keeps up.
+    /// The requested and the reached tick, at the last check of whether the run keeps up.
     looked: Option<[u64; 2]>,
 }
 
@@ -56,8 +56,8 @@ impl Default for CloudWorker {
 }
 
 impl CloudWorker {
-    /// Replaces the request; `None` cancels it. Clouds of the same run continue from their current tick. They use
-    /// fewer points if they fall behind a real-time run, and all points once it stands still.
+    /// Replaces the request; `None` cancels it. Clouds of the same run continue from their current tick. They use fewer
+    /// points if they fall behind a real-time run, and all points once the run stands still.
     pub fn set_request(&mut self, request: Option<Arc<CloudRequest>>) {
         match (&self.request, &request) {
             (Some(old), Some(new)) if old.is_alike(new) => {
@@ -75,7 +75,7 @@ impl CloudWorker {
         self.request = request;
     }
 
-    /// The stride to use from now on, when `new` replaces the request for the tick `old`.
+    /// Returns the stride to use from now on, when `new` replaces the request for the tick `old`.
     fn stride_for(&mut self, old: u64, new: &CloudRequest) -> usize {
         let Some(Ok(CloudInProgress::Clouds(run))) = &self.run else { return self.stride };
         if !new.in_time {
@@ -95,7 +95,7 @@ impl CloudWorker {
         if keeps_up { self.stride } else { next_stride(new, self.stride) }
     }
 
-    /// Whether nothing remains to do.
+    /// Whether no work remains.
     pub fn is_done(&self) -> bool {
         self.is_done || self.request.is_none()
     }
@@ -125,12 +125,12 @@ impl CloudWorker {
     }
 }
 
-/// The stride for a tenth of the points, or the same stride if there are too few points.
+/// Returns the stride for a tenth of the points, or the same stride if too few points would be left.
 fn next_stride(request: &CloudRequest, stride: usize) -> usize {
     if request.choice.points / (10 * stride) < LEAST_POINTS { stride } else { 10 * stride }
 }
 
-/// The initial stride of a run. It is larger if the first requested tick is late.
+/// Returns the initial stride of a run. It is larger if the first requested tick is late.
 fn initial_stride(request: &CloudRequest) -> usize {
     let points = request.choice.points as u64;
     let work =
@@ -179,7 +179,7 @@ impl CloudInProgress {
     }
 }
 
-/// A cloud with its area at each sampled tick so far.
+/// A cloud with its area at each sampled tick up to now.
 struct SampledCloud<C> {
     cloud: C,
     areas: Vec<Option<f64>>,
@@ -194,7 +194,7 @@ struct CloudRun {
     points: usize,
     tick_hz: TickRate,
     tick: u64,
-    /// Ticks between two samples.
+    /// Number of ticks between two samples.
     sampled_every: u64,
     /// Maximum number of ticks in one call of `work`.
     part: u64,
@@ -233,7 +233,7 @@ impl CloudRun {
         Ok(run)
     }
 
-    /// Steps towards a tick, or back to it.
+    /// Steps towards a tick, or back to that tick.
     fn work(&mut self, to: u64) {
         let sampled = (self.tick / self.sampled_every + 1) * self.sampled_every;
         let tick = to.min(sampled).min(self.tick + self.part);
@@ -295,7 +295,7 @@ impl CloudRun {
         }
     }
 
-    /// The areas at the sampled ticks so far, and the current one.
+    /// Returns the areas at the sampled ticks up to now, and the current one.
     fn samples(&self, areas: &[Option<f64>], now: Option<f64>) -> Vec<[f64; 2]> {
         let sampled = (0..).step_by(self.sampled_every as usize).zip(areas.iter().copied());
         let so_far = sampled.take_while(|(tick, _)| *tick < self.tick);

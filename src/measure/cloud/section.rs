@@ -1,4 +1,5 @@
-//! Poincaré sections: the positions of many starts at each period of a drive, or at each tick without a drive.
+//! Poincaré sections, which are the positions of many starts at each period of a drive or, if there is no drive, at
+//! each tick.
 
 use super::request::{GRID, Request, cost};
 use super::{
@@ -7,23 +8,23 @@ use super::{
 use crate::sim::number::significant;
 use crate::sim::{Stepper, TickRate};
 
-/// Number of starts of a section. Each leaves a point at each crossing.
+/// Number of starts of a section. Each start leaves a point at each crossing.
 const STARTS: usize = 400;
-/// Maximum number of crossings of a lane, the work limit for all of them in evaluations of a copy in a block, and the
-/// number of pictures until then.
+/// Maximum number of crossings of a lane, the work limit for all crossings in evaluations of a copy in a block, and the
+/// number of pictures until they are complete.
 const MAX_CROSSINGS: u64 = 3000;
 const WORK: u64 = 100_000_000;
 const PARTS: u64 = 40;
-/// Reach of the starts in swings; an angle is covered all around.
+/// Reach of the starts, in swings. An angle is covered all around.
 const REACH: f64 = 1.5;
 /// Longest period of a drive in seconds, and maximum number of candidate periods.
 const MAX_PERIOD_S: f64 = 60.0;
 const MAX_TRIED: f64 = 20_000.0;
-/// Number of moments at which forces are compared, and relative mismatch that counts as rounding.
+/// Number of moments at which forces are compared, and relative difference that counts as rounding.
 const MOMENTS: u64 = 48;
 const ROUNDING: f64 = 1e-6;
 
-/// A section: the positions of a cloud's points at all crossings so far.
+/// A section, which has the positions of a cloud's points at all crossings up to now.
 struct Section {
     /// Time between two crossings, in ticks.
     period: f64,
@@ -32,7 +33,7 @@ struct Section {
 }
 
 impl Section {
-    /// A section without crossings yet. They follow at intervals of `period` (ticks, above 0) after the start, and
+    /// Creates a section without crossings. They follow at intervals of `period` (ticks, above 0) after the start, and
     /// `density` counts their points.
     fn new(period: f64, density: Density) -> Self {
         Self { period, crossings: 0, density }
@@ -75,7 +76,7 @@ impl SectionRun {
         let specs: Vec<_> = lanes.iter().map(|(_, spec)| *spec).collect();
         let axes = CloudAxes::of_run(of, start, &specs, tick_hz, shown.into())?;
         let drive = period(of.body, start.middle, seconds, tick_hz);
-        // Without a drive, a crossing occurs at each tick.
+        // If there is no drive, a crossing occurs at each tick.
         let period = drive.map_or(1.0, |seconds| seconds * f64::from(tick_hz));
         let strobe = match drive {
             Some(seconds) => format!("once in the drive's period of {} s", significant(seconds, 4)),
@@ -130,8 +131,8 @@ impl SectionRun {
     }
 }
 
-/// Period in seconds of the force on a body held in a state; `None` if the force does not depend on time, or has no
-/// period up to `seconds`.
+/// Returns the period in seconds of the force on a body held in a state; `None` if the force does not depend on time,
+/// or has no period up to `seconds`.
 fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: TickRate) -> Option<f64> {
     let (h, seconds) = (tick_hz.step_s(), seconds.min(MAX_PERIOD_S));
     let apart = (h / 2.0).max(seconds / MAX_TRIED);
@@ -140,7 +141,7 @@ fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: TickRate)
         body.acceleration(t, &[q], &[v], &mut a);
         a[0]
     };
-    // Irrational spacing, so that no period divides it.
+    // The spacing is irrational, so that no period divides it.
     let moments: Vec<f64> =
         (0..MOMENTS).map(|n| (n as f64 * 0.618_034).fract() * seconds).collect();
     let forces: Vec<f64> = moments.iter().map(|&t| force(t)).collect();
@@ -169,7 +170,8 @@ fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: TickRate)
     None
 }
 
-/// The minimum of a function between two places, to rounding, if it has only one there.
+/// Returns the place of the minimum of a function between two places, to rounding, if there is only one minimum between
+/// them.
 fn least(of: &impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     for _ in 0..60 {

@@ -13,11 +13,11 @@ use crate::sim::TickRate;
 /// Whether a lane meets a [`Criterion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::measure) enum CriterionFinding {
-    /// It does, at this cost.
+    /// The lane meets the criterion, at this cost.
     Holds { evaluations_per_s: f64 },
     /// The body with this index in the scene fails.
     Fails { body: usize },
-    /// Unknown: it would take too much work, or there is no truth or no tick.
+    /// The result is unknown, because it would take too much work, or because there is no truth or no tick.
     Unknown,
 }
 
@@ -27,12 +27,12 @@ impl CriterionFinding {
     }
 }
 
-/// Why a body is not known to meet a criterion.
+/// The reason why a body is not known to meet a criterion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum CriterionMiss {
-    /// It fails.
+    /// The body fails.
     Fails,
-    /// Unknown: it would take too much work, or there is no truth.
+    /// The result is unknown, because it would take too much work, or because there is no truth.
     Unknown,
 }
 
@@ -76,7 +76,7 @@ impl Judge {
         CriterionFinding::Holds { evaluations_per_s: steady.unwrap_or(evaluations_per_s) }
     }
 
-    /// How a lane misses a criterion; `None` if it meets it. If the modes prove that, nothing runs.
+    /// Returns how a lane misses a criterion; `None` if the lane meets it. If the modes prove this, nothing runs.
     pub(in crate::measure) async fn misses(
         &self,
         criterion: Criterion,
@@ -90,7 +90,7 @@ impl Judge {
         Some(finding).filter(|finding| !finding.holds())
     }
 
-    /// Whether the modes of every body prove that it meets a criterion.
+    /// Whether the modes of every body prove that the body meets a criterion.
     async fn is_met_by_modes(
         &self,
         criterion: Criterion,
@@ -177,8 +177,8 @@ impl Judge {
         cost_if(run.error <= TOLERANCE, &run)
     }
 
-    /// Whether a lane is accurate with the fraction `spare` of [`TOLERANCE`] left on every body with bumps. The
-    /// errors of linear bodies have none: they change steadily with a parameter.
+    /// Whether a lane is accurate with the fraction `spare` of [`TOLERANCE`] left on every body with bumps. The errors
+    /// of linear bodies have no bumps, because they change steadily with a parameter.
     pub(in crate::measure) async fn is_accurate_sparing(
         &self,
         spare: f64,
@@ -200,8 +200,8 @@ impl Judge {
     /// [`FREQUENCY_TOLERANCE`]. An accurate motion also looks right.
     ///
     /// A body with too few swings is followed over its first swings instead. A body that does not swing has to stay
-    /// within [`VISIBLE`] of its range. `known` is the run over the horizon beside a usable truth, if there is one
-    /// already.
+    /// within [`VISIBLE`] of its range. `known` is the run over the horizon beside a usable truth, if there is such a
+    /// run already.
     pub(super) async fn looks_right(
         &self,
         body: usize,
@@ -253,8 +253,8 @@ impl Judge {
         self.beside_truth(truth, spec, tick_hz, until).await
     }
 
-    /// Whether a run over the horizon of `truth` has the same swings, or is similarly close if the truth does not
-    /// swing.
+    /// Whether a run over the horizon of `truth` has the same swings as the truth. If the truth does not swing, whether
+    /// the run is similarly close.
     async fn swings_alike(
         &self,
         truth: &BodyTruth,
@@ -273,7 +273,7 @@ impl Judge {
         };
         let Some(error) = error else { return Ok(is_near) };
         let is_as_wide = match (&modes, &run.swings) {
-            // If energy is conserved all half turns are equally wide, and the first one is incomplete.
+            // If energy is conserved, all half turns are equally wide, and the first one is incomplete.
             (_, Some(swings)) => {
                 let first = usize::from(truth.energy_scale.is_some());
                 swing.is_as_wide(&swings.half_turns, first)
@@ -285,7 +285,7 @@ impl Judge {
     }
 }
 
-/// Evaluations per simulated second of a run that meets a criterion.
+/// Returns the evaluations per simulated second of a run that meets a criterion.
 fn cost_if(holds: bool, run: &JudgedRun) -> Result<f64, CriterionMiss> {
     match holds {
         _ if run.is_too_much => Err(CriterionMiss::Unknown),

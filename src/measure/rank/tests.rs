@@ -2,8 +2,8 @@ use super::*;
 use crate::sim::TickRate;
 use crate::sim::integrators::method;
 
-/// How a method meets a criterion with one step per tick, at this cost and with this reserve, if its margins are
-/// searched.
+/// Returns how a method meets a criterion with one step per tick, at this cost and, if its margins are searched, with
+/// this reserve.
 fn met(cost_per_s: f64, reserve: Option<f64>) -> CriterionMet {
     CriterionMet {
         tick_hz: 60.into(),
@@ -17,7 +17,7 @@ fn met(cost_per_s: f64, reserve: Option<f64>) -> CriterionMet {
     }
 }
 
-/// Ids in the order of the table.
+/// Ids of methods, in the order of the table.
 const IDS: [&str; 5] =
     ["explicit-euler", "midpoint", "rk4", "adams-bashforth-2", "velocity-verlet"];
 
@@ -26,7 +26,7 @@ fn with_ranking<T>(mets: &[CriterionMet], see: impl FnOnce(&Ranking) -> T) -> T 
     see(&Ranking::new(methods.into_iter().zip(mets).enumerate()))
 }
 
-/// Index of the recommended method, given costs and reserves.
+/// Returns the index of the recommended method, given costs and reserves.
 fn first(costs: &[(f64, f64)]) -> Option<usize> {
     let mets: Vec<_> = costs.iter().map(|&(cost, reserve)| met(cost, Some(reserve))).collect();
     with_ranking(&mets, |it| it.recommended_index())
@@ -47,7 +47,7 @@ fn little_reserve_yields_to_more_at_up_to_twice_the_cost() {
         (&[(60.0, 1.4), (121.0, 10.0)], 0),
         (&[(60.0, 1.5), (120.0, 10.0)], 0),
         (&[(60.0, 1.4), (120.0, 1.4)], 0),
-        // The cheapest method with enough reserve wins, not the largest reserve.
+        // The winner is the cheapest method with enough reserve, and not the method with the largest reserve.
         (&[(60.0, 1.1), (90.0, 1.6), (120.0, 10.0)], 1),
         // The replacement may be passed over for the same reason.
         (&[(60.0, 1.1), (100.0, 1.3), (200.0, 1.7), (400.0, 10.0)], 2),
@@ -59,7 +59,8 @@ fn little_reserve_yields_to_more_at_up_to_twice_the_cost() {
 
 #[test]
 fn margins_are_searched_only_until_the_first_place_is_known() {
-    // Costs and reserves to be found, the recommended method, and the methods whose margins are searched.
+    // Each row has the costs and reserves to be found, the recommended method, and the methods whose margins are
+    // searched.
     for (all, wanted, searched) in [
         (&[(60.0, 2.0), (60.0, 3.0), (61.0, 10.0)][..], 1, &[0, 1][..]),
         (&[(60.0, 10.0), (60.0, 10.0), (60.0, 10.0)], 0, &[0]),
@@ -92,7 +93,7 @@ fn a_reserve_is_the_lesser_margin_and_a_rate_counts_by_its_square() {
         let tick_hz = tick_hz.into();
         CriterionMet { tick_hz, slowest_hz, stiffness_factor, ..met(60.0, None) }.reserve()
     };
-    // 60 / 48, 14 / 14 and 4 / 3, squared.
+    // The factors are 60 / 48, 14 / 14 and 4 / 3, squared.
     assert_eq!(of(60, Some(48), Some(10.0)), Some(1.5));
     assert_eq!(of(60, Some(48), Some(1.3)), Some(1.3));
     assert_eq!(of(14, Some(14), None), Some(1.0));

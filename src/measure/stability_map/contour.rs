@@ -1,5 +1,5 @@
-//! Marching squares: the region of a plane in which a condition holds, from a grid of points and bisection between
-//! them.
+//! Marching squares, which finds the region of a plane in which a condition holds, from a grid of points and bisection
+//! between them.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -7,11 +7,11 @@ use std::collections::btree_map::Entry;
 use super::{Coverage, Meter, Region};
 use crate::sim::numerics::bisect;
 
-/// Number of bisections between two points of the grid. They find a boundary to a five-hundredth of that distance,
-/// which is less than a pixel of a map that fills a screen.
+/// Number of bisections between two points of the grid. They find a boundary to a five-hundredth of the points'
+/// distance, which is less than a pixel of a map that fills a screen.
 const HALVINGS: u32 = 9;
 
-/// A grid of points over a rectangle, the outermost on its border.
+/// A grid of points over a rectangle. The outermost points are on the rectangle's border.
 pub(super) struct Corners {
     counts: [usize; 2],
     ends: [[f64; 2]; 2],
@@ -26,7 +26,7 @@ impl Corners {
         self.counts
     }
 
-    /// Position of the point with these indices.
+    /// Returns the position of the point with these indices.
     pub(super) fn at(&self, index: [usize; 2]) -> [f64; 2] {
         std::array::from_fn(|axis| {
             let [low, high] = self.ends[axis];
@@ -35,11 +35,12 @@ impl Corners {
     }
 }
 
-/// A side of a square of the grid: its first corner, and the axis along which it lies.
+/// A side of a square of the grid, given by its first corner and the axis along which it lies.
 type Side = ([usize; 2], usize);
 
-/// The region in which a condition holds. `at_corner` evaluates it at the corners of the grid, `on_row` at any x of a
-/// row, and `anywhere` at any point. The meter counts the work of a point on a row, and of a point anywhere.
+/// Returns the region in which a condition holds. `at_corner` evaluates the condition at the corners of the grid,
+/// `on_row` at any x of a row, and `anywhere` at any point. The meter counts the work of a point on a row, and of a
+/// point anywhere.
 pub(super) async fn contour(
     corners: &Corners,
     at_corner: impl Fn([usize; 2]) -> bool,
@@ -70,7 +71,7 @@ pub(super) async fn contour(
 
     let (mut pieces, mut segments) = (Vec::new(), Vec::new());
     for j in 0..rows - 1 {
-        // First of a run of squares that are wholly inside.
+        // This is the first of a run of squares that are wholly inside.
         let mut run: Option<usize> = None;
         for i in 0..columns {
             let round = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
@@ -118,7 +119,8 @@ pub(super) async fn contour(
     Region { coverage, pieces, boundary: boundary.collect(), limit: None, seen: Vec::new() }
 }
 
-/// The place between `from` and `to` where the condition changes. `holds` is the condition at `from`.
+/// Returns the place between `from` and `to` where the condition changes. `holds` is the value of the condition at
+/// `from`.
 fn between(from: f64, to: f64, holds: bool, holds_at: impl Fn(f64) -> bool) -> f64 {
     let [from, to] = bisect([from, to], HALVINGS, |at| holds_at(at) == holds);
     (from + to) / 2.0

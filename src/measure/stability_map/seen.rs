@@ -16,14 +16,14 @@ pub struct DampingLine {
 
 /// Damping ratios of the lines.
 const RATIOS: [f64; 8] = [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
-/// Largest relative distance of a point on a line from its damping ratio. A point that is further off lies where a
-/// player sees no swing.
+/// Largest relative difference between the damping ratio at a point and that of its line. A point that is further off
+/// lies where a player sees no swing.
 const NEAR: f64 = 0.02;
 /// Work of a point, in evaluations of one coordinate.
 const WORK_OF_POINT: u64 = 20;
 
-/// The lines of an engine. `joint_at` returns stiffness in 1/s² and damping in 1/s, each per unit of mass, at a value
-/// of the mapped parameter.
+/// Returns the lines of an engine. `joint_at` returns stiffness in 1/s² and damping in 1/s, each per unit of mass, at a
+/// value of the mapped parameter.
 pub(super) async fn damping_lines(
     spec: &LaneSpec,
     corners: &Corners,

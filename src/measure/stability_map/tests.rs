@@ -3,7 +3,7 @@ use crate::scene::Scene;
 use crate::sim::bodies::kind;
 use crate::sim::integrators::{GENERAL_METHODS, Method, method};
 
-/// The map of a spring of 1 kg over its stiffness, with this damping.
+/// Returns the map of a spring of 1 kg over its stiffness, with this damping.
 fn spring(damping: f64, ids: &[&str]) -> StabilityMap {
     let specs = ids.iter().map(|id| LaneSpec::plain(method(id).unwrap()));
     map([1.0, 90.0, damping, 1.0, 0.0, 3.0], 1, specs.collect())
@@ -64,7 +64,7 @@ fn the_regions_of_an_undamped_spring_end_at_the_limits_of_the_cards() {
 
 #[test]
 fn no_method_is_stable_again_far_beyond_its_limit() {
-    // Up to 5000 rad in a tick.
+    // The map reaches up to 5000 rad in a tick.
     let limited = GENERAL_METHODS.iter().filter(|method| {
         method.tolerance.is_none() && method.stability_limit.is_some_and(|limit| limit >= 1.0)
     });
@@ -222,7 +222,7 @@ fn slicing_and_moving_the_point_leave_the_map_unchanged() {
     assert!(found(SLICE, true).0 == whole);
 }
 
-/// The map of a scene's first body over the parameter with this key.
+/// Returns the map of a scene's first body over the parameter with this key.
 fn map_of(scene: &Scene, key: &str, tick_hz: u32, ids: &[&str]) -> StabilityMap {
     let body = &scene.bodies[0];
     let (index, _) = body.kind.parameter(key).unwrap();
@@ -241,14 +241,14 @@ fn law(text: &str) -> Scene {
     Scene::parse("x.toml", &text).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// A quarter of a car, whose damper couples its modes.
+/// Returns a quarter of a car, whose damper couples its modes.
 fn quarter_car() -> Scene {
     law("constants = { m = 250.0, w = 40.0, k = 18000.0, kt = 160000.0, c = 1200.0 }\n\
          [law.coordinates.z]\nstart = 0.1\nacceleration = '(-k*(z-u) - c*(vz-vu))/m'\n\
          [law.coordinates.u]\nacceleration = '(k*(z-u) + c*(vz-vu) - kt*u)/w'")
 }
 
-/// The swing of a quarter of a car under a method after many steps, relative to that after half of them.
+/// Returns the swing of a quarter of a car under a method after many steps, relative to the swing after half of them.
 fn growth(scene: &Scene, key: &str, value: f64, hz: f64, id: &str) -> f64 {
     let body = &scene.bodies[0];
     let mut values = body.values.clone();
@@ -312,7 +312,7 @@ fn the_boundary_of_a_law_with_coupled_modes_is_where_its_swing_starts_to_grow() 
 
 #[test]
 fn freely_drifting_masses_are_stable_under_damping_methods() {
-    // Two cars with a spring and a damper between them: their common drift has no force.
+    // These are two cars with a spring and a damper between them, so that their common drift has no force.
     let scene = law("constants = { k = 30.0, c = 2.0, m = 3.0 }\n\
         [law.coordinates.x]\nstart = 0.3\nacceleration = 'k*(y-x) + c*(vy-vx)'\n\
         [law.coordinates.y]\nacceleration = '(k*(x-y) + c*(vx-vy))/m'");

@@ -7,7 +7,7 @@ use crate::measure::duration;
 use crate::scene::LaneSpec;
 use crate::sim::number::counted;
 
-/// `bounded`, `grows ×2 in 3.1 s`, `fails at once`.
+/// Writes the stability as `bounded`, `grows ×2 in 3.1 s` or `fails at once`.
 impl fmt::Display for PointStability {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
@@ -22,19 +22,19 @@ impl fmt::Display for PointStability {
 }
 
 impl StabilityMap {
-    /// Distinct names of the request's methods, in its order.
+    /// Returns distinct names of the request's methods, in the order of the request.
     pub fn method_names(&self) -> Vec<String> {
         let specs: Vec<LaneSpec> = self.request.specs.iter().map(|(_, spec)| *spec).collect();
         specs.iter().map(|spec| spec.distinct_name(spec.method.name, &specs)).collect()
     }
 
-    /// Stability of each method at the current point, line by line.
+    /// Lists the stability of each method at the current point, line by line.
     pub fn each_here(&self) -> String {
         let lines = self.method_names().into_iter().zip(&self.here);
         lines.map(|(name, here)| format!("{name}: {here}")).collect::<Vec<_>>().join("\n")
     }
 
-    /// Number of methods that are bounded at the current point, and the one that grows fastest.
+    /// Describes the number of methods that are bounded at the current point, and the method that grows fastest.
     pub fn stable_here(&self) -> String {
         let of = |kind: PointStability| self.here.iter().filter(|here| **here == kind).count();
         let (all, stable, own) =
@@ -59,7 +59,7 @@ impl StabilityMap {
         format!("{stable} of {all} {verb} bounded{own}.{}", fastest.unwrap_or_default())
     }
 
-    /// Notes on methods and growth that the map does not draw: sentences with a space before each.
+    /// Returns notes on methods and growth that the map does not draw, as sentences with a space before each.
     pub fn not_drawn(&self) -> String {
         let named = |coverage: Coverage| {
             let found = self.regions.iter().zip(self.method_names());

@@ -11,16 +11,16 @@ use crate::sim::integrators::{Family, StepFailure};
 use crate::sim::stability::Tick;
 use crate::sim::{Solver, Stepper, TickRate};
 
-/// Work of a tick besides its evaluations, per coordinate: the comparison with the truth, and the energy.
+/// Work of a tick besides its evaluations, per coordinate, for the comparison with the truth and the energy.
 const WORK_OF_TICK: u64 = 4;
 
 /// Number of coordinates above which an implicit method spends more work on its matrix than on evaluations.
 const SMALL_MATRIX: u64 = 20;
 
-/// Ticks between two checks of the work, for a body with one coordinate.
+/// Number of ticks between two checks of the work, for a body with one coordinate.
 const TICKS_PER_LOOK: u64 = 64;
 
-/// Work of `evaluations` evaluations of a body with `n` coordinates, in evaluations of one coordinate.
+/// Returns the work of `evaluations` evaluations of a body with `n` coordinates, in evaluations of one coordinate.
 pub(in crate::measure) fn work_of(evaluations: u64, n: u64, solver: Solver) -> u64 {
     let has_matrix = solver
         .method()
@@ -37,9 +37,9 @@ pub(in crate::measure) struct FollowedBody {
     substeps: u32,
     /// Initial energy plus the energy that inputs have added, in joules.
     pub(in crate::measure) base_j: f64,
-    /// Its swings, if they are measured.
+    /// The body's swings, if they are measured.
     pub(in crate::measure) swings: Option<Swings>,
-    /// Work per tick of a true motion, which is its only measure of work.
+    /// Work per tick of a true motion, whose work is not measured in any other way.
     work_of_moment: u64,
     /// Work that the meter has counted.
     counted: u64,
@@ -49,7 +49,7 @@ pub(in crate::measure) struct FollowedBody {
 pub(in crate::measure) type FollowedRun = Ticker<'static, FollowedBody>;
 
 impl BodyTruth {
-    /// The body before its first tick, under `solver` at this rate.
+    /// Returns the body before its first tick, under `solver` at this rate.
     pub(in crate::measure) fn follow(
         &self,
         solver: Solver,
@@ -96,7 +96,7 @@ impl BodyTruth {
 }
 
 impl FollowedBody {
-    /// Work of this many ticks, in evaluations of one coordinate.
+    /// Returns the work of this many ticks, in evaluations of one coordinate.
     fn work(&self, ticks: u64) -> u64 {
         if self.solver == Solver::Truth {
             return self.work_of_moment * ticks;
@@ -109,12 +109,12 @@ impl FollowedBody {
         steps.saturating_add(WORK_OF_TICK * n * ticks)
     }
 
-    /// Kinetic and potential energy in joules.
+    /// Returns the kinetic and potential energy in joules.
     pub(in crate::measure) fn energies(&self) -> [f64; 2] {
         self.stepper.mechanical_energy().unwrap_or([0.0; 2])
     }
 
-    /// Total energy in joules.
+    /// Returns the total energy in joules.
     pub(in crate::measure) fn energy(&self) -> f64 {
         let [kinetic, potential] = self.energies();
         kinetic + potential
@@ -154,10 +154,10 @@ impl Ticked for FollowedBody {
     }
 }
 
-/// Fraction of a tick by which the end of a span may be early, since its time is rounded.
+/// Fraction of a tick by which the end of a span may be early, because its time is rounded.
 const ON_TIME: f64 = 1e-6;
 
-/// Number of whole ticks at this rate in `seconds`.
+/// Returns the number of whole ticks at this rate in `seconds`.
 pub(in crate::measure) fn ticks(seconds: f64, tick_hz: TickRate) -> u64 {
     (seconds * f64::from(tick_hz) + ON_TIME).floor() as u64
 }

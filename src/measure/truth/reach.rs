@@ -1,27 +1,27 @@
-//! The reach of the true motion: the amplitudes of its components, and the scale for the growth of a swing.
+//! The reach of the true motion, which gives the amplitudes of its components, and the scale for the growth of a swing.
 
 use super::TruthNode;
 use crate::measure::survey::Ranges;
 use crate::scene::SceneBody;
 use crate::sim::bodies::Coordinates;
 
-/// A force points to the centre if its transverse part is below this fraction of it.
+/// A force points to the centre if its transverse part is below this fraction of the whole force.
 const CENTRAL: f64 = 1e-9;
 
-/// A motion turns about the centre if the transverse part of its velocity exceeds this fraction.
+/// A motion turns about the centre if the transverse part of its velocity exceeds this fraction of the whole velocity.
 const TURNS: f64 = 1e-6;
 
 /// The reach of the true motion in the long run.
 pub(in crate::measure) enum Reach {
-    /// Middle and half the range of each component, coordinates first.
+    /// Middle and half the range of each component, with the coordinates first.
     Each(Vec<(f64, f64)>),
-    /// Largest distance from the centre at the origin, and largest speed, for a motion that turns about it. Its
-    /// ellipse may rotate as well, which is not growth.
+    /// Largest distance from the centre at the origin, and largest speed, for a motion that turns about the centre. The
+    /// motion's ellipse may rotate as well, which is not growth.
     Centre { distance: f64, speed: f64 },
 }
 
 impl Reach {
-    /// Reach of these coordinates, relative to the true motion's.
+    /// Returns the reach of these coordinates, relative to the reach of the true motion's coordinates.
     pub(in crate::measure) fn of_coordinates(&self, q: &[f64]) -> f64 {
         match self {
             Reach::Each(parts) => farthest(q, &parts[..q.len()]),
@@ -29,7 +29,7 @@ impl Reach {
         }
     }
 
-    /// Reach of these velocities, relative to the true motion's.
+    /// Returns the reach of these velocities, relative to the reach of the true motion's velocities.
     pub(in crate::measure) fn of_velocities(&self, v: &[f64]) -> f64 {
         match self {
             Reach::Each(parts) => farthest(v, &parts[v.len()..]),
@@ -47,7 +47,7 @@ fn length(values: &[f64]) -> f64 {
     values.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Length of the part of `a` perpendicular to `along`, relative to the length of `a`.
+/// Returns the length of the part of `a` perpendicular to `along`, relative to the length of `a`.
 fn perpendicular_share(a: &[f64], along: &[f64]) -> f64 {
     let (dot, square) = a
         .iter()
@@ -61,7 +61,7 @@ fn perpendicular_share(a: &[f64], along: &[f64]) -> f64 {
 #[derive(Clone)]
 pub(super) struct ReachSoFar {
     pub(super) ranges: Ranges,
-    /// Whether all forces so far point to or from the origin, in a space of coordinates with the same unit.
+    /// Whether all forces up to now point to or from the origin, in a space of coordinates with the same unit.
     is_central: bool,
     turns: bool,
     distance: f64,
@@ -92,7 +92,7 @@ impl ReachSoFar {
         }
     }
 
-    /// The reach about `centres`, one per coordinate, and at least these amplitudes.
+    /// Returns the reach about `centres`, one per coordinate, with at least these amplitudes.
     pub(super) fn reach(&self, body: &SceneBody, centres: &[f64], amplitudes: &[f64]) -> Reach {
         if self.is_central && self.turns {
             return Reach::Centre { distance: self.distance, speed: self.speed };
@@ -109,10 +109,11 @@ impl ReachSoFar {
     }
 }
 
-/// A component whose half range is below this fraction of its largest value is constant up to rounding.
+/// A component is constant up to rounding if half its range is below this fraction of its largest value.
 const KEEPS_STILL: f64 = 1e-9;
 
-/// For each component, the largest value among those of its unit. Coordinates and velocities are separate.
+/// Returns for each component the largest value among components of the same unit. Coordinates and velocities are
+/// separate.
 fn largest_alike(coordinates: &Coordinates, values: &[f64]) -> Vec<f64> {
     let mut units: Vec<&str> = Vec::new();
     let mut unit_index = |unit: &'static str| {
@@ -133,7 +134,7 @@ fn largest_alike(coordinates: &Coordinates, values: &[f64]) -> Vec<f64> {
     groups().map(|group| largest[group]).collect()
 }
 
-/// Amplitude of each component, from the true ranges.
+/// Returns the amplitude of each component, from the true ranges.
 pub(super) fn amplitudes(ranges: &[(f64, f64)], coordinates: &Coordinates) -> Vec<f64> {
     let halves: Vec<f64> = ranges.iter().map(|(low, high)| (high - low) / 2.0).collect();
     let sizes: Vec<f64> = ranges.iter().map(|(low, high)| low.abs().max(high.abs())).collect();

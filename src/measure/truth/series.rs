@@ -10,14 +10,14 @@ use crate::run::race::StopReason;
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, TickRate};
 
-/// Maximum number of products of the exact flow for one series: less than a second of work.
+/// Maximum number of products of the exact flow for one series, which is less than a second of work.
 const MAX_SERIES_PRODUCTS: u64 = 500_000_000;
 
-/// Maximum number of cached values, some thirty megabytes. This suffices for a rope at each rate that a search of
-/// margins tries. A full cache is cleared.
+/// Maximum number of cached values, which are some thirty megabytes. They suffice for a rope at each rate that a search
+/// of margins tries. A full cache is cleared.
 const MAX_KEPT: usize = 1 << 22;
 
-/// Cached series by tick rate in Hz. If several threads ask for the same one, the first computes it.
+/// Cached series by tick rate in Hz. If several threads request the same one, the first thread computes it.
 pub(in crate::measure) type TruthSeriesByRate =
     Mutex<HashMap<TickRate, Arc<Once<Arc<TruthSeries>>>>>;
 
@@ -34,25 +34,25 @@ pub(in crate::measure) struct TruthSeries {
 }
 
 impl TruthSeries {
-    /// The components after `tick` ticks, from 1; `None` after the truth has failed.
+    /// Returns the components after `tick` ticks, where `tick` is at least 1; `None` after the truth has failed.
     pub(in crate::measure) fn at(&self, tick: u64) -> Option<&[f64]> {
         let from = (tick as usize - 1) * self.components;
         self.values.get(from..from + self.components)
     }
 
-    /// Largest error of the truth up to `tick` ticks, in amplitudes; infinite after the truth has failed.
+    /// Returns the largest error of the truth up to `tick` ticks, in amplitudes; infinite after the truth has failed.
     pub(in crate::measure) fn gap(&self, tick: u64) -> f64 {
         self.gaps.get(tick as usize - 1).copied().unwrap_or(f64::INFINITY)
     }
 }
 
 impl BodyTruth {
-    /// Largest error of the truth up to this time, in amplitudes, at the ticks of this rate.
+    /// Returns the largest error of the truth up to this time, in amplitudes, at the ticks of this rate.
     pub(in crate::measure) async fn gap(&self, seconds: f64, tick_hz: TickRate) -> f64 {
         self.series(tick_hz).await.gap(ticks(seconds, tick_hz).max(1))
     }
 
-    /// The true states at the ticks of this rate, up to the horizon.
+    /// Returns the true states at the ticks of this rate, up to the horizon.
     pub(in crate::measure) async fn series(&self, tick_hz: TickRate) -> Arc<TruthSeries> {
         let once = {
             let mut series_by_rate = self.series_by_rate.lock().expect("no thread panics with it");

@@ -1,4 +1,4 @@
-//! The true swing of a body: its crossings and the width of its half turns.
+//! The true swing of a body, with its crossings and the widths of its half turns.
 
 use super::{BodyTruth, TruthNode};
 use crate::measure::amplitude::Measure;
@@ -6,38 +6,37 @@ use crate::measure::criterion::{FREQUENCY_TOLERANCE, VISIBLE};
 use crate::sim::Solver;
 use crate::sim::numerics::bisect;
 
-/// A mode with at least this share of the energy counts as the whole motion.
+/// Share of the energy from which on a mode counts as the whole motion.
 const ONE_MODE: f64 = 0.99;
 
-/// A crossing slower than this fraction of the largest speed does not count as a swing.
+/// Fraction of the largest speed below which a crossing does not count as a swing.
 const FAINT: f64 = 1e-3;
 
 /// The true swing of a body.
 pub(in crate::measure) struct Swing {
     /// The coordinate whose crossings are counted.
     pub(in crate::measure) coordinate: usize,
-    /// Times at which it crosses its centre upwards, in seconds.
+    /// Times at which this coordinate crosses its centre upwards, in seconds.
     pub(in crate::measure) crossings: Vec<f64>,
-    /// Largest distance of any coordinate from its centre in each half turn, in amplitudes. Half turns end at the
-    /// swinging coordinate's passages through its centre; the first begins at the start and the last ends with the
-    /// motion.
+    /// Largest distance of any coordinate from its centre in each half turn, in amplitudes. A half turn ends when the
+    /// swinging coordinate passes its centre. The first one begins at the start, and the last one ends with the motion.
     pub(in crate::measure) half_turns: Vec<f64>,
 }
 
 impl Swing {
-    /// Largest distance of any coordinate from its centre, in amplitudes.
+    /// Returns the largest distance of any coordinate from its centre, in amplitudes.
     pub(in crate::measure) fn widest(&self) -> f64 {
         self.half_turns.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
+    /// Returns the largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
     pub(in crate::measure) fn error_when(&self, early_s: f64) -> f64 {
         let half_turns = (early_s.abs() / self.period()).min(0.5);
         2.0 * libm::sin(std::f64::consts::PI * half_turns)
     }
 
-    /// Whether the half turns of a lane, from index `first` on, are as wide as the true ones within [`VISIBLE`] of
-    /// the widest. They may come earlier or later. The end of the horizon may cut off the last one of each.
+    /// Whether the half turns of a lane, from index `first` on, are as wide as the true ones within [`VISIBLE`] of the
+    /// widest. They may come earlier or later. The end of the horizon may cut off the last half turn of each motion.
     pub(in crate::measure) fn is_as_wide(&self, lane: &[f64], first: usize) -> bool {
         let whole = |half_turns: &[f64]| half_turns.len().saturating_sub(1).max(1);
         let widest = |half_turns: &[f64]| half_turns.iter().copied().fold(0.0, f64::max);
@@ -45,7 +44,7 @@ impl Swing {
         let most = VISIBLE * self.widest();
         let both = wanted.min(found);
         let mut pairs = lane.iter().zip(&self.half_turns).take(both).skip(first);
-        // A slow lane makes fewer half turns and a fast one more, and a motion at rest makes none.
+        // A slow lane makes fewer half turns and a fast lane more, and a motion at rest makes none.
         let unpaired = |half_turns: &[f64], count: usize| {
             let fewest = (1.0 - FREQUENCY_TOLERANCE) * count as f64 - 2.0;
             widest(half_turns.get(both..(fewest.max(both as f64) as usize)).unwrap_or_default())
@@ -58,7 +57,7 @@ impl Swing {
 }
 
 impl BodyTruth {
-    /// The quantity that grows or dies away.
+    /// Returns the quantity that grows or dies away.
     pub(in crate::measure) fn measure(&self) -> Measure {
         match (&self.swing, &self.modes) {
             (None, _) => Measure::Deviation,
@@ -70,7 +69,7 @@ impl BodyTruth {
         }
     }
 
-    /// The swing about `middles`, one per coordinate, using the `seen` moments if they were kept.
+    /// Measures the swing about `middles`, one per coordinate, using the `seen` moments if they were kept.
     pub(super) async fn measure_swing(
         &self,
         middles: &[f64],
@@ -120,7 +119,7 @@ impl BodyTruth {
     }
 }
 
-/// Time in seconds at which coordinate `i` crosses `level` between two moments.
+/// Returns the time in seconds at which coordinate `i` crosses `level` between two moments.
 fn crossing(from: &TruthNode, to: &TruthNode, i: usize, level: f64) -> f64 {
     let [low, _] = bisect([0.0, 1.0], 50, |part| from.between(to, i, part) < level);
     from.t + low * (to.t - from.t)

@@ -22,13 +22,13 @@ fn amplitudes_do_not_depend_on_the_ratio_of_period_and_horizon() {
         let [q, v] = truth(&spring, seconds).amplitudes[..] else { panic!("one coordinate") };
         assert!((q - 1.0).abs() < 1e-4 && (v / omega - 1.0).abs() < 1e-4, "{seconds} s: {q}, {v}");
     }
-    // 512 periods and a half in 20 s.
+    // There are 512 periods and a half in 20 s.
     let fast =
         "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 25872.6957612\nx0_m = 0\nv0_m_per_s = 10\n";
     let [q, v] = truth(fast, 20.0).amplitudes[..] else { panic!("one coordinate") };
     let omega = 25_872.695_761_2_f64.sqrt();
     assert!((q * omega / 10.0 - 1.0).abs() < 1e-4 && (v / 10.0 - 1.0).abs() < 1e-4, "{q}, {v}");
-    // It decays within a hundredth of the horizon, so the velocity's range is that of its first swing.
+    // The motion decays within a hundredth of the horizon, so the velocity's range is that of its first swing.
     let damped = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 10000\ndamping_n_s_per_m = 100\n";
     let [q, v] = truth(damped, 60.0).amplitudes[..] else { panic!("one coordinate") };
     let dense = (0..200_000).map(|i| f64::from(i) * 5e-7).map(|t| {
@@ -49,7 +49,7 @@ fn amplitudes_do_not_depend_on_the_ratio_of_period_and_horizon() {
 
 #[test]
 fn an_eccentric_orbit_keeps_the_peak_of_its_speed() {
-    // The eccentricity is 0.998: it is 2000 times faster near the centre than far from it.
+    // The eccentricity is 0.998, so that the body is 2000 times faster near the centre than far from it.
     let orbit = "[[orbit]]\nmu_m3_per_s2 = 1000\nx0_m = 100\nvy0_m_per_s = 0.1414213562373095\n";
     let truth = truth(orbit, 200.0);
     let fastest = truth.amplitudes[3];
@@ -62,7 +62,7 @@ fn a_pendulum_swings_at_the_period_of_its_amplitude() {
     let swing = truth.swing.unwrap();
     let n = swing.crossings.len() - 1;
     let period = (swing.crossings[n] - swing.crossings[0]) / n as f64;
-    // 2π √(l/g) (1 + θ²/16 + 11 θ⁴/3072 + 173 θ⁶/737280)
+    // The period is 2π √(l/g) (1 + θ²/16 + 11 θ⁴/3072 + 173 θ⁶/737280).
     let series =
         1.0 + 0.49 / 16.0 + 11.0 * 0.49_f64.powi(2) / 3072.0 + 173.0 * 0.49_f64.powi(3) / 737_280.0;
     let expected = std::f64::consts::TAU * (0.4_f64 / 9.81).sqrt() * series;
@@ -108,7 +108,7 @@ fn half_turns_are_compared_one_by_one_and_missing_ones_count_as_rest() {
         (decaying(0.1, 100), decaying(0.11, 100), true),
         (decaying(0.1, 100), decaying(0.12, 100), false),
         (decaying(0.1, 100), decaying(0.08, 100), false),
-        // One per cent more or fewer half turns are allowed, plus those at the ends.
+        // The number of half turns may differ by one per cent, plus those at the ends.
         (decaying(0.0, 100), decaying(0.0, 98), true),
         (decaying(0.0, 98), decaying(0.0, 100), true),
         (decaying(0.0, 100), decaying(0.0, 90), false),
@@ -119,7 +119,7 @@ fn half_turns_are_compared_one_by_one_and_missing_ones_count_as_rest() {
     ] {
         let found = swing(truth.clone()).is_as_wide(&lane, 0);
         assert_eq!(found, is_as_wide, "{truth:?}\n{lane:?}");
-        // The limit is relative to the widest half turn, so it does not depend on the unit.
+        // The limit is relative to the widest half turn, so that it does not depend on the unit.
         let thrice = |half_turns: Vec<f64>| half_turns.into_iter().map(|x| 3.0 * x).collect();
         let lane: Vec<f64> = thrice(lane);
         assert_eq!(swing(thrice(truth)).is_as_wide(&lane, 0), is_as_wide, "{lane:?}");

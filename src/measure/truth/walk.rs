@@ -5,26 +5,28 @@ use crate::measure::survey::{Ranges, TruthNode};
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
 
-/// Position of the check within a step: irrational, so that regular steps do not resonate with a period.
+/// Position of the check within a step, which is irrational so that regular steps do not resonate with a period.
 const CHECKED_AT: f64 = 0.381_966_011_250_105_1;
-/// First step relative to the duration, far below any period that can be followed.
+/// First step relative to the duration, which is far below any period that can be followed.
 const FIRST_STEP: f64 = 1e-7;
-/// Largest error of the cubic through both ends of a step, relative to the motion's range. This gives steps of about
-/// a sixth of a radian.
+/// Largest error of the cubic through both ends of a step, relative to the motion's range. This error leads to steps of
+/// about a sixth of a radian.
 const CHORD: f64 = 1e-5;
-/// A range below this fraction of the magnitude is rounding, and this fraction replaces it.
+/// A range counts as rounding if it is below this fraction of the magnitude; it is replaced by this fraction of the
+/// magnitude.
 const ROUNDING: f64 = 1e-9;
 /// Minimum and maximum ratio of a step to the previous one.
 const FACTORS: (f64, f64) = (0.3, 2.0);
-/// One in this many moments is reserved for the end of the motion, in case the others do not reach it.
+/// Divisor of the number of moments. The quotient is the number of moments that are reserved for the end of the motion,
+/// in case the others do not reach it.
 const KEPT: usize = 4;
 
 impl BodyTruth {
-    /// Follows `body` from its start over `seconds`, applying its inputs in order, and passes both ends of each step
-    /// to `see`. Steps are short enough that the cubic through both ends is as good as exact.
+    /// Follows `body` from its start over `seconds`, applying its inputs in order, and passes both ends of each step to
+    /// `see`. Steps are so short that the cubic through both ends is as good as exact.
     ///
-    /// If this would take more than `most` moments, the rest of the motion is sampled at scattered moments. `see`
-    /// then receives each as both ends.
+    /// If this would take more than `most` moments, the rest of the motion is sampled at scattered moments. `see` then
+    /// receives each of these moments as both ends.
     ///
     /// # Errors
     /// If the solver fails or is not finite.
@@ -119,7 +121,7 @@ struct WalkWork {
 }
 
 impl WalkWork {
-    /// Work since the last call.
+    /// Returns the work since the last call.
     fn newly_done(&mut self, body: &dyn Stepper) -> u64 {
         let all = match self.solver {
             Solver::Truth => self.moments as u64 * self.of_moment,
@@ -129,8 +131,8 @@ impl WalkWork {
     }
 }
 
-/// Largest error of the cubic from `here` to `there` at `check`, relative to the range of all coordinates or all
-/// velocities.
+/// Returns the largest error of the cubic from `here` to `there` at `check`, relative to the range of all coordinates
+/// or of all velocities.
 fn worst_chord(
     here: &TruthNode,
     check: &TruthNode,

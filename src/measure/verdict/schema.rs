@@ -1,10 +1,10 @@
-//! The serialized form of a verdict: a flat object, the same for every command and the library.
+//! The serialized form of a verdict, which is a flat object, the same for every command and the library.
 
 use serde::{Serialize, Serializer};
 
 use super::{Finding, LongTerm, Verdict};
 
-/// Fields without a meaning for a kind of verdict are null.
+/// The fields of the object. Fields without a meaning for a kind of verdict are null.
 #[derive(Serialize)]
 struct Schema<'a> {
     /// Id of the outcome.
@@ -30,7 +30,7 @@ struct Schema<'a> {
     bounded: Option<bool>,
     spectral_radius: Option<f64>,
     failed_at_s: Option<f64>,
-    /// Why it failed, has no truth or is not judged.
+    /// The reason why the run failed, has no truth or is not judged.
     why: Option<String>,
     half_life_s: Option<f64>,
     true_half_life_s: Option<f64>,

@@ -28,7 +28,7 @@ const SWINGS: LongTerm = LongTerm {
     is_bounded: Some(true),
 };
 
-/// A verdict with only this finding.
+/// Returns a verdict with only this finding.
 fn of(finding: Finding) -> Verdict {
     Verdict {
         finding,
@@ -48,7 +48,7 @@ fn compared(comparison: Comparison) -> Verdict {
     of(Finding::Compared(comparison))
 }
 
-/// The same verdict for one of two bodies.
+/// Returns the same verdict for one of two bodies.
 fn of_two(verdict: Verdict) -> Verdict {
     Verdict { of_bodies: vec![verdict.clone(), verdict.clone()], ..verdict }
 }

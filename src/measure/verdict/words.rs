@@ -1,4 +1,4 @@
-//! The wording of a verdict: a word and a number, and the details behind them.
+//! The wording of a verdict, which is a word and a number, and the details behind both.
 
 use std::fmt;
 
@@ -16,17 +16,17 @@ const FAINT_PITCH: f64 = 1e-4;
 /// Longest plausible halving time, in horizons. A swing that visibly dies away within the horizon, by at least 5 %,
 /// halves within 13.5 horizons at a constant rate. A longer halving time belongs to something else.
 const MOST_HALVING_HORIZONS: f64 = 20.0;
-/// A loss of at least this much energy leaves nothing visible. It is in units of the largest kinetic energy.
+/// Energy change at or below which nothing visible is left, in units of the largest kinetic energy.
 const ALL_ENERGY: f64 = -0.995;
 
-/// The number of a verdict, displayed as in its line.
+/// The number of a verdict, displayed as in the verdict's line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VerdictNumber {
     /// The measured quantity, as in `swing doubles`.
     pub quantity: String,
-    /// Its value in `unit`.
+    /// Value of the quantity, in `unit`.
     pub value: f64,
-    /// `s`, `%`, or `×` for a multiple of the true quantity.
+    /// Unit of the value: `s`, `%`, or `×` for a multiple of the true quantity.
     pub unit: &'static str,
     text: String,
 }
@@ -42,7 +42,7 @@ impl VerdictNumber {
         Self { quantity: quantity.into(), value, unit, text }
     }
 
-    /// A fraction, in percent.
+    /// Creates a number from a fraction, in percent.
     fn part(quantity: impl Into<String>, part: f64, text: String) -> Self {
         Self::new(quantity, 100.0 * part, "%", text)
     }
@@ -70,7 +70,7 @@ impl fmt::Display for NotJudged {
 }
 
 impl Comparison {
-    /// The frequency error of a motion that keeps its size, unless it is faint: `0.18 % fast`.
+    /// Describes the frequency error of a motion that keeps its size, unless the error is faint: `0.18 % fast`.
     fn pitch(&self) -> Option<String> {
         let error = self.frequency_error.filter(|error| error.abs() > FAINT_PITCH)?;
         let how = if error > 0.0 { "fast" } else { "slow" };
@@ -78,19 +78,19 @@ impl Comparison {
             .then(|| format!("{} {how}", percent(error.abs())))
     }
 
-    /// Widest swing relative to the true one, if the difference is visible.
+    /// Returns the largest width of the swing relative to the true one, if the difference is visible.
     fn wrong_width(&self) -> Option<f64> {
         self.width.filter(|width| (width - 1.0).abs() > VISIBLE)
     }
 }
 
 impl Verdict {
-    /// The time of the run, `seconds` after the judged part begins.
+    /// Returns the time of the run that is `seconds` after the judged part begins, in words.
     fn moment(&self, seconds: f64) -> String {
         duration(self.starts_at_s + seconds)
     }
 
-    /// Start of the judged run, in words.
+    /// Describes the start of the judged run in words.
     fn start(&self) -> String {
         match self.starts_at_s {
             0.0 => "the start".to_owned(),
@@ -98,7 +98,7 @@ impl Verdict {
         }
     }
 
-    /// A brief statement that the lane fails, and from which start, if it does.
+    /// Returns a brief statement that the lane fails, and from which start, if the lane fails.
     pub(crate) fn fails_in_brief(&self) -> Option<String> {
         self.failure().map(|_| format!("{}, if run from {}", self.word(), self.start()))
     }
@@ -108,7 +108,7 @@ impl Verdict {
         self.of_bodies.get(self.body).unwrap_or(self).long_term.is_bounded
     }
 
-    /// The outcome in a word or two.
+    /// Returns the outcome in a word or two.
     fn word(&self) -> &'static str {
         match (self.outcome(), &self.finding) {
             (Outcome::Bounded, _) if self.is_bounded().is_none() => "inaccurate",
@@ -117,8 +117,8 @@ impl Verdict {
         }
     }
 
-    /// The change of the amplitude: the time in which it changes by this factor, or else the energy change, or else
-    /// the error.
+    /// Describes the change of the amplitude. It is the time in which the amplitude changes by this factor or, if there
+    /// is none, the energy change or, if there is none either, the error.
     fn change(&self, time: Option<f64>, [factor, verb]: [&str; 2]) -> VerdictNumber {
         let horizon = duration(self.horizon_s);
         let measure = self.long_term.measure.name();
@@ -142,7 +142,8 @@ impl Verdict {
         }
     }
 
-    /// The error of a motion that keeps its size: its width, or else its delay, or else its largest error.
+    /// Describes the error of a motion that keeps its size, by the first that applies of a wrong width, a delay or
+    /// lead, a frequency error and the largest error.
     fn gap(&self, found: &Comparison) -> VerdictNumber {
         let (error, horizon) = (percent(found.error), duration(self.horizon_s));
         if let Some(width) = found.wrong_width().filter(|_| found.looks_right != Some(true)) {
@@ -172,7 +173,7 @@ impl Verdict {
         VerdictNumber::part("largest error", found.error, text)
     }
 
-    /// The number behind the word, if it has one.
+    /// Returns the number behind the word, if there is one.
     pub fn number(&self) -> Option<VerdictNumber> {
         let chased = self.chase.as_ref().and_then(ChaseFinding::number);
         let within =
@@ -227,7 +228,7 @@ impl Verdict {
         }
     }
 
-    /// The word and the number, or the reason why there is none.
+    /// Returns the word and the number, or the reason why there is no number.
     fn words(&self) -> String {
         let number = match &self.finding {
             Finding::NotJudged(why) => Some(why.to_string()),
@@ -237,14 +238,14 @@ impl Verdict {
         words.into_iter().flatten().collect::<Vec<_>>().join(BETWEEN)
     }
 
-    /// The missing truth and, with several bodies, the body's name, in brackets.
+    /// Returns in brackets the missing truth and, with several bodies, the body's name.
     fn in_brackets(&self, is_named: bool) -> String {
         let name = (is_named && self.of_bodies.len() > 1).then_some(&*self.body_name);
         let parts: Vec<&str> = self.missing_truth().into_iter().chain(name).collect();
         if parts.is_empty() { String::new() } else { format!(" ({})", parts.join(", ")) }
     }
 
-    /// Further findings, one sentence each, for readers who want more than the word and the number.
+    /// Returns further findings, in one sentence each, for readers who want more than the word and the number.
     pub fn details(&self) -> Vec<String> {
         let outcome = self.outcome();
         let is_told = outcome == Outcome::Grows || self.failure().is_some();
@@ -274,7 +275,7 @@ impl Verdict {
         .collect()
     }
 
-    /// The largest error, its time, and the error that remains.
+    /// Describes the largest error, its time, and the error that remains.
     fn error_over_time(&self, found: &Comparison) -> Option<String> {
         let (error, horizon) = (percent(found.error), duration(self.horizon_s));
         let at = self.moment(found.error_at_s);
@@ -295,22 +296,22 @@ impl Verdict {
         self.words() + &self.in_brackets(is_named)
     }
 
-    /// Ever shorter wordings that name the start of the judged run. They appear beside a run that a person changed on
-    /// its way, to which the verdict does not apply.
+    /// Returns ever shorter wordings that name the start of the judged run. They appear beside a run that a person
+    /// changed on its way, because the verdict does not apply to such a run.
     pub fn wordings_of_another_run(&self, is_named: bool) -> Vec<String> {
         let wordings = self.wordings(is_named).into_iter();
         wordings.map(|words| format!("if run from {}: {words}", self.start())).collect()
     }
 
-    /// Ever shorter wordings for limited room: the word and the number, then only the word. If `is_named`, they name
-    /// the body where there are several.
+    /// Returns ever shorter wordings for limited room, which are the word and the number, and then only the word. If
+    /// `is_named`, the wordings name the body if there are several.
     pub fn wordings(&self, is_named: bool) -> Vec<String> {
         let in_brackets = self.in_brackets(is_named);
         vec![self.line(is_named), self.word().to_owned() + &in_brackets]
     }
 }
 
-/// Separates the word and the number of a verdict.
+/// Text between the word and the number of a verdict.
 const BETWEEN: &str = " · ";
 
 impl fmt::Display for Verdict {
@@ -323,7 +324,7 @@ fn percent(part: f64) -> String {
     format!("{} %", significant(100.0 * part, 2))
 }
 
-/// A duration to two digits, in milliseconds if it is shorter than a second.
+/// Writes a duration to two digits, in milliseconds if it is shorter than a second.
 fn short_duration(seconds: f64) -> String {
     match seconds {
         s if s < 0.9995 => format!("{} ms", significant(1e3 * s, 2)),
@@ -331,7 +332,7 @@ fn short_duration(seconds: f64) -> String {
     }
 }
 
-/// A duration to two digits, for a doubling or halving time.
+/// Writes a duration to two digits, for a doubling or halving time.
 fn brief_duration(seconds: f64) -> String {
     in_unit(seconds, |value| significant(value, 2))
 }

@@ -1,4 +1,4 @@
-//! Results that a worker keeps, and those that it computes again.
+//! Tests which results a worker keeps, and which it computes again.
 
 use super::*;
 use crate::run::Race;
@@ -6,7 +6,7 @@ use crate::run::race::Checkpoints;
 use crate::scene::Action;
 use crate::sim::integrators::{GENERAL_METHODS, method};
 
-/// Number of methods that advice covers.
+/// Returns the number of methods that advice covers.
 fn for_games() -> usize {
     GENERAL_METHODS.iter().filter(|method| method.is_for_games()).count()
 }
@@ -184,7 +184,7 @@ fn a_lane_without_a_truth_makes_no_tick_when_no_work_is_left() {
     assert!(ticked(1_000_000) > 0);
 }
 
-/// The distinct meters of the worker.
+/// Returns the distinct meters of the worker.
 fn meters(worker: &AnalysisWorker) -> Vec<Arc<Meter>> {
     let part = worker.part.as_ref().map(Sliced::meter);
     let judge = worker.judge.as_ref().map(|judge| judge.meter());
@@ -226,12 +226,13 @@ fn no_step_does_twice_its_work_and_a_new_request_drops_the_part_in_progress() {
     assert_eq!(worker.findings().verdicts, [Some(whole(20))]);
 }
 
-/// All results for a method on a scene: the truths, a verdict and, unless it takes long, advice with its margins.
+/// Returns all results for a method on a scene, which are the truths, a verdict and, unless this takes long, advice
+/// with its margins.
 async fn all_of(scene: Scene, spec: LaneSpec, tick_hz: u32, meter: Arc<Meter>) -> String {
     let tick_hz = tick_hz.into();
     let adviser = Adviser::find(scene, 1.0, tick_hz, meter).await;
     let verdict = adviser.judge().verdict_within(300_000, spec, tick_hz).await;
-    // As text, because NaN may occur.
+    // The results are compared as text, because NaN may occur.
     if adviser.scene().bodies.iter().any(|body| body.kind.net().is_some()) {
         return format!("{verdict:?}");
     }

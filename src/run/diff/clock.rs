@@ -30,7 +30,7 @@ const CLOCKS: [&str; 27] = [
     "us",
     "wall",
 ];
-/// Endings of such words, as in `simtime`.
+/// Endings of words that name a clock, as in `simtime`.
 const CLOCK_ENDS: [&str; 3] = ["time", "clock", "stamp"];
 /// Words in the names of coordinates, which may grow evenly.
 const PLACES: [&str; 18] = [
@@ -56,21 +56,21 @@ const PLACES: [&str; 18] = [
 /// Relative rounding error per step of a clock in double and in single precision.
 const PRECISIONS: [f64; 2] = [1e-15, 2.4e-7];
 
-/// Which changes of a value column count as motion.
+/// The changes of a value column that count as motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Moves {
-    /// None: another column is the coordinate.
+    /// No change counts, because another column is the coordinate.
     Never,
-    /// Every change.
+    /// Every change counts.
     Always,
-    /// Steps backwards only: the column has a clock's name.
+    /// Only steps backwards count, because the column has a clock's name.
     Back,
-    /// Uneven changes: a clock of any name advances by the same amount in each row.
+    /// Only uneven changes count, because a clock of any name advances by the same amount in each row.
     Unevenly,
 }
 
 impl Moves {
-    /// Judges a column by its name, and by whether it is the only value column.
+    /// Judges a column by its name, and by whether no other column has values.
     pub(super) fn of_name(name: &str, is_only: bool) -> Self {
         let words = words(name);
         let has = |known: &[&str]| words.iter().any(|word| known.contains(&&**word));
@@ -85,7 +85,8 @@ impl Moves {
     }
 }
 
-/// The words of a name in lower case: `simTime`, `sim_time` and `sim.time` have the same two.
+/// Splits a name into its words in lower case. For example, `simTime`, `sim_time` and `sim.time` have the same two
+/// words.
 fn words(name: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut was_lower = false;
@@ -104,9 +105,9 @@ fn words(name: &str) -> Vec<String> {
 /// How a column advances through the rows with one key.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ClockCheck {
-    /// Place of the last row, and the values of both sides there.
+    /// Place of the last row, and the values of both sides at that place.
     last: Option<(f64, [f64; 2])>,
-    /// Exclusive bounds on the growth per row, if it is constant, for each of [`PRECISIONS`].
+    /// Exclusive limits on the growth per row, if the growth is constant, for each of [`PRECISIONS`].
     growth: [[f64; 2]; 2],
     steps: u32,
     /// Unit of the last digit in the last values.
@@ -132,7 +133,7 @@ impl ClockCheck {
             return true;
         }
         let last = self.last.replace((place, values));
-        // Most columns never change or have a clock's name; they need no unit.
+        // Most columns never change or have a clock's name, and need no unit.
         if moves == Moves::Unevenly && last.is_none_or(|(_, last)| last != values) {
             self.unit = cells.map(unit_of).into_iter().fold(0.0, f64::max);
         }
@@ -155,15 +156,15 @@ impl ClockCheck {
         values.into_iter().zip(last).all(of_clock)
     }
 
-    /// Whether the column advanced like a clock. Without a clock's name that takes two steps, for one step is always
-    /// even.
+    /// Whether the column advanced like a clock. If it does not have a clock's name, two steps are necessary, because
+    /// one step is always even.
     pub(super) fn is_of_a_clock(&self, moves: Moves) -> bool {
         let grows = |[least, most]: [f64; 2]| least < most && (least >= 0.0 || most <= 0.0);
         moves == Moves::Back || self.steps >= 2 && self.growth.into_iter().any(grows)
     }
 }
 
-/// Unit of the last digit of a written number.
+/// Returns the unit of the last digit of a written number.
 fn unit_of(cell: &[u8]) -> f64 {
     let cell = cell.trim_ascii();
     let exponent_at = cell.iter().position(|sign| matches!(sign, b'e' | b'E'));
@@ -206,7 +207,7 @@ mod tests {
         assert!(is_clock(&["0.0", "0.016667", "0.033333", "0.05"]));
         assert!(is_clock(&["0", "17", "33", "50", "67"]) && is_clock(&["0", "1", "2", "3"]));
         assert!(is_clock(&["1.6e9", "1.7e9", "1.8e9"]) && is_clock(&["3", "2", "1"]));
-        // Seconds since 1970, and a step of 1/60 summed in single precision.
+        // These are seconds since 1970, and a step of 1/60 summed in single precision.
         assert!(is_clock(&["1700000000", "1700000001", "1700000002"]));
         assert!(is_clock(&["1700000000.016667", "1700000000.033333", "1700000000.05"]));
         let mut single = 0.0_f32;

@@ -1,4 +1,4 @@
-//! The findings about two runs: values that differ, and the rows and columns they share.
+//! The findings about two runs, which are the values that differ, and the rows and columns that the runs share.
 
 use std::fmt;
 
@@ -10,31 +10,31 @@ use crate::sim::number::{counted, significant};
 pub struct Difference {
     /// Tick of the row; without ticks, its position from 0.
     pub tick: u64,
-    /// Name of the tick column, or `tick` if rows go by position; `None` where rows have no order.
+    /// Name of the tick column, or `tick` if rows go by position; `None` if rows have no order.
     pub tick_name: Option<String>,
     /// The other key columns, such as `lane`, `body` and `coordinate`, each with the row's cell.
     pub key: Vec<(String, String)>,
     /// Column of the values.
     pub column: String,
-    /// The values as written; `None` where the column is missing.
+    /// The two values as written; `None` if the column is missing.
     pub values: [Option<String>; 2],
-    /// Distance in doubles; `None` if either value is not a number.
+    /// Distance of the two values in doubles; `None` if one of them is not a number.
     pub ulps: Option<u64>,
-    /// Difference relative to the larger value; `None` if undefined.
+    /// Difference of the two values relative to the larger one; `None` if undefined.
     pub relative: Option<f64>,
 }
 
-/// Largest distance written in ulps; larger ones are written as a number.
+/// Largest distance that is written in ulps; a larger one is written as a number.
 const FEW_ULPS: u64 = 1000;
 
 impl Difference {
-    /// The row's cell in a key column.
+    /// Returns the row's cell in a key column.
     pub fn cell(&self, column: &str) -> Option<&str> {
         self.key.iter().find(|(name, _)| name == column).map(|(_, cell)| &**cell)
     }
 
-    /// Describes the row: its tick, then lane, body and coordinate, or the cells of another key. `lane_name` names
-    /// the lane.
+    /// Describes the row by its tick, and then by lane, body and coordinate, or by the cells of another key.
+    /// `lane_name` names the lane.
     pub fn place(&self, lane_name: impl Fn(&str) -> String) -> String {
         let tick = self.tick_name.as_ref().map(|name| format!("{name} {}", self.tick));
         let cells = self.key.iter().map(|(name, cell)| match name.as_str() {
@@ -45,7 +45,7 @@ impl Difference {
         tick.into_iter().chain(cells).collect::<Vec<_>>().join(", ")
     }
 
-    /// Describes the size in a few words.
+    /// Describes the size of the difference in a few words.
     pub fn size(&self) -> String {
         let column = &self.column;
         let [a, b] = self.values.each_ref().map(|value| value.as_deref()?.parse::<f64>().ok());
@@ -78,60 +78,60 @@ impl fmt::Display for Difference {
 pub struct ColumnDifference {
     /// Name of the column.
     pub column: String,
-    /// First tick at which it differs by more than the [`Tolerance`](super::Tolerance).
+    /// First tick at which the values differ by more than the [`Tolerance`](super::Tolerance).
     pub first_tick: u64,
-    /// Number of rows in which it differs.
+    /// Number of rows in which the values differ.
     pub rows: u64,
 }
 
 /// The result of comparing two runs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Comparison {
-    /// Number of rows in both.
+    /// Number of rows that both runs have.
     pub rows: u64,
-    /// Largest distance of a coordinate from its first value, on either side. Without a column `q`, every column
+    /// Largest distance of a coordinate from its first value, on either side. If there is no column `q`, every column
     /// counts.
     pub moved: f64,
     /// First difference beyond the [`Tolerance`](super::Tolerance), by tick and then by position.
     pub first: Option<Difference>,
-    /// For each of [`LEVELS`], the first tick at which a value differs by it. Differences are relative to the largest
-    /// value so far in the same column and key.
+    /// For each of [`LEVELS`], the first tick at which a value differs by this level. Differences are relative to the
+    /// largest value so far in the same column and key.
     pub reaches: [Option<u64>; LEVELS.len()],
     /// Common columns that differ, in the order of the first table.
     pub columns: Vec<ColumnDifference>,
     /// Common columns that are equal.
     pub equal: Vec<String>,
-    /// Growth rate in 1/s, if the difference grows exponentially through three decades or more.
+    /// Growth rate in 1/s, if the difference grows exponentially by a factor of a thousand or more.
     pub per_second: Option<f64>,
     /// Whether rows pair up by position alone.
     pub is_by_place: bool,
-    /// Whether anything moves: a number or a text changes, or rows have no order in which to move.
+    /// Whether anything moves. This is so if a number or a text changes, or if rows have no order in which to move.
     pub changes: bool,
     /// Number of rows that each side lacks.
     pub missing: [u64; 2],
     /// Tick of the first row that each side lacks.
     pub first_missing: [Option<u64>; 2],
-    /// Columns that only this side has.
+    /// Columns that only one side has, for each side.
     pub alone: [Vec<String>; 2],
-    /// The column that differs most, and its difference, as in `reaches`.
+    /// The column that differs most, and its difference, which is relative as in `reaches`.
     pub worst: Option<(String, f64)>,
-    /// Pairs of 0 and −0, which count as equal.
+    /// Number of pairs of 0 and −0, which count as equal.
     pub zeros_of_two_signs: u64,
-    /// Pairs of NaN, which count as equal.
+    /// Number of pairs of NaN, which count as equal.
     pub nans: u64,
     /// Whether a row may count as missing only because its counterpart is too far away.
     pub is_cut_off: bool,
-    /// Rows at another position on the other side.
+    /// Number of rows that have another position on the other side.
     pub displaced: u64,
 }
 
 impl Comparison {
-    /// Whether the comparison has substance: two common rows, and a motion.
+    /// Whether the comparison has substance, namely two common rows and a motion.
     pub fn is_comparable(&self) -> bool {
         self.rows >= 2 && self.changes && !self.is_cut_off
     }
 
-    /// Whether both have the same rows with equal values.
+    /// Whether both runs have the same rows with equal values.
     pub fn is_same(&self) -> bool {
         let is_whole = self.missing == [0; 2] && self.alone.iter().all(Vec::is_empty);
         self.is_comparable() && self.first.is_none() && is_whole

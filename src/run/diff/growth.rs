@@ -1,10 +1,10 @@
 //! Measures how a difference grows.
 
-/// Relative difference at which growth saturates, since the motions have separated.
+/// Relative difference at which growth saturates, because the motions have separated.
 const LARGE: f64 = 0.1;
-/// Least factor that counts as growth.
+/// Smallest factor that counts as growth.
 const LEAST_GROWTH: f64 = 1e3;
-/// Least share of the logarithm's variance that exponential growth must explain.
+/// Smallest share of the logarithm's variance that exponential growth must explain.
 const LEAST_EXPLAINED: f64 = 0.95;
 
 /// Running sums for a line through points.
@@ -34,16 +34,17 @@ impl Line {
         self.xy / self.xx
     }
 
-    /// Share of the variance that the line explains.
+    /// Returns the share of the variance that the line explains.
     fn explained_share(&self) -> f64 {
         self.xy * self.xy / (self.xx * self.yy)
     }
 }
 
-/// The largest difference of each tick so far, on a logarithmic scale, fitted against time and against its logarithm.
+/// The largest difference of each tick so far, on a logarithmic scale, fitted against time and against the logarithm of
+/// time.
 #[derive(Default)]
 pub(super) struct Growth {
-    /// Tick of the present points and its time.
+    /// The tick of the present points, and its time.
     present: Option<(u64, f64)>,
     largest: f64,
     /// Time and size of the first difference.
@@ -53,7 +54,7 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    /// Adds a difference at time `t` (s). Without times there is no rate.
+    /// Adds a difference at time `t` (s). If there are no times, there is no rate.
     pub(super) fn note_difference(&mut self, tick: u64, t: Option<f64>, difference: f64) {
         let Some(t) = t.filter(|_| difference > 0.0) else { return };
         if self.present.is_some_and(|(present, _)| present != tick) {
@@ -73,7 +74,7 @@ impl Growth {
         }
     }
 
-    /// Growth rate in 1/s, if the difference grew exponentially.
+    /// Returns the growth rate in 1/s, if the difference grew exponentially.
     pub(super) fn per_second(mut self) -> Option<f64> {
         self.end_tick();
         let (_, least) = self.start?;

@@ -8,7 +8,7 @@ use super::clock::Moves;
 use super::number::parsed;
 use crate::sim::number::counted;
 
-/// Why two tables cannot be compared row by row.
+/// The reason why two tables cannot be compared row by row.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotComparable {
     /// Only one table has this key column.
@@ -16,9 +16,9 @@ pub enum NotComparable {
     OtherRows {
         /// Name of the column.
         column: String,
-        /// Side that has it: `a` or `b`.
+        /// Side that has the column: `a` or `b`.
         with: &'static str,
-        /// Side that lacks it.
+        /// Side that lacks the column.
         without: &'static str,
     },
     /// The tables share no value column.
@@ -32,7 +32,7 @@ pub enum NotComparable {
     /// A requested column is missing.
     #[error("{side} has no column {column:?}; it has {here}")]
     NoSuchColumn {
-        /// Side that lacks it: `a` or `b`.
+        /// Side that lacks the column: `a` or `b`.
         side: &'static str,
         /// Name of the column.
         column: String,
@@ -42,7 +42,7 @@ pub enum NotComparable {
     /// Two columns of a table have the same name.
     #[error("{side} has two columns {column:?}; rename one")]
     Twice {
-        /// Side: `a` or `b`.
+        /// Side of the table: `a` or `b`.
         side: &'static str,
         /// Name of the columns.
         column: String,
@@ -53,7 +53,7 @@ pub enum NotComparable {
         counted(*columns, "column")
     )]
     TooManyNames {
-        /// Number of keys so far.
+        /// Number of distinct keys so far.
         names: usize,
         /// Number of value columns.
         columns: usize,
@@ -61,15 +61,15 @@ pub enum NotComparable {
     /// A tick is not a whole number, or a time is not a number.
     #[error("row {row} of {side}: column {column:?} has {cell:?}; write {}", wanted(*is_ticks))]
     NoOrder {
-        /// Side: `a` or `b`.
+        /// Side of the row: `a` or `b`.
         side: &'static str,
-        /// Position of the row, from 1, after the header.
+        /// Position of the row after the header, from 1.
         row: u64,
         /// Name of the column.
         column: String,
         /// Whether the column counts ticks.
         is_ticks: bool,
-        /// The cell.
+        /// Text of the cell.
         cell: String,
     },
 }
@@ -78,16 +78,16 @@ fn wanted(is_ticks: bool) -> &'static str {
     if is_ticks { "a whole number of 0 or more" } else { "a number" }
 }
 
-/// Roles of columns, where their names are not enough. Both tables must have every column named here, except that one
-/// may lack an ignored column.
+/// Roles of columns that their names do not show. Both tables must have every column named here, except that one may
+/// lack an ignored column.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Chosen {
-    /// Key columns, in place of `tick`, `lane`, `body` and `coordinate`. The first one named `tick`, `frame` or
+    /// Key columns, in place of `tick`, `lane`, `body` and `coordinate`. The first one with the name `tick`, `frame` or
     /// `step` counts ticks.
     pub key: Vec<String>,
     /// The column that counts ticks, in place of `tick`.
     pub tick: Option<String>,
-    /// Value columns to compare; all, if empty.
+    /// Value columns to compare. If the list is empty, all are compared.
     pub columns: Vec<String>,
     /// Columns to leave out.
     pub ignored: Vec<String>,
@@ -101,16 +101,16 @@ const MAX_TICK: f64 = 9_007_199_254_740_992.0;
 pub(super) const NAMES: [&str; 3] = ["lane", "body", "coordinate"];
 /// Names of key columns that count ticks.
 const TICKS: [&str; 3] = ["tick", "frame", "step"];
-/// The column of the coordinate. Where it exists, no other column counts as motion.
+/// Name of the column of the coordinate. If it exists, no other column counts as motion.
 const COORDINATE: &str = "q";
 
-/// How the rows are ordered.
+/// The order of the rows.
 enum Order {
-    /// By this common column, of ticks or of times.
+    /// Rows are ordered by this common column of ticks or times.
     By { column: String, is_ticks: bool, at: [usize; 2] },
-    /// By position in the table.
+    /// Rows are ordered by their position in the table.
     Place,
-    /// Not at all: rows pair up by key alone.
+    /// Rows have no order, and form pairs by their keys alone.
     Key,
 }
 
@@ -129,13 +129,13 @@ pub(super) struct Key {
 /// Positions and roles of the columns in both tables.
 pub(super) struct ColumnLayout {
     order: Order,
-    /// Column of the time (s), on the first side.
+    /// Column of the time (s) on the first side.
     t: Option<usize>,
     pub(super) keys: Vec<Key>,
     pub(super) values: Vec<ValueColumn>,
     /// Columns that only one side has.
     pub(super) alone: [Vec<String>; 2],
-    /// Side and position of the first of them.
+    /// Side and position of the first column that only one side has.
     pub(super) first_alone: Option<(usize, usize)>,
 }
 
@@ -246,7 +246,7 @@ impl ColumnLayout {
         Ok(Self { order, t, keys, values, alone, first_alone })
     }
 
-    /// Position of a row in the order, as bits that sort alike.
+    /// Returns a row's position in the order, as bits that sort alike.
     pub(super) fn order(
         &self,
         side: usize,
@@ -275,7 +275,7 @@ impl ColumnLayout {
         })
     }
 
-    /// Tick of a row; without ticks, its position.
+    /// Returns the tick of a row; if there are no ticks, the row's position.
     pub(super) fn tick(&self, order: u64, place: u64) -> u64 {
         match self.order {
             Order::By { is_ticks: true, .. } => f64::from_bits(order & (u64::MAX >> 1)) as u64,
@@ -283,7 +283,8 @@ impl ColumnLayout {
         }
     }
 
-    /// Name of the tick: that of its column, or `tick` if rows go by position. `None` without an order.
+    /// Returns the name of the tick, which is that of its column, or `tick` if rows go by position. `None` if rows have
+    /// no order.
     pub(super) fn tick_name(&self) -> Option<&str> {
         match &self.order {
             Order::By { column, is_ticks: true, .. } => Some(column),
@@ -296,12 +297,12 @@ impl ColumnLayout {
         matches!(self.order, Order::Place)
     }
 
-    /// Whether rows have an order, in which something can move.
+    /// Whether rows have an order. Without an order, nothing can move.
     pub(super) fn has_order(&self) -> bool {
         !matches!(self.order, Order::Key)
     }
 
-    /// Tick, time or position of a row: the scale along which a clock advances.
+    /// Returns the tick, time or position of a row, which is the scale along which a clock advances.
     pub(super) fn place(&self, order: u64, place: u64) -> f64 {
         match self.order {
             Order::By { .. } if order >> 63 == 0 => f64::from_bits(!order),
@@ -310,7 +311,7 @@ impl ColumnLayout {
         }
     }
 
-    /// Time (s) of a row of the first side.
+    /// Returns the time (s) of a row of the first side.
     pub(super) fn time(&self, row: &ByteRecord) -> Option<f64> {
         parsed(&row[self.t?])
     }

@@ -1,14 +1,14 @@
-//! Reads numbers from text, and measures the distance between two.
+//! Reads numbers from text, and measures the distance between two numbers.
 
 pub(super) fn parsed(cell: &[u8]) -> Option<f64> {
     std::str::from_utf8(cell).ok()?.trim().parse().ok()
 }
 
-/// Marks that loggers write for a missing number, in any case.
+/// Texts that loggers write for a missing number, in upper or lower case.
 const NO_NUMBER: [&str; 8] = ["", "-", "na", "n/a", "null", "none", "nil", "--"];
 
-/// Whether this cell makes its column text: it is neither a number nor a mark for a missing one. A hash may look like
-/// a number with an exponent, but nobody writes zeros before a mantissa.
+/// Whether this cell makes its column text, because it is neither a number nor a mark for a missing one. A hash may
+/// look like a number with an exponent, but nobody writes zeros before a mantissa.
 pub(super) fn is_text(cell: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(cell) else { return true };
     let text = text.trim();
@@ -22,8 +22,8 @@ pub(super) fn is_text(cell: &[u8]) -> bool {
     !is_nan && !NO_NUMBER.iter().any(|known| text.eq_ignore_ascii_case(known))
 }
 
-/// Whether two cells that parse to the same number may mean different ones. This happens to whole numbers with more
-/// digits than a double has, and to finite numbers beyond its range.
+/// Whether two cells that parse to the same number may mean different numbers. This happens to whole numbers with more
+/// digits than a double has, and to finite numbers beyond the range of a double.
 pub(super) fn hide_a_difference(cells: [&[u8]; 2], number: f64) -> bool {
     let has_digits = |cell: &[u8]| cell.iter().any(u8::is_ascii_digit);
     let is_whole = |cell: &[u8]| cell.trim_ascii().iter().all(u8::is_ascii_digit);
@@ -33,12 +33,12 @@ pub(super) fn hide_a_difference(cells: [&[u8]; 2], number: f64) -> bool {
     }
 }
 
-/// Whether both are the same number, or both are NaN. 0 and −0 are the same.
+/// Whether both numbers are the same, or both are NaN. 0 and −0 are the same.
 pub fn is_same_number(a: f64, b: f64) -> bool {
     a == b || a.is_nan() && b.is_nan()
 }
 
-/// Distance in doubles: 1 for neighbours, 0 for 0 and −0. `None` if either is NaN.
+/// Returns the distance in doubles, which is 1 for neighbours, and 0 for 0 and −0. `None` if one of the numbers is NaN.
 pub fn distance_ulps(a: f64, b: f64) -> Option<u64> {
     // Bits of numbers with one sign sort like the numbers.
     let at = |x: f64| {
@@ -48,10 +48,10 @@ pub fn distance_ulps(a: f64, b: f64) -> Option<u64> {
     (!a.is_nan() && !b.is_nan()).then(|| at(a).abs_diff(at(b)))
 }
 
-/// Difference relative to the larger number; `None` if it is not finite.
+/// Returns the difference relative to the larger number; `None` if this ratio is not finite.
 pub(super) fn relative(a: f64, b: f64) -> Option<f64> {
     let (far, larger) = ((a - b).abs(), a.abs().max(b.abs()));
-    // The difference between huge numbers of opposite sign may overflow; its ratio does not.
+    // The difference between huge numbers of opposite sign may overflow, but the ratio does not.
     let part = if far.is_finite() { far / larger } else { (a / larger - b / larger).abs() };
     if a == b { Some(0.0) } else { part.is_finite().then_some(part) }
 }

@@ -6,7 +6,7 @@ use csv::ByteRecord;
 
 use super::{MAX_WAITING, MAX_WAITING_BYTES};
 
-/// Identity of a row: its order and its stream.
+/// Identity of a row, which is its order and its stream.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Place {
     /// Tick or time, as bits that sort alike.
@@ -17,7 +17,7 @@ pub(super) struct Place {
 /// A row that waits for its counterpart.
 pub(super) struct Waiting {
     pub(super) row: ByteRecord,
-    /// Number of rows before it on its side.
+    /// Number of rows before this one on its side.
     pub(super) number: u64,
 }
 
@@ -32,12 +32,12 @@ pub(super) struct Side {
     pub(super) waiting: HashMap<Place, Waiting>,
     /// Bytes of the waiting rows.
     waiting_bytes: usize,
-    /// Waiting rows in order of arrival; some may have left since.
+    /// Waiting rows in order of arrival. Some of these may no longer wait.
     queue: VecDeque<(Place, u64)>,
 }
 
 impl Side {
-    /// Queues a row. Returns the row at the same place that it replaces.
+    /// Queues a row. Returns the earlier row at the same place, if the new row replaces one.
     pub(super) fn insert(&mut self, place: Place, row: Waiting) -> Option<Waiting> {
         self.waiting_bytes += row.row.as_slice().len();
         self.queue.push_back((place, row.number));
@@ -61,7 +61,7 @@ impl Side {
         self.waiting.len() > MAX_WAITING || self.waiting_bytes > MAX_WAITING_BYTES
     }
 
-    /// Removes the row that has waited longest.
+    /// Removes the row that has waited longest, and returns it.
     pub(super) fn oldest(&mut self) -> Option<(Place, Waiting)> {
         while let Some((place, number)) = self.queue.pop_front() {
             if self.waiting.get(&place).is_some_and(|row| row.number == number) {

@@ -1,4 +1,4 @@
-//! The recent past of one body in one lane, for trails and plots. Bounded, and allocated once.
+//! The recent past of one body in one lane, for trails and plots. It is bounded, and allocated once.
 //!
 //! At a switch of method, the run of samples under the old method ends and one under the new method begins. Both have
 //! a sample at the moment of the switch.
@@ -11,14 +11,14 @@ use super::windowed_log::WindowedLog;
 use crate::run::race::LaneBody;
 use crate::run::{METRICS, Metric};
 
-/// Most samples per summary, whose range covers everything between its ends.
+/// Maximum number of samples per summary. A summary's range covers all motion between the summary's ends.
 const MAX_SUMMED: usize = 4;
 
-/// The recent past of one body in one lane, oldest first.
+/// The recent past of one body in one lane, with the oldest sample first.
 #[derive(Debug)]
 pub struct History {
     samples: WindowedLog<Sample>,
-    /// The present, if no sample is due there.
+    /// The present, if no sample is due at this moment.
     present: Option<Sample>,
     /// Range of the recorded coordinate since the newest sample.
     since: SweptRange,
@@ -30,12 +30,12 @@ pub struct History {
 pub struct Peaks {
     /// Largest position error, in the unit of the first coordinate.
     pub error: f64,
-    /// Largest coordinate in that unit, in the lane or in truth.
+    /// Largest magnitude of a coordinate in the same unit, in the lane or in truth.
     pub size: f64,
 }
 
 impl Peaks {
-    /// The values at this moment.
+    /// Returns the values at this moment.
     pub(super) fn of(body: &LaneBody, truth: &LaneBody) -> Self {
         let error = (METRICS[Metric::POSITION_ERROR].measure)(body, truth).unwrap_or_default();
         let all = [body, truth].into_iter().flat_map(|body| body.like_first(body.stepper.q()));
@@ -60,8 +60,8 @@ pub(super) struct HistoryMark {
 pub type Samples<'h> = iter::Chain<vec_deque::Iter<'h, Sample>, option::Iter<'h, Sample>>;
 
 impl History {
-    /// An empty history that shows `capacity` samples, and keeps half as many more for rewinding without repetition.
-    /// With [`CAPACITY`](super::CAPACITY) these cover 17 s at 60 Hz.
+    /// Creates an empty history that shows `capacity` samples, and keeps half of that number in addition for rewinding
+    /// without repetition. With [`CAPACITY`](super::CAPACITY), these further samples cover 17 s at 60 Hz.
     pub(super) fn new(capacity: usize) -> Self {
         let spare = capacity / 2;
         Self {
@@ -72,18 +72,18 @@ impl History {
         }
     }
 
-    /// Heap memory (bytes) of a history of this capacity.
+    /// Returns the heap memory in bytes of a history of this capacity.
     pub(super) fn heap_bytes(capacity: usize) -> usize {
         (capacity + capacity / 2) * size_of::<Sample>()
     }
 
-    /// The samples, oldest first. The newest is the present, unless the body has halted.
+    /// Returns the samples, with the oldest first. The newest one is the present, unless the body has halted.
     pub fn samples(&self) -> Samples<'_> {
         self.after(0)
     }
 
-    /// The samples in groups, as at least `least` summaries where there are enough. In a full history, a sample keeps
-    /// its group as time passes.
+    /// Groups the samples to summaries, at least `least` of them if there are enough samples. In a full history, a
+    /// sample stays in the same group as time passes.
     pub fn summaries(&self, least: usize) -> Vec<Summary> {
         let together = (self.samples.len() / least.max(1)).clamp(1, MAX_SUMMED) as u64;
         let mut summaries: Vec<Summary> = Vec::with_capacity(self.samples.len() + 1);
@@ -105,19 +105,20 @@ impl History {
         self.samples.range(skipped.min(self.samples.len())).chain(present)
     }
 
-    /// Samples from time `t` (s) on, oldest first. If the body was placed at `t`, they begin there.
+    /// Returns the samples from time `t` (s) on, with the oldest first. If the body was placed at `t`, they begin with
+    /// the placement.
     pub fn since(&self, t: f64) -> Samples<'_> {
         let skipped = self.samples.count_before(t, |sample| (sample.t, sample.jumped));
         let is_over = self.present.as_ref().is_some_and(|present| present.t < t);
         self.after(skipped + usize::from(is_over))
     }
 
-    /// Largest values since the start, or since the last placement of the body.
+    /// Returns the largest values since the start, or since the last placement of the body.
     pub fn peaks(&self) -> Peaks {
         self.most
     }
 
-    /// Adds the values of a tick to the largest.
+    /// Updates the largest values with those of a tick.
     pub(super) fn note_peaks(&mut self, now: Peaks) {
         self.most = self.most.max(now);
     }
@@ -147,7 +148,7 @@ impl History {
         self.present = (!is_there).then_some(Sample { swept, ..now });
     }
 
-    /// Ends the run of the present method now.
+    /// Ends the run of the present method at this moment.
     pub(super) fn end_run(&mut self, now: Sample) {
         self.present = None;
         if self.samples.newest().is_none_or(|newest| newest.t != now.t) {
@@ -155,7 +156,8 @@ impl History {
         }
     }
 
-    /// Begins a run under the method of `now`. It replaces a run that began at the same moment and has no motion.
+    /// Begins a run under the method of `now`. The new run replaces a run that began at the same moment and has no
+    /// motion.
     pub(super) fn begin_run(&mut self, mut now: Sample) {
         let mut newest_first = self.samples.shown().rev();
         let newest = newest_first.next().filter(|newest| newest.t == now.t);
@@ -190,7 +192,7 @@ impl History {
         self.samples.fills(from.samples, mark.samples)
     }
 
-    /// Rewinds to a mark, which may also lie in the recorded future.
+    /// Rewinds to a mark. The mark may also lie in the recorded future.
     pub(super) fn rewind(&mut self, mark: HistoryMark) {
         self.present = None;
         (self.since, self.most) = (mark.since, mark.most);
@@ -224,14 +226,14 @@ mod tests {
         }
     }
 
-    /// Menu index and times of each run.
+    /// Returns the menu index and the times of each run.
     fn runs(history: &History) -> Vec<(usize, Vec<f64>)> {
         let samples: Vec<&Sample> = history.samples().collect();
         let runs = samples.chunk_by(|one, next| one.entry == next.entry);
         runs.map(|run| (run[0].entry, run.iter().map(|s| s.t).collect())).collect()
     }
 
-    /// A history of `entry` at 0, 1 and 2 s.
+    /// Returns a history of `entry` at 0, 1 and 2 s.
     fn flown(entry: usize) -> History {
         let mut history = History::new(CAPACITY);
         (0..3).for_each(|t| history.push_present(sample(f64::from(t), entry)));

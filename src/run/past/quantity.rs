@@ -8,21 +8,21 @@ use crate::sim::bodies::{Coordinate, Ship};
 pub enum Quantity {
     /// The coordinate.
     Position,
-    /// Its rate of change.
+    /// The rate of change of the coordinate.
     Velocity,
 }
 
 impl Quantity {
-    /// Both, the usual one first.
+    /// Both quantities, with the usual one first.
     pub const ALL: [Quantity; 2] = [Quantity::Position, Quantity::Velocity];
 
-    /// The default quantity of a plot: position. A ship on a straight course sails on for ever, so its plot shows the
-    /// speed.
+    /// Returns the default quantity of a plot, which is the position. A ship on a straight course sails on for ever, so
+    /// its plot shows the speed.
     pub fn usual(body: &LaneBody) -> Self {
         if body.stepper.body().is::<Ship>() { Self::Velocity } else { Self::Position }
     }
 
-    /// Name for people.
+    /// Returns the quantity's name for people.
     pub fn name(self) -> &'static str {
         match self {
             Quantity::Position => "position",
@@ -30,7 +30,7 @@ impl Quantity {
         }
     }
 
-    /// Its symbol for this coordinate.
+    /// Returns the quantity's symbol for this coordinate.
     pub fn symbol(self, coordinate: &Coordinate) -> &str {
         match self {
             Quantity::Position => &coordinate.name,
@@ -38,7 +38,7 @@ impl Quantity {
         }
     }
 
-    /// The value, given a coordinate and its velocity.
+    /// Returns the value of the quantity, given a coordinate and its velocity.
     pub fn value(self, [q, v]: [f64; 2]) -> f64 {
         match self {
             Quantity::Position => q,

@@ -6,7 +6,8 @@ use crate::run::race::LaneBody;
 use crate::run::{METRICS, MenuIndex};
 use crate::sim::Stepper;
 
-/// Most samples shown: every tick of 30 s at 60 Hz, and more than a plot has pixels.
+/// Maximum number of displayed samples, which is enough for every tick of 30 s at 60 Hz, and more than a plot has
+/// pixels.
 pub const CAPACITY: usize = 2048;
 
 /// One moment of a body.
@@ -16,23 +17,23 @@ pub struct Sample {
     pub t: f64,
     /// The recorded coordinate.
     pub q: f64,
-    /// Range of that coordinate since the previous sample.
+    /// Range of the recorded coordinate since the previous sample.
     pub swept: SweptRange,
-    /// Its velocity.
+    /// Velocity of the recorded coordinate.
     pub v: f64,
     /// Place of the body, in metres.
     pub at: DVec2,
     /// Energies, if the body conserves energy.
     pub energies: Option<Energies>,
-    /// Index of the lane's method on the [menu](super::Menu) at that moment: a trail changes colour at a switch.
+    /// Index of the lane's method on the [menu](super::Menu) at that moment. A trail changes colour at a switch.
     pub entry: MenuIndex,
-    /// One value for each of [`METRICS`]; NaN where undefined.
+    /// Values of all [`METRICS`]; NaN if undefined.
     pub metrics: [f64; METRICS.len()],
-    /// Whether the body was placed here, so that no path leads from the previous sample.
+    /// Whether the body was placed at this moment, so that no path leads from the previous sample.
     pub jumped: bool,
 }
 
-/// Compares bits.
+/// Compares the bits of all numbers.
 impl PartialEq for Sample {
     fn eq(&self, other: &Self) -> bool {
         let numbers = |s: &Self| [s.t, s.q, s.v, s.at.x, s.at.y].map(f64::to_bits);
@@ -46,7 +47,8 @@ impl PartialEq for Sample {
 }
 
 impl Sample {
-    /// The present of `body` and its coordinate with this index, in a lane whose method has the menu index `entry`.
+    /// Creates a sample of the present of `body` and of its coordinate with this index, in a lane whose method has the
+    /// menu index `entry`.
     pub(crate) fn new(
         t: f64,
         entry: MenuIndex,
@@ -72,12 +74,12 @@ pub struct Energies {
 }
 
 impl Energies {
-    /// The body's present energies; `None` if it conserves none. Never allocates.
+    /// Returns the body's present energies; `None` if the body conserves no energy. Never allocates.
     pub(crate) fn of(body: &dyn Stepper) -> Option<Self> {
         Some(Self { kinetic_j: body.kinetic_energy()?, total_j: body.energy()? })
     }
 
-    /// Potential energy in joules.
+    /// Returns the potential energy in joules.
     pub fn potential_j(self) -> f64 {
         self.total_j - self.kinetic_j
     }
@@ -87,16 +89,16 @@ impl Energies {
     }
 }
 
-/// Least and greatest value of a coordinate since the previous sample.
+/// Smallest and largest value of a coordinate since the previous sample.
 #[derive(Clone, Copy, Debug)]
 pub struct SweptRange {
-    /// Least value.
+    /// Smallest value.
     pub least: f64,
-    /// Greatest value.
+    /// Largest value.
     pub greatest: f64,
 }
 
-/// Compares bits.
+/// Compares the bits of both numbers.
 impl PartialEq for SweptRange {
     fn eq(&self, other: &Self) -> bool {
         let bits = |swept: &Self| [swept.least, swept.greatest].map(f64::to_bits);
@@ -108,17 +110,17 @@ impl SweptRange {
     /// The empty range.
     pub(super) const NOTHING: Self = Self { least: f64::INFINITY, greatest: f64::NEG_INFINITY };
 
-    /// The range of one value.
+    /// Returns the range of one value.
     pub(super) fn at(q: f64) -> Self {
         Self { least: q, greatest: q }
     }
 
-    /// The range extended by `q`.
+    /// Returns the range extended by `q`.
     pub(super) fn extended_by(self, q: f64) -> Self {
         Self { least: self.least.min(q), greatest: self.greatest.max(q) }
     }
 
-    /// The least and the greatest value.
+    /// Returns the smallest and the largest value.
     pub fn ends(self) -> [f64; 2] {
         [self.least, self.greatest]
     }
@@ -127,11 +129,11 @@ impl SweptRange {
 /// Consecutive samples of one motion under one method.
 #[derive(Clone, Copy, Debug)]
 pub struct Summary {
-    /// Time (s) of the last of them.
+    /// Time (s) of the last sample.
     pub t: f64,
-    /// The recorded coordinate at that time.
+    /// The recorded coordinate at the time of the last sample.
     pub q: f64,
-    /// Range of that coordinate since the previous summary.
+    /// Range of the recorded coordinate since the previous summary.
     pub swept: SweptRange,
     /// Index of the lane's method on the [menu](super::Menu).
     pub entry: MenuIndex,
@@ -140,13 +142,13 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// The summary of one sample.
+    /// Returns the summary of one sample.
     pub fn of(sample: &Sample) -> Self {
         let &Sample { t, q, swept, entry, jumped, .. } = sample;
         Self { t, q, swept, entry, jumped }
     }
 
-    /// Joins two summaries if they belong to one motion under one method.
+    /// Joins two summaries if both belong to one motion under one method.
     pub(super) fn joined_with(self, next: Self) -> Option<Self> {
         let is_one = self.entry == next.entry && !next.jumped;
         let ends = next.swept.ends();

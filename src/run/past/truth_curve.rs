@@ -1,5 +1,5 @@
-//! The true motion of one body between ticks. A time grid, independent of the tick rate, holds its recent past; any
-//! moment of the last tick can be computed. Bounded, and allocated once.
+//! The true motion of one body between ticks. A time grid, independent of the tick rate, holds the body's recent past;
+//! any moment of the last tick can be computed. The curve is bounded, and allocated once.
 
 use std::collections::vec_deque;
 use std::mem::discriminant;
@@ -13,32 +13,32 @@ use crate::run::race::{LaneBody, LastTick, hermite, slope};
 use crate::sim::bodies::Input;
 use crate::sim::{Solver, Stepper};
 
-/// Grid points in the duration shown: several for each pixel of a plot.
+/// Number of grid points in the displayed duration, which is several for each pixel of a plot.
 const GRID: usize = 4096;
 
-/// Most products of the exact flow for the points of one tick, some milliseconds of work. A point of n coordinates
-/// takes n². Between few points, the curve is a cubic.
+/// Maximum number of products of the exact flow for the points of one tick, which are some milliseconds of work. A
+/// point of n coordinates takes n² products. If there are few points, the curve between two of them is a cubic.
 const MAX_PRODUCTS: usize = 2_000_000;
 
-/// Fewest points that a tick may have, at any cost.
+/// Minimum number of points that a tick may have, at any cost.
 const MIN_POINTS: usize = 16;
 
-/// Capacity for samples off the grid, taken at inputs.
+/// Capacity for samples off the grid, which are made at inputs.
 const OFF_GRID: usize = 512;
 
-/// Capacity for pending inputs: one of each kind.
+/// Capacity for pending inputs, one of each kind.
 const KINDS_OF_INPUT: usize = 3;
 
-/// Most points that refine the curve between two samples.
+/// Maximum number of points that refine the curve between two samples.
 const MAX_BETWEEN: f64 = 1e4;
 
-/// Largest relative difference at which the flow still reaches a sample.
+/// Largest relative difference at which the flow counts as reaching a sample.
 const FOLLOWS: f64 = 1e-9;
 
-/// Further grid points to keep, for rewinding without repetition.
+/// Number of further grid points to keep, for rewinding without repetition.
 const SPARE: usize = GRID / 2;
 
-/// Samples per block with known extent; about as many as there are blocks.
+/// Number of samples per block with a known extent, which is about the number of blocks.
 const BLOCK: usize = 64;
 
 /// One moment of the true motion.
@@ -48,15 +48,15 @@ pub struct TruthSample {
     pub t: f64,
     /// The recorded coordinate.
     pub q: f64,
-    /// Range of that coordinate at ticks since the previous sample.
+    /// Range of the recorded coordinate at ticks since the previous sample.
     pub swept: SweptRange,
-    /// Its velocity.
+    /// Velocity of the recorded coordinate.
     pub v: f64,
     /// Place of the body, in metres.
     pub at: DVec2,
     /// Energies, if the body conserves energy.
     pub energies: Option<Energies>,
-    /// Whether the body was placed here, so that no path leads from the previous sample.
+    /// Whether the body was placed at this moment, so that no path leads from the previous sample.
     pub jumped: bool,
 }
 
@@ -76,9 +76,9 @@ impl TruthSample {
 /// The true motion of one body as a curve.
 pub struct TruthCurve {
     /// A copy of the true body under the inputs of the last tick, for moments within that tick. The truth itself is
-    /// only read, so drawing never changes a bit of it.
+    /// only read, so that drawing never changes a bit of the truth.
     between: Box<dyn Stepper>,
-    /// Inputs since the last tick, for `between` at the next.
+    /// Inputs since the last tick, which `between` gets at the next tick.
     pending: Vec<Input>,
     /// Whether the truth has changed in another way, so that a new copy is due.
     is_stale: bool,
@@ -86,9 +86,9 @@ pub struct TruthCurve {
     /// Index of the recorded coordinate.
     coordinate: usize,
     samples: WindowedLog<TruthSample>,
-    /// Least and greatest place in each block of samples, along x and up.
+    /// Smallest and largest place in each block of samples, along x and up.
     extents: WindowedLog<[DVec2; 2]>,
-    /// Range of that coordinate at ticks since the newest sample.
+    /// Range of the recorded coordinate at ticks since the newest sample.
     since: SweptRange,
 }
 
@@ -101,7 +101,8 @@ pub(super) struct TruthMark {
 }
 
 impl TruthCurve {
-    /// The curve of `truth` from its start, for the coordinate with this index, with a capacity of `span_s` seconds.
+    /// Creates the curve of `truth` from its start, for the coordinate with this index, with a capacity of `span_s`
+    /// seconds.
     pub(super) fn new(truth: &LaneBody, coordinate: usize, span_s: f64) -> Self {
         let mut curve = Self {
             between: truth.stepper.with_solver(Solver::Truth, 0.0),
@@ -117,23 +118,26 @@ impl TruthCurve {
         curve
     }
 
-    /// Heap memory in bytes.
+    /// Returns the heap memory of the curve in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.between.bytes(Solver::Truth) + self.samples.heap_bytes() + self.extents.heap_bytes()
     }
 
-    /// Samples, oldest first: at every point of the grid, and on both sides of an input.
+    /// Returns the samples, with the oldest first. There is one at every point of the grid, and one on each side of an
+    /// input.
     pub fn samples(&self) -> vec_deque::Iter<'_, TruthSample> {
         self.samples.shown()
     }
 
-    /// Samples from time `t` (s) on, oldest first. If the body was placed at `t`, they begin there.
+    /// Returns the samples from time `t` (s) on, with the oldest first. If the body was placed at `t`, they begin with
+    /// the placement.
     pub fn since(&self, t: f64) -> vec_deque::Iter<'_, TruthSample> {
         let skipped = self.samples.count_before(t, |sample| (sample.t, sample.jumped));
         self.samples.range(skipped)
     }
 
-    /// Largest distance of the body from `centre_m` [since](Self::since) `t` (s), along x and up, in metres.
+    /// Returns the largest distance of the body from `centre_m` [since](Self::since) `t` (s), along x and up, in
+    /// metres.
     pub fn reach_m(&self, centre_m: DVec2, t: f64) -> DVec2 {
         let (since, end) = (self.since(t), self.samples.mark() as usize);
         let (first, last) = ((end - since.len()).div_ceil(BLOCK), end / BLOCK);
@@ -148,19 +152,19 @@ impl TruthCurve {
         places.map(|at| (at - centre_m).abs()).fold(DVec2::ZERO, DVec2::max)
     }
 
-    /// The present of the true body `truth` at time `t` (s): the curve's end, on or off the grid.
+    /// Returns the present of the true body `truth` at time `t` (s), which is the curve's end, on or off the grid.
     pub fn present(&self, truth: &LaneBody, t: f64) -> TruthSample {
         TruthSample::of(t, self.coordinate, &*truth.stepper)
     }
 
-    /// Index of the recorded coordinate.
+    /// Returns the index of the recorded coordinate.
     pub fn coordinate(&self) -> usize {
         self.coordinate
     }
 
-    /// A quantity over time through consecutive `samples` of the true body `truth`, at least every `spacing_s`
-    /// seconds. For a body of one coordinate, points follow the exact flow from each sample if that reaches the next.
-    /// After inputs or edits, and for several coordinates, they lie on a cubic.
+    /// Returns a quantity over time through consecutive `samples` of the true body `truth`, at least every `spacing_s`
+    /// seconds. For a body of one coordinate, points follow the exact flow from each sample if the flow reaches the
+    /// next sample. After inputs or edits, and for several coordinates, points lie on a cubic.
     pub fn finer(
         truth: &LaneBody,
         quantity: Quantity,
@@ -185,7 +189,7 @@ impl TruthCurve {
         points
     }
 
-    /// A quantity of the true body `truth` at time `t` (s) between two consecutive samples, on the curve of
+    /// Returns a quantity of the true body `truth` at time `t` (s) between two consecutive samples, on the curve of
     /// [`finer`](Self::finer).
     pub fn between(
         truth: &LaneBody,
@@ -198,8 +202,8 @@ impl TruthCurve {
         quantity.value(state.unwrap_or_else(|| cubic(from, to, (t - from.t) / (to.t - from.t))))
     }
 
-    /// Coordinates and velocities of `truth` within or beyond its last tick; during the tick, `part` runs from 0 to
-    /// 1.
+    /// Returns coordinates and velocities of `truth` within or beyond its last tick. During the tick, `part` runs from
+    /// 0 to 1.
     pub(super) fn state(
         &self,
         truth: &LaneBody,
@@ -254,30 +258,30 @@ impl TruthCurve {
             t = next;
             self.push(TruthSample::of(t, self.coordinate, &*self.between));
         }
-        // Where the grid is finer than the ticks, only grid points are drawn.
+        // If the grid is finer than the ticks, only grid points are drawn.
         if t < to_s && to_s - from_s < spacing_s {
             self.since = self.since.extended_by(truth.stepper.q()[self.coordinate]);
         }
     }
 
-    /// Adds the present of `truth` at time `t`, before and after an input, where the curve has a corner. Never
-    /// allocates.
+    /// Adds the present of `truth` at time `t`, before and after an input, because the curve has a corner at inputs.
+    /// Never allocates.
     pub(super) fn push_present(&mut self, t: f64, truth: &LaneBody) {
         self.push(self.present(truth, t));
     }
 
-    /// Adds the present of `truth` at time `t` as a new beginning, where the body was placed. Never allocates.
+    /// Adds the present of `truth` at time `t` as a new beginning, because the body was placed. Never allocates.
     pub(super) fn jump(&mut self, t: f64, truth: &LaneBody) {
         self.push(TruthSample { jumped: true, ..self.present(truth, t) });
     }
 
-    /// Notes an input to the truth.
+    /// Records an input to the truth.
     pub(super) fn note_input(&mut self, input: Input) {
         self.pending.retain(|waiting| discriminant(waiting) != discriminant(&input));
         self.pending.push(input);
     }
 
-    /// Notes any other change of the truth.
+    /// Records any other change of the truth.
     pub(super) fn invalidate_copy(&mut self) {
         self.is_stale = true;
     }
@@ -321,7 +325,7 @@ impl TruthCurve {
         self.samples.fills(from.samples, mark.samples)
     }
 
-    /// Rewinds to a mark, which may also lie in the recorded future.
+    /// Rewinds to a mark. The mark may also lie in the recorded future.
     pub(super) fn rewind(&mut self, mark: TruthMark) {
         self.samples.rewind(mark.samples);
         self.extents.rewind(mark.samples / BLOCK as u64);
@@ -349,7 +353,7 @@ impl Flow {
         Self { copy, is_known: truth.coordinates().len() == 1 }
     }
 
-    /// Coordinate and velocity at time `t` (s), starting from a sample.
+    /// Returns coordinate and velocity at time `t` (s), starting from a sample.
     fn state(&mut self, from: &TruthSample, t: f64) -> Option<[f64; 2]> {
         if !self.is_known {
             return None;
@@ -366,8 +370,8 @@ impl Flow {
     }
 }
 
-/// Coordinate and velocity at a part of the way between two samples, on the cubic through both with their velocities.
-/// If both have the same time, those of the first.
+/// Returns coordinate and velocity at a fraction of the way between two samples, on the cubic through both with their
+/// velocities. If both samples have the same time, it returns those of the first.
 fn cubic(from: &TruthSample, to: &TruthSample, part: f64) -> [f64; 2] {
     let h = to.t - from.t;
     if h <= 0.0 {
@@ -402,7 +406,7 @@ mod tests {
         for [t, v] in TruthCurve::finer(truth, Quantity::Velocity, &samples, 0.001) {
             assert!((v + tau * libm::sin(tau * t)).abs() < 1e-10, "{v} at {t} s");
         }
-        // The flow does not make this jump: the ends stay, and the cubic joins them.
+        // The flow does not make this jump, so that the ends stay, and the cubic joins them.
         let put = TruthSample { q: 3.0, ..samples[1] };
         let points = TruthCurve::finer(truth, Quantity::Position, &[samples[0], put], 0.01);
         assert_eq!((points[0][1], points[points.len() - 1][1]), (1.0, 3.0));

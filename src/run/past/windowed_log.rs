@@ -2,58 +2,58 @@
 
 use std::collections::{VecDeque, vec_deque};
 
-/// A bounded sequence of records with a visible window. Allocated once.
+/// A bounded sequence of records with a visible window, which is allocated once.
 ///
 /// Numbers count records from the run's start. While a run is in its past, the records of its future stay after the
 /// window. If a repetition [pushes](WindowedLog::push) an equal record, the log keeps the stored one.
 #[derive(Debug)]
 pub(super) struct WindowedLog<T> {
     kept: VecDeque<T>,
-    /// Most records shown.
+    /// Maximum number of visible records.
     window: usize,
-    /// Most records kept.
+    /// Maximum number of kept records.
     capacity: usize,
-    /// Number of the oldest record kept.
+    /// Number of the oldest kept record.
     first: u64,
-    /// Number after the newest record shown.
+    /// Number after the newest visible record.
     end: u64,
 }
 
 impl<T: PartialEq> WindowedLog<T> {
-    /// An empty log that shows the newest `window` records and keeps `spare` more.
+    /// Creates an empty log that shows the newest `window` records and keeps `spare` more.
     pub(super) fn new(window: usize, spare: usize) -> Self {
         let capacity = window + spare;
         Self { kept: VecDeque::with_capacity(capacity), window, capacity, first: 0, end: 0 }
     }
 
-    /// Heap memory in bytes.
+    /// Returns the heap memory of the log in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.capacity * size_of::<T>()
     }
 
-    /// Number of records shown.
+    /// Returns the number of visible records.
     pub(super) fn len(&self) -> usize {
         self.window.min((self.end - self.first) as usize)
     }
 
-    /// The records shown, oldest first.
+    /// Returns the visible records, with the oldest first.
     pub(super) fn shown(&self) -> vec_deque::Iter<'_, T> {
         self.range(0)
     }
 
-    /// The records shown, oldest first, with their numbers.
+    /// Returns the visible records, with the oldest first, each with its number.
     pub(super) fn numbered(&self) -> impl Iterator<Item = (u64, &T)> {
         (self.end - self.len() as u64..self.end).zip(self.shown())
     }
 
-    /// The records shown, without the `skipped` oldest.
+    /// Returns the visible records, without the `skipped` oldest ones.
     pub(super) fn range(&self, skipped: usize) -> vec_deque::Iter<'_, T> {
         let end = (self.end - self.first) as usize;
         self.kept.range(end - self.len() + skipped..end)
     }
 
-    /// Index of the first visible record at or after `t` (s). If the body was placed at `t`, the index of the last
-    /// placement. `moment` returns a record's time, and whether it is a placement.
+    /// Returns the index of the first visible record at or after `t` (s). If the body was placed at `t`, it is the
+    /// index of the last placement. `moment` returns a record's time, and whether the record is a placement.
     pub(super) fn count_before(&self, t: f64, moment: impl Fn(&T) -> (f64, bool)) -> usize {
         let end = (self.end - self.first) as usize;
         let oldest = end - self.len();
@@ -63,7 +63,7 @@ impl<T: PartialEq> WindowedLog<T> {
         first - oldest + put.map_or(0, |(place, _)| place)
     }
 
-    /// The newest record shown.
+    /// Returns the newest visible record.
     pub(super) fn newest(&self) -> Option<&T> {
         self.shown().next_back()
     }
@@ -84,17 +84,17 @@ impl<T: PartialEq> WindowedLog<T> {
         self.end += 1;
     }
 
-    /// Removes the newest record shown from the window; the next record replaces it.
+    /// Removes the newest visible record from the window; the next record replaces it.
     pub(super) fn pop(&mut self) {
         self.end = self.first.max(self.end.saturating_sub(1));
     }
 
-    /// The end of the window: the number after the newest record shown.
+    /// Returns the end of the window, which is the number after the newest visible record.
     pub(super) fn mark(&self) -> u64 {
         self.end
     }
 
-    /// Whether all records of the window that ends at `mark` are kept.
+    /// Whether the log still keeps all records of the window that ends at `mark`.
     pub(super) fn keeps_window(&self, mark: u64) -> bool {
         let oldest = mark.saturating_sub(self.window as u64);
         self.first <= oldest && mark <= self.first + self.kept.len() as u64
@@ -105,7 +105,7 @@ impl<T: PartialEq> WindowedLog<T> {
         from + self.window as u64 <= mark || self.keeps_window(mark) && self.first <= from
     }
 
-    /// Ends the window at `mark`. Clears the log if it has no records there.
+    /// Ends the window at `mark`. If the log has no records at that number, it is cleared.
     pub(super) fn rewind(&mut self, mark: u64) {
         if !(self.first..=self.first + self.kept.len() as u64).contains(&mark) {
             self.kept.clear();

@@ -1,4 +1,4 @@
-//! Actions on a race, from its journal and by hand.
+//! Actions on a race, from the race's journal and by hand.
 
 use super::journal::{Author, Journal};
 use super::lane::LaneBody;
@@ -20,8 +20,9 @@ impl Race {
         }
     }
 
-    /// This race at its start, after the actions of `journal` up to tick `end`, without any ticks in between. Lanes,
-    /// rate and parameters are those of that tick; the bodies are not. So placements only notify the observer.
+    /// Returns this race at its start, after the actions of `journal` up to tick `end`, without any ticks in between.
+    /// Lanes, rate and parameters are those of that tick, but the bodies are not, so placements only notify the
+    /// observer.
     pub(crate) fn after_actions(
         mut self,
         journal: &Journal,
@@ -42,8 +43,8 @@ impl Race {
 
     /// Performs a person's action at the present tick, after the journal's actions there. Adds it to the journal, and
     /// removes the person's later actions. Returns `None`, and leaves the journal alone, if the run cannot take the
-    /// action (see [`Action::clamped_in_range`]). The same holds if it changes neither the present nor the script's
-    /// pending actions.
+    /// action (see [`Action::clamped_in_range`]). The same holds if the action changes neither the present nor the
+    /// script's pending actions.
     pub(crate) fn act(
         &mut self,
         action: Action,
@@ -67,13 +68,13 @@ impl Race {
                 PerformedAction::new(action, Author::Person, switch)
             }
         };
-        // The action may have changed the rate, or cancelled a pending change of it.
+        // The action may have changed the rate, or cancelled a pending change of the rate.
         self.journal.put_on_ticks(self.done, self.piece);
         Some(PerformedAction { released, ..done })
     }
 
-    /// Whether the race has the target of an action, and accepts its values. A hand may still hold a body of the
-    /// scene shown before.
+    /// Whether the race has the target of an action, and accepts the action's values. A hand may still hold a body of
+    /// the scene before this one.
     fn can_take(&self, action: &Action) -> bool {
         match action {
             Action::Set { body, parameter, value } => {
@@ -103,7 +104,7 @@ impl Race {
         self.action_to_perform(action, Author::Person).is_some()
     }
 
-    /// The action to perform; `None` if it would change nothing.
+    /// Returns the action to perform; `None` if the action would change nothing.
     fn action_to_perform(&self, action: &Action, author: Author) -> Option<PerformedAction> {
         if !self.can_take(action) {
             return None;
@@ -127,6 +128,11 @@ impl Race {
                     !is_there || at.halted().is_some()
                 })
             }
+            Action::Push { body, by } => {
+                let bodies = self.entrants.iter().map(|e| &e.lane).chain([&self.truth]);
+                let mut bodies = bodies.map(|lane| &lane.bodies()[*body]);
+                bodies.any(|at| at.halted().is_none()) && by.iter().any(|by| *by != 0.0)
+            }
             Action::Solo { lane } => {
                 self.entrant(*lane).is_some()
                     && (self.mode == Mode::Race || self.entrants.len() > 1)
@@ -141,12 +147,12 @@ impl Race {
         changes.then(|| PerformedAction::new(action.clone(), author, switch))
     }
 
-    /// Whether any body takes an input, by its name on the body's [card](crate::sim::bodies::Kind).
+    /// Whether any body takes an input, given by its name on the body's [card](crate::sim::bodies::Kind).
     pub fn takes_input(&self, input: &str) -> bool {
         self.truth.bodies().iter().any(|body| body.kind.inputs.contains(&input))
     }
 
-    /// The switch that an action asks for, even if the lane has those settings already.
+    /// Returns the switch that an action asks for, even if the lane has the same settings already.
     fn switch(&self, action: &Action) -> Option<Switch> {
         let of_id = |lane: LaneId| self.entrants.iter().position(|e| e.id == lane);
         let present = |index: usize| self.entrants[index].spec;
@@ -170,8 +176,8 @@ impl Race {
         Some(Switch { index, lane: self.entrants[index].id, spec })
     }
 
-    /// Performs a person's action at the present tick, without adding it to the journal. Clamps throttle and rudder
-    /// to -1 to 1. Returns `None` if the action [changes](Self::changes) nothing.
+    /// Performs a person's action at the present tick, without adding the action to the journal. Throttle and rudder
+    /// are clamped to -1 to 1. Returns `None` if the action [changes](Self::changes) nothing.
     pub fn perform(
         &mut self,
         action: &Action,

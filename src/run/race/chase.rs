@@ -1,15 +1,15 @@
-//! Measures how a body closes on a fixed target: its half-life, and its overshoot.
+//! Measures how a body approaches a fixed target, by its half-life and its overshoot.
 
 use crate::sim::Stepper;
 
-/// A chase that began at the start, or at the last input or placement.
+/// An approach to a target that began at the start, or at the last input or placement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chase {
     target: f64,
     began_s: f64,
     /// Signed distance at the beginning.
     first: f64,
-    /// Last moment (s), and the distance then.
+    /// Last moment (s), and the distance at that moment.
     last: (f64, f64),
     /// Time (s) at which half of the distance was left.
     halved_s: Option<f64>,
@@ -18,7 +18,8 @@ pub struct Chase {
 }
 
 impl Chase {
-    /// The chase of `body` from time `t` (s) on; `None` if it has no target, a moving one, or has already arrived.
+    /// Returns the chase of `body` from time `t` (s) on; `None` if the body has no target, a moving one, or has already
+    /// arrived.
     pub fn new(body: &dyn Stepper, t: f64) -> Option<Self> {
         let target = body.pursuit(t).filter(|pursuit| pursuit.is_still)?.target;
         let first = target - body.q()[0];
@@ -27,12 +28,13 @@ impl Chase {
         (first != 0.0 && first.is_finite()).then_some(chase)
     }
 
-    /// Adds the body's place, its first coordinate, at time `t` (s).
+    /// Adds the body's place, which is its first coordinate, at time `t` (s).
     pub fn add_place(&mut self, place: f64, t: f64) {
         let ((before_s, before), now) = (self.last, self.target - place);
         let (before, part) = (before / self.first, now / self.first);
         if self.halved_s.is_none() && part <= 0.5 {
-            // Interpolate between ticks: exponentially before the target, linearly through it.
+            // Between ticks, the distance is interpolated exponentially before the target, and linearly through the
+            // target.
             let within = match part > 0.0 {
                 true => libm::log(before / 0.5) / libm::log(before / part),
                 false => (before - 0.5) / (before - part),
@@ -43,12 +45,12 @@ impl Chase {
         self.last = (t, now);
     }
 
-    /// Time (s) to cover half of the distance; `None` until then.
+    /// Returns the time (s) to cover half of the distance; `None` until half is covered.
     pub fn half_life_s(&self) -> Option<f64> {
         self.halved_s.map(|halved_s| halved_s - self.began_s)
     }
 
-    /// Overshoot in percent of the first distance.
+    /// Returns the overshoot in percent of the first distance.
     pub fn overshoot_percent(&self) -> f64 {
         100.0 * self.beyond
     }
@@ -61,7 +63,7 @@ mod tests {
     use crate::sim::Solver;
     use crate::sim::integrators::method;
 
-    /// The chase of 2 m under a method, by a body of this order with a rate of 10 /s.
+    /// Returns the chase of 2 m under a method, by a body of this order with a rate of 10 /s.
     fn chase(order: u32, id: &str, hz: f64) -> Chase {
         let head = "title = 't'\ntick_hz = 60\nseconds = 2\n";
         let text = format!("{head}[[follow]]\norder = {order}\nrate_per_s = 10\nx0_m = -1\n");
@@ -100,7 +102,8 @@ mod tests {
         for (order, id) in [(1, "exponential-decay"), (2, "critically-damped-spring")] {
             assert_eq!(chase(order, id, 30.0).overshoot_percent(), 0.0, "{id}");
         }
-        // In a straight line from 2 m before it to 1 m beyond: half-way after a third of the step.
+        // The body moves in a straight line from 2 m before the target to 1 m beyond, and is half-way after a third of
+        // the step.
         let half_life = half_life_ms(1, "lerp-dt", 10.0 / 1.5);
         assert!((half_life - 50.0).abs() < 1e-9, "{half_life}");
     }

@@ -1,4 +1,4 @@
-//! Lanes of equal cost: a cheap method may take more substeps.
+//! Lanes of equal cost, in which a cheap method may take more substeps.
 
 use std::ops::ControlFlow;
 
@@ -7,19 +7,19 @@ use super::ticker::{StopReason, Ticker};
 use crate::scene::{LaneSpec, MAX_SUBSTEPS, Scene, nearest_tick};
 use crate::sim::TickRate;
 
-/// Fewest ticks over which to count a cost, and ticks to count after the script's last action. This is a second in
-/// most scenes, long enough for step sizes to settle.
+/// Minimum number of ticks over which a cost is counted, and number of ticks to count after the script's last action.
+/// These are a second in most scenes, long enough for step sizes to settle.
 const SETTLING_TICKS: u64 = 60;
 
-/// Most ticks over which to count a cost. More would keep the person waiting who asks for equal cost; later actions
-/// of a longer script are left out.
+/// Maximum number of ticks over which a cost is counted. With more ticks, a person would wait too long for equal cost;
+/// later actions of a longer script are left out.
 const MAX_COUNTED_TICKS: u64 = 600;
 
-/// The lanes of a scene with substeps that match their evaluations to those of the most expensive lane as given.
-/// Counts evaluations at `tick_hz` from the scene's start until the script is over and step sizes have settled, 60 to
-/// 600 ticks.
+/// Returns the lanes of a scene with substeps that match their evaluations to those of the most expensive lane as
+/// given. Counts evaluations at `tick_hz` from the scene's start until the script is over and step sizes have settled,
+/// 60 to 600 ticks.
 ///
-/// An engine keeps its own substeps. A lane whose bodies halt costs the mean until then.
+/// An engine keeps its own substeps. The cost of a lane whose bodies halt is the mean until that moment.
 pub fn equal_cost(
     scene: &Scene,
     lanes: &[LaneSpec],
@@ -35,7 +35,7 @@ pub fn equal_cost(
     lanes.iter().map(equal).collect()
 }
 
-/// The lanes that race: those of the scene, at equal cost if it asks for that.
+/// Returns the lanes in the race, which are those of the scene, at equal cost if the scene asks for it.
 pub fn lanes_that_race(scene: &Scene) -> Vec<LaneSpec> {
     match scene.equal_cost {
         true => equal_cost(scene, &scene.lanes, scene.tick_hz),
@@ -43,8 +43,8 @@ pub fn lanes_that_race(scene: &Scene) -> Vec<LaneSpec> {
     }
 }
 
-/// `spec` with the substeps that bring its cost nearest to `wanted`. More substeps never cost less, so bisection
-/// finds them. `cost` may return infinity above its second argument.
+/// Returns `spec` with the substeps that bring its cost nearest to `wanted`. More substeps never cost less, so
+/// bisection finds them. `cost` may return infinity above its second argument.
 fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec, f64) -> f64) -> LaneSpec {
     let with = |substeps: u32| LaneSpec { substeps, ..spec };
     let (mut low, mut high) = (1, MAX_SUBSTEPS);
@@ -62,7 +62,7 @@ fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec, f64) -> f64) ->
     if off_above < off_below { above } else { below }
 }
 
-/// Mean cost of a tick; infinity if it exceeds `most`.
+/// Returns the mean cost of a tick; infinity if the cost exceeds `most`.
 fn evaluations_per_tick(scene: &Scene, spec: &LaneSpec, tick_hz: TickRate, most: f64) -> f64 {
     let over = scene.script.last().map_or(0, |last| nearest_tick(last.at_s, tick_hz));
     let end = over.saturating_add(SETTLING_TICKS).min(MAX_COUNTED_TICKS);

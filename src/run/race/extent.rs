@@ -1,17 +1,17 @@
-//! The range of a motion so far: the scale of errors in speed and energy.
+//! The range of a motion so far, which is the scale of errors in speed and energy.
 
 use crate::sim::Stepper;
 
-/// An exchange of energy below this share of the largest kinetic energy is rounding.
+/// An exchange of energy counts as rounding if its share of the largest kinetic energy is below this.
 const ROUNDING: f64 = 1e-9;
-/// Kinetic energy below this share of the largest counts as 0, which it may have reached between ticks.
+/// Kinetic energy counts as 0 if its share of the largest one is below this, because it may have been 0 between ticks.
 const AT_REST: f64 = 0.01;
 
 /// The range of a body's true motion since its start.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Extent {
     largest_speed: f64,
-    /// Largest sum of kinetic and potential energy (J), for a body that does not conserve it.
+    /// Largest sum of kinetic and potential energy (J), for a body that does not conserve this sum.
     most_j: f64,
     kinetic: Option<Kinetic>,
 }
@@ -21,16 +21,16 @@ pub(crate) struct Extent {
 struct Kinetic {
     least: f64,
     most: f64,
-    /// Its range since the last turn.
+    /// Range of the kinetic energy since the last turn.
     recent: (f64, f64),
-    /// Whether it was last rising; `None` before its first change.
+    /// Whether the kinetic energy was last rising; `None` before its first change.
     rises: Option<bool>,
-    /// Number of reversals by half its range.
+    /// Number of reversals by at least half the range.
     turns: u32,
 }
 
 impl Extent {
-    /// Adds a moment: the speed, and the kinetic energy (J) if the body conserves its energy.
+    /// Adds a moment's speed, and its kinetic energy (J) if the body conserves its energy.
     pub(crate) fn add_moment(&mut self, speed: f64, kinetic_j: Option<f64>) {
         self.largest_speed = self.largest_speed.max(speed);
         if let Some(now) = kinetic_j {
@@ -44,20 +44,20 @@ impl Extent {
         self.most_j = self.most_j.max(sum);
     }
 
-    /// Largest sum of kinetic and potential energy so far (J); 0 if unknown.
+    /// Returns the largest sum of kinetic and potential energy so far (J); 0 if unknown.
     pub(crate) fn most_j(&self) -> f64 {
         self.most_j
     }
 
-    /// Largest speed so far; 0 if the body has not moved.
+    /// Returns the largest speed so far; 0 if the body has not moved.
     pub(crate) fn largest_speed(&self) -> f64 {
         self.largest_speed
     }
 
-    /// The energy (J) that the motion of `truth` exchanges: the range of its kinetic energy. For a linear body it is
-    /// at least the total energy, all of which its modes exchange in time. `None` if energy is not conserved or
-    /// exchanged, and before the motion has reached both ends of the range. A part of the range would exaggerate the
-    /// drift.
+    /// Returns the energy (J) that the motion of `truth` exchanges, which is the range of its kinetic energy. For a
+    /// linear body it is at least the total energy, because the modes exchange all of that in time. `None` if energy is
+    /// not conserved or exchanged, and before the motion has reached both ends of the range. A part of the range would
+    /// exaggerate the drift.
     pub(crate) fn exchanged_j(&self, truth: &dyn Stepper) -> Option<f64> {
         let whole = truth.energy().filter(|_| truth.is_linear());
         Some(self.range_j()?.max(whole.unwrap_or(0.0)))
@@ -125,7 +125,7 @@ mod tests {
         assert_eq!(covered(swing(0, 80)).range_j(), Some(1.0));
         assert_eq!(covered(swing(50, 100)).range_j(), None, "it has only fallen");
         assert!((covered(swing(50, 140)).range_j().unwrap() - 1.0).abs() < 1e-12);
-        // From the middle it rises by half its range, and then falls by all of it.
+        // From the middle the energy rises by half its range, and then falls by all of it.
         assert_eq!(covered(swing(25, 90)).range_j(), None, "it has turned at the top only");
         assert!((covered(swing(25, 130)).range_j().unwrap() - 1.0).abs() < 1e-12);
         assert_eq!(covered(swing(75, 110)).range_j(), None, "it has hardly turned");

@@ -9,14 +9,14 @@ pub enum Interpolation {
     Raw,
     /// A straight line between the last two ticks.
     Linear,
-    /// A cubic through the states and velocities of the last two ticks.
+    /// A cubic through the coordinates and velocities of the last two ticks.
     Hermite,
     /// The same cubic, but without going back between two ticks that move one way. Explicit Euler changes a velocity
-    /// one tick before the position follows. So at a coarse tick, the plain cubic starts by moving backwards. A
-    /// parabola stays unchanged.
+    /// one tick before the position follows, so at a coarse tick the plain cubic starts by moving backwards. A parabola
+    /// stays unchanged.
     #[default]
     Monotone,
-    /// The last tick, extrapolated by its velocity.
+    /// The state of the last tick, extrapolated by its velocities.
     Extrapolated,
 }
 
@@ -25,7 +25,7 @@ impl Interpolation {
     pub const ALL: [Self; 5] =
         [Self::Raw, Self::Extrapolated, Self::Linear, Self::Hermite, Self::Monotone];
 
-    /// Name for people.
+    /// Returns the name for people.
     pub fn name(self) -> &'static str {
         match self {
             Interpolation::Raw => "raw",
@@ -36,13 +36,13 @@ impl Interpolation {
         }
     }
 
-    /// The next variant; the first follows the last.
+    /// Returns the next variant. After the last one comes the first.
     pub fn next(self) -> Self {
         let index = Self::ALL.iter().position(|&way| way == self).expect("all are listed");
         Self::ALL[(index + 1) % Self::ALL.len()]
     }
 
-    /// The moment shown at the part `alpha` of the next tick, in ticks from the last one.
+    /// Returns the displayed moment at the fraction `alpha` of the next tick, in ticks from the last one.
     pub fn shown(self, alpha: f64) -> f64 {
         match self {
             Interpolation::Raw => 0.0,
@@ -51,7 +51,7 @@ impl Interpolation {
         }
     }
 
-    /// Coordinates of a body at the part `alpha` of a tick of `h` seconds.
+    /// Returns the coordinates of a body at the fraction `alpha` of a tick of `h` seconds.
     pub fn coordinates(self, body: &LaneBody, alpha: f64, h: f64) -> Vec<f64> {
         let (q0, v0) = (&body.previous_q, &body.previous_v);
         let (q1, v1) = (body.stepper.q(), body.stepper.v());
@@ -68,9 +68,9 @@ impl Interpolation {
         }
     }
 
-    /// Velocities of a body at the same moment: those of the stepped states, or between two ticks a line through
-    /// them. They may differ from the slope of the drawing, since some methods' velocities are not the change of
-    /// their coordinates.
+    /// Returns the velocities of a body at the same moment. They are those of the stepped states or, between two ticks,
+    /// on a line through these. They may differ from the slope of the drawing, because some methods' velocities are not
+    /// the change of their coordinates.
     pub fn velocities(self, body: &LaneBody, alpha: f64) -> Vec<f64> {
         let (v0, v1) = (&body.previous_v, body.stepper.v());
         match self {
@@ -82,22 +82,23 @@ impl Interpolation {
     }
 }
 
-/// The cubic at the part `alpha` of a tick of `h` seconds, through `q` with the velocities `v` at both ends.
+/// Returns the cubic at the fraction `alpha` of a tick of `h` seconds, through `q` with the velocities `v` at both
+/// ends.
 pub(crate) fn hermite(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
     let (a, b) = (alpha, 1.0 - alpha);
     let ends = b * b * (1.0 + 2.0 * a) * q[0] + a * a * (1.0 + 2.0 * b) * q[1];
     ends + h * a * b * (b * v[0] - a * v[1])
 }
 
-/// The slope of [`hermite`].
+/// Returns the slope of [`hermite`].
 pub(crate) fn slope(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
     let (a, b) = (alpha, 1.0 - alpha);
     6.0 * a * b * (q[1] - q[0]) / h + b * (b - 2.0 * a) * v[0] + a * (a - 2.0 * b) * v[1]
 }
 
-/// The velocities `v` at both ends of a tick of `h` seconds, limited to three times that of a straight line (de Boor
-/// and Swartz 1977). Then the cubic through `q` goes one way. Velocities that disagree in direction with each other
-/// or with the line stay unchanged.
+/// Returns the velocities `v` at both ends of a tick of `h` seconds, limited to three times that of a straight line (de
+/// Boor and Swartz 1977). With these limits, the cubic through `q` goes one way. Velocities that disagree in direction
+/// with each other or with the line stay unchanged.
 fn monotone(h: f64, q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
     let most = 3.0 * (q[1] - q[0]) / h;
     let goes_on = v[0] * v[1] >= 0.0 && v.iter().all(|v| v * most >= 0.0);

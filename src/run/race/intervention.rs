@@ -1,4 +1,4 @@
-//! A person's edits to a run, and the scene with them applied.
+//! A person's edits to a run, and the scene with these edits applied.
 
 use std::sync::Arc;
 
@@ -9,15 +9,15 @@ use crate::scene::{Action, Scene, Scripted, nearest_tick};
 /// The edits by a person and the script up to the present tick.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Interventions {
-    /// Checkpoint from which the scene starts; the run's start if `None`.
+    /// Checkpoint from which the scene starts. `None` stands for the run's start.
     start: Option<Arc<RunStart>>,
-    /// Last action on the throttle, on the rudder and on each parameter.
+    /// Last actions on the throttle, on the rudder and on each parameter.
     settings: Vec<Action>,
 }
 
 impl Interventions {
-    /// The edits in `race` since its checkpoint for verdicts. A parameter that the script set counts like a person's
-    /// edit. The script's throttle, rudder and state changes are part of the judged motion.
+    /// Returns the edits in `race` since its checkpoint for verdicts. A parameter that the script set counts like a
+    /// person's edit. The script's throttle, rudder and state changes are part of the judged motion.
     pub(crate) fn in_race(race: &Race, checkpoints: &Checkpoints) -> Self {
         let mut settings: Vec<Action> = Vec::new();
         let is_in_force = |row: &&JournalRow| {
@@ -34,18 +34,18 @@ impl Interventions {
         Self { start: checkpoints.of_verdicts.clone(), settings }
     }
 
-    /// Starts right after the last edit, so no later settings remain.
+    /// Returns the edits for a start right after the last edit, so that no later settings remain.
     pub(crate) fn after_last_edit(checkpoints: &Checkpoints) -> Self {
         Self { start: checkpoints.of_clouds.clone(), settings: Vec::new() }
     }
 
-    /// Time (s) of the run at which the [edited scene](Self::applied_to) starts.
+    /// Returns the time (s) of the run at which the [edited scene](Self::applied_to) starts.
     pub(crate) fn starts_at_s(&self) -> f64 {
         self.start.as_ref().map_or(0.0, |start| start.t)
     }
 
-    /// The run as a scene that starts at the checkpoint. Edited parameters have their last values from the beginning,
-    /// and so do a throttle and a rudder set by hand. The script no longer sets them.
+    /// Returns the run as a scene that starts at the checkpoint. Edited parameters have their last values from the
+    /// beginning, and so do a throttle and a rudder set by hand. The script no longer sets any of these.
     pub(crate) fn applied_to(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         let mut at_start = Vec::new();

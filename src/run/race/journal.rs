@@ -5,12 +5,12 @@ use std::sync::Arc;
 use crate::scene::{Action, Control, Piece, Scripted};
 use crate::sim::TickRate;
 
-/// Who performs an action.
+/// The author of an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Author {
     /// The scene's script.
     Script,
-    /// A person, or a program on behalf of one.
+    /// A person, or a program on behalf of a person.
     Person,
 }
 
@@ -19,28 +19,28 @@ pub enum Author {
 pub struct JournalRow {
     /// The tick before which the run performs the action.
     pub tick: u64,
-    /// Time of the action (s): the tick's time for a person, the written time for a script.
+    /// Time of the action in seconds, which is the tick's time for a person, and the written time for a script.
     pub at_s: f64,
     /// The action.
     pub action: Action,
-    /// Its author.
+    /// The author of the action.
     pub author: Author,
 }
 
-/// The rows of one future of a run, after those that it shares with another.
+/// The rows of one future of a run that come after those shared with another future.
 pub(crate) struct JournalTail {
     kept: usize,
     pub(crate) rows: Vec<JournalRow>,
 }
 
-/// The performed and the pending actions of a run, in order. Cheap to clone.
+/// The performed and the pending actions of a run, in order. A journal is cheap to clone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Journal {
     rows: Arc<Vec<JournalRow>>,
 }
 
 impl Journal {
-    /// The journal of a script, with all actions pending, for a run at this rate in Hz.
+    /// Creates the journal of a script, with all actions pending, for a run at this rate in Hz.
     pub fn of_script(script: &[Scripted], tick_hz: impl Into<TickRate>) -> Self {
         let row = |&Scripted { at_s, ref action }: &Scripted| JournalRow {
             tick: 0,
@@ -53,7 +53,7 @@ impl Journal {
         journal
     }
 
-    /// Moves the rows after the first `done`, all by a script, to the ticks now nearest to their times.
+    /// Moves the rows after the first `done`, which are all by a script, to the ticks now nearest to their times.
     pub(super) fn put_on_ticks(&mut self, done: usize, present: Piece) {
         let script = self.rows[done..].iter().map(|row| (row.at_s, &row.action));
         let ticks: Vec<u64> = present.put_on_ticks(script).map(|(tick, _)| tick).collect();
@@ -63,7 +63,7 @@ impl Journal {
         }
     }
 
-    /// All rows in the order of performance, so also by tick.
+    /// Returns all rows in the order of performance, which is also the order of ticks.
     pub fn rows(&self) -> &[JournalRow] {
         &self.rows
     }
@@ -99,7 +99,7 @@ impl Journal {
         (done, released)
     }
 
-    /// The rows in which this journal differs from `other`, after at most `most` common ones.
+    /// Returns the rows in which this journal differs from `other`, after at most `most` common rows.
     pub(crate) fn tail_beside(&self, other: &Self, most: usize) -> JournalTail {
         let alike =
             self.rows.iter().zip(&other.rows[..most]).take_while(|(own, other)| own == other);
@@ -125,8 +125,8 @@ impl Journal {
 }
 
 /// Whether the last row of `done` is an intermediate value of a parameter dragged within one tick, so that `next` can
-/// replace it. One real change must stay before `next`, because setting the present value again would not restart the
-/// methods.
+/// replace that row. One real change must stay before `next`, because setting the present value again would not restart
+/// the methods.
 fn is_intermediate(done: &[JournalRow], next: &JournalRow) -> bool {
     let control = next.action.control();
     let is_alike = |row: &&JournalRow| {

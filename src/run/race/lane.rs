@@ -16,31 +16,31 @@ use crate::sim::{Solver, Stepper};
 /// Largest magnitude of a coordinate or velocity. A larger value would not fit the picture's f32, so the body halts.
 pub const ESCAPE: f64 = 1e38;
 
-/// Why and when a body stopped.
+/// The reason why a body stopped, and the time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Halt {
     /// The tick that failed. The body keeps its state from before that tick.
     pub tick: u64,
-    /// Time (s) at which that tick began.
+    /// Time (s) at which the failed tick began.
     pub t: f64,
     /// Index in the scene of the body that failed.
     pub body: usize,
-    /// Why it failed.
+    /// The reason why the body failed.
     pub failure: StepFailure,
 }
 
 impl Halt {
-    /// Whether a value left the range of [`ESCAPE`] or was not finite; otherwise the solver failed.
+    /// Whether a value left the range of [`ESCAPE`] or was not finite; if not, the solver failed.
     pub fn is_blow_up(&self) -> bool {
         matches!(self.failure, StepFailure::Escaped { .. } | StepFailure::NotFinite { .. })
     }
 
-    /// How the body ended: `blew up` or `gave up`.
+    /// Returns in words how the body ended: `blew up` or `gave up`.
     pub fn ending(&self) -> &'static str {
         if self.is_blow_up() { "blew up" } else { "gave up" }
     }
 
-    /// The body's end and its time: `blew up at 8.4 s`.
+    /// Returns the body's end and its time in words: `blew up at 8.4 s`.
     pub fn fate(&self) -> String {
         format!("{} at {}", self.ending(), duration(self.t))
     }
@@ -49,7 +49,7 @@ impl Halt {
 /// A halted body that resumes because its lane was switched to another method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resumed {
-    /// Why and when it had halted.
+    /// The halt that has ended.
     pub halt: Halt,
     /// The state from which it resumes.
     pub from: ResumedFrom,
@@ -67,7 +67,7 @@ pub enum ResumedFrom {
 /// One body of a lane.
 #[derive(Clone)]
 pub struct LaneBody {
-    /// Its card.
+    /// Card of the body's kind.
     pub kind: Arc<Kind>,
     /// The body under the lane's solver.
     pub stepper: Box<dyn Stepper>,
@@ -87,14 +87,15 @@ pub struct LaneBody {
 }
 
 impl LaneBody {
-    /// Claims of a [`Law`] or a [`Custom`] body that fail with the present parameters; none for other bodies.
+    /// Returns the claims of a [`Law`] or a [`Custom`] body that fail with the present parameters; no claims for other
+    /// bodies.
     pub fn false_claims(&self) -> FalseClaims {
         let body = self.stepper.body();
         let law = || body.downcast_ref().map(Law::false_claims);
         body.downcast_ref().map(Custom::false_claims).or_else(law).unwrap_or_default()
     }
 
-    /// A body of a scene at its start, under `solver`.
+    /// Creates a body of a scene at its start, under `solver`.
     pub(crate) fn new(body: &SceneBody, solver: Solver) -> Self {
         let stepper = (body.kind.build)(&body.values, solver);
         let state = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
@@ -116,17 +117,17 @@ impl LaneBody {
         body
     }
 
-    /// The coordinates, in state order.
+    /// Returns the coordinates, in state order.
     pub fn coordinates(&self) -> Coordinates {
         self.kind.all_coordinates.first(self.stepper.q().len())
     }
 
-    /// Why and when the body stopped, if it did.
+    /// Returns why and when the body stopped, if it did.
     pub fn halted(&self) -> Option<&Halt> {
         self.halted.as_ref()
     }
 
-    /// The body's end, if it halted, with its values: `blew up at 8.4 s (speed reached 10³⁸ m/s)`.
+    /// Returns the body's end in words with its values, if it halted: `blew up at 8.4 s (speed reached 10³⁸ m/s)`.
     pub fn fate(&self) -> Option<String> {
         let halt = self.halted()?;
         let (fate, how) = (halt.fate(), |name| self.quantity(name));
@@ -143,7 +144,7 @@ impl LaneBody {
         })
     }
 
-    /// The quantity with this name in words, and its unit with a space in front, if it has one.
+    /// Returns the quantity with this name in words, and the quantity's unit with a space in front, if it has one.
     fn quantity(&self, name: &str) -> (String, String) {
         let coordinates = self.coordinates();
         let several = coordinates.len() > 1;
@@ -164,58 +165,58 @@ impl LaneBody {
         (quantity, unit)
     }
 
-    /// Evaluations of its acceleration in the last tick.
+    /// Returns the number of evaluations of the body's acceleration in the last tick.
     pub fn evaluations_of_last_tick(&self) -> u64 {
         self.stepper.evaluations() - self.evaluations_before
     }
 
-    /// Range of the true motion so far; `None` under a method.
+    /// Returns the range of the true motion so far; `None` under a method.
     pub(crate) fn extent(&self) -> Option<&Extent> {
         self.extent.as_ref()
     }
 
-    /// Progress towards the body's target since its start, or since the last input or placement. `None` without a
-    /// target, or if the target moves.
+    /// Returns the progress towards the body's target since the body's start, or since the last input or placement.
+    /// `None` if there is no target, or if the target moves.
     pub fn chase(&self) -> Option<&Chase> {
         self.chase.as_ref()
     }
 
-    /// The drawing that the author of a custom body provides; `None` for the default.
+    /// Returns the drawing by the author of a custom body; `None` for the default drawing.
     pub(crate) fn drawing(&self) -> Option<&Drawing> {
         self.appearance.drawing.as_deref()
     }
 
-    /// The motion of a law, a net or a custom body in its first seconds.
+    /// Returns the motion of a law, a net or a custom body in its first seconds.
     pub(crate) fn preview(&self) -> Arc<Preview> {
         self.appearance.preview(&self.kind, self.stepper.body())
     }
 
-    /// Index of the coordinate that a plot shows by default. For a net, this is the one that moves farthest in the
-    /// first seconds, such as the height of a bridge's middle; otherwise the first.
+    /// Returns the index of the coordinate that a plot shows by default. For a net, this is the one that moves farthest
+    /// in the first seconds, such as the height of a bridge's middle; for other bodies it is the first.
     pub fn plotted_coordinate(&self) -> usize {
         self.kind.net().map_or(0, |_| self.preview().farthest)
     }
 
-    /// The values whose coordinate has the unit of the first; `values` has one per coordinate.
+    /// Returns the values whose coordinate has the unit of the first coordinate. `values` has one value per coordinate.
     pub(crate) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
         let units = self.kind.all_coordinates.units();
         let first = units.clone().next();
         units.zip(values).filter(move |(unit, _)| Some(*unit) == first).map(|(_, &value)| value)
     }
 
-    /// The speed in the coordinates that have the unit of the first coordinate.
+    /// Returns the speed in the coordinates that have the unit of the first coordinate.
     pub(crate) fn speed(&self) -> f64 {
         self.like_first(self.stepper.v()).fold(0.0, libm::hypot)
     }
 
-    /// The kind of truth for a body under [`Solver::Truth`]. A law that gives its solution is [exact](Truth::Exact)
-    /// up to the first input.
+    /// Returns the kind of truth for a body under [`Solver::Truth`]. A law that gives its solution is
+    /// [exact](Truth::Exact) up to the first input.
     pub fn truth(&self) -> Truth {
         if self.stepper.is_closed_form() { Truth::Exact } else { Truth::Reference }
     }
 
-    /// Describes how well the true motion is known: `exact`, or the present error of the reference in the units of
-    /// the coordinates. `no reference` if that would take too much work.
+    /// Describes how well the true motion is known: `exact`, or the present error of the reference in the units of the
+    /// coordinates. `no reference` if the reference would take too much work.
     pub fn truth_in_words(&self) -> String {
         let id = self.truth().id();
         if let Some(StepFailure::ReferenceTooExpensive { .. }) =
@@ -236,7 +237,7 @@ impl LaneBody {
     }
 
     /// Steps from `t` by `h` (s), from tick `tick` to the next, or halts in its present state. `index` is the body's
-    /// in the scene.
+    /// index in the scene.
     fn tick(&mut self, index: usize, tick: u64, (t, h): (f64, f64), substeps: u32) {
         if self.halted.is_some() {
             return;
@@ -259,19 +260,40 @@ impl LaneBody {
         }
     }
 
-    /// Applies an input at time `t` (s), before tick `tick`. A body that fails under it halts in the state before. A
-    /// halted body ignores a kick, and keeps the throttle and the rudder for when it resumes.
+    /// Applies an input at time `t` (s), before tick `tick`. A body that fails under the input halts in the state
+    /// before it. A halted body ignores a kick, and keeps the throttle and the rudder for when it resumes.
     fn input(&mut self, index: usize, tick: u64, t: f64, input: Input) {
-        if self.halted.is_some() {
-            if !matches!(input, Input::Kick(_)) {
-                self.stepper.input(t, input);
-            }
-            return;
+        if self.halted.is_none() {
+            self.change(index, tick, t, |stepper| stepper.input(t, input));
+        } else if !matches!(input, Input::Kick(_)) {
+            self.stepper.input(t, input);
         }
+    }
+
+    /// Pushes the body at time `t` (s), before tick `tick`. A body that fails under the push halts in the state before.
+    /// A halted body ignores it.
+    fn push(&mut self, index: usize, tick: u64, t: f64, action: &Action) {
+        if self.halted.is_none() {
+            self.change(index, tick, t, |stepper| {
+                action.apply_to(stepper, t);
+                true
+            });
+        }
+    }
+
+    /// Changes the state by `change`, which returns whether it did. A body that fails in the new state halts in the
+    /// state before.
+    fn change(
+        &mut self,
+        index: usize,
+        tick: u64,
+        t: f64,
+        change: impl FnOnce(&mut dyn Stepper) -> bool,
+    ) {
         let [q, v] = &mut self.before_input;
         q.copy_from_slice(self.stepper.q());
         v.copy_from_slice(self.stepper.v());
-        let is_taken = self.stepper.input(t, input);
+        let is_taken = change(&mut *self.stepper);
         match check(&*self.stepper, &self.kind.all_coordinates) {
             Ok(()) => {
                 self.add_moment();
@@ -301,7 +323,7 @@ impl LaneBody {
         Some(Resumed { halt, from })
     }
 
-    /// Puts the body into a state at time `t` (s), before tick `tick`. A halted body resumes.
+    /// Puts the body into a state at time `t` (s), before tick `tick`. If the body had halted, it resumes.
     fn place(&mut self, index: usize, tick: u64, t: f64, [q, v]: [&[f64]; 2]) {
         self.halted = None;
         let [q0, v0] = &mut self.before_input;
@@ -347,7 +369,7 @@ impl LaneBody {
 /// Steps a body from `t` by `h` (s).
 ///
 /// # Errors
-/// If its solver fails, or if a coordinate or a velocity is not finite or is beyond [`ESCAPE`].
+/// If the body's solver fails, or if a coordinate or a velocity is not finite or is beyond [`ESCAPE`].
 pub(crate) fn advance_checked(
     body: &mut dyn Stepper,
     coordinates: &Coordinates,
@@ -359,7 +381,7 @@ pub(crate) fn advance_checked(
 
 /// Fails if a coordinate or a velocity of a body is not finite or is beyond [`ESCAPE`].
 fn check(body: &dyn Stepper, coordinates: &Coordinates) -> Result<(), StepFailure> {
-    // False for NaN, too.
+    // This is false for NaN, too.
     let is_fine = |value: &f64| value.abs() <= ESCAPE;
     if [body.q(), body.v()].iter().all(|values| values.iter().all(is_fine)) {
         return Ok(());
@@ -385,33 +407,33 @@ pub struct Lane {
 }
 
 impl Lane {
-    /// The scene's bodies at their start under `solver`, which takes `substeps` steps per tick.
+    /// Creates a lane with the scene's bodies at their start under `solver`, which takes `substeps` steps per tick.
     pub fn new(scene: &Scene, solver: Solver, substeps: u32) -> Self {
         let bodies = scene.bodies.iter().map(|body| LaneBody::new(body, solver)).collect();
         Self { solver, substeps, bodies }
     }
 
-    /// The solver of the bodies.
+    /// Returns the solver of the bodies.
     pub fn solver(&self) -> Solver {
         self.solver
     }
-    /// Steps per tick.
+    /// Returns the number of steps per tick.
     pub fn substeps(&self) -> u32 {
         self.substeps
     }
-    /// The bodies, in scene order.
+    /// Returns the bodies, in scene order.
     pub fn bodies(&self) -> &[LaneBody] {
         &self.bodies
     }
-    /// Why and when bodies halted, in scene order; the others continue.
+    /// Returns why and when bodies halted, in scene order. The other bodies continue.
     pub fn halts(&self) -> impl Iterator<Item = &Halt> {
         self.bodies.iter().filter_map(LaneBody::halted)
     }
-    /// The earliest halt of a body, if there is one.
+    /// Returns the earliest halt of a body, if there is one.
     pub fn halted(&self) -> Option<&Halt> {
         self.halts().min_by_key(|halt| halt.tick)
     }
-    /// Evaluations of all bodies' accelerations since the start.
+    /// Returns the number of evaluations of all bodies' accelerations since the start.
     pub fn evaluations(&self) -> u64 {
         self.bodies.iter().map(|body| body.stepper.evaluations()).sum()
     }
@@ -424,19 +446,20 @@ impl Lane {
         }
     }
 
-    /// Applies an input at time `t` (s), before tick `tick`, to every body that accepts it. A body that fails under
-    /// it keeps its state and halts. A halted body ignores a kick, and keeps the throttle and the rudder.
+    /// Applies an input at time `t` (s), before tick `tick`, to every body that accepts it. A body that fails under the
+    /// input keeps its state and halts. A halted body ignores a kick, and keeps the throttle and the rudder.
     pub fn input(&mut self, tick: u64, t: f64, input: Input) {
         for (index, body) in self.bodies.iter_mut().enumerate() {
             body.input(index, tick, t, input);
         }
     }
 
-    /// Applies an action to the bodies at time `t` (s), before tick `tick`. A halted body resumes where an action
-    /// places it. If a body cannot be in that state, it keeps its own and halts.
+    /// Applies an action to the bodies at time `t` (s), before tick `tick`. A halted body resumes if an action places
+    /// it. If a body cannot be in the new state, it keeps its own and halts.
     pub(crate) fn act(&mut self, tick: u64, t: f64, action: &Action) {
         match action {
             Action::Place { body, q, v } => self.bodies[*body].place(*body, tick, t, [q, v]),
+            Action::Push { body, .. } => self.bodies[*body].push(*body, tick, t, action),
             Action::Set { body, .. } => action.apply_to(&mut *self.bodies[*body].stepper, t),
             other => {
                 if let Some(input) = other.input() {
@@ -446,13 +469,14 @@ impl Lane {
         }
     }
 
-    /// An upper bound of the heap memory in bytes.
+    /// Returns an upper limit of the heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.bodies.iter().map(|body| body.bytes(self.solver)).sum()
     }
 
-    /// Puts the bodies under another solver at time `t` (s), with their states unchanged. Halted bodies resume from
-    /// the present state of `truth`; the result lists them. A switch to the present solver and substeps does nothing.
+    /// Puts the bodies under another solver at time `t` (s), with their states unchanged. Halted bodies resume from the
+    /// present state of `truth`; the result lists these bodies. A switch to the present solver and substeps does
+    /// nothing.
     pub fn switch(&mut self, solver: Solver, substeps: u32, t: f64, truth: &Lane) -> Vec<Resumed> {
         if (solver, substeps) == (self.solver, self.substeps) {
             return Vec::new();
@@ -473,7 +497,7 @@ impl Ticked for Lane {
         Ok(())
     }
 
-    /// The unit is an evaluation of a body's accelerations.
+    /// Work is counted in evaluations of a body's accelerations.
     fn has_worked_more(&self, than: u64, _: u64) -> bool {
         self.evaluations() > than
     }

@@ -5,18 +5,18 @@ use super::journal::Author;
 use super::lane::Resumed;
 use crate::scene::{Action, Control, LaneId, LaneSpec};
 
-/// An action as a race performs it. The race computes its effect once, for all observers.
+/// An action as a race performs it. The race computes the action's effect once, for all observers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PerformedAction {
     /// The action.
     pub action: Action,
-    /// Its author.
+    /// The author of the action.
     pub author: Author,
-    /// The lane that it puts under another method, other substeps or another tolerance.
+    /// The lane that the action puts under another method, other substeps or another tolerance.
     pub switch: Option<Switch>,
-    /// Halted bodies that resume because of it; empty before the race performs it.
+    /// Halted bodies that resume because of the action; empty before the race performs it.
     pub resumed: Vec<Resumed>,
-    /// The control that a person took from the script by it; observers do not see it.
+    /// The control that a person took from the script by this action; observers do not see it.
     pub(crate) released: Option<Control>,
 }
 
@@ -25,14 +25,14 @@ pub struct PerformedAction {
 pub struct Switch {
     /// Index of the lane among the entrants.
     pub index: usize,
-    /// The lane.
+    /// Number of the lane.
     pub lane: LaneId,
-    /// Its new method, substeps and tolerance.
+    /// New method, substeps and tolerance of the lane.
     pub spec: LaneSpec,
 }
 
 impl PerformedAction {
-    /// An action before the race performs it.
+    /// Creates the record of an action before the race performs it.
     pub(super) fn new(action: Action, author: Author, switch: Option<Switch>) -> Self {
         Self { action, author, switch, resumed: Vec::new(), released: None }
     }

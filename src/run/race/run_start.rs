@@ -1,5 +1,5 @@
-//! Checkpoints from which verdicts and clouds restart. A verdict starts where a person last placed or kicked a body;
-//! a cloud, where any action last changed one.
+//! Checkpoints from which verdicts and clouds restart. A verdict starts at the tick at which a person last placed or
+//! kicked a body. A cloud starts at the tick at which any action last changed a body.
 
 use std::sync::Arc;
 
@@ -18,21 +18,21 @@ pub(super) struct RunStart {
     pub(super) tick_hz: TickRate,
     pub(super) throttle: f64,
     pub(super) rudder: f64,
-    /// In scene order.
+    /// The bodies, in scene order.
     pub(super) bodies: Vec<BodyStart>,
 }
 
 /// The true state of one body.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct BodyStart {
-    /// Parameters, in the order that its kind [expects](crate::sim::bodies::Kind::build).
+    /// Parameters, in the order that the body's kind [expects](crate::sim::bodies::Kind::build).
     pub(super) values: Vec<f64>,
     pub(super) q: Box<[f64]>,
     pub(super) v: Box<[f64]>,
 }
 
 impl RunStart {
-    /// Memory in bytes.
+    /// Returns the memory of this state in bytes.
     pub(super) fn bytes(&self) -> usize {
         let body = |body: &BodyStart| {
             size_of_val(body)
@@ -47,20 +47,21 @@ impl RunStart {
 /// The checkpoints of a run up to its present tick.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Checkpoints {
-    /// Right after a person last placed or kicked a body.
+    /// The state right after a person last placed or kicked a body.
     pub(super) of_verdicts: Option<Arc<RunStart>>,
-    /// Right after a person or the script last changed a body.
+    /// The state right after a person or the script last changed a body.
     pub(super) of_clouds: Option<Arc<RunStart>>,
 }
 
 impl Checkpoints {
-    /// Heap memory in bytes.
+    /// Returns the heap memory of the checkpoints in bytes.
     pub(crate) fn heap_bytes(&self) -> usize {
         [&self.of_verdicts, &self.of_clouds].into_iter().flatten().map(|start| start.bytes()).sum()
     }
 
-    /// Whether verdicts describe another run than this: one before a person's later edit, or before the script
-    /// changed a method, a parameter or the tick rate. Script actions on the bodies are part of the judged run.
+    /// Whether verdicts describe another run than this one, because a person has edited this one later, or because the
+    /// script has changed a method, a parameter or the tick rate. Script actions on the bodies are part of the judged
+    /// run.
     pub(crate) fn was_changed_since_judged(&self, race: &Race) -> bool {
         let from = self.of_verdicts.as_ref().map_or(0, |start| start.tick);
         let is_setting = |action: &Action| match action {
@@ -68,7 +69,7 @@ impl Checkpoints {
             Action::Lane { .. } | Action::Substeps { .. } | Action::Tolerance { .. } => true,
             Action::TickHz(_) | Action::Set { .. } => true,
             Action::Throttle(_) | Action::Rudder(_) | Action::Kick(_) => false,
-            Action::Place { .. } | Action::Solo { .. } => false,
+            Action::Place { .. } | Action::Push { .. } | Action::Solo { .. } => false,
         };
         let differs = |row: &JournalRow| row.author == Author::Person || is_setting(&row.action);
         race.journal().rows()[..race.done()].iter().any(|row| row.tick > from && differs(row))
@@ -94,7 +95,8 @@ impl Observer for Checkpoints {
             rudder: race.rudder,
             bodies: bodies.collect(),
         });
-        let is_placed = matches!(action, Action::Place { .. } | Action::Kick(_));
+        let is_placed =
+            matches!(action, Action::Place { .. } | Action::Push { .. } | Action::Kick(_));
         if is_placed && *author == Author::Person {
             self.of_verdicts = Some(Arc::clone(&start));
         }

@@ -1,4 +1,4 @@
-//! The loop that ticks bodies outside a run: from their start, at one tick rate, with the inputs of a script.
+//! The loop that ticks bodies outside a run, from their start, at one tick rate, with the inputs of a script.
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -15,14 +15,14 @@ pub trait Ticked {
     /// Steps from `t` by `h` (s), from tick `tick` to the next.
     ///
     /// # Errors
-    /// If the step fails. A [`Lane`](super::Lane) never fails, since its bodies halt one by one.
+    /// If the step fails. A [`Lane`](super::Lane) never fails, because its bodies halt one by one.
     fn tick(&mut self, tick: u64, t: f64, h: f64) -> Result<(), StepFailure>;
 
     /// Whether the first `ticks` ticks exceeded this work. An implementation may check only at some ticks.
     fn has_worked_more(&self, than: u64, ticks: u64) -> bool;
 }
 
-/// Bodies that advance tick by tick. A caller may stop after any tick, and resume there.
+/// Bodies that advance tick by tick. A caller may stop after any tick, and resume from there.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -54,21 +54,21 @@ pub struct Ticker<'a, B> {
     max_work: u64,
 }
 
-/// Why a [`Ticker`] stopped.
+/// The reason why a [`Ticker`] stopped.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StopReason {
-    /// It reached the requested tick.
+    /// The ticker reached the requested tick.
     End,
-    /// Its caller stopped it.
+    /// The ticker's caller stopped it.
     Seen,
-    /// It exceeded its work limit.
+    /// The ticker exceeded its work limit.
     TooMuchWork,
     /// The next tick failed.
     Failed(StepFailure),
 }
 
 impl<'a, B: Ticked> Ticker<'a, B> {
-    /// `body` at its start, at a tick rate, without a script.
+    /// Creates a ticker of `body` at its start, at a tick rate, without a script.
     pub fn new(body: B, tick_hz: impl Into<TickRate>) -> Self {
         Self {
             body,
@@ -81,7 +81,7 @@ impl<'a, B: Ticked> Ticker<'a, B> {
         }
     }
 
-    /// Adds a script, in order; each action precedes the tick nearest to its time.
+    /// Adds a script, in order. Each action precedes the tick nearest to its time.
     pub fn with_script(self, script: impl Into<Cow<'a, [Scripted]>>) -> Self {
         Self { script: script.into(), ..self }
     }
@@ -96,17 +96,17 @@ impl<'a, B: Ticked> Ticker<'a, B> {
         Self { max_work, ..self }
     }
 
-    /// Number of ticks made.
+    /// Returns the number of ticks made.
     pub fn ticks(&self) -> u64 {
         self.ticks
     }
 
-    /// The time reached, in seconds.
+    /// Returns the time reached, in seconds.
     pub fn t(&self) -> f64 {
         self.start_s + self.tick_hz.seconds(self.ticks)
     }
 
-    /// Ticks until `end` ticks are made in total. After each tick, passes the system and the number of ticks to
+    /// Makes ticks until their total number is `end`. After each tick, passes the system and the number of ticks to
     /// `see`.
     pub fn run(
         &mut self,
@@ -145,7 +145,7 @@ impl<'a, B: Ticked> Ticker<'a, B> {
 mod tests {
     use super::*;
 
-    /// A log of the calls in words; the fourth tick fails.
+    /// A log of the calls in words. The fourth tick fails.
     #[derive(Clone, Default)]
     struct Log(Vec<String>);
 

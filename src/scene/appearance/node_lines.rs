@@ -2,27 +2,27 @@
 
 use crate::sim::bodies::{Grid, Lists, NetLayout, NetPlan};
 
-/// A line through nodes that springs join one after the other.
+/// A line through successive nodes that are joined by springs.
 #[derive(Debug)]
 pub(crate) struct NodeLine {
     /// Indices of the nodes.
     pub(crate) nodes: Vec<usize>,
-    /// Whether it belongs to the border, which alone shows the place of the net.
+    /// Whether the line belongs to the border, which alone shows the place of the net.
     pub(crate) is_border: bool,
 }
 
-/// Most rows and most columns drawn of a grid: on a stage of a thousand pixels, threads nearer than eight pixels
-/// would be a surface.
+/// Maximum number of drawn rows and of drawn columns of a grid. On a stage of a thousand pixels, threads nearer than
+/// eight pixels would look like a surface.
 const MAX_LINES: usize = 128;
 
-/// Most nodes drawn of a line, for the same reason.
+/// Maximum number of drawn nodes of a line, limited like `MAX_LINES` by the pixels of a stage.
 const MAX_POINTS: usize = 512;
 
-/// Most springs drawn of lists.
+/// Maximum number of drawn springs of a net in the form of lists.
 const MAX_SPRINGS: usize = 20_000;
 
-/// The rows and columns of a grid, without the diagonals, or lines through the springs of lists. If there are more
-/// than pixels can show, every n-th of them and the border.
+/// Returns the rows and columns of a grid, without the diagonals, or lines through the springs of lists. If there are
+/// more lines than pixels can show, only every n-th of them and the border are returned.
 pub(super) fn lines(plan: &NetPlan) -> Vec<NodeLine> {
     match &plan.form {
         NetLayout::Grid(grid) => of_grid(*grid),
@@ -30,7 +30,7 @@ pub(super) fn lines(plan: &NetPlan) -> Vec<NodeLine> {
     }
 }
 
-/// Every n-th of `count` indices, and the last; at most `most` + 1.
+/// Returns every n-th of `count` indices and the last one, at most `most` + 1 in all.
 fn strided_indices(count: usize, most: usize) -> impl Iterator<Item = usize> + Clone {
     let step = (count - 1).div_ceil(most).max(1);
     (0..count).filter(move |index| index.is_multiple_of(step) || index + 1 == count)
@@ -48,7 +48,7 @@ fn of_grid(Grid { columns, rows, .. }: Grid) -> Vec<NodeLine> {
     across.chain(down).filter(|line| line.nodes.len() > 1).collect()
 }
 
-/// Each line continues until no unused spring leaves its last node.
+/// Joins springs to lines. Each line continues until no unused spring leaves its last node.
 fn of_lists(lists: &Lists) -> Vec<NodeLine> {
     let drawn: Vec<usize> = strided_indices(lists.springs.len(), MAX_SPRINGS).collect();
     let mut at_node = vec![Vec::new(); lists.nodes.len()];
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
     use crate::sim::bodies::PlannedSpring;
 
-    /// The springs under the lines, each once.
+    /// Returns the springs under the lines, each spring once.
     fn drawn(lines: &[NodeLine]) -> Vec<[usize; 2]> {
         let pairs = lines.iter().flat_map(|line| line.nodes.windows(2));
         let mut pairs: Vec<_> =

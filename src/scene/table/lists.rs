@@ -1,4 +1,4 @@
-//! Reads lists of numbers: curves and vectors.
+//! Reads lists of numbers, such as curves and vectors.
 
 use std::ops::Range as Span;
 
@@ -12,7 +12,7 @@ use crate::sim::bodies::{MAX_NODES, MAX_POINTS, MAX_VALUE, Range};
 use crate::sim::number::counted;
 
 impl Table<'_> {
-    /// The points of a curve, in rising order of their first numbers. At most [`MAX_POINTS`] are read.
+    /// Reads the points of a curve, in rising order of their first numbers. At most [`MAX_POINTS`] are read.
     pub(in crate::scene) fn curve(&mut self, field: &Field) -> Option<Vec<[f64; 2]>> {
         let (value, entries) = self.list(field)?;
         let Field { key, wanted, .. } = field;
@@ -40,7 +40,7 @@ impl Table<'_> {
         self.pair_within(&format!("`{}`", field.key), pair, numbers)
     }
 
-    /// The numbers of a pair, unless one is too large.
+    /// Returns the numbers of a pair, unless one is too large.
     fn pair_within(
         &mut self,
         subject: &str,
@@ -54,7 +54,7 @@ impl Table<'_> {
         }
     }
 
-    /// The two numbers of a pair, with their places in the file.
+    /// Reads the two numbers of a pair, with their places in the file.
     fn pair<'e>(
         &mut self,
         subject: String,
@@ -68,20 +68,20 @@ impl Table<'_> {
         read.or_else(|| self.wrong_type_of(subject, entry, &Wanted::Point))
     }
 
-    /// A list of places in the plane. At most one more than [`MAX_NODES`] are read.
+    /// Reads a list of places in the plane. At most one more than [`MAX_NODES`] are read.
     pub(in crate::scene) fn points(&mut self, field: &Field) -> Option<Vec<[f64; 2]>> {
         let (_, entries) = self.list(field)?;
         let read = entries.iter().take(MAX_NODES + 1).enumerate();
         read.map(|(node, entry)| self.place(node, entry)).collect()
     }
 
-    /// The place of the node with this index.
+    /// Reads the place of the node with this index.
     fn place(&mut self, node: usize, entry: &Spanned<DeValue<'_>>) -> Option<[f64; 2]> {
         let (pair, numbers) = self.pair(format!("the place of node {node}"), entry)?;
         self.pair_within(&format!("a coordinate of node {node}"), pair, numbers)
     }
 
-    /// Indices of nodes in a list, with their bytes.
+    /// Reads the indices of nodes in a list, with their bytes.
     pub(in crate::scene) fn node_numbers(
         &mut self,
         field: &Field,
@@ -101,7 +101,7 @@ impl Table<'_> {
         (numbers.len() == entries.len()).then_some(numbers)
     }
 
-    /// As many numbers as [`Wanted::Numbers`] demands, each of a magnitude of at most [`MAX_COORDINATE`].
+    /// Reads as many numbers as [`Wanted::Numbers`] demands, each of a magnitude of at most [`MAX_COORDINATE`].
     pub(in crate::scene) fn coordinates(&mut self, field: &Field) -> Option<Vec<f64>> {
         let value = self.value(field)?;
         let entries = value.get_ref().as_array();

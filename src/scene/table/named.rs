@@ -28,7 +28,8 @@ pub(in crate::scene) struct TextBlock {
 }
 
 impl TextBlock {
-    /// Bytes of the file for these bytes of the expression; all of the string if it has escapes.
+    /// Returns the bytes of the file for these bytes of the expression; if the string has escapes, the bytes of the
+    /// whole string.
     pub(in crate::scene) fn span_in_file(&self, span: &Range<usize>) -> Range<usize> {
         match self.start {
             Some(start) if !span.is_empty() => start + span.start..start + span.end,
@@ -38,7 +39,7 @@ impl TextBlock {
 }
 
 impl<'t> Table<'t> {
-    /// The entries of the table with this key, in the order of the file.
+    /// Reads the entries of the table with this key, in the order of the file.
     pub(in crate::scene) fn entries(&mut self, field: &Field) -> Option<Vec<Named<'t>>> {
         let value = self.value(field)?;
         let Some(entries) = value.get_ref().as_table() else {
@@ -53,7 +54,7 @@ impl<'t> Table<'t> {
         Some(entries)
     }
 
-    /// The number of an entry.
+    /// Reads the number of an entry.
     pub(in crate::scene) fn number_of(
         &mut self,
         entry: &Named<'t>,
@@ -69,7 +70,7 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// The table of an entry of [`Wanted::Coordinates`].
+    /// Reads the table of an entry of [`Wanted::Coordinates`].
     pub(in crate::scene) fn table_of(
         &mut self,
         entry: &Named<'t>,
@@ -83,7 +84,7 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// The tables of springs in a list, in the order of the file.
+    /// Reads the tables of springs in a list, in the order of the file.
     pub(in crate::scene) fn spring_rows(&mut self, field: &Field) -> Option<Vec<Table<'t>>> {
         let (_, entries) = self.list(field)?;
         let mut rows = Vec::new();
@@ -102,14 +103,14 @@ impl<'t> Table<'t> {
         (rows.len() == entries.len()).then_some(rows)
     }
 
-    /// An expression. A line break in it counts as a space.
+    /// Reads an expression, in which a line break counts as a space.
     pub(in crate::scene) fn expression(&mut self, field: &Field) -> Option<TextBlock> {
         let written = self.text_block(field)?;
         let text = written.text.replace(['\n', '\r', '\t'], " ");
         Some(TextBlock { text, ..written })
     }
 
-    /// A text of several lines.
+    /// Reads a text of several lines.
     pub(in crate::scene) fn text_block(&mut self, field: &Field) -> Option<TextBlock> {
         let value = self.value(field)?;
         let Some(text) = value.get_ref().as_str() else { return self.wrong_type(field, value) };
@@ -118,7 +119,7 @@ impl<'t> Table<'t> {
         Some(TextBlock { text: text.to_owned(), span, start })
     }
 
-    /// The names in a list of strings, with their bytes.
+    /// Reads the names in a list of strings, with their bytes.
     pub(in crate::scene) fn names(
         &mut self,
         field: &Field,

@@ -314,8 +314,8 @@ impl Method {
         self.family == Family::AsPrinted
     }
 
-    /// Whether a game could implement it. Engine methods, listings as printed and rules run only where a scene or a command
-    /// names them.
+    /// Whether a game could implement it. Engine methods, listings as printed and rules run only where a scene or a
+    /// command names them.
     pub fn is_for_games(&self) -> bool {
         !self.is_engine() && !self.is_as_printed() && self.rule_fps().is_none()
     }

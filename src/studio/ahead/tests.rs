@@ -2,9 +2,9 @@ use super::*;
 use crate::measure::FutureMoment;
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::{GENERAL_METHODS, METHODS, Method};
-use crate::studio::{StageCommand, ViewCommand};
+use crate::studio::{RunCommand, StageCommand, Step, ViewCommand};
 
-/// A studio under a method, after some ticks.
+/// Returns a studio whose scene has run for some ticks under a method.
 fn studio(scene: &str, method: &str, ticks: u64) -> Studio {
     let mut scene = Scene::built_in(scene).unwrap();
     let method = METHODS.iter().find(|known| known.id == method).unwrap();
@@ -18,12 +18,12 @@ fn studio(scene: &str, method: &str, ticks: u64) -> Studio {
     studio
 }
 
-/// The next tick of the selected lane.
+/// Returns the anatomy of the next tick of the selected lane.
 fn step_of(studio: &Studio) -> Option<OneStep> {
     one_step(&studio.deck, &studio.viewer)
 }
 
-/// A scene that the method can step.
+/// Returns the name of a scene that the method can step.
 fn scene_for(method: &Method) -> &'static str {
     let fits = |name: &&str| Scene::built_in(name).unwrap().refusal(method).is_none();
     ["spring", "ship", "follow", "lerp"].into_iter().find(fits).expect("one of them")
@@ -149,7 +149,7 @@ fn each_predicted_future_matches_the_run_under_its_method() {
             let FutureMoment { t, state: [x, _], .. } = moments[moments.len() - 1];
             let from = studio.race().entrants()[0].lane.bodies()[0].stepper.clone();
             let [q, v] = [from.q()[0], from.v()[0]];
-            // A period is a second.
+            // The future is a second long, which is a period.
             assert!(
                 (t - studio.race().t() - 1.0).abs() < 1e-9 && (x - q).abs() < 1e-9,
                 "{x} {q} {v}"
@@ -187,4 +187,41 @@ fn futures_are_shown_on_request_at_rest_and_while_the_rate_is_dragged() {
     assert!(shows_futures(&studio));
     studio.apply(ViewCommand::ToggleFutures);
     assert!(!shows_futures(&studio));
+}
+
+#[test]
+fn a_held_tick_rate_stops_time_and_shows_futures_until_its_release() {
+    const FRAME_NS: i64 = 16_666_667;
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..60).for_each(|_| _ = studio.advance(FRAME_NS));
+    let tick = studio.race().tick();
+    studio.apply(ViewCommand::PointerDown(true));
+    studio.apply(ViewCommand::HoldTickRate);
+    for hz in [30, 10, 500] {
+        studio.apply(StageCommand::TickHz(hz.into()));
+        (0..30).for_each(|_| _ = studio.advance(FRAME_NS));
+        assert!(shows_futures(&studio) && studio.running() && !studio.deck.time_runs());
+    }
+    assert_eq!(studio.race().tick(), tick);
+    studio.apply(ViewCommand::PointerDown(false));
+    (0..30).for_each(|_| _ = studio.advance(FRAME_NS));
+    assert!(!shows_futures(&studio) && studio.race().tick() > tick);
+    studio.apply(RunCommand::Undo);
+    assert_eq!(studio.race().tick_hz(), 60, "the drag is one edit");
+}
+
+#[test]
+fn a_key_that_changes_the_tick_rate_shows_futures_for_a_second() {
+    const FRAME_NS: i64 = 16_666_667;
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    studio.advance(FRAME_NS);
+    studio.apply(StageCommand::TickRate(Step::Previous));
+    let frames = (0..200).take_while(|_| {
+        studio.advance(FRAME_NS);
+        shows_futures(&studio)
+    });
+    assert!((57..=61).contains(&frames.count()), "time runs, and they leave");
+    let mut paused = Studio::new(Scene::built_in("spring").unwrap());
+    paused.apply(StageCommand::Speed(Step::Next));
+    assert!(!shows_futures(&paused), "another key shows none");
 }

@@ -1,5 +1,5 @@
-//! The hint under the stage. The scene's own asks for its first key; after that, further hints present the program. A
-//! hint appears only where it is true: in this mode, under this method, at this rate.
+//! The hint under the stage. The scene's own hint asks for its first key. After that, further hints present the
+//! program. A hint appears only if it is true in the present mode, under the present method, at the present rate.
 
 use super::HintContext;
 use crate::measure::Outcome;
@@ -10,14 +10,14 @@ use crate::studio::display::Arrangement;
 use crate::studio::instrument::Instrument;
 use crate::studio::key::KEYS;
 
-/// A hint after the scene's own.
+/// A hint that follows the scene's own hint.
 struct FollowUpHint {
-    /// The sentence; `None` where it would not be true. Keys stand between backticks.
+    /// Returns the sentence of the hint, or `None` if it would not be true. Keys stand between backticks.
     text: fn(&HintContext<'_>) -> Option<&'static str>,
     is_done_by: fn(&Command) -> bool,
 }
 
-/// Least duration (s) of a run that is worth rewinding.
+/// Minimum duration (s) of a run that is worth rewinding.
 const WORTH_GOING_BACK_S: f64 = 1.0;
 
 /// Index of the hint to restart.
@@ -113,18 +113,18 @@ static FOLLOW_UP_HINTS: [FollowUpHint; 8] = [
 /// The hints that a person has followed.
 #[derive(Clone, Debug, Default)]
 pub(in crate::studio) struct Hints {
-    /// Whether the person followed the open scene's hint.
+    /// Whether the person has followed the hint of the open scene.
     scene: bool,
     leads: [bool; FOLLOW_UP_HINTS.len()],
 }
 
 impl Hints {
-    /// The state for a scene just opened.
+    /// Returns the hints for a scene that has just been opened.
     pub(in crate::studio) fn of_next_scene(&self) -> Self {
         Self { scene: false, leads: self.leads }
     }
 
-    /// Marks the hints that this command follows. `hint` is the scene's.
+    /// Marks the hints that this command follows. `hint` is the scene's own hint.
     pub(in crate::studio) fn mark_followed(&mut self, command: &Command, hint: Option<&str>) {
         self.scene |=
             hint.and_then(first_key_commands).is_some_and(|asked| asked.contains(&command));
@@ -133,8 +133,8 @@ impl Hints {
         }
     }
 
-    /// The present hint: the scene's, or else the first true one that the person has not followed. `outcome` is the
-    /// verdict on the selected lane.
+    /// Returns the present hint. It is the scene's own hint, or else the first true hint that the person has not
+    /// followed. `outcome` is the verdict on the selected lane.
     pub(in crate::studio) fn text(
         &self,
         now: &HintContext<'_>,
@@ -147,7 +147,7 @@ impl Hints {
         let mut leads = FOLLOW_UP_HINTS.iter().enumerate().filter(|(index, _)| !self.leads[*index]);
         let (index, text) = leads.find_map(|(index, lead)| Some((index, (lead.text)(now)?)))?;
         let is_asked_to_restart = self.scene && index == RESTARTS;
-        // A verdict is about a run from the start, and not about the one on the stage.
+        // A verdict is about a run from the start, which may differ from the run on the stage.
         Some(match reaction(outcome).filter(|_| is_asked_to_restart) {
             Some(reaction) => format!("{} {reaction}. {text}", now.method().name),
             None => text.to_owned(),
@@ -155,9 +155,9 @@ impl Hints {
     }
 }
 
-/// Whether the scene's hint applies now: at the scene's own tick rate and values. A hint about the mode or its lanes
-/// needs the opening mode, and one about a method also the opening method. Its digits must be among the scene's own
-/// lanes.
+/// Whether the scene's hint applies now. It does at the scene's own tick rate and values. A hint about the mode or its
+/// lanes also needs the mode in which the scene opens, and in solo mode a hint about a method needs the opening method.
+/// The digits that a hint names must be those of the scene's own lanes.
 fn is_so(hint: &str, now: &HintContext<'_>) -> bool {
     use StageCommand::{Method, MethodBeside, Pick, ToggleArrangement, ToggleRace};
     let asked: Vec<&StageCommand> = keys(hint)
@@ -185,7 +185,8 @@ fn is_so(hint: &str, now: &HintContext<'_>) -> bool {
         && !asked.iter().any(is_beyond)
 }
 
-/// Describes how a method would have done, in words that follow its name; `None` if unknown.
+/// Describes how a method would have done, in words that follow the method's name, or returns `None` if that is
+/// unknown.
 fn reaction(outcome: Option<Outcome>) -> Option<&'static str> {
     match outcome? {
         Outcome::Rounding | Outcome::Accurate => Some("would have kept to the exact motion"),
@@ -198,18 +199,18 @@ fn reaction(outcome: Option<Outcome>) -> Option<&'static str> {
     }
 }
 
-/// The commands of the first key that a hint names.
+/// Returns the commands of the first key that a hint names.
 fn first_key_commands(hint: &str) -> Option<Vec<&'static Command>> {
     let commands: Vec<_> = bound_to(keys(hint).next()?).collect();
     (!commands.is_empty()).then_some(commands)
 }
 
-/// Names of the keys in a text, which stand between backticks.
+/// Returns the names of the keys in a text, which stand between backticks.
 fn keys(text: &str) -> impl Iterator<Item = &str> {
     text.split('`').skip(1).step_by(2)
 }
 
-/// The commands of the key with this name for people.
+/// Returns the commands of the key that has this name for people.
 fn bound_to(name: &str) -> impl Iterator<Item = &'static Command> {
     let bound = KEYS.iter().flat_map(|binding| binding.keys);
     bound.filter(move |(key, _)| key.to_string() == name).map(|(_, command)| command)
@@ -236,7 +237,9 @@ mod tests {
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 9\nx0_m = 1\n";
         let mut studio = Studio::new(Scene::parse("mine.toml", text).unwrap());
         let asks_for = |studio: &Studio, key: &str| studio.hint().expect("a lead").contains(key);
-        assert!(asks_for(&studio, "`C`"), "it was just opened");
+        assert!(asks_for(&studio, "`[`"), "it was just opened");
+        studio.apply(StageCommand::TickHz(60.into()));
+        assert!(asks_for(&studio, "`C`"));
         studio.apply(StageCommand::Pick(1));
         assert!(asks_for(&studio, "`C`"), "it starts under the other method");
         studio.tick();
@@ -257,6 +260,8 @@ mod tests {
         studio.apply(StageCommand::Tick(Step::Previous));
         assert_eq!(text(&studio), own);
         studio.apply(StageCommand::Pick(1));
+        assert!(text(&studio).starts_with("Drag the tick rate"));
+        studio.apply(StageCommand::TickHz(60.into()));
         assert!(text(&studio).contains("`Home`"));
         studio.apply(StageCommand::Restart);
         assert!(text(&studio).contains("`C`"));
@@ -266,7 +271,6 @@ mod tests {
         (0..90).for_each(|_| studio.tick());
         assert!(text(&studio).contains("`D`"), "going back was done before");
         studio.apply(StageCommand::InstrumentBeside(Step::Next));
-        studio.apply(StageCommand::TickRate(Step::Next));
         assert!(text(&studio).contains("`F2`"));
         let open = |studio: &mut Studio, name: &str| {
             let place = SCENES.iter().position(|scene| scene.name == name);

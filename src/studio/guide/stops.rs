@@ -1,4 +1,4 @@
-//! The stops, in the order of the chapter.
+//! The stops of the guide, in the order of the chapter.
 
 use super::{Goal, Stop};
 use crate::run::past::Quantity;
@@ -6,7 +6,7 @@ use crate::run::race::{Interpolation, Mode};
 use crate::studio::instrument::Instrument;
 use crate::studio::key::Key;
 
-/// Common defaults of the stops about a ship.
+/// Values that the stops about a ship share.
 const SHIP: Stop = Stop {
     title: "",
     scene: "ship",
@@ -24,7 +24,7 @@ const SHIP: Stop = Stop {
     answer: "",
 };
 
-/// Common defaults of the stops about a spring.
+/// Values that the stops about a spring share.
 const SPRING: Stop = Stop {
     scene: "spring",
     tick_hz: 60,
@@ -33,7 +33,7 @@ const SPRING: Stop = Stop {
     ..SHIP
 };
 
-/// Every stop.
+/// Every stop of the guide, in order.
 pub static STOPS: &[Stop] = &[
     Stop {
         title: "An equation of motion",

@@ -17,7 +17,7 @@ fn scene(text: &str) -> Scene {
 
 const PATH: &str = "boat/ship.toml";
 
-/// A studio that runs the file's scene.
+/// Returns a studio that runs the scene of a file with this text.
 fn studio(text: &str) -> Studio {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     open_file(&mut studio, Path::new(PATH), scene(text));
@@ -180,14 +180,14 @@ fn a_broken_file_shows_its_mistakes_and_keeps_the_run() {
     assert!(shown(&studio) && studio.race().state_hash() == hash);
     assert_eq!(studio.apply(ViewCommand::Escape), None);
     assert!(!shown(&studio));
-    // Returning to the scene shows its mistakes again.
+    // A return to the scene shows its mistakes again.
     studio.apply(StageCommand::SceneBeside(Step::Next));
     assert!(!shown(&studio));
     studio.apply(StageCommand::SceneBeside(Step::Previous));
     assert!(shown(&studio));
     reload_file(&mut studio, Path::new(PATH), scene(text("spring")));
     assert!(!shown(&studio));
-    // The mistakes of a file that is not open wait.
+    // The mistakes of a file that is not open are not shown yet.
     studio.apply(StageCommand::SceneBeside(Step::Next));
     reload_failed(
         &mut studio.deck,
@@ -287,7 +287,7 @@ fn a_differing_recording_runs_along_as_a_ghost_at_every_tick() {
     assert!(lines.iter().all(|line| line.chars().count() < 60), "{lines:?}");
     let notice = studio.viewer.notice.clone().unwrap();
     assert_eq!(notice.parts(), lines);
-    // The recording in a separate run.
+    // Runs the recording in a separate session.
     let alone = |tick: u64| {
         let mut race = crate::run::Session::racing(recording.clone().into());
         race.run(tick);
@@ -312,7 +312,7 @@ fn a_differing_recording_runs_along_as_a_ghost_at_every_tick() {
     holds(&mut studio, 20);
     studio.apply(StageCommand::Second(Step::Next));
     holds(&mut studio, 80);
-    // A scene with other bodies has none to show.
+    // The recording has no body to show in a scene with other bodies.
     let spec = studio.selected().spec;
     let other = Scene::built_in("ship").unwrap();
     assert!(studio.deck.compared().unwrap().body(&other, &spec, 0).is_none());

@@ -1,4 +1,4 @@
-//! The candidates for the origin of a log: the methods of the table, each with several counts of substeps.
+//! The candidates for the origin of a log, which are the methods of the table, each with several numbers of substeps.
 
 use std::fmt;
 
@@ -8,11 +8,11 @@ use crate::sim::integrators::{JointMode, METHODS, Method};
 /// How a method applies the body's spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpringForm {
-    /// As a part of the acceleration; also if there is no spring.
+    /// The method applies the spring as a part of the acceleration. This is also the value if there is no spring.
     Acceleration,
-    /// As an engine's joint in this mode, or in an equivalent one.
+    /// The method applies the spring as an engine's joint in this mode, or in an equivalent mode.
     Joint(&'static JointMode),
-    /// As a force of user code, read once a tick and held through it.
+    /// The method applies the spring as a force of user code, which is read once a tick and held through the tick.
     HeldForce,
 }
 
@@ -21,13 +21,14 @@ pub enum SpringForm {
 pub struct Candidate {
     /// The method.
     pub method: &'static Method,
-    /// Its substeps per tick.
+    /// Number of substeps per tick.
     pub substeps: u32,
-    /// How it applies the spring.
+    /// How the method applies the spring.
     pub spring: SpringForm,
 }
 
-/// Writes the id, the substeps and, unless it is the engine's first, the way it applies the spring.
+/// Writes the id, the substeps and the way in which the method applies the spring. This way is left out if it is the
+/// engine's first one.
 impl fmt::Display for Candidate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} ×{}", self.method.id, self.substeps)?;
@@ -35,30 +36,30 @@ impl fmt::Display for Candidate {
     }
 }
 
-/// Counts of substeps that people set in engines.
+/// Numbers of substeps that people set in engines.
 const USUAL_OF_ENGINES: &[u32] = &[1, 2, 4, 8, 16];
-/// Counts of substeps that people set for a method of their own.
+/// Numbers of substeps that people set for a method of their own.
 const USUAL: &[u32] = &[1, 2, 4];
 const MAX_SUBSTEPS: u32 = 16;
 
 /// Twice the log-odds against an engine that holds a spring's force through the tick.
 const HELD_RARITY: f64 = 12.0;
-/// Twice the log-odds against an engine with a usual count of substeps other than its default.
+/// Twice the log-odds against an engine with a usual number of substeps other than its default.
 const CHANGED_ENGINE_RARITY: f64 = 8.0;
 /// Twice the log-odds against substeps in a method that a game implements itself.
 const CHANGED_METHOD_RARITY: f64 = 20.0;
-/// Twice the log-odds against a count of substeps that few people set.
+/// Twice the log-odds against a number of substeps that few people set.
 const UNUSUAL_SUBSTEPS_RARITY: f64 = 24.0;
 
 impl Candidate {
-    /// Whether people set this count of substeps: a small power of 2, or the method's default.
+    /// Whether people set this number of substeps, which is a small power of 2, or the method's default.
     fn is_usual(&self) -> bool {
         let usual = if self.method.is_engine() { USUAL_OF_ENGINES } else { USUAL };
         usual.contains(&self.substeps) || self.substeps == self.method.default_substeps
     }
 
-    /// Label of the way the spring is applied, unless it is the engine's first: `force held` where a joint was
-    /// possible, or the id of the joint's mode.
+    /// Returns a label of the way in which the spring is applied, unless it is the engine's first way. The label is
+    /// `force held` if a joint was possible, or the id of the joint's mode.
     pub fn spring_label(&self) -> Option<&'static str> {
         match self.spring {
             SpringForm::HeldForce if !self.method.holds_force() => Some("force held"),
@@ -67,17 +68,18 @@ impl Candidate {
         }
     }
 
-    /// Whether the game applies the spring as a force of its own, not as a joint of the engine.
+    /// Whether the game applies the spring as a force of its own, and not as a joint of the engine.
     pub fn is_held(&self) -> bool {
         self.spring == SpringForm::HeldForce
     }
 
-    /// Whether it has its method's default substeps, and is not a listing of the book.
+    /// Whether the candidate has its method's default substeps, and is not a listing of the book.
     fn is_as_set(&self) -> bool {
         self.substeps == self.method.default_substeps && !self.method.is_as_printed()
     }
 
-    /// Penalty on the deviance for rare settings: twice the log-odds that something else made a log.
+    /// Returns the penalty on the deviance for rare settings, which is twice the log-odds that something else made a
+    /// log.
     pub(super) fn rarity(&self) -> f64 {
         let is_rare = self.is_held() && !self.method.holds_force();
         let held = if is_rare { HELD_RARITY } else { 0.0 };
@@ -90,8 +92,8 @@ impl Candidate {
         held + set
     }
 
-    /// Sort key of equivalent candidates: default engines come first, then usual substeps, the engine's first way to
-    /// apply the spring, and other engines.
+    /// Returns the sort key of equivalent candidates. Default engines come first, then usual substeps, the engine's
+    /// first way to apply the spring, and other engines.
     pub(super) fn preference(&self) -> (bool, bool, bool, bool, u32, Option<usize>) {
         let is_as_set = self.method.is_engine() && self.is_as_set();
         let is_told = self.spring_label().is_some();
@@ -100,8 +102,8 @@ impl Candidate {
     }
 }
 
-/// The ways to apply the body's spring under which the method moves differently. For an engine these are its first
-/// joint of each kind, explicit or not, and a held force.
+/// Returns the ways to apply the body's spring under which the method moves differently. For an engine these are its
+/// first joint of each kind, explicit or not, and a held force.
 fn spring_forms(method: &Method, body: &LoggedBody) -> Vec<SpringForm> {
     if method.holds_force() {
         return vec![SpringForm::HeldForce];
@@ -115,7 +117,8 @@ fn spring_forms(method: &Method, body: &LoggedBody) -> Vec<SpringForm> {
     joints.chain([SpringForm::HeldForce]).collect()
 }
 
-/// All candidates for a body. If its spring is unknown, only those with usual substeps.
+/// Returns all candidates for a body. If the body's spring is unknown, only candidates with usual substeps are
+/// returned.
 pub(super) fn candidates(body: &LoggedBody) -> Vec<Candidate> {
     let mut all = Vec::new();
     let stepped = METHODS.iter().filter(|method| method.tolerance.is_none());

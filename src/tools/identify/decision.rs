@@ -7,30 +7,32 @@ use super::candidates::{Candidate, candidates};
 use super::fit::Fit;
 use super::logged::LoggedBody;
 
-/// Least residual due to rounding in a run of double precision, in units of the largest values.
+/// Smallest residual due to rounding in a run of double precision, in units of the largest values.
 const MIN_ROUNDING: f64 = 1e-9;
 /// Largest residual due to rounding in a log of single precision.
 const MAX_ROUNDING_IN_SINGLE: f64 = 3e-5;
 /// Largest residual due to rounding in a log of double precision.
 const MAX_ROUNDING_IN_DOUBLE: f64 = 3e-6;
-/// Residuals below this multiple of the smallest count as rounding, within the bounds above.
+/// Residuals below this multiple of the smallest residual count as rounding, within the limits above.
 const TIMES_CLOSEST: f64 = 10.0;
-/// An equivalent candidate ranks behind the others if its residual exceeds the smallest by this factor.
+/// An equivalent candidate ranks behind the others if its residual exceeds the smallest residual by this factor.
 const TIMES_NEAREST: f64 = 3.0;
 /// Candidates are equivalent if their runs and springs differ by at most this.
 const SAME: f64 = 1e-5;
-/// So are candidates that differ by at most this share of the residual.
+/// Candidates are also equivalent if they differ by at most this share of the residual.
 const SAME_PART: f64 = 0.2;
-/// Least difference of deviance that decides between candidates: four standard deviations.
+/// Smallest difference of deviance that decides between candidates, which is four standard deviations.
 const DECISIVE: f64 = 16.0;
-/// A larger residual is no fit, even if it looks like noise.
+/// Largest residual of a fit. A larger one is no fit, even if it looks like noise.
 pub(super) const NO_FIT: f64 = 0.01;
-/// If the residual may be neither noise nor rounding, a method is named only if its rival's is larger by this factor.
+/// If the residual may be neither noise nor rounding, a method is named only if its rival's residual is larger by this
+/// factor.
 const CLEAR: f64 = 3.0;
-/// If this share of all methods explains a log, the log decides nothing.
+/// If at least this share of all methods explains a log, the log decides nothing.
 const NEARLY_ALL: f64 = 0.8;
 
-/// Largest residual that counts as rounding in a log of this precision, if the smallest is `closest`.
+/// Returns the largest residual that counts as rounding in a log of this precision, if the smallest residual is
+/// `closest`.
 pub(super) fn rounding(closest: f64, is_double: bool) -> f64 {
     let largest = if is_double { MAX_ROUNDING_IN_DOUBLE } else { MAX_ROUNDING_IN_SINGLE };
     (TIMES_CLOSEST * closest).clamp(MIN_ROUNDING, largest)
@@ -39,17 +41,17 @@ pub(super) fn rounding(closest: f64, is_double: bool) -> f64 {
 /// The conclusion, with the candidates behind it.
 pub(super) struct Decision<'a> {
     pub(super) conclusion: Conclusion,
-    /// The best candidate, then its equivalents.
+    /// The best candidate, followed by its equivalents.
     pub(super) same: Vec<&'a (Candidate, Fit)>,
-    /// Others that explain the log as well, but are set aside as rare.
+    /// Other candidates that explain the log as well, but are set aside as rare.
     pub(super) unusual: Vec<&'a (Candidate, Fit)>,
-    /// The nearest candidate that moves differently. If it is implausible and nearly all methods fit, an equivalent
-    /// candidate of another method.
+    /// The nearest candidate that moves differently. If that one is implausible and nearly all methods fit, it is an
+    /// equivalent candidate of another method.
     pub(super) rival: Option<&'a (Candidate, Fit)>,
 }
 
-/// Decides between the candidates for a body by their fits to a log of double or single precision; `None` without
-/// fits.
+/// Decides between the candidates for a body by their fits to a log of double or single precision; `None` if there are
+/// no fits.
 pub(super) fn decide<'a>(
     fits: &'a [(Candidate, Fit)],
     body: &LoggedBody,

@@ -1,4 +1,4 @@
-//! The motion that a player sees: its frequency, its damping and its change of energy.
+//! The motion that a player sees, with its frequency, its damping and its change of energy.
 
 use super::candidates::Candidate;
 use super::logged::{Log, LoggedBody};
@@ -8,70 +8,70 @@ use crate::sim::least_squares;
 /// The visible motion, as that of a damped spring or of a coasting body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effective {
-    /// Angular frequency of an undamped spring with the same stiffness, in rad/s; 0 without a spring.
+    /// Angular frequency of an undamped spring with the same stiffness, in rad/s; 0 if there is no spring.
     pub omega: f64,
-    /// Half the rate of energy loss, per second; negative if energy is gained. Without a spring, the rate at which
-    /// the speed approaches its end.
+    /// Half the rate of energy loss, per second; negative if energy is gained. If there is no spring, it is the rate at
+    /// which the speed approaches its final value.
     pub decay: f64,
 }
 
-/// Length of the run from which the motion is read, in ticks: just long enough for a slow spring to turn.
+/// Length of the run from which the motion is read, in ticks, which is just long enough for a slow spring to turn.
 const TICKS: u64 = 400;
-/// Fewest ticks read, even if the body is soon fast.
+/// Minimum number of ticks that are read, even if the body is soon fast.
 const MIN_TICKS: usize = 6;
-/// Start of such a run, in metres and in metres per second.
+/// Start of the run from which the motion is read, in metres and in metres per second.
 pub(crate) const SLOW: f64 = 1e-6;
 /// Reading stops at this distance or speed. Engines limit a body only at far higher speeds.
 const FAST: f64 = 1e-2;
-/// Below this share of the squared angular frequency, a swing is invisible.
+/// A swing is invisible if its squared frequency is below this share of the squared angular frequency.
 const NO_SWING: f64 = 1e-9;
-/// Below this share of the squared decay, the pull of a spring is rounding: the body coasts to a stop.
+/// The pull of a spring is rounding if it is below this share of the squared decay; then the body coasts to a stop.
 const NO_SPRING: f64 = 1e-8;
 
 impl Effective {
-    /// Visible frequency in hertz; `None` if the motion does not swing.
+    /// Returns the visible frequency in hertz; `None` if the motion does not swing.
     pub fn frequency_hz(&self) -> Option<f64> {
         let square = self.omega * self.omega - self.decay * self.decay;
         (square > NO_SWING * self.omega * self.omega).then(|| square.sqrt() / std::f64::consts::TAU)
     }
 
-    /// Frequency without damping, in hertz; 0 without a spring.
+    /// Returns the frequency without damping, in hertz; 0 if there is no spring.
     pub fn undamped_hz(&self) -> f64 {
         self.omega / std::f64::consts::TAU
     }
 
-    /// Damping ratio; negative if energy is gained, `None` without a spring.
+    /// Returns the damping ratio, which is negative if energy is gained; `None` if there is no spring.
     pub fn damping_ratio(&self) -> Option<f64> {
         // Adding 0 turns a negative zero into 0.
         (self.omega > 0.0).then(|| self.decay / self.omega + 0.0)
     }
 
-    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass, of a spring with this motion.
+    /// Returns the stiffness in 1/s² and damping in 1/s, each per unit of mass, of a spring with this motion.
     pub fn spring(&self) -> Option<[f64; 2]> {
         (self.omega > 0.0).then_some([self.omega * self.omega, 2.0 * self.decay])
     }
 
-    /// Stiffness per unit of mass, in 1/s², of a spring with this motion.
+    /// Returns the stiffness per unit of mass, in 1/s², of a spring with this motion.
     pub fn spring_stiffness(&self) -> Option<f64> {
         Some(self.spring()?[0])
     }
 
-    /// Half-life of a spring's energy in the long run, in seconds; negative if the energy doubles instead. `None` if
-    /// the energy stays, and without a spring.
+    /// Returns the half-life of a spring's energy in the long run, in seconds; negative if the energy doubles instead.
+    /// `None` if the energy stays, or if there is no spring.
     pub fn energy_halves_s(&self) -> Option<f64> {
         let square = self.decay * self.decay - self.omega * self.omega;
-        // Two decays without a swing: the slower one lasts.
+        // If there are two decays without a swing, the slower one lasts.
         let rate = if square > 0.0 { self.decay - square.sqrt() } else { self.decay };
         (self.omega > 0.0).then(|| halves_s(2.0 * rate))?
     }
 
-    /// Time in which a body without a spring gets halfway to its last speed, in seconds; negative if the difference
-    /// doubles instead. `None` if the speed stays, and with a spring.
+    /// Returns the time in which a body without a spring gets halfway to its last speed, in seconds; negative if the
+    /// difference doubles instead. `None` if the speed stays, or if there is a spring.
     pub fn speed_halves_s(&self) -> Option<f64> {
         (self.omega == 0.0).then(|| halves_s(self.decay))?
     }
 
-    /// The body's exact motion, by its equation of motion.
+    /// Returns the body's exact motion, by the body's equation of motion.
     pub(super) fn exact(body: &LoggedBody) -> Option<Self> {
         let [stiffness, damping] = body.spring?;
         let loss = damping + body.drag;
@@ -79,8 +79,8 @@ impl Effective {
         Some(Self { omega: stiffness.sqrt(), decay })
     }
 
-    /// Whether the frequency is within 1 % of `exact`, the damping ratio within 0.005, and no energy is gained.
-    /// Without a spring, whether the decay is within 1 %.
+    /// Whether the frequency is within 1 % of `exact`, the damping ratio within 0.005, and no energy is gained. If
+    /// there is no spring, whether the decay is within 1 %.
     pub(super) fn is_near(&self, exact: &Self) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() <= 0.01 * b.abs() + 1e-12;
         match (self.damping_ratio(), exact.damping_ratio()) {
@@ -93,7 +93,7 @@ impl Effective {
         }
     }
 
-    /// The visible motion of a body under a candidate, read while it is slow enough for all engines.
+    /// Returns the visible motion of a body under a candidate, read while the body is slow enough for all engines.
     pub(super) fn of(candidate: Candidate, body: &LoggedBody, tick_s: f64) -> Option<Self> {
         let body = LoggedBody { push: 0.0, rest: None, ..body.clone() };
         let states = run(candidate, &body, [SLOW; 2], tick_s, 0..TICKS)?;
@@ -103,7 +103,7 @@ impl Effective {
         Self::of_states(&states, &body, tick_s)
     }
 
-    /// The motion visible in a log.
+    /// Returns the motion visible in a log.
     pub(super) fn of_log(log: &Log, body: &LoggedBody, tick_s: f64) -> Option<Self> {
         let rows = log.rows();
         let mut states: Vec<(u64, [f64; 2])> =
@@ -118,7 +118,8 @@ impl Effective {
         Self::of_states(&states, body, tick_s)
     }
 
-    /// Uses the linear recurrence of successive states or, failing that, the slopes of the velocity.
+    /// Reads the motion from the linear recurrence of successive states or, if this fails, from the slopes of the
+    /// velocity.
     fn of_states(states: &[(u64, [f64; 2])], body: &LoggedBody, tick_s: f64) -> Option<Self> {
         let recurrence = Self::of_recurrence(states, body, tick_s);
         let is_number = |seen: &Self| seen.omega.is_finite() && seen.decay.is_finite();
@@ -128,7 +129,7 @@ impl Effective {
         Some(if coasts && found.omega > 0.0 { found.coasting() } else { found })
     }
 
-    /// The same motion without its spring.
+    /// Returns the same motion without its spring.
     fn coasting(self) -> Self {
         Self { omega: 0.0, decay: 2.0 * self.decay }
     }
@@ -184,13 +185,13 @@ impl Effective {
     }
 }
 
-/// Half-life in seconds at this rate of loss per second; `None` if nothing is lost.
+/// Returns the half-life in seconds at this rate of loss per second; `None` if nothing is lost.
 fn halves_s(rate: f64) -> Option<f64> {
     let seconds = std::f64::consts::LN_2 / rate;
     seconds.is_finite().then_some(seconds)
 }
 
-/// Least-squares solution of equations in the first `unknowns` unknowns.
+/// Returns the least-squares solution of equations in the first `unknowns` unknowns.
 fn solve<const N: usize>(rows: &[([f64; N], f64)], unknowns: usize) -> Option<Vec<f64>> {
     let column = |index: usize| rows.iter().map(|(row, _)| row[index]).collect();
     let columns: Vec<Vec<f64>> = (0..unknowns).map(column).collect();

@@ -1,4 +1,4 @@
-//! Fits a candidate to a log by least squares: the start, and the unknown numbers of the body.
+//! Fits a candidate to a log by least squares. The start and the unknown numbers of the body are fitted.
 
 use super::candidates::Candidate;
 use super::effective::Effective;
@@ -6,11 +6,11 @@ use super::logged::{Log, LoggedBody};
 use super::motion::run;
 use crate::sim::least_squares;
 
-/// Gauss-Newton iterations if the log has the initial velocity: a linear motion needs one.
+/// Number of Gauss-Newton iterations if the log has the initial velocity; a linear motion needs one.
 const ITERATIONS: usize = 1;
-/// Iterations without that velocity: the second is for the last digits.
+/// Number of iterations if the log lacks that velocity; the second iteration is for the last digits.
 const ITERATIONS_WITHOUT_VELOCITY: usize = 2;
-/// Iterations if the spring is fitted too.
+/// Number of iterations if the spring is fitted too.
 const ITERATIONS_WITH_SPRING: usize = 12;
 /// Displacement for the derivatives, in units of the scale.
 const DISPLACEMENT: f64 = 1e-4;
@@ -21,17 +21,17 @@ const PRECISE_IN_SINGLE: f64 = 5e-5;
 const PRECISE_OF_ENGINE: f64 = 1e-5;
 /// Largest residual that may be rounding in a log of double precision by any other method.
 const PRECISE_IN_DOUBLE: f64 = 1e-8;
-/// A residual up to this is rounding alone.
+/// Largest residual that is rounding alone.
 const EXACT: f64 = 1e-9;
 /// Displacement in a run that starts from nothing, in units of the scale.
 const DISPLACEMENT_FROM_NOTHING: f64 = 1e-9;
 /// A runaway starts below this share of the scale, and so below the noise.
 const NOTHING: f64 = 0.01;
-/// How often a step that does not improve the fit is halved.
+/// Maximum number of times that a step is halved if it does not improve the fit.
 const HALVINGS: u32 = 8;
-/// Fewer rows cannot separate noise from autocorrelation.
+/// Minimum number of rows that can separate noise from autocorrelation.
 const MIN_ROWS_OF_NOISE: usize = 20;
-/// Autocorrelation tolerated beyond the 3σ bound of white noise.
+/// Tolerated autocorrelation beyond the 3σ limit of white noise.
 const AUTOCORRELATION_SLACK: f64 = 0.1;
 /// Largest lag of the autocorrelation, in rows.
 const LAGS: usize = 3;
@@ -50,7 +50,7 @@ pub(super) struct Fit {
     residuals: Vec<Vec<f64>>,
 }
 
-/// Velocity of the first row if logged, else the slope to the next row.
+/// Returns the velocity of the first row if it is logged, or else the slope to the next row.
 fn first_velocity(log: &Log, tick_s: f64) -> f64 {
     let [first, second] = [log.rows()[0], log.rows()[1]];
     let slope = (second.x - first.x) / ((second.tick - first.tick) as f64 * tick_s);
@@ -58,7 +58,7 @@ fn first_velocity(log: &Log, tick_s: f64) -> f64 {
 }
 
 /// Fits `candidate` to a log at this tick rate. The fit of an unknown rest starts at `first_rest`. `None` if the
-/// candidate cannot run on the body, or its run diverges.
+/// candidate cannot run on the body, or if its run diverges.
 pub(super) fn fit(
     log: &Log,
     body: &LoggedBody,
@@ -135,7 +135,7 @@ pub(super) fn fit(
     is_finite.then_some(Fit { body, start, run: now, precise, residuals })
 }
 
-/// Number of parameters: coordinate and velocity at the start, stiffness, damping and rest.
+/// Number of parameters, which are coordinate and velocity at the start, stiffness, damping and rest.
 const PARAMETERS: usize = 5;
 
 /// Adds `by` to the parameter with this index.
@@ -148,7 +148,7 @@ fn displace(index: usize, by: f64, start: &mut [f64; 2], body: &mut LoggedBody) 
     }
 }
 
-/// Units of the parameters.
+/// Returns the units of the parameters.
 fn start_unit(scale: [f64; 2], body: &LoggedBody, tick_s: f64) -> [f64; PARAMETERS] {
     let [stiffness, _] = body.spring.unwrap_or_default();
     let stiffness = stiffness.abs().max(1e-6);
@@ -160,7 +160,7 @@ fn in_units(states: &[[f64; 2]], scale: [f64; 2]) -> Vec<[f64; 2]> {
     states.iter().map(|[x, v]| [x / scale[0], v / scale[1]]).collect()
 }
 
-/// All coordinates, then all logged velocities.
+/// Returns all coordinates, followed by all logged velocities.
 fn flat(log: &Log, states: &[[f64; 2]]) -> Vec<f64> {
     let x = states.iter().map(|state| state[0]);
     let logged = states.iter().zip(log.rows()).filter(|(_, row)| row.v.is_some());
@@ -184,17 +184,17 @@ fn mean_square(residuals: &[f64]) -> f64 {
 }
 
 impl Fit {
-    /// Sum of the squared residuals.
+    /// Returns the sum of the squared residuals.
     pub(super) fn squares(&self) -> f64 {
         squares(&self.residuals)
     }
 
-    /// Root mean square of the residuals.
+    /// Returns the root mean square of the residuals.
     pub(super) fn residual(&self) -> f64 {
         mean_square(&self.residuals.concat()).sqrt()
     }
 
-    /// Minus twice the log-likelihood, up to a constant. Each column has noise of its own, never less than
+    /// Returns minus twice the log-likelihood, up to a constant. Each column has its own noise, never less than
     /// `rounding`.
     pub(super) fn deviance(&self, rounding: f64) -> f64 {
         let of = |residuals: &Vec<f64>| {
@@ -203,8 +203,8 @@ impl Fit {
         self.residuals.iter().map(of).sum()
     }
 
-    /// Largest difference between the two runs, in units of the scale, or between their springs, relative to this
-    /// one.
+    /// Returns the largest difference between the two runs, in units of the scale, or between their springs, relative
+    /// to this fit's spring.
     pub(super) fn distance(&self, other: &Fit) -> f64 {
         let [a, b] = [self, other].map(|fit| fit.body.spring.unwrap_or_default());
         let critical = 2.0 * a[0].abs().sqrt();

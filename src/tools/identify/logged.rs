@@ -9,7 +9,7 @@ use crate::table::{Decimal, Reading, TableError, TableReader, Utf8, number};
 /// A row of a log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogRow {
-    /// Tick number; in an uneven log, the row number.
+    /// Number of the tick; in an uneven log, number of the row.
     pub tick: u64,
     /// Time after the first row, in seconds.
     pub t_s: f64,
@@ -19,13 +19,13 @@ pub struct LogRow {
     pub v: Option<f64>,
 }
 
-/// A log of a body. Ticks rise from row to row, and either all rows have velocities or none.
+/// A log of a body. Ticks rise from row to row, and either all rows have velocities or none has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Log {
     rows: Vec<LogRow>,
-    /// Names of the columns read; times in milliseconds are marked.
+    /// Names of the columns that were read; times in milliseconds are marked.
     columns: String,
-    /// Largest coordinate and velocity. The velocity's scale is 1 if the log has none.
+    /// Largest coordinate and largest velocity in magnitude. The velocity's scale is 1 if the log has no velocities.
     scale: [f64; 2],
     is_uneven: bool,
 }
@@ -33,13 +33,13 @@ pub struct Log {
 /// Names of a log's columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColumnNames {
-    /// Tick number; optional if there are times.
+    /// Column of the tick number; optional if there are times.
     pub tick: String,
-    /// Time in seconds; optional if there are ticks.
+    /// Column of the time in seconds; optional if there are ticks.
     pub t: String,
-    /// Coordinate in metres.
+    /// Column of the coordinate in metres.
     pub x: String,
-    /// Velocity in metres per second; optional.
+    /// Column of the velocity in metres per second; optional.
     pub v: String,
 }
 
@@ -54,9 +54,9 @@ impl Default for ColumnNames {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{name}:{line}: {fault}")]
 pub struct LogError {
-    /// The caller's name for the log.
+    /// Name of the log, as given by the caller.
     pub name: String,
-    /// Line of the fault, from 1.
+    /// Line number of the fault, from 1.
     pub line: u64,
     /// The caller's setting that may be wrong, if the fault suggests one.
     pub mistaken: Option<LogSetting>,
@@ -66,22 +66,22 @@ pub struct LogError {
 /// A setting of [`Log::parse`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LogSetting {
-    /// [`ColumnNames::tick`].
+    /// The setting [`ColumnNames::tick`].
     TickColumn,
-    /// [`ColumnNames::t`].
+    /// The setting [`ColumnNames::t`].
     TimeColumn,
-    /// [`ColumnNames::tick`] or [`ColumnNames::t`].
+    /// The setting [`ColumnNames::tick`] or [`ColumnNames::t`].
     TickOrTimeColumn,
-    /// [`ColumnNames::x`].
+    /// The setting [`ColumnNames::x`].
     CoordinateColumn,
-    /// [`ColumnNames::v`].
+    /// The setting [`ColumnNames::v`].
     VelocityColumn,
     /// The tick rate.
     TickRate,
 }
 
-/// Largest mean part that numbers of single precision lose when written with nine digits and read as single precision
-/// again. Numbers of double precision lose more.
+/// Largest mean share that numbers of single precision lose when they are written with nine digits and read as single
+/// precision again. Numbers of double precision lose more.
 const LOST_IN_SINGLE: f64 = 8e-9;
 /// Largest distance of a row from its tick, in ticks.
 const OFF_TICK: f64 = 0.05;
@@ -109,7 +109,7 @@ struct Columns {
 
 enum TimeColumn {
     Ticks(usize),
-    /// The column, and how many of its units are a second.
+    /// The column, and the number of its units in a second.
     Time(usize, f64),
 }
 
@@ -118,7 +118,7 @@ const OF_TICKS: [&str; 3] = ["tick", "frame", "step"];
 const OF_SECONDS: [&str; 6] = ["t", "time", "t_s", "time_s", "seconds", "elapsed"];
 const OF_MILLISECONDS: [&str; 5] = ["t_ms", "time_ms", "ms", "timestamp_ms", "elapsed_ms"];
 const MS: f64 = 1e3;
-/// If a log's second row seems this many ticks after the first, its times are in milliseconds.
+/// If a log's second row seems at least this many ticks after the first, the log's times are in milliseconds.
 const TOO_FAR: f64 = 500.0;
 
 impl Columns {
@@ -168,7 +168,7 @@ impl Columns {
         Ok(Self { names: header, time, x, v, decimal })
     }
 
-    /// Names of the columns read, for people.
+    /// Returns the names of the columns that were read, for people.
     fn read_names(&self) -> String {
         let (time, unit) = match self.time {
             TimeColumn::Ticks(at) => (at, ""),
@@ -180,12 +180,13 @@ impl Columns {
         [format!("{}{unit}", named(time))].into_iter().chain(x).collect::<Vec<_>>().join(", ")
     }
 
-    /// Whether its times count as seconds.
+    /// Whether the log's times count as seconds.
     fn is_in_seconds(&self) -> bool {
         matches!(self.time, TimeColumn::Time(_, 1.0))
     }
 
-    /// Ticks between the first row and this one. `first` is the first row's own count, set by the first call.
+    /// Returns the number of ticks between the first row and this one. `first` is the first row's own count, set by the
+    /// first call.
     fn ticks_since(
         &self,
         record: &ByteRecord,
@@ -218,8 +219,8 @@ fn is_at_a_tick(since: f64) -> bool {
     (since - since.round()).abs() <= OFF_TICK
 }
 
-/// The fault of rows off their ticks that are evenly spaced at another rate. `since` is each row's distance from the
-/// first, in ticks. `None` if the rows are uneven, or all on their ticks.
+/// Returns the fault of rows off their ticks that are evenly spaced at another rate. `since` is each row's distance
+/// from the first, in ticks. `None` if the rows are uneven, or if all are on their ticks.
 fn off_ticks(since: &[f64], tick_hz: f64) -> Option<Fault> {
     let off = since.iter().find(|since| !is_at_a_tick(**since))?;
     let steps = since.len() as f64 - 1.0;
@@ -235,24 +236,24 @@ fn off_ticks(since: &[f64], tick_hz: f64) -> Option<Fault> {
     })
 }
 
-/// The columns of the header, for a message.
+/// Returns the columns of the header, for a message.
 fn listed(header: &[String]) -> String {
     let names: Vec<String> = header.iter().map(|name| format!("\"{name}\"")).collect();
     clip_list(names.iter().map(String::as_str))
 }
 
 impl Log {
-    /// Fewest rows with velocities: two numbers more than a start has.
+    /// Minimum number of rows if they have velocities, which have two numbers more than a start.
     const MIN_ROWS: usize = 2;
-    /// Fewest rows without velocities.
+    /// Minimum number of rows if they have no velocities.
     const MIN_ROWS_WITHOUT_VELOCITY: usize = 4;
-    /// Rows after this many ticks are ignored; in an uneven log, after this many rows.
+    /// Number of ticks after which rows are ignored; in an uneven log, number of rows.
     pub const MAX_TICKS: u64 = 3000;
 
-    /// Reads a log from the text of a table with a header. `name` is the file's, for messages.
+    /// Reads a log from the text of a table with a header. `name` is the name of the file, for messages.
     ///
     /// # Errors
-    /// The first fault of the text.
+    /// Fails with the first fault of the text.
     pub fn parse(
         name: &str,
         text: &str,
@@ -265,7 +266,7 @@ impl Log {
     /// Like [`Log::parse`], from the bytes of a file in UTF-8 or UTF-16.
     ///
     /// # Errors
-    /// As [`Log::parse`].
+    /// Fails as [`Log::parse`] does.
     pub fn from_bytes(
         name: &str,
         bytes: &[u8],
@@ -359,13 +360,13 @@ impl Log {
         Ok(Log { rows, columns: columns.read_names(), scale: [x, v], is_uneven })
     }
 
-    /// The same log, moved so that its rest is at 0.
+    /// Returns the same log, moved so that the body's rest is at 0.
     pub(super) fn resting_at_zero(&self, rest: f64) -> Log {
         let rows = self.rows.iter().map(|row| LogRow { x: row.x - rest, ..*row });
         Log { rows: rows.collect(), ..self.clone() }
     }
 
-    /// A summary for people: rows, rate and columns.
+    /// Summarizes the log for people by its rows, rate and columns.
     pub fn summary(&self) -> String {
         let last = self.rows[self.rows.len() - 1];
         let rate = significant((self.rows.len() - 1) as f64 / last.t_s, 4);
@@ -375,19 +376,20 @@ impl Log {
         format!("read {rows} in {seconds} s: {even}{rate} a second, columns {}", self.columns)
     }
 
-    /// Whether its rows are at uneven times, so that no method can run beside it.
+    /// Whether the log's rows are at uneven times, so that no method can run beside the log.
     pub fn is_uneven(&self) -> bool {
         self.is_uneven
     }
 
-    /// The rows up to this tick, and at least the minimum of a log. The scale stays that of the whole log.
+    /// Returns the rows up to this tick, and at least the minimum of a log. The scale stays that of the whole log.
     pub(super) fn head(&self, last_tick: u64) -> Log {
         let least = Self::MIN_ROWS_WITHOUT_VELOCITY.min(self.rows.len());
         let count = self.rows.partition_point(|row| row.tick <= last_tick).max(least);
         Log { rows: self.rows[..count].to_vec(), ..self.clone() }
     }
 
-    /// Largest coordinate and velocity. The velocity's scale is 1 if the log has none.
+    /// Returns the largest coordinate and the largest velocity in magnitude. The velocity's scale is 1 if the log has
+    /// no velocities.
     pub(super) fn scale(&self) -> [f64; 2] {
         self.scale
     }
@@ -404,22 +406,22 @@ impl Log {
         self.rows[0].v.is_some()
     }
 
-    /// Number of logged coordinates and velocities.
+    /// Returns the number of logged coordinates and velocities.
     pub(super) fn numbers(&self) -> usize {
         self.rows.len() * if self.has_velocities() { 2 } else { 1 }
     }
 
-    /// The rows; ticks and times count from the first.
+    /// Returns the rows. Ticks and times count from the first row.
     pub fn rows(&self) -> &[LogRow] {
         &self.rows
     }
 }
 
-/// A body on a line with a spring, drag and a constant push, any of which may be 0. By default, an unknown spring
-/// alone.
+/// A body on a line with a spring, drag and a constant push, any of which may be 0. By default, the body has only an
+/// unknown spring.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoggedBody {
-    /// k/m in 1/s² and c/m in 1/s of the spring; `None` to fit them.
+    /// The spring's k/m in 1/s² and c/m in 1/s; `None` if they are to be fitted.
     pub spring: Option<[f64; 2]>,
     /// The body's damping setting, in 1/s.
     pub drag: f64,
@@ -427,7 +429,7 @@ pub struct LoggedBody {
     pub push: f64,
     /// The spring's rest, in metres. `None` means 0 or, if nothing fits with 0, a fitted rest.
     pub rest: Option<f64>,
-    /// Velocity of the first row in m/s, if the log has none; `None` to fit it.
+    /// Velocity of the first row in m/s, if the log has no velocities; `None` if it is to be fitted.
     pub v0: Option<f64>,
 }
 

@@ -38,10 +38,11 @@ impl System for Known {
     }
 }
 
-/// A run fails once a value exceeds this.
+/// A run fails once the magnitude of a value exceeds this.
 const LOST: f64 = 1e150;
 
-/// The states of a run at these rising ticks; `None` if the candidate cannot make it, or if it diverges.
+/// Returns the states of a run at these rising ticks; `None` if the candidate cannot run on the body, or if the run
+/// diverges.
 pub(crate) fn run(
     candidate: Candidate,
     body: &LoggedBody,
@@ -49,7 +50,7 @@ pub(crate) fn run(
     tick_s: f64,
     ticks: impl Iterator<Item = u64>,
 ) -> Option<Vec<[f64; 2]>> {
-    // An explicit joint reads its force again in each substep, as if each were a tick.
+    // An explicit joint reads its force again in each substep, as if each substep were a tick.
     let (is_held, parts) = match candidate.spring {
         SpringForm::Joint(mode) if mode.is_explicit => (true, candidate.substeps),
         spring => (spring == SpringForm::HeldForce, 1),

@@ -4,14 +4,14 @@ use super::effective::Effective;
 use super::logged::{Log, LoggedBody};
 use crate::sim::least_squares;
 
-/// Gauss-Newton iterations, and how often a step that does not improve the fit is halved.
+/// Number of Gauss-Newton iterations, and maximum number of times that a step is halved if it does not improve the fit.
 const ITERATIONS: usize = 30;
 const HALVINGS: i32 = 10;
 /// Displacement for the derivatives, in units of a parameter.
 const DISPLACEMENT: f64 = 1e-5;
-/// The fit ends once every parameter changes by less than this, in its unit.
+/// The fit ends once every parameter changes by less than this, in the parameter's unit.
 const SETTLED: f64 = 1e-12;
-/// Fewest rows beyond the number of parameters.
+/// Minimum number of rows beyond the number of parameters.
 const SPARE_ROWS: usize = 2;
 /// Damping counts as critical if k - (c/2)² is below this share of k.
 const CRITICAL: f64 = 1e-8;
@@ -21,7 +21,7 @@ const CRITICAL: f64 = 1e-8;
 pub struct FittedSwing {
     /// The motion that a player sees.
     pub seen: Effective,
-    /// The rest, in metres.
+    /// The rest of the swing, in metres.
     pub rest: f64,
     /// Standard errors of the undamped frequency in hertz and of the damping ratio.
     pub errors: [f64; 2],
@@ -32,13 +32,13 @@ pub struct FittedSwing {
 /// Stiffness and damping per unit of mass, the rest, and the coordinate and velocity of the first row.
 type Parameters = [f64; 5];
 
-/// Distance from the rest `t` seconds after the start `[x, v]`, by the closed form of x″ = -k x - c x′.
+/// Returns the distance from the rest `t` seconds after the start `[x, v]`, by the closed form of x″ = -k x - c x′.
 fn displacement_at([k, c]: [f64; 2], [x, v]: [f64; 2], t: f64) -> f64 {
     let half = c / 2.0;
     let square = k - half * half;
     let slope = v + half * x;
     let root = square.abs().sqrt();
-    // cos and sin(ω t)/ω, or their hyperbolic forms.
+    // These are cos and sin(ω t)/ω, or their hyperbolic forms.
     let [even, odd] = if square.abs() <= CRITICAL * k.abs() {
         [1.0, t]
     } else if square > 0.0 {
@@ -49,13 +49,13 @@ fn displacement_at([k, c]: [f64; 2], [x, v]: [f64; 2], t: f64) -> f64 {
     libm::exp(-half * t) * (x * even + slope * odd)
 }
 
-/// Coordinates at the times of the log.
+/// Returns the coordinates at the times of the log.
 fn sample_swing(log: &Log, [k, c, rest, x, v]: Parameters) -> Vec<f64> {
     let at = |t: f64| rest + displacement_at([k, c], [x - rest, v], t);
     log.rows().iter().map(|row| at(row.t_s)).collect()
 }
 
-/// A first guess, from the equation of motion integrated twice. Derivatives of x would amplify its noise.
+/// Makes a first guess from the equation of motion, integrated twice. Derivatives of x would amplify its noise.
 fn guess(log: &Log) -> Option<Parameters> {
     let rows = log.rows();
     let (mut once, mut twice) = (vec![0.0], vec![0.0]);
@@ -83,7 +83,7 @@ fn guess(log: &Log) -> Option<Parameters> {
     (k > 0.0).then(|| [k, c, pull / k, x, slope - c * x])
 }
 
-/// The damped swing nearest to a log; `None` if the body has no spring, no swing fits, or the log is too short.
+/// Returns the damped swing nearest to a log; `None` if the body has no spring, no swing fits, or the log is too short.
 pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> {
     if !body.has_spring() || log.rows().len() < 5 + SPARE_ROWS {
         return None;
@@ -140,7 +140,7 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
     let square = squares(&off);
     let variance = square / (x.len() - is_free.iter().filter(|free| **free).count()) as f64;
     let [of_k, of_c] = deviations(&slopes(&now, &base), variance)?;
-    // ω = √k and ζ = c / (2 ω); the deviations are in units of k and ω.
+    // The errors follow from ω = √k and ζ = c / (2 ω); the deviations are in units of k and ω.
     let omega_error = of_k * omega / 2.0;
     let ratio_error = libm::hypot(of_c / 2.0, seen.damping_ratio()? * of_k / 2.0);
     let found = FittedSwing {
@@ -153,8 +153,8 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
     numbers.iter().all(|number| number.is_finite()).then_some(found)
 }
 
-/// Standard deviations of the first two parameters of a fit with these slopes, in their units. The residual of a
-/// slope, fitted by the other slopes, shows how well its parameter is known.
+/// Returns the standard deviations of the first two parameters of a fit with these slopes, in the parameters' units.
+/// The residual of a slope, fitted by the other slopes, shows how well its parameter is known.
 fn deviations(slopes: &[Vec<f64>], variance: f64) -> Option<[f64; 2]> {
     let of = |i: usize| {
         let others: Vec<Vec<f64>> = slopes
@@ -179,7 +179,7 @@ mod tests {
     use super::*;
     use crate::tools::identify::ColumnNames;
 
-    /// A log of a spring that rests at 3, with x at uneven times.
+    /// Returns a log of a spring that rests at 3, with x at uneven times.
     fn log(noise: f64) -> Log {
         let (mut t, mut text) = (0.0, "t,x\n".to_owned());
         for row in 0..400 {

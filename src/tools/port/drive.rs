@@ -8,37 +8,37 @@ use crate::tools::identify::Effective;
 /// A range of stable gains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GainRange {
-    /// Least stable gain; 0 if there is no lower limit.
+    /// Smallest stable gain; 0 if there is no lower limit.
     pub least: f64,
-    /// Largest stable gain; `None` if there is no upper limit, 0 if no gain is stable.
+    /// Largest stable gain; `None` if there is no upper limit, and 0 if no gain is stable.
     pub most: Option<f64>,
 }
 
 /// The limits of an engine's own drive, or of a force that user code holds through some ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriveLimits {
-    /// Ticks through which user code holds the force; `None` for the engine's own drive.
+    /// Number of ticks through which user code holds the force; `None` for the engine's own drive.
     pub held_ticks: Option<u32>,
     /// Stable stiffnesses at the given damping, per unit of mass, in 1/s².
     pub stiffness: GainRange,
     /// Stable dampings at the given stiffness, per unit of mass, in 1/s.
     pub damping: GainRange,
-    /// Spectral radius of a tick's map for the given pair, which is stable up to 1. `None` if the engine cannot run
-    /// the pair.
+    /// Spectral radius of a tick's map for the given pair of stiffness and damping. The pair is stable up to a radius
+    /// of 1. `None` if the engine cannot run the pair.
     pub spectral_radius: Option<f64>,
-    /// Fewest substeps, up to 64, at which the given pair is stable; `None` if there are none.
+    /// Minimum number of substeps, up to 64, at which the given pair is stable; `None` if there is none.
     pub fewest_substeps: Option<u32>,
-    /// Visible motion with the given pair; `None` if it neither swings nor decays.
+    /// Visible motion with the given pair; `None` if the motion neither swings nor decays.
     pub sees: Option<Effective>,
 }
 
-/// The search ends at this multiple of its first gain.
+/// Multiple of the first gain at which the search ends.
 const MAX_MULTIPLE: f64 = 1e9;
-/// Ratio of successive gains, and how often the last step is halved.
+/// Ratio of successive gains, and number of times that the last step is halved.
 const STEP: f64 = 1.02;
 const HALVINGS: u32 = 50;
 
-/// The limits of a drive with this stiffness in 1/s² and damping in 1/s, each per unit of mass.
+/// Returns the limits of a drive with this stiffness in 1/s² and damping in 1/s, each per unit of mass.
 pub fn drive_limits(setup: Setup, joint: [f64; 2], held_ticks: Option<u32>) -> DriveLimits {
     let growth = |setup: Setup, joint: [f64; 2]| match held_ticks {
         Some(ticks) => setup.held_growth(joint, ticks),
@@ -61,7 +61,7 @@ pub fn drive_limits(setup: Setup, joint: [f64; 2], held_ticks: Option<u32>) -> D
     }
 }
 
-/// The first range of gains that hold, from `first` up. It starts at 0 if `first` holds.
+/// Returns the first range of gains for which `holds` is true, from `first` up. The range starts at 0 if `first` holds.
 fn range(first: f64, holds: impl Fn(f64) -> bool) -> GainRange {
     let gains = || std::iter::successors(Some(first), |gain| Some(gain * STEP));
     let within = |gain: &f64| *gain < first * MAX_MULTIPLE;

@@ -10,10 +10,10 @@ use crate::sim::integrators::{
 use crate::sim::law::Powers;
 use crate::sim::numerics::bisect;
 
-/// The pace at which a value approaches a resting target.
+/// The speed at which a value approaches a resting target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approach {
-    /// Time in which the distance halves, in seconds. A value with a velocity of its own starts at rest.
+    /// Time in which the distance halves, in seconds. A value that has a velocity of its own starts at rest.
     pub half_life_s: f64,
 }
 
@@ -36,32 +36,34 @@ pub struct FollowerPort {
 const CRITICAL_HALF: f64 = 1.678_346_990_016_660_8;
 /// Frames per second for which settings are listed.
 pub(super) const FRAME_RATES: [f64; 5] = [30.0, 60.0, 120.0, 144.0, 240.0];
-/// Rates per second between which a follower's is sought, and how often the interval of their logarithms is halved.
+/// Lowest and highest rate per second in the search for a follower's rate, and number of times that the interval of
+/// their logarithms is halved.
 const RATES: [f64; 2] = [1e-6, 1e9];
 const HALVINGS: u32 = 60;
-/// First number of frames tried for half of the way, and how often it doubles: up to a year at 240 frames per second.
+/// First number of frames that is tried for half of the way, and number of times that it doubles, up to a year at 240
+/// frames per second.
 const FIRST_SPAN: f64 = 1.0 / 64.0;
 const DOUBLINGS: u32 = 40;
 
 impl Approach {
-    /// The approach of a value that covers this part of the distance in each of `fps` frames per second.
+    /// Returns the approach of a value that covers this fraction of the distance in each of `fps` frames per second.
     pub fn of_lerp(part: f64, fps: f64) -> Self {
         Self { half_life_s: -std::f64::consts::LN_2 / libm::log1p(-part) / fps }
     }
 
-    /// The approach of a critically damped spring with this smoothing time in seconds, which is 2/ω.
+    /// Returns the approach of a critically damped spring with this smoothing time in seconds, which is 2/ω.
     pub fn of_smooth_time(seconds: f64) -> Self {
         Self { half_life_s: CRITICAL_HALF * seconds / 2.0 }
     }
 
-    /// The rate k of x′ = k (g - x), per second.
+    /// Returns the rate k of x′ = k (g - x), per second.
     pub fn rate(&self) -> f64 {
         std::f64::consts::LN_2 / self.half_life_s
     }
 }
 
-/// Map of a frame of a follower with this rate and a resting target. A follower of the first order keeps its
-/// velocity.
+/// Returns the map of a frame of a follower with this rate and a resting target. A follower of the first order keeps
+/// its velocity.
 pub(super) fn map_of_frame(method: &Method, rate: f64, fps: f64) -> Option<Matrix2<f64>> {
     // The target rests at 0.
     let order = method.law_order()? as usize;
@@ -74,7 +76,8 @@ pub(super) fn map_of_frame(method: &Method, rate: f64, fps: f64) -> Option<Matri
     Some(Matrix2::from_columns(&[step(1.0, 0.0)?, step(0.0, 1.0)?]))
 }
 
-/// Time in which a follower with this rate halves the distance, in seconds; `None` if it overshoots within a frame.
+/// Returns the time in which a follower with this rate halves the distance, in seconds; `None` if the follower
+/// overshoots within a frame.
 fn half_life(method: &Method, rate: f64, fps: f64) -> Option<f64> {
     let map = map_of_frame(method, rate, fps)?;
     if method.law_order()? == 1 {
@@ -83,8 +86,8 @@ fn half_life(method: &Method, rate: f64, fps: f64) -> Option<f64> {
     Some(frames_to_half(&map)? / fps)
 }
 
-/// Frames until half of the distance is left, from rest. Powers of the map interpolate between frames. `None` if the
-/// map changes sides or does not decay.
+/// Returns the number of frames until half of the distance is left, from rest. Powers of the map interpolate between
+/// frames. `None` if the map changes sides or does not decay.
 fn frames_to_half(map: &Matrix2<f64>) -> Option<f64> {
     let (half, determinant) = (map.trace() / 2.0, map.determinant());
     let powers = Powers::of(map.trace(), determinant)?;
@@ -99,8 +102,8 @@ fn frames_to_half(map: &Matrix2<f64>) -> Option<f64> {
     Some(high)
 }
 
-/// Settings with which every follower halves the distance in the same time, at 30 to 240 frames per second and at
-/// `fps`.
+/// Returns the settings with which every follower halves the distance in the same time, at 30 to 240 frames per second
+/// and at `fps`.
 pub fn followers(approach: Approach, fps: Option<f64>) -> Vec<FollowerPort> {
     let mut rates: Vec<f64> = FRAME_RATES.into_iter().chain(fps).collect();
     rates.sort_by(f64::total_cmp);
@@ -117,7 +120,7 @@ pub fn followers(approach: Approach, fps: Option<f64>) -> Vec<FollowerPort> {
     all.flat_map(of_follower).collect()
 }
 
-/// Value of a follower's setting for an approach.
+/// Returns the value of a follower's setting for an approach.
 fn value(approach: Approach, method: &Method, quantity: FollowerQuantity, fps: f64) -> f64 {
     match quantity {
         FollowerQuantity::Rate => rate(approach, method, fps),
@@ -126,7 +129,7 @@ fn value(approach: Approach, method: &Method, quantity: FollowerQuantity, fps: f
     }
 }
 
-/// A follower's rate for an approach, per second.
+/// Returns a follower's rate for an approach, per second.
 fn rate(approach: Approach, method: &Method, fps: f64) -> f64 {
     let is_slow = |rate| half_life(method, rate, fps).is_some_and(|s| s > approach.half_life_s);
     let search = |is_low: &dyn Fn(f64) -> bool| {

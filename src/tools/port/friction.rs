@@ -1,28 +1,29 @@
-//! A velocity that keeps a part of itself in each frame: its equivalents at other frame rates, and as a drag.
+//! A velocity that keeps a fraction of itself in each frame, with its equivalents at other frame rates and as a drag.
 
 use super::follow::FRAME_RATES;
 
-/// `v *= kept`, once a frame.
+/// The rule `v *= kept`, once a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
-    /// Part of the velocity kept in each frame, between 0 and 1.
+    /// Fraction of the velocity that is kept in each frame, between 0 and 1.
     pub kept: f64,
     /// Frames per second.
     pub fps: f64,
 }
 
 impl Friction {
-    /// The drag C of v′ = -C v, per second.
+    /// Returns the drag C of v′ = -C v, per second.
     pub fn rate(&self) -> f64 {
         -libm::log(self.kept) * self.fps
     }
 
-    /// Time in which the velocity halves, in seconds.
+    /// Returns the time in which the velocity halves, in seconds.
     pub fn half_life_s(&self) -> f64 {
         std::f64::consts::LN_2 / self.rate()
     }
 
-    /// Part kept in a frame, as pairs with the frames per second: at the usual frame rates and at its own.
+    /// Returns pairs of the frames per second and the fraction kept in a frame, at the usual frame rates and at the
+    /// rule's own.
     pub fn kept_at(&self) -> Vec<(f64, f64)> {
         let mut rates: Vec<f64> = FRAME_RATES.into_iter().chain([self.fps]).collect();
         rates.sort_by(f64::total_cmp);
@@ -30,13 +31,13 @@ impl Friction {
         rates.into_iter().map(|fps| (fps, libm::exp(-self.rate() / fps))).collect()
     }
 
-    /// C of `v -= C * v * dt` and C of `v /= 1 + C * dt` that keep as much in a frame, per second.
+    /// Returns C of `v -= C * v * dt` and C of `v /= 1 + C * dt` that keep the same fraction in a frame, per second.
     pub fn drags(&self) -> [f64; 2] {
         [(1.0 - self.kept) * self.fps, (1.0 / self.kept - 1.0) * self.fps]
     }
 
-    /// Distance that a body coasts for each m/s of its velocity, in metres: exactly, in frames that move after the
-    /// friction, and in frames that move before it.
+    /// Returns the distance that a body coasts for each m/s of its velocity, in metres. It is given exactly, for frames
+    /// that move after the friction, and for frames that move before it.
     pub fn coasts_m(&self) -> [f64; 3] {
         let gone = 1.0 / (1.0 - self.kept) / self.fps;
         [1.0 / self.rate(), self.kept * gone, gone]

@@ -6,44 +6,45 @@ use crate::tools::identify::Effective;
 /// The visible motion of a joint with this stiffness in 1/s² and damping in 1/s.
 pub(super) type Sees<'a> = &'a dyn Fn([f64; 2]) -> Option<Effective>;
 
-/// A joint with its error.
+/// A joint with its visible motion and its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct EvaluatedJoint {
     /// Stiffness in 1/s² and damping in 1/s.
     pub(super) joint: [f64; 2],
-    /// Its visible motion.
+    /// Visible motion of the joint.
     pub(super) seen: Effective,
     /// Sum of the absolute values of [`residual`].
     pub(super) missed: f64,
 }
 
-/// First stage of the approach to the wanted frequency, as a share of it, and the factor between stages.
+/// First stage of the approach to the wanted frequency, as a fraction of that frequency, and the factor between stages.
 const FIRST_STAGE: f64 = 1.0 / 64.0;
 const STAGE: f64 = 1.5;
-/// Newton iterations at a stage, and how often a step that does not come nearer is halved.
+/// Number of Newton iterations at a stage, and maximum number of times that a step is halved if it does not come
+/// nearer.
 const ITERATIONS: u32 = 30;
 const HALVINGS: u32 = 12;
 /// Displacement for the derivatives.
 const DISPLACEMENT: f64 = 1e-6;
-/// An error below this is rounding.
+/// Largest error that is rounding.
 const ROUNDING: f64 = 1e-13;
-/// A damping closer to 0 than this, in units of the frequency, counts as 0.
+/// Damping, in units of the frequency, below which it counts as 0.
 const NO_DAMPING: f64 = 1e-9;
 /// Range of the search in stiffness and damping, as exponents of e around the wanted frequency, and its number of
 /// steps.
 const SPAN: [f64; 2] = [-12.0, 24.0];
 const STEPS: u32 = 240;
-/// The grids of a search in two numbers: the reach of each first grid, as an exponent of e, and its cells on each
-/// side. Each starts at the nearest joint found, to leave a ridge. Then the cells of the grids that follow, the ratio
-/// of their sizes, and their number.
+/// The grids of a search in two numbers. For each first grid, its reach as an exponent of e, and its number of cells on
+/// each side; each first grid starts at the nearest joint found, to leave a ridge. Then the number of cells of the
+/// grids that follow, the ratio of their sizes, and their number.
 const REACHES: [(f64, i32); 3] = [(10.0, 20), (2.0, 10), (0.5, 10)];
 const CELLS: i32 = 4;
 const ZOOM: f64 = 0.7;
 const ROUNDS: u32 = 40;
-/// How often an interval is halved: to rounding.
+/// Number of times that an interval is halved, which is enough to reach rounding.
 const HALVED: u32 = 60;
 
-/// The joint that shows `wanted`, or the nearest one; `None` if no joint shows a motion.
+/// Returns the joint that shows `wanted`, or the nearest joint; `None` if no joint shows a motion.
 pub(super) fn invert(sees: Sees, wanted: &Effective) -> Option<EvaluatedJoint> {
     let solved = in_stages(sees, wanted);
     if let Some(found) = solved.filter(|found| found.missed <= super::REACHED) {
@@ -57,20 +58,20 @@ pub(super) fn invert(sees: Sees, wanted: &Effective) -> Option<EvaluatedJoint> {
     Some(least_stiff(sees, wanted, best))
 }
 
-/// The joint with its visible motion and its error; `None` if it shows no motion.
+/// Returns the joint with its visible motion and its error; `None` if the joint shows no motion.
 fn evaluate(sees: Sees, wanted: &Effective, joint: [f64; 2]) -> Option<EvaluatedJoint> {
     let seen = sees(joint)?;
     let missed = residual(&seen, wanted).into_iter().map(f64::abs).sum();
     Some(EvaluatedJoint { joint, seen, missed })
 }
 
-/// Logarithm of the frequency's ratio to the wanted one, and difference of the damping ratios.
+/// Returns the logarithm of the frequency's ratio to the wanted one, and the difference of the damping ratios.
 fn residual(seen: &Effective, wanted: &Effective) -> [f64; 2] {
     [libm::log(seen.omega / wanted.omega), seen.decay / seen.omega - wanted.decay / wanted.omega]
 }
 
 /// Applies Newton's method in stages, from a frequency so low that every map is near the motion, up to the wanted
-/// one.
+/// frequency.
 fn in_stages(sees: Sees, wanted: &Effective) -> Option<EvaluatedJoint> {
     let mut part = FIRST_STAGE;
     let ratio = wanted.decay / wanted.omega;
@@ -79,7 +80,7 @@ fn in_stages(sees: Sees, wanted: &Effective) -> Option<EvaluatedJoint> {
     loop {
         let omega = wanted.omega * part;
         let target = Effective { omega, decay: ratio * omega };
-        // In units of the stage's frequency.
+        // The joint is in units of the stage's frequency.
         let scaled = |[k, c]: [f64; 2]| [k * omega * omega, c * omega];
         let at = |joint| evaluate(sees, &target, scaled(joint));
         solution = newton(&at, &target, joint).or(solution.filter(|_| part < 1.0));
@@ -97,7 +98,7 @@ fn in_stages(sees: Sees, wanted: &Effective) -> Option<EvaluatedJoint> {
     (damping >= 0.0).then(|| evaluate(sees, wanted, [stiffness, damping]))?
 }
 
-/// The best joint that Newton's method finds from `joint`, which is in units of the target's frequency.
+/// Returns the best joint that Newton's method finds from `joint`, which is in units of the target's frequency.
 fn newton(
     at: &dyn Fn([f64; 2]) -> Option<EvaluatedJoint>,
     target: &Effective,
@@ -138,7 +139,8 @@ fn newton(
     Some(best)
 }
 
-/// Least stiffness with which an undamped spring has the frequency `omega` in rad/s, and its damping ratio.
+/// Returns the smallest stiffness at which an undamped spring has the frequency `omega` in rad/s, and the damping ratio
+/// of this spring.
 pub(super) fn min_damping(sees: Sees, omega: f64) -> Option<(f64, f64)> {
     let at = |s: f64| sees([omega * omega * libm::exp(s), 0.0]);
     let is_fast = |s: f64| at(s).map(|seen| seen.omega >= omega);
@@ -154,14 +156,14 @@ pub(super) fn min_damping(sees: Sees, omega: f64) -> Option<(f64, f64)> {
     Some((omega * omega * libm::exp(high), ratio))
 }
 
-/// Intervals of a search through [`SPAN`].
+/// Returns the intervals of a search through [`SPAN`].
 fn intervals() -> impl Iterator<Item = (f64, f64)> {
     let step = (SPAN[1] - SPAN[0]) / f64::from(STEPS);
     let place = move |i: u32| SPAN[0] + step * f64::from(i);
     (0..STEPS).map(move |i| (place(i), place(i + 1)))
 }
 
-/// The nearest joint on grids that shrink around the nearest one found.
+/// Returns the nearest joint on grids that shrink around the nearest joint found so far.
 fn zoomed(sees: Sees, wanted: &Effective) -> Option<EvaluatedJoint> {
     let damping_of = |s: f64| wanted.omega * (libm::exp(s) - libm::exp(SPAN[0])).max(0.0);
     let of = |[s, d]: [f64; 2]| {
@@ -191,7 +193,7 @@ fn zoomed(sees: Sees, wanted: &Effective) -> Option<EvaluatedJoint> {
     best
 }
 
-/// Lowers the stiffness while the visible motion stays the same, down to the engine's limit if it has one.
+/// Lowers the stiffness while the visible motion stays the same, down to the engine's limit if there is one.
 fn least_stiff(sees: Sees, wanted: &Effective, best: EvaluatedJoint) -> EvaluatedJoint {
     let [stiffness, damping] = best.joint;
     let joint = |s: f64| [stiffness * libm::exp(s), damping];

@@ -10,22 +10,23 @@ use crate::tools::identify::{Candidate, Effective, LoggedBody, SLOW, SpringForm,
 pub struct Setup {
     /// The engine.
     pub method: &'static Method,
-    /// Its mode for the joint.
+    /// The engine's mode for the joint.
     pub mode: &'static JointMode,
-    /// Its ticks per second.
+    /// Tick rate of the engine, in hertz.
     pub tick_hz: f64,
-    /// Substeps per tick.
+    /// Number of substeps per tick.
     pub substeps: u32,
 }
 
 /// A map of coordinate and velocity.
 type Map = Matrix2<f64>;
 
-/// Newton iterations for the eigenvalue that a memory adds. It is near 0, and three iterations are enough.
+/// Maximum number of Newton iterations for the eigenvalue that a memory adds. This eigenvalue is near 0, and three
+/// iterations are enough.
 const ITERATIONS: u32 = 20;
 
 impl Setup {
-    /// The code for these values, with the substeps unless they are the engine's default.
+    /// Returns the code for these values, with the substeps unless they are the engine's default.
     pub fn code(&self, values: [f64; 2]) -> String {
         let &Self { method, mode, tick_hz, substeps } = self;
         let of_substeps = method.engine.and_then(|engine| engine.substeps_code(substeps, tick_hz));
@@ -36,14 +37,15 @@ impl Setup {
             .join("\n")
     }
 
-    /// Visible motion of a joint with this stiffness in 1/s² and damping in 1/s, each per unit of mass. `None` if no
-    /// damped spring moves so, for example because the body changes sides at every tick.
+    /// Returns the visible motion of a joint with this stiffness in 1/s² and damping in 1/s, each per unit of mass.
+    /// `None` if no damped spring moves like the joint, for example because the body changes sides at every tick.
     pub fn visible_motion(&self, joint: [f64; 2]) -> Option<Effective> {
         let [trace, determinant] = self.invariants(joint)?;
         spring_of_map(trace, determinant, 1.0 / self.tick_hz)
     }
 
-    /// Trace and determinant of a tick's map. In an engine with a memory, those of the two slowest motions.
+    /// Returns the trace and the determinant of a tick's map. In an engine with a memory, they are those of the two
+    /// slowest motions.
     fn invariants(&self, joint: [f64; 2]) -> Option<[f64; 2]> {
         let has_memory = self.method.restart.is_some();
         let maps = self.maps(joint, if has_memory { 3 } else { 1 })?;
@@ -54,13 +56,13 @@ impl Setup {
         }
     }
 
-    /// Spectral radius of a tick's map: the swing grows if it exceeds 1.
+    /// Returns the spectral radius of a tick's map. The swing grows if the radius exceeds 1.
     pub(super) fn growth(&self, joint: [f64; 2]) -> Option<f64> {
         let [trace, determinant] = self.invariants(joint)?;
         Some(spectral_radius(trace, determinant))
     }
 
-    /// Maps of 1 to `ticks` ticks, from a start without memory.
+    /// Returns the maps of 1 to `ticks` ticks, from a start without memory.
     fn maps(&self, spring: [f64; 2], ticks: u64) -> Option<Vec<Map>> {
         let &Self { method, mode, tick_hz, substeps } = self;
         let body = LoggedBody { spring: Some(spring), ..LoggedBody::default() };
@@ -69,7 +71,7 @@ impl Setup {
         columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)
     }
 
-    /// Map of `ticks` ticks through which user code holds the spring's force.
+    /// Returns the map of `ticks` ticks through which user code holds the spring's force.
     fn held_map(&self, [stiffness, damping]: [f64; 2], ticks: u32) -> Option<Map> {
         let &Self { method, tick_hz, substeps, .. } = self;
         let candidate = Candidate { method, substeps, spring: SpringForm::Acceleration };
@@ -78,25 +80,26 @@ impl Setup {
             run(candidate, &body, start, 1.0 / tick_hz, [0, u64::from(ticks)].into_iter())
         };
         let free = columns(&after([SLOW, 0.0], 0.0)?, &after([0.0, SLOW], 0.0)?)?;
-        // Response of a body at rest to a held force of 1 N/kg.
+        // This is the response of a body at rest to a held force of 1 N/kg.
         let pushed = Vector2::from(*after([0.0; 2], 1.0)?.last()?);
         Some(free[0] - pushed * RowVector2::new(stiffness, damping))
     }
 
-    /// Visible motion of a spring whose force user code holds through `ticks` ticks.
+    /// Returns the visible motion of a spring whose force user code holds through `ticks` ticks.
     pub fn sees_held(&self, joint: [f64; 2], ticks: u32) -> Option<Effective> {
         let map = self.held_map(joint, ticks)?;
         spring_of_map(map.trace(), map.determinant(), f64::from(ticks) / self.tick_hz)
     }
 
-    /// As [`Setup::growth`], for a force held through `ticks` ticks.
+    /// Like [`Setup::growth`], for a force held through `ticks` ticks.
     pub(super) fn held_growth(&self, joint: [f64; 2], ticks: u32) -> Option<f64> {
         let map = self.held_map(joint, ticks)?;
         Some(spectral_radius(map.trace(), map.determinant()))
     }
 }
 
-/// Map of a step of `step_s` seconds, for a method with the spring, per unit of mass, as a part of the acceleration.
+/// Returns the map of a step of `step_s` seconds, for a method with the spring, per unit of mass, as a part of the
+/// acceleration.
 pub(super) fn map_of_step(method: &'static Method, joint: [f64; 2], step_s: f64) -> Option<Map> {
     let candidate = Candidate { method, substeps: 1, spring: SpringForm::Acceleration };
     let body = LoggedBody { spring: Some(joint), ..LoggedBody::default() };
@@ -104,14 +107,14 @@ pub(super) fn map_of_step(method: &'static Method, joint: [f64; 2], step_s: f64)
     columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)?.pop()
 }
 
-/// Maps whose columns are these runs, without their starts; `None` if they are not finite.
+/// Returns the maps whose columns are these runs, without the starts of the runs; `None` if the maps are not finite.
 fn columns(first: &[[f64; 2]], second: &[[f64; 2]]) -> Option<Vec<Map>> {
     let map = |(a, b): (&[f64; 2], &[f64; 2])| Map::from([*a, *b]) / SLOW;
     let maps: Vec<Map> = first.iter().zip(second).skip(1).map(map).collect();
     maps.iter().flatten().all(|x| x.is_finite()).then_some(maps)
 }
 
-/// Growth in a step up to this counts as none.
+/// Largest spectral radius of a step that does not count as growth.
 pub(in crate::tools) const NO_GROWTH: f64 = 1.0 + 1e-9;
 
 /// Whether no motion of a map with this trace and determinant grows.
@@ -119,7 +122,7 @@ pub(super) fn is_stable(trace: f64, determinant: f64) -> bool {
     spectral_radius(trace, determinant) <= NO_GROWTH
 }
 
-/// Largest modulus of an eigenvalue.
+/// Returns the largest modulus of an eigenvalue of a map with this trace and determinant.
 pub(in crate::tools) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
     let half = trace / 2.0;
     match half * half - determinant {
@@ -128,7 +131,7 @@ pub(in crate::tools) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
     }
 }
 
-/// The damped spring whose map over `tick_s` has this trace and determinant.
+/// Returns the damped spring whose map over `tick_s` has this trace and determinant.
 pub(in crate::tools) fn spring_of_map(
     trace: f64,
     determinant: f64,
@@ -141,7 +144,7 @@ pub(in crate::tools) fn spring_of_map(
     }
     let decay = -libm::log(determinant) / 2.0 / tick_s;
     let apart = libm::sqrt(square.abs());
-    // For a pair of eigenvalues, their angle; for two real ones, half the difference of their logarithms.
+    // A pair of eigenvalues has an angle; for two real eigenvalues, it is half the difference of their logarithms.
     let omega_square = match square < 0.0 {
         true => decay * decay + libm::pow(libm::atan2(apart, half) / tick_s, 2.0),
         false => decay * decay - libm::pow(libm::atanh(apart / half) / tick_s, 2.0),
@@ -149,10 +152,11 @@ pub(in crate::tools) fn spring_of_map(
     (omega_square > 0.0).then(|| Effective { omega: libm::sqrt(omega_square), decay })
 }
 
-/// Trace and determinant of the two slowest motions of a map with one number of memory, from its first three ticks.
+/// Returns the trace and determinant of the two slowest motions of a map with one number of memory, from its first
+/// three ticks.
 ///
-/// With A the map of the state alone, the memory adds w to a tick: nothing to the first, C times the state to the
-/// second. To the third it adds the same and ρ times the previous w. All w have one direction.
+/// Let A be the map of the state alone. The memory adds w to a tick, which is nothing in the first tick, and C times
+/// the state in the second. In the third tick it is the same and ρ times the previous w. All w have one direction.
 fn with_memory(once: &Map, twice: &Map, thrice: &Map) -> Option<[f64; 2]> {
     let added = twice - once * once;
     let rest = thrice - once * twice - added * once;
@@ -179,7 +183,7 @@ fn with_memory(once: &Map, twice: &Map, thrice: &Map) -> Option<[f64; 2]> {
     (root.is_finite() && is_slower).then_some([trace, determinant])
 }
 
-/// The matrix whose product with `map` is the determinant.
+/// Returns the matrix whose product with `map` is the determinant.
 fn adjugate(map: &Map) -> Map {
     Map::new(map.m22, -map.m12, -map.m21, map.m11)
 }

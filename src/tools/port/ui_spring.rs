@@ -1,6 +1,6 @@
 //! Ports a motion to the springs of user-interface libraries, and shows the effect of the frame rate on it.
 //!
-//! Each library takes the distance to the target as the stretch, on a mass of 1 if it has none of its own.
+//! Each library takes the distance to the target as the stretch. The mass is 1 if the library has none of its own.
 
 use std::fmt::Write;
 
@@ -25,42 +25,42 @@ pub use cards::UI_SPRINGS;
 pub struct Key {
     /// Name as the library spells it.
     pub name: &'static str,
-    /// The library's default.
+    /// Default value in the library.
     pub usual: f64,
-    /// Least and largest valid value.
+    /// Smallest and largest valid value.
     pub range: [f64; 2],
-    /// The range in words.
+    /// The valid range in words.
     pub wanted: &'static str,
-    /// Set if the number is a switch, with the values 0 and 1.
+    /// The switch, if the number is a switch with the values 0 and 1.
     pub switch: Option<Switch>,
 }
 
 /// A setting that is on or off.
 #[derive(Debug)]
 pub struct Switch {
-    /// The statement that turns it on.
+    /// The statement that turns the setting on.
     code: &'static str,
-    /// A note for people while it is on.
+    /// A note for people while the setting is on.
     pub note: &'static str,
 }
 
 /// Values of a dialect's keys; unused places are 0.
 type Values = [f64; 4];
 
-/// How a library advances from frame to frame.
+/// The way in which a library advances from frame to frame.
 #[derive(Clone, Copy, Debug)]
 enum Steps {
-    /// By the closed form.
+    /// The library uses the closed form.
     Exact,
-    /// By the closed form, at times cut to whole milliseconds.
+    /// The library uses the closed form, at times cut to whole milliseconds.
     WholeMilliseconds,
-    /// Along straight lines between points of the closed form.
+    /// The library moves along straight lines between points of the closed form.
     Sampled,
-    /// By semi-implicit Euler once a frame.
+    /// The library makes a step of semi-implicit Euler in each frame.
     PerFrame,
-    /// By semi-implicit Euler in steps of 1 ms. A frame's count of steps is rounded up, to at most 64.
+    /// The library makes steps of semi-implicit Euler of 1 ms. A frame's number of steps is rounded up, to at most 64.
     Milliseconds,
-    /// By the follower `smooth-damp` once a frame.
+    /// The library makes a step of the follower `smooth-damp` in each frame.
     SmoothDamp,
 }
 
@@ -69,24 +69,24 @@ enum Steps {
 pub struct UiSpring {
     /// Id on the command line.
     pub id: &'static str,
-    /// Id in an earlier release, still accepted.
+    /// Id in an earlier release, which is still accepted.
     pub former_id: Option<&'static str>,
     /// Name for people.
     pub name: &'static str,
-    /// The numbers that it takes, up to four.
+    /// The numbers that the library takes, up to four.
     pub keys: &'static [Key],
-    /// The file or page that shows how it reads them and how it steps.
+    /// The file or page that shows how the library reads these numbers and how it steps.
     pub source: &'static str,
     /// The release or commit against which the card was checked; empty for code of your own.
     pub version: &'static str,
-    /// How that version was checked.
+    /// How the card was checked against that version.
     pub evidence: &'static str,
-    /// Converts values to a motion; `None` if they do not determine one.
+    /// Converts values to a motion. `None` if values of this library do not determine a motion.
     read: Option<fn(Values) -> Wish>,
-    /// The values that come nearest to a motion.
+    /// Returns the values that come nearest to a motion.
     write: fn(&Wish) -> Values,
     steps: Steps,
-    /// Where a motion departs from the closed form, if it does.
+    /// Returns the point at which a motion leaves the closed form, if it does.
     departure: fn(&Wish) -> Option<Departure>,
     /// A line of code with `<name>` in place of a key's value, or `<name:decimal>` if the language has no exponents.
     code: &'static str,
@@ -97,7 +97,7 @@ pub struct UiSpring {
 pub struct Departure {
     /// Time from the start, in seconds.
     pub at_s: f64,
-    /// Share of the way that is left at that time.
+    /// Fraction of the way that is left at that time.
     pub left: f64,
     /// Damping ratio from then on; `None` if the motion jumps to its end.
     pub damping_ratio: Option<f64>,
@@ -106,19 +106,19 @@ pub struct Departure {
 /// A library's settings for a wish, and the motion that they show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UiSpringPort {
-    /// Whether they show the wish. It is unreachable if the library damps more or explodes.
+    /// Whether the settings show the wish. It is unreachable if the library damps more or explodes.
     pub outcome: PortOutcome,
-    /// Values of the keys, in their order.
+    /// Values of the keys, in the order of the keys.
     pub values: Vec<f64>,
-    /// Frames per second below which the motion explodes; `None` if the frame rate does not decide that.
+    /// Frames per second below which the motion explodes; `None` if this does not depend on the frame rate.
     pub explodes_below_hz: Option<f64>,
     /// Whether the motion stays bounded at the frame rate.
     pub is_stable: bool,
-    /// The visible motion at the frame rate; `None` if it is not that of one damped spring.
+    /// The visible motion at the frame rate; `None` if no single damped spring moves like this.
     pub seen: Option<Effective>,
-    /// Where it leaves the closed form, if it does.
+    /// The point at which the motion leaves the closed form, if it does.
     pub departure: Option<Departure>,
-    /// Largest error of a motion drawn through points, as a share of the way.
+    /// Largest error of a motion drawn through points, as a fraction of the way.
     pub error: Option<f64>,
     /// The line of code; empty if the library has no values for the wish.
     pub code: String,
@@ -126,16 +126,18 @@ pub struct UiSpringPort {
 
 /// Number of places at which the error is sampled.
 const PLACES: u32 = 20_000;
-/// Points with a larger error, as a share of the way, show another motion.
+/// Points show another motion if their error is larger than this, as a fraction of the way.
 const ASTRAY: f64 = 0.1;
-/// Frames per second between which the limit of stability is sought, and how often the interval is halved.
+/// Lowest and highest frame rate per second in the search for the limit of stability, and number of times that the
+/// interval is halved.
 const RATES: [f64; 2] = [1e-6, 1e12];
 const HALVINGS: u32 = 60;
-/// Step of react-spring in seconds, and the most steps in a frame.
+/// Step of react-spring in seconds, and maximum number of steps in a frame.
 const STEP_S: f64 = 1e-3;
 const MAX_STEPS: f64 = 64.0;
 
-/// Share of the way left at this angle (ω times the time) to a spring that starts at rest with this damping ratio.
+/// Returns the fraction of the way that is left at this angle (ω times the time) for a spring that starts at rest with
+/// this damping ratio.
 fn part_left(damping_ratio: f64, angle: f64) -> f64 {
     let spring =
         Spring { mass: 1.0, stiffness: 1.0, damping: 2.0 * damping_ratio, ..Spring::default() };
@@ -149,7 +151,8 @@ fn decimal(value: f64) -> String {
     rounded.unwrap_or(value).to_string()
 }
 
-/// The points of a motion as a style sheet writes them, and the largest error of the lines between them.
+/// Returns the points of a motion as a style sheet writes them, and the largest error of the lines between these
+/// points.
 fn curve(wish: &Wish, [duration, points, ..]: Values) -> (String, f64) {
     let pieces = points as u32 - 1;
     let at = |place: f64| 1.0 - part_left(wish.damping_ratio, wish.omega() * duration * place);
@@ -172,36 +175,37 @@ fn curve(wish: &Wish, [duration, points, ..]: Values) -> (String, f64) {
 }
 
 impl UiSpring {
-    /// The dialect with this id or former id.
+    /// Returns the dialect with this id or former id.
     pub fn of_id(id: &str) -> Option<&'static Self> {
         UI_SPRINGS.iter().find(|dialect| dialect.ids().any(|own| own == id))
     }
 
-    /// Its id, then its former one.
+    /// Returns the library's id, and then its former id.
     pub fn ids(&self) -> impl Iterator<Item = &'static str> + use<> {
         [self.id].into_iter().chain(self.former_id)
     }
 
-    /// The version that it was checked against, and how, in words; `None` for code of your own.
+    /// Returns the version against which the card was checked, and how, in words; `None` for code of your own.
     pub fn checked_against(&self) -> Option<String> {
         let Self { version, evidence, .. } = self;
         (!version.is_empty()).then(|| format!("held against {version}, {evidence}"))
     }
 
-    /// Whether its values determine a motion.
+    /// Whether the library's values determine a motion.
     pub fn is_read(&self) -> bool {
         self.read.is_some()
     }
 
-    /// Whether it takes a mass.
+    /// Whether the library takes a mass.
     pub fn has_mass(&self) -> bool {
         self.keys.iter().any(|key| key.name == "mass")
     }
 
-    /// The motion that these values of its keys determine.
+    /// Returns the motion that these values of the library's keys determine.
     ///
     /// # Errors
-    /// If they determine none, or the first value out of its range, in words.
+    /// If the values determine no motion, or if a value is out of its range; the error explains the first fault in
+    /// words.
     pub fn read(&self, values: &[f64]) -> Result<Wish, String> {
         let read = self.read.ok_or_else(|| {
             format!("{} is points of a motion, from which it cannot be told", self.name)
@@ -217,7 +221,7 @@ impl UiSpring {
         Ok(read(all))
     }
 
-    /// Its stepping method: `exact`, or a method's id.
+    /// Returns the library's stepping method, which is `exact`, or a method's id.
     pub fn steps(&self) -> &'static str {
         match self.steps {
             Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => "exact",
@@ -226,8 +230,8 @@ impl UiSpring {
         }
     }
 
-    /// Its settings for a wish, whose numbers must [have a meaning](Wish::check_numbers), and the motion visible at
-    /// this many frames per second.
+    /// Returns the library's settings for a wish, whose numbers must [have a meaning](Wish::check_numbers), and the
+    /// motion visible at this many frames per second.
     pub fn port(&self, wish: &Wish, frame_hz: f64) -> UiSpringPort {
         let values = (self.write)(wish);
         let has_values = values.iter().all(|value| value.is_finite());
@@ -279,14 +283,14 @@ impl UiSpring {
         }
     }
 
-    /// The switches that these values turn on.
+    /// Returns the switches that these values turn on.
     pub fn switched_on(&self, values: &[f64]) -> impl Iterator<Item = &'static Switch> {
         let is_on =
             |(key, value): (&'static Key, &f64)| key.switch.as_ref().filter(|_| *value == 1.0);
         self.keys.iter().zip(values).filter_map(is_on)
     }
 
-    /// The map of one step of this motion; `None` for a closed form.
+    /// Returns the map of one step of this motion; `None` for a closed form.
     fn map(&self, motion: &Wish, frame_hz: f64) -> Option<StepMap> {
         let (step_s, pace) = match self.steps {
             Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => return None,
@@ -303,7 +307,7 @@ impl UiSpring {
         Some(StepMap { map, step_s, pace })
     }
 
-    /// Frames per second below which this motion explodes.
+    /// Returns the frames per second below which this motion explodes.
     fn explodes_below_hz(&self, motion: &Wish) -> Option<f64> {
         let Steps::PerFrame = self.steps else { return None };
         let explodes = |log| self.map(motion, libm::exp(log)).is_some_and(|map| !map.is_stable());
@@ -311,7 +315,7 @@ impl UiSpring {
         Some(libm::exp(high))
     }
 
-    /// The effect of the frame rate on a port, in words.
+    /// Returns the effect of the frame rate on a port, in words.
     pub fn at_frame_rates(&self, port: &UiSpringPort, frame_hz: f64) -> String {
         let percent = |part: f64| significant(100.0 * part.abs(), 2);
         match self.steps {
@@ -370,7 +374,7 @@ struct StepMap {
     map: Matrix2<f64>,
     /// Length of the step, in seconds.
     step_s: f64,
-    /// Simulated seconds per second.
+    /// Number of simulated seconds per second.
     pace: f64,
 }
 
@@ -380,7 +384,7 @@ impl StepMap {
         is_stable(self.map.trace(), self.map.determinant())
     }
 
-    /// The damped spring with the same motion.
+    /// Returns the damped spring with the same motion.
     fn visible_motion(&self) -> Option<Effective> {
         let Self { map, step_s, pace } = self;
         let Effective { omega, decay } = spring_of_map(map.trace(), map.determinant(), *step_s)?;
@@ -388,7 +392,7 @@ impl StepMap {
     }
 }
 
-/// Simulated seconds per second in react-spring, which rounds each frame up to whole steps.
+/// Returns the number of simulated seconds per second in react-spring, which rounds each frame up to whole steps.
 fn pace(frame_hz: f64) -> f64 {
     libm::ceil(1.0 / STEP_S / frame_hz).min(MAX_STEPS) * STEP_S * frame_hz
 }

@@ -6,7 +6,7 @@ use super::Rule;
 use crate::sim::law::{AT_TARGET, Frame, NO_RETURN, Powers, StepCode};
 use crate::tools::source_code::{Language, rule_code};
 
-/// If the logarithms of the eigenvalues are this far apart, the code has two exponentials. For closer ones, the
+/// If the logarithms of the eigenvalues are this far apart, the code has two exponentials. If they are closer, the
 /// difference of the exponentials would be rounding.
 const APART: f64 = 1e-3;
 
@@ -20,7 +20,7 @@ enum NoClosedForm {
 }
 
 impl NoClosedForm {
-    /// The reason as a clause.
+    /// Returns the reason as a clause.
     fn reason(self) -> &'static str {
         match self {
             Self::NotLinear => "the rule is not linear, and has no closed form",
@@ -36,18 +36,18 @@ impl NoClosedForm {
 /// The code of a rule in a language.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuleCode {
-    /// The function.
+    /// Source code of the function.
     pub text: String,
-    /// The reason for fixed steps; `None` for the closed form.
+    /// The reason why the function makes fixed steps; `None` for the closed form.
     pub steps_because: Option<&'static str>,
 }
 
 impl Rule {
-    /// Code that moves the same at any frame rate: the closed form or, failing that, fixed steps of the author's
-    /// frames with interpolation. The comment above it quotes `written`, the rule's text.
+    /// Returns code that moves the same at any frame rate. It is the closed form or, if there is none, fixed steps of
+    /// the author's frames with interpolation. The comment above the code quotes `written`, the rule's text.
     ///
     /// # Errors
-    /// A clause that explains why other languages cannot express the rule.
+    /// Fails with a clause that explains why other languages cannot express the rule.
     pub fn code(&self, written: &str, language: Language) -> Result<RuleCode, String> {
         let fps = self.fps;
         let lines = written.lines().map(|line| line.trim().to_owned());
@@ -73,7 +73,7 @@ impl Rule {
         }
     }
 
-    /// Names of the two numbers in the source.
+    /// Returns the names of the two numbers in the source.
     fn names(&self) -> Vec<String> {
         let name = |index: &usize| match index {
             0 | 1 => self.text.carried()[*index].name.clone(),
@@ -82,7 +82,7 @@ impl Rule {
         self.state.iter().map(name).collect()
     }
 
-    /// The declarations before the first line: the target, and the carried numbers besides x and v.
+    /// Returns the declarations before the first line, which are the target and the carried numbers besides x and v.
     fn head(&self, takes_target: bool, carried: impl Iterator<Item = usize>) -> String {
         let mut head = String::new();
         if takes_target {
@@ -140,7 +140,7 @@ impl Rule {
         }])
     }
 
-    /// The closed form if one eigenvalue is 1.
+    /// Returns the closed form if one eigenvalue is 1.
     fn coasting(&self, frame: &Frame) -> Result<Vec<String>, NoClosedForm> {
         let (names, fps) = (self.names(), self.fps);
         let kept = frame.map.trace() - 1.0;
@@ -262,14 +262,14 @@ memory.shown = memory.before + ({shown} - memory.before) * (memory.unspent / FRA
     }
 }
 
-/// A number in a source, in brackets if it has a sign.
+/// Writes a number in a source, in brackets if it has a sign.
 fn number(value: f64) -> String {
     // Adding 0 turns a negative zero into 0.
     let value = value + 0.0;
     if value < 0.0 { format!("({value:?})") } else { format!("{value:?}") }
 }
 
-/// The rest, from its coefficient of the target and its constant part.
+/// Writes the rest, from its coefficient of the target and its constant part.
 fn rest([by_target, offset]: [f64; 2]) -> String {
     let is_target = (by_target - 1.0).abs() <= AT_TARGET;
     let by_target = if by_target.abs() <= AT_TARGET { 0.0 } else { by_target };
@@ -284,7 +284,7 @@ fn rest([by_target, offset]: [f64; 2]) -> String {
     }
 }
 
-/// The sum of these names, each times its factor.
+/// Writes the sum of these names, each multiplied by its factor.
 fn sum(terms: &[(f64, &str)]) -> String {
     let mut written = String::new();
     for (factor, name) in terms.iter().filter(|(factor, _)| *factor != 0.0) {
@@ -299,7 +299,7 @@ fn sum(terms: &[(f64, &str)]) -> String {
     if written.is_empty() { "0.0".into() } else { written }
 }
 
-/// The expression, in brackets if it is a sum or negative.
+/// Writes the expression, in brackets if it is a sum or negative.
 fn grouped(sum: &str) -> String {
     if sum.contains(' ') || sum.starts_with('-') { format!("({sum})") } else { sum.to_owned() }
 }

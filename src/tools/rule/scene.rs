@@ -1,4 +1,5 @@
-//! A rule as a scene: a race of its lines at three frame rates beside their motion at the author's.
+//! A rule as a scene, which is a race of the rule's lines at three frame rates beside their motion at the author's
+//! rate.
 
 use super::Rule;
 use crate::scene::{Scene, SceneErrors, own_table, tick_rate_line};
@@ -7,22 +8,22 @@ use crate::sim::law::{ExpressionFault, OwnLines, Remedy, RuleBody};
 use crate::sim::number::significant;
 use crate::sim::{check_own_id, own_method_id, own_rule};
 
-/// Frames of each lane per tick. A tick lasts two frames of the author, so the second lane runs at the author's rate, the
-/// first at half of it and the last at twice.
+/// Number of frames of each lane per tick. A tick lasts two frames of the author. So the second lane runs at the
+/// author's rate, the first one at half that rate and the last one at twice that rate.
 const SUBSTEPS: [u32; 3] = [1, 2, 4];
-/// Length of each of three starts: this many settling times, or this many swings if the rule never settles.
+/// Length of each of three starts, in settling times or, if the rule never settles, in swings.
 const SETTLINGS: f64 = 1.5;
 const SWINGS: f64 = 6.0;
 /// Shortest and longest length of a start, in seconds.
 const SHOWN_S: [f64; 2] = [2.0, 20.0];
-/// Kicks of half a metre that bring a follower from its target back to its start.
+/// Kick that brings a follower from its target back to its start, in kicks of half a metre.
 const KICK_BACK: f64 = -2.0;
 
-/// The scene of the rule in a file of this name, written for this many frames per second. It has the body that the rule
-/// moves like, and a race of the lines at half, once and twice that rate.
+/// Returns the scene of the rule in a file of this name, written for this many frames per second. The scene has the
+/// body that the rule moves like, and a race of the lines at half, once and twice that rate.
 ///
 /// # Errors
-/// The first fault of the lines, or the reason why no body of a scene moves like them.
+/// Fails with the first fault of the lines, or with the reason why no body of a scene moves like them.
 pub fn rule_scene(file: &str, text: &str, fps: TickRate) -> Result<Scene, SceneErrors> {
     let of_text = |fault| SceneErrors::of_step(file, text, fault);
     let stem = file.rsplit(['/', '\\']).next().unwrap_or(file);
@@ -79,8 +80,8 @@ pub fn rule_scene(file: &str, text: &str, fps: TickRate) -> Result<Scene, SceneE
     Scene::parse(&id, &text)
 }
 
-/// Writes the body as a table of a scene. It starts 1 m from its rest with the velocity `v0` (m/s); a coasting body starts
-/// at 1 m/s.
+/// Writes the body as a table of a scene. The body starts 1 m from its rest with the velocity `v0` (m/s); a coasting
+/// body starts at 1 m/s.
 fn body_table(id: &str, body: RuleBody, v0: f64) -> String {
     match body {
         RuleBody::Follower { rate } => format!(

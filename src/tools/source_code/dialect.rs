@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A language that methods are printed in.
+/// A language in which methods are printed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Language {
     /// Rust.
@@ -21,7 +21,7 @@ impl Language {
     pub const ALL: [Language; 4] =
         [Language::Rust, Language::C, Language::CSharp, Language::GdScript];
 
-    /// Id: one lower-case word.
+    /// Returns the language's id, which is one lower-case word.
     pub fn id(self) -> &'static str {
         match self {
             Language::Rust => "rust",
@@ -31,7 +31,7 @@ impl Language {
         }
     }
 
-    /// Name for people.
+    /// Returns the language's name for people.
     pub fn name(self) -> &'static str {
         match self {
             Language::Rust => "Rust",
@@ -41,7 +41,7 @@ impl Language {
         }
     }
 
-    /// The reason why it cannot compute in this precision, if it cannot.
+    /// Returns the reason why the language cannot compute in this precision, if it cannot.
     pub(super) fn refusal(self, precision: Precision) -> Option<&'static str> {
         (self == Language::GdScript && precision == Precision::Single)
             .then_some("its `float` has double precision always")
@@ -58,7 +58,7 @@ impl Language {
 }
 
 impl Dialect {
-    /// The type of a number.
+    /// Returns the type of a number.
     pub(super) fn type_in(&self, precision: Precision) -> &'static str {
         self.types[precision as usize]
     }
@@ -91,15 +91,15 @@ pub enum Precision {
 }
 
 /// A language's templates for statements. `NAME` and `VALUE` are placeholders, and `TYPE` is the type of a number.
-/// `SUFFIX` ends the name of a C function in this precision; `CAST` converts a `double` to it.
+/// `SUFFIX` ends the name of a C function in the chosen precision; `CAST` converts a `double` to that precision.
 pub(super) struct Dialect {
     pub(super) comment: &'static str,
     pub(super) indent: &'static str,
-    /// Type of a number in double and in single precision.
+    /// Types of a number in double and in single precision.
     pub(super) types: [&'static str; 2],
     /// Suffix of a number in single precision.
     pub(super) single_suffix: &'static str,
-    /// A whole number, converted to a number.
+    /// Template that converts a whole number to a number.
     pub(super) converted: &'static str,
     /// Type of a whole number.
     pub(super) whole: &'static str,
@@ -111,14 +111,14 @@ pub(super) struct Dialect {
     pub(super) if_block: &'static str,
     pub(super) else_block: &'static str,
     pub(super) while_block: &'static str,
-    /// Empty where indentation ends a block.
+    /// Line that ends a block; empty if indentation does this.
     pub(super) end: &'static str,
-    /// Ends a line whose expression continues on the next.
+    /// Text at the end of a line whose expression continues on the next line.
     pub(super) line_break: &'static str,
     pub(super) return_value: &'static str,
-    /// Value at the end of a function.
+    /// Template for the value at the end of a function.
     pub(super) last_value: &'static str,
-    /// Words spelt differently from the sources, each with its spelling.
+    /// Words that are spelt differently from the sources, each with its spelling.
     pub(super) words: &'static [(&'static str, &'static str)],
 }
 

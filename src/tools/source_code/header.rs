@@ -1,4 +1,4 @@
-//! The comment above a method's function: its description and its limits, from its card.
+//! The comment above a method's function, with the description and the limits of the method, from its card.
 
 use super::dialect::Language;
 use super::program::{MethodInput, Program};
@@ -10,7 +10,7 @@ const WIDTH: usize = 96;
 /// Shared functions that divide by slopes. With several coordinates, the slopes are matrices.
 const SOLVERS: [&str; 2] = ["slope", "solve"];
 
-/// The lines of the comment above a method's function.
+/// Returns the lines of the comment above a method's function.
 pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) -> Vec<String> {
     let claim = |id: &str, general: String| program.claim(id).map_or(general, Into::into);
     let (order, stability) =
@@ -61,7 +61,7 @@ pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) 
     paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
 }
 
-/// The lines of the comment above a rule's function.
+/// Returns the lines of the comment above a rule's function.
 pub(super) fn of_rule(about: &[String], program: &Program<'_>, language: Language) -> Vec<String> {
     let mut paragraphs = about.to_vec();
     paragraphs.push(String::new());
@@ -157,7 +157,7 @@ fn input(input: &MethodInput<'_>) -> String {
     }
 }
 
-/// A sentence on the form of the function's result.
+/// Returns a sentence on the form of the function's result.
 fn answer(language: Language, program: &Program<'_>) -> String {
     let takes_function = program.inputs.iter().any(|input| !input.arguments.is_empty());
     match language {

@@ -13,7 +13,7 @@ pub(super) struct Names<'a> {
     pub(super) whole: Vec<&'a str>,
     /// Inputs of the function.
     pub(super) inputs: &'a [MethodInput<'a>],
-    /// Functions that it can call.
+    /// Functions that the function can call.
     pub(super) functions: &'a [Function<'a>],
 }
 
@@ -32,13 +32,13 @@ pub(super) fn pascal(snake: &str) -> String {
 }
 
 impl Names<'_> {
-    /// Name of a number or an input.
+    /// Returns the name of a number or an input.
     pub(super) fn name(&self, name: &str) -> String {
         if self.language != Language::CSharp {
             return name.to_owned();
         }
         let pascal = pascal(name);
-        // Constants are in capitals in the source, and in Pascal case here.
+        // Constants are in capitals in the source, but in Pascal case here.
         if name.chars().any(|c| c.is_ascii_lowercase()) {
             let (first, rest) = pascal.split_at(pascal.len().min(1));
             return first.to_lowercase() + rest;
@@ -46,7 +46,7 @@ impl Names<'_> {
         pascal
     }
 
-    /// The function's name, prefixed with the method's id so that several methods fit in one file.
+    /// Returns the function's name, prefixed with the method's id so that several methods fit in one file.
     pub(super) fn function(&self, name: &str) -> String {
         match self.language {
             Language::CSharp => pascal(name),
@@ -66,7 +66,7 @@ impl Names<'_> {
 
     fn translate(&self, text: &str, converts: bool) -> String {
         let mut written = String::with_capacity(text.len());
-        // For each open parenthesis, whether its last argument is C's `user`.
+        // This stack records for each open parenthesis whether its last argument is C's `user`.
         let mut takes_user = Vec::new();
         let mut calls_with_user = false;
         let mut rest = text;
@@ -114,7 +114,7 @@ impl Names<'_> {
         self.language == Language::C && is_given
     }
 
-    /// The number `token` or, in single precision, its alternative at the start of `after`; and the text that
+    /// Returns the number `token` or, in single precision, its alternative at the start of `after`, and the text that
     /// follows.
     fn number<'t>(&self, token: &'t str, after: &'t str) -> (String, &'t str) {
         let (double, (single, after)) = match after.strip_prefix('|') {
@@ -157,7 +157,7 @@ impl Names<'_> {
     }
 }
 
-/// Index of the end of the number that begins `text`.
+/// Returns the index of the end of the number that begins `text`.
 fn number_end(text: &str) -> usize {
     let mut before = '0';
     let is_end = |c: char| {

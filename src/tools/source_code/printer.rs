@@ -4,7 +4,7 @@ use super::dialect::{Dialect, Language, Precision};
 use super::names::{Names, pascal, takes_function};
 use super::program::{Function, Line, MethodInput, Program, whole_numbers};
 
-/// Longest line that is not broken at its commas.
+/// Maximum length of a line, in characters. A longer line is broken at its commas.
 const LINE_CHARS: usize = 100;
 
 /// Prints the program of the method `id` below its header.
@@ -41,7 +41,7 @@ impl Printer<'_> {
         self.dialect().type_in(self.precision)
     }
 
-    /// Names inside a function with these inputs.
+    /// Returns the names inside a function with these inputs.
     fn names<'a>(&'a self, inputs: &'a [MethodInput<'a>], body: &'a [Line<'a>]) -> Names<'a> {
         let Self { id, language, precision, .. } = *self;
         let whole = whole_numbers(inputs, body);
@@ -146,7 +146,7 @@ impl Printer<'_> {
     /// Prints the function of the step.
     fn print_step(&mut self, snake: &str, pascal: &str) {
         let program = self.program;
-        // Marks unused parameters, so that compilers do not warn of them.
+        // Unused parameters are marked, so that compilers do not warn of them.
         let v = if program.reads("v") || !program.replaces("v") { "" } else { "_" };
         let h = if program.reads("h") { "" } else { "_" };
         let number = self.number_type();
@@ -206,7 +206,7 @@ impl Printer<'_> {
         self.print_end();
     }
 
-    /// Parameters of a function with these inputs.
+    /// Returns the parameters of a function with these inputs.
     fn parameters(&self, inputs: &[MethodInput<'_>]) -> Vec<String> {
         let names = self.names(inputs, &[]);
         let number = self.number_type();
@@ -235,7 +235,7 @@ impl Printer<'_> {
         parameters
     }
 
-    /// Prints the head of a function, with each parameter on a line of its own if they are too long for one.
+    /// Prints the head of a function. If the parameters are too long for one line, each has a line of its own.
     fn signature(&mut self, open: &str, parameters: &[String], close: &str) {
         let whole = format!("{open}{}{close}", parameters.join(", "));
         let dialect = self.dialect();
@@ -246,7 +246,7 @@ impl Printer<'_> {
             self.depth += 1;
             for (n, parameter) in parameters.iter().enumerate() {
                 let is_last = n + 1 == parameters.len();
-                // Only Rust allows a comma after the last.
+                // Only Rust allows a comma after the last parameter.
                 let comma = if is_last && self.language != Language::Rust { "" } else { "," };
                 self.push_lines(&[&format!("{parameter}{comma}")]);
             }
@@ -317,7 +317,7 @@ impl Printer<'_> {
         }
     }
 
-    /// Ends the step: without a result if it fails, else with the present x and v.
+    /// Ends the step early, without a result if it fails, and otherwise with the present x and v.
     fn end_early(&mut self, fails: bool) {
         let number = self.number_type();
         let lines: &[&str] = match (self.language, fails) {

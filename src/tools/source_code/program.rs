@@ -5,13 +5,13 @@ use super::dialect::Language;
 /// An input of the function besides `x`, `v` and `h`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MethodInput<'a> {
-    /// Its name.
+    /// Name of the input.
     pub name: &'a str,
-    /// Arguments of a function; empty for a number.
+    /// Arguments of the input if it is a function; empty for a number.
     pub arguments: Vec<&'a str>,
-    /// Whether it is a whole number.
+    /// Whether the input is a whole number.
     pub is_whole: bool,
-    /// Description: a phrase in lower case.
+    /// Description of the input, as a phrase in lower case.
     pub about: &'a str,
 }
 
@@ -19,7 +19,7 @@ pub struct MethodInput<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StateVariable<'a> {
     pub(super) name: &'a str,
-    /// Its value before the first step.
+    /// Value before the first step.
     pub(super) start: &'a str,
 }
 
@@ -54,7 +54,7 @@ pub(super) enum Line<'a> {
         name: &'a str,
         value: String,
     },
-    /// With its operator: `x += h * v`.
+    /// An assignment with its operator: `x += h * v`.
     Assignment(String),
     If(String),
     Else,
@@ -66,7 +66,7 @@ pub(super) enum Line<'a> {
 }
 
 impl Line<'_> {
-    /// Whether it changes `name`.
+    /// Whether the line changes `name`.
     fn assigns(&self, name: &str) -> bool {
         matches!(self, Line::Assignment(text) if text.split(' ').next() == Some(name))
     }
@@ -75,11 +75,11 @@ impl Line<'_> {
 /// The parsed source of a method.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Program<'a> {
-    /// Comments at its head.
+    /// Comments at the head of the source.
     pub(super) notes: Vec<&'a str>,
     /// Words of the source that replace the card's sentence on a [claim](CLAIMS) in the header.
     claims: Vec<(&'a str, &'a str)>,
-    /// Ids of languages without the function, empty for all, each with the reason.
+    /// Languages without the function, by their ids, each with the reason. An empty id stands for all languages.
     refusals: Vec<(&'a str, &'a str)>,
     pub(super) inputs: Vec<MethodInput<'a>>,
     pub(super) memory: Vec<StateVariable<'a>>,
@@ -87,8 +87,8 @@ pub(super) struct Program<'a> {
     pub(super) body: Vec<Line<'a>>,
 }
 
-/// Parts of the header that a source can word itself: claims of the card, use on several coordinates, and the moment
-/// at which it holds a time-dependent force.
+/// Parts of the header that a source can word itself. They are claims of the card, use on several coordinates, and the
+/// moment at which the method holds a time-dependent force.
 const CLAIMS: [&str; 5] = ["order", "stability", "symplectic", "several", "held"];
 
 /// Functions that several methods share.
@@ -103,7 +103,7 @@ impl<'a> Program<'a> {
     /// Reads a source.
     ///
     /// # Panics
-    /// If it is malformed: sources are the package's own, and the tests read all of them.
+    /// If the source is malformed. Sources are the package's own, and the tests read all of them.
     pub(super) fn read(text: &'a str) -> Self {
         let mut program = Self::default();
         let mut lines = text.lines().peekable();
@@ -148,7 +148,8 @@ impl<'a> Program<'a> {
                 "#" => comments.push(rest),
                 "" => {}
                 _ => {
-                    // The first statement of the step: everything from here on is the step, with the comments above.
+                    // This is the first statement of the step. Everything from here on is the step, with the comments
+                    // above.
                     let above = comments.drain(..).map(Line::Comment);
                     program.body = above.collect();
                     program.body.extend(statements(std::iter::once(line).chain(lines)));
@@ -201,17 +202,17 @@ impl<'a> Program<'a> {
         })
     }
 
-    /// The source's own words for this claim of the card, if it has any.
+    /// Returns the source's own words for this claim of the card, if there are any.
     pub(super) fn claim(&self, claim: &str) -> Option<&'a str> {
         self.claims.iter().find(|(known, _)| *known == claim).map(|(_, words)| *words)
     }
 
-    /// Whether it has an input with this name.
+    /// Whether the function has an input with this name.
     pub(super) fn takes(&self, name: &str) -> bool {
         self.inputs.iter().any(|input| input.name == name)
     }
 
-    /// The reason why this language has no function, if it has none.
+    /// Returns the reason why this language has no function, if it has none.
     pub(super) fn refusal(&self, language: Language) -> Option<&'a str> {
         let mut refusals = self.refusals.iter();
         let of_it = refusals.find(|(id, _)| id.is_empty() || *id == language.id());
@@ -219,7 +220,7 @@ impl<'a> Program<'a> {
     }
 }
 
-/// Names of the whole numbers: inputs, and counters declared in `body`.
+/// Returns the names of the whole numbers, which are inputs, and counters declared in `body`.
 pub(super) fn whole_numbers<'a>(inputs: &[MethodInput<'a>], body: &[Line<'a>]) -> Vec<&'a str> {
     let of_input = |input: &MethodInput<'a>| input.is_whole.then_some(input.name);
     let of_line = |line: &Line<'a>| match line {
@@ -251,7 +252,7 @@ fn inputs<'a>(mut text: &'a str, about: &'a str) -> Vec<MethodInput<'a>> {
     inputs
 }
 
-/// Reads statements. A line that begins with an operator continues the one before.
+/// Reads statements. A line that begins with an operator continues the line before.
 fn statements<'a>(lines: impl Iterator<Item = &'a str>) -> Vec<Line<'a>> {
     let mut lines = lines.map(str::trim).peekable();
     let mut read = Vec::new();
@@ -271,7 +272,7 @@ fn continues(line: &str) -> bool {
     ["+", "-", "*", "/", "and", "or"].contains(&word)
 }
 
-/// Reads the statement whose first line is `first`; `rest` continues it.
+/// Reads the statement whose first line is `first`; `rest` continues that line.
 fn statement<'a>(first: &'a str, rest: &str) -> Line<'a> {
     let (word, after) = first.split_once(' ').unwrap_or((first, ""));
     let named = || {

@@ -7,7 +7,7 @@ use super::axis::{AxisMark, AxisScale};
 /// Lowest and highest value along each axis of a plane.
 pub(in crate::view) type Bounds = [[f64; 2]; 2];
 
-/// How far outside the plot a point may be drawn, in widths or heights of the plot.
+/// Distance outside the plot at which a point may still be drawn, in widths or heights of the plot.
 const FAR_OUTSIDE: f64 = 10.0;
 
 /// A rectangle of the screen that shows a rectangle of a plane.
@@ -18,13 +18,13 @@ pub(in crate::view) struct PlotArea {
 }
 
 impl PlotArea {
-    /// Screen position of a point of the plane. A point far outside is drawn nearer: still far enough out for a line
-    /// to leave at its own slope, and near enough for the painter's f32.
+    /// Returns the screen position of a point of the plane. A point far outside moves nearer, so that the painter's f32
+    /// can represent it. It stays far enough out for a line to leave the plot at its own slope.
     pub(in crate::view) fn at(&self, [x, y]: [f64; 2]) -> Pos2 {
         pos2(self.rect.left() + self.part(0, x) * self.rect.width(), self.height(y))
     }
 
-    /// Screen y of a value on the vertical axis.
+    /// Returns the screen y of a value on the vertical axis.
     pub(in crate::view) fn height(&self, y: f64) -> f32 {
         self.rect.bottom() - self.part(1, y) * self.rect.height()
     }
@@ -34,7 +34,7 @@ impl PlotArea {
         ((value - low) * (1.0 / (high - low))).clamp(-FAR_OUTSIDE, 1.0 + FAR_OUTSIDE) as f32
     }
 
-    /// Screen lengths of a difference between two points: to the right and up.
+    /// Returns the screen lengths, to the right and up, of a difference between two points of the plane.
     pub(in crate::view) fn lengths(&self, difference: [f64; 2]) -> [f64; 2] {
         let size = [self.rect.width(), self.rect.height()].map(f64::from);
         std::array::from_fn(|axis| {
@@ -43,7 +43,7 @@ impl PlotArea {
         })
     }
 
-    /// The point of the plane at a screen position, which is clamped to the rectangle.
+    /// Returns the point of the plane at a screen position, after moving that position into the rectangle.
     pub(in crate::view) fn point(&self, at: Pos2) -> [f64; 2] {
         let at = self.rect.clamp(at);
         let parts = [
@@ -56,8 +56,8 @@ impl PlotArea {
         })
     }
 
-    /// Round marks along an axis of this scale, at least `apart` points from each other unless fewer than three would
-    /// fit.
+    /// Returns the round marks along an axis of this scale. They lie at least `apart` points from each other, unless
+    /// fewer than three would then fit.
     pub(in crate::view) fn marks(
         &self,
         axis: usize,

@@ -1,26 +1,26 @@
-//! Axis scales and their marks. Marks lie at round values, at least three of them wherever they fit.
+//! Axis scales and the marks of axes. Marks lie at round values, and an axis has at least three if they fit.
 
 use crate::stage::number::{grouped, round, superscript};
 
 /// Spacing of values along an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AxisScale {
-    /// Evenly.
+    /// Spaced evenly.
     Linear,
-    /// By their decimal logarithm.
+    /// Spaced by their decimal logarithm.
     Log,
-    /// By sign and logarithm, roughly evenly within this distance of zero.
+    /// Spaced by sign and logarithm, but roughly evenly within this distance of zero.
     SymLog(f64),
 }
 
-/// Place of a mark along its axis, and its number as text.
+/// Place of a mark along its axis, and the mark's number as text.
 pub(in crate::view) type AxisMark = (f64, String);
 
-/// Minimum number of marks on an axis: two do not show whether it is linear.
+/// Minimum number of marks on an axis, because two marks do not show whether an axis is linear.
 const MIN_MARKS: usize = 3;
 /// Maximum number of significant digits of a mark.
 const MAX_DIGITS: usize = 15;
-/// Range of numbers that a linear axis writes out. Others get a power of ten.
+/// Range of numbers that a linear axis writes out. It writes other numbers with a power of ten.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e6;
 /// Exponents of the powers of ten that a logarithmic axis writes out.
 const PLAIN_POWERS: std::ops::RangeInclusive<i32> = -3..=5;
@@ -33,11 +33,11 @@ const DIGITS: [&[f64]; 5] = [
     &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0],
     &[1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0],
 ];
-/// Factor by which marks may move closer together if too few fit otherwise.
+/// Factor by which the minimum distance of marks may shrink if too few marks fit otherwise.
 const NEARER: f64 = 0.6;
 
 impl AxisScale {
-    /// Place of a value along the axis.
+    /// Returns the place of a value along the axis.
     pub(in crate::view) fn place(self, value: f64) -> f64 {
         match self {
             Self::Linear => value,
@@ -46,7 +46,7 @@ impl AxisScale {
         }
     }
 
-    /// The value at a place.
+    /// Returns the value at a place of the axis.
     pub(in crate::view) fn value(self, place: f64) -> f64 {
         match self {
             Self::Linear => place,
@@ -57,8 +57,8 @@ impl AxisScale {
         }
     }
 
-    /// The marks between two places that lie `room` screen points apart: as many as fit at least `apart` points from
-    /// each other, but at least three.
+    /// Returns the marks between two places that lie `room` screen points apart. As many marks fit as have `apart`
+    /// points between them, but at least three.
     pub(in crate::view) fn marks(self, range: [f64; 2], room: f32, apart: f64) -> Vec<AxisMark> {
         let apart = apart * (range[1] - range[0]) / f64::from(room.max(1.0));
         match self {
@@ -69,7 +69,7 @@ impl AxisScale {
         .unwrap_or_else(|| self.distinct(range, apart))
     }
 
-    /// Evenly spaced marks, with just enough digits to differ from each other.
+    /// Returns evenly spaced marks, with just enough digits to differ from each other.
     fn distinct(self, range: [f64; 2], apart: f64) -> Vec<AxisMark> {
         let (places, _) = multiples(range, apart);
         let texts = |digits: usize| -> Vec<AxisMark> {
@@ -79,7 +79,7 @@ impl AxisScale {
         (3..MAX_DIGITS).map(texts).find(differ).unwrap_or_else(|| texts(MAX_DIGITS))
     }
 
-    /// Zero, and powers of ten on both sides of it.
+    /// Returns zero, and powers of ten on both sides of zero.
     fn symmetric(self, linear: f64, [low, high]: [f64; 2], apart: f64) -> Option<Vec<AxisMark>> {
         let first = libm::ceil(libm::log10(linear)) as i32;
         let last = first + libm::ceil(low.abs().max(high.abs())) as i32;
@@ -100,12 +100,12 @@ impl AxisScale {
     }
 }
 
-/// Multiples of 1, 2 or 5 times a power of ten, and their step. They lie at least `apart` from each other unless that
-/// leaves fewer than [`MIN_MARKS`].
+/// Returns the multiples of a step within a range, and the step, which is 1, 2 or 5 times a power of ten. The multiples
+/// lie at least `apart` from each other, unless that leaves fewer than [`MIN_MARKS`].
 fn multiples([low, high]: [f64; 2], apart: f64) -> (Vec<f64>, f64) {
     let mut decade = libm::ceil(libm::log10(apart)) as i32 + 1;
     let mut found = (Vec::new(), apart);
-    // From coarse to fine: the last step that is coarse enough, or the first with enough marks.
+    // Steps from coarse to fine. The result is the last step of at least `apart`, or the first one with enough marks.
     loop {
         for digit in [5.0, 2.0, 1.0] {
             let step = digit * libm::pow(10.0, f64::from(decade));
@@ -121,7 +121,7 @@ fn multiples([low, high]: [f64; 2], apart: f64) -> (Vec<f64>, f64) {
     }
 }
 
-/// Marks at multiples of a round step, with as many digits as the step has.
+/// Returns marks at multiples of a round step, with as many digits as the step has.
 fn linear(range: [f64; 2], apart: f64) -> Option<Vec<AxisMark>> {
     let (places, step) = multiples(range, apart);
     let decade = |x: f64| libm::floor(libm::log10(x) + 1e-9) as i32;
@@ -142,8 +142,8 @@ fn linear(range: [f64; 2], apart: f64) -> Option<Vec<AxisMark>> {
     Some(places.into_iter().map(|place| (place, text(place))).collect())
 }
 
-/// Marks at powers of ten: fewer where they crowd, and more in between where there is room. `None` if that gives
-/// fewer than [`MIN_MARKS`] or only crowded ones.
+/// Returns marks at powers of ten: fewer marks if they crowd, and more of them in between if there is room. Returns
+/// `None` if fewer than [`MIN_MARKS`] fit, or only crowded marks.
 fn logarithmic([low, high]: [f64; 2], apart: f64) -> Option<Vec<AxisMark>> {
     let powers = |step: i64| -> Vec<(f64, i32)> {
         let [first, last] =
@@ -180,7 +180,7 @@ fn place_of((digit, exponent): &(f64, i32)) -> f64 {
     libm::log10(*digit) + f64::from(*exponent)
 }
 
-/// Text of `digit · 10^exponent`. A number that is written out has its thousands grouped.
+/// Returns the text of `digit · 10^exponent`. The thousands of a number that is written out are grouped.
 fn power(digit: f64, exponent: i32, is_written_out: bool) -> String {
     if !is_written_out {
         let factor = if digit == 1.0 { String::new() } else { format!("{digit}·") };
@@ -200,7 +200,7 @@ mod tests {
         scale.marks(range, room, apart).into_iter().map(|(_, text)| text).collect()
     }
 
-    /// Texts of the marks on a logarithmic axis between two values.
+    /// Returns the texts of the marks on a logarithmic axis between two values.
     fn decades(range: [f64; 2], room: f32, apart: f64) -> Vec<String> {
         texts(AxisScale::Log, range.map(libm::log10), room, apart)
     }

@@ -1,6 +1,6 @@
-//! Bands for curves too crowded to draw as a line. Like an oscilloscope, they fill each column of pixels from the
-//! curve's least to its greatest value. A line through few samples of a fast swing would beat against pixels and
-//! samples.
+//! Bands for curves that are too crowded to draw as a line. Like an oscilloscope, a band fills each column of pixels
+//! from the curve's least to its greatest value. A line through few samples of a fast swing would beat against pixels
+//! and samples.
 
 use std::ops::Range;
 
@@ -11,25 +11,26 @@ use crate::view::lines::{Joint, visible_runs};
 
 /// Opacity of a band between its edges.
 const FILL: f32 = 0.35;
-/// Width of the edges, in points.
+/// Width of the edges of a band, in points.
 const EDGE: f32 = 1.0;
 
-/// A column also spans this many points of the curve on either side. Among twice as many, some lie near the peaks of
-/// a swing, wherever the samples fall on it.
+/// Number of the curve's points on either side of a column that the column also spans. Among twice this number, some
+/// points lie near the peaks of a swing, at any phase of the samples.
 const NEIGHBOURS: f32 = 8.0;
 
-/// Least and greatest y of a curve in a column; `None` if the curve does not pass there.
+/// Least and greatest y of a curve in a column, or `None` if the curve does not pass through the column.
 type Span = Option<(f32, f32)>;
 
-/// A band without a gap, in columns of equal width, with the y of both edges in each.
+/// A band without a gap. It has columns of equal width, and the y of both edges in each column.
 pub(super) struct Band {
     left: f32,
     step: f32,
     heights: Vec<[f32; 2]>,
 }
 
-/// Bands of a curve of this width through `points`, which never go back. They cover the `seen` rectangle in columns
-/// `step` points wide. `swept` holds the heights that the curve reaches on the way to each point, where known.
+/// Returns the bands of a curve of this width. The x of `points` never decreases. The bands cover the `seen` rectangle
+/// in columns `step` points wide. `swept` holds the heights that the curve reaches on the way to each point, or nothing
+/// if they are unknown.
 pub(super) fn of(
     points: &[Pos2],
     swept: &[[f32; 2]],
@@ -52,12 +53,12 @@ pub(super) fn of(
 }
 
 impl Band {
-    /// Left edge of each column, with the band's extent there.
+    /// Returns the left edge of each column, and the y of both edges of the band there.
     fn columns(&self) -> impl DoubleEndedIterator<Item = (f32, [f32; 2])> {
         (0..self.heights.len()).map(|i| (self.left + self.step * i as f32, self.heights[i]))
     }
 
-    /// The area between the edges.
+    /// Returns the filled area between the edges.
     pub(super) fn fill(&self, colour: Color32) -> Mesh {
         let mut fill = Mesh::default();
         for (x, heights) in self.columns() {
@@ -72,17 +73,17 @@ impl Band {
         fill
     }
 
-    /// Points of one of the two edges.
+    /// Returns the points of the upper (0) or the lower (1) edge.
     fn edge(&self, i: usize) -> impl DoubleEndedIterator<Item = Pos2> {
         self.columns().map(move |(x, heights)| pos2(x + self.step / 2.0, heights[i]))
     }
 
-    /// Corners of the area between the edges, and its colour.
+    /// Returns the corners of the area between the edges, and the colour of the area.
     pub(super) fn outline(&self, colour: Color32) -> (Vec<Pos2>, Color32) {
         (self.edge(0).chain(self.edge(1).rev()).collect(), colour.gamma_multiply(FILL))
     }
 
-    /// Visible parts of both edges in a window.
+    /// Returns the parts of both edges that are visible in a window.
     pub(super) fn edges(&self, colour: Color32, window: Rect) -> Vec<Vec<Joint>> {
         let joint = |at: Pos2| Joint { at, radius: EDGE / 2.0, colour };
         let edge = |i: usize| visible_runs(self.edge(i).map(joint), window.expand(EDGE));
@@ -98,8 +99,8 @@ struct Columns {
 }
 
 impl Columns {
-    /// Extent in each column of the line through `points` and of the heights `swept` between them. The line breaks
-    /// off at a point that is not finite.
+    /// Returns the extent in each column of the line through `points`, and of the heights `swept` between the points.
+    /// The line breaks off at a point that is not finite.
     fn spans(&self, points: &[Pos2], swept: &[[f32; 2]]) -> Vec<Span> {
         let mut spans = vec![None; self.count];
         for (i, &to) in points.iter().enumerate() {
@@ -142,7 +143,7 @@ impl Columns {
         }
     }
 
-    /// Average number of columns between neighbouring points.
+    /// Returns the average number of columns between neighbouring points.
     fn columns_between_points(&self, points: &[Pos2]) -> f32 {
         let mut finite = points.iter().filter(|point| point.is_finite());
         let Some((first, last)) = finite.next().zip(finite.next_back()) else { return 0.0 };
@@ -150,8 +151,8 @@ impl Columns {
     }
 }
 
-/// Widens each span by its neighbours within [`NEIGHBOURS`] points, which lie `apart` columns from each other. A gap
-/// stays a gap, and no span widens across it.
+/// Widens each span to include the spans within [`NEIGHBOURS`] points of the curve, which lie `apart` columns from each
+/// other. A gap stays a gap, and no span widens across it.
 fn widened(spans: &[Span], apart: f32) -> Vec<Span> {
     let reach = (NEIGHBOURS * apart).ceil() as usize;
     let mut widened = spans.to_vec();
@@ -169,7 +170,7 @@ fn widened(spans: &[Span], apart: f32) -> Vec<Span> {
     widened
 }
 
-/// Ranges of columns without a gap.
+/// Returns the ranges of columns without a gap.
 fn stretches(spans: &[Span]) -> Vec<Range<usize>> {
     let mut stretches: Vec<Range<usize>> = Vec::new();
     for (column, _) in spans.iter().enumerate().filter(|(_, span)| span.is_some()) {
@@ -193,7 +194,7 @@ mod tests {
 
     #[test]
     fn a_column_spans_the_part_of_the_line_in_it() {
-        // Up and down within one column, then a slope over two more.
+        // The curve goes up and down within one column, then along a slope over two more.
         let found = spans(&[[10.1, 0.0], [10.2, 4.0], [10.3, -2.0], [10.5, 0.0], [11.5, 2.0]]);
         assert_eq!(found[0], Some((-2.0, 4.0)));
         assert_eq!(found[1], Some((0.0, 1.0)));
@@ -244,7 +245,7 @@ mod tests {
     fn a_band_is_widened_by_its_neighbours_up_to_its_gaps() {
         let at = |y: f32| Some((y, y));
         let row = [at(1.0), at(5.0), at(2.0), None, at(9.0), at(3.0)];
-        // At an eighth of a column apart, a span widens by one column on either side.
+        // A span widens by one column on either side if points lie an eighth of a column apart.
         let first = [Some((1.0, 5.0)), Some((1.0, 5.0)), Some((2.0, 5.0))];
         let second = [Some((3.0, 9.0)); 2];
         assert_eq!(widened(&row, 0.125), [&first[..], &[None], &second].concat());

@@ -1,7 +1,7 @@
 //! The curves of a plot.
 //!
-//! A shape for every piece of a dash between two samples, visible or not, would cost a hundred thousand triangles for
-//! a race. Most of them would be smaller than a pixel. Here a straight piece costs two triangles.
+//! A shape for every piece of a dash between two samples, visible or not, would cost a hundred thousand triangles for a
+//! race. Most of these triangles would be smaller than a pixel. Here a straight piece costs two triangles.
 
 use std::sync::Arc;
 
@@ -17,15 +17,15 @@ use crate::view::strokes::StrokeMesh;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::view) struct LineStyle {
     pub(in crate::view) colour: Color32,
-    /// In points.
+    /// Width of the line, in points.
     pub(in crate::view) width: f32,
-    /// Drawn length and gap in points; a gap of 0 is solid.
+    /// Length of a dash and of the gap after it, in points. A line with a gap of 0 is solid.
     pub(in crate::view) dash: [f32; 2],
     pub(in crate::view) dots: Dots,
 }
 
 impl LineStyle {
-    /// A line without gaps or dots.
+    /// Creates a line without gaps or dots.
     pub(in crate::view) fn solid(colour: Color32, width: f32) -> Self {
         Self { colour, width, dash: [1.0, 0.0], dots: Dots::None }
     }
@@ -36,7 +36,7 @@ impl LineStyle {
 pub(in crate::view) struct Curve {
     pub(in crate::view) style: LineStyle,
     pub(in crate::view) points: Vec<[f64; 2]>,
-    /// Lowest and highest value on the way to each point from the one before. Empty if only the points are known.
+    /// Lowest and highest value on the way from the previous point to each point. Empty if only the points are known.
     pub(in crate::view) swept: Vec<[f64; 2]>,
 }
 
@@ -45,12 +45,12 @@ pub(in crate::view) struct Curve {
 pub(in crate::view) struct ScreenCurve {
     pub(in crate::view) style: LineStyle,
     pub(in crate::view) points: Vec<Pos2>,
-    /// Least and greatest y on the way to each point from the one before. Empty if only the points are known.
+    /// Least and greatest y on the way from the previous point to each point. Empty if only the points are known.
     pub(in crate::view) swept: Vec<[f32; 2]>,
 }
 
 impl Curve {
-    /// A curve of which only the points are known.
+    /// Creates a curve of which only the points are known.
     pub(in crate::view) fn new(style: LineStyle, points: Vec<[f64; 2]>) -> Self {
         Self { style, points, swept: Vec::new() }
     }
@@ -66,60 +66,61 @@ impl Curve {
 }
 
 impl ScreenCurve {
-    /// A curve of which only the points are known.
+    /// Creates a curve of which only the points are known.
     pub(in crate::view) fn new(style: LineStyle, points: Vec<Pos2>) -> Self {
         Self { style, points, swept: Vec::new() }
     }
 }
 
-/// Points of a curve that get a dot.
+/// The points of a curve that have a dot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::view) enum Dots {
     None,
-    /// Every point, with a dot of this radius in points.
+    /// Every point has a dot of this radius, in points.
     Each(f32),
-    /// Points further than [`SPARSE`] from a neighbour along the x axis, because the straight line between them is
-    /// not motion.
+    /// A point has a dot if it is further than [`SPARSE`] from a neighbour along the x axis. The straight line between
+    /// two such points is not motion.
     SparseAlongX,
-    /// Points further than [`SPARSE`] from a neighbour.
+    /// A point has a dot if it is further than [`SPARSE`] from a neighbour.
     Sparse,
 }
 
-/// Minimum distance of points, in screen points, for a viewer to distinguish them.
+/// Minimum distance at which a viewer can distinguish two points, in screen points.
 const SPARSE: f32 = 3.0;
 /// Radius of the dots of sparse points, in screen points.
 const SAMPLE: f32 = 1.5;
 
-/// Coverage of its bounding box from which a curve is drawn solid, because its dashes would not be visible.
+/// A curve that covers more than this share of its bounding box is drawn solid, because its dashes would not be
+/// visible.
 const CROWDED: f32 = 0.5;
-/// Margin around that box, in points, for a curve that has only begun.
+/// Margin around the bounding box, in points, for a curve that has only begun.
 const BEGINNING: f32 = 8.0;
-/// Radius of an arrow and its distance from the edges of the plot, in points.
+/// Radius of an arrow, and distance of the arrow from the edges of the plot, in points.
 const ARROW: f32 = 5.0;
 const ARROW_INSET: f32 = 9.0;
 
-/// Turns per curve point, and per screen point, up to which a crowded curve is drawn as a line. With more turns the
-/// line would beat against the samples or the pixels.
+/// Maximum number of turns per point of a curve, and per screen point, for a crowded curve that is drawn as a line.
+/// With more turns the line would beat against the samples or the pixels.
 const MAX_TURNS: f32 = 0.25;
 const MAX_TURNS_PER_POINT: f32 = 0.5;
 
-/// Distance from the line through its points, in screen points, beyond which a stretch of a curve counts as hidden. A
-/// curve with a larger share of hidden stretches is not drawn as a line either, because the line would show a false
-/// swing.
+/// Maximum distance in screen points between a stretch of a curve and the line through the curve's points. A stretch
+/// further away counts as hidden. Then the maximum share of hidden stretches for a curve that is drawn as a line. With
+/// more of them, the line would show a false swing.
 const HIDDEN: f32 = 2.0;
 const MAX_HIDDEN: f32 = 1.0 / 16.0;
 
 /// Shapes that draw a curve.
 pub(super) enum CurveDrawing {
-    /// Visible parts of the line, and its dash.
+    /// The visible parts of the line, and the line's dash.
     Line(Vec<Vec<Joint>>, [f32; 2]),
     /// Bands in place of swings that are too narrow to resolve.
     Bands(Vec<Band>),
-    /// Dots alone: a crowded curve that goes back and forth has no band.
+    /// Only dots. A crowded curve that goes back and forth has no band.
     Scattered,
 }
 
-/// Chooses how to draw a curve within the `seen` rectangle. A band has columns `column` points wide.
+/// Chooses how to draw a curve within the `seen` rectangle. The columns of a band are `column` points wide.
 pub(super) fn choose_drawing(
     ScreenCurve { style, points, swept }: &ScreenCurve,
     (seen, column): (Rect, f32),
@@ -137,8 +138,9 @@ pub(super) fn choose_drawing(
     CurveDrawing::Line(runs, [drawn, if is_crowded { 0.0 } else { gap }])
 }
 
-/// Draws a curve within the painter's clip, as [`choose_drawing`] chooses. A line reaches the painter as a [`StrokeMesh`] for
-/// [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether the curve is more than its dots.
+/// Draws a curve within the painter's clip, as [`choose_drawing`] chooses. A line reaches the painter as a
+/// [`StrokeMesh`] for [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns `false` if the curve consists only
+/// of dots.
 pub(super) fn paint(painter: &Painter, curve: &ScreenCurve) -> bool {
     let colour = curve.style.colour;
     let (seen, px_per_point) = (painter.clip_rect(), painter.pixels_per_point());
@@ -160,7 +162,7 @@ pub(super) fn paint(painter: &Painter, curve: &ScreenCurve) -> bool {
     true
 }
 
-/// Whether swings are too narrow for their samples or for the screen.
+/// Whether a curve's swings are too narrow for its samples or for the screen.
 fn is_too_dense(points: &[Pos2]) -> bool {
     let turns = turn_share(points);
     let wide = points.first().zip(points.last()).map_or(0.0, |(from, to)| (to.x - from.x).abs());
@@ -177,7 +179,7 @@ fn hides_motion(points: &[Pos2], swept: &[[f32; 2]]) -> bool {
     hidden as f32 > MAX_HIDDEN * points.len() as f32
 }
 
-/// Share of the points at which a curve turns up or down.
+/// Returns the share of a curve's points at which it turns up or down.
 fn turn_share(points: &[Pos2]) -> f32 {
     let is_turn = |at: &&[Pos2]| (at[1].y - at[0].y) * (at[2].y - at[1].y) < 0.0;
     points.windows(3).filter(is_turn).count() as f32 / points.len().max(1) as f32
@@ -192,7 +194,7 @@ fn is_crowded(runs: &[Vec<Joint>], width: f32) -> bool {
     length * width > CROWDED * room.expand(BEGINNING).area()
 }
 
-/// Dots of a curve through these screen points, each with its radius.
+/// Returns the dots of a curve through these screen points, each with its radius.
 pub(super) fn dots(points: &[Pos2], dots: Dots) -> impl Iterator<Item = (Pos2, f32)> {
     let are_apart = move |a: Pos2, b: Pos2| match dots {
         Dots::SparseAlongX => (a.x - b.x).abs() >= SPARSE,
@@ -210,7 +212,7 @@ pub(super) fn dots(points: &[Pos2], dots: Dots) -> impl Iterator<Item = (Pos2, f
     })
 }
 
-/// Arrows where curves leave a plot. No two overlap.
+/// Arrows that mark where curves leave a plot. No two arrows overlap.
 pub(super) struct Arrows {
     frame: Rect,
     placed: Vec<Pos2>,
@@ -221,7 +223,8 @@ impl Arrows {
         Self { frame, placed: Vec::new() }
     }
 
-    /// Corners of an arrow for a curve that leaves the plot between two screen points; `None` if it does not leave.
+    /// Returns the corners of an arrow for a curve that leaves the plot between two screen points, or `None` if the
+    /// curve stays inside.
     pub(super) fn place(&mut self, ends: [Pos2; 2]) -> Option<[Pos2; 3]> {
         let (mut at, towards) = exit_arrow(self.frame, ends)?;
         while self.placed.iter().any(|other| other.distance(at) < 2.0 * ARROW) {
@@ -234,7 +237,7 @@ impl Arrows {
     }
 }
 
-/// Position and direction of the arrow for a curve that leaves `frame` between two points.
+/// Returns the position and direction of the arrow for a curve that leaves `frame` between two points.
 fn exit_arrow(frame: Rect, [from, to]: [Pos2; 2]) -> Option<(Pos2, Vec2)> {
     // The frame has no room for an arrow.
     if frame.size().min_elem() < 2.0 * ARROW_INSET {
@@ -248,7 +251,7 @@ fn exit_arrow(frame: Rect, [from, to]: [Pos2; 2]) -> Option<(Pos2, Vec2)> {
     ];
     let furthest = outwards.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
     let (_, towards) = furthest.filter(|&(inside, _)| inside < 0.0)?;
-    // Where the line crosses the edge.
+    // Computes where the line crosses the edge.
     let axis = usize::from(towards.x == 0.0);
     let edge = if towards[axis] < 0.0 { frame.min[axis] } else { frame.max[axis] };
     let part = (edge - from[axis]) / (to[axis] - from[axis]);

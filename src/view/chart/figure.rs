@@ -1,4 +1,4 @@
-//! Charts that fill a picture: a title, a legend, axes with units, curves, and a note below.
+//! Charts that fill a picture. A chart has a title, a legend, axes with units, curves, and a note below them.
 
 use egui::{
     Frame, Label, Margin, Rect, RichText, TextStyle, TextWrapMode, Ui, UiBuilder, WidgetText, pos2,
@@ -9,7 +9,7 @@ use super::{Arrow, AxisScale, Curve, Dots, Drawing, LineStyle, PlotArea, legend,
 use crate::look::palette::Rgba;
 use crate::view::theme::{colour, palette};
 
-/// A picture of one chart or several.
+/// A picture of one or more charts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Heading of the picture.
@@ -25,7 +25,7 @@ pub struct Figure {
 /// Curves over a pair of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// Distinguishes the chart from the figure's others; empty for a single chart.
+    /// Title that distinguishes the chart from the figure's others. It is empty for a single chart.
     pub title: String,
     /// Place of the names of the curves.
     pub legend: Legend,
@@ -38,9 +38,9 @@ pub struct Chart {
 /// Place of the names of a chart's curves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Legend {
-    /// Below the figure's title, once for all charts that have them.
+    /// The names are below the figure's title, once for all charts with this legend.
     Shared,
-    /// Below the chart's own title.
+    /// The names are below the chart's own title.
     Own,
 }
 
@@ -51,7 +51,7 @@ pub struct Axis {
     pub name: &'static str,
     /// Lowest and highest value in view.
     pub view: [f64; 2],
-    /// Scale of the axis. On a logarithmic one, all values in view must be above 0.
+    /// Scale of the axis. On a logarithmic axis, all values in view must be above 0.
     pub scale: AxisScale,
 }
 
@@ -62,11 +62,11 @@ pub struct FigureCurve {
     pub name: String,
     /// Colour of the line and its dots.
     pub colour: Rgba,
-    /// Drawn length and gap in points; a gap of 0 is solid.
+    /// Length of a dash and of the gap after it, in points. A line with a gap of 0 is solid.
     pub dash: [f32; 2],
-    /// Radius in points of a dot on each point; 0 for none.
+    /// Radius of the dot on each point, in points. It is 0 if the points have no dots.
     pub dots: f32,
-    /// Points, in values of the two axes.
+    /// Points of the curve, as values on the two axes.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -76,16 +76,17 @@ const NOTE: f32 = 19.6;
 /// Room between the charts of a figure, in points.
 const GAP: f32 = 22.0;
 
-/// Minimum distance between marks, horizontally and vertically, in points, as long as three fit.
+/// Minimum distance between marks, horizontally and vertically, in points. If fewer than three marks would fit, they
+/// move closer.
 const MARKS_APART: [f64; 2] = [44.0, 26.0];
 
 /// The width of a curve, in points.
 const CURVE: f32 = 1.6;
 
-/// Distance from an edge to the axes of a chart, in points.
+/// Distance from the left edge to the title, the axes and the note, in points.
 const INDENT: f32 = 58.0;
 
-/// Shows the figure in all of `ui`.
+/// Shows the figure in all the room of `ui`.
 pub(in crate::view) fn show(ui: &mut Ui, figure: &Figure) {
     let frame = Frame::new().fill(palette(ui).background).inner_margin(Margin {
         left: 12,
@@ -128,7 +129,7 @@ pub(in crate::view) fn show(ui: &mut Ui, figure: &Figure) {
     });
 }
 
-/// Rectangle of each chart.
+/// Returns the rectangle of each chart.
 fn places(figure: &Figure, room: Rect) -> impl Iterator<Item = Rect> {
     let (columns, charts) = (figure.columns.max(1), figure.charts.len());
     let rows = charts.div_ceil(columns);
@@ -173,7 +174,7 @@ fn show_chart(ui: &mut Ui, chart: &Chart, place: Rect) {
     paint(ui.painter(), &all);
 }
 
-/// The curve at its places in the chart, without points that are not finite there.
+/// Converts a curve to places on the chart's axes, and drops points that are not finite there.
 fn laid_out(curve: &FigureCurve, chart: &Chart) -> Curve {
     let [along, up] = [0, 1].map(|axis| chart.axes[axis].scale);
     let points = curve.points.iter().map(|&[x, y]| [along.place(x), up.place(y)]);
@@ -182,7 +183,7 @@ fn laid_out(curve: &FigureCurve, chart: &Chart) -> Curve {
     Curve::new(style, points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect())
 }
 
-/// Shows the legend of these curves in one row, or in columns if one row is too long.
+/// Shows the legend of these curves in one row, or in several columns if one row is too long.
 fn show_legend(ui: &mut Ui, curves: &[&FigureCurve]) {
     let entry = |curve: &&FigureCurve| legend::Entry {
         name: curve.name.clone(),

@@ -1,4 +1,4 @@
-//! Legends: the names of curves, each after a piece of its line.
+//! Legends, which name each curve after a piece of its line.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use egui::{Align2, Color32, FontId, Galley, Pos2, Response, Sense, Stroke, Ui, p
 use super::{Primitive, Text, paint, text_width};
 use crate::view::theme::{PanelPalette, palette, strong_font};
 
-/// Length of a line, gap after it, and gap between two entries, in points.
+/// Length of a piece of line, gap between a piece and the name, and gap between two entries, in points.
 const SWATCH: f32 = 26.0;
 const BEFORE_NAME: f32 = 6.0;
 pub(in crate::view) const BETWEEN: f32 = 13.0;
@@ -16,14 +16,14 @@ pub(in crate::view) const ROW: f32 = 15.0;
 /// The size of a name, in points.
 const SIZE: f32 = 12.0;
 
-/// A curve's name and its line.
+/// An entry of a legend: a curve's name and the style of its line.
 #[derive(Clone, Debug)]
 pub(in crate::view) struct Entry {
     pub(in crate::view) name: String,
     pub(in crate::view) colour: Color32,
-    /// Drawn length and gap in points; a gap of 0 is solid.
+    /// Length of a dash and of the gap after it, in points. A line with a gap of 0 is solid.
     pub(in crate::view) dash: [f32; 2],
-    /// Whether the name stands out.
+    /// Whether the name is emphasized.
     pub(in crate::view) is_front: bool,
 }
 
@@ -33,7 +33,7 @@ impl Entry {
         ui.painter().layout_no_wrap(self.name.clone(), font, palette(ui).text)
     }
 
-    /// Width of the entry, in points.
+    /// Returns the width of the entry, in points.
     pub(in crate::view) fn width(&self, ui: &Ui) -> f32 {
         SWATCH + BEFORE_NAME + self.words(ui).size().x
     }
@@ -47,7 +47,7 @@ impl Entry {
         response
     }
 
-    /// Lays out the line, from `from` to the right, and the name.
+    /// Lays out the piece of line, which begins at `from` and goes to the right, and the name.
     fn layout(&self, from: Pos2, palette: &PanelPalette) -> Vec<Primitive> {
         let at = from + vec2(SWATCH + BEFORE_NAME, 0.0);
         let colour = if self.is_front { palette.text } else { palette.dim };
@@ -58,7 +58,7 @@ impl Entry {
     }
 }
 
-/// Shows a legend in as many rows as it needs.
+/// Shows a legend in as many rows as its entries need.
 pub(in crate::view) fn show(ui: &mut Ui, entries: &[Entry]) -> Vec<Response> {
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = ROW;
@@ -67,13 +67,13 @@ pub(in crate::view) fn show(ui: &mut Ui, entries: &[Entry]) -> Vec<Response> {
     .inner
 }
 
-/// Shows a legend in the current row, each entry at least `width` points wide.
+/// Shows a legend in the current row. Each entry is at least `width` points wide.
 pub(in crate::view) fn show_here(ui: &mut Ui, entries: &[Entry], width: f32) -> Vec<Response> {
     ui.spacing_mut().item_spacing.x = BETWEEN;
     entries.iter().map(|entry| entry.show(ui, width)).collect()
 }
 
-/// A piece of a curve's line, from `from` to the right, as the plots draw it.
+/// Returns a piece of a curve's line as the plots draw it. It begins at `from` and goes to the right.
 pub(in crate::view) fn swatch(
     from: Pos2,
     length: f32,
@@ -91,7 +91,7 @@ pub(in crate::view) fn swatch(
     dashes
 }
 
-/// Lays out a legend in one row, with its lines at the height of `from`.
+/// Lays out a legend in one row. Its lines are at the height of `from`.
 pub(in crate::view) fn layout(
     entries: &[Entry],
     from: Pos2,

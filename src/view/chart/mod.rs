@@ -1,4 +1,5 @@
-//! Charts: curves over a pair of axes, laid out as [primitives](Primitive) for a panel to paint or a file to keep.
+//! Charts, which are curves over a pair of axes. They are laid out as [primitives](Primitive), which a panel can paint
+//! and a file can keep.
 
 use egui::{Align2, Color32, Pos2, Rect, Stroke, pos2, vec2};
 
@@ -26,55 +27,56 @@ const SCATTERED: f32 = 1.0;
 /// Font size of a number and of a name at an axis, in points.
 pub(super) const NUMBER: f32 = 11.5;
 pub(super) const NAME: f32 = 12.5;
-/// Heights in points: the line above a plot, the numbers below it, and the name of its horizontal axis.
+/// Heights in points of the line above a plot, the numbers below it, and the name of its horizontal axis.
 pub(super) const ABOVE: f32 = 19.0;
 pub(super) const NUMBERS: f32 = 17.0;
 pub(super) const NAMES: f32 = 16.0;
 /// Gap between the numbers of the vertical axis and the plot, in points.
 const BESIDE: f32 = 6.0;
 
-/// A lane leaving the plot: its last point inside and its first outside. Both are equal if the lane was never inside.
+/// Place where a lane leaves the plot: its last point inside and its first outside. Both points are equal if the lane
+/// was never inside.
 pub(super) struct Arrow {
     pub(super) from: [f64; 2],
     pub(super) to: [f64; 2],
     pub(super) colour: Color32,
 }
 
-/// A point at which another method took over, in that method's colour.
+/// A point at which another method took over the lane, in the colour of that method.
 pub(super) struct Switch {
     pub(super) at: [f64; 2],
     pub(super) colour: Color32,
 }
 
-/// Contents of a plot.
+/// The contents of a plot.
 #[derive(Default)]
 pub(super) struct Drawing {
-    /// Curves from bottom to top, with all their dots over them.
+    /// Curves from bottom to top. All their dots lie over them.
     pub(super) curves: Vec<Curve>,
-    /// Exact curves, drawn over the others and their dots.
+    /// Exact curves. They lie over the other curves and their dots.
     pub(super) truth: Vec<Curve>,
     pub(super) arrows: Vec<Arrow>,
     pub(super) switches: Vec<Switch>,
     pub(super) switch_mark: SwitchMark,
 }
 
-/// Mark of a switch.
+/// Mark at a switch of the method.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum SwitchMark {
-    /// A line across the plot, at its time.
+    /// A line across the plot at the time of the switch.
     #[default]
     Line,
-    /// A ring at its point.
+    /// A ring around the point of the switch.
     Ring,
 }
 
-/// Approximate width of text in this font size, in points.
+/// Returns the approximate width of text in this font size, in points.
 pub(super) fn text_width(words: &str, size: f32) -> f32 {
     0.6 * size * words.chars().count() as f32
 }
 
-/// An empty plot: a grid line at each mark with its number, if it has one, and the edge. No number extends beyond
-/// `right`.
+/// Returns an empty plot: its edge, and a grid line at each mark, with the mark's number if there is one. No number
+/// extends beyond `right`.
 pub(super) fn axes(
     area: &PlotArea,
     marks: [Vec<AxisMark>; 2],
@@ -84,7 +86,7 @@ pub(super) fn axes(
     plot(area, marks, &Drawing::default(), palette, right)
 }
 
-/// A plot with [its axes](axes) and contents.
+/// Returns a plot with [its axes](axes) and its contents.
 pub(super) fn plot(
     area: &PlotArea,
     marks: [Vec<AxisMark>; 2],
@@ -128,7 +130,8 @@ pub(super) fn plot(
     all
 }
 
-/// Names of the axes: the horizontal one below its numbers, the vertical one above the plot, from `left` on.
+/// Returns the names of the axes. The horizontal axis has its name below its numbers. The vertical axis has its name
+/// above the plot, beginning at `left`.
 pub(super) fn names<S: Into<String>>(
     area: &PlotArea,
     left: f32,
@@ -144,7 +147,7 @@ pub(super) fn names<S: Into<String>>(
     ]
 }
 
-/// Contents of a plot, cut off at its edges.
+/// Returns the contents of a plot, clipped at its edges.
 fn contents(area: &PlotArea, drawing: &Drawing) -> Primitive {
     let rect = area.rect;
     let switch = |Switch { at, colour }: &Switch| {
@@ -171,8 +174,8 @@ fn contents(area: &PlotArea, drawing: &Drawing) -> Primitive {
     Primitive::Clip(rect, all.collect())
 }
 
-/// The rectangle of a plot in a room. It leaves room for the lines above and below, and `left` points for the numbers
-/// of the vertical axis.
+/// Returns the rectangle of a plot within `room`. It leaves room for the lines above and below, `left` points for the
+/// numbers of the vertical axis, and `right` points.
 pub(super) fn inside(room: Rect, left: f32, right: f32) -> Rect {
     Rect::from_min_max(room.min + vec2(left, ABOVE), room.max - vec2(right, NUMBERS + NAMES))
 }

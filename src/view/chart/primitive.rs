@@ -1,4 +1,4 @@
-//! Primitives of a laid-out chart, in points, and their painting in a panel.
+//! Primitives of a laid-out chart, in points, and the code that paints them in a panel.
 
 use egui::epaint::PathStroke;
 use egui::text::{LayoutJob, TextFormat};
@@ -8,10 +8,10 @@ use super::SCATTERED;
 use super::curves::{self, Dots, ScreenCurve, dots};
 use crate::view::theme::strong_font;
 
-/// Gap between words and their tail, in points.
+/// Gap between the words of a text and their tail, in points.
 pub(super) const BEFORE_TAIL: f32 = 14.0;
 
-/// A part of a laid-out chart. Later ones lie over earlier ones.
+/// A part of a laid-out chart. Later parts lie over earlier ones.
 #[derive(Clone, Debug)]
 pub(in crate::view) enum Primitive {
     /// A filled rectangle.
@@ -26,7 +26,7 @@ pub(in crate::view) enum Primitive {
     /// A filled convex polygon.
     Polygon(Vec<Pos2>, Color32),
     Text(Text),
-    /// Curves, and over all of them their dots.
+    /// Curves. The dots of all of them lie over all the lines.
     Curves(Vec<ScreenCurve>),
     /// Primitives clipped to a rectangle.
     Clip(Rect, Vec<Primitive>),
@@ -36,22 +36,22 @@ pub(in crate::view) enum Primitive {
 #[derive(Clone, Debug)]
 pub(in crate::view) struct Text {
     pub(in crate::view) at: Pos2,
-    /// Part of the text that lies at `at`.
+    /// The part of the text that lies at `at`.
     pub(in crate::view) anchor: Align2,
     pub(in crate::view) words: String,
     pub(in crate::view) size: f32,
     pub(in crate::view) is_strong: bool,
     pub(in crate::view) colour: Color32,
-    /// Right limit of the text.
+    /// The x that the text must not exceed.
     pub(in crate::view) right: f32,
-    /// Maximum width of a line.
+    /// Maximum width of a line, in points.
     pub(in crate::view) wrap: f32,
-    /// More words after the text, in their own colour.
+    /// Further words after the text, in their own colour.
     pub(in crate::view) tail: Option<(String, Color32)>,
 }
 
 impl Text {
-    /// Text in one line of any length.
+    /// Creates a text in one line of any length.
     pub(in crate::view) fn new(
         at: Pos2,
         anchor: Align2,
@@ -64,7 +64,7 @@ impl Text {
         Self { at, anchor, words, size, is_strong: false, colour, right, wrap, tail: None }
     }
 
-    /// The same text in strong type.
+    /// Returns the same text in strong type.
     pub(in crate::view) fn strong(self) -> Self {
         Self { is_strong: true, ..self }
     }

@@ -7,13 +7,13 @@ use super::primitive::{BEFORE_TAIL, Text};
 use super::{Primitive, SCATTERED, text_width};
 use crate::view::lines::Joint;
 
-/// Height of a line of text, relative to the font size.
+/// Height of a line of text, relative to its font size.
 const LINE: f32 = 1.25;
 /// Distance from the top, the middle and the bottom of a line of text down to its baseline, relative to the font
 /// size.
 const BASELINE: [f32; 3] = [0.95, 0.35, -0.25];
 
-/// Writes a chart as an SVG file of this size in its own pixels.
+/// Writes a chart as an SVG file of this size in pixels of its own.
 pub(in crate::view) fn file([width, height]: [f32; 2], primitives: &[Primitive]) -> String {
     let mut svg = Svg { text: String::new(), clips: 0 };
     svg.line(&format!(
@@ -35,7 +35,7 @@ impl Svg {
         self.text.push('\n');
     }
 
-    /// Adds the part of a chart within `seen`.
+    /// Adds the part of a chart that lies within `seen`.
     fn add(&mut self, primitives: &[Primitive], seen: Rect) {
         for primitive in primitives {
             match primitive {
@@ -114,7 +114,7 @@ impl Svg {
         }
     }
 
-    /// Adds the line or the bands of a curve. Returns which of its points have a dot.
+    /// Adds the line or the bands of a curve. Returns which of the curve's points have a dot.
     fn curve(&mut self, curve: &ScreenCurve, seen: Rect) -> Dots {
         let style = curve.style;
         match choose_drawing(curve, (seen, 1.0)) {
@@ -152,7 +152,7 @@ impl Svg {
     }
 }
 
-/// Points in the syntax of an SVG attribute.
+/// Formats points in the syntax of an SVG attribute.
 fn listed(points: &[Pos2]) -> String {
     let points: Vec<_> = points.iter().map(|at| format!("{:.2},{:.2}", at.x, at.y)).collect();
     points.join(" ")
@@ -178,12 +178,12 @@ fn wrapped(Text { words, size, wrap, .. }: &Text) -> Vec<String> {
     lines
 }
 
-/// Attributes of a line without fill.
+/// Returns the SVG attributes of a line without fill.
 fn outline(stroke: Stroke) -> String {
     format!(r#"fill="none" stroke-width="{}" {}"#, stroke.width, paint("stroke", stroke.color))
 }
 
-/// The colour `attribute`, with its opacity.
+/// Returns the SVG attributes that set `attribute` to a colour with its opacity.
 fn paint(attribute: &str, colour: Color32) -> String {
     let [r, g, b, a] = colour.to_srgba_unmultiplied();
     let opacity = match a {

@@ -1,5 +1,5 @@
-//! Advice on the method for the scene at its tick rate: the answer so far, then a table of the findings on every
-//! method.
+//! Advice on the method for the scene at its tick rate: the recommendations so far, and below them a table of the
+//! findings on every method.
 
 use std::sync::Arc;
 
@@ -21,20 +21,20 @@ use crate::studio::{Command, RunCommand, Studio, ViewCommand};
 use crate::tools::source_code::{Language, Precision, function_code};
 use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
-/// Notes above the table: with room for evaluations in its cells, and without.
+/// Notes above the table, with and without room for evaluations in its cells.
 const CELLS: [&str; 2] = [
     "click a cell to use it: substeps per tick · force evaluations per second",
     "click a cell to use it: substeps per tick",
 ];
 /// Font size of the table, in points.
 const SMALL: f32 = 11.5;
-/// Height of a line, gap between two columns, and minimum width of a method's name, in points.
+/// Height of a line, gap between two columns, and minimum width of the column of method names, in points.
 const LINE: f32 = 20.0;
 const APART: f32 = 6.0;
 const MIN_NAME: f32 = 120.0;
-/// Share of the room below the answer that the code takes.
+/// Share of the height below the recommendations for the source code.
 const CODE_PART: f32 = 0.5;
-/// The width of a criterion's name before its answer, in points.
+/// Width of the names of the criteria beside their recommendations, in points.
 const CRITERION: f32 = 76.0;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
@@ -58,7 +58,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     table(ui, advice, whose, &best, commands);
 }
 
-/// The choice between all bodies and the selected one, if there are several.
+/// Shows the choice between all bodies and the selected one, if the scene has several bodies.
 fn which_bodies(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let bodies = &studio.scene().bodies;
     if bodies.len() < 2 || is_picture(ui) {
@@ -79,17 +79,17 @@ fn which_bodies(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-/// Index of the method to take for a criterion.
+/// Returns the index of the recommended method for a criterion.
 fn recommended_method(advice: &Advice, criterion: usize) -> Option<usize> {
     recommended(&advice.advised, criterion)
 }
 
-/// A line of text, truncated where it would widen the panel.
+/// Shows a line of text, truncated where it would widen the panel.
 fn cut_line(ui: &mut Ui, text: RichText) -> Response {
     ui.add(Label::new(text).truncate())
 }
 
-/// Lays out content at the left of a slot of this width, cut off at its right.
+/// Lays out content at the left of a slot of this width, and clips it at the right.
 fn in_slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
     let layout = Layout::left_to_right(Align::Center);
     let place = ui.allocate_ui_with_layout(vec2(width, LINE), layout, |ui| {
@@ -156,8 +156,8 @@ fn show_recommendations(
     }
 }
 
-/// Shows a method and its substeps in this colour, with a mark if they leave no reserve. The name gives way to both.
-/// The tooltip names the cheaper method that was passed over.
+/// Shows a method and its substeps in this colour, with a mark if the substeps leave no reserve. The name is truncated
+/// to leave room for the substeps and the mark. The tooltip names a cheaper method that was passed over.
 fn taken_line(
     ui: &mut Ui,
     (name, colour): (&str, Color32),
@@ -183,7 +183,7 @@ fn taken_line(
     cut_line(ui, substeps).on_hover_text(about);
 }
 
-/// The menu of languages in which methods are copied.
+/// Shows the menu of programming languages in which methods are copied.
 fn language_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let chosen = studio.viewer.language();
     let text = RichText::new(format!("code: {chosen}")).size(SMALL);
@@ -198,7 +198,7 @@ fn language_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     response.response.on_hover_text("the language in which methods are copied");
 }
 
-/// A button that copies a method as source code.
+/// Shows a button that copies a method as source code.
 fn copy_button(ui: &mut Ui, studio: &Studio, spec: LaneSpec, commands: &mut Vec<Command>) {
     let place = studio.entries().iter().position(|entry| entry.method == spec.method);
     let Some(entry) = place.filter(|_| !is_picture(ui)) else { return };
@@ -216,7 +216,7 @@ fn copy_button(ui: &mut Ui, studio: &Studio, spec: LaneSpec, commands: &mut Vec<
     response.context_menu(|ui| super::lanes::menu(ui, studio, entry, commands));
 }
 
-/// Shows the method on the stage as a function, and its call at this tick rate.
+/// Shows the method on the stage as source code, and the number of its calls at this tick rate.
 fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let (spec, language) = (studio.selected().spec, studio.viewer.language());
     let id = Id::unique(("code", spec.method.id, language.id()));
@@ -245,8 +245,8 @@ fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-/// Width of a criterion's column, in points, as wide as its widest cell. Also returns whether the column can show
-/// evaluations and still leave room for the names of the methods.
+/// Returns the width of a criterion's column, in points, which is that of its widest cell. Also returns whether the
+/// cells can show evaluations and still leave room for the names of the methods.
 fn cell_width(ui: &Ui, advice: &Advice, room: f32) -> (f32, bool) {
     let width = |words: &str| {
         let font = FontId::proportional(SMALL);
@@ -265,7 +265,7 @@ fn cell_width(ui: &Ui, advice: &Advice, room: f32) -> (f32, bool) {
     (if has_rates { with_rates } else { widest(false) }, has_rates)
 }
 
-/// The table of findings on each method. `whose` names the bodies that the evaluations are for.
+/// Shows the table of findings on each method. `whose` names the bodies whose evaluations are counted.
 fn table(
     ui: &mut Ui,
     advice: &Advice,
@@ -306,7 +306,7 @@ fn table(
     table.show(ui, rows, commands, |_, _, _| {});
 }
 
-/// A row: the findings on a method.
+/// A row of the table: the findings on a method.
 struct Row<'a> {
     advised: &'a MethodAdvice,
     index: usize,
@@ -373,7 +373,7 @@ impl TableRow for Row<'_> {
     }
 }
 
-/// Text in the cell of a method that meets a criterion.
+/// Returns the text in the cell of a method that meets a criterion.
 fn cell_text(met: &CriterionMet, has_rates: bool) -> String {
     let substeps = met.substeps;
     match has_rates {
@@ -382,7 +382,7 @@ fn cell_text(met: &CriterionMet, has_rates: bool) -> String {
     }
 }
 
-/// Tooltip of a cell.
+/// Returns the tooltip of a cell.
 fn cell_tooltip(met: &CriterionMet) -> String {
     format!(
         "{} a tick, {} evaluations per simulated second; {}",
@@ -392,7 +392,7 @@ fn cell_tooltip(met: &CriterionMet) -> String {
     )
 }
 
-/// A count as text; a large one is rounded to three digits.
+/// Formats a count. A large count is rounded to three digits.
 fn whole(count: f64) -> String {
     if count < 1e5 { format!("{}", count.round()) } else { significant(count, 3) }
 }
@@ -438,17 +438,17 @@ mod tests {
         for size in SIZES {
             let (stage, texts) = shown(&studio, size);
             let beside = |(at, _): &&(Pos2, String)| at.x > stage.right();
-            let title = texts.iter().find(|(_, words)| words == "Inspector").expect("a title").0.y;
-            let over = texts.iter().filter(beside).filter(|(at, words)| {
-                (at.y - title).abs() < 9.0
-                    && !["Inspector", "↺ Restore all", "×"].contains(&&**words)
-            });
-            let over: Vec<_> = over.collect();
+            let mut titles = texts.iter().filter(|(at, words)| at.y > 40.0 && words == "Edit");
+            let title = titles.next().expect("a title").0.y;
+            let is_over = |(at, words): &&(Pos2, String)| {
+                (at.y - title).abs() < 9.0 && !["Edit", "↺ Restore all", "×"].contains(&&**words)
+            };
+            let over: Vec<_> = texts.iter().filter(beside).filter(is_over).collect();
             assert!(over.is_empty(), "{size:?}: {over:?}");
         }
     }
 
-    /// Works until this number of methods is judged.
+    /// Works until `count` methods are judged.
     fn judge(studio: &mut Studio, worker: &mut AnalysisWorker, count: usize) {
         while studio.viewer.advice().is_none_or(|advice| advice.advised.len() < count) {
             worker.work();
@@ -466,7 +466,7 @@ mod tests {
             let stage_to = size[0] * (1.0 - panels::INSTRUMENTS);
             assert!((stage.right() - stage_to).abs() < 1.0, "{size:?}: {stage:?}");
             for criterion in &CRITERIA {
-                // The name also stands before its answer, above the column.
+                // The name of the criterion also appears above the table, before its recommendation.
                 let at = texts.iter().filter(|(_, text)| text == criterion.name());
                 let head = at.map(|(at, _)| *at).max_by(|a, b| a.y.total_cmp(&b.y));
                 let head = head.unwrap_or_else(|| panic!("{size:?}: {texts:?}"));
@@ -493,13 +493,13 @@ mod tests {
             let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, &studio).1);
             (0..2).for_each(|_| drop(frame()));
             let (stage, shown) = frame();
-            // The names in the answer are in strong type.
+            // The names in the recommendations are in strong type.
             let size_of_name = |text: &ShownText| {
                 let galley = &text.shape.galley;
                 let font = &galley.job.sections.first()?.format.font_id;
                 let is_name = studio.entries().iter().any(|it| it.method.name == galley.text());
                 let is_plain = font.family == FontFamily::Proportional;
-                // Below the stage, methods stand beside their digits.
+                // The methods below the stage appear beside their digits.
                 let is_beside =
                     text.shape.pos.x > stage.right() && text.shape.pos.y < stage.bottom();
                 (is_name && is_plain && is_beside).then_some(font.size)
@@ -526,7 +526,7 @@ mod tests {
         of(&studio, "none yet");
         judge(&mut studio, &mut worker, 2);
         of(&studio, &told(2));
-        // A cell of the table has more words, so this is the answer.
+        // The cells of the table have more words, so this text is the recommendation.
         assert!(of(&studio, "×1") < of(&studio, "method"));
     }
 
@@ -544,7 +544,7 @@ mod tests {
             euler.met[0].met().unwrap().evaluations_per_s
         };
         assert_eq!([counts(true), counts(false)], [60.0, 120.0]);
-        // A lane's verdict is about one body, and so is the advice until the user asks for all.
+        // A lane's verdict is about one body, and the advice is too, until the user asks for all bodies.
         let studio = Studio::new(Scene::built_in("harbour").unwrap());
         assert!(studio.display().advises_on_one_body);
     }

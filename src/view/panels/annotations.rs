@@ -1,16 +1,16 @@
-//! Annotations on a plot: tinted areas, arrows, and labels with a halo.
+//! Annotations on a plot, namely tinted areas, arrows, and labels with a halo.
 
 use egui::epaint::TextShape;
 use egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2};
 
 use crate::view::theme::strong_font;
 
-/// The width of the halo of a label, in points.
+/// Width of the halo around a label, in points.
 const HALO: f32 = 1.5;
-/// The length of an arrow's head and half its width, relative to the width of its shaft.
+/// Length of an arrow's head and half its width, both relative to the width of the shaft.
 const HEAD: [f32; 2] = [4.0, 2.0];
 
-/// A convex polygon in one colour.
+/// Returns a convex polygon in one colour.
 pub(super) fn polygon(points: impl IntoIterator<Item = Pos2>, colour: Color32) -> Shape {
     let mut mesh = egui::Mesh::default();
     points.into_iter().for_each(|at| mesh.colored_vertex(at, colour));
@@ -20,7 +20,7 @@ pub(super) fn polygon(points: impl IntoIterator<Item = Pos2>, colour: Color32) -
     Shape::mesh(mesh)
 }
 
-/// An arrow. A short one shrinks, because its head must fit.
+/// Draws an arrow. A short arrow shrinks, because its head must fit.
 pub(super) fn arrow(painter: &Painter, [from, to]: [Pos2; 2], width: f32, colour: Color32) {
     let along = to - from;
     let length = along.length();
@@ -35,7 +35,7 @@ pub(super) fn arrow(painter: &Painter, [from, to]: [Pos2; 2], width: f32, colour
     painter.add(Shape::convex_polygon(vec![to, neck + side, neck - side], colour, Stroke::NONE));
 }
 
-/// A label in strong type, centred at `at` and turned by `angle`, with a halo.
+/// Draws a label in strong type, centred at `at` and turned by `angle`, with a halo.
 pub(super) fn label(
     painter: &Painter,
     (at, angle): (Pos2, f32),
@@ -56,7 +56,7 @@ pub(super) fn label(
     write(Vec2::ZERO, colour);
 }
 
-/// The colour `part` of the way from one colour to another.
+/// Mixes two colours: `part` 0 gives the first one, and 1 the second.
 pub(super) fn mixed(from: Color32, to: Color32, part: f32) -> Color32 {
     let mix = |a: u8, b: u8| (f32::from(a) + part * (f32::from(b) - f32::from(a))).round() as u8;
     Color32::from_rgb(mix(from.r(), to.r()), mix(from.g(), to.g()), mix(from.b(), to.b()))

@@ -1,5 +1,5 @@
-//! Cost of a tick by lane: force evaluations, which are the same on every machine, and the time measured in the
-//! window.
+//! Cost of a tick by lane: the number of force evaluations, which is the same on every machine, and the time measured
+//! in the window.
 
 use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 
@@ -17,14 +17,14 @@ const ROW: f32 = 22.0;
 const HEAD_TYPE: f32 = 11.0;
 /// Minimum width of a method's name, in points.
 const MIN_NAME: f32 = 104.0;
-/// A frame at 60 Hz, in nanoseconds.
+/// Duration of a frame at 60 Hz, in nanoseconds.
 const FRAME_NS: f64 = 1e9 / 60.0;
 /// Notes below the table.
 const MEASURED: &str = "Fastest of several timed runs, repeated once per second.";
 const NOT_MEASURED: &str = "Time is measured in the window.";
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
-    // Solo, the methods that a digit selects, for comparison.
+    // In solo mode, the table compares the methods that a digit selects.
     let is_shown = |entry: &usize| match studio.mode() {
         Mode::Solo if studio.viewer.is_asked() => *entry == studio.active(),
         Mode::Solo => *entry < studio.deck.offered(),
@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     ui.add(Label::new(RichText::new(note).size(12.0).color(palette(ui).dim)).wrap());
 }
 
-/// The columns of the table. The longest bar shows `most` evaluations.
+/// Returns the columns of the table. The longest bar shows `most` evaluations.
 fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
     let about = "the line of this method in the plots and on the stage";
     let style =
@@ -114,14 +114,14 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
     all
 }
 
-/// A row: a lane.
+/// A row of the table, which is about one method.
 struct Row<'a> {
     studio: &'a Studio,
     entry: MenuIndex,
     spec: LaneSpec,
     evaluations: u64,
     is_halted: bool,
-    /// Nanoseconds per tick.
+    /// Measured time of a tick, in nanoseconds.
     ns: Option<f64>,
 }
 
@@ -163,7 +163,7 @@ impl TableRow for Row<'_> {
     }
 }
 
-/// A time in the unit that fits it.
+/// Formats a time in the unit that fits it.
 fn time(ns: f64) -> String {
     match ns {
         ns if ns < 1e3 => format!("{} ns", significant(ns, 3)),
@@ -172,7 +172,7 @@ fn time(ns: f64) -> String {
     }
 }
 
-/// Share of a frame of 1/60 s that its ticks take at this rate.
+/// Returns the share of a frame of 1/60 s that ticks of `ns` nanoseconds take at this rate.
 fn share(ns: f64, tick_hz: TickRate) -> String {
     let ticks = f64::from(tick_hz) / 60.0;
     let percent = 100.0 * ns * ticks / FRAME_NS;
@@ -209,7 +209,7 @@ mod tests {
         let [plain, halved] = ["explicit-euler", "adaptive-euler"]
             .map(|id| studio.deck.evaluations_of_next_tick(entry(id)));
         assert!(plain == 1 && (3..100).contains(&halved), "{plain} {halved}");
-        // The method takes as many when it flies.
+        // A lane that flies the method takes the same number of evaluations.
         studio.apply(StageCommand::Pick(entry("adaptive-euler")));
         let flown = studio.deck.evaluations_of_next_tick(studio.active());
         assert_eq!(flown, halved);

@@ -1,4 +1,4 @@
-//! The keyboard focus: a ring around the focused widget, and lists that scroll to it.
+//! The keyboard focus. The focused widget has a ring around it, and lists scroll to it.
 
 use egui::style::ScrollAnimation;
 use egui::{Id, Response, Stroke, StrokeKind, Ui};
@@ -8,7 +8,7 @@ use crate::view::theme::palette;
 /// The width of the ring, in points.
 pub(in crate::view) const RING: f32 = 1.6;
 
-/// Draws a ring around the focused widget, on top of it.
+/// Draws a ring around the focused widget, on top of the widget.
 pub(super) fn show(ui: &Ui) {
     let Some(focused) = widget(ui) else { return };
     let painter = ui.ctx().layer_painter(focused.layer_id);
@@ -16,7 +16,7 @@ pub(super) fn show(ui: &Ui) {
     painter.rect_stroke(focused.interact_rect, 3.0, stroke, StrokeKind::Inside);
 }
 
-/// Scrolls the list with the content `ui` to a widget in it that has just got the focus.
+/// Scrolls the list with the content `ui` to a widget of the list that has just got the focus.
 pub(super) fn follow(ui: &Ui) {
     let known = ui.scope_id().with("focus");
     let focused = widget(ui).filter(|focused| {
@@ -33,7 +33,7 @@ pub(super) fn follow(ui: &Ui) {
     }
 }
 
-/// The widget with the keyboard focus.
+/// Returns the widget with the keyboard focus.
 fn widget(ui: &Ui) -> Option<Response> {
     let id = ui.memory(|memory| memory.focused())?;
     ui.ctx().read_response(id)
@@ -66,7 +66,7 @@ mod tests {
         let mut found = BTreeSet::new();
         for press in 0..80 {
             window.panels(&studio, vec![tab.clone()]);
-            // Lists have scrolled one frame later.
+            // Lists scroll one frame later.
             window.panels(&studio, Vec::new());
             let shown = window.panels(&studio, Vec::new()).1;
             let id = window.context.memory(|memory| memory.focused());

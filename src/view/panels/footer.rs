@@ -1,4 +1,4 @@
-//! The status line below everything: the last notice or a hint, and a few keys.
+//! The status line at the bottom of the window: the last notice or a hint, and a few keys.
 
 use egui::{Align, Layout, Sense, Ui, vec2};
 
@@ -15,7 +15,7 @@ pub(super) const HEIGHT: f32 = 32.0;
 /// The room between two hints, in points.
 const GAP: f32 = 16.0;
 
-/// A key, its effect, and its command.
+/// A key, the name of its effect, and its command.
 type KeyHint = (&'static str, String, Option<Command>);
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         if width >= breakpoints::KEYS_BESIDE_HINT {
-            // From the right, because the last hints disappear first.
+            // The hints are laid out from the right, and the last ones are left out if there is no room.
             for hint in key_hints(studio) {
                 if ui.available_width() - width_of(ui, &hint) < room_for_hint {
                     break;
@@ -42,8 +42,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-/// The parts of the notice, else of the hint, else the scene's description. Also returns whether they are a notice or
-/// a hint.
+/// Returns the parts of the notice, or else of the hint, or else the scene's description. Also returns whether the
+/// parts are a notice or a hint.
 fn status_parts(studio: &Studio) -> (Vec<String>, bool) {
     if let Some(notice) = &studio.viewer.notice {
         return (notice.parts().to_vec(), true);
@@ -59,7 +59,7 @@ fn status_parts(studio: &Studio) -> (Vec<String>, bool) {
     }
 }
 
-/// The verdict on the active method and the status line, as sentences for a screen reader.
+/// Returns the verdict on the active method, and the text of the status line, as sentences for a screen reader.
 pub(in crate::view) fn spoken(studio: &Studio) -> String {
     let verdict = lanes::verdict_on(studio, studio.active());
     let is_known = studio.loop_lab().is_none() && verdict.sign.is_some();
@@ -69,14 +69,14 @@ pub(in crate::view) fn spoken(studio: &Studio) -> String {
     verdict.into_iter().chain([line]).collect::<Vec<_>>().join(" ")
 }
 
-/// As many parts as fit this width, but at least the first.
+/// Joins as many parts as fit this width, but at least the first one.
 fn fitting_text(ui: &Ui, parts: &[String], width: f32) -> String {
     let mut sentences = (1..=parts.len()).rev().map(|count| parts[..count].join("; "));
     let fits = |sentence: &String| keycap::line_width(ui, sentence) <= width;
     sentences.find(fits).unwrap_or_else(|| parts[0].clone())
 }
 
-/// Two hints, from right to left: the help, and the next step.
+/// Returns two hints from right to left: the help and the next step.
 fn key_hints(studio: &Studio) -> [KeyHint; 2] {
     let hint = |key, what: &str, command| (key, what.to_owned(), Some(command));
     let next = if let Some(input) = input_in_use(studio) {
@@ -94,7 +94,7 @@ fn key_hints(studio: &Studio) -> [KeyHint; 2] {
     [hint("H", "all keys", Command::View(ViewCommand::ToggleHelp)), next]
 }
 
-/// The first input of the displayed body, or one that is in use.
+/// Returns the first input that the displayed body has or that is in use.
 fn input_in_use(studio: &Studio) -> Option<KeyHint> {
     let inputs = [
         ("throttle", "↑ ↓", studio.race().throttle(), 1.0),
@@ -113,7 +113,7 @@ fn width_of(ui: &Ui, (key, what, _): &KeyHint) -> f32 {
     keycap::line_width(ui, &format!("`{key}` {what}")) + GAP
 }
 
-/// Shows a hint. A click does the same as the key.
+/// Shows a hint. A click on the hint has the same effect as its key.
 fn show_hint(ui: &mut Ui, hint: KeyHint, commands: &mut Vec<Command>) {
     let size = vec2(width_of(ui, &hint), keycap::HEIGHT);
     let (key, what, command) = hint;

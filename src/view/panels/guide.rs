@@ -1,4 +1,4 @@
-//! The guide below the stage: the question of its stop, the choices, the key to press, and the answer.
+//! The guide below the stage, with the question of its stop, the choices, the key to press, and the answer.
 
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
@@ -7,12 +7,12 @@ use crate::studio::guide::{STOPS, Tour};
 use crate::studio::{Command, Step, ViewCommand};
 use crate::view::theme::{palette, strong_font};
 
-/// The usual height, the minimum, and the height left for the stage if possible, in points.
+/// The guide's usual height, its minimum height, and the height left for the stage if possible, in points.
 const HEIGHT: f32 = 172.0;
 const MIN_HEIGHT: f32 = 96.0;
 const FOR_STAGE: f32 = 150.0;
 
-/// Height of the guide, if it and the stage have `room` points together. A low guide scrolls.
+/// Returns the height of the guide, if the guide and the stage have `room` points together. A low guide scrolls.
 pub(super) fn height(room: f32) -> f32 {
     HEIGHT.min((room - FOR_STAGE).max(MIN_HEIGHT)).min(0.6 * room)
 }
@@ -20,7 +20,7 @@ pub(super) fn height(room: f32) -> f32 {
 pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing = vec2(6.0, 5.0);
     head(ui, tour, commands);
-    // Without this a low guide would exceed its height and lie over the stage.
+    // A low guide would otherwise exceed its height and lie over the stage.
     let scrolled = ScrollArea::vertical().auto_shrink(false).min_scrolled_height(0.0);
     scrolled.show(ui, |ui| {
         let stop = tour.stop();
@@ -87,7 +87,7 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     }
 }
 
-/// Shows the predictions to choose from. Once the task is done, the right one is marked.
+/// Shows the predictions to choose from. Once the task is done, a mark shows the right prediction.
 fn choices(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     let stop = tour.stop();
     ui.horizontal_wrapped(|ui| {

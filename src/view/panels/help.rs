@@ -1,4 +1,4 @@
-//! The help overlay: every key and every gesture of the mouse, from their tables.
+//! The help overlay. It shows every key and every gesture of the mouse, from their tables.
 
 use egui::scroll_area::ScrollBarVisibility;
 use egui::{Align2, FontId, Order, RichText, ScrollArea, Ui, Vec2, Window, pos2, vec2};
@@ -8,12 +8,12 @@ use super::{breakpoints, keycap};
 use crate::studio::{Command, GESTURES, KEYS, ViewCommand};
 use crate::view::theme::{TYPE, palette};
 
-/// Width of a column, and of the keys in it.
+/// Width of a column, and width of the keys in a column, in points.
 const COLUMN: f32 = 560.0;
 const KEY: f32 = 128.0;
-/// Size of a window's border and margins around its content.
+/// Size of a window's border and of the margins around its content, in points.
 const AROUND: Vec2 = vec2(48.0, 110.0);
-/// Minimum height of the list: egui panics at a press on a scroll bar that is shorter than its handle.
+/// Minimum height of the list, because egui panics at a press on a scroll bar that is shorter than its handle.
 const MIN_LIST: f32 = 32.0;
 
 pub(super) fn show(ui: &Ui, is_page: bool, commands: &mut Vec<Command>) {
@@ -24,13 +24,13 @@ pub(super) fn show(ui: &Ui, is_page: bool, commands: &mut Vec<Command>) {
         Window::new("Keys and mouse").order(Order::Foreground).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ui.ctx(), |ui| {
         ui.set_width(width);
-        // The bar stays visible while there is more to see.
+        // The scroll bar stays visible while there is more to see.
         ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
         let height = (screen.y - AROUND.y).max(MIN_LIST);
         let list = ScrollArea::vertical()
             .max_height(height)
-            // Full height in the first frame: the window would otherwise grow over several, and a paused window draws
-            // no more.
+            // The window has its full height in the first frame. It would otherwise grow over several frames, and a
+            // paused window draws no more frames.
             .min_scrolled_height(height)
             .auto_shrink([false, true])
             .scroll_bar_visibility(ScrollBarVisibility::VisibleWhenNeeded);
@@ -69,7 +69,7 @@ pub(super) fn show(ui: &Ui, is_page: bool, commands: &mut Vec<Command>) {
     });
 }
 
-/// Shows a key or a gesture, and its effect.
+/// Shows a key or a gesture, and the effect of either.
 fn row(ui: &mut Ui, (shown, about, is_key): (&str, &str, bool), width: f32) {
     ui.horizontal(|ui| {
         let size = vec2(KEY, keycap::HEIGHT);
@@ -106,7 +106,7 @@ mod tests {
         let sizes = [[1.0, 1.0], [95.0, 300.0], [200.0, 63.0], [200.0, 64.0], [320.0, 122.0]];
         for [width, height] in sizes {
             let mut window = TestWindow::new([width, height]);
-            // The clicks also reach the list's scroll bar, wherever it lies.
+            // The clicks hit every position, and so also the scroll bar of the list.
             for x in (0..width as u32).step_by(5) {
                 window.click(&studio, Pos2::new(x as f32, 0.5 * (height - 1.0)));
             }

@@ -1,37 +1,36 @@
-//! The inspector: everything that can be edited during a run, from the tables of parameters and methods.
+//! The inspector. It shows everything that can be edited during a run, from the tables of parameters and methods.
 
 use egui::{
     Align, Button, CollapsingHeader, Label, Layout, Response, RichText, ScrollArea, Slider, Ui,
     Vec2, vec2,
 };
 
-pub(super) use self::number::NumberField;
 use self::rows::{Row, SliderRange, Spacing, Values, rows};
 pub(in crate::view) use self::sweep::is_sweep_active;
 use super::focus;
+use super::number_field::NumberField;
 use crate::scene::{Action, check_entered, edited_values};
 use crate::stage::TakesEffect;
 use crate::studio::{Command, RunCommand, Studio};
 use crate::view::theme::palette;
 
 mod engine;
-mod number;
 mod rows;
 mod run;
 mod sweep;
 
 /// The height of a line, in points.
 const LINE: f32 = 20.0;
-/// Widths of a line's parts in points: a name and a number field, as shares of the line with a maximum, and the
+/// Widths of a name and of a number field as shares of the line, with their maximums in points, and width of the
 /// restore button.
 const NUMBER_PART: f32 = 0.3;
 const MAX_NUMBER: f32 = 108.0;
 const RESTORE: f32 = 20.0;
 const NAME_PART: f32 = 0.32;
 const MAX_NAME: f32 = 150.0;
-/// Maximum share of the line for a longer name.
+/// Maximum share of the line for a name that is longer.
 const MAX_NAME_PART: f32 = 0.42;
-/// Scenes with more bodies than this open with only the displayed body unfolded.
+/// Maximum number of bodies in a scene whose bodies all start unfolded. In larger scenes only the displayed body does.
 const FEW_BODIES: usize = 3;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
@@ -55,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         });
     });
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        // Leaves room for the bar at the right, which covers its content.
+        // Leaves room at the right for the scroll bar, which covers the content.
         ui.set_max_width(ui.available_width() - 8.0);
         let bodies = &studio.scene().bodies;
         for (index, body) in bodies.iter().enumerate() {
@@ -131,7 +130,7 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
         let buttons = RESTORE + sweep::BUTTON + 3.0 * ui.spacing().item_spacing.x;
         let slider = vec2((room - number - buttons).max(1.0), LINE);
         let reach = SliderRange::of(parameter.range, values);
-        // A sweep of a parameter that acts from the next start would show nothing.
+        // A sweep would show nothing if its parameter acts only from the next start.
         let swept_reach = reach.filter(|_| parameter.acts == TakesEffect::AtOnce);
         // A sweep ends with its scene, because another scene has other parameters at the same indices.
         let of = field.id.with(studio.deck.openings());
@@ -146,11 +145,11 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
     });
 }
 
-/// A slider around the scene's value. Returns the new value if the slider was moved.
+/// Shows a slider around the scene's value. Returns the new value if the user moved the slider.
 fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -> Option<f64> {
     let id = ui.scope_id().with((row.body, row.index, "reach"));
     let fresh = SliderRange::of(row.parameter.range, values)?;
-    // A dragged slider keeps its range, although the value that it sets would move the ends.
+    // A dragged slider keeps its range, although a fresh range would move with the value.
     let held = ui.data(|data| data.get_temp::<SliderRange>(id));
     let SliderRange { low, high, spacing } = held.unwrap_or(fresh);
     let mut value = values.present;
@@ -171,7 +170,8 @@ fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -
     (value != values.present).then_some(value)
 }
 
-/// A line with a name at its left. `rest` lays out the remainder, given its width and that of a number field.
+/// Shows a line with a name at its left. `rest` lays out the remainder of the line. Its arguments are the widths of the
+/// remainder and of a number field.
 fn line(ui: &mut Ui, name: &str, about: &str, rest: impl FnOnce(&mut Ui, [f32; 2])) {
     let width = ui.available_width();
     let font = egui::TextStyle::Body.resolve(ui.style());
@@ -190,7 +190,7 @@ fn line(ui: &mut Ui, name: &str, about: &str, rest: impl FnOnce(&mut Ui, [f32; 2
     });
 }
 
-/// The restore button, or an empty place if nothing was changed.
+/// Shows the restore button, or leaves its place empty if nothing was changed.
 fn restore_button(ui: &mut Ui, is_changed: bool, about: &str, name: &str, then: impl FnOnce()) {
     if !is_changed {
         ui.allocate_exact_size(vec2(RESTORE, LINE), egui::Sense::hover());
@@ -211,7 +211,7 @@ fn named_button(ui: &mut Ui, button: Button<'_>, about: &str) -> Response {
     response
 }
 
-/// Commands that restore every edited value.
+/// Returns the commands that restore every edited value.
 fn restore_commands(studio: &Studio) -> Vec<Command> {
     let changed = (0..studio.scene().bodies.len()).flat_map(|body| {
         let changed = move |row: Row| {
@@ -225,7 +225,7 @@ fn restore_commands(studio: &Studio) -> Vec<Command> {
         rows(studio, body).into_iter().filter_map(changed)
     });
     let sets: Vec<Command> = changed.collect();
-    // Twice, because a value may be refused until another is restored.
+    // The commands are issued twice, because a value may be refused until another value is restored.
     let twice = sets.iter().chain(&sets).cloned();
     twice.chain(run::restore_run_commands(studio)).collect()
 }
@@ -237,10 +237,10 @@ mod tests {
     use crate::studio::StageCommand;
     use crate::view::testing::TestWindow;
 
-    /// Every visible text in a frame that is high enough for all of the inspector.
+    /// Returns every visible text in a frame that is high enough for all of the inspector.
     fn texts(studio: &Studio) -> Vec<String> {
         let mut window = TestWindow::new([1280.0, 3000.0]);
-        // A header learns its height in the first frame.
+        // A header knows its height only after the first frame.
         window.panels(studio, Vec::new());
         window.panels(studio, Vec::new()).1.words()
     }
@@ -281,13 +281,13 @@ mod tests {
             }
             for entrant in studio.race().entrants() {
                 let name = entrant.spec.method.name;
-                // The list of lanes has it too.
+                // The list of lanes also has the name.
                 assert!(named(name) >= 2, "{}: {name}", scene.name);
             }
             for text in ["tick rate", "length"] {
                 assert!(count(text) >= 1, "{}: {text}", scene.name);
             }
-            // A net has no start parameters.
+            // A net has no parameters that act at the start.
             let mut parameters = bodies.iter().flat_map(|body| &body.kind.parameters);
             let has_start = parameters.any(|parameter| parameter.acts == TakesEffect::AtStart);
             assert_eq!(count("from the next start") >= 1, has_start, "{}", scene.name);

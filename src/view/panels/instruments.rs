@@ -1,7 +1,7 @@
-//! The instrument beside the stage: tabs in one row, and the selected instrument below.
+//! The instrument beside the stage, with tabs in one row and the selected instrument below them.
 //!
-//! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an arrow in its
-//! colour marks it.
+//! The axes follow the truth and the lanes near it. A lane beyond the axes is cut off at the edge, and an arrow in its
+//! colour marks the place.
 
 use egui::{Button, Color32, ComboBox, Rect, Response, RichText, Sense, Stroke, Ui, vec2};
 
@@ -41,16 +41,17 @@ const BETWEEN_TABS: f32 = 2.0;
 const TIGHT: f32 = 2.5;
 /// The gap between two groups of tabs, in points.
 const BETWEEN_GROUPS: f32 = 10.0;
-/// Maximum number of lines in a legend. With more, the table below has the names, and the plots need the room.
+/// Maximum number of lines in a legend. A table below shows the names of more lines, and the plots need the room.
 const MAX_IN_LEGEND: usize = 12;
-/// Maximum number of lines in a legend beside the title.
+/// Maximum number of lines in a legend that is beside the title.
 const BESIDE_TITLE: usize = 2;
 /// The height of a line of the title or the legend, in points.
 const HEAD: f32 = 22.0;
 /// The gap before a legend beside the title, in points.
 const BEFORE_LEGEND: f32 = 8.0;
 
-/// Minimum height of an instrument with its tabs, in points. Below it the plot is a smudge, or words lie over words.
+/// Returns the minimum height of an instrument with its tabs, in points. Below this height the plot is unreadable, or
+/// words overlap.
 pub(super) fn min_height(instrument: Instrument) -> f32 {
     match instrument {
         Instrument::OneStep => 430.0,
@@ -60,7 +61,7 @@ pub(super) fn min_height(instrument: Instrument) -> f32 {
     }
 }
 
-/// Shows the tabs, `indent` points from the left, and the selected instrument.
+/// Shows the tabs, which begin `indent` points from the left, and the selected instrument.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
     tabs(ui, studio, indent, commands);
     ui.add_space(2.0);
@@ -85,7 +86,8 @@ pub(super) fn show_alone(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Comman
     }
 }
 
-/// Detail of the plots in the rest of `ui`. It is higher if the user points at them or has zoomed.
+/// Returns the detail of the plots in the rest of `ui`. The plots have every sample if the user points at them or has
+/// zoomed.
 fn detail(ui: &Ui, studio: &Studio) -> Detail {
     let room = ui.available_rect_before_wrap();
     match ui.rect_contains_pointer(room) || chart::is_zoomed(studio) {
@@ -94,7 +96,7 @@ fn detail(ui: &Ui, studio: &Studio) -> Detail {
     }
 }
 
-/// The plots of the selected instrument, if it has any.
+/// Returns the plots of the selected instrument, or `None` if it has no plots.
 fn plot_set_of(studio: &Studio, detail: Detail) -> Option<PlotSet> {
     if let Some(loops) = studio.loop_lab() {
         return by_loop::plot_set(studio, loops, studio.display().instrument);
@@ -113,8 +115,8 @@ fn plot_set_of(studio: &Studio, detail: Detail) -> Option<PlotSet> {
     }
 }
 
-/// One row of tabs in groups. If they do not fit, the other groups shrink to their names. If those do not fit either,
-/// a menu replaces the row.
+/// Shows the tabs of the instruments in one row, in groups. If the tabs do not fit, the groups that are not selected
+/// shrink to their names. If that does not fit either, a menu replaces the row.
 fn tabs(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
     let room = ui.available_width() - indent;
     let usual = ui.spacing().button_padding.x;
@@ -163,14 +165,14 @@ fn tabs(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) 
     });
 }
 
-/// The available instruments of a group.
+/// Returns the available instruments of a group.
 fn cards(studio: &Studio, group: InstrumentGroup) -> impl Iterator<Item = &'static InstrumentCard> {
     let is_in_loop_lab = studio.loop_lab().is_some();
     let of_group = INSTRUMENTS.iter().filter(move |card| card.group == group);
     of_group.filter(move |card| !is_in_loop_lab || card.instrument.is_in_loop_lab())
 }
 
-/// Width of tabs with this padding around their words, in points. It suffices whichever tab is selected.
+/// Returns the width of tabs with this padding around their words, in points. The width suffices for any selected tab.
 fn tabs_width<'a>(ui: &Ui, names: impl Iterator<Item = &'a str>, padding: f32) -> f32 {
     let tab = |name: &str| {
         let words = ui.painter().layout_no_wrap(name.into(), strong_font(TYPE), palette(ui).text);
@@ -179,7 +181,7 @@ fn tabs_width<'a>(ui: &Ui, names: impl Iterator<Item = &'a str>, padding: f32) -
     names.map(tab).sum()
 }
 
-/// The menu of instruments.
+/// Shows the menu of instruments.
 fn tabs_menu(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.add_space(indent);
@@ -205,10 +207,10 @@ fn tab(ui: &mut Ui, name: &str, about: &str, is_chosen: bool) -> bool {
     response.on_hover_text(about).clicked()
 }
 
-/// Shows an instrument of plots, below its title, its menus and its legend.
+/// Shows an instrument that has plots: its title, its menus, its legend, and the plots.
 fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let entries = legend_entries(set);
-    // The table and the stage distinguish one method from the exact solution.
+    // If there is only one method, the table and the stage distinguish it from the exact solution.
     let is_needed = set.styles.is_race || entries.len() > BESIDE_TITLE || is_picture(ui);
     let has_legend =
         is_needed && ui.available_height() >= breakpoints::LEGEND && entries.len() <= MAX_IN_LEGEND;
@@ -217,13 +219,13 @@ fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command
         && studio.display().instrument == Instrument::Motion;
     let for_plots = ui.available_height() - HEAD * (1.0 + f32::from(u8::from(has_legend)));
     let is_beside = ui.horizontal_wrapped(|ui| {
-        // In a window its tab is the title.
+        // The tab of the instrument is its title, if there is a window.
         if is_picture(ui) {
             ui.label(RichText::new(&set.title).font(strong_font(15.0)).color(palette(ui).text));
         }
         choices(ui, studio, commands);
         if !layout::all_fit(set.plots.len(), for_plots) {
-            // All other instruments have the menu already.
+            // All other instruments already have the menu.
             if studio.display().instrument == Instrument::Motion {
                 body_choice(ui, studio, commands);
             }
@@ -247,7 +249,7 @@ fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command
     chart::show(ui, studio, set, commands);
 }
 
-/// The menus of an instrument, such as the metric and the body.
+/// Shows the menus of an instrument, such as the metric and the body.
 fn choices(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let instrument = studio.display().instrument;
     if instrument == Instrument::Error {
@@ -269,14 +271,15 @@ fn choices(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         choice(ui, "metric", offered, chosen, commands);
     }
     let has_all = instrument == Instrument::Motion && studio.loop_lab().is_none();
-    // In a picture, the axes name the usual quantity.
+    // In a picture, the axes name the default quantity.
     let is_said = studio.display().quantity.is_some() || !is_picture(ui);
     if has_all && is_said {
         let named = |quantity: Option<Quantity>| {
-            let name = quantity.map_or("usual", Quantity::name);
+            let name = quantity.map_or("default", Quantity::name);
             (Command::View(ViewCommand::Quantity(quantity)), name)
         };
         let offered = [None].into_iter().chain(Quantity::ALL.map(Some)).map(named);
+        ui.label(RichText::new("plot:").color(palette(ui).dim));
         choice(ui, "quantity", offered, named(studio.display().quantity), commands);
     }
     if has_all || instrument == Instrument::Phase && studio.loop_lab().is_none() {
@@ -287,7 +290,7 @@ fn choices(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     }
 }
 
-/// Offers the bodies of the scene, if it has several.
+/// Offers the bodies of the scene, if there are several.
 fn body_choice(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     if studio.scene().bodies.len() > 1 {
         let names = studio.scene().bodies.iter().map(|body| body.name.as_str());
@@ -305,7 +308,7 @@ fn body_choice(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     }
 }
 
-/// Offers the coordinates of the displayed body, if it has several.
+/// Offers the coordinates of the displayed body, if there are several.
 fn coordinate_choice(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let body = studio.view().body;
     let coordinates = studio.race().truth().bodies()[body].coordinates();
@@ -318,7 +321,7 @@ fn coordinate_choice(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) 
     }
 }
 
-/// Shows commands by name, as a menu.
+/// Shows a menu of commands by their names.
 fn choice<N: AsRef<str>>(
     ui: &mut Ui,
     id: &str,
@@ -333,7 +336,7 @@ fn choice<N: AsRef<str>>(
     let menu = ComboBox::from_id_salt(id).selected_text(chosen.1).width(0.0).show_ui(ui, |ui| {
         let mut height = None;
         for (command, name) in offered {
-            // A net has thousands, of which a few are visible.
+            // A net has thousands of coordinates, of which only a few are visible.
             let place = Rect::from_min_size(ui.cursor().min, vec2(1.0, height.unwrap_or_default()));
             if height.is_some() && !ui.is_rect_visible(place) {
                 ui.allocate_space(place.size());
@@ -349,10 +352,11 @@ fn choice<N: AsRef<str>>(
     menu.response.on_hover_text(id);
 }
 
-/// Legend entries of all visible curves, in the order of [`PlotSet::visible_styles`], and of the exact solution.
+/// Returns the legend entries of all visible curves, in the order of [`PlotSet::visible_styles`], and that of the exact
+/// solution.
 fn legend_entries(set: &PlotSet) -> Vec<Entry> {
     let series = set.visible_styles().map(|(place, SeriesStyle { name, colour, dash, .. })| {
-        // Solo, a lane has a number only if a key selects it.
+        // In solo mode, a lane has a number only if a digit selects its method.
         let name = match set.styles.is_race {
             true => format!("{} {name}", place + 1),
             false => numbered(place, name),
@@ -369,7 +373,7 @@ fn legend_entries(set: &PlotSet) -> Vec<Entry> {
     series.chain(exact).collect()
 }
 
-/// Selects the lane of a race after a click on its legend entry.
+/// Selects a lane of a race after a click on the lane's legend entry.
 fn pick_by_legend(
     set: &PlotSet,
     (entries, shown): (&[Entry], &[Response]),

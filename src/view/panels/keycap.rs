@@ -5,12 +5,12 @@ use egui::{Align2, Color32, FontId, Painter, Rect, Response, Sense, Stroke, Ui, 
 use super::parts::short;
 use crate::view::theme::{TYPE, palette, strong_font};
 
-/// Height of a box, minimum padding around its letter, and gap between it and a word, in points.
+/// Height of a key's box, minimum padding around its letter, and gap between a box and a word, in points.
 pub(super) const HEIGHT: f32 = 22.0;
 const PADDING: f32 = 7.0;
 const GAP: f32 = 5.0;
 
-/// A piece of a sentence.
+/// A piece of a sentence: words or a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Piece<'a> {
     Words(&'a str),
@@ -26,17 +26,18 @@ fn pieces(sentence: &str) -> impl Iterator<Item = Piece<'_>> {
     })
 }
 
-/// Reduction of the gap before words that begin with punctuation, because it belongs to the key before.
+/// Returns the amount by which the gap before these words shrinks. Words that begin with punctuation lie closer to the
+/// key before them.
 fn gap_reduction(words: &str) -> f32 {
     if words.starts_with(['.', ',', ':', ';']) { GAP - 1.0 } else { 0.0 }
 }
 
-/// A sentence to read aloud, without the backticks around its keys.
+/// Returns a sentence that can be read aloud, without the backticks around its keys.
 pub(super) fn without_backticks(sentence: &str) -> String {
     sentence.replace('`', "")
 }
 
-/// The width of a key's box.
+/// Returns the width of a key's box, in points.
 pub(super) fn width(painter: &Painter, key: &str) -> f32 {
     let text = painter.layout_no_wrap(key.to_owned(), strong_font(TYPE), Color32::WHITE);
     (text.size().x + 2.0 * PADDING).max(HEIGHT)
@@ -53,7 +54,7 @@ pub(super) fn paint(ui: &Ui, left: f32, middle: f32, key: &str, colour: Color32)
     width
 }
 
-/// The width of a sentence on one line.
+/// Returns the width of a sentence in one line, in points.
 pub(super) fn line_width(ui: &Ui, sentence: &str) -> f32 {
     let of = |piece| match piece {
         Piece::Key(key) => width(ui.painter(), key) + GAP,
@@ -66,7 +67,7 @@ pub(super) fn line_width(ui: &Ui, sentence: &str) -> f32 {
     pieces(sentence).map(of).sum()
 }
 
-/// Shows a sentence in one line of this width. An ellipsis replaces the end of a sentence that is too long, and the
+/// Shows a sentence in one line of this width. If the sentence is too long, an ellipsis replaces its end, and the
 /// tooltip has all of it.
 pub(super) fn line(ui: &mut Ui, sentence: &str, room: f32, colour: Color32) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(room.max(0.0), HEIGHT), Sense::hover());
@@ -97,7 +98,7 @@ pub(super) fn line(ui: &mut Ui, sentence: &str, room: f32, colour: Color32) -> R
     if is_whole { response } else { response.on_hover_text(spoken) }
 }
 
-/// Shows a sentence in as many lines as it needs.
+/// Shows a sentence in as many lines as necessary.
 pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(4.0, 2.0);

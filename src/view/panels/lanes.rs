@@ -1,5 +1,5 @@
-//! The table of lanes: key, colour, method and verdict, then numbers. Solo, it has only the active lane, with a row
-//! for each body.
+//! The table of lanes: key, line, method and verdict, then numbers. In solo mode the table has only the active lane,
+//! with a row for each body.
 
 use egui::{Color32, RichText, Ui};
 
@@ -22,7 +22,7 @@ mod verdict;
 /// The height of a row, in points.
 pub(super) const ROW: f32 = 26.0;
 
-/// Maximum number of rows in sight. The list scrolls to the rest.
+/// Maximum number of rows in sight. The list scrolls to further rows.
 const ROWS: usize = 8;
 
 pub(super) fn height(studio: &Studio) -> f32 {
@@ -32,7 +32,7 @@ pub(super) fn height(studio: &Studio) -> f32 {
     })
 }
 
-/// Height of a table of `rows` rows, or of the most that are in sight.
+/// Returns the height of a table of `rows` rows, of which at most `ROWS` are in sight.
 pub(super) fn height_of(rows: usize) -> f32 {
     ROW * (rows.clamp(1, ROWS) + 1) as f32
 }
@@ -49,7 +49,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
     pointed
 }
 
-/// Verdict on the method at this index of the list.
+/// Returns the verdict on the method at this index of the list.
 pub(super) fn verdict_on(studio: &Studio, entry: MenuIndex) -> VerdictText {
     verdict::text_of(studio, entry, studio.deck.lane_of(entry), (None, None))
 }
@@ -67,7 +67,7 @@ fn table(studio: &Studio) -> Table<Row<'_>> {
     Table { id: "lanes", columns, min_rest, row_height: ROW, head_type: TYPE }
 }
 
-/// The rows of each method.
+/// Returns the rows of the table, grouped by method.
 fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
     let truth = studio.race().truth().bodies().iter().enumerate();
     let exact = |(body, truth): (usize, &LaneBody)| {
@@ -87,7 +87,8 @@ fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
         .collect()
 }
 
-/// The context menu of a row. It copies a spring's settings for its engine, or its method as code, in each language.
+/// Shows the context menu of a row. The menu copies a spring's settings for its engine, or the method as code in each
+/// language.
 pub(super) fn menu(ui: &mut Ui, studio: &Studio, entry: MenuIndex, commands: &mut Vec<Command>) {
     let has_joint = joint_code(&studio.deck, &studio.viewer, entry).is_some();
     if has_joint && ui.button("Copy the spring's settings (Ctrl C)").clicked() {
@@ -130,7 +131,7 @@ impl TableRow for Row<'_> {
         })
     }
 
-    /// The method's card and the whole verdict.
+    /// Shows the method's card and the whole verdict.
     fn tooltip(&self, ui: &mut Ui) {
         ui.set_max_width(420.0);
         let method = self.spec.method;

@@ -1,5 +1,5 @@
-//! The panels of the loop lab, and the instrument *Loop*. It charts the moment that each loop shows, or the timing of
-//! this window's own loop, as a picture and as text.
+//! The panels of the loop lab, and the instrument *Loop*. The instrument charts the moment that each loop shows, or the
+//! timing of this window's own loop, and is available as a picture and as text.
 
 use std::iter;
 
@@ -25,9 +25,9 @@ pub(super) mod table;
 
 /// Title of the charts of the loop lab.
 const TITLE: &str = "Moment shown against moment of display";
-/// Share of the height for the two small plots.
+/// Share of the height for the two small plots together.
 const TWO: f32 = 0.4;
-/// Gap between the two small plots, and above them, in points.
+/// Gap between the two small plots, and gap above them, in points.
 const GAP: f32 = 10.0;
 const ABOVE_TWO: f32 = 3.0;
 
@@ -67,7 +67,8 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
     }
 }
 
-/// Lays out the charts in a room for a file, with their title and the legend. `None` before the first frame.
+/// Lays out the charts for a file, in a room that includes their title and legend. Returns `None` before the first
+/// frame.
 pub(super) fn layout(
     studio: &Studio,
     room: Rect,
@@ -88,7 +89,7 @@ pub(super) fn layout(
     Some((TITLE, legend_entries(loops, &lanes, palette), all))
 }
 
-/// The room of the moments and, if it is large enough, of two small plots below.
+/// Returns the rectangle of the moments, and those of two small plots below if `room` is high enough.
 fn parts(room: Rect) -> (Rect, Option<[Rect; 2]>) {
     if room.height() < breakpoints::TWO_PLOTS_BELOW {
         return (room.with_max_y(room.bottom() - ABOVE_TWO), None);
@@ -104,7 +105,7 @@ fn series(lanes: &[ShownLane<'_>]) -> Vec<counts::Series> {
     lanes.iter().map(counts::Series::of_lane).collect()
 }
 
-/// A lane on the stage, with its style.
+/// A lane on the stage, with the style of its curves.
 struct ShownLane<'a> {
     index: usize,
     lane: &'a LoopLane,
@@ -113,7 +114,7 @@ struct ShownLane<'a> {
     is_selected: bool,
 }
 
-/// The lanes on the stage, from top to bottom.
+/// Returns the lanes on the stage, from top to bottom.
 fn on_stage<'a>(loops: &'a LoopLab, palette: &PanelPalette) -> Vec<ShownLane<'a>> {
     let lane = |&index: &usize| {
         let (rgba, dash) = palette.theme.loop_style(index);
@@ -123,7 +124,7 @@ fn on_stage<'a>(loops: &'a LoopLab, palette: &PanelPalette) -> Vec<ShownLane<'a>
     loops.on_stage().iter().map(lane).collect()
 }
 
-/// The legend of the charts.
+/// Returns the legend of the charts.
 fn legend_entries(loops: &LoopLab, lanes: &[ShownLane<'_>], palette: &PanelPalette) -> Vec<Entry> {
     let entry = |lane: &ShownLane<'_>| {
         let name = format!("{} {}", lane.index + 1, lane.lane.card().name);
@@ -136,7 +137,7 @@ fn legend_entries(loops: &LoopLab, lanes: &[ShownLane<'_>], palette: &PanelPalet
     lanes.iter().map(entry).chain([ideal]).collect()
 }
 
-/// All frames of the loops on the stage, or the last frames of the window's own loop, as comma-separated text.
+/// Returns all frames of the loops on the stage, or the last frames of the window's own loop, as comma-separated text.
 pub(super) fn csv(studio: &Studio) -> Vec<String> {
     match studio.loop_lab() {
         Some(loops) => of_lab(loops),

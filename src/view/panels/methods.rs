@@ -1,4 +1,4 @@
-//! The methods that digits select: each with its digit, its name, and its verdict's sign.
+//! The methods that digits select, each with its digit, its name, and the sign of its verdict.
 
 use egui::{FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
 
@@ -8,37 +8,37 @@ use crate::run::MenuIndex;
 use crate::studio::{Command, DIGITS, StageCommand, Studio};
 use crate::view::theme::{TYPE, palette, strong_font};
 
-/// Height of one row, and of each further row, in points.
+/// Height of the first row, and of each further row, in points.
 pub(super) const HEIGHT: f32 = 40.0;
 const FURTHER: f32 = BUTTON + CLOSE;
-/// Maximum share of a narrow window's height for rows that name every method.
+/// Maximum share of the window's height for rows in a narrow window.
 const ROWS: f32 = 1.0 / 6.0;
 
-/// In points: height of a method, gap between two, gap where room is scarce, and padding of a method's parts.
+/// Height of a method, gap between two methods, gap if room is scarce, and padding of a method's parts, in points.
 const BUTTON: f32 = 30.0;
 const BETWEEN: f32 = 10.0;
 const CLOSE: f32 = 4.0;
 const PADDING: f32 = 7.0;
-/// The size of names in two lines, in points.
+/// Font size of names in two lines, in points.
 const SMALL: f32 = 10.5;
-/// Room for the sign of the verdict, in points.
+/// Width for the sign of the verdict, in points.
 const SIGN: f32 = 12.0;
 
-/// Style of the names of methods beside their digits.
+/// How the methods show their names beside their digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Naming {
     OneLine,
     TwoLines,
-    /// Only the name of the selected method.
+    /// Only the selected method shows its name.
     Chosen,
     None,
 }
 
 impl Naming {
-    /// All styles, the best first. The first one that fits every method applies.
+    /// All styles from best to worst. The first style in which every method fits is used.
     const ALL: [Self; 4] = [Self::OneLine, Self::TwoLines, Self::Chosen, Self::None];
 
-    /// Name of a method beside its digit, and its font; `None` if it has no name there.
+    /// Returns the name that a method shows beside its digit, and its font, or `None` if it shows no name.
     fn name(self, ui: &Ui, studio: &Studio, entry: MenuIndex) -> Option<(String, FontId)> {
         let is_chosen = entry == studio.active();
         let name = studio.lane_name(entry);
@@ -53,7 +53,7 @@ impl Naming {
     }
 }
 
-/// Breaks a name at the blank or the hyphen that makes it narrowest.
+/// Breaks a name into two lines, at the blank or the hyphen that makes it narrowest.
 fn in_two_lines(ui: &Ui, name: &str) -> String {
     let breaks = name.match_indices([' ', '-']).map(|(at, sign)| {
         let end = if sign == "-" { at + 1 } else { at };
@@ -70,7 +70,7 @@ fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, palette(ui).text).size().x
 }
 
-/// Height of the methods in a panel of width `room`, in a window of this size.
+/// Returns the height of the methods in a panel of width `room`, in a window of this size.
 pub(super) fn height(ui: &Ui, studio: &Studio, room: f32, window: Vec2) -> f32 {
     let rows = rows(ui, studio, room);
     let height = HEIGHT + FURTHER * rows.len().saturating_sub(1) as f32;
@@ -78,7 +78,7 @@ pub(super) fn height(ui: &Ui, studio: &Studio, room: f32, window: Vec2) -> f32 {
     if is_narrow && height <= ROWS * window.y { height } else { HEIGHT }
 }
 
-/// Splits the methods, each with its name, into rows of this width.
+/// Splits the methods into rows of this width. Each method has its name.
 fn rows(ui: &Ui, studio: &Studio, room: f32) -> Vec<Vec<usize>> {
     let (mut rows, mut left) = (Vec::<Vec<usize>>::new(), 0.0);
     for entry in 0..studio.deck.offered().min(DIGITS) {
@@ -95,8 +95,8 @@ fn rows(ui: &Ui, studio: &Studio, room: f32) -> Vec<Vec<usize>> {
     rows
 }
 
-/// Shows the scene's methods, or else those with a digit. All have their names if there is room for them, if need be
-/// in several rows or in two lines each. Returns the index of the method that has the pointer or the keyboard focus.
+/// Shows the scene's methods, or else those with a digit. All have their names if there is room, if necessary in
+/// several rows or in two lines each. Returns the index of the method that has the pointer or the keyboard focus.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
     let count = studio.deck.offered().min(DIGITS);
     let room = ui.available_width();
@@ -140,14 +140,14 @@ fn digit(entry: MenuIndex) -> String {
 }
 
 fn width(ui: &Ui, studio: &Studio, entry: MenuIndex, naming: Naming) -> f32 {
-    // Measured in strong type, so that a selection moves no other method.
+    // The name is measured in strong type, so that a selection moves no other method.
     let name = naming.name(ui, studio, entry);
     let named = name.map(|(name, font)| text_width(ui, &name, strong_font(font.size)) + PADDING);
     let digit = keycap::width(ui.painter(), &digit(entry));
     3.0 * PADDING + digit + named.unwrap_or_default() + SIGN
 }
 
-/// Shows a method. A click on it does the same as its digit.
+/// Shows a method. A click on the method has the same effect as its digit.
 fn method(
     ui: &mut Ui,
     studio: &Studio,
@@ -206,7 +206,7 @@ mod tests {
     use crate::view::panels;
     use crate::view::testing::TestWindow;
 
-    /// Words of the row in a window this wide. A blank joins the lines of a name.
+    /// Returns the words of the row in a window of this width. The two lines of a name are joined with a blank.
     fn words(studio: &Studio, width: f32) -> Vec<String> {
         let mut window = TestWindow::new([width, 100.0]);
         let ((), shown) = window.show(Vec::new(), |ui| {

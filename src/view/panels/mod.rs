@@ -1,4 +1,4 @@
-//! The panels around the stage. They read the studio, return commands, and change nothing.
+//! The panels around the stage. They read the studio and return commands, but change nothing.
 
 use egui::epaint::PathShape;
 use egui::{Frame, Key, Margin, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
@@ -22,6 +22,7 @@ mod lanes;
 mod loops;
 mod methods;
 mod my_spring;
+mod number_field;
 mod one_step;
 mod opening;
 mod parts;
@@ -48,23 +49,23 @@ pub enum Panels {
     /// Every panel that fits.
     #[default]
     Shown,
-    /// Nothing: the stage fills the frame.
+    /// No panel: the stage fills the frame.
     Off,
-    /// The instrument alone, which fills the frame.
+    /// Only the instrument, which fills the frame.
     Instrument,
 }
 
-/// Default shares: the instruments' width, and the table's height at most. And the reach of a boundary's grip into
-/// its panel, in points.
+/// Default share of the width for the instruments, and maximum default share of the height for the table. Then the
+/// width by which the grip of a boundary reaches into its panel, in points.
 pub(super) const INSTRUMENTS: f32 = 0.38;
 const TABLE: f32 = 0.4;
 const GRIP: f32 = 6.0;
 
-/// Size of the handle at the right edge of a stage without panels beside it, in points.
+/// Size of the handle at the right edge of a stage that has no panels beside it, in points.
 const EDGE: Vec2 = vec2(16.0, 80.0);
 
-/// Initial share of the instruments' height for the inspector, if it leaves them enough, and the inspector's minimum
-/// height in points.
+/// Initial share of the instruments' height for the inspector, if the instruments keep enough, and the inspector's
+/// minimum height in points.
 const INSPECTOR: f32 = 0.62;
 const MIN_INSPECTOR: f32 = 130.0;
 
@@ -89,7 +90,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         panel.show(ui, |ui| footer::show(ui, studio, &mut commands));
     }
     let mut pointed = None;
-    // The table of a race has them all.
+    // The table of a race already has all the methods.
     let has_methods = studio.loop_lab().is_none()
         && (studio.mode() == Mode::Solo || !studio.display().measure)
         && size.y >= breakpoints::LANES
@@ -117,7 +118,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     let mut stage = ui.available_rect_before_wrap();
     if !studio.display().measure {
         if studio.display().enlarged {
-            // Takes the place of the stage.
+            // The instrument takes the place of the stage.
             let frame = parts::frame(palette(ui).background);
             egui::CentralPanel::default_margins()
                 .frame(frame)
@@ -135,7 +136,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         help::show(ui, studio.viewer.preferences.is_page, &mut commands);
     }
     if let Some(dialog) = studio.viewer.dialog() {
-        // Keeps a dialog off the instruments, because it would cut their letters.
+        // Keeps a dialog off the instruments, because it would cut through their letters.
         let is_wide = stage.width() >= breakpoints::DIALOG_ON_STAGE;
         let along = if is_wide { stage } else { whole };
         let over = Rect::from_x_y_ranges(along.x_range(), whole.y_range());
@@ -158,8 +159,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     (commands, stage)
 }
 
-/// Shows the table, the timeline and the instruments, in a window of this size. Returns the index of the lane in the
-/// table that has the pointer or the keyboard focus.
+/// Shows the table, the timeline and the instruments in a window of this size. Returns the index of the lane that has
+/// the pointer or the keyboard focus in the table.
 fn round_the_stage(
     ui: &mut Ui,
     studio: &Studio,
@@ -174,7 +175,7 @@ fn round_the_stage(
             Some(percent) => size.y * percent as f32 / 100.0,
             None => height.min(size.y * TABLE),
         };
-        // Without a margin, because a row reaches from edge to edge.
+        // The frame has no margin, because a row reaches from edge to edge.
         let frame = Frame::new().fill(palette(ui).panel);
         let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame);
         let shown = panel.show(ui, |ui| match studio.loop_lab() {
@@ -203,7 +204,7 @@ fn round_the_stage(
         let part = studio.display().splits.instruments;
         let beside = size.x * part.map_or(INSTRUMENTS, |percent| percent as f32 / 100.0);
         let (width, indent) = match studio.display().enlarged {
-            // The tabs keep their place under the pointer.
+            // The tabs stay under the pointer.
             true => (size.x, size.x - beside),
             false => (beside, 0.0),
         };
@@ -211,7 +212,7 @@ fn round_the_stage(
             .exact_size(width)
             .frame(parts::frame(palette(ui).background));
         let shown = panel.show(ui, |ui| {
-            // Contents wider than the panel must not move its edge.
+            // Contents that are wider than the panel must not move the panel's edge.
             let room = ui.available_rect_before_wrap();
             ui.allocate_rect(room, egui::Sense::hover());
             let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(room));
@@ -229,7 +230,7 @@ fn round_the_stage(
     pointed
 }
 
-/// The boundary of a panel along `edge`. A drag moves it through `put`, and a double click resets it.
+/// Shows the boundary of a panel along `edge`. A drag moves the boundary through `put`, and a double click resets it.
 fn split(
     ui: &Ui,
     edge: Rect,
@@ -240,7 +241,7 @@ fn split(
     let is_upright = edge.height() > edge.width();
     let sense = egui::Sense::CLICK | egui::Sense::DRAG;
     let id = egui::Id::unique(("split", is_upright));
-    // On the panel alone, because a hand on the stage moves bodies.
+    // The grip lies only on the panel, because a press on the stage grabs bodies.
     let grip = edge.with_max_x(edge.right().max(edge.left() + GRIP));
     let grip = grip.with_max_y(edge.bottom().max(edge.top() + GRIP));
     let response = ui.interact(grip, id, sense);
@@ -263,7 +264,7 @@ fn split(
     }
 }
 
-/// A handle at the right edge of a stage without panels beside it, which slides the instruments in.
+/// Shows a handle at the right edge of a stage that has no panels beside it. The handle slides the instruments in.
 fn edge(ui: &Ui, stage: Rect, commands: &mut Vec<Command>) {
     let rect = Rect::from_center_size(stage.right_center() - EDGE / 2.0 * Vec2::X, EDGE);
     let area = egui::Area::new(egui::Id::unique("edge")).fixed_pos(rect.min).constrain(false);
@@ -284,7 +285,7 @@ fn edge(ui: &Ui, stage: Rect, commands: &mut Vec<Command>) {
     });
 }
 
-/// Shows the instrument alone, for a picture without anything to click.
+/// Shows only the instrument, for a picture without anything to click.
 pub(super) fn show_instrument(ui: &mut Ui, studio: &Studio) {
     let frame = Frame::new().fill(palette(ui).background).inner_margin(Margin::symmetric(8, 4));
     let panel = egui::CentralPanel::default_margins().frame(frame);
@@ -297,7 +298,7 @@ pub(super) fn show_instrument(ui: &mut Ui, studio: &Studio) {
     });
 }
 
-/// Shows the instruments. An open inspector takes the lower part, or everything if there is no room for both.
+/// Shows the instruments. An open inspector takes their lower part, or all of the room if there is not enough for both.
 fn beside_the_stage(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
     let most = ui.available_height() - instruments::min_height(studio.display().instrument);
     if !studio.display().inspector || studio.display().enlarged {
@@ -358,7 +359,7 @@ mod tests {
                 let mut window = TestWindow::new(SIZE);
                 window.context.enable_accesskit();
                 let mut frame = || window.show(Vec::new(), |ui| show(ui, &studio));
-                // Anything over the stage appears from the second frame on.
+                // Parts over the stage appear only from the second frame on.
                 drop(frame());
                 let ((_, stage), shown) = frame();
                 assert_eq!(stage.width() == SIZE.x, !measure, "{stage}");

@@ -1,8 +1,8 @@
-//! A custom spring: fields for its numbers, and a button that asks for advice on it.
+//! A spring with the user's own numbers: a field for each number, and a button that asks for advice on the spring.
 
 use egui::{Align2, Button, ComboBox, FontId, Id, Rect, RichText, Sense, Ui, vec2};
 
-use super::inspector::NumberField;
+use super::number_field::NumberField;
 use super::parts::dialog;
 use super::text_field::select;
 use crate::scene::TickRate;
@@ -12,9 +12,9 @@ use crate::tools::source_code::Language;
 use crate::view::theme::{TYPE, palette};
 
 const TITLE: &str = "My spring";
-/// Frames per second for a library's numbers, which do not depend on it.
+/// Frame rate in Hz that stands in for an unknown one. The numbers of a library that are shown do not depend on it.
 const USUAL_FRAME_HZ: f64 = 60.0;
-/// The widths of a name and of a number, and the height of a line, in points.
+/// Width of a name, width of a number, and height of a line, in points.
 const NAME: f32 = 118.0;
 const NUMBER: f32 = 150.0;
 const LINE: f32 = 22.0;
@@ -57,9 +57,9 @@ pub(super) fn show(
         ui.horizontal(|ui| {
             let words = format!("Run it at {tick_hz:.3} Hz");
             let advise = ui.add(Button::new(RichText::new(words).size(TYPE).strong()));
-            // A number that was just clicked keeps the focus.
+            // A number that the user has just clicked keeps the focus.
             if !is_new && !has_focus && ui.memory(|m| m.focused().is_none()) {
-                // After a typed number, Enter presses the button.
+                // After a number was typed, Enter presses the button.
                 advise.request_focus();
             }
             if advise.clicked() {
@@ -89,7 +89,8 @@ fn is_new(ui: &Ui) -> bool {
     last.is_none_or(|last| last + 1 < now)
 }
 
-/// A menu of libraries, which shows the spring's numbers in the selected one. A button copies its line of code.
+/// Shows the spring's numbers in the selected library, below a menu of libraries. A button copies the line of code for
+/// it.
 fn show_dialect(ui: &mut Ui, spring: MySpring) -> Option<(&'static UiSpring, UiSpringPort)> {
     let id = Id::unique("my spring speaks");
     let chosen = ui.data(|data| data.get_temp::<Option<usize>>(id)).flatten();
@@ -180,7 +181,7 @@ mod tests {
             })
         };
         let before = places(&frames(Vec::new()));
-        // The first field has the focus.
+        // The first field has the focus at the start.
         for (typed, sentence) in [
             ("nan", "`nan` is not a number"),
             ("-5", "mass would be -5; it must be from 1e-12 to 1e12"),

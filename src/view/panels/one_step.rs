@@ -20,32 +20,33 @@ use crate::view::theme::{TYPE, colour, palette, strong_font};
 
 mod loupe;
 
-/// Room for the numbers at the left of the plot and below it, in points.
+/// Width of the numbers at the left of the plot, height of those below it, and height of the name of an axis, in
+/// points.
 const LEFT: f32 = 62.0;
 const BELOW: f32 = 20.0;
 const NAME: f32 = 21.0;
-/// Width in points from which the table stands beside the plot, and the table's width there.
+/// Minimum width of the instrument for a table beside the plot, and the table's width there, in points.
 const ROOM_BESIDE: f32 = 700.0;
 const TABLE: f32 = 380.0;
-/// Minimum share of the height for the plot above the table, and the plot's minimum height in points.
+/// Minimum share of the height for the plot if the table is below it, and the plot's minimum height in points.
 const PLOT: f32 = 0.42;
 const MIN_PLOT: f32 = 108.0;
-/// The height of a row of the table and of a line of the formula, in points.
+/// Height of a row of the table, and of a line of the formula, in points.
 const ROW: f32 = 20.0;
 const FORMULA: f32 = 20.0;
-/// Font size of a formula beside numbers, and the room for the numbers and the badge, in points.
+/// Font size of a formula beside numbers, and width of the numbers and the badge, in points.
 const BESIDE_NUMBERS: f32 = 14.0;
 const NUMBERS: f32 = 185.0;
-/// The radius of a state and of the badge of an evaluation, in points.
+/// Radius of a state, and of the badge of an evaluation, in points.
 const STATE: f32 = 5.0;
 const BADGE: f32 = 8.0;
-/// The length of the longest slope, relative to the plot's diagonal.
+/// Length of the longest slope, relative to the plot's diagonal.
 const SLOPE: f32 = 0.13;
 /// Opacity of an orbit of constant energy.
 const ORBIT: f32 = 0.7;
-/// Maximum number of drawn evaluations: an implicit or an adaptive method may take hundreds.
+/// Maximum number of evaluations that are drawn. An implicit or an adaptive method may take hundreds.
 const MAX_DRAWN: usize = 12;
-/// Margin of the plot on each side, relative to the size of its contents.
+/// Margin of the plot on each side, relative to the size of the plot's contents.
 const MARGIN: f64 = 0.16;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
@@ -66,12 +67,12 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
             });
         });
     } else {
-        // The effect of the step is visible in full; the table scrolls if it needs to.
+        // The words about the step's effect are visible in full. The table scrolls if necessary.
         let said = lay_out_words(ui, studio, &step, room.x);
         let left = height - said.size().y - ui.spacing().item_spacing.y;
         let plot_height = (left - table_height(ui, &step, room.x)).max(PLOT * left);
         plot(ui, studio, &step, vec2(room.x, plot_height.max(MIN_PLOT.min(0.58 * height))));
-        // With hardly any room for the plot, the words scroll too.
+        // The words scroll too if there is hardly any room for the plot.
         let scrolled = if plot_height < MIN_PLOT {
             Some(said)
         } else {
@@ -82,7 +83,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
     }
 }
 
-/// [`words`], laid out to paint.
+/// Lays out the text of [`words`].
 fn lay_out_words(ui: &Ui, studio: &Studio, step: &OneStep, width: f32) -> Arc<Galley> {
     let words = match studio.viewer.is_asked() {
         true => "The end of this tick is shown after your prediction.".into(),
@@ -109,14 +110,14 @@ fn head(ui: &mut Ui, step: &OneStep) {
     });
 }
 
-/// The evaluations to draw, each with its number and its colour.
+/// Returns the evaluations to draw, each with its number and its colour.
 fn evaluations_to_draw<'s>(ui: &Ui, step: &'s OneStep) -> Vec<(usize, Color32, &'s Slope)> {
     let theme = palette(ui).theme;
     let numbered = step.evaluations.iter().enumerate().take(MAX_DRAWN);
     numbered.map(|(i, slope)| (i + 1, colour(theme.evaluation(i)), slope)).collect()
 }
 
-/// Range along an axis of everything that is drawn.
+/// Returns the range along an axis of everything that is drawn.
 fn range(step: &OneStep, axis: usize) -> [f64; 2] {
     let evaluated = step.evaluations.iter().take(MAX_DRAWN).map(|slope| &slope.at);
     let ends = std::iter::once(&step.from).chain(&step.landing);
@@ -147,7 +148,7 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
     painter.text(rect.right_top(), Align2::RIGHT_BOTTOM, along, small, palette.dim);
 
     let own = palette.style(studio.entries(), &step.spec).0;
-    // The states with the energy of the present one, and of the landing.
+    // The curves are the states that have the same energy as the present state, and as the landing.
     let mut curves = Vec::new();
     for (through, colour) in [(Some(step.from), palette.exact), (step.landing, own)] {
         let lines = through
@@ -227,7 +228,7 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
                     (other.y - at.y).abs() < 14.0 && (other.x - at.x).abs() < half + own + 12.0
                 })
         };
-        // Without room for a label, its colour has to suffice.
+        // The colour has to suffice if there is no room for a label.
         let Some(&at) = places.iter().find(is_free) else { continue };
         label(&painter, (at, 0.0), text, [colour, palette.plot]);
         named.push((at, half));
@@ -240,7 +241,7 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &about));
 }
 
-/// Draws the weighted slopes head to tail. If the landing is not their sum, draws one arrow to it.
+/// Draws the weighted slopes head to tail. If the landing is not the sum of the slopes, draws one arrow to the landing.
 fn chain(
     painter: &egui::Painter,
     step: &OneStep,
@@ -264,7 +265,7 @@ fn chain(
     }
 }
 
-/// A slope on the screen, per second.
+/// Returns the direction of a slope on the screen, per second.
 fn direction(area: &PlotArea, slope: &Slope) -> Vec2 {
     let [[x0, x1], [y0, y1]] = area.bounds;
     let size = area.rect.size();
@@ -272,7 +273,7 @@ fn direction(area: &PlotArea, slope: &Slope) -> Vec2 {
     vec2((along / (x1 - x0)) as f32 * size.x, -(up / (y1 - y0)) as f32 * size.y)
 }
 
-/// A place beside a point, clear of all badges and states.
+/// Returns a place for a badge beside a point, clear of all other badges and of the states.
 fn badge_place(at: Pos2, rect: Rect, taken: &[Pos2]) -> Pos2 {
     let around = (0..24).map(|i| {
         let (turn, ring) = ((i % 8) as f32, (i / 8) as f32);
@@ -291,7 +292,7 @@ fn badge(painter: &egui::Painter, at: Pos2, number: usize, [colour, text]: [Colo
     painter.text(at, Align2::CENTER_CENTER, number.to_string(), strong_font(11.0), text);
 }
 
-/// The height of a table of this width, in points.
+/// Returns the height of a table of this width, in points.
 fn table_height(ui: &Ui, step: &OneStep, width: f32) -> f32 {
     let evaluated = step.evaluations.len().min(MAX_DRAWN);
     match rows_of_formula(ui, step, width) {
@@ -302,8 +303,9 @@ fn table_height(ui: &Ui, step: &OneStep, width: f32) -> f32 {
     }
 }
 
-/// The lines of a formula, grouped by the evaluation at the end of each group, and the lines after the last. `None`
-/// if the formula does not list every evaluation, as with a solve of unknown length.
+/// Returns the lines of a formula in groups. Each group ends with the line of an evaluation, and the last group has the
+/// remaining lines. Returns `None` if the formula does not list every evaluation, for example in a solve of unknown
+/// length.
 fn formula_by_evaluation<'f>(formula: &[&'f str], evaluations: usize) -> Option<Vec<Vec<&'f str>>> {
     let mut rows = vec![Vec::new()];
     for line in formula {
@@ -319,12 +321,12 @@ fn formula_by_evaluation<'f>(formula: &[&'f str], evaluations: usize) -> Option<
     (rows.len() == evaluations + 1 && evaluations <= MAX_DRAWN).then_some(rows)
 }
 
-/// Number of digits in a table of this width, and the gap between its columns in points.
+/// Returns the number of digits in a table of this width, and the gap between its columns in points.
 fn figures_and_gap(width: f32) -> (usize, f32) {
     if width < breakpoints::FOUR_FIGURES { (3, 5.0) } else { (4, 14.0) }
 }
 
-/// Lines of the step's method as in [`formula_by_evaluation`], if a table of this width has room for them.
+/// Returns the lines of the step's formula as in [`formula_by_evaluation`], if a table of this width has room for them.
 fn rows_of_formula(ui: &Ui, step: &OneStep, width: f32) -> Option<Vec<Vec<&'static str>>> {
     let rows = formula_by_evaluation(step.spec.method.formula, step.evaluations.len())?;
     let line_width = |line: &&str| {
@@ -335,7 +337,7 @@ fn rows_of_formula(ui: &Ui, step: &OneStep, width: f32) -> Option<Vec<Vec<&'stat
     (widest + NUMBERS + 4.0 * figures_and_gap(width).1 <= width).then_some(rows)
 }
 
-/// Shows every evaluation in numbers, beside its line of the formula, and the end of the tick.
+/// Shows the numbers of every evaluation, beside its line of the formula, and those of the end of the tick.
 fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>) {
     let coordinate = &shown_coordinate(studio);
     let (q, v) = (&coordinate.name, &coordinate.velocity);
@@ -404,12 +406,12 @@ fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>
     });
 }
 
-/// A quantity with its unit, if it has one.
+/// Returns the name of a quantity with its unit, if it has one.
 fn with_unit(quantity: &str, unit: &str) -> String {
     if unit.is_empty() { quantity.into() } else { format!("{quantity}, {unit}") }
 }
 
-/// A moment of the tick in words.
+/// Describes a moment of the tick.
 fn moment_in_words(part: f64) -> String {
     let is = |wanted: f64| (part - wanted).abs() < 1e-9;
     match part {
@@ -428,10 +430,10 @@ fn signed_text(value: f64, figures: usize) -> String {
     format!("{sign}{}", significant(value, figures))
 }
 
-/// A relative change of the swing below this is rounding.
+/// A relative change of the swing below this value is only rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// Describes the effect of the tick on the swing, and that of a tick half as long.
+/// Describes the effect of the tick on the swing, and the effect of a tick half as long.
 fn swing([whole, halves]: [f64; 2]) -> String {
     if whole.abs() < ROUNDING {
         return "One tick keeps the swing.".into();
@@ -451,7 +453,7 @@ fn swing([whole, halves]: [f64; 2]) -> String {
     format!("One tick {does} the swing by {percent} %{half}.")
 }
 
-/// Describes the effect of the tick on the swing, its error, and anything that is not drawn.
+/// Describes the effect of the tick on the swing, the error of the tick, and anything that is not drawn.
 fn words(step: &OneStep, coordinate: &Coordinate) -> String {
     let mut words = match (step.landing, step.exact_landing()) {
         (None, _) => "The method fails in this tick.".into(),
@@ -491,7 +493,7 @@ mod tests {
         assert_eq!(midpoint[2], ["y′ = y + h k₂"]);
         let verlet = of("velocity-verlet", 1).unwrap();
         assert_eq!((verlet[0].len(), verlet[1].len()), (3, 1));
-        // A solve takes a varying number of evaluations, and PEFRL lists drifts and kicks.
+        // A solve takes a varying number of evaluations, and the formula of PEFRL lists drifts and kicks.
         assert_eq!(of("implicit-midpoint", 5), None);
         assert_eq!(of("pefrl", 4), None);
     }

@@ -1,4 +1,4 @@
-//! Dialogs for opening a file: a field for its path, and a report of its mistakes.
+//! Dialogs for opening a file: a field for the file's path, and a report of the mistakes in the file.
 
 use egui::{Id, Key, Label, Rect, RichText, ScrollArea, TextStyle, TextWrapMode, Ui};
 
@@ -9,10 +9,10 @@ use crate::scene::ShownError;
 use crate::studio::{Command, DriverRequest, Studio, ViewCommand};
 use crate::view::theme::palette;
 
-/// Width of a path that is readable without scrolling, in points.
+/// Width of the field for a path, in points. It shows a usual path without scrolling.
 const WIDTH: f32 = 460.0;
 
-/// A field for a path. It has the focus as long as it is open, because all typing is meant for it.
+/// Shows a field for a path. The field has the focus as long as it is open, because all typing is meant for it.
 pub(super) fn path(
     ui: &Ui,
     studio: &Studio,
@@ -31,7 +31,7 @@ pub(super) fn path(
         let id = Id::unique("path of a scene file");
         let is_new = !ui.memory(|memory| memory.has_focus(id));
         if is_new {
-            // The last path can be edited or typed over.
+            // The last path is selected, so that it can be edited or typed over.
             select(ctx, id, 0);
             ui.memory_mut(|memory| memory.request_focus(id));
         }
@@ -49,7 +49,7 @@ pub(super) fn path(
         }
         if ui.input(|input| input.key_pressed(Key::Enter)) {
             commands.push(Command::Ask(DriverRequest::OpenTypedPath));
-            // After Enter the path can be edited at its end, in case it is refused.
+            // The path can be edited at its end after Enter, in case the path is refused.
             ui.memory_mut(|memory| memory.request_focus(id));
             select(ctx, id, usize::MAX);
         }
@@ -66,7 +66,7 @@ pub(super) fn path(
     });
 }
 
-/// A dialog with the report that the command line prints.
+/// Shows a dialog with the report that the command line would print.
 pub(super) fn mistakes(
     ui: &Ui,
     file: &str,
@@ -93,14 +93,14 @@ pub(super) fn mistakes(
     });
 }
 
-/// Writes a report into this room, scrolled if it is larger. Messages wrap. Lines of the file do not, because the
-/// marks below them would lose their places.
+/// Writes a report into this room, and scrolls it if it is larger. Messages wrap, but the lines of the file do not,
+/// because the marks below them would no longer match.
 fn report_within(ui: &mut Ui, report: &[ShownError], room: egui::Vec2) {
     let room = room.max(egui::Vec2::ZERO);
     ScrollArea::both().max_width(room.x).max_height(room.y).show(ui, |ui| {
         for ShownError { message, quoted } in report {
             let message = RichText::new(message).monospace().color(palette(ui).bad);
-            // A scroll area by itself has no right edge to wrap at.
+            // A scroll area has no right edge of its own at which text could wrap.
             ui.scope(|ui| {
                 ui.set_max_width(room.x);
                 ui.add(Label::new(message).wrap());
@@ -120,7 +120,7 @@ mod tests {
     use crate::studio::{Dialog, refuse_typed_path, show_mistakes};
     use crate::view::testing::TestWindow;
 
-    /// Size of the only window over the studio, in points.
+    /// Returns the size of the only dialog over the studio, in points.
     fn size_of_dialog(studio: &Studio, title: &str) -> egui::Vec2 {
         let mut window = TestWindow::new([800.0, 600.0]);
         for _ in 0..3 {

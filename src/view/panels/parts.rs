@@ -12,25 +12,25 @@ use crate::measure::{Outcome, Severity};
 use crate::run::MenuIndex;
 use crate::view::theme::{colour, formula_font, palette, quantity_font};
 
-/// Tag of a panel in a picture of an instrument.
+/// Tag of the panel that shows the picture of an instrument.
 pub(super) const PICTURE: &str = "picture of an instrument";
 
-/// Whether `ui` belongs to a picture, which has words in place of buttons and menus.
+/// Whether `ui` belongs to a picture. A picture has words in place of buttons and menus.
 pub(super) fn is_picture(ui: &Ui) -> bool {
     ui.stack().iter().any(|part| part.tags().contains(PICTURE))
 }
 
-/// A panel's frame, filled with this colour.
+/// Returns the frame of a panel, filled with this colour.
 pub(super) fn frame(fill: Color32) -> Frame {
     Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 4))
 }
 
-/// Name of a method after the digit that selects it, if there is one.
+/// Returns the name of a method after the digit that selects it, if it has a digit.
 pub(super) fn numbered(entry: MenuIndex, name: &str) -> String {
     if entry < 9 { format!("{} {name}", entry + 1) } else { name.to_owned() }
 }
 
-/// Lays out words in one line of this width, with an ellipsis if they are too long. Also returns whether they fit.
+/// Lays out words in one line of this width, with an ellipsis if the words are too long. Also returns whether they fit.
 pub(super) fn short(
     ui: &Ui,
     words: &str,
@@ -53,7 +53,7 @@ pub(super) fn severity_tone(ui: &Ui, severity: Severity) -> Color32 {
     colour(palette(ui).theme.palette().of_severity(severity))
 }
 
-/// Lays out a line of a formula as in print: quantities in serif italic, digits and words upright.
+/// Lays out a line of a formula as in print: the quantities in serif italic, the digits and words upright.
 pub(super) fn formula(line: &str, size: f32, colour: Color32) -> LayoutJob {
     let mut job = LayoutJob::default();
     let letters: Vec<char> = line.chars().collect();
@@ -66,12 +66,12 @@ pub(super) fn formula(line: &str, size: f32, colour: Color32) -> LayoutJob {
     job
 }
 
-/// Whether a letter by itself is a quantity. Indices and the sum sign are not.
+/// Whether a letter by itself is a quantity. Subscripts and the sum sign are not.
 fn is_letter(sign: char) -> bool {
     sign.is_alphabetic() && !matches!(sign, 'ᵢ' | 'ⱼ' | 'Σ')
 }
 
-/// The window of a dialog over the part `over` of the whole window.
+/// Returns the window of a dialog. The dialog lies over the part `over` of the program's window.
 pub(super) fn dialog(title: &str, over: Rect) -> Window<'_> {
     Window::new(title)
         .id(Id::unique(title))

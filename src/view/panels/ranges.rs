@@ -1,23 +1,24 @@
-//! Ranges of the axes of plots: they include the truth and the healthy lanes. A lane far beyond them is cut off and
+//! Ranges of the axes of plots, which include the truth and the healthy lanes. A lane far beyond them is cut off and
 //! does not change an axis.
 
 use super::tracks::Track;
 use crate::view::chart::AxisScale;
 
-/// Smaller errors are rounding. This is the floor of a plot of errors, as a power of ten.
+/// Minimum error that plots show, as a power of ten. Smaller errors are only rounding.
 const FLOOR: f64 = -17.0;
-/// A larger share (%) is not healthy, and stretches no axis while another lane is healthy.
+/// Maximum share (%) that counts as healthy. A larger share extends no axis while another lane is healthy.
 const HEALTHY_SHARE: f64 = 25.0;
-/// A larger share (%) is lost.
+/// Maximum share (%) before the motion counts as lost.
 const LOST_SHARE: f64 = 300.0;
-/// A larger drift (%) is lost, and one below the minimum is rounding.
+/// Maximum drift (%) before the motion counts as lost, and minimum drift, below which a drift is only rounding.
 const LOST_DRIFT: f64 = 1e4;
 const MIN_DRIFT: f64 = 1e-9;
-/// Minimum half range of an axis, relative to its values. A body that has not moved yet then has labels no longer
-/// than later.
+/// Minimum half range of an axis, relative to the axis's values. The labels of a body that has not yet moved are then
+/// no longer than later labels.
 const MIN_HALF_RANGE: f64 = 0.02;
 
-/// Range of the truth along an axis, extended to all values of the lanes up to `healthy` times as far out.
+/// Returns the range of the truth along an axis. The range extends to all values of the lanes that are at most
+/// `healthy` times as far from its middle.
 pub(super) fn around_truth(
     truth: impl Iterator<Item = f64>,
     lanes: &[Track],
@@ -35,7 +36,7 @@ pub(super) fn around_truth(
     (low - pad, high + pad)
 }
 
-/// Enlarges a range to the values of these points, up to `times` its size on each side of its middle.
+/// Extends a range to include these points, but to at most `times` its size on each side of its middle.
 pub(super) fn with_room<'a>(
     (low, high): (f64, f64),
     points: impl Iterator<Item = &'a [f64; 2]>,
@@ -50,7 +51,7 @@ pub(super) fn with_room<'a>(
     })
 }
 
-/// Range of the truth along an axis, and of the lanes that are nowhere more than `healthy` times as far out.
+/// Returns the range of the truth along an axis, and of the lanes that always stay within `healthy` times that range.
 pub(super) fn around_orbit(
     truth: impl Iterator<Item = f64> + Clone,
     lanes: &[Track],
@@ -64,7 +65,7 @@ pub(super) fn around_orbit(
     around_truth(lanes.chain([low, high]), &[], axis, healthy)
 }
 
-/// The decades of the errors, up to ten times the `size` of the quantity. A lane beyond that is lost.
+/// Returns the decades of the errors, up to ten times the `size` of the quantity. A lane with a larger error is lost.
 pub(super) fn of_decades(lanes: &[Track], size: f64) -> (f64, f64) {
     let lost = libm::log10(size.max(1e-300)).ceil() + 1.0;
     let all = lanes.iter().flat_map(|lane| lane.along(1));
@@ -72,7 +73,8 @@ pub(super) fn of_decades(lanes: &[Track], size: f64) -> (f64, f64) {
     (low.floor() - 0.2, high.ceil().max(low.floor() + 2.0) + 0.2)
 }
 
-/// Range of shares in percent of the truth: zero and the healthy lanes, or without any, all values that are not lost.
+/// Returns the range of shares, in percent of the truth. The range includes zero and the healthy lanes. If no lane is
+/// healthy, it includes all values that are not lost.
 pub(super) fn of_shares(lanes: &[Track]) -> (f64, f64) {
     let most = |lane: &&Track| lane.along(1).map(f64::abs).fold(0.0, f64::max);
     let healthy = lanes.iter().filter(|lane| !lane.is_empty() && most(lane) <= HEALTHY_SHARE);
@@ -81,7 +83,8 @@ pub(super) fn of_shares(lanes: &[Track]) -> (f64, f64) {
     padded(range(values).or_else(|| range(all())))
 }
 
-/// The drift (%) up to which a symmetric scale is linear. It is just below the drift of the lane that drifts least.
+/// Returns the drift (%) up to which a symmetric scale is linear. It is just below the drift of the lane that drifts
+/// least.
 pub(super) fn linear_drift(lanes: &[Track]) -> f64 {
     let most = |lane: &Track| lane.along(1).map(f64::abs).fold(0.0, f64::max);
     let least = lanes.iter().map(most).filter(|&drift| drift > 0.0).fold(f64::INFINITY, f64::min);
@@ -92,14 +95,14 @@ pub(super) fn linear_drift(lanes: &[Track]) -> f64 {
     }
 }
 
-/// Range of drifts on a symmetric scale: zero and all values that are not lost.
+/// Returns the range of drifts on a symmetric scale, which includes zero and all values that are not lost.
 pub(super) fn of_drift(lanes: &[Track], scale: AxisScale) -> (f64, f64) {
     let lost = scale.place(LOST_DRIFT);
     let all = lanes.iter().flat_map(|lane| lane.along(1)).filter(|y| y.abs() <= lost);
     padded(range(all))
 }
 
-/// Range of all values and zero, for a count or a sum.
+/// Returns the range that includes zero and all values of a count or a sum.
 pub(super) fn from_zero(lanes: &[Track]) -> (f64, f64) {
     padded(range(lanes.iter().flat_map(|lane| lane.along(1))))
 }

@@ -1,5 +1,5 @@
-//! The tick rate in the hand of a person: a scale at the left edge of the opening stage, and a number elsewhere. While
-//! it is dragged, time waits and the stage shows the next second under each method.
+//! The tick rate in the hand of a person: a scale at the left edge of the opening stage, and a number elsewhere. During
+//! a drag, time stops and the stage shows the next second under each method.
 
 use egui::{
     Align2, Area, CursorIcon, EventFilter, FontId, Id, Key, Rect, Response, Sense, Stroke, Ui,
@@ -7,10 +7,10 @@ use egui::{
 };
 
 use super::breakpoints;
-use super::inspector::NumberField;
+use super::number_field::NumberField;
 use crate::run::race::Mode;
 use crate::scene::entered_tick_rate;
-use crate::sim::TickRate;
+use crate::stage::TickRate;
 use crate::studio::{Arrangement, Command, StageCommand, Step, Studio, ViewCommand};
 use crate::view::theme::{palette, strong_font};
 
@@ -19,20 +19,21 @@ const ENDS: [f64; 2] = [5.0, 1000.0];
 /// Rates of games, films and screens, in Hz.
 const MARKS: [u32; 6] = [10, 24, 30, 60, 120, 240];
 
-/// In points: width of the strip that a hand can take, greatest height, and distance from the stage's edges.
+/// Width of the strip that a hand can grab, maximum height of the scale, and its distances from the stage's left and
+/// bottom edges, in points.
 const WIDTH: f32 = 52.0;
 const MAX_HEIGHT: f32 = 320.0;
 const LEFT: f32 = 1.0;
 const FOOT: f32 = 44.0;
-/// From the left of the strip to the line, in points.
+/// Distance from the left of the strip to the line, in points.
 const LINE: f32 = 16.0;
-/// Share of the stage above the scale: the first body with its name and its mooring.
+/// Share of the stage's height above the scale, where the first body, its name and its mooring are.
 const ABOVE: f32 = 0.22;
-/// Height of the handle, and the distance within which it snaps to a mark, in points.
+/// Height of the handle, and maximum distance from a mark at which the handle snaps to it, in points.
 const HANDLE: f32 = 22.0;
 const SNAP: f32 = 4.0;
 
-/// Whether the stage has the scale, in a stage of this size.
+/// Whether a stage of this size shows the scale.
 pub(super) fn is_shown(studio: &Studio, stage: Vec2) -> bool {
     let display = studio.display();
     let has_names_there =
@@ -60,11 +61,11 @@ pub(super) fn show(ui: &Ui, studio: &Studio, stage: Rect, commands: &mut Vec<Com
         if response.is_pointer_button_down_on() && !studio.deck.is_tick_rate_held() {
             commands.push(Command::View(ViewCommand::HoldTickRate));
         }
-        // The release may be the first event of a drag.
+        // The release may be the only event of a drag.
         let is_moved = response.dragged() || response.drag_stopped() || response.clicked();
         if let Some(at) = response.interact_pointer_pos().filter(|_| is_moved) {
             let picked = TickRate::from(rate_at(line, at.y));
-            // A click on the handle keeps a rate that no point of the scale has.
+            // A click on the handle keeps a tick rate that no point of the scale has.
             let is_on_handle = (at.y - y_of(line, tick_hz.into())).abs() <= HANDLE / 2.0;
             if picked != tick_hz && !(response.clicked() && is_on_handle) {
                 commands.push(Command::Stage(StageCommand::TickHz(picked)));
@@ -111,13 +112,13 @@ pub(super) fn number(
     response
 }
 
-/// Height of a rate on the scale; a rate beyond it is at its end.
+/// Returns the y of a rate on the scale. A rate beyond the scale is at its end.
 fn y_of(line: Rect, hz: f64) -> f32 {
     let part = libm::log(hz / ENDS[0]) / libm::log(ENDS[1] / ENDS[0]);
     line.bottom() - line.height() * part.clamp(0.0, 1.0) as f32
 }
 
-/// The rate at a height: that of a mark nearby, or else a round one.
+/// Returns the rate at a height, which is that of a mark nearby, or else a round one.
 fn rate_at(line: Rect, y: f32) -> u32 {
     let near = MARKS.into_iter().find(|&mark| (y_of(line, mark.into()) - y).abs() <= SNAP);
     near.unwrap_or_else(|| {
@@ -155,7 +156,7 @@ fn paint(ui: &Ui, line: Rect, tick_hz: TickRate, response: &Response) {
     let words = format!("{tick_hz:.2} Hz");
     let words = painter.layout_no_wrap(words, strong_font(12.0), palette.text);
     let size = vec2((words.size().x + 8.0).max(WIDTH - 4.0), HANDLE);
-    // A long number reaches over the stage.
+    // A handle with a long number extends over the stage.
     let handle = Rect::from_min_size(pos2(line.left() + 2.0, y - HANDLE / 2.0), size);
     let rim = if is_lit { palette.accent } else { palette.dim };
     painter.rect(

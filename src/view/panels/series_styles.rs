@@ -1,4 +1,4 @@
-//! Styles of the curves in plots: those of a run's methods, or of the loop lab's loops.
+//! Styles of the curves in plots, which are those of a run's methods or of the loop lab's loops.
 
 use egui::Color32;
 
@@ -10,16 +10,16 @@ use crate::view::theme::{colour, palette_of};
 
 /// Styles of the curves in a plot.
 pub(super) struct SeriesStyles {
-    /// Indexed by the entry of a track.
+    /// Styles of the curves. A track has an index into this list.
     pub(super) series: Vec<SeriesStyle>,
-    /// Index of the front curve.
+    /// Index of the curve in front.
     pub(super) front: usize,
-    /// Whether several run at a time. Their digits then distinguish them.
+    /// Whether several methods or loops run at a time, which their digits then distinguish.
     pub(super) is_race: bool,
-    /// The name of the exact curve.
+    /// Name of the exact curve in the legend.
     pub(super) exact: String,
     pub(super) exact_colour: Color32,
-    /// The moment shown and the length of the run, in seconds.
+    /// The displayed moment, and the length of the run, in seconds.
     pub(super) now_s: f64,
     pub(super) length_s: f64,
 }
@@ -29,12 +29,12 @@ pub(super) struct SeriesStyle {
     pub(super) id: String,
     pub(super) name: String,
     pub(super) colour: Color32,
-    /// Drawn length and gap in points.
+    /// Length of a dash and of the gap after it, in points.
     pub(super) dash: [f32; 2],
 }
 
 impl SeriesStyles {
-    /// Styles of the run's methods, or of the loops if the loop lab is open.
+    /// Creates the styles of the run's methods, or those of the loops if the loop lab is open.
     pub(super) fn of(studio: &Studio) -> Self {
         match studio.loop_lab() {
             Some(loops) => Self::of_loops(studio, loops),

@@ -1,4 +1,5 @@
-//! The stability map: the regions of tick rate and a parameter where each method is stable, and the place of the run.
+//! The stability map, which shows the regions of tick rate and a parameter in which each method is stable, and the
+//! place of the run.
 
 use std::sync::Arc;
 
@@ -25,25 +26,25 @@ use words::{full_name, point_in_words, sentence, short_sentence};
 
 mod words;
 
-/// Room for the numbers at the left, in points.
+/// Width of the numbers at the left, in points.
 const LEFT: f32 = 58.0;
-/// Room for the numbers below, and for an axis's name, in points.
+/// Height of the numbers below, and height of the name of an axis, in points.
 const BELOW: f32 = 18.0;
 const NAME: f32 = 19.0;
-/// Opacity of the water where every method is stable.
+/// Opacity of the tint where every method is stable.
 const DEEPEST: f32 = 0.7;
-/// Id of the cross.
+/// Id of the widget that is the cross at the place of the run.
 const CROSS_ID: &str = "cross of the stability map";
-/// The size of the cross, in points.
+/// Size of the cross, in points.
 const CROSS: f32 = 13.0;
-/// Steps of an arrow key over a factor of ten of the parameter.
+/// Number of presses of an arrow key that multiply the parameter by ten.
 const STEPS_OF_DECADE: f64 = 20.0;
-/// Distance of a label from its boundary, and from the middle of any other label or boundary, in points.
+/// Minimum distance of a label from its boundary, and from the middle of any other label or boundary, in points.
 const BESIDE: f32 = 10.0;
 const APART: f32 = 13.0;
 /// Half the height of the letters of a label, in points.
 const HALF_LETTER: f32 = 6.0;
-/// Height of a row of the key, and width of the piece of a line in it, in points.
+/// Height of a row of the key to the boundaries, and width of the piece of line in a row, in points.
 const ROW: f32 = 16.0;
 const KEY_LINE: f32 = 32.0;
 
@@ -85,7 +86,7 @@ fn parameter(studio: &Studio, index: usize) -> &Parameter {
     &studio.scene().bodies[studio.view().body].kind.parameters[index]
 }
 
-/// The title and the menu of parameters.
+/// Shows the title and the menu of parameters.
 fn head(ui: &mut Ui, studio: &Studio, index: usize, commands: &mut Vec<Command>) {
     let body = &studio.scene().bodies[studio.view().body];
     ui.horizontal(|ui| {
@@ -139,12 +140,13 @@ fn plot(ui: &mut Ui, studio: &Studio, map: &StabilityMap, size: Vec2, commands: 
     cross(ui, studio, map, &area, commands);
 }
 
-/// Tints the plane: the more methods are stable, the deeper. A method that is stable everywhere adds no tint.
+/// Tints the map. The more methods are stable at a point, the deeper is the tint. A method that is stable everywhere
+/// adds no tint.
 fn water(ui: &Ui, map: &StabilityMap, area: &PlotArea) {
     let painter = ui.painter().with_clip_rect(area.rect);
     let part: Vec<_> =
         map.regions.iter().filter(|region| region.coverage == Coverage::Part).collect();
-    // All layers together leave `1 - DEEPEST` of the land visible.
+    // All layers together leave the share `1 - DEEPEST` of the background visible.
     let layer = 1.0 - libm::powf(1.0 - DEEPEST, 1.0 / part.len().max(1) as f32);
     let theme = palette(ui).theme;
     let [sea, blue] = [theme.palette().sea[0], theme.evaluation(1)].map(colour);
@@ -163,7 +165,8 @@ fn water(ui: &Ui, map: &StabilityMap, area: &PlotArea) {
     }
 }
 
-/// Draws each method's boundary in its colour, with its name and its limit beside it. The selected method comes last.
+/// Draws the boundary of each method in its colour, with the method's name and limit beside it. The selected method
+/// comes last.
 fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
     let painter = ui.painter().with_clip_rect(area.rect);
     let lines: Vec<(usize, Vec<Pos2>)> = map
@@ -212,7 +215,7 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
         let others =
             lines.iter().filter(|(other, _)| other != entry).flat_map(|(_, points)| points);
         let others: Vec<Pos2> = others.copied().collect();
-        // Without room for both, the name alone.
+        // Only the name is shown if there is no room for the name with its limit.
         let texts: Vec<String> = with_limit.into_iter().chain([name]).collect();
         let placed = |text: &String, is_at_all: bool| {
             let width = 7.0 * text.chars().count() as f32;
@@ -221,7 +224,7 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
                 places.into_iter().find(|place| is_at_all || is_clear(place, width, &others));
             place.map(|place| (place, width, text.clone()))
         };
-        // A label may lie near another boundary if both coincide.
+        // A label may lie near another boundary if the two boundaries coincide.
         let found = texts.iter().find_map(|text| placed(text, false));
         let found = found.or_else(|| texts.last().and_then(|text| placed(text, true)));
         if let Some(((at, angle), width, text)) = found {
@@ -254,8 +257,8 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
     }
 }
 
-/// Names the boundaries without room for a label, each beside a piece of its line. The list lies in the corner of the
-/// lowest rate and the greatest parameter, off the `taken` places. Returns the places along the names.
+/// Names the boundaries that have no room for a label, each name beside a piece of the boundary's line. The list is in
+/// the upper left corner, clear of the `taken` places. Returns places along the names.
 fn key(ui: &Ui, studio: &Studio, entries: &[usize], area: &PlotArea, taken: &[Pos2]) -> Vec<Pos2> {
     let painter = ui.painter().with_clip_rect(area.rect);
     let mut rows = (0..).map(|row| area.rect.left_top() + vec2(8.0, 30.0 + ROW * row as f32));
@@ -282,7 +285,7 @@ fn key(ui: &Ui, studio: &Studio, entries: &[usize], area: &PlotArea, taken: &[Po
     places
 }
 
-/// Lines along which a player sees the same damping ratio, for the selected engine.
+/// Returns the lines of the selected engine along which a player sees the same damping ratio.
 fn seen_lines(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64, Vec<Pos2>)> {
     let found = map.regions.iter().zip(&map.request.specs);
     let selected = found.filter(|(_, (entry, _))| *entry == studio.active());
@@ -296,20 +299,21 @@ fn seen_lines(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64,
     lines.map(line).collect()
 }
 
-/// Stability limit of a method on the map, as a formula: `ω h < 2`.
+/// Returns the stability limit of a method on the map as a formula: `ω h < 2`.
 fn limit(map: &StabilityMap, entry: MenuIndex) -> Option<String> {
     let index = map.request.specs.iter().position(|(listed, _)| *listed == entry)?;
     Some(format!("ω h < {}", round(map.regions.get(index)?.limit?, 4)))
 }
 
-/// Points along a label, at most [`APART`] from each other.
+/// Returns the points along a label, at most [`APART`] from each other.
 fn points_along(at: Pos2, angle: f32, width: f32) -> impl Iterator<Item = Pos2> {
     let steps = (width / APART).ceil().max(1.0);
     let ends = at - Vec2::angled(angle) * (width / 2.0);
     (0..=steps as u32).map(move |i| ends + Vec2::angled(angle) * (width * i as f32 / steps))
 }
 
-/// Places and angles for the label of a boundary: beside it, within `rect`, off the `taken` places.
+/// Returns places and angles for the label of a boundary. They are beside the boundary, within `rect`, and clear of the
+/// `taken` places.
 fn label_places(points: &[Pos2], width: f32, rect: Rect, taken: &[Pos2]) -> Vec<(Pos2, f32)> {
     let inside: Vec<Pos2> = points.iter().copied().filter(|at| rect.contains(*at)).collect();
     let candidates = [0.5, 0.62, 0.38, 0.74, 0.26, 0.85, 0.15].into_iter().flat_map(|part| {
@@ -336,14 +340,14 @@ fn label_places(points: &[Pos2], width: f32, rect: Rect, taken: &[Pos2]) -> Vec<
         .collect()
 }
 
-/// Whether a label is clear of the boundaries in `others`, so that it cannot be taken for theirs.
+/// Whether a label is clear of the boundaries in `others`, so that it is not mistaken for the label of one of them.
 fn is_clear((at, angle): &(Pos2, f32), width: f32, others: &[Pos2]) -> bool {
     points_along(*at, *angle, width)
         .all(|at| others.iter().all(|other| other.distance(at) >= BESIDE))
 }
 
-/// Names the methods that are stable everywhere, in a corner that usually has no other name. Returns the places along
-/// the text.
+/// Names the methods that are stable everywhere, in a corner that usually has no other name. Returns places along the
+/// text.
 fn only_everywhere(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<Pos2> {
     let found = map.regions.iter().zip(&map.request.specs);
     let mut everywhere = found.filter(|(region, _)| region.coverage == Coverage::Everywhere);
@@ -371,14 +375,14 @@ fn only_everywhere(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea
     points_along(rect.center(), 0.0, rect.width()).collect()
 }
 
-/// Place of the run on the map. A value beyond the map lies at its edge.
+/// Returns the place of the run on the map. A run beyond the map is at its edge.
 fn cross_at(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Option<Pos2> {
     let value = studio.race().values(map.request.body).get(map.request.parameter)?;
     let hz = f64::from(studio.clock().tick_hz());
     Some(area.rect.clamp(area.at([hz, value.max(f64::MIN_POSITIVE)].map(libm::log10))))
 }
 
-/// Shows the cross. A drag of it sets the tick rate and the parameter.
+/// Shows the cross. A drag of the cross sets the tick rate and the parameter.
 fn cross(
     ui: &Ui,
     studio: &Studio,
@@ -396,7 +400,7 @@ fn cross(
         point_in_words(studio, index, studio.clock().tick_hz(), value)
     );
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &here));
-    // The release may be the first event of a drag.
+    // The release may be the only event of a drag.
     let is_moved = response.dragged() || response.drag_stopped() || response.clicked();
     if let Some(pointer) = response.interact_pointer_pos().filter(|_| is_moved) {
         go_to(studio, map, area.point(pointer), commands);
@@ -431,7 +435,7 @@ fn cross(
     painter.galley(chip.min + vec2(6.0, 3.0), galley, palette.on_accent);
 }
 
-/// Lays out the words beside a cross at this place of a map, and their frame.
+/// Lays out the words beside a cross at this place of a map. Also returns their rectangle.
 fn you_are_here(ui: &Ui, at: Pos2, map: Rect) -> (Rect, Arc<Galley>) {
     let colour = palette(ui).on_accent;
     let words = ui.painter().layout_no_wrap("you are here".into(), strong_font(12.0), colour);
@@ -442,7 +446,8 @@ fn you_are_here(ui: &Ui, at: Pos2, map: Rect) -> (Rect, Arc<Galley>) {
     (Rect::from_min_size(pos2(left, top), size), words)
 }
 
-/// Moves the cross by the arrow keys: along the ladder of tick rates, and by equal factors of the parameter.
+/// Moves the cross by the arrow keys. A key steps along the ladder of tick rates, or multiplies the parameter by a
+/// constant factor.
 fn step(ui: &Ui, studio: &Studio, map: &StabilityMap, commands: &mut Vec<Command>) {
     let pressed = |key| ui.input(|input| input.num_presses(key));
     commands.extend(
@@ -463,7 +468,7 @@ fn step(ui: &Ui, studio: &Studio, map: &StabilityMap, commands: &mut Vec<Command
 
 /// Sets the tick rate and the parameter to a point of the map.
 fn go_to(studio: &Studio, map: &StabilityMap, [x, y]: [f64; 2], commands: &mut Vec<Command>) {
-    // A pixel is coarser than a hertz.
+    // A pixel of the map is coarser than a hertz.
     let tick_hz = TickRate::whole(libm::pow(10.0, x).round().max(1.0) as u32);
     if tick_hz != studio.clock().tick_hz() {
         commands.push(Command::Stage(StageCommand::TickHz(tick_hz)));

@@ -1,5 +1,5 @@
-//! Tables with as many columns as fit. A click on a head sorts the rows. Mouse and keyboard can select a row, and a
-//! screen reader reads its numbers.
+//! Tables with as many columns as fit. A click on a head sorts the rows. The mouse and the keyboard can select a row,
+//! and a screen reader reads the row's numbers.
 
 use egui::{Align2, Color32, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
@@ -10,36 +10,36 @@ use crate::view::chart;
 use crate::view::chart::legend::swatch;
 use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
-/// Width of the bar at the left of the selected row, and of the margin around it, in points.
+/// Width of the bar at the left of the selected row, and width of the margin around a row, in points.
 const BAR: f32 = 4.0;
 pub(super) const MARGIN: f32 = 8.0;
 /// The room between two columns, in points.
 pub(super) const GAP: f32 = 8.0;
 /// Minimum font size of a cell, in points.
 const MIN_TYPE: f32 = 9.0;
-/// Width of a column below which names have the smaller font size, both in points.
+/// Width of a column below which names have the smaller font size, and that font size, both in points.
 const NARROW: f32 = 140.0;
 const NARROW_TYPE: f32 = 10.5;
-/// Gap between the words of a head and those at its right end, in points.
+/// Gap between the words of a head and the words at its right end, in points.
 const BESIDE_HEAD: f32 = 30.0;
 
 /// A row of a table.
 pub(super) trait TableRow {
-    /// Text for a screen reader, before the numbers.
+    /// Returns the text that a screen reader reads before the row's numbers.
     fn spoken(&self) -> String;
 
-    /// Whether keys and stage refer to this row.
+    /// Whether the keys and the stage refer to this row.
     fn is_selected(&self) -> bool;
 
-    /// Colours of the bar that marks a selected row, and of the row's numbers.
+    /// Returns the colour of the bar that marks the row if it is selected, and the colour of the row's numbers.
     fn colours(&self, palette: &PanelPalette) -> [Color32; 2];
 
-    /// Colour of the numbers.
+    /// Returns the colour of the row's numbers.
     fn text(&self, ui: &Ui) -> Color32 {
         self.colours(palette(ui))[1]
     }
 
-    /// Command of a click; `None` if a click does nothing.
+    /// Returns the command that a click on the row issues, or `None` if a click does nothing.
     fn command(&self) -> Option<Command>;
 
     /// Shows further details of the row.
@@ -60,9 +60,9 @@ impl From<Option<f64>> for SortKey {
     }
 }
 
-/// Text of a number in a row; `None` if it has no value.
+/// The text of a number in a row, or `None` if the row has no value.
 type NumberText<R> = Box<dyn Fn(&R) -> Option<String>>;
-/// Shows a cell of a row in a rectangle, and may issue commands.
+/// A function that shows a cell of a row in a rectangle, and may issue commands.
 type ShowCell<R> = Box<dyn Fn(&mut Ui, &R, Rect, &mut Vec<Command>)>;
 
 /// Contents of a cell.
@@ -74,23 +74,24 @@ pub(super) enum CellContent<R> {
 
 /// A column of a table of rows `R`.
 pub(super) struct Column<R> {
-    /// Unique name among the table's columns, also for a screen reader.
+    /// Name of the column, unique in the table. A screen reader reads it too.
     pub(super) name: &'static str,
     pub(super) head: String,
     /// Text at the right end of the head, if there is room.
     pub(super) beside_head: Option<String>,
-    /// Tooltip of the head.
+    /// Tooltip of the column's head.
     pub(super) about: String,
-    /// Width in points. The only column of width 0 takes the rest.
+    /// Width in points. The column of width 0, of which there is one, takes the remaining width.
     pub(super) width: f32,
-    /// Columns join in this order while there is room, from 0. Columns with 0 are always there.
+    /// Columns are added in the order of their priorities while there is room. Columns with priority 0 are always
+    /// shown.
     pub(super) priority: u8,
     pub(super) cell: CellContent<R>,
     pub(super) sort_key: Box<dyn Fn(&R) -> SortKey>,
 }
 
 impl<R> Column<R> {
-    /// A column that is always there.
+    /// Creates a column that is always shown.
     pub(super) fn shown(
         name: &'static str,
         width: f32,
@@ -110,7 +111,7 @@ impl<R> Column<R> {
         }
     }
 
-    /// A column of numbers, with the text and the sort key of each.
+    /// Creates a column of numbers. Each row has a text and a sort key.
     pub(super) fn number(
         name: &'static str,
         (width, priority): (f32, u8),
@@ -124,7 +125,7 @@ impl<R> Column<R> {
         Self { priority, cell, ..column }
     }
 
-    /// The same column under this head.
+    /// Returns the same column with this head.
     pub(super) fn headed(self, head: impl Into<String>) -> Self {
         Self { head: head.into(), ..self }
     }
@@ -135,7 +136,7 @@ impl<R> Column<R> {
 }
 
 impl<R: TableRow> Column<R> {
-    /// Keys that select the first ten indices. A row without an index has no key.
+    /// Creates the column of keys, which select the first ten indices. A row without an index has no key.
     pub(super) fn key(about: &str, index: impl Fn(&R) -> Option<usize> + Copy + 'static) -> Self {
         let show = move |ui: &mut Ui, row: &R, rect: Rect, _: &mut Vec<Command>| {
             let Some(index) = index(row).filter(|index| *index < 10) else { return };
@@ -149,7 +150,8 @@ impl<R: TableRow> Column<R> {
         Self::shown("Key", 26.0, about, show, move |row| by_index(index(row)))
     }
 
-    /// Lines of the rows in the plots, with colour and dash. A row without an index has no line.
+    /// Creates the column of lines, each with the colour and dash of its row in the plots. A row without an index has
+    /// no line.
     pub(super) fn line(
         about: &str,
         index: impl Fn(&R) -> Option<usize> + Copy + 'static,
@@ -171,21 +173,22 @@ fn by_index(index: Option<usize>) -> SortKey {
 }
 
 pub(super) struct Table<R> {
-    /// Unique name among all tables.
+    /// Id of the table, unique among all tables.
     pub(super) id: &'static str,
-    /// From left to right.
+    /// Columns from left to right.
     pub(super) columns: Vec<Column<R>>,
-    /// Minimum width in points of the column that takes the rest, beside columns up to a priority.
+    /// Minimum width, in points, of the column that takes the remaining width, beside columns up to this priority.
     pub(super) min_rest: fn(u8) -> f32,
-    /// Height of a row, and font size of the heads, in points.
+    /// Height of a row, and font size of the heads, both in points.
     pub(super) row_height: f32,
     pub(super) head_type: f32,
 }
 
-/// Column that sorts the rows, and whether in reverse. `None` leaves the rows in their given order.
+/// The column that sorts the rows, and whether the order is reversed. `None` keeps the given order of the rows.
 pub(super) type Order = Option<(&'static str, bool)>;
 
-/// The order after a click on the head of a column: by that column, then in reverse, then none.
+/// Returns the order after a click on the head of a column. Successive clicks sort by the column, then in reverse, then
+/// not at all.
 fn order_after_click(order: Order, name: &'static str) -> Order {
     match order {
         Some((by, false)) if by == name => Some((name, true)),
@@ -194,7 +197,7 @@ fn order_after_click(order: Order, name: &'static str) -> Order {
     }
 }
 
-/// Arrow after the head of a column. It points up if values rise from row to row.
+/// Returns the arrow after the head of a column, which points up if the values rise from row to row.
 fn arrow(order: Order, name: &str) -> &'static str {
     match order {
         Some((by, false)) if by == name => " ↑",
@@ -204,12 +207,12 @@ fn arrow(order: Order, name: &str) -> &'static str {
 }
 
 impl<R: TableRow> Table<R> {
-    /// The height of the heads, in points.
+    /// Returns the height of the heads, in points.
     fn head_height(&self) -> f32 {
         self.row_height - 2.0
     }
 
-    /// Shows the rows. Those of a group stay together. `each` gets every row with its response.
+    /// Shows the rows. The rows of a group stay together. `each` is called with every row and its response.
     pub(super) fn show(
         &self,
         ui: &mut Ui,
@@ -222,10 +225,10 @@ impl<R: TableRow> Table<R> {
         let columns = self.fitting(width - 2.0 * MARGIN);
         let order = self.show_heads(ui, &columns, width);
         let rows: Vec<R> = self.sorted(groups, order).into_iter().flatten().collect();
-        // The last row in sight must be as clear as the others.
+        // The last row in sight must not be faded.
         ui.spacing_mut().scroll.fade.strength = 0.0;
         let mut list = ScrollArea::vertical().id_salt(self.id).auto_shrink(false);
-        // A panel beside the table may leave it no row.
+        // A panel beside the table may leave no room for a row.
         list = list.min_scrolled_height(0.0);
         let selected = rows.iter().position(R::is_selected).unwrap_or_default();
         if let Some(offset) = self.offset_to_follow(ui, selected, rows.len()) {
@@ -240,7 +243,7 @@ impl<R: TableRow> Table<R> {
         });
     }
 
-    /// The columns that fit this width, each with its left edge and its width.
+    /// Returns the columns that fit this width, each with its left edge and its width.
     pub(super) fn fitting(&self, width: f32) -> Vec<(&Column<R>, f32, f32)> {
         let taken = |most: u8| self.columns.iter().filter(move |column| column.priority <= most);
         let rest = |most: u8| width - taken(most).map(|column| column.width + GAP).sum::<f32>();
@@ -257,7 +260,7 @@ impl<R: TableRow> Table<R> {
         placed.collect()
     }
 
-    /// Shows the heads. Returns the order that the user has chosen with them.
+    /// Shows the heads of the columns. Returns the order that the user has chosen with them.
     fn show_heads(&self, ui: &mut Ui, columns: &[(&Column<R>, f32, f32)], width: f32) -> Order {
         let id = Id::unique(("order of a table", self.id));
         let mut order = ui.data(|data| data.get_temp::<Order>(id)).flatten();
@@ -347,13 +350,13 @@ impl<R: TableRow> Table<R> {
             commands.extend(command);
         }
         let is_in_sight = ui.is_rect_visible(rect);
-        // Cells lie over the row, so that their buttons take the click.
+        // The cells lie over the row, so that their buttons receive the click.
         for &(column, left, own) in columns {
             let from = pos2(rect.left() + MARGIN + left, rect.top());
             let cell = Rect::from_min_size(from, vec2(own, self.row_height));
             match &column.cell {
                 CellContent::Shown(show) => show(ui, row, cell, commands),
-                // Buttons are only in cells of the other kind.
+                // A cell with a number has no buttons, so it can be skipped out of sight.
                 CellContent::Number(_) if !is_in_sight => {}
                 CellContent::Number(words) => {
                     let (at, font) = (cell.right_center(), FontId::proportional(TYPE));
@@ -365,8 +368,8 @@ impl<R: TableRow> Table<R> {
         response
     }
 
-    /// The scroll offset that shows a newly selected row. `None` if the selection has not changed, because the user
-    /// may scroll away from it.
+    /// Returns the scroll offset that shows a newly selected row, or `None` if the selection has not changed, because
+    /// the user may have scrolled away from the row.
     fn offset_to_follow(&self, ui: &Ui, selected: usize, rows: usize) -> Option<f32> {
         let id = Id::unique(("selected row of a table", self.id));
         let known = ui.data_mut(|data| {
@@ -377,13 +380,13 @@ impl<R: TableRow> Table<R> {
         let room = ui.available_height();
         let bottom = self.row_height * (selected + 1) as f32;
         let hidden = (self.row_height * rows as f32 - room).max(0.0);
-        // From the top as long as the row is in sight there, because a race then shows its lanes.
+        // The list stays at its top if the row is in sight there, because a race then shows its first lanes.
         let offset = if bottom <= room { 0.0 } else { bottom - (self.row_height + room) / 2.0 };
         (known != Some(selected)).then(|| offset.clamp(0.0, hidden))
     }
 }
 
-/// Writes words into a cell, and shrinks them before it cuts them.
+/// Writes words into a cell. Words that are too long shrink before they are truncated.
 pub(super) fn show_words(ui: &Ui, rect: Rect, words: &str, is_strong: bool, colour: Color32) {
     let mut size = TYPE;
     let galley = loop {
@@ -398,7 +401,7 @@ pub(super) fn show_words(ui: &Ui, rect: Rect, words: &str, is_strong: bool, colo
     ui.painter().galley(at, galley, colour);
 }
 
-/// Writes a name into a cell, and cuts it if it is too long. All names in a column have the same size.
+/// Writes a name into a cell, and truncates it if it is too long. All names in a column have the same size.
 pub(super) fn show_name(ui: &Ui, rect: Rect, name: &str, colour: Color32) {
     let size = if rect.width() < NARROW { NARROW_TYPE } else { TYPE };
     let (galley, _) = short(ui, name, FontId::proportional(size), rect.width(), colour);

@@ -1,14 +1,14 @@
-//! A line of text to type or paste into. Its length is bounded, because every frame lays out all of it, and each step
-//! of undo keeps a copy.
+//! A line of text that can be typed or pasted. Its length is limited, because every frame lays out the whole text, and
+//! each step of undo keeps a copy of it.
 
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{Context, Id, TextEdit};
 
-/// The most letters of a number with its unit: an `f64` has at most 24.
+/// Maximum number of letters of a number with its unit. An `f64` alone has at most 24.
 pub(super) const MAX_NUMBER: usize = 40;
 
-/// An editor for a line of at most `max` letters. A longer paste is cut.
+/// Returns an editor for a line of at most `max` letters. A longer paste is truncated.
 pub(super) fn text_field(text: &mut String, id: Id, max: usize) -> TextEdit<'_> {
     TextEdit::singleline(text).id(id).char_limit(max)
 }

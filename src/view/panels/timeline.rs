@@ -1,7 +1,7 @@
-//! The timeline: the run from its start to its end, with its events. The present is its handle.
+//! The timeline shows the run from its start to its end, with its events. Its handle is the present.
 //!
-//! A click or a drag seeks to a tick, the wheel zooms about the pointer, scrolling sideways moves, and a double click
-//! shows everything.
+//! A click or a drag seeks to a tick, the wheel zooms about the pointer, scrolling sideways moves the view, and a
+//! double click shows everything.
 
 use egui::{
     Align2, Color32, EventFilter, FontId, Key, Painter, Pos2, Rangef, Rect, Response, Sense, Shape,
@@ -24,26 +24,27 @@ use crate::view::touch::wheel_or_pinch;
 mod marks;
 mod span;
 
-/// Height of the panel in points: with the times of the ticks written below the track, and without.
+/// Height of the panel with the times written below the track, and without them, in points.
 pub(super) const HEIGHT: f32 = 38.0;
 pub(super) const HEIGHT_OF_TRACK: f32 = 19.0;
 
-/// Thickness of the track, and distance of its middle from the panel's top, in points.
+/// Thickness of the track, and distances of its middle from the panel's top with and without the times, in points.
 pub(super) const THICKNESS: f32 = 6.0;
 pub(super) const TRACK_Y: f32 = 16.0;
 const TRACK_Y_ALONE: f32 = 12.0;
 /// Minimum length of the track, in points.
 const MIN_LENGTH: f32 = 40.0;
 pub(super) const MEMORY: f32 = 104.0;
-/// Room at the ends of the track for half a number, and for the *undo* button if nothing else is there.
+/// Width at the ends of the track for half a number, and width of the *undo* button if nothing else is beside the
+/// track, in points.
 pub(super) const MARGIN: f32 = 14.0;
 const UNDO: f32 = 52.0;
-/// The memory appears from this share of its bound on.
+/// Share of the memory limit from which the used memory is shown.
 const NEAR_THE_BOUND: f64 = 0.75;
-/// Minimum distances in points between the numbers along the track, and between two marks.
+/// Minimum distance between two numbers along the track, and between two marks, in points.
 const NUMBERS_APART: f64 = 120.0;
 const MARKS_APART: f32 = 15.0;
-/// The ticks in the closest view.
+/// Number of ticks in the closest view.
 const MIN_TICKS: f64 = 12.0;
 /// Maximum number of marks that a tooltip lists.
 const MAX_TOLD: usize = 8;
@@ -79,7 +80,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     groove.write(&painter, span, track.palette);
     draw_track(&painter, studio, &events, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
-    // The same moment as on the stage and in the plots.
+    // The handle is at the same moment as the stage and the plots.
     let shown_s = shown_s(&studio.deck, &studio.viewer);
     let present = span.x(shown_s, along);
     if along.expand(1.0).contains(present) {
@@ -108,18 +109,18 @@ fn groove(studio: &Studio, room: Rect) -> Option<Groove> {
     Groove::new(room, if studio.run().undoes().is_some() { UNDO } else { 0.0 })
 }
 
-/// Place of a track on its panel.
+/// The track of a timeline at its place on a panel.
 #[derive(Clone, Copy)]
 pub(super) struct Groove {
     room: Rect,
-    /// The y of its middle.
+    /// The y of the track's middle.
     pub(super) y: f32,
     pub(super) along: Rangef,
 }
 
 impl Groove {
-    /// A track with `beside` points free at the right, if there is no room for words there. `None` if the track would
-    /// be too short.
+    /// Creates a track, or returns `None` if the track would be too short. At the right there is room for words, or
+    /// else `beside` points.
     pub(super) fn new(room: Rect, beside: f32) -> Option<Self> {
         let has_words = room.width() >= breakpoints::WORDS_BESIDE_TIMELINE;
         let right = if has_words { MEMORY } else { beside };
@@ -133,21 +134,21 @@ impl Groove {
         ui.interact(grab, ui.scope_id().with("track"), Sense::click_and_drag())
     }
 
-    /// The visible part of the track between two places.
+    /// Returns the rectangle of the track between two places, as far as it is visible.
     pub(super) fn piece(&self, from: f32, to: f32) -> Rect {
         let [from, to] = [from, to].map(|x| self.along.clamp(x));
         let half = 0.5 * THICKNESS;
         Rect::from_min_max(pos2(from, self.y - half), pos2(to, self.y + half))
     }
 
-    /// Writes round times below the track, if there is room.
+    /// Writes round times below the track, if the panel has room.
     pub(super) fn write(&self, painter: &Painter, span: Span, palette: &PanelPalette) {
         if is_tall(self.room) {
             numbers(painter, (span, self.along), self.y, self.room.bottom(), palette);
         }
     }
 
-    /// Writes words at an end of the panel, if there is room.
+    /// Writes words at an end of the panel, if the panel has room.
     pub(super) fn write_at(
         &self,
         painter: &Painter,
@@ -161,7 +162,7 @@ impl Groove {
         }
     }
 
-    /// Draws the handle at the present.
+    /// Draws the handle at the present moment.
     pub(super) fn handle(
         &self,
         painter: &Painter,
@@ -182,7 +183,7 @@ fn is_tall(room: Rect) -> bool {
     room.height() > 0.5 * (HEIGHT + HEIGHT_OF_TRACK)
 }
 
-/// The track on the panel, with its view of the run.
+/// The track on the panel, with the part of the run that it shows.
 struct TimelineView<'a> {
     groove: Groove,
     span: Span,
@@ -200,7 +201,7 @@ impl TimelineView<'_> {
     }
 }
 
-/// The visible part of the run, after this frame's wheel and clicks.
+/// Returns the part of the run in view after this frame's wheel and clicks.
 fn visible_span(
     ui: &Ui,
     studio: &Studio,
@@ -235,7 +236,7 @@ fn visible_span(
     span
 }
 
-/// Seeks to the pressed tick. If the track has the focus, the arrow keys step by ticks.
+/// Seeks to the pressed tick. While the track has the focus, the arrow keys step by ticks.
 fn seek(
     ui: &Ui,
     studio: &Studio,
@@ -255,10 +256,10 @@ fn seek(
     step(ui, response, commands);
 }
 
-/// Place of a press on a track.
+/// Returns the place at which a track is pressed.
 pub(super) fn pressed(ui: &Ui, response: &Response, along: Rangef) -> Option<f32> {
-    // A press that is over before the next frame shows only in its release. A release without new input seeks
-    // nowhere, because a key in the same frame may have moved on from there.
+    // A press that ends before the next frame shows only as a release. A release without new input does not seek,
+    // because a key in the same frame may already have moved the present.
     let is_new = ui.input(|i| i.pointer.any_pressed() || i.pointer.delta() != Vec2::ZERO);
     let has_ended = response.clicked() || response.drag_stopped();
     let is_other = ui.input(|i| i.pointer.secondary_down() || i.pointer.secondary_released());
@@ -268,7 +269,7 @@ pub(super) fn pressed(ui: &Ui, response: &Response, along: Rangef) -> Option<f32
     Some(along.clamp(pointer.x))
 }
 
-/// Steps back and forth by the arrow keys while a track has the focus.
+/// Steps back and forth by the arrow keys while the track has the focus.
 pub(super) fn step(ui: &Ui, response: &Response, commands: &mut Vec<Command>) {
     if response.has_focus() {
         let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
@@ -284,7 +285,7 @@ pub(super) fn step(ui: &Ui, response: &Response, commands: &mut Vec<Command>) {
     }
 }
 
-/// Writes times at round steps below a track whose middle is at `y`.
+/// Writes the times at round steps below a track. The track's middle is at `y`.
 fn numbers(
     painter: &Painter,
     (span, along): (Span, Rangef),
@@ -306,7 +307,7 @@ fn numbers(
     }
 }
 
-/// Draws the track: the run up to the present in the colours of the methods, the run beyond it in grey.
+/// Draws the track. The run up to the present has the colours of the methods, and the rest of the run is grey.
 fn draw_track(painter: &Painter, studio: &Studio, events: &[Event], track: &TimelineView<'_>) {
     let round = 0.5 * THICKNESS;
     let (groove, along) = (track.groove, track.groove.along);
@@ -329,7 +330,8 @@ fn draw_track(painter: &Painter, studio: &Studio, events: &[Event], track: &Time
     }
 }
 
-/// The colour of the selected lane on the track: dimmed in a race, whose lanes have many colours.
+/// Returns the colour of the selected lane on the track. It is dimmed in a race, because the lanes of a race have many
+/// colours.
 fn strength(colour: Color32, mode: Mode, palette: &PanelPalette) -> Color32 {
     match mode {
         Mode::Solo => colour,
@@ -337,7 +339,7 @@ fn strength(colour: Color32, mode: Mode, palette: &PanelPalette) -> Color32 {
     }
 }
 
-/// Draws the sign of a group above the track, with the number of its marks.
+/// Draws the sign of a group above the track, with the number of marks in the group.
 fn draw_group(painter: &Painter, track: &TimelineView<'_>, group: &MarkGroup) {
     let (x, foot) = (group.x, track.groove.y - 0.5 * THICKNESS);
     let mark = group.drawn_mark();
@@ -385,7 +387,7 @@ fn draw_group(painter: &Painter, track: &TimelineView<'_>, group: &MarkGroup) {
     }
 }
 
-/// The *undo* button, and the memory that the past takes.
+/// Shows the *undo* button, and the memory that the recorded run takes.
 fn show_undo_and_memory(ui: &mut Ui, studio: &Studio, room: Rect, commands: &mut Vec<Command>) {
     let timeline = studio.run();
     let is_near = timeline.bytes() as f64 >= NEAR_THE_BOUND * timeline.limit() as f64;
@@ -415,13 +417,13 @@ fn show_undo_and_memory(ui: &mut Ui, studio: &Studio, room: Rect, commands: &mut
     }
 }
 
-/// The used memory and its bound as text.
+/// Formats the used memory and its limit.
 fn memory(bytes: usize, limit: usize) -> String {
     let megabytes = |bytes: usize| bytes as f64 / f64::from(1 << 20);
     format!("{:.1} of {:.0} MB", megabytes(bytes), megabytes(limit))
 }
 
-/// Shows the events under the pointer or, if there are none, the moment.
+/// Shows the events under the pointer, or the moment if there are no events.
 fn tooltip(
     ui: &Ui,
     response: Response,
@@ -432,7 +434,7 @@ fn tooltip(
     let x = track.groove.along.clamp(x);
     let line = Stroke::new(1.0, palette(ui).text.gamma_multiply(0.5));
     ui.painter().vline(x, Rangef::new(track.groove.y - 12.0, track.groove.y + 4.0), line);
-    // Above the pointer, because the heads of the table are below.
+    // The tooltip is above the pointer, because the heads of the table are below.
     let mut above = egui::Tooltip::for_enabled(&response).at_pointer().gap(12.0);
     above.popup = above.popup.align(egui::RectAlign::TOP);
     above.show(|ui| {

@@ -1,4 +1,4 @@
-//! The top bar: the scene, its transport and speed, and the present time.
+//! The top bar: the scene, the control of the run and its speed, and the present time.
 
 use egui::{
     Align, Button, ComboBox, Frame, Label, Layout, RichText, Sense, TextWrapMode, Ui, vec2,
@@ -21,7 +21,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let width = ui.available_width();
     ui.horizontal_centered(|ui| {
         scene_menu(ui, studio, width, commands);
-        // Below this width, the menu of scenes has the spring.
+        // The menu of scenes offers the spring if the top bar is narrower than this.
         if width >= breakpoints::SPRING {
             let about = "a spring of your own: the recommended method, and its code (S)";
             let words = if width >= breakpoints::MY_SPRING { "My spring" } else { "Spring" };
@@ -81,7 +81,7 @@ fn word(ui: &mut Ui, width: f32, word: &str) {
     }
 }
 
-/// The menu of scenes by name, each with its title beside it, below the heading of its group.
+/// Shows the menu of scenes by name, with the title beside each name, below the headings of the groups.
 fn scene_menu(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) {
     let name = studio.deck.scene_name();
     let menu = ComboBox::from_id_salt("scene").selected_text(&name).height(480.0);
@@ -149,18 +149,17 @@ fn transport(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Comman
     }
 }
 
-/// Solo, race or loop lab: three parts of one control.
+/// Shows one control of three parts: solo, race and loop lab.
 fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
     let is_in_loops = studio.loop_lab().is_some();
     let toggle_loops = Command::Loop(LoopCommand::ToggleLab);
-    // In the loop lab, the command for a race leads to the other mode.
+    // In the loop lab, the command for a race would lead to the mode that is not selected.
     let to_mode = |mode: Mode| match is_in_loops && studio.mode() == mode {
         true => toggle_loops.clone(),
         false => Command::Stage(StageCommand::ToggleRace),
     };
     let is_in = |mode: Mode| !is_in_loops && studio.mode() == mode;
-    let loops = "Loop lab";
     let parts = [
         (
             "Solo",
@@ -174,12 +173,17 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
             is_in(Mode::Race),
             to_mode(Mode::Race),
         ),
-        (loops, "see one motion in every game loop, in slow motion (L)", is_in_loops, toggle_loops),
+        (
+            "Loop lab",
+            "see one motion in every game loop, in slow motion (L)",
+            is_in_loops,
+            toggle_loops,
+        ),
     ];
     let frame = Frame::new().fill(palette(ui).raised).corner_radius(5.0);
     frame.show(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
-        // A bar without room for a tick forward has none for wide margins either.
+        // A bar that has no room for a tick forward has none for wide margins either.
         let margin = match width {
             _ if width >= breakpoints::TICK_FORWARD => 12.0,
             _ if width >= breakpoints::WIDE_PARTS_OF_TOP_BAR => 7.0,
@@ -193,7 +197,7 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
     });
 }
 
-/// Shows a part of a control, with this margin left and right of its name. Returns whether it was clicked.
+/// Shows a part of a control, with this margin to the left and right of its name. Returns whether the part was clicked.
 fn part(ui: &mut Ui, name: &str, margin: f32, about: &str, is_chosen: bool) -> bool {
     let font = || if is_chosen { strong_font(TYPE) } else { egui::FontId::proportional(TYPE) };
     let text = ui.painter().layout_no_wrap(name.into(), font(), palette(ui).text);

@@ -1,5 +1,5 @@
-//! The lanes as curves of a plot. Each piece has the colour of the method that flew it, and a lane that has left the
-//! plot is not drawn.
+//! The lanes as curves of a plot. Each piece of a curve has the colour of the method that flew it. A lane that has left
+//! the plot is not drawn.
 
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
@@ -14,12 +14,12 @@ use crate::view::chart::{Arrow, Bounds, Curve, Dots, Drawing, LineStyle, Switch}
 #[derive(Clone, Copy, Debug)]
 struct Point {
     t: f64,
-    /// Index on the list of the method that flew the lane there.
+    /// Index on the list of the method that flew the lane at the sample.
     entry: usize,
     at: [f64; 2],
-    /// Lowest and highest value on the way there.
+    /// Lowest and highest value on the way to the sample.
     swept: [f64; 2],
-    /// Whether the body was put there. No path then leads from the point before.
+    /// Whether the body was put at this point. If so, no path leads here from the previous point.
     jumped: bool,
 }
 
@@ -28,12 +28,12 @@ struct Point {
 pub(super) enum Detail {
     /// Every sample.
     Samples,
-    /// Enough samples for this number of pixel columns.
+    /// As many samples as are needed for this number of pixel columns.
     Columns(f32),
 }
 
 impl Detail {
-    /// Number of points that suffices for a curve.
+    /// Returns the number of points that is enough for a curve.
     fn min_points(self) -> usize {
         match self {
             Self::Samples => usize::MAX,
@@ -42,7 +42,7 @@ impl Detail {
     }
 }
 
-/// Lowest and highest value along an axis on the way to a point.
+/// Returns a function that gives the lowest and highest value along an axis on the way to a point.
 fn range_along(axis: usize) -> impl Fn(&Point) -> [f64; 2] + Clone {
     move |point| if axis == 1 { point.swept } else { [point.at[axis]; 2] }
 }
@@ -60,11 +60,11 @@ pub(super) struct Track {
     points: Vec<Point>,
     /// Index on the list of the lane's present method.
     pub(super) entry: usize,
-    /// Whether it is drawn in front: the lane in solo mode, or the selected lane of a race.
+    /// Whether the track is drawn in front. In solo mode it is the lane, and in a race the selected lane.
     pub(super) is_front: bool,
-    /// The part of the lane, such as an energy, if several tracks show one lane; else empty.
+    /// The part of the lane, such as an energy, if several tracks show the same lane. Otherwise empty.
     pub(super) part: &'static str,
-    /// Drawn length and gap in points, if they are not the method's.
+    /// Length of a dash and of the gap after it, in points, if they differ from the method's.
     dash: Option<[f32; 2]>,
     /// Opacity of the colour.
     strength: f32,
@@ -72,13 +72,13 @@ pub(super) struct Track {
     is_held: bool,
 }
 
-/// A lane that re-enters the plot is drawn again once it has stayed for this fraction of the run's length. A
-/// diverging swing only crosses the plot again and again.
+/// Minimum stay of a lane that re-enters the plot for it to be drawn again, relative to the run's length. A diverging
+/// swing crosses the plot again and again, but does not stay.
 const RETURNED: f64 = 0.1;
 
 impl Track {
-    /// A track for each lane, at `place` of its samples of the body, without places that are not finite. The front
-    /// track is the last.
+    /// Creates a track for each lane, with its samples of the body at the points that `place` returns. Points that are
+    /// not finite are left out. The front track is the last.
     pub(super) fn of(
         studio: &Studio,
         body: usize,
@@ -90,7 +90,8 @@ impl Track {
         })
     }
 
-    /// A track for each lane, of a quantity of the body over time. A position includes its extremes between samples.
+    /// Creates a track for each lane, with a quantity of the body over time. A position includes its extremes between
+    /// samples.
     pub(super) fn of_quantity(
         studio: &Studio,
         body: usize,
@@ -140,7 +141,7 @@ impl Track {
         tracks
     }
 
-    /// A track of these times (s) and places, in the style at index `entry`.
+    /// Creates a track of these times (s) and places, in the style at the index `entry`.
     pub(super) fn of_places(
         entry: usize,
         is_front: bool,
@@ -152,23 +153,24 @@ impl Track {
         Self { points, entry, is_front, part: "", dash: None, strength: 1.0, is_held: false }
     }
 
-    /// The same track, which holds each sample until the next.
+    /// Returns the same track, but with each sample held until the next one.
     pub(super) fn held(self) -> Self {
         Self { is_held: true, ..self }
     }
 
-    /// The same track as a part of its lane, with its own dash and opacity.
+    /// Returns the same track as a part of its lane, with its own dash and opacity.
     pub(super) fn into_part(self, part: &'static str, dash: [f32; 2], strength: f32) -> Self {
         Self { part, dash: Some(dash), strength, ..self }
     }
 
-    /// The method of the lane at time `t` (s), and its place: between samples, on the line through them.
+    /// Returns the method of the lane at time `t` (s), and the lane's place, which lies between samples on the line
+    /// through them.
     pub(super) fn at(&self, t: f64) -> Option<(usize, [f64; 2])> {
         if self.is_held {
             let last = self.points.partition_point(|point| point.t <= t).checked_sub(1)?;
             return Some((self.points[last].entry, [t, self.points[last].at[1]]));
         }
-        // If the body was put elsewhere at that time, the new place counts.
+        // If the body was put elsewhere at exactly this time, the new place counts.
         let after = self.points.partition_point(|point| point.t <= t);
         let from = self.points[after.checked_sub(1)?];
         if from.t == t {
@@ -179,17 +181,17 @@ impl Track {
         Some((to.entry, [0, 1].map(|axis| from.at[axis] + part * (to.at[axis] - from.at[axis]))))
     }
 
-    /// Time, method and place of each sample, oldest first.
+    /// Returns the time, the method and the place of each sample, oldest first.
     pub(super) fn places(&self) -> impl Iterator<Item = (f64, usize, [f64; 2])> {
         self.points.iter().map(|point| (point.t, point.entry, point.at))
     }
 
-    /// The methods that flew the lane, in order.
+    /// Returns the methods that flew the lane, in order of time.
     pub(super) fn methods(&self) -> impl Iterator<Item = usize> {
         self.points.chunk_by(|a, b| a.entry == b.entry).map(|run| run[0].entry)
     }
 
-    /// Adds the place where the body is put at time `t` (s).
+    /// Adds the place at which the body is put at time `t` (s).
     pub(super) fn add_jump(&mut self, t: f64, at: [f64; 2]) {
         let entry = self.points.last().map_or(self.entry, |last| last.entry);
         self.points.push(Point { t, entry, at, swept: [at[1]; 2], jumped: true });
@@ -200,13 +202,13 @@ impl Track {
         self.points.drain(..self.points.len().saturating_sub(count));
     }
 
-    /// Values along an axis, including those between samples.
+    /// Returns the values along an axis, including those between samples.
     pub(super) fn along(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
         self.points.iter().flat_map(range_along(axis))
     }
 
-    /// Values of the front lane along an axis from time `t` (s) on, including those between samples. The axes of a
-    /// plot always show them.
+    /// Returns the values of the front lane along an axis from time `t` (s) on, with those between samples. The axes of
+    /// a plot always include them.
     pub(super) fn front_since(
         tracks: &[Self],
         axis: usize,
@@ -218,8 +220,8 @@ impl Track {
         points.flat_map(range_along(axis)).filter(|value| value.is_finite())
     }
 
-    /// The tracks that an axis is fitted to. They start at the last placement or change of a parameter, but include
-    /// everything earlier while the motion after that has just begun.
+    /// Returns the tracks that an axis must include. They start at the last placement of a body or change of a
+    /// parameter. While the motion since then has only begun, they include everything earlier.
     pub(super) fn fitted<'t>(studio: &Studio, tracks: &'t [Self]) -> Cow<'t, [Self]> {
         let since_s = studio.past().swing_since_s(studio.race().t());
         if since_s == f64::NEG_INFINITY {
@@ -228,14 +230,15 @@ impl Track {
         Cow::Owned(tracks.iter().map(|track| track.since(since_s)).collect())
     }
 
-    /// The track from time `t` (s) on, or from the place where the body was put at that time.
+    /// Returns the track from time `t` (s) on. If the body was put elsewhere at that time, the track starts at the new
+    /// place.
     fn since(&self, t: f64) -> Self {
         let later = self.points.partition_point(|point| point.t < t);
         let put = self.points.iter().rposition(|point| point.t == t && point.jumped);
         Self { points: self.points[put.unwrap_or(later)..].to_vec(), ..*self }
     }
 
-    /// The times of the first and the last sample, in seconds.
+    /// Returns the times of the first and the last sample, in seconds.
     pub(super) fn times(&self) -> Option<(f64, f64)> {
         Some((self.points.first()?.t, self.points.last()?.t))
     }
@@ -247,7 +250,7 @@ impl Track {
 
 /// The width of the curve in front, in points.
 const FRONT: f32 = 2.8;
-/// Opacity of the lanes of a race that are not selected, and the width that their curves lack, in points.
+/// Opacity of the lanes of a race that are not selected, and amount by which their curves are thinner, in points.
 const DIM: f32 = 0.62;
 const THINNER: f32 = 1.0;
 
@@ -255,11 +258,12 @@ const THINNER: f32 = 1.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrackStyle {
     pub(super) dots: Dots,
-    /// Whether the horizontal axis is time. No lane leaves such a plot sideways, because the plot follows.
+    /// Whether the horizontal axis is time. No lane leaves such a plot at its sides, because the plot follows the
+    /// present.
     pub(super) is_over_time: bool,
 }
 
-/// Draws the lanes within `bounds`, with an arrow where one leaves them and a mark at each switch.
+/// Draws the lanes within `bounds`, with an arrow where a lane leaves them and a mark at each switch of a method.
 pub(super) fn drawing(
     styles: &SeriesStyles,
     tracks: &[Track],
@@ -287,7 +291,7 @@ fn add(
     let series = |point: &Point| &styles.series[point.entry];
     let strength = if is_dim { DIM } else { track.strength };
     let rgba = |point: &Point| series(point).colour.gamma_multiply(strength);
-    // A halted body has no samples between its halt and the switch.
+    // The time between a halt and a switch has no samples, because a halted body has none.
     for pair in points.windows(2).filter(|pair| pair[0].entry != pair[1].entry) {
         drawing.switches.push(Switch { at: pair[1].at, colour: rgba(&pair[1]) });
     }
@@ -303,7 +307,7 @@ fn add(
     let mut is_drawn = vec![false; points.len()];
     for stay in stays(points, within, RETURNED * styles.length_s) {
         let (first, last) = stay.into_inner();
-        // Extends to the edge on both sides, but not across a switch on the way in.
+        // The piece extends to the edge at both ends. It does not cross a jump, nor a switch where it begins.
         let enters = first > 0 && goes_on(&points[first - 1], &points[first]);
         let leaves = points.get(last + 1).is_some_and(|next| !next.jumped);
         let piece = first - usize::from(enters)..=last + usize::from(leaves);
@@ -322,7 +326,7 @@ fn add(
             drawing.arrows.push(Arrow { from: points[last].at, to: points[last + 1].at, colour });
         }
     }
-    // A method whose flight is out of view has an arrow at its end.
+    // A method has an arrow at the end of its flight if no part of the flight is in view.
     let mut end = 0;
     for run in points.chunk_by(goes_on) {
         let start = end;
@@ -343,19 +347,19 @@ fn swept(run: &[Point]) -> Vec<[f64; 2]> {
     run.iter().map(|point| point.swept).collect()
 }
 
-/// The corners of a line that is level from each point to the next.
+/// Returns the corners of a line that is level from each point to the next.
 fn staircase(run: &[Point]) -> Vec<[f64; 2]> {
     let steps = run.windows(2).flat_map(|pair| [pair[0].at, [pair[1].at[0], pair[0].at[1]]]);
     steps.chain(run.last().map(|last| last.at)).collect()
 }
 
-/// Whether the lane went from one sample to the next under one method.
+/// Whether the lane went from one sample to the next under one method, without a jump.
 fn goes_on(from: &Point, to: &Point) -> bool {
     from.entry == to.entry && !to.jumped
 }
 
-/// Ranges of samples within the plot, without short visits of a lane that has left it. A range counts if it begins at
-/// the start, with another method or where the body was put, or if it lasts `min_s`.
+/// Returns the ranges of samples within the plot, without the short visits of a lane that has left the plot. A range
+/// counts if it lasts `min_s`, or if it begins at the start, with another method, or where the body was put.
 fn stays(
     points: &[Point],
     within: impl Fn(&Point) -> bool,
@@ -375,8 +379,8 @@ fn stays(
     stays
 }
 
-/// Parts of a lane under one method each. Each part begins where the one before ends, unless the body was put
-/// elsewhere, or was resumed some time after a halt.
+/// Returns the parts of a lane, each under one method. A part begins where the previous part ends, unless the body was
+/// put elsewhere, or was resumed some time after a halt.
 fn runs(points: &[Point]) -> impl Iterator<Item = &[Point]> {
     let mut start = 0;
     points.chunk_by(goes_on).map(move |run| {

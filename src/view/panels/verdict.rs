@@ -7,21 +7,21 @@ use super::parts::{severity_tone, short};
 use crate::measure::{Severity, Sign};
 use crate::view::theme::{TYPE, palette};
 
-/// Half the size of a sign, and the room for it, in points.
+/// Half the size of a sign, and width for the sign, in points.
 const HALF: f32 = 4.5;
 const ROOM: f32 = 17.0;
-/// Opacity of the sign of a verdict at a former tick rate.
+/// Opacity of the sign of a verdict that is about a former tick rate.
 const STALE: f32 = 0.35;
 
-/// Verdict in a row.
+/// The verdict in a row.
 pub(super) struct VerdictText {
-    /// The sign and its colour; `None` before the judgement.
+    /// The sign and its colour, or `None` before the judgement.
     pub(super) sign: Option<(Sign, Severity)>,
-    /// Whether it is about the present tick rate. The sign is dimmed if not.
+    /// Whether the verdict is about the present tick rate. If not, the sign is dimmed.
     pub(super) is_current: bool,
     /// Wordings from the longest to the shortest.
     pub(super) wordings: Vec<String>,
-    /// Rank for sorting, once it is known.
+    /// Rank of the verdict for sorting, if known.
     pub(super) rank: Option<f64>,
 }
 
@@ -48,12 +48,12 @@ fn paint(sign: Sign, ui: &Ui, at: Pos2, colour: Color32) {
 }
 
 impl VerdictText {
-    /// The longest wording.
+    /// Returns the longest wording.
     pub(super) fn whole(&self) -> &str {
         &self.wordings[0]
     }
 
-    /// Shows the sign alone, centred at `at`.
+    /// Shows only the sign, centred at `at`.
     pub(super) fn paint_sign(&self, ui: &Ui, at: Pos2) {
         if let Some((sign, severity)) = self.sign {
             let tone = severity_tone(ui, severity);

@@ -4,6 +4,7 @@
 
 mod circles;
 mod paths;
+mod prose;
 mod rooms;
 mod rules;
 mod tables;

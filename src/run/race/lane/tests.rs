@@ -24,7 +24,7 @@ fn a_tick_takes_one_equal_step_per_substep() {
         assert_eq!(bits(stepper), bits(&*by_hand), "{}", method.id);
         if let Some(evaluations) = method.evaluations {
             let steps = lane.evaluations().abs_diff(u64::from(evaluations) * 4 * 30);
-            // Methods that carry values between steps need one more to begin.
+            // Methods that carry values between steps need one more evaluation to begin.
             assert!(steps <= 4, "{}: {}", method.id, lane.evaluations());
         }
     }

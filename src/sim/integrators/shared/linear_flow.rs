@@ -1,7 +1,7 @@
 //! The flow of a linear equation, by the exponential of its matrix applied to a vector.
 //!
-//! The Taylor series acts on the vector, over a number of pieces of the step that grows with the size of the matrix
-//! (Al-Mohy & Higham, *Computing the action of the matrix exponential*, 2011). If that takes too many pieces and the
+//! The Taylor series acts on the vector. It cuts the step into pieces, more of them for a larger matrix (Al-Mohy &
+//! Higham, *Computing the action of the matrix exponential*, 2011). If that takes too many pieces and the
 //! matrix is small, scaling and squaring replaces it. Both use products and sums only.
 
 use crate::sim::integrators::failure::{StepFailure, Stepped};

@@ -54,8 +54,8 @@ impl StepText {
         state
     }
 
-    /// A frame of `h` seconds as a map of up to two carried numbers, linearised about 0. `None` for more numbers, or if a
-    /// coefficient is not finite.
+    /// A frame of `h` seconds as a map of up to two carried numbers, linearised about 0. `None` for more numbers, or if
+    /// a coefficient is not finite.
     pub(crate) fn frame(&self, state: &[usize], h: f64) -> Option<Frame> {
         if state.len() > 2 {
             return None;
@@ -102,8 +102,8 @@ pub enum RuleBody {
 /// A linear rule that steps a body.
 ///
 /// One smooth motion passes through the places of the rule at its author's frame rate: the exact motion of its
-/// [body](LinearRule::body). Its velocity is a linear combination of the rule's two numbers, and serves as the velocity of
-/// the body at any frame rate. So the rule is exact at its author's rate, and needs no memory besides the state.
+/// [body](LinearRule::body). Its velocity is a linear combination of the rule's two numbers, and serves as the velocity
+/// of the body at any frame rate. So the rule is exact at its author's rate, and needs no memory besides the state.
 #[derive(Debug)]
 pub struct LinearRule {
     text: StepText,
@@ -206,8 +206,8 @@ impl LinearRule {
         self.text.takes_target()
     }
 
-    /// Start velocity in m/s of a body at distance `x` (m) from its rest. The second number starts at its declared value,
-    /// or at `x` if it remembers the place of the previous frame.
+    /// Start velocity in m/s of a body at distance `x` (m) from its rest. The second number starts at its declared
+    /// value, or at `x` if it remembers the place of the previous frame.
     pub fn start_velocity(&self, x: f64) -> f64 {
         let second = match self.second {
             Some(_) if self.remembers_place => x,

@@ -20,7 +20,7 @@ const fn bounce(usual: f64) -> Key {
     Key { name: "bounce", usual, range, wanted: "above −1 and at most 1", switch: None }
 }
 
-/// A duration in seconds that the library takes as whole milliseconds.
+/// Returns a duration in seconds that the library takes as whole milliseconds.
 const fn milliseconds(name: &'static str, usual: f64) -> Key {
     Key { range: [1e-3, f64::MAX], wanted: "0.001 or more", ..key(name, usual) }
 }
@@ -29,7 +29,7 @@ const MASS: Key = key("mass", 1.0);
 const STIFFNESS: Key = key("stiffness", 100.0);
 const DAMPING: Key = ratio("damping", 10.0);
 
-/// A spring with a mass, by its equation of motion.
+/// A spring with a mass, given by its equation of motion.
 const EQUATION: UiSpring = UiSpring {
     id: "",
     former_id: None,
@@ -51,7 +51,7 @@ const EQUATION: UiSpring = UiSpring {
     code: "",
 };
 
-/// A spring set by its damping ratio and its stiffness, which is the square of ω.
+/// A spring given by its damping ratio and its stiffness, which is the square of ω.
 const RATIO: UiSpring = UiSpring {
     read: Some(|[ratio, stiffness, ..]| wish(libm::sqrt(stiffness), ratio)),
     write: |wish| [wish.damping_ratio, wish.omega() * wish.omega(), 0.0, 0.0],
@@ -60,7 +60,7 @@ const RATIO: UiSpring = UiSpring {
     ..EQUATION
 };
 
-/// A spring set by its period and its bounce, which is 1 - ζ, or 1/ζ - 1 above critical damping.
+/// A spring given by its period and its bounce, which is 1 - ζ, or 1/ζ - 1 above critical damping.
 const BOUNCE: UiSpring = UiSpring {
     read: Some(|[duration, bounce, ..]| {
         wish(TAU / duration, if bounce < 0.0 { 1.0 / (1.0 + bounce) } else { 1.0 - bounce })
@@ -285,19 +285,20 @@ pub static UI_SPRINGS: &[UiSpring] = &[
     },
 ];
 
-/// Least damping ratio that Motion takes from a bounce, and the reciprocal of the largest.
+/// Smallest damping ratio that Motion derives from a bounce. Its reciprocal is the largest one.
 const MOTION_LEAST: f64 = 0.05;
-/// Newton steps with which Motion finds a frequency.
+/// Number of Newton steps with which Motion finds a frequency.
 const MOTION_STEPS: u32 = 11;
-/// Motion cuts a spring with a mass at this angle ω √(ζ² − 1) t, if ω √(ζ² − 1) is 1000 rad/s or more.
+/// Angle ω √(ζ² − 1) t at which Motion cuts a spring with a mass, and the ω √(ζ² − 1) in rad/s from which on it does
+/// so.
 const MOTION_CUT: f64 = 300.0;
 const MOTION_CUT_FROM: f64 = 1000.0;
-/// Slint's least damping ratio after the duration, and the excess over 1 that it leaves alone.
+/// Smallest damping ratio of Slint after the duration, and the excess over 1 that Slint leaves alone.
 const SLINT_LEAST: f64 = 0.13;
 const SLINT_CRITICAL: f64 = 1e-3;
-/// A motion is over once this share of the way is left.
+/// A motion is over once the fraction of the way that is left is at most this.
 const OVER: f64 = 1e-3;
-/// Error that points should stay below, as a share of the way, and the most points.
+/// Error that points should stay below, as a fraction of the way, and maximum number of points.
 const SAMPLED: f64 = 5e-3;
 const MAX_POINTS: f64 = 100.0;
 
@@ -318,13 +319,13 @@ fn cut_to_milliseconds([seconds, rest @ ..]: Values) -> Values {
     [libm::floor(1e3 * seconds + 1e-6) / 1e3, second, third, fourth]
 }
 
-/// Angle ω t at which a spring with a damping ratio of 1 or more has [`OVER`] of its way left.
+/// Returns the angle ω t at which a spring with a damping ratio of 1 or more has [`OVER`] of its way left.
 fn angle_of(ratio: f64) -> f64 {
     bisect([0.0, 40.0 * ratio], HALVINGS, |angle| part_left(ratio, angle) > OVER)[0]
 }
 
-/// Angle ω t at which Motion considers a spring settled. Below critical damping, ζ / √(1 − ζ²) exp(−ζ ω t) is then
-/// [`OVER`].
+/// Returns the angle ω t at which Motion considers a spring settled. Below critical damping, ζ / √(1 − ζ²) exp(−ζ ω t)
+/// is [`OVER`] at this angle.
 fn motion_angle(ratio: f64) -> f64 {
     match ratio < 1.0 {
         true => -libm::log(OVER * libm::sqrt(1.0 - ratio * ratio) / ratio) / ratio,
@@ -332,7 +333,8 @@ fn motion_angle(ratio: f64) -> f64 {
     }
 }
 
-/// Angular frequency that Motion finds for a duration. Near critical damping, its few Newton steps do not suffice.
+/// Returns the angular frequency that Motion finds for a duration. Near critical damping, Motion's few Newton steps do
+/// not suffice.
 fn motion_omega(ratio: f64, duration: f64) -> f64 {
     if ratio >= 1.0 {
         return motion_angle(ratio) / duration;
@@ -344,8 +346,8 @@ fn motion_omega(ratio: f64, duration: f64) -> f64 {
     })
 }
 
-/// Angle ω t at which a spring with a damping ratio above 1 has as much left as a critically damped one at
-/// `critical`.
+/// Returns the angle ω t at which a spring with a damping ratio above 1 has as much left as a critically damped spring
+/// at `critical`.
 fn motion_overdamped_angle(ratio: f64, critical: f64) -> f64 {
     if ratio <= 1.0 {
         return critical;
@@ -359,7 +361,7 @@ fn motion_overdamped_angle(ratio: f64, critical: f64) -> f64 {
     })
 }
 
-/// Where Motion makes a stiff, heavily damped spring jump to its end.
+/// Returns the point at which Motion makes a stiff, heavily damped spring jump to its end.
 fn motion_cut(told: &Wish) -> Option<Departure> {
     let ratio = told.damping_ratio;
     let apart = libm::sqrt((ratio * ratio - 1.0).max(0.0));
@@ -371,7 +373,7 @@ fn motion_cut(told: &Wish) -> Option<Departure> {
     })
 }
 
-/// Where Slint changes a spring that does not rest after its duration, the period.
+/// Returns the point at which Slint changes a spring that does not rest after its duration, the period.
 fn slint_departure(told: &Wish) -> Option<Departure> {
     let ratio = told.damping_ratio;
     let later = if ratio >= 1.0 + SLINT_CRITICAL { 1.0 } else { ratio.max(SLINT_LEAST) };
@@ -383,14 +385,16 @@ fn slint_departure(told: &Wish) -> Option<Departure> {
     (later != ratio).then_some(departure)
 }
 
-/// Duration in seconds after which less than [`OVER`] is left, and enough points for [`SAMPLED`].
+/// Returns the duration in seconds after which less than [`OVER`] is left, and the number of points that is enough for
+/// [`SAMPLED`].
 fn sampling(wish: &Wish) -> Values {
     let ratio = wish.damping_ratio;
     let angle = match ratio < 1.0 {
         true => -libm::log(OVER * libm::sqrt(1.0 - ratio * ratio)) / ratio,
         false => angle_of(ratio),
     };
-    // A straight line is off by an eighth of the curvature, at most 1, times the square of its length.
+    // The error of a straight line is an eighth of the curvature, which is at most 1, times the square of the line's
+    // length.
     let points = libm::ceil(angle / libm::sqrt(8.0 * SAMPLED)) + 1.0;
     [angle / wish.omega(), points.clamp(2.0, MAX_POINTS), 0.0, 0.0]
 }

@@ -1,16 +1,17 @@
-//! A spring's numbers in the names and units of an engine, to read and to set.
+//! A spring's numbers in the names and units of an engine. They can be read and set.
 
 use egui::{CollapsingHeader, ComboBox, RichText, Ui, vec2};
 
-use super::{LINE, NumberField, line};
+use super::{LINE, line};
 use crate::scene::check_entered;
 use crate::stage::Range;
 use crate::stage::number::significant;
 use crate::studio::{Command, RunCommand, Studio};
 use crate::tools::port::Setup;
+use crate::view::panels::number_field::NumberField;
 use crate::view::theme::palette;
 
-/// Shows the numbers of a spring as the selected engine has them, and nothing for any other body.
+/// Shows the numbers of a spring as the selected engine has them. Shows nothing for any other body.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec<Command>) {
     let Some(spring) = studio.deck.spring_joint(body) else { return };
     let header = CollapsingHeader::new(RichText::new("as in engine…").color(palette(ui).dim));

@@ -1,25 +1,25 @@
-//! The inspector's rows for a body: one for each parameter, with the range of its slider.
+//! The inspector's rows for a body. Each parameter has a row, and its slider has a range.
 
 use crate::stage::{Parameter, Range, TakesEffect};
 use crate::studio::Studio;
 
-/// A logarithmic slider extends from the scene's value divided by this factor to the value times it.
+/// A logarithmic slider extends from the scene's value divided by this factor to the value multiplied by it.
 const REACH: f64 = 100.0;
-/// A slider that is not logarithmic extends to this many times that value.
+/// A linear slider extends to the scene's value multiplied by this factor.
 const LINEAR_REACH: f64 = 4.0;
-/// Range of a slider for a value that is 0 in the scene, which gives no scale.
+/// Range of a slider if the scene's value is 0, because 0 gives no scale.
 const FROM_NOTHING: f64 = 10.0;
-/// Minimum range of a slider for a count.
+/// Minimum upper end of a slider for a count.
 const MIN_REACH: f64 = 16.0;
 
-/// A parameter of a body.
+/// A row of the inspector: a parameter of a body.
 pub(super) struct Row<'l> {
     /// Index of the body in the scene.
     pub(super) body: usize,
-    /// Index of the parameter in its kind of body.
+    /// Index of the parameter among those of the body's kind.
     pub(super) index: usize,
     pub(super) parameter: &'l Parameter,
-    /// Value now, and in the scene as opened. `None` for a curve, which is not a number.
+    /// The parameter's values at present and in the scene as opened. `None` for a curve, which is not a number.
     pub(super) values: Option<Values>,
 }
 
@@ -35,7 +35,7 @@ impl Values {
     }
 }
 
-/// The parameters of a body: those that act at once, then those that act from the next start.
+/// Returns the parameters of a body. Those that act at once come before those that act from the next start.
 pub(super) fn rows<'l>(studio: &'l Studio, body: usize) -> Vec<Row<'l>> {
     let opened = &studio.deck.scene_as_opened().bodies[body];
     let (present, next) = (studio.race().values(body), &studio.scene().bodies[body].values);
@@ -64,18 +64,19 @@ pub(super) struct SliderRange {
     pub(super) spacing: Spacing,
 }
 
-/// How values lie along a slider.
+/// How the values are spaced along a slider.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Spacing {
     Linear,
-    /// Logarithmic from this value up. If the slider reaches 0, it is at the end.
+    /// Logarithmic from this value up. A slider that reaches 0 has the 0 at its end.
     Logarithmic(f64),
     Whole,
 }
 
 impl SliderRange {
-    /// Range of the slider for a parameter. It surrounds the scene's value, so that it does not move with the value
-    /// that it sets, and extends to the present value. `None` for a curve.
+    /// Creates the range of the slider for a parameter, or returns `None` for a curve. The range surrounds the scene's
+    /// value, so that it does not move with the value that the slider sets. It is extended if necessary to include the
+    /// present value.
     pub(super) fn of(range: Range, Values { present, opened }: Values) -> Option<Self> {
         let size = if opened != 0.0 { opened.abs() } else { present.abs() };
         let (low, high, spacing) = match range {

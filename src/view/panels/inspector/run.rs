@@ -1,8 +1,8 @@
-//! The inspector's lanes and times: methods, substeps, tolerances, the tick rate, the scene's length.
+//! The inspector's settings of lanes and times, namely methods, substeps, tolerances, the tick rate, and the length of
+//! the scene.
 
 use egui::{ComboBox, RichText, Ui, vec2};
 
-use super::number::NumberField;
 use super::{LINE, RESTORE, line, restore_button};
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{
@@ -10,6 +10,7 @@ use crate::scene::{
 };
 use crate::stage::Range;
 use crate::studio::{Command, RunCommand, StageCommand, Studio};
+use crate::view::panels::number_field::NumberField;
 use crate::view::panels::rate_scale;
 use crate::view::theme::palette;
 
@@ -72,7 +73,7 @@ fn show_lane(ui: &mut Ui, studio: &Studio, entrant: &Entrant, commands: &mut Vec
     });
 }
 
-/// Number of a lane. Solo, it is the digit of the method, which follows every switch.
+/// Returns the number of a lane. In solo mode this is the digit of the present method.
 fn number(studio: &Studio, entrant: &Entrant) -> usize {
     match studio.mode() {
         Mode::Solo => studio.entry(entrant) + 1,
@@ -108,7 +109,8 @@ fn show_methods(
     });
 }
 
-/// Settings of a lane in the scene as opened. Solo, the scene's settings of the present method.
+/// Returns the settings of a lane in the scene as opened. In solo mode these are the settings that the scene has for
+/// the present method.
 fn opened(studio: &Studio, entrant: &Entrant) -> LaneSpec {
     let present = entrant.spec;
     let list = studio.deck.scene_as_opened().method_list();
@@ -159,7 +161,7 @@ pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command
     );
 }
 
-/// Commands that restore the scene's lanes and times; none if nothing differs.
+/// Returns the commands that restore the scene's lanes, tick rate and length. There are none if nothing differs.
 pub(super) fn restore_run_commands(studio: &Studio) -> impl Iterator<Item = Command> {
     let lanes = studio.race().entrants().iter().filter_map(|entrant| {
         let (lane, spec) = (entrant.id, opened(studio, entrant));

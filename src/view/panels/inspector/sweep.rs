@@ -1,4 +1,4 @@
-//! A sweep: a parameter moves up its slider and back by itself.
+//! A sweep moves a parameter up its slider and back by itself.
 
 use egui::{Button, Id, RichText, Ui};
 
@@ -8,19 +8,19 @@ use crate::view::theme::palette;
 
 /// The width of the button, in points.
 pub(super) const BUTTON: f32 = 18.0;
-/// Duration of the way there and back, in seconds.
+/// Duration of a sweep, up and back, in seconds.
 const SECONDS: f64 = 8.0;
-/// Factor by which the value rises. It is enough to see a change.
+/// Factor by which the value rises, which is enough to see a change.
 const FACTOR: f64 = 10.0;
-/// From zero, the sweep covers this share of the slider.
+/// A sweep from zero covers this share of the slider.
 const PART_FROM_ZERO: f64 = 0.1;
 
-/// Id of the active sweep.
+/// Id under which the active sweep is stored.
 const ID: &str = "sweep of a parameter";
-/// A sweep is active if it was shown within this time, in seconds.
+/// Maximum time since a sweep was last shown for it to count as active, in seconds.
 const FRESH_S: f64 = 0.5;
 
-/// The active sweep. There is at most one.
+/// The active sweep. There is at most one at a time.
 #[derive(Clone, Copy)]
 struct Sweep {
     of: Id,
@@ -36,14 +36,15 @@ impl Sweep {
     fn of(of: Id, began_s: f64, reach: SliderRange, Values { present: from, .. }: Values) -> Self {
         let is_logarithmic = matches!(reach.spacing, Spacing::Logarithmic(_)) && from > 0.0;
         let far = if from == 0.0 { PART_FROM_ZERO * reach.high } else { FACTOR * from };
-        // At the end of the slider the sweep goes the other way. The same holds below zero.
+        // A sweep that starts at the end of its slider goes towards zero instead. This also holds for negative values.
         let to = far.clamp(reach.low.min(from), reach.high.max(from));
         let to = if to == from { from / FACTOR } else { to };
         let is_whole = matches!(reach.spacing, Spacing::Whole);
         Self { of, began_s, shown_s: began_s, from, to, is_logarithmic, is_whole }
     }
 
-    /// The value at this moment, to three digits. It ends at the first value, and is `None` after that.
+    /// Returns the value at this moment, rounded to three digits, or `None` after the end of the sweep. The sweep ends
+    /// at its first value.
     fn value_at(&self, now_s: f64) -> Option<f64> {
         let part = (now_s - self.began_s) / SECONDS;
         if part >= 1.0 {
@@ -61,14 +62,14 @@ impl Sweep {
     }
 }
 
-/// Whether a sweep is active. It counts as one change, as if a pointer were held down.
+/// Whether a sweep is active. A whole sweep counts as one change, like a drag.
 pub(in crate::view) fn is_sweep_active(ui: &Ui) -> bool {
     let sweep = ui.data(|data| data.get_temp::<Sweep>(Id::unique(ID)));
     sweep.is_some_and(|sweep| ui.input(|input| input.time) - sweep.shown_s < FRESH_S)
 }
 
-/// The button that starts the sweep of the parameter with this id, or stops it at its value. Returns the new value of
-/// the parameter.
+/// Shows the button that starts the sweep of the parameter with this id, or stops it at the present value. Returns the
+/// new value of the parameter.
 pub(super) fn show(
     ui: &mut Ui,
     of: Id,
@@ -104,7 +105,7 @@ pub(super) fn show(
                 None => data.remove::<Sweep>(id),
             });
             ui.request_repaint();
-            // Its old value to the last digit, unless the sweep was stopped.
+            // The parameter gets its old value with all digits, unless the user stopped the sweep.
             let value = value.unwrap_or(if is_clicked { values.present } else { sweep.from });
             (value != values.present).then_some(value)
         }

@@ -1,4 +1,5 @@
-//! The plots of the loop lab: the states that each loop on the stage shows and holds, up to the moment of display.
+//! The plots of the loop lab. They show the states that each loop on the stage displays and computes, up to the moment
+//! of display.
 
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
@@ -13,17 +14,17 @@ use crate::run::{METRICS, Metric, Scale};
 use crate::studio::{Instrument, Studio};
 use crate::view::chart::{AxisScale, Bounds, Dots};
 
-/// Time in view, in seconds, short enough to see every frame.
+/// Length of the time in view, in seconds. It is short enough to see every frame.
 const FRAMES_S: f64 = 1.0;
-/// Like [`HEALTHY`], for an energy.
+/// Like [`HEALTHY`], but for an energy.
 const HEALTHY_ENERGY: f64 = 50.0;
-/// Names of the two states of the body in plots: on the display, and after the last step.
+/// Names of the two states of the body that plots show: the displayed state, and the state after the last step.
 const SHOWN: &str = "as shown";
 const STEPPED: &str = "as stepped";
-/// Message if every value is zero, which has no logarithm.
+/// Message if every error is zero, because zero has no logarithm.
 const NO_ERROR: &str = "No error: every loop on the stage shows the exact place.";
 
-/// The instrument's plots; `None` if it has none in the loop lab.
+/// Returns the instrument's plots, or `None` if the instrument has none in the loop lab.
 pub(super) fn plot_set(
     studio: &Studio,
     loops: &LoopLab,
@@ -131,7 +132,7 @@ impl Plots<'_> {
         PlotModel { tracks, exact: exact.into_iter().collect(), ..plot }
     }
 
-    /// An empty plot of the body as `shown`.
+    /// Returns an empty plot whose title is the name of the body with `shown`.
     fn plot(self, id: &str, shown: &str, axes: [PlotAxis; 2], fit: Bounds) -> PlotModel {
         PlotModel::new(self.studio.view().body, id.into(), self.title(shown), axes, fit)
     }
@@ -152,13 +153,13 @@ impl Plots<'_> {
         time_in_view(self.loops.end_ns() as f64 / 1e9, self.now_s())
     }
 
-    /// A track for each loop on the stage, of a value that stays from each frame to the next.
+    /// Returns a track for each loop on the stage. The track holds each value until the next frame.
     fn held(self, value: impl Fn(&LoopFrame) -> f64) -> Vec<Track> {
         let tracks = self.tracks(|t, frame| [t, value(frame)]);
         tracks.into_iter().map(Track::held).collect()
     }
 
-    /// A track for each loop on the stage, of its frames so far. The selected loop comes last.
+    /// Returns a track of the frames so far for each loop on the stage. The selected loop comes last.
     fn tracks(self, place: impl Fn(f64, &LoopFrame) -> [f64; 2]) -> Vec<Track> {
         let track = |&entry: &usize| {
             let places = self.frames(&self.loops.lanes()[entry], 1, &place);
@@ -169,13 +170,15 @@ impl Plots<'_> {
         tracks
     }
 
-    /// The exact solution at the selected loop's frames so far and at the next, which makes it known at the present.
+    /// Returns the exact solution at the frames of the selected loop so far, and at the next frame, so that the present
+    /// lies between two known points.
     fn exact(self, place: impl Fn(f64, &LoopFrame) -> [f64; 2]) -> ExactLine {
         let lane = &self.loops.lanes()[self.loops.selected()];
         ExactLine::of_places(self.studio, self.frames(lane, 2, &place))
     }
 
-    /// The frames of a lane so far. `after` is 1 to end with the frame on display, and 2 to include the next.
+    /// Returns the frames of a lane so far. If `after` is 1 they end with the displayed frame, and if it is 2 with the
+    /// next one.
     fn frames<'f>(
         self,
         lane: &'f LoopLane,
@@ -249,7 +252,7 @@ mod tests {
         let track = motion.tracks.last().unwrap();
         assert!(track.is_front);
         assert_eq!(track.at(between).unwrap().1[1], one.q[0]);
-        // The cosine of the spring, interpolated between the exact values at two frames.
+        // The cosine of the spring is interpolated between the exact values at two frames.
         let exact = motion.exact[0].at((&studio, 0), between).unwrap()[1];
         let true_value = libm::cos(2.0 * std::f64::consts::PI * between);
         assert!((exact - true_value).abs() < 3e-3, "{exact} and {true_value}");

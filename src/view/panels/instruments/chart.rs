@@ -1,4 +1,4 @@
-//! Shows the plots of an instrument, with axes, curves and a crosshair, and handles the pointer on them.
+//! Shows the plots of an instrument with their axes, curves and crosshair, and handles the pointer on the plots.
 
 use std::collections::BTreeMap;
 
@@ -14,12 +14,12 @@ use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
 use crate::view::theme::{PanelPalette, palette, strong_font};
 use crate::view::touch::wheel_or_pinch;
 
-/// Minimum room for the numbers of a vertical axis, in points.
+/// Minimum width for the numbers of a vertical axis, in points.
 const LEFT: f32 = 40.0;
-/// Maximum distance of a click from the curve that it selects, in points.
+/// Maximum distance between a click and the curve that it selects, in points.
 const NEAR: f32 = 9.0;
 
-/// The user's zoom and pan: a range for each axis, by its name.
+/// The user's zoom and pan: a range for each axis, under the name of the axis.
 struct Views(BTreeMap<String, [f64; 2]>);
 
 impl Views {
@@ -32,21 +32,22 @@ impl Views {
         self.0.retain(|name, _| !names.contains(name));
     }
 
-    /// Shows `part` of the frame, given in fractions of its width and height from the lower left corner.
+    /// Zooms to `part` of the plot's frame. The part is given in fractions of the frame's width and height from its
+    /// lower left corner.
     fn show(&mut self, cell: &Cell<'_>, part: [[f64; 2]; 2]) {
         let bounds = self.area(cell).bounds;
         for (axis, name) in cell.plot.axis_names().into_iter().enumerate() {
             let [low, high] = bounds[axis];
             let range = part[axis].map(|part| low + part * (high - low));
             let far = range[0].abs().max(range[1].abs());
-            // Stops before the numbers have no digits left to differ in, or become too large.
+            // Zooming stops before the numbers have no digits left that differ, or become too large.
             if range[1] - range[0] > 1e-9 * far && far < 1e30 {
                 self.0.insert(name, range);
             }
         }
     }
 
-    /// Zooms about a point of the frame by this factor.
+    /// Zooms about a point of the plot's frame by this factor.
     fn zoom(&mut self, cell: &Cell<'_>, at: Pos2, factor: f64) {
         let part = (at - cell.frame.min) / cell.frame.size();
         let around = [part.x, 1.0 - part.y].map(f64::from);
@@ -60,17 +61,17 @@ impl Views {
     }
 }
 
-/// The tick that a click left for another.
+/// The tick before the last click, which moved the run to another tick.
 #[derive(Clone, Copy)]
 struct TickBeforeClick(u64);
 
-/// Shows a set in the rest of `ui`.
+/// Shows a set of plots in the rest of `ui`.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
     ui.allocate_rect(room, Sense::hover());
     let body = studio.view().body;
     let mut views = Views(studio.view().plot_ranges.clone());
-    // The heights of plots do not depend on the room beside them.
+    // The heights of the plots do not depend on the width of the numbers beside them.
     let left = room_for_numbers(ui, &cells(set, room, LEFT, body), &views);
     let cells = cells(set, room, left, body);
     let mut pointer = None;
@@ -117,12 +118,12 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut V
     }
 }
 
-/// Whether the user has zoomed or panned.
+/// Whether the user has zoomed or panned the plots.
 pub(super) fn is_zoomed(studio: &Studio) -> bool {
     !studio.view().plot_ranges.is_empty()
 }
 
-/// Room for the numbers of all plots, in points.
+/// Returns the width of the numbers of all vertical axes, in points.
 fn room_for_numbers(ui: &Ui, cells: &[Cell<'_>], views: &Views) -> f32 {
     let marks = cells.iter().flat_map(|cell| cell.marks(&views.area(cell), 1));
     let widths = marks.map(|(_, text)| {
@@ -159,7 +160,7 @@ fn menu(ui: &mut Ui, cell: &Cell<'_>, views: &mut Views, commands: &mut Vec<Comm
     }
 }
 
-/// The command that seeks to the time under a click.
+/// Returns the command that seeks to the time under a click.
 fn seek_command(
     studio: &Studio,
     cell: &Cell<'_>,
@@ -172,7 +173,7 @@ fn seek_command(
     Some(Command::Run(RunCommand::Seek(studio.run().times().nearest_tick(t))))
 }
 
-/// The command that selects the lane of the curve under a click.
+/// Returns the command that selects the lane of the curve under a click.
 fn pick_command(
     styles: &SeriesStyles,
     cell: &Cell<'_>,
@@ -193,7 +194,7 @@ fn pick_command(
     Some(Command::Stage(StageCommand::Pick(nearest.1)))
 }
 
-/// Distance of a point from a line segment.
+/// Returns the distance of a point from a line segment.
 fn distance_to(at: Pos2, [from, to]: [Pos2; 2]) -> f32 {
     let along = to - from;
     let part = ((at - from).dot(along) / along.length_sq().max(1e-9)).clamp(0.0, 1.0);
@@ -218,7 +219,7 @@ fn show_plot(
     let title = pos2(area.rect.left().max(edge.x + name + 12.0), edge.y);
     let is_chosen = studio.view().body == plot.body;
     let font = if is_chosen { strong_font(NAME) } else { FontId::proportional(NAME) };
-    // Up to the values beside the plot.
+    // The title may extend to the values beside the plot.
     let (words, is_whole) = short(ui, &plot.title, font, area.rect.right() - title.x, palette.text);
     let at = Align2::LEFT_CENTER.anchor_size(title, words.size()).min;
     let response = ui.interact(
@@ -236,7 +237,7 @@ fn show_plot(
     }
 }
 
-/// Lays out a plot with its axes and without its title, on this number of pixel columns. No number of the horizontal
+/// Lays out a plot on this number of pixel columns, with its axes but without its title. No number of the horizontal
 /// axis extends beyond `right`.
 pub(super) fn layout(
     studio: &Studio,

@@ -1,5 +1,5 @@
-//! Clouds: the points of each method side by side on the same axes, with the exact cloud in outline, and the clouds'
-//! areas over time.
+//! Clouds show the points of each method side by side on the same axes, with the outline of the exact cloud. Below them
+//! are the areas of the clouds over time.
 
 use std::sync::Arc;
 
@@ -30,45 +30,45 @@ use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, Primiti
 use crate::view::panels::breakpoints;
 use crate::view::theme::{PanelPalette, palette, strong_font};
 
-/// Room in points: the minimum for the numbers at the left, the gap beside them, the numbers below, and the names of
-/// the axes.
+/// Minimum width of the numbers at the left, gap beside them, height of the numbers below, and height of the names of
+/// the axes, in points.
 const LEFT: f32 = 32.0;
 const BESIDE_NUMBERS: f32 = 8.0;
 const NUMBERS: f32 = 17.0;
 const NAMES: f32 = 17.0;
 /// Minimum distance between two numbers of the velocity, in points.
 const UP_APART: f64 = 24.0;
-/// Between two clouds, in points.
+/// Gap between two clouds, in points.
 const GAP: f32 = 10.0;
-/// Share of the height for the areas over time, and their minimum height in points.
+/// Share of the height for the plot of the areas over time, and the plot's minimum height in points.
 const AREAS: f32 = 0.3;
 const MIN_AREAS: f32 = 110.0;
 /// Maximum ratio of a cloud's width to its height.
 const MAX_ASPECT: f32 = 1.3;
-/// Maximum texels on a side of a cloud's image: at most two for each cell of the density.
+/// Maximum number of texels on a side of a cloud's image, which is at most two for each cell of the density.
 const MAX_TEXELS: usize = 1024;
-/// Minimum side of a cloud, in points.
+/// Minimum length of a cloud's shorter side, in points.
 const MIN_SIDE: f32 = 30.0;
-/// Font size of the words above a cloud, in points, and the minimum to which it shrinks before a word breaks.
+/// Font size of the words above a cloud, in points, and the minimum size to which it shrinks before a word breaks.
 const WORDS: f32 = 12.0;
 const MIN_WORDS: f32 = 8.5;
-/// The width of the exact outline, in points.
+/// Width of the line around the exact cloud, in points.
 const OUTLINE: f32 = 1.1;
-/// Side in points from which a cloud has its area below it as one large number, the font size of that number, and its
-/// room.
+/// Minimum side of a cloud that has its area below it as a large number, font size of that number, and height for it,
+/// in points.
 const LARGE: f32 = 230.0;
 const AREA: f32 = 26.0;
 const AREA_ROOM: f32 = 34.0;
-/// An area that has grown or shrunk by more than this, as a power of ten, does not stretch the axis. And the axis
-/// shows at least this much on both sides of 1: half of it and twice.
+/// Two powers of ten. An area that has grown or shrunk by more than the first does not extend the axis. The axis always
+/// shows at least the second on both sides of 1, which is from a half to twice.
 const MAX_DECADES: f64 = 3.0;
 const MIN_DECADES: f64 = 0.31;
-/// Half the width of a mark for points beyond an edge, in points.
+/// Half the width of the mark for points beyond an edge, in points.
 const HALF_MARK: f32 = 5.0;
-/// Lag behind the run, in seconds, from which the clouds show it.
+/// Minimum lag of the clouds behind the run that is shown, in seconds.
 const BEHIND_S: f64 = 0.25;
 
-/// The areas of all clouds over time. `None` if there are no clouds, or for a section.
+/// Returns the plot of the areas of all clouds over time, or `None` if there are no clouds or they are a section.
 pub(super) fn plot_set(studio: &Studio) -> Option<PlotSet> {
     let picture = shown_cloud(studio)?.picture.as_ref().ok()?;
     let body = studio.view().body;
@@ -102,7 +102,7 @@ pub(super) fn plot_set(studio: &Studio) -> Option<PlotSet> {
     })
 }
 
-/// Shows the clouds, and below them their areas if there is room.
+/// Shows the clouds, and their areas below them if there is room.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let bottom = ui.cursor().top() + room.y;
     head(ui, studio, commands);
@@ -133,7 +133,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     }
 }
 
-/// The title and the menus.
+/// Shows the title and the menus.
 fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let chosen = studio.display().cloud;
     let picture = shown_cloud(studio).and_then(|found| found.picture.as_ref().ok());
@@ -164,7 +164,7 @@ fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-/// Time of the pictures, and their lag behind the run if it is visible.
+/// Describes the time of the clouds, and their lag behind the run if it is noticeable.
 fn moment(studio: &Studio, picture: &CloudPicture) -> String {
     let Some(request) = cloud_request(studio) else { return String::new() };
     let mut words = format!("t = {:.2} s", request.t_s(picture));
@@ -175,7 +175,7 @@ fn moment(studio: &Studio, picture: &CloudPicture) -> String {
     words
 }
 
-/// The meaning of the points and of the white outline.
+/// Explains the points and the white outline.
 fn legend(picture: &CloudPicture) -> String {
     let points = grouped(picture.points as u64);
     let area = picture.exact.last().map(|[_, area]| format!(", area ×{area:.2}"));
@@ -183,26 +183,26 @@ fn legend(picture: &CloudPicture) -> String {
     format!("{points} starts; white: where exact motion takes them{area}")
 }
 
-/// Detail of the caption above each cloud. A hover shows the rest.
+/// Detail of the caption above each cloud. The tooltip has the rest.
 #[derive(Clone, Copy, PartialEq)]
 enum CaptionDetail {
     Words,
     Numbers,
-    /// The beginning of its name.
+    /// The beginning of the method's name.
     Name,
 }
 
-/// Details of a caption from most to least, each with the minimum side of a cloud, in points.
+/// Details of a caption from the longest to the shortest, each with the minimum side of its cloud, in points.
 const CAPTION_DETAILS: [(CaptionDetail, f32); 3] =
     [(CaptionDetail::Words, 60.0), (CaptionDetail::Numbers, 40.0), (CaptionDetail::Name, MIN_SIDE)];
 
-/// Captions of the clouds, laid out again for each width.
+/// Captions of the clouds. They are laid out again for each width.
 struct Captions<'p> {
     told: CaptionDetail,
     lanes: &'p [LaneCloud],
-    /// Name and text of each cloud.
+    /// The method's name and the caption's text for each cloud.
     texts: Vec<[String; 2]>,
-    /// The width of the longest word, in points.
+    /// Width of the longest word, in points.
     longest: f32,
 }
 
@@ -229,7 +229,7 @@ impl<'p> Captions<'p> {
         Self { told, lanes, texts, longest }
     }
 
-    /// Lays out all captions in this width and one font size; `None` if a word would break.
+    /// Lays out all captions in this width and with one font size. Returns `None` if a word would break.
     fn laid_out(&self, ui: &Ui, studio: &Studio, width: f32) -> Option<Vec<Arc<Galley>>> {
         let longest = self.longest.max(width);
         let size = (WORDS * width / longest).max(MIN_WORDS);
@@ -257,12 +257,13 @@ impl<'p> Captions<'p> {
     }
 }
 
-/// Summary of a cloud.
+/// Summarizes a cloud.
 fn words(points: usize, lane: &LaneCloud) -> String {
     parts(points, lane, CaptionDetail::Words).join(", ")
 }
 
-/// Parts of a cloud's summary: its area, in words too if requested, and the numbers of invisible points.
+/// Returns the parts of a cloud's summary: its area, its finding in words if requested, the number of points that blew
+/// up, and the number of hidden points.
 fn parts(points: usize, lane: &LaneCloud, told: CaptionDetail) -> Vec<String> {
     let name = if told == CaptionDetail::Words { "area " } else { "" };
     let area = lane.area_ratio.map(|ratio| format!("{name}×{}", significant(ratio, 3)));
@@ -272,7 +273,7 @@ fn parts(points: usize, lane: &LaneCloud, told: CaptionDetail) -> Vec<String> {
     [area, words, lost, hidden].into_iter().flatten().collect()
 }
 
-/// Shows the clouds in the number of columns that makes them largest.
+/// Shows the clouds in the number of columns that makes the clouds largest.
 fn side_by_side(
     ui: &Ui,
     studio: &Studio,
@@ -290,7 +291,7 @@ fn side_by_side(
         pos2(room.left() + LEFT.max(widest + BESIDE_NUMBERS), room.top()),
         pos2(room.right(), room.bottom() - NUMBERS - NAMES),
     );
-    // Large clouds in one row have their areas below them.
+    // Large clouds in one row have their areas as numbers below them.
     let is_large = inner.width() / lanes.len() as f32 >= LARGE
         && inner.height() >= LARGE + AREA_ROOM
         && picture.section.is_none();
@@ -302,7 +303,7 @@ fn side_by_side(
         let captions = captions.laid_out(ui, studio, width)?;
         let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 5.0;
         let height = inner.height() / rows as f32 - above - below - GAP / 2.0;
-        // A cloud alone fills its room.
+        // A single cloud fills the room.
         let most = if lanes.len() == 1 { f32::INFINITY } else { MAX_ASPECT * height };
         let size = vec2(width.min(most), height);
         (size.min_elem() >= least).then_some((columns, size, captions, above))
@@ -318,7 +319,7 @@ fn side_by_side(
     let found = CAPTION_DETAILS.into_iter().find_map(largest);
     let Some((columns, size, captions, above)) = found else { return };
     let rows = lanes.len().div_ceil(columns);
-    // The caption of a cloud may be wider than that.
+    // The caption of a cloud may be wider than the cloud.
     let wide = captions.iter().map(|words| words.size().x).fold(size.x, f32::max);
     for (place, (lane, words)) in lanes.iter().zip(captions).enumerate() {
         let (column, row) = (place % columns, place / columns);
@@ -344,7 +345,8 @@ fn side_by_side(
     ui.painter().text(at, egui::Align2::LEFT_BOTTOM, names, small, palette(ui).dim);
 }
 
-/// Shows a cloud, with numbers at the left and below where `has` is set, and with room for its area below those.
+/// Shows a cloud, with numbers at the left and below it where `has` is set, and with room for its area below the
+/// numbers.
 fn cloud(
     ui: &Ui,
     studio: &Studio,
@@ -356,7 +358,7 @@ fn cloud(
 ) {
     let palette = palette(ui);
     let px_per_point = ui.pixels_per_point();
-    // On whole pixels, so that each texel is one pixel.
+    // The rectangle lies on whole pixels, so that each texel is one pixel.
     let whole = |at: f32| (at * px_per_point).round() / px_per_point;
     let rect = Rect::from_min_max(
         pos2(whole(rect.left()), whole(rect.top())),
@@ -372,7 +374,7 @@ fn cloud(
     let all = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
     let view = picture.view;
     let area = PlotArea { rect, bounds: [view.q, view.v] };
-    // A number that extends far beyond its cloud would run into the next cloud's.
+    // A number that extends far beyond its cloud would overlap a number of the next cloud.
     let fits = |at: f64, text: &str| {
         let off_centre = (area.at([at, view.v[0]]).x - rect.center().x).abs();
         off_centre + charts::text_width(text, charts::NUMBER) / 2.0 <= (rect.width() + GAP) / 2.0
@@ -392,7 +394,7 @@ fn cloud(
     let mut over =
         vec![Primitive::Clip(rect, vec![Primitive::Curves(outline(picture, rect, palette))])];
     mark_beyond(ui, lane.beyond, rect);
-    // The tooltip lies below the numbers too.
+    // The tooltip also appears over the numbers below the cloud.
     let whole = rect.with_max_y(rect.bottom() + NUMBERS + below);
     let response = ui.interact(whole, ui.scope_id().with(("cloud", place)), Sense::click());
     if studio.mode() == Mode::Race && lane.entry == studio.active() {
@@ -409,7 +411,7 @@ fn cloud(
     }
 }
 
-/// Marks each side of a cloud beyond which points lie, with their number.
+/// Marks each side of a cloud that has points beyond it, with their number.
 fn mark_beyond(ui: &Ui, beyond: [usize; 4], rect: Rect) {
     let (palette, painter) = (palette(ui), ui.painter());
     let sides = [
@@ -435,11 +437,12 @@ fn mark_beyond(ui: &Ui, beyond: [usize; 4], rect: Rect) {
     }
 }
 
-/// The border of the exact cloud.
+/// Returns the border of the exact cloud.
 fn outline(picture: &CloudPicture, rect: Rect, palette: &PanelPalette) -> Vec<ScreenCurve> {
     let area = PlotArea { rect, bounds: [[0.0, 1.0]; 2] };
     let style = LineStyle::solid(palette.exact, OUTLINE);
-    // An angle continues at the other side, and the border between points far apart is unknown.
+    // The border is not drawn between points that are far apart. An angle continues at the other side there, or the
+    // border is unknown.
     let longest = MAX_LINE_PART as f32 * rect.size().max_elem();
     let goes_on = |a: &Pos2, b: &Pos2| a.distance(*b) <= longest;
     let mut curves = Vec::new();
@@ -455,7 +458,7 @@ fn outline(picture: &CloudPicture, rect: Rect, palette: &PanelPalette) -> Vec<Sc
 /// Size in pixels, theme and colour of an image.
 type Style = ([usize; 2], Theme, Rgba);
 
-/// A cached image, with its source.
+/// A cached image, with the density that it shows.
 #[derive(Clone)]
 struct CachedImage {
     of: Arc<Density>,
@@ -463,7 +466,7 @@ struct CachedImage {
     texture: TextureHandle,
 }
 
-/// The image of a density. A change of the density or its style replaces the cached image.
+/// Returns the image of a density. The cached image is replaced if the density or its style has changed.
 fn cached_image(ui: &Ui, place: usize, density: &Arc<Density>, style: Style) -> TextureHandle {
     let id = egui::Id::unique(("image of a cloud", place));
     let made = ui.data(|data| data.get_temp::<CachedImage>(id));

@@ -1,4 +1,4 @@
-//! Energies of the selected lane and of the exact solution, and the energy that every lane has gained.
+//! Energies of the selected lane and of the exact solution, and the energy that each lane has gained.
 
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
@@ -11,10 +11,10 @@ use crate::run::past::Energies;
 use crate::studio::Studio;
 use crate::view::chart::AxisScale;
 
-/// An energy: its name, its dash, its opacity, and its formula.
+/// An energy in the plot: its name, its dash, its opacity, and its formula.
 type Part = (&'static str, [f32; 2], f32, fn(Energies) -> f64);
 
-/// The total, after the terms of its sum.
+/// Energies in the plot. The total comes after the terms of its sum.
 const PARTS: [Part; 3] = [
     ("potential", [2.0, 3.0], 0.5, Energies::potential_j),
     ("kinetic", [8.0, 4.0], 0.5, |energies| energies.kinetic_j),
@@ -27,7 +27,7 @@ pub(super) fn plot_set(studio: &Studio) -> PlotSet {
     let drift = error::plot(studio, body, Metric::ENERGY_DRIFT, title.into());
     let energies = energies(studio, body);
     let conserves = !energies.exact.iter().all(|line| line.times.is_empty());
-    // The reason for a missing drift appears only if there is no energy either.
+    // The plot of the drift gives a reason for a missing drift only if there is no plot of energies either.
     let drift = Some(drift).filter(|plot| plot.nothing.is_none() || !conserves);
     let plots = conserves.then_some(energies).into_iter().chain(drift).collect();
     PlotSet { styles: SeriesStyles::of(studio), title: "Energy".into(), plots }

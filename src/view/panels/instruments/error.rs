@@ -1,4 +1,4 @@
-//! The selected metric of the selected body over time: an error or a count.
+//! The selected metric of the displayed body over time, which is an error or a count.
 
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
@@ -8,11 +8,12 @@ use crate::run::{METRICS, Metric, Scale, Unit};
 use crate::studio::Studio;
 use crate::view::chart::{AxisScale, Dots};
 
-/// Message if every error is zero, which has no logarithm.
+/// Message if every error is zero, because zero has no logarithm.
 pub(super) const NO_ERROR: &str =
     "No error: every method shown is on the exact curve to the last bit.";
 
-/// Indices in [`METRICS`] of the metrics to choose from: all that the energy instrument does not show.
+/// Returns the indices in [`METRICS`] of the metrics to choose from. They are all those that the energy instrument does
+/// not show.
 pub(super) fn choices() -> impl Iterator<Item = usize> {
     (0..METRICS.len()).filter(|&place| !METRICS[place].is_of_energy)
 }
@@ -28,7 +29,7 @@ pub(super) fn plot_set(studio: &Studio) -> PlotSet {
     }
 }
 
-/// A plot of a metric of a body.
+/// Returns the plot of a metric of a body.
 pub(super) fn plot(studio: &Studio, body: usize, place: usize, title: String) -> PlotModel {
     let metric = &METRICS[place];
     let truth = &studio.race().truth().bodies()[body];

@@ -1,4 +1,4 @@
-//! Exports an instrument: its values as a table, its plots as a drawing.
+//! Exports an instrument: its values as a table, and its plots as a drawing.
 
 use egui::{Align2, Pos2, Rect, pos2, vec2};
 
@@ -12,13 +12,13 @@ use crate::studio::{Instrument, Studio};
 use crate::view::chart::{ABOVE, NAME, Primitive, Text, legend, svg};
 use crate::view::theme::{PanelPalette, palette_of};
 
-/// Size of a drawing in its own pixels, and the margins around its plots.
+/// Size of a drawing in its own pixels, and size of the margins around its plots.
 const SIZE: [f32; 2] = [960.0, 600.0];
 const MARGIN: f32 = 20.0;
 const HEAD: f32 = 62.0;
 const LEFT: f32 = 64.0;
-/// Values of the selected instrument as comma-separated text, with a line for each sample of each curve. `None` if it
-/// has no plots.
+/// Returns the values of the selected instrument as comma-separated text, with a line for each sample of each curve, or
+/// `None` if the instrument has no plots.
 pub(in crate::view) fn csv(studio: &Studio) -> Option<Vec<String>> {
     if studio.display().instrument == Instrument::Loop {
         return Some(loops::csv(studio));
@@ -49,7 +49,7 @@ pub(in crate::view) fn csv(studio: &Studio) -> Option<Vec<String>> {
     Some(lines)
 }
 
-/// The plots of the selected instrument as an SVG file; `None` if it has none.
+/// Returns the plots of the selected instrument as an SVG file, or `None` if the instrument has no plots.
 pub(in crate::view) fn svg(studio: &Studio) -> Option<String> {
     let palette = palette_of(studio.display().theme);
     let all = Rect::from_min_size(Pos2::ZERO, SIZE.into());

@@ -1,4 +1,5 @@
-//! The crosshair of a plot, and the values of all curves beside it: at the pointer, else now.
+//! The crosshair of a plot, and the values of all curves beside the plot: those at the pointer, or else the present
+//! ones.
 
 use egui::{Align2, FontId, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 
@@ -12,12 +13,13 @@ use crate::view::theme::{palette, strong_font};
 /// The width of the crosshair and the radius of the dots on the curves, in points.
 const CROSSHAIR: f32 = 1.4;
 const DOT: f32 = 3.6;
-/// Minimum gap between the number of a lane and its value, in points.
+/// Minimum gap between the number of a lane and the lane's value, in points.
 const BETWEEN: f32 = 5.0;
-/// The height of a value beside the plot, in points.
+/// Height of a line of the values beside the plot, in points.
 const LINE: f32 = 15.5;
 
-/// The moment (s) under a pointer: along the time axis, else that of the nearest point of a curve.
+/// Returns the moment (s) under a pointer. If the horizontal axis is not time, the moment is that of the nearest point
+/// of a curve.
 pub(super) fn time_at(plot: &PlotModel, area: &PlotArea, at: Pos2) -> Option<f64> {
     if plot.is_over_time() {
         return Some(area.point(at)[0]);
@@ -31,8 +33,8 @@ pub(super) fn time_at(plot: &PlotModel, area: &PlotArea, at: Pos2) -> Option<f64
     near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, t)| t)
 }
 
-/// Shows the values at time `t` (s) with a crosshair, or those of now without one. `has_tag` adds the time above the
-/// plot.
+/// Shows the values at time `t` (s) and a crosshair there, or the present values if there is no `t`. `has_tag` adds the
+/// time above the plot.
 pub(super) fn show(
     ui: &Ui,
     studio: &Studio,
@@ -83,7 +85,7 @@ pub(super) fn show(
     }
 }
 
-/// A time in as many decimals as the zoom resolves.
+/// Formats a time with as many decimals as the zoom resolves.
 fn decimals(t: f64, wide: f64) -> String {
     let decimals = (2.5 - libm::log10(wide)).ceil().clamp(2.0, 9.0) as usize;
     format!("{t:.decimals$}")
@@ -101,7 +103,7 @@ fn time_tag(ui: &Ui, frame: Rect, x: f32, text: &str) {
     painter.galley(tag.min + vec2(7.0, 2.5), words, palette.on_accent);
 }
 
-/// Writes the values beside the plot in a fixed order: the exact solution, then the lanes by number.
+/// Writes the values beside the plot in a fixed order. The exact solution comes first, then the lanes by number.
 fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
     let frame = cell.frame;
     let lines = |readout: &Readout| -> Vec<[String; 2]> {
@@ -110,7 +112,7 @@ fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
         shown.map(|(axis, place)| [axis.with_unit(place), axis.number(place)]).collect()
     };
     let most = ((frame.height() + 10.0) / LINE).floor().max(1.0) as usize;
-    // Without room for all, keeps only those in front.
+    // Only the values of the front curves are shown if there is no room for all of them.
     let each = if cell.plot.is_over_time() { 1 } else { 2 };
     if readouts.len() * each > most {
         readouts.retain(|readout| readout.is_front);
@@ -132,7 +134,7 @@ fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
         };
         for (line, texts) in (0..).zip(lines(readout)) {
             let at = pos2(cell.right, y + LINE * line as f32);
-            // The axis shows the unit too.
+            // The unit may be left out, because the axis also shows it.
             let beside = if line == 0 { named.right() + BETWEEN } else { frame.right() };
             let has_room = beside + width(&texts[0]) <= cell.right;
             write(at, Align2::RIGHT_CENTER, &texts[usize::from(!has_room)]);

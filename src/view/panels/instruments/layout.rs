@@ -8,35 +8,36 @@ use super::plot_set::{PlotModel, PlotSet};
 use crate::view::chart::{ABOVE, AxisMark, NAMES, NUMBERS, PlotArea};
 use crate::view::panels::breakpoints;
 
-/// Minimum distance between marks, horizontally and vertically, in points, as long as three fit.
+/// Minimum distance between marks, horizontally and vertically, in points. If fewer than three marks would fit, they
+/// move closer.
 const MARKS_APART: [f64; 2] = [80.0, 34.0];
-/// Room at the right for values, in points, and for values with names.
+/// Width at the right for values, and width for values with names, in points.
 const RIGHT: f32 = 92.0;
 const RIGHT_OF_PARTS: f32 = 156.0;
-/// Between plots, in points.
+/// Gap between two plots, in points.
 const GAP: f32 = 5.0;
-/// Minimum height of a plot in points, and the height to which plots shrink if that lets all fit. Otherwise fewer
-/// plots appear.
+/// Minimum height of a plot, and the height to which plots shrink if all of them fit then, in points. Otherwise only
+/// some plots appear.
 const MIN_HEIGHT: f32 = 70.0;
 const SHRUNK: f32 = 44.0;
-/// Height of the selected body's plot, relative to the others.
+/// Height of the displayed body's plot, relative to the other plots.
 const CHOSEN: f32 = 2.0;
 
-/// A plot at its place.
+/// A plot at its place in the instrument.
 pub(super) struct Cell<'s> {
     pub(super) plot: &'s PlotModel,
-    /// Rectangle of the curves.
+    /// Rectangle in which the curves are drawn.
     pub(super) frame: Rect,
     /// Left edge of the numbers beside the plot.
     pub(super) left: f32,
-    /// Right edge of the values beside the plot, or of the frame if there is no room.
+    /// Right edge of the values beside the plot, or right edge of `frame` if there is no room for values.
     pub(super) right: f32,
-    /// Whether no plot below shares the horizontal axis.
+    /// Whether no plot directly below shares the horizontal axis.
     pub(super) is_lowest: bool,
 }
 
 impl Cell<'_> {
-    /// The plot's area under the ranges that the user has chosen.
+    /// Returns the plot's area, with the ranges that the user has chosen.
     pub(super) fn area(&self, ranges: &BTreeMap<String, [f64; 2]>) -> PlotArea {
         PlotArea { rect: self.frame, bounds: self.plot.in_view(ranges) }
     }
@@ -46,7 +47,7 @@ impl Cell<'_> {
     }
 }
 
-/// The number of plots that fit into a height, and their minimum height.
+/// Returns the number of plots that fit into a height, and their minimum height.
 fn fitting_plots(plots: usize, height: f32) -> (usize, f32) {
     let height = (height - NUMBERS - NAMES).max(1.0);
     let of_least = |least: f32| ((height + GAP) / (ABOVE + least + GAP)).floor().max(1.0) as usize;
@@ -60,10 +61,11 @@ pub(super) fn all_fit(plots: usize, height: f32) -> bool {
     fitting_plots(plots, height).0 == plots
 }
 
-/// The plots that fit into `room`, including that of `body`, with `left` points for the numbers of their axes.
+/// Returns the plots that fit into `room`, which include the plot of `body`. The numbers of the vertical axes have
+/// `left` points.
 pub(super) fn cells(set: &PlotSet, room: Rect, left: f32, body: usize) -> Vec<Cell<'_>> {
     let below = NUMBERS + NAMES;
-    // A plot with a different axis from the one below has its own numbers.
+    // A plot has its own numbers if its horizontal axis differs from that of the plot below.
     let is_last_of_axis = |plots: &[PlotModel], i: usize| {
         let below = plots.get(i + 1).map(PlotModel::is_over_time);
         below != Some(plots[i].is_over_time())

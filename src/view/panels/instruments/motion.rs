@@ -1,4 +1,4 @@
-//! A quantity of every body over time: under all lanes, and exactly.
+//! A quantity of every body over time, for all lanes and for the exact solution.
 
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
@@ -15,7 +15,8 @@ use crate::studio::{Studio, futures, shows_futures};
 use crate::view::chart::{Curve, Dots, LineStyle};
 use crate::view::theme::palette_of;
 
-/// A lane stretches no axis if it is further out by more than this factor than the truth and the selected lane.
+/// A lane does not extend an axis where it is further out than the truth and the selected lane by more than this
+/// factor.
 pub(super) const HEALTHY: f64 = 1.6;
 
 /// The width of the curve of a future, in points.
@@ -32,7 +33,7 @@ pub(super) fn plot_set(studio: &Studio, detail: Detail) -> PlotSet {
     }
 }
 
-/// The track of a body that is steered across a plane, because it shows more than coordinates over time.
+/// Returns the track of a body that is steered across a plane, because the track shows more than coordinates over time.
 fn track(studio: &Studio, body: usize) -> Option<PlotModel> {
     let truth = &studio.race().truth().bodies()[body];
     let is_steered = matches!(Look::of(truth).framing(), Framing::Follow { .. });
@@ -66,7 +67,7 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     extend_by_held_body(studio, body, &mut tracks, |t, [q, v]| [t, quantity.value([q, v])]);
     let exact = ExactLine::of_quantity(studio, body, quantity);
     let lanes = Track::fitted(studio, &tracks);
-    // The view follows the selected lane too: beside one that has grown, the truth may be a flat line.
+    // The view also follows the selected lane. Beside a lane that has grown, the truth may be a flat line.
     let [from_s, _] = time_in_view(studio.scene().seconds, studio.race().t());
     let seen = Track::front_since(&lanes, 1, from_s).chain(exact.fitted(studio, 1));
     let futures = future_curves(studio, body, quantity);
@@ -85,10 +86,10 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     PlotModel { tracks, dots: Dots::SparseAlongX, exact: vec![exact], futures, ..plot }
 }
 
-/// Greatest enlargement of a plot for futures.
+/// Maximum enlargement of a plot to show futures.
 const ROOM_FOR_FUTURES: f64 = 4.0;
 
-/// The next second of a body under each method and in truth, if the display has them.
+/// Returns the next second of a body under each method and in truth, or nothing if the display does not show it.
 fn future_curves(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve> {
     if !shows_futures(studio) {
         return Vec::new();
@@ -108,7 +109,7 @@ fn future_curves(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve>
     futures(&studio.deck, body).into_iter().map(curve).collect()
 }
 
-/// Name of a body; for a net, also the node that its plot shows.
+/// Returns the name of a body. The name of a net includes the node that the plot shows.
 pub(super) fn name_of_plotted(studio: &Studio, body: usize, coordinate: &Coordinate) -> String {
     let plotted = &studio.scene().bodies[body];
     let name = capitalised(&plotted.name);
@@ -116,7 +117,7 @@ pub(super) fn name_of_plotted(studio: &Studio, body: usize, coordinate: &Coordin
     node.map_or(name.clone(), |(_, node)| format!("{name}, node {node}"))
 }
 
-/// Extends the selected lane to the place where a body in the user's hand would be released, as on the stage.
+/// Extends the selected lane to the place where a body in the user's hand would be released. The stage does the same.
 pub(super) fn extend_by_held_body(
     studio: &Studio,
     body: usize,

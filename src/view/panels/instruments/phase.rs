@@ -1,4 +1,4 @@
-//! Velocity over coordinate, for the last turns of every lane and of the exact solution.
+//! Velocity over coordinate, for the last turns of each lane and of the exact solution.
 
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
@@ -8,7 +8,7 @@ use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, origin};
 use crate::studio::Studio;
 use crate::view::chart::Dots;
 
-/// Samples in a phase portrait: a few turns, few enough to distinguish them.
+/// Number of samples in a phase portrait. They make only a few turns, so that the turns can be distinguished.
 pub(super) const SAMPLES: usize = 360;
 
 pub(super) fn plot_set(studio: &Studio) -> PlotSet {
@@ -16,7 +16,7 @@ pub(super) fn plot_set(studio: &Studio) -> PlotSet {
     let mut tracks = Track::of(studio, body, |s| [s.q, s.v]);
     tracks.iter_mut().for_each(|lane| lane.keep_latest(SAMPLES));
     extend_by_held_body(studio, body, &mut tracks, |_, place| place);
-    // Shows the exact solution over the same time as the lanes that still move.
+    // The exact solution covers the same time as the lanes that still move.
     let newest = tracks.iter().filter_map(Track::times).max_by(|a, b| a.1.total_cmp(&b.1));
     let since_s = newest.map_or(f64::NEG_INFINITY, |(first, _)| first);
     let exact = ExactLine::of(studio, body, |s| (s.t >= since_s).then_some([s.q, s.v]));

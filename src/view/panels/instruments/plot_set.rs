@@ -1,5 +1,5 @@
-//! The plots of an instrument before they are drawn, stacked over one horizontal axis. They are the source of the
-//! drawing in a window, and of copied and saved files.
+//! The plots of an instrument before they are drawn. They are stacked over one horizontal axis, and are the source of
+//! the drawing in a window and of copied and saved files.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -16,10 +16,10 @@ use crate::studio::{Studio, shows_futures};
 use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
 use crate::view::theme::palette_of;
 
-/// The width of the exact curve, in points. A lane that keeps to the truth is visible on both sides of it.
+/// Width of the exact curve, in points. A lane that follows the truth is visible on both sides of this curve.
 pub(super) const EXACT: f32 = 1.3;
 
-/// An instrument of plots.
+/// The plots of an instrument.
 pub(super) struct PlotSet {
     pub(super) styles: SeriesStyles,
     pub(super) title: String,
@@ -28,7 +28,7 @@ pub(super) struct PlotSet {
 
 /// A plot of lanes and the exact solution.
 pub(super) struct PlotModel {
-    /// Unique id among all plots of a scene, for its zoom.
+    /// Id of the plot's zoom, which is unique among all plots of a scene.
     pub(super) id: String,
     pub(super) title: String,
     /// Index of the body in the scene.
@@ -37,20 +37,20 @@ pub(super) struct PlotModel {
     pub(super) axes: [PlotAxis; 2],
     /// Bounds in view unless the user has zoomed.
     pub(super) fit: Bounds,
-    /// The front track comes last.
+    /// Tracks of the lanes. The front track comes last.
     pub(super) tracks: Vec<Track>,
     pub(super) dots: Dots,
     pub(super) exact: Vec<ExactLine>,
     /// The next second under each method, with a dot for each tick, and in truth.
     pub(super) futures: Vec<Curve>,
-    /// The reason why there is nothing to show, in place of the plot.
+    /// Message in place of the plot, which is the reason why there is nothing to show.
     pub(super) nothing: Option<String>,
 }
 
 /// An axis of a plot.
 pub(super) struct PlotAxis {
     pub(super) quantity: String,
-    /// Empty for a pure number.
+    /// Unit of the quantity. Empty for a pure number.
     pub(super) unit: String,
     pub(super) scale: AxisScale,
     is_time: bool,
@@ -61,23 +61,23 @@ pub(super) struct ExactLine {
     pub(super) curve: Curve,
     /// The time of each point, in seconds.
     pub(super) times: Vec<f64>,
-    /// The part of the solution, such as an energy, if there are several; else empty.
+    /// The part of the solution that the curve shows, such as an energy, or an empty text for the whole.
     pub(super) part: &'static str,
-    /// Indices of the points at which the body was put elsewhere: no path leads to them.
+    /// Indices of the points at which the body was put elsewhere. No path leads to these points.
     jumps: Vec<usize>,
-    /// Quantity over time, if the solution is known between the points too.
+    /// The plotted quantity, if the plot is over time and the solution is known between the points too.
     known: Option<Quantity>,
 }
 
 /// The value of one curve at a moment.
 pub(super) struct Readout {
-    /// Index among the styles; `None` for the exact solution.
+    /// Index of the curve's style, or `None` for the exact solution.
     pub(super) entry: Option<usize>,
     pub(super) colour: Color32,
     pub(super) is_front: bool,
-    /// Digit of the method's key, and the curve's part of its lane.
+    /// Digit of the method in a race, followed by the name of the part if the curve shows a part.
     pub(super) name: String,
-    /// Place in the plot.
+    /// The point of the curve, in places of the axes.
     pub(super) at: [f64; 2],
 }
 
@@ -86,22 +86,22 @@ impl PlotAxis {
         Self { quantity: quantity.into(), unit: unit.into(), scale, is_time: false }
     }
 
-    /// Axis of a coordinate.
+    /// Creates the axis of a coordinate.
     pub(super) fn of(coordinate: &Coordinate) -> Self {
         Self::new(&coordinate.name, coordinate.shown_unit(), AxisScale::Linear)
     }
 
-    /// Axis of a coordinate's velocity.
+    /// Creates the axis of a coordinate's velocity.
     pub(super) fn of_velocity(coordinate: &Coordinate) -> Self {
         Self::new(&coordinate.velocity, &Unit::Velocity.on(coordinate), AxisScale::Linear)
     }
 
-    /// Axes of a coordinate and its velocity.
+    /// Creates the two axes of a coordinate and its velocity.
     pub(super) fn of_phase(coordinate: &Coordinate) -> [Self; 2] {
         [Self::of(coordinate), Self::of_velocity(coordinate)]
     }
 
-    /// Axis of a quantity of a coordinate.
+    /// Creates the axis of a quantity of a coordinate.
     pub(super) fn of_quantity(quantity: Quantity, coordinate: &Coordinate) -> Self {
         match quantity {
             Quantity::Position => Self::of(coordinate),
@@ -109,26 +109,26 @@ impl PlotAxis {
         }
     }
 
-    /// Axis of time in seconds.
+    /// Creates the axis of time in seconds.
     pub(super) fn time(quantity: &str) -> Self {
         Self { is_time: true, ..Self::new(quantity, "s", AxisScale::Linear) }
     }
 
-    /// The quantity with its unit.
+    /// Returns the name of the quantity with its unit.
     pub(super) fn name(&self) -> String {
         let Self { quantity, unit, .. } = self;
         if unit.is_empty() { quantity.clone() } else { format!("{quantity}, {unit}") }
     }
 
-    /// The value at a place, with its unit.
+    /// Formats the value at a place, with its unit.
     pub(super) fn with_unit(&self, place: f64) -> String {
         let number = self.number(place);
         if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
     }
 
-    /// The value at a place, without its unit.
+    /// Formats the value at a place, without its unit.
     pub(super) fn number(&self, place: f64) -> String {
-        /// A longer number is rounded to one digit.
+        /// A number with more characters is rounded to one digit.
         const MAX_CHARS: usize = 7;
         let value = self.scale.value(place);
         let number = significant(value, 3);
@@ -138,7 +138,7 @@ impl PlotAxis {
 }
 
 impl ExactLine {
-    /// The exact solution of a body, at the times for which `place` returns a point.
+    /// Creates the exact solution of a body, with a point at each sample for which `place` returns one.
     pub(super) fn of(
         studio: &Studio,
         body: usize,
@@ -161,7 +161,7 @@ impl ExactLine {
         Self::through(studio, times, points, jumps)
     }
 
-    /// The exact solution at these times (s) and places, without those that are not finite.
+    /// Creates the exact solution from times (s) and places. Places that are not finite are dropped.
     pub(super) fn of_places(
         studio: &Studio,
         places: impl Iterator<Item = (f64, [f64; 2])>,
@@ -177,7 +177,7 @@ impl ExactLine {
         Self { curve, times, part: "", jumps, known: None }
     }
 
-    /// A quantity of a body over time.
+    /// Creates the curve of a quantity of a body over time.
     pub(super) fn of_quantity(studio: &Studio, body: usize, quantity: Quantity) -> Self {
         let most = samples(studio, body).size_hint().0;
         let mut swept = Vec::with_capacity(most);
@@ -192,14 +192,14 @@ impl ExactLine {
         Self { curve: Curve { swept, ..line.curve }, known: Some(quantity), ..line }
     }
 
-    /// The same line as a part of the solution, with its own dash and opacity.
+    /// Returns the same line as a part of the solution, with its own dash and opacity.
     pub(super) fn into_part(self, part: &'static str, dash: [f32; 2], strength: f32) -> Self {
         let colour = self.curve.style.colour.gamma_multiply(strength);
         let style = LineStyle { dash, colour, ..self.curve.style };
         Self { part, curve: Curve { style, ..self.curve }, ..self }
     }
 
-    /// The curve from jump to jump, for a plot with the times `view` on this number of pixel columns.
+    /// Returns the pieces of the curve between jumps, for a plot of the times `view` on this number of pixel columns.
     fn curves(
         &self,
         studio: &Studio,
@@ -214,8 +214,8 @@ impl ExactLine {
         pieces.map(move |piece| self.piece(piece, (studio, body), view, columns))
     }
 
-    /// A piece of the curve without a jump. If columns are narrower than the distance of samples, and the solution is
-    /// known between them, every column gets a point.
+    /// Returns a piece of the curve that has no jump. Every column gets a point if there are more columns than samples
+    /// and the solution is known between the samples.
     fn piece(
         &self,
         piece: Range<usize>,
@@ -241,8 +241,8 @@ impl ExactLine {
         Curve { points, swept: Vec::new(), ..self.curve }
     }
 
-    /// Values that an axis is fitted to, including those between samples. They start at the last placement or change
-    /// of a parameter, but include all earlier values while the motion after that has just begun.
+    /// Returns the values that the axis must include, with those between the samples. They start at the last placement
+    /// of a body or change of a parameter. While the motion since then has only begun, they include all earlier values.
     pub(super) fn fitted(&self, studio: &Studio, axis: usize) -> impl Iterator<Item = f64> + Clone {
         let since_s = studio.past().swing_since_s(studio.race().t());
         let later = self.times.partition_point(|&t| t < since_s);
@@ -257,7 +257,8 @@ impl ExactLine {
         self.curve.points.iter().map(move |point| point[axis])
     }
 
-    /// Place at time `t` (s): on the line between two points, unless the truth of `body` is known there.
+    /// Returns the place at time `t` (s). It lies on the line between two points, unless the truth of `body` is known
+    /// between them.
     pub(super) fn at(&self, (studio, body): (&Studio, usize), t: f64) -> Option<[f64; 2]> {
         let after = self.times.partition_point(|&time| time <= t);
         let before = after.checked_sub(1)?;
@@ -278,7 +279,7 @@ impl ExactLine {
     }
 }
 
-/// Recent samples of the exact solution of a body, up to now.
+/// Returns the recent samples of the exact solution of a body, up to now.
 fn samples(studio: &Studio, body: usize) -> impl Iterator<Item = TruthSample> {
     let (curve, t) = (&studio.past().truth_curves()[body], studio.race().t());
     let truth = &studio.race().truth().bodies()[body];
@@ -287,14 +288,14 @@ fn samples(studio: &Studio, body: usize) -> impl Iterator<Item = TruthSample> {
     curve.samples().copied().chain(present)
 }
 
-/// A quantity over time at a sample; `None` if it is not finite.
+/// Returns a quantity at a sample as a point over time, or `None` if the quantity is not finite.
 fn finite_point(quantity: Quantity, sample: &TruthSample) -> Option<[f64; 2]> {
     let at = [sample.t, quantity.value([sample.q, sample.v])];
     at.iter().all(|x| x.is_finite()).then_some(at)
 }
 
 impl PlotModel {
-    /// An empty plot of a body.
+    /// Creates an empty plot of a body.
     pub(super) fn new(
         body: usize,
         id: String,
@@ -311,19 +312,20 @@ impl PlotModel {
         self.axes[0].is_time
     }
 
-    /// Names of the axes, unique in the scene. All plots over one time share its range.
+    /// Returns the names of the axes, which are unique in the scene. All plots over the same time share its name, and
+    /// so its range.
     pub(super) fn axis_names(&self) -> [String; 2] {
         let along = if self.is_over_time() { &self.axes[0].quantity } else { &self.id };
         [format!("{along}, along"), format!("{}, up", self.id)]
     }
 
-    /// Bounds in view under the ranges that the user has chosen.
+    /// Returns the bounds in view, with the ranges that the user has chosen.
     pub(super) fn in_view(&self, ranges: &BTreeMap<String, [f64; 2]>) -> Bounds {
         let names = self.axis_names();
         [0, 1].map(|axis| ranges.get(&names[axis]).copied().unwrap_or(self.fit[axis]))
     }
 
-    /// Contents of the plot with `bounds` in view on this number of pixel columns.
+    /// Returns the contents of the plot on this number of pixel columns, with `bounds` in view.
     pub(super) fn drawing(
         &self,
         studio: &Studio,
@@ -350,7 +352,7 @@ impl PlotModel {
         drawing
     }
 
-    /// Values of all curves at time `t` (s).
+    /// Returns the values of all curves at time `t` (s).
     pub(super) fn readouts(&self, studio: &Studio, styles: &SeriesStyles, t: f64) -> Vec<Readout> {
         let lanes = self.tracks.iter().filter_map(|track| {
             let (entry, at) = track.at(t)?;
@@ -366,7 +368,8 @@ impl PlotModel {
     }
 }
 
-/// The point where a curve first leaves the view upwards or downwards, or its end if it is nowhere in view.
+/// Returns the point where a curve first leaves the view upwards or downwards. If the curve is nowhere in view, returns
+/// its end.
 fn departure(curve: &Curve, bounds: &Bounds) -> Option<Arrow> {
     let is_in_view = |axis: usize, at: &[f64; 2]| {
         let [low, high] = bounds[axis];
@@ -388,7 +391,7 @@ fn joined(key: &str, part: &str) -> String {
 }
 
 impl PlotSet {
-    /// Styles of the visible curves, with their indices.
+    /// Returns the styles of the visible curves, with the index of each.
     pub(super) fn visible_styles(&self) -> impl Iterator<Item = (usize, &SeriesStyle)> {
         let tracks = self.plots.iter().flat_map(|plot| &plot.tracks);
         let mut shown: Vec<usize> =
@@ -399,23 +402,23 @@ impl PlotSet {
     }
 }
 
-/// Bounds of the time in view and this range of values.
+/// Returns the bounds of a plot that shows the time in view and this range of values.
 pub(super) fn over_time(studio: &Studio, (low, high): (f64, f64)) -> Bounds {
     let [from, to] = time_in_view(studio.scene().seconds, studio.race().t());
-    // Includes the next second, if the plot shows it.
+    // The time includes the next second if the plot shows futures.
     let to = if shows_futures(studio) { to.max(studio.race().t() + 1.0) } else { to };
     [[from, to], [low, high]]
 }
 
-/// The zero that an axis includes during the first view of a run. Without it, a body that has hardly moved would look
-/// as under a microscope.
+/// Returns a zero for axes to include while a run is in its first view. Without this zero, the small motion of a body
+/// that has hardly moved would fill the plot.
 pub(super) fn origin(studio: &Studio) -> Option<f64> {
     let [_, to_s] = time_in_view(studio.scene().seconds, 0.0);
     (studio.race().t() <= to_s).then_some(0.0)
 }
 
-/// The time in view for a run of this length, in seconds. At first it is a quarter of the length, then half, then the
-/// last full length.
+/// Returns the time in view for a run of this length, in seconds. The view first covers a quarter of the length, then
+/// half of it, then all of it. After that it covers the last full length.
 pub(super) fn time_in_view(length_s: f64, now_s: f64) -> [f64; 2] {
     let windows = [0.25, 0.5, 1.0].map(|part| part * length_s);
     let to = windows.into_iter().find(|&to| now_s <= to).unwrap_or(now_s);

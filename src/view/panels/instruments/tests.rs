@@ -13,7 +13,7 @@ use crate::view::testing::{TestWindow, button};
 
 mod shown;
 
-/// Every text that is fully visible in a frame of this size, with its place.
+/// Returns every text that is fully visible in a frame of this size, with its place.
 fn texts(studio: &Studio, size: Vec2) -> Vec<(Rect, String)> {
     TestWindow::new(size).panels(studio, Vec::new()).1.whole()
 }
@@ -30,13 +30,13 @@ fn assert_legible(studio: &Studio, what: &str) {
     let here: Vec<_> = texts.iter().filter(|(rect, _)| rect.left() > left).collect();
     let place = |wanted: &str| here.iter().find(|(_, text)| text == wanted).map(|(rect, _)| rect);
     for card in INSTRUMENTS {
-        // Without room for all, a group has one tab, unless it is the selected one.
+        // Every group except the selected one has a single tab if there is no room for all tabs.
         let is_chosen = card.group == studio.display().instrument.card().group;
         let group = place(card.group.name()).filter(|_| !is_chosen);
         assert!(place(card.name).or(group).is_some(), "{what}: no tab {}", card.name);
     }
     let Some(set) = plot_set_of(studio, Detail::Samples) else {
-        // Between the tabs and the timeline.
+        // The instrument lies between the tabs and the timeline.
         let is_of_instrument = |rect: &Rect| rect.top() > 66.0 && rect.bottom() < 540.0;
         let mut said = here.iter().filter(|(rect, _)| is_of_instrument(rect));
         assert!(said.any(|(_, text)| text.len() > 10), "{what}: {here:?}");
@@ -72,7 +72,7 @@ fn assert_legible(studio: &Studio, what: &str) {
     }
 }
 
-/// Each instrument and each body, at the start and later, alone and racing, so that each pair occurs.
+/// The test covers each pair of an instrument and a body, at the start and later, in solo mode and in a race.
 #[test]
 fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
     SCENES.par_iter().for_each(|scene| {
@@ -108,7 +108,7 @@ fn a_plot_in_a_low_window_takes_the_room_of_its_legend() {
         let texts = texts(&studio, size);
         let beside = |rect: &Rect| rect.left() > (1.0 - panels::INSTRUMENTS) * size.x;
         let is_nought = |(rect, text): &&(Rect, String)| text == "0" && beside(rect);
-        // One on the axis of time, and one between 1 m and −1 m.
+        // There is a 0 on the axis of time, and another one between 1 m and −1 m.
         assert_eq!(texts.iter().filter(is_nought).count(), 2, "{size}: {texts:?}");
     }
 }
@@ -140,7 +140,7 @@ fn the_plot_of_a_halted_truth_says_that_there_is_none() {
     assert!(says(&studio, "no exact solution"));
 }
 
-/// A user at the plots of an instrument, which fill a frame.
+/// A user of an instrument's plots, which fill the frame.
 struct Person(TestWindow);
 
 const FRAME: Vec2 = vec2(500.0, 420.0);
@@ -158,7 +158,7 @@ impl Person {
         (shown.whole().into_iter().map(|(_, text)| text).collect(), commands)
     }
 
-    /// Shows a frame after these events, and applies its commands. Returns every number in it.
+    /// Shows a frame after these events, and applies the commands. Returns every number in the frame.
     fn numbers(&mut self, studio: &mut Studio, events: Vec<Event>) -> Vec<String> {
         let (texts, commands) = self.frame(studio, events);
         for command in commands {
@@ -272,11 +272,11 @@ fn a_placement_refits_the_axis_and_breaks_the_exact_line() {
     let pieces = plot.drawing(&studio, &set.styles, &plot.fit, 400.0).truth;
     let starts: Vec<[f64; 2]> = pieces.iter().map(|curve| curve.points[0]).collect();
     assert_eq!(starts, [[0.0, 1.0], [2.0, 8.0], [7.0, 0.5]]);
-    // Arrows mark where the exact line is out of view.
+    // Arrows mark the places where the exact line leaves the view.
     let white = set.styles.exact_colour;
     let arrows = plot.drawing(&studio, &set.styles, &plot.fit, 400.0).arrows;
     assert!(arrows.iter().any(|arrow| arrow.colour == white && arrow.from[0] < 7.0));
-    // A changed parameter begins a new swing too, without a jump.
+    // A changed parameter also begins a new swing, but without a jump.
     studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 4.0 }));
     let before = studio.past().changed_s();
     assert_eq!(before, studio.race().t());
@@ -328,7 +328,7 @@ fn the_cloud_reports_its_area_or_why_there_is_no_cloud() {
 fn curves_outside_the_scale_are_reported() {
     let mut studio = Studio::new(Scene::with_two_springs());
     (0..60).for_each(|_| studio.tick());
-    // A window of 1280 × 720 at 125 and 175 %, one of 2560 × 1440 at 175 %, and a small one.
+    // The sizes are a window of 1280 × 720 at 125 and 175 %, one of 2560 × 1440 at 175 %, and a small one.
     for (size, all, spring) in [
         ([1024.0, 576.0], true, "My spring"),
         ([731.0, 411.0], false, "Spring"),
@@ -348,7 +348,7 @@ fn curves_outside_the_scale_are_reported() {
         assert_eq!(is_there("not all plots fit", left), !all, "{size:?}");
         let top: Vec<_> = texts.iter().filter(|(rect, _)| rect.bottom() < 40.0).collect();
         assert!(top.iter().any(|(_, text)| text == spring), "{size:?}: {top:?}");
-        // No text of the top bar lies over another.
+        // No two texts of the top bar overlap.
         for (at, (rect, text)) in top.iter().enumerate() {
             let over = top[at + 1..].iter().find(|(other, _)| other.shrink(1.0).intersects(*rect));
             assert!(over.is_none(), "{size:?}: {text} and {over:?}");

@@ -6,26 +6,26 @@ use crate::stage::number::{round, significant};
 use crate::studio::Studio;
 use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
 
-/// Minimum width of the verdict, in points, and its width beside columns that repeat the stage or an instrument.
-/// Those columns have a priority from `EXTRAS` on.
+/// Minimum width of the verdict, and its minimum width beside extra columns, in points. Extra columns repeat the stage
+/// or an instrument, and have priorities from `EXTRAS` on.
 const MIN_VERDICT: f32 = 320.0;
 const ROOMY_VERDICT: f32 = 820.0;
 const EXTRAS: u8 = 5;
 
-/// Minimum width of the verdict beside columns of this priority.
+/// Returns the minimum width of the verdict beside columns up to this priority.
 pub(super) fn min_verdict(priority: u8) -> f32 {
     if priority < EXTRAS { MIN_VERDICT } else { ROOMY_VERDICT }
 }
 
-/// The columns of the table in a run.
+/// Returns the columns of the table in a run.
 pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
     let is_solo = studio.mode() == Mode::Solo;
     let mut truths = studio.race().truth().bodies().iter();
-    // Without a truth to compare with, the stage says so once.
+    // The stage says once that there is no truth, so the table has no columns that compare with it.
     let has_truth = truths.clone().any(|body| body.halted().is_none());
     let mut columns: Vec<_> = marks().into();
     if is_solo {
-        // The digit and the name stand above the table.
+        // The digit and the name of the method appear above the table in solo mode.
         columns.retain(|column| column.name == "line");
     }
     if is_solo && studio.scene().bodies.len() > 1 {
@@ -55,7 +55,7 @@ pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
     columns
 }
 
-/// Key, line and method.
+/// Returns the columns of the key, the line and the method.
 fn marks<'a>() -> [Column<Row<'a>>; 3] {
     let index = |row: &Row<'a>| row.is_first.then_some(row.entry);
     let about = "the key that switches to this method, or selects its lane in a race";
@@ -91,8 +91,8 @@ fn body<'a>() -> Column<Row<'a>> {
     )
 }
 
-/// The column of verdicts. Its head names the body if all verdicts are about one, and in a race the body of the
-/// numbers.
+/// Returns the column of verdicts. Its head names the judged body if all verdicts are about the same one. In a race,
+/// the head also names the body whose numbers follow.
 fn verdict<'a>(studio: &Studio) -> Column<Row<'a>> {
     let about = "the effect of this method on the scene at this tick rate: its worst body, judged in a separate run; \
                  click to sort from best to worst";
@@ -133,7 +133,7 @@ fn error<'a>() -> Column<Row<'a>> {
     Column::number("error", (88.0, 2), about, text, Row::largest_error)
 }
 
-/// Measures of a body that follows a target.
+/// Returns the measures of a body that follows a target.
 fn chase<'a>() -> [Column<Row<'a>>; 2] {
     let half_life = Column::number(
         "half-life",

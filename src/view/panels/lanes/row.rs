@@ -1,4 +1,4 @@
-//! A row of the table, and its numbers.
+//! A row of the table of lanes, and the numbers in it.
 
 use super::verdict;
 use crate::measure::{ChaseFinding, Verdict};
@@ -10,33 +10,33 @@ use crate::stage::number::significant;
 use crate::studio::{Studio, shown_state};
 use crate::view::panels::verdict::VerdictText;
 
-/// A value below this share of its scale is rounding.
+/// A value smaller than this share of its scale is only rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A method, or a body of the active lane in solo.
+/// A row of the table, which is about a method. In solo mode it may be about a body of the active lane.
 pub(super) struct Row<'a> {
     pub(super) studio: &'a Studio,
     /// Index of the method on the list.
     pub(super) entry: MenuIndex,
     pub(super) spec: &'a LaneSpec,
-    /// The lane that flies this method, if any.
+    /// The lane that flies the method, if any.
     pub(super) flown: Option<&'a Entrant>,
     /// The body whose numbers are shown.
     pub(super) body: usize,
-    /// Whether the row is about this body alone.
+    /// Whether the row is about `body` alone.
     pub(super) is_of_body: bool,
-    /// Whether it is the first row of its method.
+    /// Whether the row is the first one of its method.
     pub(super) is_first: bool,
     pub(super) is_selected: bool,
-    /// First coordinate of the exact body at the displayed moment, if it is known.
+    /// First coordinate of the exact body at the displayed moment, if known.
     exact: Option<f64>,
-    /// The judged body, if the head of the table names it.
+    /// Index of the judged body, if the head of the table names it.
     named_above: Option<usize>,
 }
 
 impl<'a> Row<'a> {
-    /// The rows of the method at this index of the list. `exact` holds the first coordinate of each exact body, and
-    /// `named_above` the [judged body](judged_body) of all rows.
+    /// Creates the rows of the method at this index of the list. `exact` has the first coordinate of each exact body.
+    /// `named_above` is the [judged body](judged_body) if it is the same for all rows.
     pub(super) fn of_method(
         studio: &'a Studio,
         (entry, spec): (usize, &'a LaneSpec),
@@ -66,13 +66,13 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Verdict of the row.
+    /// Returns the verdict of the row.
     pub(super) fn verdict_text(&self) -> VerdictText {
         let named = (self.is_of_body.then_some(self.body), self.named_above);
         verdict::text_of(self.studio, self.entry, self.flown, named)
     }
 
-    /// Further findings of the verdict.
+    /// Returns the further findings of the verdict.
     pub(super) fn details(&self) -> Vec<String> {
         let verdict = self.studio.viewer.verdict(self.entry);
         let of_row = |verdict: &'a Verdict| match self.is_of_body {
@@ -86,7 +86,7 @@ impl<'a> Row<'a> {
         &self.studio.scene().bodies[self.body].name
     }
 
-    /// The method's name with its substeps and tolerance.
+    /// Returns the method's name with its substeps and tolerance.
     pub(super) fn method_name(&self) -> String {
         let within = self.spec.tolerance.map(|tolerance| format!(" {tolerance:e}"));
         self.spec.name_with_substeps(self.studio.entries()) + &within.unwrap_or_default()
@@ -105,17 +105,17 @@ impl<'a> Row<'a> {
         &self.studio.race().truth().bodies()[self.body]
     }
 
-    /// Largest values of the body so far, if a lane flies the method.
+    /// Returns the largest values of the body so far, if a lane flies the method.
     fn peaks(&self) -> Option<Peaks> {
         Some(self.studio.past().histories(self.flown?.id)[self.body].peaks())
     }
 
-    /// The value, or 0 if it is only rounding at this scale.
+    /// Returns the value, or 0 if the value is only rounding at this scale.
     fn above_rounding(value: f64, scale: f64) -> f64 {
         if value.abs() < ROUNDING * scale { 0.0 } else { value }
     }
 
-    /// A value with the unit of the body's first coordinate.
+    /// Formats a value with the unit of the body's first coordinate.
     pub(super) fn in_unit(&self, value: f64) -> Option<String> {
         let value = Self::above_rounding(value, self.peaks().map_or(0.0, |most| most.size));
         let unit = self.truth().coordinates().at(0).shown_unit();
@@ -131,18 +131,18 @@ impl<'a> Row<'a> {
         self.flown_body().and(self.exact)
     }
 
-    /// The metric of the body at this index of [`METRICS`], if a lane flies the method.
+    /// Returns the metric of the body at this index of [`METRICS`], if a lane flies the method.
     fn measure(&self, metric: usize) -> Option<f64> {
         (METRICS[metric].measure)(self.flown_body()?, self.truth())
     }
 
-    /// The largest position error so far, if there is a truth.
+    /// Returns the largest position error so far, if there is a truth.
     pub(super) fn largest_error(&self) -> Option<f64> {
         self.peaks().filter(|_| self.has_truth()).map(|most| most.error)
     }
 
-    /// Energy of the body above the truth, in percent or else in joules, with its unit. Without a truth, its total
-    /// energy.
+    /// Returns the energy that the body has gained over the truth with its unit, in percent, or else in joules. Without
+    /// a truth, returns the total energy of the body.
     pub(super) fn energy(&self) -> Option<(f64, &'static str)> {
         let (lane, truth) = (self.flown_body()?, self.truth());
         if !self.has_truth() {
@@ -157,13 +157,13 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Half-life of the body in this lane, or else in the verdict.
+    /// Returns the half-life of the body, in milliseconds, in this lane, or else in the verdict.
     pub(super) fn half_life_ms(&self) -> Option<f64> {
         let judged = || Some(1e3 * self.chase()?.half_life_s?);
         self.measure(Metric::HALF_LIFE).or_else(judged)
     }
 
-    /// Overshoot of the body in this lane, or else in the verdict.
+    /// Returns the overshoot of the body, in percent, in this lane, or else in the verdict.
     pub(super) fn overshoot_percent(&self) -> Option<f64> {
         let judged = || Some(self.chase()?.overshoot_percent);
         self.measure(Metric::OVERSHOOT).or_else(judged)
@@ -177,7 +177,8 @@ impl<'a> Row<'a> {
         Some(self.flown_body()?.stepper.evaluations())
     }
 
-    /// Evaluations per tick, from the method's card or else from the last tick. `None` for a halted body.
+    /// Returns the evaluations per tick according to the method's card, or else in the last tick. Returns `None` for a
+    /// halted body.
     pub(super) fn cost(&self) -> Option<f64> {
         let body = self.flown_body();
         if body.is_some_and(|body| body.halted().is_some()) {
@@ -190,8 +191,8 @@ impl<'a> Row<'a> {
     }
 }
 
-/// The one body that the verdicts on all methods of a race are about, if the scene has several. The table names it
-/// once, above the rows.
+/// Returns the body that the verdicts on all methods of a race are about, if it is the same one and the scene has
+/// several. The table names this body once, above the rows.
 pub(super) fn judged_body(studio: &Studio) -> Option<usize> {
     if studio.mode() == Mode::Solo || studio.scene().bodies.len() < 2 {
         return None;

@@ -147,7 +147,7 @@ fn the_common_body_of_all_verdicts_is_named_once() {
         Some("spring")
     );
     assert_eq!(names(&studio), 0, "{:?}", verdict_texts(&studio));
-    // At a low rate, another body is the stiffest of some lanes.
+    // Some lanes have another stiffest body at a low rate.
     studio.apply(StageCommand::TickHz(2.into()));
     studio.analyse();
     assert_eq!(row::judged_body(&studio), None, "{:?}", verdict_texts(&studio));

@@ -6,8 +6,8 @@ use crate::run::race::Entrant;
 use crate::studio::Studio;
 use crate::view::panels::verdict::VerdictText;
 
-/// Verdict on the method at this index of the list, and on its lane if there is one. It names the judged body, unless
-/// the row is about that body alone or `named_above` is the same body.
+/// Returns the verdict on the method at this index of the list, and on its lane if there is one. The verdict names the
+/// judged body, unless the row is about that body alone or `named_above` is that body.
 pub(super) fn text_of(
     studio: &Studio,
     entry: MenuIndex,
@@ -20,7 +20,7 @@ pub(super) fn text_of(
     }
     let halts = flown.into_iter().flat_map(|entrant| entrant.lane.halts());
     let mut halts: Vec<_> = halts.filter(|halt| body.is_none_or(|b| b == halt.body)).collect();
-    // The displayed body first, because not all of several may fit.
+    // The displayed body comes first, because there may not be room for all halts.
     halts.sort_by_key(|halt| halt.body != studio.view().body);
     if let Some(first) = halts.first() {
         let did = first.ending();

@@ -1,4 +1,5 @@
-//! Controls of the loop lab in the top bar: the speed of its slow motion, and its display.
+//! Controls of the loop lab in the top bar. They set the speed of the slow motion and the trace, and show the moment
+//! and the simulated display.
 
 use egui::{ComboBox, RichText, TextWrapMode, Ui};
 
@@ -11,7 +12,7 @@ use crate::view::theme::palette;
 
 /// Maximum number of characters of a trace's name in the closed menu.
 const MAX_CHARS: usize = 18;
-/// A trace's name with more characters leaves no room for the number of the frame.
+/// Length of a trace's name from which there is no room for the number of the frame, in characters.
 const LONG_NAME: usize = 14;
 
 /// Whether the top bar has the menu of traces.
@@ -19,7 +20,7 @@ pub(in crate::view::panels) fn has_trace_menu_above(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() >= breakpoints::MENU_OF_TRACES
 }
 
-/// Speed of a slow motion as text.
+/// Formats the speed of a slow motion.
 fn speed(slowness: u32) -> String {
     match slowness {
         1 => "1×".into(),
@@ -57,7 +58,7 @@ fn short_name(name: &str) -> String {
     }
 }
 
-/// Description of a trace.
+/// Returns the description of a trace.
 fn about_trace(trace: &FrameTrace) -> String {
     let built_in = TRACES.iter().find(|card| card.id == trace.name());
     let about = built_in.map_or("frames from a file", |card| card.about);
@@ -88,7 +89,7 @@ pub(in crate::view::panels) fn trace_menu(
     response.response.on_hover_text(about);
 }
 
-/// The moment of display: in full, or short enough for a narrow bar.
+/// Formats the moment of display, in full or short enough for a narrow bar.
 pub(in crate::view::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String {
     let t_s = loops.now_ns() as f64 / 1e9;
     let frame = loops.lanes()[loops.selected()].frame_at(loops.now_ns()).unwrap_or_default();
@@ -100,7 +101,7 @@ pub(in crate::view::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String 
     }
 }
 
-/// Shows the simulated display.
+/// Shows the refresh rate of the simulated display.
 pub(in crate::view::panels) fn display(ui: &mut Ui, loops: &LoopLab) {
     let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
     let text = RichText::new(format!("{hz} Hz display, simulated")).color(palette(ui).dim);

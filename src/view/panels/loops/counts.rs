@@ -1,4 +1,4 @@
-//! A histogram of the ticks of a frame.
+//! A histogram of the number of ticks in a frame.
 
 use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 
@@ -8,25 +8,26 @@ use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
 use crate::view::panels::breakpoints;
 use crate::view::theme::{PanelPalette, palette};
 
-/// Names of the bins. The last one includes all higher counts.
+/// Names of the bins. The last bin includes all higher counts.
 const NAMES: [&str; 4] = ["0", "1", "2", "3+"];
-/// Room for the title, the numbers at the left, those below, and the name of the axis, in points.
+/// Height of the title, width of the numbers at the left, height of those below, and height of the axis's name, in
+/// points.
 pub(super) const TITLE: f32 = 24.0;
 pub(super) const LEFT: f32 = 41.0;
 pub(super) const BELOW: f32 = 17.0;
 pub(super) const NAME: f32 = 15.0;
-/// Room for numbers over bars, in points.
+/// Height for the numbers over the bars, in points.
 const ABOVE: f32 = 17.0;
-/// Share of a group's width that its bars take.
+/// Share of a group's width that the bars fill.
 const BARS: f32 = 0.78;
-/// Minimum height of a bar in points, for a share of zero.
+/// Minimum height of a bar, in points. A share of zero has this height.
 const MIN_HEIGHT: f32 = 1.5;
 
-/// The shares of one loop.
+/// The shares of one loop in the histogram.
 pub(super) struct Series {
     colour: Color32,
     shares_percent: [f64; 4],
-    /// Whether its numbers appear if there is no room for all.
+    /// Whether the loop's numbers appear if there is no room for all numbers.
     is_first: bool,
 }
 
@@ -41,7 +42,7 @@ impl Series {
     }
 }
 
-/// Shares of the frames with 0, 1, 2, and 3 or more ticks, in percent.
+/// Returns the shares of the frames that have 0, 1, 2, and 3 or more ticks, in percent.
 fn shares_percent(ticks: impl Iterator<Item = u32>) -> [f64; 4] {
     let mut counts = [0_u64; 4];
     ticks.for_each(|ticks| counts[(ticks as usize).min(3)] += 1);
@@ -49,7 +50,7 @@ fn shares_percent(ticks: impl Iterator<Item = u32>) -> [f64; 4] {
     counts.map(|count| 100.0 * count as f64 / all)
 }
 
-/// A share in at most four characters.
+/// Formats a share with at most four characters.
 fn percent(share: f64) -> String {
     match share {
         share if share > 0.0 && share < 0.1 => "<0.1".into(),
@@ -58,7 +59,7 @@ fn percent(share: f64) -> String {
     }
 }
 
-/// The shares as text for a screen reader.
+/// Describes the shares for a screen reader.
 fn in_words(series: &[Series]) -> String {
     let of_one = |series: &Series| {
         let shares = NAMES.iter().zip(series.shares_percent);
@@ -93,7 +94,7 @@ pub(super) fn layout(room: Rect, series: &[Series], palette: &PanelPalette) -> V
     let group = rect.width() / NAMES.len() as f32;
     let width = group * BARS / series.len().max(1) as f32;
     let has_room = width >= breakpoints::NUMBER_ON_BAR;
-    // Without room for all numbers, only the first series has them, each over its bar.
+    // Only the first series has numbers if there is no room for all, and each number is over its bar.
     let first = series.iter().position(|series| series.is_first);
     for (count, name) in NAMES.iter().enumerate() {
         let middle = rect.left() + group * (count as f32 + 0.5);

@@ -9,11 +9,11 @@ use crate::stage::number::round;
 use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
 use crate::view::theme::{PanelPalette, palette};
 
-/// Number of frames in the chart.
+/// Number of frames that the chart shows.
 const FRAMES: usize = 24;
-/// Minimum reach of the axis, in milliseconds. Smaller errors are invisible.
+/// Minimum range of the axis on both sides, in milliseconds. Errors far smaller are invisible.
 const MIN_MS: f64 = 1.0;
-/// Share of a frame's width that its bars take, and minimum height of a bar in points.
+/// Share of a frame's width that its bars fill, and minimum height of a bar in points.
 const BARS: f32 = 0.84;
 const MIN_HEIGHT: f32 = 1.0;
 
@@ -24,14 +24,14 @@ pub(super) fn round_up(value: f64) -> f64 {
     steps.into_iter().find(|step| *step >= value * (1.0 - 1e-9)).unwrap_or(10.0 * decade)
 }
 
-/// Errors of the last frames of a lane in milliseconds, from the present frame back.
+/// Returns the errors of the last frames of a lane in milliseconds, from the present frame backwards.
 fn errors_ms(loops: &LoopLab, lane: &ShownLane<'_>) -> impl Iterator<Item = f64> {
     let until = lane.lane.frame_at(loops.now_ns()).map_or(0, |index| index + 1);
     let frames = lane.lane.frames()[..until].iter().rev().take(FRAMES);
     frames.map(|frame| frame.animation_error_ms)
 }
 
-/// Largest magnitude of the last frames' errors, in milliseconds.
+/// Returns the largest magnitude of the errors of the last frames, in milliseconds.
 fn largest_ms(loops: &LoopLab, lanes: &[ShownLane<'_>]) -> f64 {
     let errors = lanes.iter().flat_map(|lane| errors_ms(loops, lane));
     errors.fold(0.0, |most, error| most.max(error.abs()))
@@ -46,7 +46,7 @@ pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]
     chart::paint(&ui.painter_at(room), &layout(room, loops, lanes, palette(ui)));
 }
 
-/// Lays out the chart of the errors in a room.
+/// Lays out the chart of the errors.
 pub(super) fn layout(
     room: Rect,
     loops: &LoopLab,

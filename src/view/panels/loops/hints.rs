@@ -8,12 +8,13 @@ use crate::stage::number::round;
 const SMOOTH: &str = "fixed-linear";
 /// Id of the trace in which frames and ticks nearly coincide.
 const EDGE: &str = "edge";
-/// Minimum share of frames for a hint, in percent.
+/// Minimum share of frames that gives a hint, in percent.
 const MANY_PERCENT: f64 = 1.0;
-/// Two shares of frames that differ by less than this factor count as alike.
+/// Two shares of frames count as alike if they differ by less than this factor.
 const MUCH_MORE: f64 = 2.0;
 
-/// Parts of the hint, the most important first: an observation and the next step. Keys stand between backticks.
+/// Returns the parts of the hint, the most important first. A part is an observation or the next step, and has its keys
+/// between backticks.
 pub(in crate::view::panels) fn parts(loops: &LoopLab) -> Vec<String> {
     if let Some((none, mut reasons)) = loops.none_advised() {
         reasons[0].insert_str(0, "None is recommended: ");
@@ -31,7 +32,7 @@ pub(in crate::view::panels) fn parts(loops: &LoopLab) -> Vec<String> {
     let report = loops.lanes()[raw].report().filter(|_| is_new);
     let doubled = report.and_then(|report| many(report.double_percent));
     let repeated = report.and_then(|report| many(report.repeated_percent));
-    // About as many frames have no tick as have two. In other traces most frames have none.
+    // Frames without a tick are about as frequent as those with two. In other traces most frames have no tick.
     let flips = doubled.zip(repeated).is_some_and(|(two, none)| none < MUCH_MORE * two);
     if flips && loops.traces()[loops.trace()].name() == EDGE {
         let next = hz(next);

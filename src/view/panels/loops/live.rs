@@ -1,4 +1,4 @@
-//! The window's own loop: the duration of its last frames, and the ticks in each.
+//! The window's own loop, with the duration of its last frames and the number of ticks in each.
 
 use egui::{Color32, Label, Rect, RichText, Sense, Ui, Vec2, vec2};
 
@@ -14,23 +14,23 @@ use crate::view::theme::{PanelPalette, colour, palette, strong_font};
 pub(super) const TITLE: &str = "This window's own loop";
 /// The length of the plot in seconds.
 const LENGTH_S: f64 = 10.0;
-/// The plot shows this many times the frame time that 99 in 100 frames keep.
+/// Height of the plot, relative to the frame time that 99 in 100 frames do not exceed.
 const REACH: f64 = 1.6;
-/// Share of the height that the histogram takes.
+/// Share of the height for the histogram.
 const COUNTS: f32 = 0.4;
 
-/// Statistics of the frames, in milliseconds.
+/// Statistics of the durations of frames, in milliseconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Summary {
     mean_ms: f64,
-    /// 99 in 100 frames took no longer.
+    /// Duration that 99 in 100 frames do not exceed.
     usual_ms: f64,
     worst_ms: f64,
     error_rms_ms: f64,
 }
 
 impl Summary {
-    /// `None` without frames.
+    /// Computes the statistics, or returns `None` if there are no frames.
     fn of<'a>(frames: impl ExactSizeIterator<Item = &'a LiveFrame> + Clone) -> Option<Self> {
         let count = frames.len();
         let mut times: Vec<f64> = frames.clone().map(time_ms).collect();
@@ -99,7 +99,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
     }
 }
 
-/// Lays out the charts in a room for a file; `None` before the first frame.
+/// Lays out the charts in a room for a file. Returns `None` before the first frame.
 pub(super) fn layout(
     studio: &Studio,
     room: Rect,
@@ -116,7 +116,7 @@ pub(super) fn layout(
     Some(all)
 }
 
-/// The room of the frame times and, if it is large enough, of a histogram.
+/// Returns the rectangle of the frame times, and that of a histogram if `room` is high enough.
 fn parts(room: Rect) -> (Rect, Option<Rect>) {
     if room.height() < breakpoints::HISTOGRAM {
         return (room, None);
@@ -129,7 +129,7 @@ fn series(studio: &Studio, palette: &PanelPalette) -> Series {
     Series::new(own_colour(palette), studio.viewer.live.frames().map(|frame| frame.ticks))
 }
 
-/// Lays out the chart of the frame times in a room. They are drawn over real time, up to the last frame.
+/// Lays out the chart of the frame times over real time, up to the last frame.
 fn frame_times(
     studio: &Studio,
     room: Rect,

@@ -1,4 +1,5 @@
-//! The moment that each loop shows over time. It is a staircase, because a display holds a frame until the next.
+//! The moment that each loop shows over time. The curve is a staircase, because a display holds each frame until the
+//! next.
 
 use std::iter;
 
@@ -13,26 +14,27 @@ use crate::view::chart::{
 };
 use crate::view::theme::{PanelPalette, palette, strong_font};
 
-/// Number of the display's frames in the plot.
+/// Number of the display's refreshes that the plot shows.
 const FRAMES: f64 = 12.0;
-/// Distance from which a lane is off the plot, in lengths of the plot.
+/// Maximum distance of a lane that is still on the plot, relative to the plot's length.
 const MAX_OFF: f64 = 1.0;
-/// The range ends at multiples of this, in milliseconds, so that it seldom changes.
+/// The range ends at a multiple of this step, in milliseconds, so that the range seldom changes.
 const RANGE_STEP_MS: f64 = 20.0;
-/// Room for the names of the axes and the numbers at the left, in points.
+/// Height of the names of the axes, and width of the numbers at the left, in points.
 const NAMES: f32 = 16.0;
 const LEFT: f32 = 44.0;
-/// The length of the mark of a tick or a frame, in points.
+/// Length of the mark of a tick or a frame, in points.
 const MARK: f32 = 6.0;
-/// Radii of the dots of neighbouring lanes, which may lie on each other.
+/// Radii of the dots of neighbouring lanes. They differ because the dots may coincide.
 const DOTS: [f32; 2] = [2.6, 4.4];
 
-/// The length of the plot in milliseconds.
+/// Returns the length of the plot in milliseconds.
 fn length_ms(loops: &LoopLab) -> f64 {
     FRAMES * 1000.0 / loops.traces()[loops.trace()].refresh().hz()
 }
 
-/// Frames of a lane in the plot, from the one on display at its left edge to the present one.
+/// Returns the frames of a lane in the plot, from the frame that was on display at the plot's left edge to the present
+/// one.
 fn frames<'a>(loops: &LoopLab, lane: &'a LoopLane) -> &'a [LoopFrame] {
     let Some(present) = lane.frame_at(loops.now_ns()) else { return &[] };
     let from_ns = loops.now_ns() - (length_ms(loops) * 1e6) as i64;
@@ -48,17 +50,17 @@ pub(super) fn off_the_plot(loops: &LoopLab, lane: &LoopLane) -> Option<String> {
     is_off.then(|| format!("{} s {side}", round(late_ms.abs() / 1000.0, 2)))
 }
 
-/// Range of the moments, in milliseconds from now, for frames this late.
+/// Returns the range of the plotted moments, in milliseconds from now, for frames whose moments are late by `late_ms`.
 fn range_ms(length_ms: f64, late_ms: impl Iterator<Item = f64>) -> [f64; 2] {
     let on_plot = late_ms.filter(|late| late.abs() <= MAX_OFF * length_ms);
     let [behind, ahead] = on_plot
         .fold([0.0; 2], |[behind, ahead]: [f64; 2], late| [behind.max(late), ahead.max(-late)]);
-    // Rounding must not extend the range.
+    // A rounding error must not extend the range.
     let up = |ms: f64| ((ms - 1e-6) / RANGE_STEP_MS).ceil().max(0.0) * RANGE_STEP_MS;
     [-length_ms - up(behind), up(ahead)]
 }
 
-/// Shows the moments in a room, and those of all lanes under the pointer.
+/// Shows the chart of the moments, and the moments of all lanes under the pointer.
 pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
     let Some(area) = area(room, loops, lanes) else { return };
     let painter = ui.painter_at(room.expand(1.0));
@@ -67,7 +69,7 @@ pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]
     hover(&painter, loops, lanes, &area, response, palette(ui));
 }
 
-/// Area of the moments in a room; `None` if the room is too small.
+/// Returns the area of the moments, or `None` if the room is too small.
 pub(super) fn area(room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) -> Option<PlotArea> {
     let rect =
         Rect::from_min_max(room.min + vec2(LEFT, NAMES + 2.0), room.max - vec2(6.0, BELOW + NAMES));
@@ -89,7 +91,7 @@ pub(super) fn layout(
     let mut all = vec![Primitive::Area(rect, palette.plot)];
     let numbers = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [56.0, 26.0][axis]));
     all.extend(chart::axes(area, numbers, palette, room.right()));
-    // The name of an axis, followed by the meaning of the marks along it.
+    // The name of an axis is followed by the meaning of the marks along the axis.
     let name = |at: Pos2, anchor: Align2, name: &str, marks: (String, Color32)| Text {
         tail: Some(marks),
         ..Text::new(at, anchor, name, NUMBER, palette.dim)
@@ -106,7 +108,7 @@ pub(super) fn layout(
     all.extend(marks(loops, area, palette));
     let ideal = [area.bounds[0][0], 0.0].map(|at_ms| area.at([at_ms; 2]));
     let mut inside = vec![Primitive::Line(ideal, Stroke::new(1.4, palette.exact))];
-    // The selected lane in front.
+    // The selected lane lies in front.
     let (front, others): (Vec<_>, Vec<_>) =
         lanes.iter().enumerate().partition(|(_, lane)| lane.is_selected);
     for (i, lane) in others.into_iter().chain(front) {
@@ -142,7 +144,7 @@ fn staircase(
     iter::once(line).chain(frames.iter().map(dot)).collect()
 }
 
-/// Marks of the fixed ticks along the top and of the frames along the bottom.
+/// Returns the marks of the fixed ticks along the top, and those of the frames along the bottom.
 fn marks(loops: &LoopLab, area: &PlotArea, palette: &PanelPalette) -> Vec<Primitive> {
     let (rect, now_ms) = (area.rect, loops.now_ns() as f64 / 1e6);
     let mark = |at_ms: f64, [from, to]: [f32; 2], stroke: (f32, Color32)| {

@@ -33,13 +33,14 @@ impl<'a> Row<'a> {
         Self { loops, index, lane, is_on_stage, verdict }
     }
 
-    /// Colour and dash of the loop in the plots.
+    /// Returns the colour and dash of the loop in the plots.
     pub(super) fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]) {
         let (rgba, dash) = palette.theme.loop_style(self.index);
         (colour(rgba), dash)
     }
 
-    /// Shows whether the loop is on the stage. A click toggles that.
+    /// Shows an eye that is open if the loop is on the stage. A click on the eye takes the loop off the stage or brings
+    /// it on.
     pub(super) fn eye(&self, ui: &Ui, rect: Rect, commands: &mut Vec<Command>) {
         let id = egui::Id::unique(("loop on the stage", self.index));
         let response = ui.interact(rect, id, Sense::click());
@@ -87,7 +88,7 @@ impl TableRow for Row<'_> {
         Some(Command::Loop(LoopCommand::Select(self.index)))
     }
 
-    /// The loop's card and its verdict.
+    /// Shows the loop's card and its verdict.
     fn tooltip(&self, ui: &mut Ui) {
         ui.set_max_width(440.0);
         let card = self.lane.card();

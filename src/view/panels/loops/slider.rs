@@ -1,4 +1,4 @@
-//! The timeline of the loop lab, from the first frame to the last. A click or a drag seeks to a moment.
+//! The timeline of the loop lab, which reaches from the first frame to the last. A click or a drag seeks to a moment.
 
 use egui::{Align2, Rangef, Response, Ui};
 
@@ -26,7 +26,7 @@ pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut
     groove.handle(painter, x, response.has_focus(), palette);
 }
 
-/// Seeks to the pressed moment. If the track has the focus, the arrow keys step by frames.
+/// Seeks to the pressed moment. While the track has the focus, the arrow keys step by frames.
 fn seek(
     ui: &Ui,
     loops: &LoopLab,

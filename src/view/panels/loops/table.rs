@@ -13,7 +13,8 @@ use crate::view::panels::lanes::{ROW, height_of};
 use crate::view::panels::table::{Column, SortKey, Table, TableRow, show_words};
 use crate::view::theme::TYPE;
 
-/// Maximum number of rows in sight, because the stage and the instrument need the room. The list scrolls to the rest.
+/// Maximum number of rows in sight, because the stage and the instrument need the room. The list scrolls to further
+/// rows.
 const MAX_ROWS: usize = 6;
 
 pub(in crate::view::panels) fn height(loops: &LoopLab) -> f32 {
@@ -36,7 +37,7 @@ fn groups(loops: &LoopLab) -> Vec<Vec<Row<'_>>> {
 /// The minimum width of the verdict, in points.
 const MIN_VERDICT: f32 = 264.0;
 
-/// A column of numbers: name, width in points, priority, id of the metric, and format of a value.
+/// A column of numbers: its name, width in points, priority, metric's id, and the format of its values.
 type MetricColumn = (&'static str, f32, u8, &'static str, fn(f64, Unit) -> String);
 
 const METRICS: [MetricColumn; 8] = [
@@ -50,7 +51,7 @@ const METRICS: [MetricColumn; 8] = [
     ("at ½ rate", 72.0, 6, "state_difference", metric_text),
 ];
 
-/// Every column, from left to right.
+/// Returns every column, from left to right.
 fn columns<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
     let index = |row: &Row<'a>| Some(row.index);
     let key = Column::key("the key that selects this loop and brings it on the stage", index);
@@ -89,7 +90,7 @@ fn columns<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
     marks.into_iter().chain(METRICS.into_iter().filter_map(metric)).collect()
 }
 
-/// The column of a metric.
+/// Returns the column of a metric.
 fn metric<'a>((name, width, priority, id, shown): MetricColumn) -> Option<Column<Row<'a>>> {
     let metric = PACING_METRICS.iter().find(|metric| metric.id == id)?;
     let value = |row: &Row<'a>| row.lane.report().and_then(metric.measure);
@@ -101,28 +102,29 @@ fn metric<'a>((name, width, priority, id, shown): MetricColumn) -> Option<Column
     Some(Column::number(name, (width, priority), &about, text, size))
 }
 
-/// From this value on, milliseconds appear as seconds.
+/// Milliseconds from this number on appear as seconds.
 const MANY_MS: f64 = 10_000.0;
-/// A share of the amplitude from this value on belongs to a motion that has blown up.
+/// A share of the amplitude from this percentage on belongs to a motion that has blown up.
 const LOST_PERCENT: f64 = 1e5;
-/// A smaller mean latency appears as 0, because frames begin early and late by more than this.
+/// Minimum mean latency that is shown. A smaller latency appears as 0, because the frames begin early and late by more
+/// than that.
 const MIN_LATENCY_MS: f64 = 0.1;
-/// A smaller value appears as <0.001.
+/// Minimum value that is shown. A smaller value appears as <0.001.
 const MIN_SHOWN: f64 = 1e-3;
-/// A smaller value has three decimals instead of three digits.
+/// A value below this has three decimals instead of three digits.
 const SMALL: f64 = 0.1;
 
-/// Text of a mean latency in milliseconds.
+/// Formats a mean latency in milliseconds.
 fn latency(ms: f64, unit: Unit) -> String {
     match ms {
         ms if ms.abs() < MIN_LATENCY_MS => "0 ms".into(),
-        // The lead grows as long as the run continues.
+        // The lead has no fixed size, because it grows as long as the run continues.
         ahead if ahead < 0.0 => "ahead".into(),
         behind => metric_text(behind, unit),
     }
 }
 
-/// Text of a metric's value.
+/// Formats the value of a metric.
 pub(super) fn metric_text(value: f64, unit: Unit) -> String {
     let (value, unit) = match unit {
         Unit::Amplitudes => (100.0 * value, Unit::Percent),

@@ -1,4 +1,4 @@
-//! A loupe for a landing that lies too close to the exact one to distinguish them.
+//! A loupe for a landing that lies too close to the exact landing to distinguish the two.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Vec2, vec2};
 
@@ -7,23 +7,24 @@ use crate::stage::number::{enlargement, round};
 use crate::view::chart::PlotArea;
 use crate::view::theme::PanelPalette;
 
-/// Radius, minimum radius, and distance from the plot's edges and from everything else in the plot, in points.
+/// Radius of the loupe, its minimum radius, and its distances from the plot's edges and from everything else in the
+/// plot, in points.
 const RADIUS: f32 = 44.0;
 const MIN_RADIUS: f32 = 28.0;
 const INSET: f32 = 6.0;
 const APART: f32 = 8.0;
-/// Maximum radius, relative to the plot's height.
+/// Maximum radius of the loupe, relative to the plot's height.
 const MAX_PART_OF_HEIGHT: f32 = 0.3;
-/// Distance of the landings up to which they need a loupe, in points.
+/// Maximum distance between the two landings that needs a loupe, in points.
 const SEEN: f64 = 9.0;
-/// Distance of the landings in the loupe, relative to its radius.
+/// Distance between the two landings in the loupe, relative to the loupe's radius.
 const REACH: f64 = 0.8;
-/// The radii of both landings, in points.
+/// Radii of the method's landing and of the exact one, in points.
 const LANDING: f32 = 5.0;
 const EXACT: f32 = 7.0;
 
-/// Draws the loupe, if it is needed and there is room. Its place is the furthest from the `taken` places and from the
-/// exact motion.
+/// Draws the loupe if it is necessary and there is room. The loupe lies as far as possible from the `taken` places and
+/// from the exact motion.
 pub(super) fn show(
     painter: &Painter,
     area: &PlotArea,
@@ -71,7 +72,7 @@ mod tests {
     use crate::studio::{Instrument, StageCommand, Studio, ViewCommand};
     use crate::view::testing::TestWindow;
 
-    /// Labels of the loupes in a frame, under the method at this index of the spring's list.
+    /// Returns the labels of the loupes in a frame, under the method at this index of the spring's list.
     fn labels(entry: usize) -> Vec<String> {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(StageCommand::Pick(entry));

@@ -39,7 +39,7 @@ fn dragging_the_cross_sets_rate_and_parameter() {
     for command in commands {
         studio.apply(command);
     }
-    // At its present place, the drag changes nothing.
+    // A press on the cross at its present place changes nothing.
     let (commands, _) = window.panels(&studio, vec![]);
     assert_eq!(commands, []);
     window.panels(&studio, vec![button(to, false)]);
@@ -51,7 +51,7 @@ fn the_sentence_counts_the_stable_methods() {
     let map = studio.viewer.stability_map().unwrap();
     assert_eq!(
         map.stable_here().split(" Explicit").next().unwrap(),
-        // At 60 Hz, ω h is 1.67.
+        // The product ω h is 1.67 at 60 Hz.
         "2 of 5 methods are bounded, 1 chooses its own steps."
     );
     assert!(

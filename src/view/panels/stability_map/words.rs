@@ -12,18 +12,18 @@ use crate::stage::number::round;
 use crate::studio::Studio;
 use crate::view::theme::{palette, strong_font};
 
-/// The letter of a parameter in the equation of motion, or else its name.
+/// Returns the letter of a parameter in the equation of motion, or else the parameter's name.
 pub(super) fn letter(parameter: &Parameter) -> String {
     parameter.symbol.map_or_else(|| parameter.quantity(), str::to_owned)
 }
 
-/// Name of a parameter with its letter, if it has one: `stiffness k`.
+/// Returns the name of a parameter, with its letter if it has one: `stiffness k`.
 pub(super) fn full_name(parameter: &Parameter) -> String {
     let (quantity, letter) = (parameter.quantity(), letter(parameter));
     if letter == quantity { quantity } else { format!("{quantity} {letter}") }
 }
 
-/// A point of the map: `20 Hz, k = 90 N/m`.
+/// Describes a point of the map: `20 Hz, k = 90 N/m`.
 pub(super) fn point_in_words(
     studio: &Studio,
     index: usize,
@@ -37,7 +37,7 @@ pub(super) fn point_in_words(
 }
 
 /// Describes the methods at the present point, and everything that the map does not draw, wrapped to a width. Also
-/// returns a height for it in points, which stays the same while the cross moves.
+/// returns a height for the text in points, which does not change when the cross moves.
 pub(super) fn sentence(
     ui: &Ui,
     studio: &Studio,
@@ -50,7 +50,7 @@ pub(super) fn sentence(
     wrapped(ui, studio, map, width, (13.0, &notes))
 }
 
-/// A shorter form of [`sentence`]. Its only note is about the thin lines.
+/// Returns a shorter form of [`sentence`], in which the only note is about the thin lines.
 pub(super) fn short_sentence(
     ui: &Ui,
     studio: &Studio,
@@ -60,7 +60,8 @@ pub(super) fn short_sentence(
     wrapped(ui, studio, map, width, (12.0, &seen_note(studio, map)))
 }
 
-/// Describes the methods at the present point in this font size, with the notes, wrapped to a width.
+/// Describes the methods at the present point in this font size, with the notes, wrapped to a width. Also returns a
+/// height for the text, as [`sentence`] does.
 fn wrapped(
     ui: &Ui,
     studio: &Studio,
@@ -94,7 +95,7 @@ fn job(ui: &Ui, [here, does]: &[String; 2], size: f32) -> LayoutJob {
     job
 }
 
-/// The longest text that any point of this map can have.
+/// Returns the longest text that can describe any point of this map.
 fn longest(studio: &Studio, map: &StabilityMap) -> [String; 2] {
     let MapRequest { parameter, tick_hz, rates_hz, range, specs, .. } = &map.request;
     let names = map.method_names();

@@ -1,4 +1,4 @@
-//! Marks of the events of a run on its timeline, each with its sign, its colour and its words.
+//! Marks of a run's events on its timeline. Each mark has a sign, a colour and words.
 
 use egui::Color32;
 
@@ -8,26 +8,26 @@ use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::studio::Compared;
 use crate::view::theme::PanelPalette;
 
-/// The sign of a mark. If several are in one place, the last in this order is drawn.
+/// The sign of a mark. If several marks are in one place, the sign that comes last in this order is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Sign {
-    /// A stroke across the track: the end of the ticks that were run.
+    /// A stroke across the track, at the last tick that was run.
     End,
-    /// A stroke: throttle, rudder.
+    /// A stroke, for the throttle or the rudder.
     Input,
-    /// A square: a parameter, substeps, a tolerance.
+    /// A square, for a parameter, substeps or a tolerance.
     Edit,
-    /// A triangle: the tick rate.
+    /// A triangle, for the tick rate.
     Rate,
-    /// A ring: a placement of a body.
+    /// A ring, for a body that was put somewhere.
     Place,
-    /// A diamond.
+    /// A diamond, for a kick.
     Kick,
-    /// A disc: a switch of the method.
+    /// A disc, for a switch of the method.
     Switch,
-    /// A flag: a halt of a body.
+    /// A flag, for a body that halted.
     Halt,
-    /// A cross: the first difference from a recording.
+    /// A cross, for the first difference from a recording.
     Parting,
 }
 
@@ -37,40 +37,41 @@ pub(super) struct TimelineMark {
     pub(super) tick: u64,
     pub(super) sign: Sign,
     pub(super) colour: Color32,
-    /// Index of the event. `None` at the end of the run and at the difference from a recording.
+    /// Index of the event. It is `None` for the end of the run and for the difference from a recording.
     event: Option<usize>,
 }
 
-/// Marks that share a sign.
+/// Marks that share a sign, because they lie close together.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MarkGroup {
-    /// Place, in points.
+    /// The x at which the sign is drawn, in points.
     pub(super) x: f32,
     pub(super) marks: Vec<TimelineMark>,
 }
 
 impl MarkGroup {
-    /// The mark that is drawn for the group.
+    /// Returns the mark whose sign is drawn for the group.
     pub(super) fn drawn_mark(&self) -> &TimelineMark {
         let shown = self.marks.iter().max_by_key(|mark| mark.sign);
         shown.expect("a group begins with a mark")
     }
 }
 
-/// Inputs of the marks.
+/// The inputs from which the marks are made.
 pub(super) struct Context<'a> {
     pub(super) events: &'a [Event],
     pub(super) scene: &'a Scene,
-    /// The race as it started.
+    /// The race as it was at the start.
     pub(super) start: &'a Race,
     pub(super) times: &'a TimeScale,
     pub(super) palette: &'static PanelPalette,
-    /// Comparison with a recording.
+    /// The comparison with a recording, if there is one.
     pub(super) compared: Option<&'a Compared>,
 }
 
 impl Context<'_> {
-    /// Marks of the events that changed a body, by tick. An edit that was undone at once has none.
+    /// Returns the marks of the events that changed a body, by tick. An edit that was undone in the same tick has no
+    /// mark.
     pub(super) fn marks(&self) -> impl Iterator<Item = TimelineMark> {
         let events = self.events.iter().enumerate().zip(self.lasting_events());
         events.filter(|(_, lasts)| *lasts).map(|((i, Event { tick, kind }), _)| {
@@ -82,8 +83,8 @@ impl Context<'_> {
         })
     }
 
-    /// Whether each event affects a body beyond its tick. A lane that gets its old settings again moves on as before,
-    /// unless the switch resumes its halted bodies.
+    /// Whether each event affects a body beyond its tick. A lane that gets its old settings back moves on as before,
+    /// unless the switch resumes halted bodies of the lane.
     fn lasting_events(&self) -> Vec<bool> {
         let lanes = self.start.entrants().iter();
         let mut specs: Vec<(LaneId, LaneSpec)> = lanes.map(|it| (it.id, it.spec)).collect();
@@ -115,18 +116,18 @@ impl Context<'_> {
         lasting
     }
 
-    /// The mark of the last tick that was reached.
+    /// Returns the mark of the last tick that the run reached.
     pub(super) fn end(&self, tick: u64) -> TimelineMark {
         TimelineMark { tick, sign: Sign::End, colour: self.palette.text, event: None }
     }
 
-    /// The mark of the first difference from a recording.
+    /// Returns the mark of the first difference from a recording.
     pub(super) fn first_difference(&self) -> Option<TimelineMark> {
         let tick = self.compared?.tick();
         Some(TimelineMark { tick, sign: Sign::Parting, colour: self.palette.accent, event: None })
     }
 
-    /// Moment, description and author of a mark.
+    /// Returns the moment, description and author of a mark.
     pub(super) fn text(&self, mark: &TimelineMark) -> String {
         let what = match mark.event {
             Some(event) => self.events[event].kind.words(self.scene),
@@ -147,13 +148,13 @@ impl Context<'_> {
             }
             Action::TickHz(_) => (Sign::Rate, self.palette.text),
             Action::Throttle(_) | Action::Rudder(_) => (Sign::Input, self.palette.dim),
-            Action::Kick(_) => (Sign::Kick, self.palette.warn),
+            Action::Kick(_) | Action::Push { .. } => (Sign::Kick, self.palette.warn),
             Action::Place { .. } => (Sign::Place, self.palette.good),
         }
     }
 }
 
-/// The lane whose settings an event changes, and the change.
+/// Returns the lane whose settings an event changes, and the function that applies the change.
 fn setting(event: &Event) -> Option<(LaneId, impl Fn(&mut LaneSpec) + use<>)> {
     let EventKind::Done { action, .. } = &event.kind else { return None };
     let (lane, whole, substeps, tolerance) = match *action {
@@ -170,7 +171,8 @@ fn setting(event: &Event) -> Option<(LaneId, impl Fn(&mut LaneSpec) + use<>)> {
     Some((lane, set))
 }
 
-/// Groups marks in order. A mark less than `apart` points from the first of a group joins it.
+/// Groups the marks in their order. A mark joins a group if it lies less than `apart` points from the group's first
+/// mark.
 pub(super) fn grouped(
     marks: impl Iterator<Item = TimelineMark>,
     x: impl Fn(&TimelineMark) -> f32,
@@ -187,7 +189,7 @@ pub(super) fn grouped(
     groups
 }
 
-/// Colours of the methods of a lane, each with its first tick. The first starts at tick 0.
+/// Returns the colours of a lane's methods, each with its first tick. The first colour starts at tick 0.
 pub(super) fn colours(
     lane: LaneId,
     events: &[Event],

@@ -1,10 +1,10 @@
-//! The part of a run's time in the timeline: its mapping to a track, and its zoom.
+//! The part of a run's time that the timeline shows, its mapping to a track, and its zoom.
 
 use egui::Rangef;
 
-/// Room ahead of a run that has outlasted its scene, relative to the time since.
+/// Room ahead of a run that is longer than its scene, relative to the time since the scene's end.
 const AHEAD: f64 = 0.1;
-/// Place of the present when the view has to follow it, relative to the view.
+/// Place of the present after the view has moved to follow it, relative to the view's length.
 const FOLLOWED_AT: f64 = 0.8;
 
 /// A range of time, in seconds.
@@ -15,7 +15,8 @@ pub(in crate::view::panels) struct Span {
 }
 
 impl Span {
-    /// All of a run that ends at `end_s`: to the end of the scene, or beyond that with room ahead.
+    /// Creates the view of a whole run that ends at `end_s`. The view reaches to the end of the scene, or beyond that
+    /// with some room ahead.
     pub(in crate::view::panels) fn whole(scene_s: f64, end_s: f64) -> Self {
         Self { from_s: 0.0, to_s: scene_s.max(end_s + AHEAD * (end_s - scene_s)) }
     }
@@ -24,18 +25,18 @@ impl Span {
         self.to_s - self.from_s
     }
 
-    /// Place of time `t` on a track.
+    /// Returns the x of time `t` on a track.
     pub(in crate::view::panels) fn x(self, t: f64, track: Rangef) -> f32 {
         track.min + ((t - self.from_s) / self.length_s()) as f32 * track.span()
     }
 
-    /// Time at the place `x`.
+    /// Returns the time at `x` on a track.
     pub(in crate::view::panels) fn t(self, x: f32, track: Rangef) -> f64 {
         self.from_s + f64::from((x - track.min) / track.span()) * self.length_s()
     }
 
-    /// The view `factor` times closer, with `about_s` at its place. It is at least `min_s` long and stays within
-    /// `whole`.
+    /// Returns the view enlarged by `factor`, with `about_s` at the same place. The view is at least `min_s` long and
+    /// stays within `whole`.
     pub(in crate::view::panels) fn zoomed(
         self,
         about_s: f64,
@@ -49,12 +50,12 @@ impl Span {
         Self { from_s, to_s: from_s + length_s }.within(whole)
     }
 
-    /// The same length, `by_s` later, but within `whole`.
+    /// Returns the view of the same length `by_s` later, but within `whole`.
     pub(in crate::view::panels) fn moved(self, by_s: f64, whole: Self) -> Self {
         Self { from_s: self.from_s + by_s, to_s: self.to_s + by_s }.within(whole)
     }
 
-    /// The same length, moved to show `now_s` if it does not.
+    /// Returns the view, moved so that it shows `now_s` if it does not yet.
     pub(in crate::view::panels) fn following(self, now_s: f64, whole: Self) -> Self {
         if (self.from_s..=self.to_s).contains(&now_s) {
             return self;

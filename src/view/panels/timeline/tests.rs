@@ -9,7 +9,7 @@ use crate::view::testing::{TestWindow, button};
 
 const SIZE: Vec2 = vec2(1280.0, 720.0);
 
-/// The y of the track in a frame of that size. Below it are the table, the methods and the footer.
+/// Returns the y of the track in a frame of `SIZE`. The table, the methods and the footer are below it.
 fn track_y(studio: &Studio) -> f32 {
     let below = panels::lanes::height(studio) + panels::methods::HEIGHT + panels::footer::HEIGHT;
     SIZE.y - below - HEIGHT + TRACK_Y
@@ -30,7 +30,7 @@ fn a_press_on_the_track_seeks_and_a_drag_follows() {
     assert_eq!(pressed, [Command::Run(RunCommand::Seek(150))]);
     let dragged = frame(&studio, Input::PointerMoved(at(4.0)));
     assert_eq!(dragged, [Command::Run(RunCommand::Seek(240))]);
-    // A seek beyond the end of the run stops at its last tick.
+    // A seek beyond the end of the run stops at the last tick of the run.
     let dragged = frame(&studio, Input::PointerMoved(at(19.0)));
     assert_eq!(dragged, [Command::Run(RunCommand::Seek(1140))]);
     studio.apply(RunCommand::Seek(1140));
@@ -130,7 +130,7 @@ fn a_compared_recordings_first_difference_is_marked_and_sought() {
     };
     let found = Comparison { rows: 900, changes: true, first: Some(other), ..Default::default() };
     show_comparison(&mut studio, "clip.toml", &found, Scene::built_in("spring").unwrap());
-    // The run had not come this far, and continues from here.
+    // The run had not come this far, so it is continued.
     assert_eq!((studio.race().tick(), studio.run().end()), (250, 250));
     let compared = studio.deck.compared().unwrap();
     let lines = ["first difference: tick 250, lane 1, spring, x", "size: 2 ulps in q, 20 % of it"];

@@ -5,7 +5,8 @@ use crate::studio::{HeldBody, RunCommand, StageCommand, ViewCommand};
 
 #[test]
 fn motion_shows_the_chosen_quantity_and_its_table_follows() {
-    // In the guide's run of the ship, Euler's speed is ahead of the exact one, and its place behind.
+    // In the guide's run of the ship, the speed under Euler is ahead of the exact speed, and the place behind the exact
+    // place.
     let mut studio = Studio::new(Scene::built_in("ship").unwrap());
     let euler = studio.entries().iter().position(|spec| spec.method.id == "explicit-euler");
     studio.apply(StageCommand::Pick(euler.unwrap()));
@@ -20,7 +21,7 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
     studio.apply(ViewCommand::Quantity(Some(Quantity::Position)));
     let [place, exact_place] = at_the_end(&studio);
     assert!(place < exact_place - 1.0, "{place} and {exact_place}");
-    // Speed is the usual quantity for a ship, which runs on for ever.
+    // Speed is the usual quantity for a ship, because its place grows without end.
     for quantity in [Some(Quantity::Velocity), None] {
         studio.apply(ViewCommand::Quantity(quantity));
         let [speed, exact_speed] = at_the_end(&studio);
@@ -48,7 +49,7 @@ fn a_net_plots_its_widest_motion_or_the_chosen_coordinate() {
     let now = studio.race().entrants()[0].lane.bodies()[0].stepper.q()[chosen];
     let set = plot_set_of(&studio, Detail::Samples).unwrap();
     assert_eq!(set.plots[0].readouts(&studio, &set.styles, studio.race().t())[0].at[1], now);
-    // Seeking back repeats the run as recorded.
+    // After a seek back, the run repeats as recorded.
     studio.apply(RunCommand::Seek(40));
     studio.apply(RunCommand::Seek(90));
     assert_eq!(csv(&studio).unwrap().concat(), table);
@@ -69,7 +70,7 @@ fn readouts_of_a_plot_keep_their_order_when_curves_cross() {
         let (seen, _) = person.frame(&studio, Vec::new());
         let is_key = |text: &&String| text.len() == 1 && text.parse::<usize>().is_ok();
         let mut keys: Vec<String> = seen.iter().filter(is_key).cloned().collect();
-        // The keys come after the marks of the axes.
+        // The keys of the readouts come after the marks of the axes.
         let marks = keys.len() - studio.race().entrants().len();
         orders.push(keys.split_off(marks));
     }
@@ -162,7 +163,7 @@ fn a_saved_picture_has_no_tabs_and_an_enlarged_instrument_covers_the_table() {
     let mut window = TestWindow::new([960.0, 600.0]);
     let alone = window.show(Vec::new(), |ui| panels::show_instrument(ui, &studio)).1.whole();
     // The axes name the usual quantity.
-    assert!(alone.iter().all(|(_, text)| text != "usual"), "{alone:?}");
+    assert!(alone.iter().all(|(_, text)| text != "default"), "{alone:?}");
     assert!(!has_tabs(&alone) && alone.iter().any(|(_, text)| text == "time t, s"), "{alone:?}");
     let size = vec2(1280.0, 720.0);
     let lowest = |studio: &Studio| {

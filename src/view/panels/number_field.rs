@@ -1,4 +1,4 @@
-//! A number with a unit, to drag or to type. Its error message appears over it.
+//! A number with a unit, which can be dragged or typed. Its error message appears over the field.
 
 use egui::accesskit::Action;
 use egui::class::HasClasses as _;
@@ -13,9 +13,9 @@ use crate::view::theme::palette;
 
 /// Maximum width of an error message, in points.
 const FAULT: f32 = 260.0;
-/// Relative change of the number for each point of a drag.
+/// Relative change of the number per point of a drag.
 const SPEED: f64 = 0.004;
-/// Minimum change for each point, which lets a drag leave 0.
+/// Minimum change of the number per point of a drag, so that a drag can leave 0.
 const MIN_SPEED: f64 = 1e-4;
 const MIN_SPEED_OF_WHOLE: f64 = 0.1;
 
@@ -23,7 +23,7 @@ const MIN_SPEED_OF_WHOLE: f64 = 0.1;
 #[derive(Clone)]
 struct Fault {
     text: String,
-    /// The number of the field at that time, which it kept.
+    /// The number of the field at the time of the error. The field kept it.
     value: f64,
 }
 
@@ -31,27 +31,27 @@ struct Fault {
 #[derive(Clone, Default)]
 struct Typed {
     text: String,
-    /// The number of the field at that time. If the number changes otherwise, the text is useless.
+    /// The number of the field when the typing began. If the number changes otherwise, the text is discarded.
     value: f64,
-    /// The frame that showed the text.
+    /// Number of the frame that showed the text.
     frame: u64,
 }
 
 /// A field for a number.
-pub(in crate::view::panels) struct NumberField<'a> {
+pub(super) struct NumberField<'a> {
     /// Unique id of the field.
-    pub(in crate::view::panels) id: Id,
-    pub(in crate::view::panels) value: f64,
+    pub(super) id: Id,
+    pub(super) value: f64,
     /// Text after the number.
-    pub(in crate::view::panels) unit: &'a str,
+    pub(super) unit: &'a str,
     /// Name for a screen reader.
-    pub(in crate::view::panels) name: &'a str,
-    pub(in crate::view::panels) is_whole: bool,
+    pub(super) name: &'a str,
+    pub(super) is_whole: bool,
 }
 
 impl NumberField<'_> {
     /// Shows the field. Returns the entered number if it passes `check`.
-    pub(in crate::view::panels) fn show(
+    pub(super) fn show(
         &self,
         ui: &mut Ui,
         size: Vec2,
@@ -94,14 +94,14 @@ impl NumberField<'_> {
         (response, taken)
     }
 
-    /// Takes the text that the editor showed in the previous frame.
+    /// Takes the text that the editor showed in the previous frame out of its storage.
     fn typed(&self, ui: &Ui, id: Id) -> Option<String> {
         let typed = ui.data_mut(|data| data.remove_temp::<Typed>(id))?;
         let is_of_last_frame = typed.frame + 1 >= ui.ctx().cumulative_frame_nr();
         (is_of_last_frame && typed.value == self.value).then_some(typed.text)
     }
 
-    /// Shows an editor. egui's own for a [`DragValue`] would accept text of any length.
+    /// Shows an editor. The editor of egui's [`DragValue`] would accept text of any length.
     fn edit(
         &self,
         ui: &mut Ui,
@@ -139,7 +139,7 @@ impl NumberField<'_> {
             node.add_action(Action::Increment);
             node.add_action(Action::Decrement);
         });
-        // Enter leaves the field in this frame.
+        // The Enter key takes the focus from the field in this frame.
         if response.lost_focus() {
             *entered = self.parsed(&text);
         } else {
@@ -150,7 +150,7 @@ impl NumberField<'_> {
         response
     }
 
-    /// Shows the number. Text typed before the focus left is entered, unless Escape discarded it.
+    /// Shows the number. If the focus left while text was typed, enters the text, unless Escape discarded it.
     fn drag(
         &self,
         ui: &mut Ui,
@@ -175,13 +175,13 @@ impl NumberField<'_> {
         response
     }
 
-    /// Change of the number for each point of a drag.
+    /// Returns the change of the number per point of a drag.
     fn speed(&self) -> f64 {
         let least = if self.is_whole { MIN_SPEED_OF_WHOLE } else { MIN_SPEED };
         (SPEED * self.value.abs()).max(least)
     }
 
-    /// Parses the typed number. Unchanged text keeps the number to the last digit.
+    /// Parses the typed text. Unchanged text keeps all digits of the number.
     fn parsed(&self, text: &str) -> Result<f64, String> {
         if text.trim() == plain(self.value) {
             return Ok(self.value);
@@ -196,7 +196,7 @@ impl NumberField<'_> {
         Err(format!("`{}` is {is}", text.trim()))
     }
 
-    /// The width of the number with its unit, in points.
+    /// Returns the width of the number with its unit, in points.
     pub(super) fn width(&self, ui: &Ui) -> f32 {
         let font = egui::TextStyle::Button.resolve(ui.style());
         let text = format!("{} {}", plain(self.value), self.unit);
@@ -204,8 +204,8 @@ impl NumberField<'_> {
         size.x + 2.0 * ui.spacing().button_padding.x
     }
 
-    /// Shows the error of the last entry over the field. The message takes no room, so no other field moves, and the
-    /// next one stays visible.
+    /// Shows the error of the last entry over the field. The message takes no room, so that no other field moves and
+    /// the next field stays visible.
     fn show_fault(&self, ui: &Ui, field: Rect) {
         let Some(fault) = ui.data(|data| data.get_temp::<Fault>(self.id)) else { return };
         if !ui.is_rect_visible(field) {
@@ -232,7 +232,7 @@ impl NumberField<'_> {
     }
 }
 
-/// Short text of a number that can be typed back in, with at most six digits.
+/// Formats a number with at most six digits, in a form that can be typed.
 fn plain(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     match rounded.abs() {
@@ -241,7 +241,7 @@ fn plain(value: f64) -> String {
     }
 }
 
-/// Parses a typed number, with its unit or without.
+/// Parses a typed number with or without its unit.
 fn parsed(text: &str, unit: &str) -> Option<f64> {
     let text = text.trim();
     let number = text.strip_suffix(unit).unwrap_or(text).trim();
@@ -295,7 +295,8 @@ mod tests {
         assert!(!told(1.0, NumberField::forget_faults));
     }
 
-    /// Words of a window that shows a field of this value after these frames of events, and the entered numbers.
+    /// Shows a field of this value and feeds it these frames of events. Returns the words of the last frame, and the
+    /// entered numbers.
     fn typed(value: f64, frames: Vec<Vec<Event>>) -> (Vec<String>, Vec<f64>) {
         let mut window = TestWindow::new([400.0, 300.0]);
         let (mut words, mut taken) = (Vec::new(), Vec::new());
@@ -324,7 +325,7 @@ mod tests {
         for (key, entered) in [(Key::Enter, &[2.5][..]), (Key::Tab, &[2.5]), (Key::Escape, &[])] {
             let (words, taken) = typed(1.0, vec![text(), vec![pressed(key)], vec![]]);
             assert_eq!(taken, entered, "{key:?}");
-            // Tab returns to the only field.
+            // The Tab key returns to the only field, which then shows the number without its unit.
             let shown = if key == Key::Tab { "1" } else { "1 kg" };
             assert_eq!(words.concat(), shown, "{key:?}");
         }
