@@ -93,6 +93,7 @@ impl CpuExecutor {
     }
 
     /// Paints parts of the drawing over `below` or black: part 0 is the sea, and part `n` is draw `n - 1`.
+    #[expect(clippy::disallowed_methods, reason = "any number of threads makes the same bytes")]
     fn paint(
         &self,
         drawing: &Drawing,

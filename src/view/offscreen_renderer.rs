@@ -125,7 +125,7 @@ struct OnDevice {
 pub struct PreparedFrame(Prepared);
 
 enum Prepared {
-    Drawing(Drawing, Textures),
+    Drawing(Box<Drawing>, Textures),
     Rows(Vec<u8>),
 }
 
@@ -145,6 +145,7 @@ impl OffscreenRenderer {
     ///
     /// # Errors
     /// A [`FrameSizeError`].
+    #[expect(clippy::disallowed_methods, reason = "any number of threads makes the same bytes")]
     pub fn new(size_px: [u32; 2], scale: f32) -> Result<Self, FrameSizeError> {
         FrameSizeError::check(size_px, MAX_SIDE_PX)?;
         let threads = thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
@@ -241,7 +242,7 @@ impl OffscreenRenderer {
         Ok(PreparedFrame(match &mut self.drawn_by {
             DrawnBy::Processor { textures, .. } => {
                 let present = textures.update(&drawing);
-                Prepared::Drawing(drawing, present)
+                Prepared::Drawing(Box::new(drawing), present)
             }
             DrawnBy::Device(device) => {
                 let mut rows = Vec::new();
