@@ -10,7 +10,7 @@ use std::time::Instant;
 use regatta::commands::manifest::fingerprint;
 use regatta::scene::Scene;
 use regatta::studio::{StageCommand, Studio};
-use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels, png};
+use regatta::view::{OffscreenRenderer, Panels, png};
 
 const ROUNDS: usize = 5;
 const FRAMES: u32 = 300;
@@ -83,9 +83,7 @@ fn round(panels: Panels) -> Result<Round, String> {
 
 /// Processor time, in seconds, that it takes to draw a frame of the run and have it read back, and to encode one.
 fn stages(panels: Panels) -> Result<(f64, f64), String> {
-    let gpu = pollster::block_on(Gpu::headless(AdapterPreference::Any))
-        .map_err(|error| error.to_string())?;
-    let renderer = OffscreenRenderer::new(gpu, SIZE_PX, 1.0).map_err(|error| error.to_string())?;
+    let renderer = OffscreenRenderer::new(SIZE_PX, 1.0).map_err(|error| error.to_string())?;
     let mut renderer = renderer.with_panels(panels);
     let mut studio = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
     studio.apply(StageCommand::ToggleRace);

@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene::built_in("spring").expect("a built-in scene");
     let mut session = Session::racing(scene.into());
     session.run(120);
-    let mut renderer = OffscreenRenderer::headless([1280, 720], 1.0)?;
+    let mut renderer = OffscreenRenderer::new([1280, 720], 1.0)?;
     let mut rgba = Vec::new();
     renderer.draw(&Studio::of_session(session), &mut rgba)?;
     std::fs::write(&path, png::encode(renderer.size_px(), &rgba))?;

@@ -17,7 +17,7 @@
 //! | [`look`] | shapes, handles and colours of bodies | `sim scene run measure` | `look/pendulum.rs` |
 //! | [`studio`] | a person at a run: commands, view, background work | `sim scene run tools measure loops look` | `studio/apply.rs` |
 //! | [`stage`] | the picture as data: [`compose`](stage::compose()) makes a [`Picture`](stage::Picture) | `sim scene run measure loops look studio` | `stage/compose.rs` |
-//! | `view` | pixels: panels, charts, `FrameRenderer::draw` | `scene run tools measure loops look studio stage` | `view/frame.rs` |
+//! | `view` | pixels: panels, charts, `FrameRenderer::draw`, two executors | `scene run tools measure loops look studio stage` | `view/frame.rs` |
 //! | `window` | a screen, real time, files | `scene run measure loops look studio view` | `window.rs` |
 //! | `commands` | the command line: captures, threads | `sim table scene run tools measure loops look studio view window` | `commands/mod.rs` |
 //!
@@ -29,8 +29,8 @@
 //! # A frame
 //!
 //! events → [`Command`](studio::Command)s → [`Studio::apply`](studio::Studio::apply) → [`Action`](scene::Action)s →
-//! [`Race`](run::Race) → [`PerformedAction`](run::race::PerformedAction) → [`Clock::advance`](sim::Clock::advance) →
-//! due [ticks](run::Run::tick) → [`compose`](stage::compose()) → `FrameRenderer::draw` → present or read back. A
+//! [`Race`](run::Race) → [`PerformedAction`](run::race::PerformedAction) → [`Clock::advance`](sim::Clock::advance) → due
+//! [ticks](run::Run::tick) → [`compose`](stage::compose()) → `FrameRenderer::draw` → `CpuExecutor` or `GpuExecutor`. A
 //! [`FrameLoop`](studio::FrameLoop) does this in real time.
 //!
 //! # Invariants

@@ -55,8 +55,8 @@ fn run() -> ExitCode {
     }
 }
 
-/// Restarts the program with an `XDG_RUNTIME_DIR` in which there is no Wayland, if the variable is unset and no
-/// window opens. Mesa looks for Wayland before it lists its adapters, and libwayland complains about the variable on
+/// Restarts the program with an `XDG_RUNTIME_DIR` in which there is no Wayland, if the variable is unset and a driver
+/// draws without a window. Mesa looks for Wayland before it lists its adapters, and libwayland complains about the variable on
 /// standard error. A restart is the only safe way to set it before there are drivers and threads.
 #[cfg(target_os = "linux")]
 fn restart_without_wayland(cli: &Cli) {
@@ -65,7 +65,7 @@ fn restart_without_wayland(cli: &Cli) {
     const NOWHERE: &str = "/nonexistent";
     let is_path = |name| std::env::var_os(name).is_some_and(|it| Path::new(&it).is_absolute());
     let names_a_socket = is_path("WAYLAND_DISPLAY") || std::env::var_os("WAYLAND_SOCKET").is_some();
-    if !cli.draws_without_a_window() || is_path("XDG_RUNTIME_DIR") || names_a_socket {
+    if !cli.needs_a_device_without_a_window() || is_path("XDG_RUNTIME_DIR") || names_a_socket {
         return;
     }
     let mut arguments = std::env::args_os();

@@ -20,7 +20,7 @@ use crate::studio::{
     Command, DriverRequest, FrameLoop, SceneList, StageCommand, Studio, ToDo, ViewCommand,
     cloud_request, described_spring, list_as_file, loop_request,
 };
-use crate::view::Modifiers;
+use crate::view::{Modifiers, RendererChoice};
 
 mod canvas;
 mod clipboard;
@@ -30,6 +30,7 @@ mod export;
 mod growing_recording;
 mod keys;
 mod opening;
+mod presenter;
 mod run_of_session;
 mod schedule;
 #[cfg(feature = "accessibility")]
@@ -71,7 +72,7 @@ pub fn run(
     settings: WindowSettings,
     files: SceneFiles,
 ) -> Result<Closed, WindowError> {
-    let WindowSettings { seconds, tick, size, on_interrupt } = settings;
+    let WindowSettings { seconds, tick, size, renderer, on_interrupt } = settings;
     let event_loop = EventLoop::<Event>::with_user_event()
         .build()
         .map_err(|error| WindowError::NoDisplay(reason(&error)))?;
@@ -99,6 +100,7 @@ pub fn run(
         watch,
         seconds,
         size,
+        renderer,
         proxy,
         canvas: None,
         clipboard: Clipboard::default(),
@@ -133,6 +135,7 @@ struct App {
     seconds: Option<f64>,
     /// Size of the window in points when it last did not fill the screen.
     size: Option<[u32; 2]>,
+    renderer: RendererChoice,
     proxy: EventLoopProxy<Event>,
     canvas: Option<Canvas>,
     clipboard: Clipboard,
@@ -162,11 +165,10 @@ impl App {
         }
         let Some(canvas) = &mut self.canvas else { return };
         if std::mem::take(&mut self.screenshot) {
-            let Canvas { window, gpu, .. } = canvas;
-            let size = window.inner_size();
-            let scale = window.scale_factor() as f32;
+            let size = canvas.window.inner_size();
+            let scale = canvas.window.scale_factor() as f32;
             let notice =
-                export::save_screenshot(gpu, [size.width, size.height], scale, &self.frames.studio);
+                export::save_screenshot([size.width, size.height], scale, &self.frames.studio);
             self.frames.studio.viewer.set_notice(notice);
             self.stand_still();
         }
@@ -315,7 +317,7 @@ impl ApplicationHandler<Event> for App {
                 return self.end(event_loop, Err(WindowError::Refused(reason(&error))));
             }
         };
-        match Canvas::new(event_loop, window, self.proxy.clone()) {
+        match Canvas::new(event_loop, window, self.proxy.clone(), self.renderer) {
             Ok(canvas) => {
                 if let Some(theme) = canvas.window.theme() {
                     self.frames.studio.viewer.preferences.follow_theme(settings::theme_of(theme));

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::drawing::RendererName;
 use super::error::{Error, PlaceOf};
 use super::experiment::{self, Experiment, ExperimentArgs, ThemeName, known_trace};
 use super::frame_folder::{FolderPolicy, FrameFolder};
@@ -22,6 +23,7 @@ use crate::loops::TraceCard;
 use crate::measure::cloud::{CloudKind, CloudShape};
 use crate::run::race::Mode;
 use crate::studio::{Instrument, loop_lab_refusal};
+use crate::view::RendererChoice;
 
 const EXAMPLES: &str = "\
 Frame i shows the run at i / fps seconds. The same command makes the same bytes. manifest.json,
@@ -119,6 +121,12 @@ pub(super) struct CaptureArgs {
     #[arg(long, requires = "instrument", conflicts_with = "shape")]
     section: bool,
 
+    /// What draws: auto, gpu or cpu [default: cpu]
+    ///
+    /// The processor draws the same frames on every machine, without a driver.
+    #[arg(long, value_name = "WHAT", hide_possible_values = true, hide_short_help = true)]
+    renderer: Option<RendererName>,
+
     /// Ticks between two states in the manifest
     ///
     /// By default there are about 500 states in all.
@@ -151,7 +159,7 @@ const SHEET_FPS: u32 = 1;
 /// Maximum number of cells side by side in a sheet, as many as fit on a page.
 const SHEET_COLUMNS: u32 = 6;
 
-/// Maximum side of a frame, in pixels. Nearly every adapter can draw it.
+/// Longest side of a frame in pixels. Nearly every graphics device can draw it.
 const MAX_SIDE_PX: u32 = 8192;
 
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
@@ -201,6 +209,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         mark_every: args
             .mark_every
             .unwrap_or_else(|| state_log::usual_stride(schedule.ticks(&studio))),
+        renderer: args.renderer.map_or(RendererChoice::Cpu, RendererChoice::from),
     };
     match format.writing {
         Writing::Folder => {
@@ -210,6 +219,13 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         }
         Writing::Sheet => sheet::draw(&experiment, &studio, capture, open(args)?),
         Writing::Movie(begin) => movie::record(studio, capture, begin, open(args)?),
+    }
+}
+
+impl CaptureArgs {
+    /// Whether a graphics device may draw.
+    pub(super) fn may_take_a_device(&self) -> bool {
+        matches!(self.renderer, Some(RendererName::Auto | RendererName::Gpu))
     }
 }
 

@@ -10,7 +10,6 @@ use std::sync::atomic::Ordering;
 use clap::Args;
 
 use super::argument::brief;
-use super::drawing::gpu;
 use super::error::Error;
 use super::help::flowing;
 use super::interrupt::watch_for_interrupt;
@@ -73,7 +72,7 @@ const SIZE_PX: [u32; 2] = [1600, 1000];
 const SCALE: f32 = 1.6;
 
 fn draw(mut folder: FigureFolder) -> Result<(), Error> {
-    let mut renderer = OffscreenRenderer::new(gpu()?, SIZE_PX, SCALE)?;
+    let mut renderer = OffscreenRenderer::new(SIZE_PX, SCALE)?;
     let interrupted = watch_for_interrupt();
     folder.clear()?;
     let mut rgba = Vec::new();

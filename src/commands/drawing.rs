@@ -2,17 +2,40 @@
 
 use std::io::Write;
 
+use clap::ValueEnum;
+
 use super::error::Error;
 use super::manifest::Adapter;
 use super::output::{Destination, Output};
 use super::schedule::Schedule;
 use super::settings::CaptureSettings;
 use crate::sim::number::counted;
-use crate::view::{AdapterPreference, Figure, Gpu, GpuError, OffscreenRenderer, Panels, png};
+use crate::view::{
+    Figure, FrameSizeError, Gpu, OffscreenRenderer, Panels, RendererChoice, letter_instructions,
+    png,
+};
 
 /// Maximum number of pixels of a whole capture, which is hours of drawing and about a hundred gigabytes of files. A
 /// larger request is probably a typing mistake.
 const MAX_PIXELS: u64 = 1_000_000_000_000;
+
+/// A [`RendererChoice`] on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum RendererName {
+    Auto,
+    Gpu,
+    Cpu,
+}
+
+impl From<RendererName> for RendererChoice {
+    fn from(name: RendererName) -> Self {
+        match name {
+            RendererName::Auto => RendererChoice::Auto,
+            RendererName::Gpu => RendererChoice::Gpu,
+            RendererName::Cpu => RendererChoice::Cpu,
+        }
+    }
+}
 
 impl CaptureSettings {
     /// Returns a renderer for the frames, or an error if the capture has too many pixels.
@@ -20,15 +43,27 @@ impl CaptureSettings {
         let size_px = self.size_px;
         check_pixels(self.schedule.frames, size_px, MAX_PIXELS)?;
         let panels = if self.panels { Panels::Shown } else { Panels::Off };
-        Ok(OffscreenRenderer::new(gpu()?, size_px, self.scale)?.with_panels(panels))
+        let renderer = match self.gpu()? {
+            Some(gpu) => OffscreenRenderer::on_gpu(gpu, size_px, self.scale)?,
+            None => OffscreenRenderer::new(size_px, self.scale)?,
+        };
+        Ok(renderer.with_panels(panels))
     }
-}
 
-/// Returns the best graphics device that needs no display.
-pub(super) fn gpu() -> Result<Gpu, Error> {
-    let gpu = pollster::block_on(Gpu::headless(AdapterPreference::Any))?;
-    log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
-    Ok(gpu)
+    /// The graphics device that draws, if any.
+    fn gpu(&self) -> Result<Option<Gpu>, Error> {
+        let gpu = match self.renderer {
+            RendererChoice::Cpu => return Ok(None),
+            RendererChoice::Gpu => Some(pollster::block_on(Gpu::headless())?),
+            RendererChoice::Auto => {
+                pollster::block_on(Gpu::headless()).ok().filter(|gpu| !gpu.is_software())
+            }
+        };
+        if let Some(gpu) = &gpu {
+            log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
+        }
+        Ok(gpu)
+    }
 }
 
 const GIGA: u64 = 1_000_000_000;
@@ -59,9 +94,17 @@ pub(super) fn closing_line(capture: &CaptureSettings, place: &str) -> String {
     format!("wrote {}, {width}x{height}, {fps} fps: {place}", counted(frames, "frame"))
 }
 
-/// Returns the adapter in the form in which the manifest describes it.
+/// The adapter as the manifest describes it. Frames of equal adapters are equal.
 pub(super) fn adapter(renderer: &OffscreenRenderer) -> Adapter {
-    let info = renderer.adapter();
+    let Some(info) = renderer.adapter() else {
+        return Adapter {
+            name: "regatta".to_owned(),
+            driver: String::new(),
+            driver_info: format!("letters by {}", letter_instructions()),
+            backend: "cpu".to_owned(),
+            kind: "Cpu".to_owned(),
+        };
+    };
     Adapter {
         name: info.name.clone(),
         driver: info.driver.clone(),
@@ -85,20 +128,19 @@ pub(super) struct Plot {
 }
 
 impl Plot {
-    /// Opens the output, and a device that can draw `charts` charts.
+    /// Opens the output for a figure of `charts` charts.
     pub(super) fn open(to: Destination<'_>, charts: usize) -> Result<Self, Error> {
         let output = to.open()?;
         let columns = columns(charts);
         let [across, down] = [columns, charts.div_ceil(columns)].map(|number| number as u32);
         let size_px = [across * CHART_PX[0], down * CHART_PX[1] + MARGIN_PX];
-        let renderer =
-            OffscreenRenderer::new(gpu()?, size_px, SCALE).map_err(|error| match error {
-                GpuError::TooLarge { limit, .. } => Error::mistake(format!(
-                    "a picture of {charts} charts is larger than {limit}x{limit}, what this adapter can make; \
+        let renderer = OffscreenRenderer::new(size_px, SCALE).map_err(|error| match error {
+            FrameSizeError::TooLarge { limit, .. } => Error::mistake(format!(
+                "a picture of {charts} charts is larger than {limit}x{limit}; \
                      give fewer scenes, or no --plot"
-                )),
-                error => error.into(),
-            })?;
+            )),
+            error => error.into(),
+        })?;
         Ok(Self { renderer, output })
     }
 

@@ -10,7 +10,7 @@ use super::argument::brief;
 use super::visible::visible;
 use crate::scene::{SceneErrors, ShownError};
 #[cfg(feature = "view")]
-use crate::view::{GpuError, ReadbackError};
+use crate::view::{FrameSizeError, GpuError, ReadbackError};
 
 /// Reason for an error. The exit code follows from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -225,9 +225,16 @@ impl From<io::Error> for Error {
 #[cfg(feature = "view")]
 impl From<GpuError> for Error {
     fn from(error: GpuError) -> Self {
+        Self::failed(error)
+    }
+}
+
+#[cfg(feature = "view")]
+impl From<FrameSizeError> for Error {
+    fn from(error: FrameSizeError) -> Self {
         match error {
-            GpuError::TooLarge { .. } | GpuError::Empty { .. } => Self::mistake(error),
-            _ => Self::failed(error),
+            FrameSizeError::OutOfMemory { .. } => Self::failed(error),
+            FrameSizeError::TooLarge { .. } | FrameSizeError::Empty { .. } => Self::mistake(error),
         }
     }
 }

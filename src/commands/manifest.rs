@@ -19,7 +19,9 @@
 //!   - `theme`: present only if it is `light`. `loop`: the trace of the loop lab, if the lab is shown. `mark_every`:
 //!     number of ticks between two marks.
 //! - `settings_hash`: the hash of `settings` as JSON without spaces.
-//! - `adapter`: the graphics adapter: `name`, `driver`, `driver_info`, `backend`, `kind`.
+//! - `adapter`: what drew: `name`, `driver`, `driver_info`, `backend`, `kind`. Our own code is called `regatta`, of
+//!   kind `Cpu`. Its `driver_info` has the instructions by which letters were filled, which may change a level of their
+//!   pixels. All else of its frames is the same on every machine.
 //! - `complete`: `false` if the capture was interrupted.
 //! - `frames`: for each frame its `file`, the `tick` reached, the drawn part of the next tick as `alpha`, numerator
 //!   and denominator, and `pixels`, the hash of its RGBA bytes.
@@ -174,7 +176,7 @@ pub struct LaneEntry {
     pub joint: Option<[f64; 2]>,
 }
 
-/// The graphics adapter that drew the frames.
+/// Our own code or the graphics adapter that drew the frames.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]

@@ -227,19 +227,11 @@ impl Cli {
 }
 
 impl Cli {
-    /// Whether the command draws without opening a window. This includes `play` if the environment names no display.
-    pub fn draws_without_a_window(&self) -> bool {
+    /// Whether the command draws with a graphics device and opens no window.
+    pub fn needs_a_device_without_a_window(&self) -> bool {
         match &self.command {
             #[cfg(feature = "view")]
-            Some(Command::Capture(_) | Command::Chapter(_)) => true,
-            Some(Command::Sweep(_) | Command::Loop(_) | Command::Verify(_)) => {
-                cfg!(feature = "view")
-            }
-            #[cfg(feature = "window")]
-            None | Some(Command::Play(_)) => {
-                let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-                !["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(is_set)
-            }
+            Some(Command::Capture(args)) => args.may_take_a_device(),
             _ => false,
         }
     }

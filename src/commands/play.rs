@@ -8,6 +8,7 @@ use std::sync::Arc;
 use annotate_snippets::Renderer;
 use clap::Args;
 
+use super::drawing::RendererName;
 use super::error::Error;
 use super::experiment::{self, Experiment, ExperimentArgs, ThemeName, known_trace};
 use super::frame_folder::FrameFolder;
@@ -26,6 +27,7 @@ use crate::run::race::Mode;
 use crate::run::trace::last_tick;
 use crate::sim::number::counted;
 use crate::studio::{Motion, SavedPreferences, Studio, show_clouds_of_scene};
+use crate::view::RendererChoice;
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
 const EXAMPLES: &str = "\
@@ -78,6 +80,12 @@ pub(super) struct PlayArgs {
     /// The default is the one chosen last, else the system's.
     #[arg(long, value_name = "THEME", hide_possible_values = true, hide_short_help = true)]
     theme: Option<ThemeName>,
+
+    /// What draws: auto, gpu or cpu [default: auto]
+    ///
+    /// Auto takes a graphics device, or the processor where there is only a software driver.
+    #[arg(long, value_name = "WHAT", hide_possible_values = true, hide_short_help = true)]
+    renderer: Option<RendererName>,
 
     /// Trails do not fade, and the camera zooms out in steps
     #[arg(long, hide_short_help = true)]
@@ -137,6 +145,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         seconds: args.seconds,
         tick: scene_file::tick_of(options.scene()).map(|tick| tick.min(last_tick(studio.scene()))),
         size: preferences.size,
+        renderer: args.renderer.map(RendererChoice::from).unwrap_or_default(),
         on_interrupt: record.map(|_| on_interrupt as _),
     };
     let keep = unfinished.as_ref().map(UnfinishedRecording::keeper);
@@ -216,6 +225,7 @@ fn without_display(
         motion: !args.reduced_motion,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: state_log::usual_stride(schedule.ticks(&studio)),
+        renderer: RendererChoice::Cpu,
     };
     let last = args.seconds.map(|seconds| studio.race().nearest_tick(seconds));
     let mut studio = clip::record(experiment, studio, capture, folder)?;

@@ -13,6 +13,8 @@ use crate::run::race::Mode;
 use crate::scene::{LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, Swing, TOLERANCES, own};
 use crate::sim::integrators::{Method, method};
 use crate::studio::{Instrument, Motion, RunCommand, Studio};
+#[cfg(feature = "view")]
+use crate::view::RendererChoice;
 
 /// Settings of a capture, namely its frames, their size and their content.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +34,8 @@ pub(super) struct CaptureSettings {
     pub(super) theme: Theme,
     /// Number of ticks between two marks in the manifest.
     pub(super) mark_every: u64,
+    #[cfg(feature = "view")]
+    pub(super) renderer: RendererChoice,
 }
 
 impl CaptureSettings {
@@ -174,6 +178,8 @@ pub(super) fn from_manifest(settings: &Settings) -> Result<(Experiment, CaptureS
             Some(other) => return Err(format!("this program has no theme {other:?}")),
         },
         mark_every: settings.mark_every,
+        #[cfg(feature = "view")]
+        renderer: RendererChoice::Cpu,
     };
     Ok((experiment, capture))
 }

@@ -32,7 +32,7 @@ const EXAMPLES: &str = "\
 A recording is a scene with checks. Verify runs its race again without graphics: each lane must be the
 same to the bit, or verify names the first check that differs. It also repeats the run of a capture:
 first the physics, which must be the same to the bit, then the frames, which must be the same in every
-pixel on the adapter and driver that drew them.
+pixel, or almost if a graphics device drew them.
 
 Exit code 0: the same. 1: different. 2: cannot be judged; the message says why.
 
@@ -51,7 +51,7 @@ pub(super) struct VerifyArgs {
     #[arg(value_name = "DIR|FILE.toml")]
     dir: PathBuf,
 
-    /// Judge only the physics; needs no graphics
+    /// Judge only the physics
     #[arg(long)]
     physics_only: bool,
 
@@ -67,13 +67,13 @@ pub(super) struct VerifyArgs {
 
     /// The largest allowed difference of a channel, 0 to 255
     ///
-    /// The default is 0, or 2 on another driver.
+    /// The default is 0, or 2 for frames of a graphics device or another processor.
     #[arg(long, value_name = "N")]
     max_channel: Option<u8>,
 
     /// The largest allowed percentage of pixels off by more than 1
     ///
-    /// The default is 0, or 0.01 on another driver.
+    /// The default is 0, or 0.01 for frames of a graphics device or another processor.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     max_pixels: Option<f64>,
 

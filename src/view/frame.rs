@@ -1,16 +1,16 @@
-//! One frame: lays out the panels, composes the stage in the room they leave, and draws the stage with the panels
-//! over it.
+//! One frame: lays out the panels, composes the stage in the room they leave, and makes a drawing of the stage with
+//! the panels over it.
 //!
 //! The panels go first because they determine the size of the picture.
 
 use std::time::Duration;
 
+use super::backdrop::BackdropFinder;
 use super::chart::figure::{self, Figure};
-use super::gpu::Gpu;
-use super::meshes::MeshRenderer;
+use super::drawing::Drawing;
+use super::meshes::draw_panels;
 use super::panels::{self, Panels};
-use super::stage::{Stage, StageRenderer};
-use super::textures::{PassStart, begin_pass};
+use super::stage::{Stage, draw_stage};
 use super::theme::{self, auto_zoom, colour};
 use super::touch::Touch;
 use crate::stage;
@@ -23,8 +23,8 @@ const HALO: [[f32; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 /// Work left to the caller to show a frame.
 #[must_use]
 pub struct FrameOutput {
-    /// Commands to submit; `None` on a lost device.
-    pub drawing: Option<wgpu::CommandBuffer>,
+    /// Its pixels, for an executor.
+    pub drawing: Drawing,
     /// Cursor shape, clipboard, accessibility tree.
     pub platform: egui::PlatformOutput,
     /// Delay until egui needs the next frame; [`Duration::MAX`] if nothing changes.
@@ -38,18 +38,18 @@ pub struct LaidOutFrame {
     stage: Option<Stage>,
 }
 
-/// Draws frames on texture views of one format.
+/// Makes the drawings of frames.
 pub struct FrameRenderer {
     context: egui::Context,
     shown: Panels,
-    panels: MeshRenderer,
-    stage: StageRenderer,
+    backdrops: BackdropFinder,
     touch: Touch,
+    max_texture_side_px: u32,
 }
 
 impl FrameRenderer {
-    /// Creates a renderer for targets of `format`, which must be in gamma space.
-    pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
+    /// Creates a renderer for executors whose textures have at most this number of pixels on a side.
+    pub fn new(max_texture_side_px: u32) -> Self {
         let context = egui::Context::default();
         theme::apply_style(&context);
         // Draws discs as polygons: those in the atlas would need filtering.
@@ -57,9 +57,9 @@ impl FrameRenderer {
         Self {
             context,
             shown: Panels::Shown,
-            panels: MeshRenderer::new(gpu, format),
-            stage: StageRenderer::new(gpu, format),
+            backdrops: BackdropFinder::default(),
             touch: Touch::default(),
+            max_texture_side_px,
         }
     }
 
@@ -78,25 +78,22 @@ impl FrameRenderer {
         &self.context
     }
 
-    /// Encodes the drawing of the studio on the whole of `target`, which has `size_px` pixels at `scale` pixels per
-    /// point. Also returns the commands that the panels issued. Overwrites the size fields of `input`.
+    /// The drawing of the studio on `size_px` pixels at `scale` pixels per point. Also returns the commands that the
+    /// panels issued. Overwrites the size fields of `input`.
     pub fn draw(
         &mut self,
-        gpu: &Gpu,
-        target: &wgpu::TextureView,
         size_px: [u32; 2],
         scale: f32,
         input: egui::RawInput,
         studio: &Studio,
     ) -> (Vec<Command>, FrameOutput) {
-        let (commands, layout) = self.lay_out(gpu, size_px, scale, input, studio);
-        (commands, self.paint(gpu, target, size_px, layout))
+        let (commands, layout) = self.lay_out(size_px, scale, input, studio);
+        (commands, self.paint(size_px, layout))
     }
 
     /// The first half of [`draw`](Self::draw): lays out the panels and composes the picture of the stage.
     pub fn lay_out(
         &mut self,
-        gpu: &Gpu,
         size_px: [u32; 2],
         scale: f32,
         input: egui::RawInput,
@@ -106,7 +103,7 @@ impl FrameRenderer {
         theme::show(&self.context, studio.display(), size_px.map(|side| side as f32 / scale));
         let shown = self.shown;
         let mut touch = std::mem::take(&mut self.touch);
-        let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {
+        let layout = self.lay_out_with(size_px, scale, input, |ui| {
             let was_down = studio.viewer.pointer_is_down();
             let is_down = ui.input(|input| input.pointer.any_down()) || panels::is_sweep_active(ui);
             if is_down && !was_down {
@@ -136,16 +133,17 @@ impl FrameRenderer {
         (commands, layout)
     }
 
-    /// The second half of [`draw`](Self::draw): encodes the drawing of a layout. Draws nothing on a lost device.
-    pub fn paint(
-        &mut self,
-        gpu: &Gpu,
-        target: &wgpu::TextureView,
-        size_px: [u32; 2],
-        layout: LaidOutFrame,
-    ) -> FrameOutput {
-        let LaidOutFrame { mut panels, stage } = layout;
-        let drawing = self.encode(gpu, target, size_px, &mut panels, stage);
+    /// The second half of [`draw`](Self::draw): makes the drawing of a layout.
+    pub fn paint(&mut self, size_px: [u32; 2], layout: LaidOutFrame) -> FrameOutput {
+        let LaidOutFrame { panels, stage } = layout;
+        let px_per_point = panels.pixels_per_point;
+        let textures = panels.textures_delta.into();
+        let mut drawing = Drawing { size_px, textures, ..Drawing::default() };
+        if let Some(stage) = stage {
+            draw_stage(&mut drawing, &mut self.backdrops, stage, px_per_point);
+        }
+        let meshes = self.context.tessellate(panels.shapes, px_per_point);
+        draw_panels(&mut drawing, &meshes, px_per_point);
         let repaint_delay = panels
             .viewport_output
             .get(&egui::ViewportId::ROOT)
@@ -153,40 +151,31 @@ impl FrameRenderer {
         FrameOutput { drawing, platform: panels.platform_output, repaint_delay }
     }
 
-    /// Encodes the drawing of a diagram on the whole of `target`, which has `size_px` pixels at `scale` pixels per
-    /// point. `None` on a lost device.
-    pub fn draw_figure(
-        &mut self,
-        gpu: &Gpu,
-        target: &wgpu::TextureView,
-        size_px: [u32; 2],
-        scale: f32,
-        figure: &Figure,
-    ) -> Option<wgpu::CommandBuffer> {
+    /// The drawing of a diagram on `size_px` pixels at `scale` pixels per point.
+    pub fn draw_figure(&mut self, size_px: [u32; 2], scale: f32, figure: &Figure) -> Drawing {
         theme::set_zoom(&self.context, auto_zoom(size_px.map(|side| side as f32 / scale)));
         let input = egui::RawInput::default();
-        let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {
+        let layout = self.lay_out_with(size_px, scale, input, |ui| {
             figure::show(ui, figure);
             None
         });
-        self.paint(gpu, target, size_px, layout).drawing
+        self.paint(size_px, layout).drawing
     }
 
     /// Lays out panels and a stage.
     ///
     /// `show` lays out the panels and returns the stage that they leave. egui may call it twice for a frame, when a
     /// widget first has to learn its size. Only the first call gets events, so a caller must accumulate commands over
-    /// the calls. On a lost device the panels work as usual.
+    /// the calls.
     fn lay_out_with(
         &mut self,
-        gpu: &Gpu,
         size_px: [u32; 2],
         scale: f32,
         input: egui::RawInput,
         mut show: impl FnMut(&mut egui::Ui) -> Option<Stage>,
     ) -> LaidOutFrame {
         let mut stage = None;
-        let input = self.sized_input(gpu, size_px, scale, input);
+        let input = self.sized_input(size_px, scale, input);
         let panels = self.context.run_ui(input, |ui| {
             stage = show(ui);
             if let Some(Stage { rect, picture }) = &stage {
@@ -199,7 +188,6 @@ impl FrameRenderer {
 
     fn sized_input(
         &self,
-        gpu: &Gpu,
         size_px: [u32; 2],
         scale: f32,
         mut input: egui::RawInput,
@@ -208,47 +196,10 @@ impl FrameRenderer {
         let size_points = egui::vec2(size_px[0] as f32, size_px[1] as f32) / scale_with_zoom;
         input.viewport_id = egui::ViewportId::ROOT;
         input.screen_rect = Some(egui::Rect::from_min_size(egui::Pos2::ZERO, size_points));
-        input.max_texture_side = Some(gpu.max_texture_side_px as usize);
+        input.max_texture_side = Some(self.max_texture_side_px as usize);
         let viewport = input.viewports.entry(egui::ViewportId::ROOT).or_default();
         viewport.native_pixels_per_point = Some(scale);
         input
-    }
-
-    fn encode(
-        &mut self,
-        gpu: &Gpu,
-        target: &wgpu::TextureView,
-        size_px: [u32; 2],
-        output: &mut egui::FullOutput,
-        stage: Option<Stage>,
-    ) -> Option<wgpu::CommandBuffer> {
-        // egui warns about textures that nobody took.
-        if gpu.is_lost() {
-            output.textures_delta.clear();
-            return None;
-        }
-        let px_per_point = output.pixels_per_point;
-        for (id, deltas) in output.textures_delta.set.drain() {
-            deltas.iter().for_each(|delta| self.panels.set_texture(gpu, id, delta));
-        }
-        let meshes = self.context.tessellate(std::mem::take(&mut output.shapes), px_per_point);
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let has_stage = stage.is_some();
-        let start = stage.map_or(PassStart::Black, |stage| {
-            self.stage.prepare(gpu, &mut encoder, target.texture(), stage, px_per_point)
-        });
-        self.panels.prepare(gpu, &meshes, size_px, px_per_point);
-        {
-            let mut pass = begin_pass(&mut encoder, "frame", target, start);
-            if has_stage {
-                self.stage.paint(&mut pass);
-            }
-            self.panels.paint(&mut pass);
-        }
-        for id in output.textures_delta.free.drain() {
-            self.panels.free_texture(id);
-        }
-        Some(encoder.finish())
     }
 }
 

@@ -8,23 +8,25 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Adapters that may be used.
+/// What draws frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum AdapterPreference {
-    /// The fastest adapter that works, a software one if need be.
+pub enum RendererChoice {
+    /// A graphics device, or the processor if there is none. A software driver is slower than our own code.
     #[default]
-    Any,
-    /// A software adapter only. Its pixels are the same on every machine, as golden pictures need.
-    CpuOnly,
+    Auto,
+    /// A graphics device, a software one if need be.
+    Gpu,
+    /// The processor.
+    Cpu,
 }
 
-/// Why there is no device, or no texture of the requested size.
+/// Why there is no device.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
     /// No driver offers a usable adapter.
     #[error(
-        "no usable graphics adapter: {reasons}; unset WGPU_BACKEND if it is set, or install a driver, \
-         a software one will do (Debian, Ubuntu: apt install mesa-vulkan-drivers)"
+        "no usable graphics adapter: {reasons}; unset WGPU_BACKEND if it is set, install a driver, or \
+         take --renderer cpu"
     )]
     NoAdapter {
         /// The fault of each adapter, or the backends without one.
@@ -39,49 +41,7 @@ pub enum GpuError {
     /// The window system provided no surface to draw on.
     #[error("no surface to draw on: {0}; try WGPU_BACKEND=gl, or capture without a window")]
     NoSurface(#[from] wgpu::CreateSurfaceError),
-    /// The process may lack the memory that a driver needs.
-    #[error(
-        "no room for a graphics driver, which takes up to {mib} MiB of address space; raise the limit \
-         of memory (ulimit -v), or take a command that does not draw"
-    )]
-    NoRoom {
-        /// Address space that a software driver needs, in MiB.
-        mib: usize,
-    },
-    /// A texture of this size exceeds the adapter's limit.
-    #[error(
-        "frame size {width}x{height} is beyond this adapter's limit of {limit}; \
-         give at most {limit}x{limit}"
-    )]
-    TooLarge {
-        /// Requested width, in pixels.
-        width: u32,
-        /// Requested height, in pixels.
-        height: u32,
-        /// Longest side that the adapter supports, in pixels.
-        limit: u32,
-    },
-    /// The requested texture has no pixels.
-    #[error("frame size {width}x{height} has no pixels; give at least 1x1")]
-    Empty {
-        /// Requested width, in pixels.
-        width: u32,
-        /// Requested height, in pixels.
-        height: u32,
-    },
-    /// The texture is within the adapter's limits but not within its memory.
-    #[error("no memory for a frame of {width}x{height}; give a smaller size")]
-    OutOfMemory {
-        /// Requested width, in pixels.
-        width: u32,
-        /// Requested height, in pixels.
-        height: u32,
-    },
 }
-
-/// Address space for a software driver with its threads and a frame of usual size, in MiB. Without it, drivers end
-/// the process.
-const DRIVER_MIB: usize = 640;
 
 /// A device, its queue, and the adapter they came from. A clone is the same device.
 #[derive(Clone, Debug)]
@@ -106,9 +66,9 @@ impl Gpu {
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
-    pub async fn headless(preference: AdapterPreference) -> Result<Self, GpuError> {
+    pub async fn headless() -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-        Self::choose(&instance(descriptor)?, None, preference).await
+        Self::choose(&instance(descriptor), None).await
     }
 
     /// Creates a device of the best ranked adapter. If there is a `surface`, the adapter must be able to present to
@@ -116,7 +76,6 @@ impl Gpu {
     pub(super) async fn choose(
         instance: &wgpu::Instance,
         surface: Option<&wgpu::Surface<'_>>,
-        preference: AdapterPreference,
     ) -> Result<Self, GpuError> {
         let mut unfit = Vec::new();
         let mut candidates = Vec::new();
@@ -129,10 +88,7 @@ impl Gpu {
         }
         for adapter in adapters {
             let info = adapter.get_info();
-            let is_cpu = info.device_type == wgpu::DeviceType::Cpu;
-            if preference == AdapterPreference::CpuOnly && !is_cpu {
-                unfit.push(format!("{} is no software adapter", title(&info)));
-            } else if surface.is_some_and(|surface| !adapter.is_surface_supported(surface)) {
+            if surface.is_some_and(|surface| !adapter.is_surface_supported(surface)) {
                 unfit.push(format!("{} cannot present to this window", title(&info)));
             } else {
                 candidates.push((adapter, info));
@@ -171,9 +127,6 @@ impl Gpu {
             ..wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits())
         };
         let max_texture_side_px = limits.max_texture_dimension_2d;
-        if info.device_type == wgpu::DeviceType::Cpu {
-            keep_freed_memory();
-        }
         let request = adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("regatta"),
             required_limits: limits,
@@ -193,6 +146,11 @@ impl Gpu {
         Ok(Self { device, queue, adapter, info, max_texture_side_px, lost })
     }
 
+    /// Whether the device is a driver that draws with the processor.
+    pub fn is_software(&self) -> bool {
+        self.info.device_type == wgpu::DeviceType::Cpu
+    }
+
     /// Whether the device is permanently lost: driver reset, unplugged, destroyed. Recovery needs a new [`Gpu`], and
     /// everything made from this one must be made again.
     pub fn is_lost(&self) -> bool {
@@ -200,51 +158,13 @@ impl Gpu {
         self.device.poll(wgpu::PollType::Poll).ok();
         self.lost.load(Ordering::Acquire)
     }
-
-    /// Checks that the device can make a texture of this size.
-    pub(super) fn check_size(&self, [width, height]: [u32; 2]) -> Result<(), GpuError> {
-        let limit = self.max_texture_side_px;
-        if width == 0 || height == 0 {
-            Err(GpuError::Empty { width, height })
-        } else if width > limit || height > limit {
-            Err(GpuError::TooLarge { width, height, limit })
-        } else {
-            Ok(())
-        }
-    }
 }
 
 /// Creates an instance without validation of indirect draws, which we never issue. That validation needs compute
 /// shaders, which some drivers' GL lacks.
-///
-/// # Errors
-/// [`GpuError::NoRoom`] if the memory that a software driver needs cannot be had.
-pub(super) fn instance(
-    mut descriptor: wgpu::InstanceDescriptor,
-) -> Result<wgpu::Instance, GpuError> {
-    // A driver that runs out of memory while it is loaded ends the process. A browser's driver has its own memory,
-    // and a reservation in ours would never be returned.
-    if cfg!(not(target_arch = "wasm32")) {
-        let mut room = Vec::<u8>::new();
-        let reserved = room.try_reserve_exact(DRIVER_MIB << 20);
-        // Keeps an optimiser from removing the unused reservation.
-        std::hint::black_box(&mut room);
-        reserved.map_err(|_| GpuError::NoRoom { mib: DRIVER_MIB })?;
-    }
+pub(super) fn instance(mut descriptor: wgpu::InstanceDescriptor) -> wgpu::Instance {
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
-    Ok(wgpu::Instance::new(descriptor))
-}
-
-/// Makes the C library keep the memory that a frame frees, for the next frame.
-///
-/// A software driver allocates some 16 MB for a frame and frees them after it. Memory that goes back to the system is
-/// cleared and mapped again page by page, which takes a quarter of the time of a frame. The C library glibc keeps up to
-/// twice the size of the largest block that it mapped separately and got back. Other libraries take no notice.
-fn keep_freed_memory() {
-    /// In bytes.
-    const BLOCK: usize = 16 << 20;
-    // Reserved and not used, so it takes no memory itself.
-    drop(std::hint::black_box(Vec::<u8>::with_capacity(BLOCK)));
+    wgpu::Instance::new(descriptor)
 }
 
 fn title(info: &wgpu::AdapterInfo) -> String {
@@ -296,15 +216,15 @@ mod tests {
     }
 
     #[test]
-    fn without_an_adapter_the_error_names_the_backends_and_the_package() {
+    fn without_an_adapter_the_error_names_the_backends() {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = wgpu::Backends::empty();
         let instance = wgpu::Instance::new(descriptor);
-        let chosen = pollster::block_on(Gpu::choose(&instance, None, AdapterPreference::Any));
+        let chosen = pollster::block_on(Gpu::choose(&instance, None));
         let error = chosen.unwrap_err().to_string();
         assert!(error.starts_with("no usable graphics adapter: "), "{error}");
         assert!(error.contains("gl offered none"), "{error}");
-        assert!(error.ends_with("apt install mesa-vulkan-drivers)"), "{error}");
+        assert!(error.ends_with("take --renderer cpu"), "{error}");
     }
 
     #[test]

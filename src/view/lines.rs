@@ -16,6 +16,19 @@ pub(super) struct Joint {
     pub(super) colour: Color32,
 }
 
+/// Length of a vector. Unlike egui's it is the same on every machine: `hypot` is the system's.
+pub(super) fn length(vector: Vec2) -> f32 {
+    vector.length_sq().sqrt()
+}
+
+/// A vector of this direction and of length 1; zero for zero.
+pub(super) fn unit(vector: Vec2) -> Vec2 {
+    match length(vector) {
+        0.0 => Vec2::ZERO,
+        length => vector / length,
+    }
+}
+
 impl Joint {
     fn lerp(self, to: Joint, part: f32) -> Joint {
         Joint {
@@ -150,7 +163,7 @@ impl Piece {
             self.reach = if is_like_start { self.reach } else { f32::INFINITY };
             return reaches;
         }
-        let axis = *self.axis.get_or_insert_with(|| offset.normalized());
+        let axis = *self.axis.get_or_insert_with(|| unit(offset));
         let along = axis.dot(offset);
         values[0] = axis.x * offset.y - axis.y * offset.x;
         if self.is_even && !is_like_all {

@@ -1,20 +1,21 @@
-//! Pixels: a graphics device, the pipelines that draw a [`Picture`](crate::stage::Picture), and the one function that
-//! draws a frame.
+//! Pixels: the one function that makes the [`Drawing`] of a frame, and the executors that draw it.
 //!
-//! A window, a screenshot and a capture all call [`FrameRenderer::draw`] on a texture view. They differ in the source
-//! of that view and in the destination of its pixels. Colours are blended as they are stored, in gamma space, so all
-//! targets have a format without `Srgb` in its name.
+//! A window, a screenshot and a capture all call [`FrameRenderer::draw`]. They differ in the executor of the drawing
+//! and in the destination of its pixels. Colours are blended as they are stored, in gamma space, so all textures to
+//! draw on have a format without `Srgb` in its name.
 
 mod backdrop;
 mod chart;
 mod copying;
+mod cpu_executor;
+mod drawing;
 mod frame;
 mod gpu;
+mod gpu_executor;
 mod keyboard;
 #[cfg(test)]
 mod legibility;
 mod lines;
-mod mesh_buffer;
 mod meshes;
 mod offscreen_renderer;
 mod panels;
@@ -22,13 +23,11 @@ pub mod png;
 mod readback;
 mod screen;
 mod screen_transform;
-mod sea;
 mod shapes;
 mod stage;
 mod strokes;
 #[cfg(test)]
 mod testing;
-mod textures;
 mod theme;
 mod touch;
 
@@ -38,10 +37,13 @@ pub use {egui, wgpu};
 pub use chart::AxisScale;
 pub use chart::figure::{Axis, Chart, Figure, FigureCurve, Legend};
 pub use copying::{ClipboardText, clipboard_text};
+pub use cpu_executor::{CpuExecutor, Textures, letter_instructions};
+pub use drawing::Drawing;
 pub use frame::{FrameOutput, FrameRenderer, LaidOutFrame};
-pub use gpu::{AdapterPreference, Gpu, GpuError};
+pub use gpu::{Gpu, GpuError, RendererChoice};
+pub use gpu_executor::GpuExecutor;
 pub use keyboard::{Meaning, Modifiers, bound_key, command_of};
-pub use offscreen_renderer::{Offscreen, OffscreenRenderer};
+pub use offscreen_renderer::{FrameSizeError, Offscreen, OffscreenRenderer, PreparedFrame};
 pub use panels::Panels;
 pub use readback::{Readback, ReadbackError};
 pub use screen::Screen;

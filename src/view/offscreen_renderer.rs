@@ -1,17 +1,77 @@
-//! Frames without a window: the frame renderer on its own texture, for captures, screenshots and tests.
+//! Frames without a window, for captures, screenshots and tests.
 
-use super::textures::texture;
+use std::num::NonZero;
+use std::thread;
+
+use super::gpu_executor::new_texture;
 use super::{
-    AdapterPreference, Figure, FrameRenderer, Gpu, GpuError, Panels, Readback, ReadbackError,
+    CpuExecutor, Drawing, Figure, FrameRenderer, Gpu, GpuExecutor, Panels, Readback, ReadbackError,
+    Textures,
 };
 use crate::studio::Studio;
+
+/// Longest side of a frame that the processor draws, in pixels. Frames are far larger than this only by mistake.
+const MAX_SIDE_PX: u32 = 16_384;
+
+/// Longest side of a texture for the processor, in pixels. Letters are packed into textures of this width. Larger ones
+/// are slower to look up.
+const MAX_TEXTURE_SIDE_PX: u32 = 4096;
+
+/// Why a frame of the requested size cannot be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FrameSizeError {
+    /// A side exceeds the limit.
+    #[error(
+        "frame size {}x{} is beyond the limit of {limit}; give at most {limit}x{limit}",
+        size_px[0], size_px[1]
+    )]
+    TooLarge {
+        /// Requested width and height, in pixels.
+        size_px: [u32; 2],
+        /// Longest possible side, in pixels.
+        limit: u32,
+    },
+    /// The frame has no pixels.
+    #[error("frame size {}x{} has no pixels; give at least 1x1", size_px[0], size_px[1])]
+    Empty {
+        /// Requested width and height, in pixels.
+        size_px: [u32; 2],
+    },
+    /// The frame is within the limit but not within the memory.
+    #[error("no memory for a frame of {}x{}; give a smaller size", size_px[0], size_px[1])]
+    OutOfMemory {
+        /// Requested width and height, in pixels.
+        size_px: [u32; 2],
+    },
+}
+
+impl FrameSizeError {
+    /// Checks that both sides are from 1 to `limit`.
+    fn check(size_px: [u32; 2], limit: u32) -> Result<(), Self> {
+        if size_px.contains(&0) {
+            Err(Self::Empty { size_px })
+        } else if size_px.iter().any(|&side| side > limit) {
+            Err(Self::TooLarge { size_px, limit })
+        } else {
+            Ok(())
+        }
+    }
+}
+
+/// An empty buffer with room for a frame. A buffer that grows without memory would end the process.
+fn room_for(size_px: [u32; 2]) -> Result<Vec<u8>, FrameSizeError> {
+    let [width, height] = size_px.map(|side| side as usize);
+    let mut buffer = Vec::new();
+    let reserved = buffer.try_reserve_exact(4 * width * height);
+    reserved.map(|()| buffer).map_err(|_| FrameSizeError::OutOfMemory { size_px })
+}
 
 /// A texture to draw on and to read back.
 #[derive(Debug)]
 pub struct Offscreen {
     /// For [`Readback`](super::Readback).
     pub texture: wgpu::Texture,
-    /// For [`FrameRenderer::draw`](super::FrameRenderer::draw).
+    /// For [`GpuExecutor::encode`](super::GpuExecutor::encode).
     pub view: wgpu::TextureView,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
@@ -24,17 +84,16 @@ impl Offscreen {
     /// Creates a texture of `size_px` with undefined contents.
     ///
     /// # Errors
-    /// [`GpuError::TooLarge`], [`GpuError::Empty`] or [`GpuError::OutOfMemory`].
-    pub fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, GpuError> {
-        gpu.check_size(size_px)?;
+    /// A [`FrameSizeError`].
+    pub fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, FrameSizeError> {
+        FrameSizeError::check(size_px, gpu.max_texture_side_px)?;
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
             | wgpu::TextureUsages::COPY_SRC
             | wgpu::TextureUsages::COPY_DST;
-        let texture = texture(gpu, "offscreen", size_px, Self::FORMAT, usage);
+        let texture = new_texture(gpu, "offscreen", size_px, Self::FORMAT, usage);
         if pollster::block_on(scope.pop()).is_some() {
-            let [width, height] = size_px;
-            return Err(GpuError::OutOfMemory { width, height });
+            return Err(FrameSizeError::OutOfMemory { size_px });
         }
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         Ok(Self { texture, view, size_px })
@@ -43,31 +102,90 @@ impl Offscreen {
 
 /// Draws a studio into memory.
 pub struct OffscreenRenderer {
-    gpu: Gpu,
     renderer: FrameRenderer,
+    size_px: [u32; 2],
+    scale: f32,
+    drawn_by: DrawnBy,
+}
+
+enum DrawnBy {
+    Processor { textures: Textures, executor: CpuExecutor },
+    Device(Box<OnDevice>),
+}
+
+struct OnDevice {
+    gpu: Gpu,
+    executor: GpuExecutor,
     canvas: Offscreen,
     readback: Readback,
-    scale: f32,
+}
+
+/// A frame of which at most the pixels are still to be calculated. Any thread can do that.
+#[must_use]
+pub struct PreparedFrame(Prepared);
+
+enum Prepared {
+    Drawing(Box<Drawing>, Textures),
+    Rows(Vec<u8>),
+}
+
+impl PreparedFrame {
+    /// Replaces `rgba` by the frame's pixels, top row first. The executor must draw frames of one renderer only, in
+    /// any order.
+    pub fn finish(self, executor: &mut CpuExecutor, rgba: &mut Vec<u8>) {
+        match self.0 {
+            Prepared::Drawing(drawing, textures) => executor.execute(&drawing, &textures, rgba),
+            Prepared::Rows(rows) => *rgba = rows,
+        }
+    }
 }
 
 impl OffscreenRenderer {
-    /// Creates a renderer on `gpu` for frames of `size_px` pixels, with `scale` pixels per point.
+    /// Creates a renderer for frames of `size_px` pixels, with `scale` pixels per point. The processor draws them.
     ///
     /// # Errors
-    /// [`GpuError::TooLarge`], [`GpuError::Empty`] or [`GpuError::OutOfMemory`].
-    pub fn new(gpu: Gpu, size_px: [u32; 2], scale: f32) -> Result<Self, GpuError> {
-        let canvas = Offscreen::new(&gpu, size_px)?;
-        let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
-        Ok(Self { gpu, renderer, canvas, readback: Readback::default(), scale })
+    /// A [`FrameSizeError`].
+    #[expect(clippy::disallowed_methods, reason = "any number of threads makes the same bytes")]
+    pub fn new(size_px: [u32; 2], scale: f32) -> Result<Self, FrameSizeError> {
+        FrameSizeError::check(size_px, MAX_SIDE_PX)?;
+        let threads = thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
+        Ok(Self {
+            renderer: FrameRenderer::new(MAX_TEXTURE_SIDE_PX),
+            size_px,
+            scale,
+            drawn_by: DrawnBy::Processor {
+                textures: Textures::default(),
+                executor: CpuExecutor::new(threads).with_room(room_for(size_px)?),
+            },
+        })
     }
 
-    /// Like [`OffscreenRenderer::new`], on the best device that needs no display. Blocks until the device is found.
+    /// The same with a graphics device, which draws the frames.
     ///
     /// # Errors
-    /// Those of [`Gpu::headless`] and [`OffscreenRenderer::new`].
-    pub fn headless(size_px: [u32; 2], scale: f32) -> Result<Self, GpuError> {
-        let gpu = pollster::block_on(Gpu::headless(AdapterPreference::Any))?;
-        Self::new(gpu, size_px, scale)
+    /// A [`FrameSizeError`].
+    pub fn on_gpu(gpu: Gpu, size_px: [u32; 2], scale: f32) -> Result<Self, FrameSizeError> {
+        let canvas = Offscreen::new(&gpu, size_px)?;
+        let renderer = FrameRenderer::new(gpu.max_texture_side_px);
+        let executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
+        let device = OnDevice { gpu, executor, canvas, readback: Readback::default() };
+        Ok(Self { renderer, size_px, scale, drawn_by: DrawnBy::Device(Box::new(device)) })
+    }
+
+    /// An empty buffer with room for a frame.
+    ///
+    /// # Errors
+    /// [`FrameSizeError::OutOfMemory`].
+    pub fn buffer(&self) -> Result<Vec<u8>, FrameSizeError> {
+        room_for(self.size_px)
+    }
+
+    /// An executor for [`PreparedFrame::finish`] on one thread, with room for its backdrop.
+    ///
+    /// # Errors
+    /// [`FrameSizeError::OutOfMemory`].
+    pub fn executor(&self) -> Result<CpuExecutor, FrameSizeError> {
+        Ok(CpuExecutor::new(NonZero::<usize>::MIN).with_room(room_for(self.size_px)?))
     }
 
     /// Sets which panels to draw. The default is [`Panels::Shown`].
@@ -80,87 +198,97 @@ impl OffscreenRenderer {
         self.renderer.panels()
     }
 
-    /// Name, backend and driver of the adapter.
-    pub fn adapter(&self) -> &wgpu::AdapterInfo {
-        &self.gpu.info
+    /// Name, backend and driver of the adapter; `None` if the processor draws.
+    pub fn adapter(&self) -> Option<&wgpu::AdapterInfo> {
+        match &self.drawn_by {
+            DrawnBy::Processor { .. } => None,
+            DrawnBy::Device(device) => Some(&device.gpu.info),
+        }
     }
 
     /// Width and height of the frames, in pixels.
     pub fn size_px(&self) -> [u32; 2] {
-        self.canvas.size_px
+        self.size_px
     }
 
-    /// Draws a frame and replaces `rgba` by its pixels, top row first. No frame may be in flight.
+    /// Draws a frame and replaces `rgba` by its pixels, top row first.
     ///
     /// # Errors
-    /// A [`ReadbackError`] if the device does not return the frame.
+    /// A [`ReadbackError`] if a device does not return the frame. The processor never fails.
     pub fn draw(&mut self, studio: &Studio, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
-        self.submit(studio)?;
-        self.collect(rgba)
-    }
-
-    /// Submits a frame to the device without waiting for it.
-    ///
-    /// # Errors
-    /// A [`ReadbackError`] if the device is lost.
-    pub fn submit(&mut self, studio: &Studio) -> Result<(), ReadbackError> {
-        let Self { gpu, renderer, canvas, readback, scale } = self;
-        let input = egui::RawInput { time: Some(studio.race().t()), ..Default::default() };
-        // Without a pointer, panels issue no commands.
-        let (_, output) = renderer.draw(gpu, &canvas.view, canvas.size_px, *scale, input, studio);
-        readback.begin(gpu, output.drawing, &canvas.texture)
-    }
-
-    /// Number of frames submitted and not yet collected.
-    pub fn in_flight(&self) -> usize {
-        self.readback.pending()
-    }
-
-    /// Waits for the oldest frame in flight and replaces `rgba` by its pixels, top row first.
-    ///
-    /// # Errors
-    /// A [`ReadbackError`] if the device does not return the frame.
-    ///
-    /// # Panics
-    /// If no frame is in flight.
-    pub fn collect(&mut self, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
-        self.readback.finish(&self.gpu, rgba)
+        let drawing = self.drawing(studio);
+        self.execute(drawing, rgba)
     }
 
     /// Draws a diagram and replaces `rgba` by its pixels, top row first.
     ///
     /// # Errors
-    /// A [`ReadbackError`] if the device does not return the picture.
+    /// A [`ReadbackError`] if a device does not return the picture. The processor never fails.
     pub fn draw_figure(
         &mut self,
         figure: &Figure,
         rgba: &mut Vec<u8>,
     ) -> Result<(), ReadbackError> {
-        let Self { gpu, renderer, canvas, readback, scale } = self;
-        let drawing = renderer.draw_figure(gpu, &canvas.view, canvas.size_px, *scale, figure);
-        readback.read(gpu, drawing, &canvas.texture, rgba)
+        let drawing = self.renderer.draw_figure(self.size_px, self.scale, figure);
+        self.execute(drawing, rgba)
+    }
+
+    /// Lays out a frame, so that another thread can calculate its pixels. A device draws it at once.
+    ///
+    /// # Errors
+    /// A [`ReadbackError`] if a device does not return the frame. The processor never fails.
+    pub fn prepare(&mut self, studio: &Studio) -> Result<PreparedFrame, ReadbackError> {
+        let drawing = self.drawing(studio);
+        Ok(PreparedFrame(match &mut self.drawn_by {
+            DrawnBy::Processor { textures, .. } => {
+                let present = textures.update(&drawing);
+                Prepared::Drawing(Box::new(drawing), present)
+            }
+            DrawnBy::Device(device) => {
+                let mut rows = Vec::new();
+                device.execute(&drawing, &mut rows)?;
+                Prepared::Rows(rows)
+            }
+        }))
+    }
+
+    fn drawing(&mut self, studio: &Studio) -> Drawing {
+        let input = egui::RawInput { time: Some(studio.race().t()), ..Default::default() };
+        // Without a pointer, panels issue no commands.
+        let (_, output) = self.renderer.draw(self.size_px, self.scale, input, studio);
+        output.drawing
+    }
+
+    fn execute(&mut self, drawing: Drawing, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
+        match &mut self.drawn_by {
+            DrawnBy::Processor { textures, executor } => {
+                executor.execute(&drawing, &textures.update(&drawing), rgba);
+                Ok(())
+            }
+            DrawnBy::Device(device) => device.execute(&drawing, rgba),
+        }
+    }
+}
+
+impl OnDevice {
+    fn execute(&mut self, drawing: &Drawing, rows: &mut Vec<u8>) -> Result<(), ReadbackError> {
+        let commands = self.executor.encode(&self.gpu, drawing, &self.canvas.view);
+        self.readback.read(&self.gpu, commands, &self.canvas.texture, rows)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::testing::gpu_or_skip;
 
     #[test]
     fn sizes_beyond_the_limit_or_without_pixels_are_refused() {
-        let test = "sizes_beyond_the_limit_or_without_pixels_are_refused";
-        let Some(gpu) = gpu_or_skip(test) else { return };
-        let limit = gpu.max_texture_side_px;
-        let error = Offscreen::new(&gpu, [limit + 1, 720]).unwrap_err().to_string();
-        let expected = format!(
-            "frame size {}x720 is beyond this adapter's limit of {limit}; \
-             give at most {limit}x{limit}",
-            limit + 1
+        let error = |size_px| OffscreenRenderer::new(size_px, 1.0).err().unwrap().to_string();
+        assert_eq!(
+            error([16_385, 720]),
+            "frame size 16385x720 is beyond the limit of 16384; give at most 16384x16384"
         );
-        assert_eq!(error, expected);
-        let error = Offscreen::new(&gpu, [1280, 0]).unwrap_err();
-        assert!(matches!(error, GpuError::Empty { width: 1280, height: 0 }), "{error}");
-        assert!(Offscreen::new(&gpu, [limit, 1]).is_ok());
+        assert_eq!(error([1280, 0]), "frame size 1280x0 has no pixels; give at least 1x1");
+        assert!(OffscreenRenderer::new([16_384, 1], 1.0).is_ok());
     }
 }

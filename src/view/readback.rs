@@ -1,6 +1,5 @@
 //! Reads a texture back as tightly packed RGBA rows.
 
-use std::collections::VecDeque;
 use std::sync::mpsc;
 use std::time::Duration;
 
@@ -33,27 +32,15 @@ pub enum ReadbackError {
     },
 }
 
-/// Reads textures back, and reuses its buffers from frame to frame.
+/// Reads textures back, and reuses its buffer from frame to frame.
 #[derive(Debug, Default)]
 pub struct Readback {
-    spare: Vec<wgpu::Buffer>,
-    /// Oldest first.
-    pending: VecDeque<Pending>,
-}
-
-/// A texture on its way back.
-#[derive(Debug)]
-struct Pending {
-    buffer: wgpu::Buffer,
-    submission: wgpu::SubmissionIndex,
-    mapped: mpsc::Receiver<Result<(), wgpu::BufferAsyncError>>,
-    row_bytes: u32,
-    blue_first: bool,
+    spare: Option<wgpu::Buffer>,
 }
 
 impl Readback {
     /// Submits `drawing`, waits for all work so far, and replaces `rows` by the texture's pixels: red, green, blue,
-    /// alpha, top row first, no padding. The texture needs `COPY_SRC`. No other texture may be pending.
+    /// alpha, top row first, no padding. The texture needs `COPY_SRC`.
     ///
     /// # Errors
     /// A [`ReadbackError`]; `rows` is then unspecified.
@@ -63,26 +50,6 @@ impl Readback {
         drawing: Option<wgpu::CommandBuffer>,
         texture: &wgpu::Texture,
         rows: &mut Vec<u8>,
-    ) -> Result<(), ReadbackError> {
-        self.begin(gpu, drawing, texture)?;
-        self.finish(gpu, rows)
-    }
-
-    /// Number of textures on their way back.
-    pub fn pending(&self) -> usize {
-        self.pending.len()
-    }
-
-    /// Submits `drawing` and requests the texture in the state after it. The caller may draw on the texture again at
-    /// once.
-    ///
-    /// # Errors
-    /// [`ReadbackError::Format`] or [`ReadbackError::DeviceLost`].
-    pub fn begin(
-        &mut self,
-        gpu: &Gpu,
-        drawing: Option<wgpu::CommandBuffer>,
-        texture: &wgpu::Texture,
     ) -> Result<(), ReadbackError> {
         let format = texture.format();
         let blue_first = match format {
@@ -96,8 +63,15 @@ impl Readback {
         let row_bytes = 4 * texture.width();
         let padded_row_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let bytes = u64::from(padded_row_bytes) * u64::from(texture.height());
-        let buffer = self.buffer_of(gpu, bytes);
-
+        let spare = self.spare.take().filter(|buffer| buffer.size() == bytes);
+        let buffer = spare.unwrap_or_else(|| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("readback"),
+                size: bytes,
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            })
+        });
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         encoder.copy_texture_to_buffer(
             texture.as_image_copy(),
@@ -111,33 +85,8 @@ impl Readback {
             },
             texture.size(),
         );
-        // In one submission, because a software driver blocks the caller until it is done with the one before.
         let submission = gpu.queue.submit(drawing.into_iter().chain([encoder.finish()]));
-        let (sender, mapped) = mpsc::channel();
-        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver is gone only after its owner gave up waiting.
-            sender.send(result).ok();
-        });
-        self.pending.push_back(Pending { buffer, submission, mapped, row_bytes, blue_first });
-        Ok(())
-    }
-
-    /// Waits for the texture that was requested first, and replaces `rows` by its pixels as [`Readback::read`] does.
-    ///
-    /// # Errors
-    /// A [`ReadbackError`]; `rows` is then unspecified, and nothing is pending any more.
-    ///
-    /// # Panics
-    /// If nothing is pending.
-    pub fn finish(&mut self, gpu: &Gpu, rows: &mut Vec<u8>) -> Result<(), ReadbackError> {
-        let pending = self.pending.pop_front().expect("a texture was asked for");
-        if let Err(error) = wait_until_mapped(gpu, &pending) {
-            // The buffers may become mapped at any later time, and mapped buffers cannot be copied to.
-            self.pending.clear();
-            return Err(error);
-        }
-        let Pending { buffer, row_bytes, blue_first, .. } = pending;
-        let padded_row_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        wait_until_mapped(gpu, &buffer, submission)?;
         rows.clear();
         {
             let mapped = buffer
@@ -149,7 +98,7 @@ impl Readback {
             }
         }
         buffer.unmap();
-        self.spare.push(buffer);
+        self.spare = Some(buffer);
         if blue_first {
             for pixel in rows.chunks_exact_mut(4) {
                 pixel.swap(0, 2);
@@ -157,25 +106,21 @@ impl Readback {
         }
         Ok(())
     }
-
-    fn buffer_of(&mut self, gpu: &Gpu, bytes: u64) -> wgpu::Buffer {
-        self.spare.retain(|buffer| buffer.size() == bytes);
-        self.spare.pop().unwrap_or_else(|| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("readback"),
-                size: bytes,
-                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-                mapped_at_creation: false,
-            })
-        })
-    }
 }
 
-fn wait_until_mapped(gpu: &Gpu, pending: &Pending) -> Result<(), ReadbackError> {
-    let submission_index = Some(pending.submission.clone());
-    let wait = wgpu::PollType::Wait { submission_index, timeout: Some(PATIENCE) };
+fn wait_until_mapped(
+    gpu: &Gpu,
+    buffer: &wgpu::Buffer,
+    submission: wgpu::SubmissionIndex,
+) -> Result<(), ReadbackError> {
+    let (sender, mapped) = mpsc::channel();
+    buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+        // The receiver is gone only after its owner gave up waiting.
+        sender.send(result).ok();
+    });
+    let wait = wgpu::PollType::Wait { submission_index: Some(submission), timeout: Some(PATIENCE) };
     let polled = gpu.device.poll(wait);
-    match pending.mapped.try_recv() {
+    match mapped.try_recv() {
         Ok(Ok(())) => Ok(()),
         _ if gpu.is_lost() => Err(ReadbackError::DeviceLost),
         Ok(Err(error)) => Err(ReadbackError::Unreadable { reason: error.to_string() }),
@@ -229,23 +174,6 @@ mod tests {
             let texture = uploaded(&gpu, format, [width, height], &sent);
             readback.read(&gpu, None, &texture, &mut rows).unwrap();
             assert_eq!(rows, sent, "{width}x{height}");
-        }
-    }
-
-    #[test]
-    fn textures_are_read_back_in_the_order_of_the_requests() {
-        let test = "textures_are_read_back_in_the_order_of_the_requests";
-        let Some(gpu) = gpu_or_skip(test) else { return };
-        let mut readback = Readback::default();
-        let format = wgpu::TextureFormat::Rgba8Unorm;
-        for shade in [1, 2, 3] {
-            readback.begin(&gpu, None, &uploaded(&gpu, format, [1, 1], &[shade; 4])).unwrap();
-        }
-        let mut rows = Vec::new();
-        for shade in [1, 2, 3] {
-            assert_eq!(readback.pending(), 4 - usize::from(shade));
-            readback.finish(&gpu, &mut rows).unwrap();
-            assert_eq!(rows, [shade; 4]);
         }
     }
 

@@ -1,6 +1,6 @@
 //! The surface of a window or a canvas, and the instance that can make it again.
 
-use super::gpu::{AdapterPreference, Gpu, GpuError, instance};
+use super::gpu::{Gpu, GpuError, instance};
 
 /// The surface for the frames of a window. The window decides on the frames and their times.
 #[derive(Debug)]
@@ -19,11 +19,11 @@ impl Screen {
         window: impl Into<wgpu::SurfaceTarget<'static>>,
     ) -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_with_display_handle_from_env(display);
-        let instance = instance(descriptor)?;
+        let instance = instance(descriptor);
         match instance.create_surface(window) {
             Ok(surface) => Ok(Self { instance, surface }),
             // Without a driver there is no surface either, but the missing driver is the cause to report.
-            Err(refusal) => match Gpu::choose(&instance, None, AdapterPreference::Any).await {
+            Err(refusal) => match Gpu::choose(&instance, None).await {
                 Ok(_) => Err(refusal.into()),
                 Err(error) => Err(error),
             },
@@ -35,7 +35,7 @@ impl Screen {
     /// # Errors
     /// [`GpuError::NoSurface`].
     pub fn of_canvas(canvas: impl Into<wgpu::SurfaceTarget<'static>>) -> Result<Self, GpuError> {
-        let instance = instance(wgpu::InstanceDescriptor::new_without_display_handle())?;
+        let instance = instance(wgpu::InstanceDescriptor::new_without_display_handle());
         let surface = instance.create_surface(canvas)?;
         Ok(Self { instance, surface })
     }
@@ -45,7 +45,7 @@ impl Screen {
     /// # Errors
     /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
     pub async fn gpu(&self) -> Result<Gpu, GpuError> {
-        Gpu::choose(&self.instance, Some(&self.surface), AdapterPreference::Any).await
+        Gpu::choose(&self.instance, Some(&self.surface)).await
     }
 
     /// The same screen with a new surface, for [`wgpu::CurrentSurfaceTexture::Lost`].

@@ -1,31 +1,14 @@
 //! The shapes of a picture, in painting order: lines through points, and filled outlines.
 
-use std::ops::Range;
-
 use egui::Rect;
 
-use super::gpu::Gpu;
+use super::drawing::{Draw, DrawKind, Drawing, Place};
 use super::lines::{Joint, visible_runs};
 use super::screen_transform::ScreenTransform;
-use super::strokes::{StrokeMesh, StrokePipeline};
+use super::strokes::StrokeMesh;
 use super::theme::colour;
 use crate::stage;
 use crate::stage::{PathPoint, Shape};
-
-/// Draws the shapes of a picture.
-#[derive(Debug)]
-pub(super) struct ShapeRenderer {
-    strokes: StrokePipeline,
-    draws: Vec<Draw>,
-}
-
-/// Consecutive shapes with the same clip.
-#[derive(Debug)]
-struct Draw {
-    /// Left, top, width and height of their visible area on the target.
-    scissor_px: [u32; 4],
-    indices: Range<u32>,
-}
 
 fn clip(shape: &Shape) -> stage::Rect {
     match shape {
@@ -34,47 +17,15 @@ fn clip(shape: &Shape) -> stage::Rect {
     }
 }
 
-impl ShapeRenderer {
-    pub(super) fn new(
-        gpu: &Gpu,
-        layout: &wgpu::PipelineLayout,
-        format: wgpu::TextureFormat,
-    ) -> Self {
-        Self { strokes: StrokePipeline::new(gpu, layout, format), draws: Vec::new() }
-    }
-
-    /// Removes all shapes.
-    pub(super) fn clear(&mut self) {
-        self.draws.clear();
-        self.strokes.clear();
-    }
-
-    /// Adds shapes over the others. Returns the range of their draws.
-    pub(super) fn add(&mut self, shapes: &[Shape], transform: &ScreenTransform) -> Range<usize> {
-        let first = self.draws.len();
-        for run in shapes.chunk_by(|a, b| clip(a) == clip(b)) {
-            let scissor_px = transform.scissor_px(clip(&run[0]));
-            if scissor_px[2] == 0 || scissor_px[3] == 0 {
-                continue;
-            }
-            let mut mesh = StrokeMesh::default();
-            run.iter().for_each(|shape| add(&mut mesh, shape, transform));
-            self.draws.push(Draw { scissor_px, indices: self.strokes.add(&mesh) });
-        }
-        first..self.draws.len()
-    }
-
-    /// Uploads all added shapes.
-    pub(super) fn upload(&mut self, gpu: &Gpu) {
-        self.strokes.upload(gpu);
-    }
-
-    /// Paints a range of the draws.
-    pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>, draws: Range<usize>) {
-        for Draw { scissor_px: [left, top, width, height], indices } in &self.draws[draws] {
-            pass.set_scissor_rect(*left, *top, *width, *height);
-            self.strokes.draw(pass, indices.clone());
-        }
+/// Adds shapes of the stage over everything in the drawing.
+pub(super) fn draw_shapes(drawing: &mut Drawing, shapes: &[Shape], transform: &ScreenTransform) {
+    for run in shapes.chunk_by(|a, b| clip(a) == clip(b)) {
+        let Some(scissor_px) = transform.scissor_px(clip(&run[0])) else { continue };
+        let first = drawing.strokes.indices.len() as u32;
+        run.iter().for_each(|shape| add(&mut drawing.strokes, shape, transform));
+        let indices = first..drawing.strokes.indices.len() as u32;
+        let (place, kind) = (Place::Stage, DrawKind::Stroke);
+        drawing.draws.push(Draw { scissor_px, place, kind, indices });
     }
 }
 
@@ -104,9 +55,8 @@ fn joint(point: &PathPoint) -> Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stage;
     use crate::stage::{Fill, Path, Picture};
-    use crate::view::testing::{EVERYWHERE, Pixels, draw_picture, gpu_or_skip};
+    use crate::view::testing::{EVERYWHERE, Pixels, draw_picture};
 
     const SOLID: [f32; 2] = [1.0, 0.0];
 
@@ -114,10 +64,9 @@ mod tests {
         PathPoint { at, radius, colour: [255; 4] }
     }
 
-    fn draw(gpu: &Gpu, points: &[PathPoint], clip: stage::Rect) -> Pixels {
+    fn draw(points: &[PathPoint], clip: stage::Rect) -> Pixels {
         let path = Path { points: points.to_vec(), dash: SOLID, clip };
         draw_picture(
-            gpu,
             [64, 64],
             1.0,
             &Picture { shapes: vec![Shape::Path(path)], ..Picture::default() },
@@ -126,9 +75,8 @@ mod tests {
 
     #[test]
     fn a_path_covers_exactly_its_own_pixels() {
-        let Some(gpu) = gpu_or_skip("a_path_covers_exactly_its_own_pixels") else { return };
         let points = [[-5.0, 20.0], [40.0, 20.0], [69.0, 20.0]].map(|at| point(at, 2.0));
-        let pixels = draw(&gpu, &points, EVERYWHERE);
+        let pixels = draw(&points, EVERYWHERE);
         for y in 0..64 {
             for x in 0..64 {
                 let expected = if (18..22).contains(&y) { 255 } else { 0 };
@@ -139,30 +87,25 @@ mod tests {
 
     #[test]
     fn no_pixel_is_drawn_twice_at_a_bend() {
-        let Some(gpu) = gpu_or_skip("no_pixel_is_drawn_twice_at_a_bend") else { return };
         let points = [[-5.0, 20.0], [30.0, 20.0], [69.0, 50.0]]
             .map(|at| PathPoint { colour: [255, 255, 255, 128], ..point(at, 4.0) });
-        let pixels = draw(&gpu, &points, EVERYWHERE);
+        let pixels = draw(&points, EVERYWHERE);
         assert_eq!(pixels.rows.chunks_exact(4).map(|pixel| pixel[0]).max(), Some(128));
     }
 
     #[test]
     fn nothing_is_drawn_outside_the_clip() {
-        let Some(gpu) = gpu_or_skip("nothing_is_drawn_outside_the_clip") else { return };
         let clip = stage::Rect { min: [20.0, 30.0], max: [40.0, 34.0] };
-        let pixels = draw(&gpu, &[[-9e4, 32.0], [9e4, 32.0]].map(|at| point(at, 10.0)), clip);
+        let pixels = draw(&[[-9e4, 32.0], [9e4, 32.0]].map(|at| point(at, 10.0)), clip);
         assert_eq!(pixels.count_lit(), 20 * 4);
         assert_eq!((pixels.at(20, 30)[0], pixels.at(39, 33)[0]), (255, 255));
     }
 
     #[test]
     fn width_and_colour_are_interpolated_between_points() {
-        let Some(gpu) = gpu_or_skip("width_and_colour_are_interpolated_between_points") else {
-            return;
-        };
         let red = PathPoint { colour: [255, 0, 0, 255], ..point([0.0, 32.0], 2.0) };
         let blue = PathPoint { colour: [0, 0, 255, 255], ..point([64.0, 32.0], 18.0) };
-        let pixels = draw(&gpu, &[red, blue], EVERYWHERE);
+        let pixels = draw(&[red, blue], EVERYWHERE);
         let reds = [1, 16, 32, 48, 62].map(|x| pixels.at(x, 32)[0]);
         assert!(reds.is_sorted_by(|a, b| a > b), "{reds:?}");
         assert!(reds[2].abs_diff(127) <= 3, "{reds:?}");
@@ -173,10 +116,9 @@ mod tests {
 
     #[test]
     fn thin_paths_fade_in_proportion() {
-        let Some(gpu) = gpu_or_skip("thin_paths_fade_in_proportion") else { return };
         for radius in [0.5, 0.25, 0.1] {
             let points = [[-10.0, 32.2], [74.0, 32.2]].map(|at| point(at, radius));
-            let light = draw(&gpu, &points, EVERYWHERE).sum(0);
+            let light = draw(&points, EVERYWHERE).sum(0);
             let expected = 64.0 * 2.0 * radius;
             assert!((light / expected - 1.0).abs() < 0.05, "{radius}: {light}");
         }
@@ -184,8 +126,6 @@ mod tests {
 
     #[test]
     fn a_fill_covers_its_own_pixels_and_blends_its_corners() {
-        let test = "a_fill_covers_its_own_pixels_and_blends_its_corners";
-        let Some(gpu) = gpu_or_skip(test) else { return };
         let [black, white] = [[0, 0, 0, 255], [255; 4]];
         let corners = vec![
             ([10.0, 20.0], black),
@@ -195,12 +135,7 @@ mod tests {
         ];
         let fill = |corners| Shape::Fill(Fill { corners, clip: EVERYWHERE });
         let drawn = |shape| {
-            draw_picture(
-                &gpu,
-                [64, 64],
-                1.0,
-                &Picture { shapes: vec![shape], ..Picture::default() },
-            )
+            draw_picture([64, 64], 1.0, &Picture { shapes: vec![shape], ..Picture::default() })
         };
         let pixels = drawn(fill(corners.clone()));
         assert!((0..64).all(|x| pixels.at(x, 18)[0] == 0 && pixels.at(x, 41)[0] == 0));
@@ -218,8 +153,6 @@ mod tests {
 
     #[test]
     fn later_shapes_lie_over_earlier_ones_of_every_kind() {
-        let test = "later_shapes_lie_over_earlier_ones_of_every_kind";
-        let Some(gpu) = gpu_or_skip(test) else { return };
         let [green, blue] = [[0, 255, 0, 255], [0, 0, 255, 255]];
         let points =
             [[10.0, 32.0], [50.0, 32.0]].map(|at| PathPoint { at, radius: 6.0, colour: green });
@@ -231,7 +164,7 @@ mod tests {
             [(vec![path.clone(), fill.clone()], blue), (vec![fill, path], green)]
         {
             let picture = Picture { shapes, ..Picture::default() };
-            assert_eq!(draw_picture(&gpu, [64, 64], 1.0, &picture).at(30, 32), expected);
+            assert_eq!(draw_picture([64, 64], 1.0, &picture).at(30, 32), expected);
         }
     }
 }

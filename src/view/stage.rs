@@ -1,14 +1,10 @@
 //! The stage: a picture's sea, then its shapes, at their place on the target.
 
-use std::ops::Range;
-
-use super::backdrop::{Backdrop, Covered};
-use super::gpu::Gpu;
-use super::screen_transform::{ScreenBindGroup, ScreenTransform};
-use super::sea::SeaPipeline;
-use super::shapes::ShapeRenderer;
-use super::textures::{PassStart, begin_pass};
-use crate::stage::{FAR, Picture, Rect};
+use super::backdrop::BackdropFinder;
+use super::drawing::{Backdrop, Drawing, Place, SeaRect};
+use super::screen_transform::ScreenTransform;
+use super::shapes::draw_shapes;
+use crate::stage::{FAR, Picture, Rect, Sea};
 
 /// A rectangle that clips nothing.
 const EVERYWHERE: Rect = Rect { min: [-FAR; 2], max: [FAR; 2] };
@@ -22,116 +18,59 @@ pub(super) struct Stage {
     pub(super) picture: Picture,
 }
 
-/// Draws everything of a picture but its text.
-#[derive(Debug)]
-pub(super) struct StageRenderer {
-    screen: ScreenBindGroup,
-    backdrop: Backdrop,
-    sea: SeaPipeline,
-    shapes: ShapeRenderer,
-    covered: Covered,
-    /// Draws of the shapes that the backdrop covers, and of the shapes over it.
-    draws: [Range<usize>; 2],
-    /// Left, top, width and height on the target.
-    scissor_px: [u32; 4],
+/// Adds everything of a picture but its text to a drawing without draws.
+pub(super) fn draw_stage(
+    drawing: &mut Drawing,
+    backdrops: &mut BackdropFinder,
+    Stage { rect, picture }: Stage,
+    scale: f32,
+) {
+    let size_px = drawing.size_px;
+    // On whole pixels, so that shapes on whole points stay sharp.
+    let low_px = (rect.min.to_vec2() * scale).round();
+    let high_px = (rect.max.to_vec2() * scale).round();
+    let [left, right] = [low_px.x, high_px.x].map(|x| x.clamp(0.0, size_px[0] as f32));
+    let [top, bottom] = [low_px.y, high_px.y].map(|y| y.clamp(0.0, size_px[1] as f32));
+    let transform = ScreenTransform {
+        size_px,
+        origin_px: low_px.into(),
+        px_per_point: scale,
+        edges_px: [left, top, right.max(left), bottom.max(top)],
+    };
+    drawing.transforms[Place::Stage as usize] = transform;
+    drawing.sea = picture.sea.and_then(|sea| sea_rect(sea, &transform));
+    let cover = backdrops.choose_cover(&transform, &picture);
+    let (below, above) = picture.shapes.split_at(cover.map_or(0, |cover| cover.shapes));
+    draw_shapes(drawing, below, &transform);
+    drawing.backdrop = cover.map(|cover| Backdrop { id: cover.id, draws: drawing.draws.len() });
+    draw_shapes(drawing, above, &transform);
+    backdrops.keep_picture(transform, picture);
 }
 
-impl StageRenderer {
-    pub(super) fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
-        let screen = ScreenBindGroup::new(gpu);
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("stage"),
-            bind_group_layouts: &[Some(&screen.layout)],
-            immediate_size: 0,
-        });
-        Self {
-            screen,
-            backdrop: Backdrop::new(format),
-            sea: SeaPipeline::new(gpu, &layout, format),
-            shapes: ShapeRenderer::new(gpu, &layout, format),
-            covered: Covered::Nothing,
-            draws: [0..0, 0..0],
-            scissor_px: [0; 4],
-        }
-    }
+fn sea_rect(sea: Sea, transform: &ScreenTransform) -> Option<SeaRect> {
+    let [[left, top], [right, bottom]] = [sea.rect.min, sea.rect.max].map(|at| transform.px(at));
+    let rect_px = [left, top, right, bottom].map(f32::round);
+    let scissor_px = transform.scissor_px(EVERYWHERE)?;
+    Some(SeaRect { scissor_px, rect_px, colours: sea.colours })
+}
 
-    /// Uploads the picture for [`Self::paint`], and copies the backdrop to the target if there is one. Returns the
-    /// initial contents of the pass.
-    pub(super) fn prepare(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::Texture,
-        Stage { rect, picture }: Stage,
-        scale: f32,
-    ) -> PassStart {
-        let size_px = [target.width(), target.height()];
-        // On whole pixels, so that shapes on whole points stay sharp.
-        let low_px = (rect.min.to_vec2() * scale).round();
-        let high_px = (rect.max.to_vec2() * scale).round();
-        let [left, right] = [low_px.x, high_px.x].map(|x| x.clamp(0.0, size_px[0] as f32));
-        let [top, bottom] = [low_px.y, high_px.y].map(|y| y.clamp(0.0, size_px[1] as f32));
-        let transform = ScreenTransform {
-            size_px,
-            origin_px: low_px.into(),
-            px_per_point: scale,
-            edges_px: [left, top, right.max(left), bottom.max(top)],
-        };
-        self.screen.write(gpu, &transform);
-        self.scissor_px = transform.scissor_px(EVERYWHERE);
-        self.covered = self.backdrop.choose_cover(gpu, target, &transform, &picture);
-        let (below, above) = picture.shapes.split_at(self.covered.shapes());
-        self.shapes.clear();
-        self.draws = match self.covered {
-            Covered::Drawn(_) => [0..0, self.shapes.add(above, &transform)],
-            Covered::Nothing | Covered::Drawing(_) => {
-                self.sea.upload(gpu, picture.sea.as_ref(), &transform);
-                [self.shapes.add(below, &transform), self.shapes.add(above, &transform)]
-            }
-        };
-        self.shapes.upload(gpu);
-        if let (Covered::Drawing(_), Some(view)) = (self.covered, self.backdrop.view()) {
-            // Submitted at once: later frames need the backdrop, even if the caller never submits this frame.
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let mut pass = begin_pass(&mut encoder, "backdrop", &view, PassStart::Black);
-            if self.begin(&mut pass) {
-                self.paint_below(&mut pass);
-            }
-            drop(pass);
-            gpu.queue.submit([encoder.finish()]);
-        }
-        self.backdrop.keep_picture(transform, picture);
-        if self.covered == Covered::Nothing {
-            return PassStart::Black;
-        }
-        self.backdrop.copy(encoder, target);
-        PassStart::Keep
-    }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::testing::draw_picture;
 
-    /// Draws the prepared picture, and nothing outside the stage.
-    pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        if !self.begin(pass) {
-            return;
+    #[test]
+    fn a_sea_fills_exactly_its_rectangle_and_is_lighter_above() {
+        let rect = Rect { min: [8.0, 8.0], max: [56.0, 56.0] };
+        let sea = Sea { rect, colours: [[40, 60, 90, 255], [10, 20, 30, 255]] };
+        let pixels = draw_picture([64, 64], 1.0, &Picture { sea: Some(sea), ..Picture::default() });
+        for (x, y) in [(7, 30), (56, 30), (30, 7), (30, 56)] {
+            assert_eq!(pixels.at(x, y)[..3], [0, 0, 0], "({x}, {y}) is outside");
         }
-        if self.covered == Covered::Nothing {
-            self.paint_below(pass);
-        }
-        self.shapes.paint(pass, self.draws[1].clone());
-    }
-
-    /// Confines all further drawing to the stage. Returns false if there is no room for one.
-    fn begin(&self, pass: &mut wgpu::RenderPass<'_>) -> bool {
-        let [left, top, width, height] = self.scissor_px;
-        if width == 0 || height == 0 {
-            return false;
-        }
-        pass.set_scissor_rect(left, top, width, height);
-        pass.set_bind_group(0, &self.screen.group, &[]);
-        true
-    }
-
-    fn paint_below(&self, pass: &mut wgpu::RenderPass<'_>) {
-        self.sea.paint(pass);
-        self.shapes.paint(pass, self.draws[0].clone());
+        assert_eq!(pixels.count_lit(), 48 * 48);
+        let [above, below] = [9, 54].map(|y| pixels.at(9, y)[2]);
+        assert!(above > below + 30, "{above} and {below}");
+        let [lit, shaded] = [[38, 18], [9, 18]].map(|[x, y]| pixels.at(x, y)[2]);
+        assert!(lit > shaded, "{lit} under the light, {shaded} away from it");
     }
 }

@@ -1,22 +1,12 @@
-//! Strokes: every line, dot, fill and curve of a plot, as triangles for one pipeline.
+//! Strokes: every line, dot, fill and curve of a plot, as triangles of one kind.
 //!
-//! A vertex has the width of its line there, and its place across and along the line, in pixels. From these a shader
-//! computes how much of a pixel is covered.
+//! A vertex has the width of its line there, and its place across and along the line, in pixels. From these an
+//! executor computes how much of a pixel is covered.
 
-use std::ops::Range;
-
-use bytemuck::{Pod, Zeroable};
 use egui::{Color32, Pos2, Vec2, vec2};
 
-use super::gpu::Gpu;
-use super::lines::Joint;
-use super::mesh_buffer::MeshBuffer;
-use super::screen_transform::pipeline;
-
-const SHADER: &str = concat!(
-    include_str!("../../shaders/screen_transform.wgsl"),
-    include_str!("../../shaders/strokes.wgsl")
-);
+use super::drawing::{Mesh, StrokeVertex};
+use super::lines::{Joint, length, unit};
 
 /// Minimum cosine of the turn at a mitred corner. At a sharper corner the tip would stick out.
 const MIN_MITRE_COSINE: f32 = 0.0;
@@ -26,29 +16,8 @@ const MARGIN_PX: f32 = 1.0;
 /// Distance between the dashes of a line that has only one, in pixels: longer than any line.
 const FAR_PX: f32 = 1e9;
 
-/// A vertex in `shaders/strokes.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-struct StrokeVertex {
-    /// In points.
-    at: [f32; 2],
-    /// Half the line's width here, and the distance from its middle.
-    across_px: [f32; 2],
-    /// Distance along the line from the middle of its first dash; distance from the middle of a dash to its round
-    /// end; and distance between dashes.
-    along_px: [f32; 3],
-    colour: Color32,
-}
-
-const ATTRIBUTES: [wgpu::VertexAttribute; 4] =
-    wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Float32x3, 3 => Unorm8x4];
-
 /// Lines and fills as triangles.
-#[derive(Clone, Debug, Default)]
-pub(super) struct StrokeMesh {
-    vertices: Vec<StrokeVertex>,
-    indices: Vec<u32>,
-}
+pub(super) type StrokeMesh = Mesh<StrokeVertex>;
 
 impl StrokeMesh {
     /// Adds a filled outline, with its edge blurred over a pixel. The whole outline must be visible from the mean of
@@ -75,7 +44,7 @@ impl StrokeMesh {
         add(middle, Color32::from_rgba_premultiplied(mean(0), mean(1), mean(2), mean(3)));
         for (i, &(at, colour)) in corners.iter().enumerate() {
             let [before, after] = [i + count - 1, i + 1].map(|place| corners[place % count].0);
-            let along = (after - before).normalized();
+            let along = unit(after - before);
             let normal = vec2(along.y, -along.x);
             let out = if normal.dot(at - middle) < 0.0 { -normal } else { normal };
             let half = out * (0.5 / px_per_point);
@@ -101,7 +70,7 @@ impl StrokeMesh {
         let is_dashed = gap > 0.0;
         let dash = match is_dashed {
             true => drawn,
-            false => line.windows(2).map(|ends| ends[0].at.distance(ends[1].at)).sum::<f32>(),
+            false => line.windows(2).map(|ends| length(ends[1].at - ends[0].at)).sum::<f32>(),
         };
         let mut done = -0.5 * dash;
         if !is_dashed && !is_closed {
@@ -134,15 +103,15 @@ impl StrokeMesh {
         if let [first, second, .., last, _] = line[..]
             && is_closed
         {
-            let [before, after] = [start.at - last.at, second.at - start.at].map(Vec2::normalized);
+            let [before, after] = [start.at - last.at, second.at - start.at].map(unit);
             shared = mitre(before, after).map(|normal| add(first, normal.rot90(), done));
         }
         for (index, ends) in line.windows(2).enumerate() {
-            let along = (ends[1].at - ends[0].at).normalized();
+            let along = unit(ends[1].at - ends[0].at);
             let from = shared.unwrap_or_else(|| add(ends[0], along.rot90(), done));
-            done += ends[0].at.distance(ends[1].at);
+            done += length(ends[1].at - ends[0].at);
             let next = line.get(index + 2).or(line.get(1).filter(|_| is_closed));
-            let next = next.map(|next| (next.at - ends[1].at).normalized());
+            let next = next.map(|next| unit(next.at - ends[1].at));
             let mitre = next.and_then(|next| mitre(along, next));
             let to = add(ends[1], mitre.unwrap_or(along).rot90(), done);
             shared = mitre.map(|_| to);
@@ -154,7 +123,7 @@ impl StrokeMesh {
 /// Extends the end of a line by a half disc and `margin`.
 fn round_end(line: &mut Vec<Joint>, margin: f32) {
     let [.., before, end] = line[..] else { return };
-    let along = (end.at - before.at).normalized();
+    let along = unit(end.at - before.at);
     // A dot may end in any direction.
     let out = if along == Vec2::ZERO { Vec2::X } else { along };
     let tip = Joint { at: end.at + out * (end.radius + margin), ..end };
@@ -170,54 +139,12 @@ fn mitre(before: Vec2, after: Vec2) -> Option<Vec2> {
     (turn > MIN_MITRE_COSINE).then(|| (before + after) / (1.0 + turn))
 }
 
-/// Draws strokes on targets of one format.
-#[derive(Debug)]
-pub(super) struct StrokePipeline {
-    pipeline: wgpu::RenderPipeline,
-    triangles: MeshBuffer<StrokeVertex>,
-}
-
-impl StrokePipeline {
-    /// Creates a pipeline that draws at the place in the bind group of `layout`.
-    pub(super) fn new(
-        gpu: &Gpu,
-        layout: &wgpu::PipelineLayout,
-        format: wgpu::TextureFormat,
-    ) -> Self {
-        let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-        let names = ["strokes", SHADER, "stroke"];
-        let pipeline = pipeline::<StrokeVertex>(gpu, layout, format, names, &ATTRIBUTES, blend);
-        Self { pipeline, triangles: MeshBuffer::new(gpu, "strokes") }
-    }
-
-    /// Removes all strokes.
-    pub(super) fn clear(&mut self) {
-        self.triangles.clear();
-    }
-
-    /// Adds strokes. Returns the range of their indices.
-    pub(super) fn add(&mut self, mesh: &StrokeMesh) -> Range<u32> {
-        self.triangles.add(&mesh.vertices, &mesh.indices)
-    }
-
-    /// Uploads all added strokes.
-    pub(super) fn upload(&mut self, gpu: &Gpu) {
-        self.triangles.upload(gpu);
-    }
-
-    /// Draws a range of the strokes.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, indices: Range<u32>) {
-        pass.set_pipeline(&self.pipeline);
-        self.triangles.draw(pass, indices);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::look::palette::Rgba;
     use crate::stage::{Path, PathPoint, Picture, Rect, Shape};
-    use crate::view::testing::{EVERYWHERE, Pixels, draw_picture, gpu_or_skip};
+    use crate::view::testing::{EVERYWHERE, Pixels, draw_picture};
 
     const SOLID: [f32; 2] = [1.0, 0.0];
 
@@ -240,9 +167,9 @@ mod tests {
         path(&[(at, radius); 2], colour)
     }
 
-    fn draw(gpu: &Gpu, scale: f32, paths: impl IntoIterator<Item = Path>) -> Pixels {
+    fn draw(scale: f32, paths: impl IntoIterator<Item = Path>) -> Pixels {
         let shapes = paths.into_iter().map(Shape::Path).collect();
-        draw_picture(gpu, [64, 64], scale, &Picture { shapes, ..Picture::default() })
+        draw_picture([64, 64], scale, &Picture { shapes, ..Picture::default() })
     }
 
     #[test]
@@ -279,8 +206,7 @@ mod tests {
 
     #[test]
     fn a_path_of_zero_length_is_a_disc() {
-        let Some(gpu) = gpu_or_skip("a_path_of_zero_length_is_a_disc") else { return };
-        let pixels = draw(&gpu, 1.0, [dot([32.0; 2], 10.0, [255; 4])]);
+        let pixels = draw(1.0, [dot([32.0; 2], 10.0, [255; 4])]);
         let area = std::f32::consts::PI * 100.0;
         assert!((pixels.sum(0) - area).abs() < 0.01 * area, "{} of {area}", pixels.sum(0));
         for (x, y) in [(23, 31), (40, 32), (31, 23), (32, 40)] {
@@ -293,11 +219,7 @@ mod tests {
 
     #[test]
     fn a_path_ends_in_half_a_disc_of_its_width_there() {
-        let Some(gpu) = gpu_or_skip("a_path_ends_in_half_a_disc_of_its_width_there") else {
-            return;
-        };
-        let pixels =
-            draw(&gpu, 1.0, [path(&[([16.0, 32.0], 12.0), ([52.0, 32.0], 2.0)], [255; 4])]);
+        let pixels = draw(1.0, [path(&[([16.0, 32.0], 12.0), ([52.0, 32.0], 2.0)], [255; 4])]);
         let width = |x| (0..64).filter(|&y| pixels.at(x, y)[0] > 127).count();
         assert!((23..=25).contains(&width(15)), "{}", width(15));
         assert!((3..=5).contains(&width(52)), "{}", width(52));
@@ -308,11 +230,8 @@ mod tests {
 
     #[test]
     fn dashes_are_round_and_of_the_right_length() {
-        let Some(gpu) = gpu_or_skip("dashes_are_round_and_of_the_right_length") else {
-            return;
-        };
         let solid = path(&[([0.0, 32.0], 4.0), ([64.0, 32.0], 4.0)], [255; 4]);
-        let pixels = draw(&gpu, 1.0, [Path { dash: [20.0, 12.0], ..solid }]);
+        let pixels = draw(1.0, [Path { dash: [20.0, 12.0], ..solid }]);
         let row = |y| (0..64).filter(|&x| pixels.at(x, y)[0] > 127).count();
         assert_eq!([31, 32].map(row), [40; 2]);
         assert!((30..=34).contains(&row(28)), "{}", row(28));
@@ -321,21 +240,18 @@ mod tests {
 
     #[test]
     fn a_closed_translucent_path_covers_each_pixel_once() {
-        let test = "a_closed_translucent_path_covers_each_pixel_once";
-        let Some(gpu) = gpu_or_skip(test) else { return };
         let corners =
             [[32.0, 8.0], [56.0, 24.0], [48.0, 52.0], [16.0, 52.0], [8.0, 24.0], [32.0, 8.0]];
         let ring = path(&corners.map(|at| (at, 4.0)), [255, 255, 255, 128]);
-        let pixels = draw(&gpu, 1.0, [ring]);
+        let pixels = draw(1.0, [ring]);
         assert_eq!(pixels.rows.chunks_exact(4).map(|pixel| pixel[0]).max(), Some(128));
     }
 
     #[test]
     fn later_strokes_lie_over_earlier_ones() {
-        let Some(gpu) = gpu_or_skip("later_strokes_lie_over_earlier_ones") else { return };
         let (red, green) = ([255, 0, 0, 255], [0, 255, 0, 128]);
         let drawn = |colours: [Rgba; 2]| {
-            draw(&gpu, 1.0, colours.map(|colour| dot([32.0; 2], 6.0, colour))).at(32, 32)
+            draw(1.0, colours.map(|colour| dot([32.0; 2], 6.0, colour))).at(32, 32)
         };
         assert_eq!(drawn([green, red]), red);
         let [r, g, b, a] = drawn([red, green]);
@@ -345,20 +261,16 @@ mod tests {
 
     #[test]
     fn the_scale_sets_the_pixels_per_point() {
-        let test = "the_scale_sets_the_pixels_per_point";
-        let Some(gpu) = gpu_or_skip(test) else { return };
         let across = path(&[([-9.0, 8.0], 2.0), ([80.0, 8.0], 2.0)], [255; 4]);
         let clip = Rect { min: [4.0, 0.0], max: [12.0, 64.0] };
-        let lit = |scale: f32| draw(&gpu, scale, [Path { clip, ..across.clone() }]).count_lit();
+        let lit = |scale: f32| draw(scale, [Path { clip, ..across.clone() }]).count_lit();
         assert_eq!((lit(1.0), lit(3.0)), (8 * 4, 9 * 8 * 4));
     }
 
     #[test]
     fn more_strokes_than_fit_the_first_buffer_are_all_drawn() {
-        let test = "more_strokes_than_fit_the_first_buffer_are_all_drawn";
-        let Some(gpu) = gpu_or_skip(test) else { return };
         let pixel = |x: u8, y: u8| dot([x, y].map(|side| f32::from(side) + 0.5), 0.5, [255; 4]);
         let pixels = (0..64).flat_map(|y| (0..64).map(move |x| pixel(x, y)));
-        assert_eq!(draw(&gpu, 1.0, pixels).count_lit(), 64 * 64);
+        assert_eq!(draw(1.0, pixels).count_lit(), 64 * 64);
     }
 }

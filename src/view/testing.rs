@@ -1,21 +1,22 @@
-//! Shared test code: a device and the pixels drawn with it, and frames of panels without a device.
+//! Shared test code: drawn pixels, frames of panels, and a graphics device.
 
 use std::io::{self, Write};
+use std::num::NonZero;
 
 use egui::epaint::TextShape;
 use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2};
 
 use super::panels::RING;
 use super::stage::Stage;
-use super::{AdapterPreference, Gpu, Offscreen, Readback, panels, theme};
+use super::{CpuExecutor, Drawing, Gpu, GpuExecutor, Offscreen, Readback, Textures, panels, theme};
 use crate::stage::{Picture, Rect};
 use crate::studio::{Command, Studio};
-use crate::view::stage::StageRenderer;
-use crate::view::textures::begin_pass;
+use crate::view::backdrop::BackdropFinder;
+use crate::view::stage::draw_stage;
 
-/// A software device. Without one, writes the name of the skipped test and the reason to stderr.
+/// A graphics device. Without one, writes the name of the skipped test and the reason to stderr.
 pub(super) fn gpu_or_skip(test: &str) -> Option<Gpu> {
-    pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
+    pollster::block_on(Gpu::headless())
         // Not `eprintln!`, which the test runner hides when a test passes.
         .inspect_err(|error| drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")))
         .ok()
@@ -45,34 +46,49 @@ impl Pixels {
 }
 
 /// Draws a picture alone on black, with a stage that fills the target at `scale` pixels per point.
-pub(super) fn draw_picture(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
-    draw_next(gpu, &mut StageRenderer::new(gpu, Offscreen::FORMAT), size_px, scale, picture)
+pub(super) fn draw_picture(size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
+    Painter::new().paint(&stage_alone(&mut BackdropFinder::default(), size_px, scale, picture))
 }
 
-/// The same with a renderer that has drawn other pictures before.
-pub(super) fn draw_next(
-    gpu: &Gpu,
-    renderer: &mut StageRenderer,
+/// Paints the drawings of one renderer.
+pub(super) struct Painter {
+    pub(super) executor: CpuExecutor,
+    pub(super) textures: Textures,
+}
+
+impl Painter {
+    pub(super) fn new() -> Self {
+        let executor = CpuExecutor::new(NonZero::<usize>::MIN);
+        Self { executor, textures: Textures::default() }
+    }
+
+    pub(super) fn paint(&mut self, drawing: &Drawing) -> Pixels {
+        let mut rows = Vec::new();
+        self.executor.execute(drawing, &self.textures.update(drawing), &mut rows);
+        Pixels { size_px: drawing.size_px, rows }
+    }
+}
+
+/// The drawing of a picture alone, with a stage that fills the target at `scale` pixels per point.
+pub(super) fn stage_alone(
+    backdrops: &mut BackdropFinder,
     size_px: [u32; 2],
     scale: f32,
     picture: &Picture,
-) -> Pixels {
-    let target = Offscreen::new(gpu, size_px).expect("tests ask for small targets");
-    let rect = egui::Rect::from_min_size(
-        Pos2::ZERO,
-        egui::vec2(size_px[0] as f32, size_px[1] as f32) / scale,
-    );
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let stage = Stage { rect, picture: picture.clone() };
-    let start = renderer.prepare(gpu, &mut encoder, &target.texture, stage, scale);
-    renderer.paint(&mut begin_pass(&mut encoder, "picture", &target.view, start));
-    read(gpu, Some(encoder.finish()), &target)
+) -> Drawing {
+    let size = egui::vec2(size_px[0] as f32, size_px[1] as f32) / scale;
+    let rect = egui::Rect::from_min_size(Pos2::ZERO, size);
+    let mut drawing = Drawing { size_px, ..Drawing::default() };
+    draw_stage(&mut drawing, backdrops, Stage { rect, picture: picture.clone() }, scale);
+    drawing
 }
 
-/// Pixels of the target after `drawing`.
-pub(super) fn read(gpu: &Gpu, drawing: Option<wgpu::CommandBuffer>, target: &Offscreen) -> Pixels {
+/// The pixels of a drawing from a device.
+pub(super) fn paint_on(gpu: &Gpu, executor: &mut GpuExecutor, drawing: &Drawing) -> Pixels {
+    let target = Offscreen::new(gpu, drawing.size_px).expect("tests ask for small targets");
+    let commands = executor.encode(gpu, drawing, &target.view);
     let mut rows = Vec::new();
-    let read = Readback::default().read(gpu, drawing, &target.texture, &mut rows);
+    let read = Readback::default().read(gpu, commands, &target.texture, &mut rows);
     read.expect("a fresh target can be read");
     Pixels { size_px: target.size_px, rows }
 }

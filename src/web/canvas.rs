@@ -1,12 +1,13 @@
 //! The canvas of the page, and the renderer that draws on it.
 
 use regatta::studio::{Command, Studio};
-use regatta::view::{FrameOutput, FrameRenderer, Gpu, Screen, egui, wgpu};
+use regatta::view::{FrameOutput, FrameRenderer, Gpu, GpuExecutor, Screen, egui, wgpu};
 use web_sys::HtmlCanvasElement;
 
 pub(crate) struct Canvas {
     pub(crate) element: HtmlCanvasElement,
     pub(crate) renderer: FrameRenderer,
+    executor: GpuExecutor,
     screen: Screen,
     gpu: Gpu,
     size_px: [u32; 2],
@@ -23,8 +24,9 @@ impl Canvas {
         };
         let screen = Screen::of_canvas(target(element.clone())).map_err(|e| refused(&e))?;
         let gpu = screen.gpu().await.map_err(|e| refused(&e))?;
-        let renderer = FrameRenderer::new(&gpu, screen.format(&gpu));
-        Ok(Self { element, renderer, screen, gpu, size_px: [0, 0] })
+        let renderer = FrameRenderer::new(gpu.max_texture_side_px);
+        let executor = GpuExecutor::new(&gpu, screen.format(&gpu));
+        Ok(Self { element, renderer, executor, screen, gpu, size_px: [0, 0] })
     }
 
     /// Draws a frame and shows it, with `scale` pixels per point of the page. Returns the commands from the panels, or
@@ -56,9 +58,8 @@ impl Canvas {
         };
         let size_px = [texture.texture.width(), texture.texture.height()];
         let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let (commands, mut output) =
-            self.renderer.draw(&self.gpu, &view, size_px, scale as f32, input, studio);
-        self.gpu.queue.submit(output.drawing.take());
+        let (commands, output) = self.renderer.draw(size_px, scale as f32, input, studio);
+        self.gpu.queue.submit(self.executor.encode(&self.gpu, &output.drawing, &view));
         self.gpu.queue.present(texture);
         Some((commands, output))
     }

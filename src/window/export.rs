@@ -6,9 +6,7 @@ use std::path::PathBuf;
 use super::App;
 use crate::atomic_file::{IfExists, write_file};
 use crate::studio::{DriverRequest, Studio, instrument_file_name, picture_file_name};
-use crate::view::{
-    Gpu, OffscreenRenderer, Panels, clipboard_text, instrument_csv, instrument_svg, png,
-};
+use crate::view::{OffscreenRenderer, Panels, clipboard_text, instrument_csv, instrument_svg, png};
 
 /// Size of the picture in pixels, and its pixels per point.
 const SIZE_PX: [u32; 2] = [1920, 1200];
@@ -28,17 +26,15 @@ impl App {
 
     /// Saves the instrument in up to three files with new names.
     pub(super) fn export_instrument(&mut self) {
-        if let Some(canvas) = &self.canvas {
-            let notice = save(&canvas.gpu, &self.frames.studio);
-            self.frames.studio.viewer.set_notice(notice);
-        }
+        let notice = save(&self.frames.studio);
+        self.frames.studio.viewer.set_notice(notice);
         self.stand_still();
     }
 }
 
 /// Saves the files. Returns a notice with their names or the error.
-fn save(gpu: &Gpu, studio: &Studio) -> String {
-    match try_save(gpu, studio) {
+fn save(studio: &Studio) -> String {
+    match try_save(studio) {
         Ok(paths) => {
             let names: Vec<_> = paths.iter().map(|path| path.display().to_string()).collect();
             format!("saved {}", names.join(", "))
@@ -48,10 +44,10 @@ fn save(gpu: &Gpu, studio: &Studio) -> String {
 }
 
 /// Saves a picture and a table, and a drawing if the instrument's plots can be drawn.
-fn try_save(gpu: &Gpu, studio: &Studio) -> Result<Vec<PathBuf>, String> {
+fn try_save(studio: &Studio) -> Result<Vec<PathBuf>, String> {
     let csv = instrument_csv(studio).ok_or("this instrument has no plots")?;
     let mut rgba = Vec::new();
-    OffscreenRenderer::new(gpu.clone(), SIZE_PX, SCALE)
+    OffscreenRenderer::new(SIZE_PX, SCALE)
         .map_err(|error| error.to_string())?
         .with_panels(Panels::Instrument)
         .draw(studio, &mut rgba)
@@ -71,22 +67,16 @@ fn write(name: &str, bytes: &[u8]) -> Result<PathBuf, String> {
 }
 
 /// Saves a picture of the studio in the window's size under a new name. Returns a notice with the name or the error.
-pub(super) fn save_screenshot(gpu: &Gpu, size_px: [u32; 2], scale: f32, studio: &Studio) -> String {
-    match screenshot(gpu, size_px, scale, studio) {
+pub(super) fn save_screenshot(size_px: [u32; 2], scale: f32, studio: &Studio) -> String {
+    match screenshot(size_px, scale, studio) {
         Ok(path) => format!("saved {}", path.display()),
         Err(reason) => format!("no screenshot: {reason}"),
     }
 }
 
-fn screenshot(
-    gpu: &Gpu,
-    size_px: [u32; 2],
-    scale: f32,
-    studio: &Studio,
-) -> Result<PathBuf, String> {
+fn screenshot(size_px: [u32; 2], scale: f32, studio: &Studio) -> Result<PathBuf, String> {
     let mut rgba = Vec::new();
-    // Draw to a separate texture, because a surface may not be readable.
-    OffscreenRenderer::new(gpu.clone(), size_px, scale)
+    OffscreenRenderer::new(size_px, scale)
         .map_err(|error| error.to_string())?
         .draw(studio, &mut rgba)
         .map_err(|error| error.to_string())?;

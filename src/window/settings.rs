@@ -6,6 +6,7 @@ use winit::window::{Window, WindowAttributes};
 
 use crate::look::palette::Theme;
 use crate::studio::Studio;
+use crate::view::RendererChoice;
 
 /// Settings of a window: how it opens, and when it closes by itself.
 #[derive(Clone, Copy, Debug, Default)]
@@ -16,6 +17,8 @@ pub struct WindowSettings {
     pub tick: Option<u64>,
     /// Initial size in points; `None` for the default.
     pub size: Option<[u32; 2]>,
+    /// What draws its frames.
+    pub renderer: RendererChoice,
     /// Registers a callback for Ctrl-C in the terminal and the system's requests to close the window. Without one,
     /// such a request ends the window at once.
     pub on_interrupt: Option<OnInterrupt>,

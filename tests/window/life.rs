@@ -13,12 +13,14 @@ use crate::desk::{Desk, Display, skip, until};
 use crate::widgets::paused_with;
 
 #[test]
-fn a_window_opens_under_vulkan_and_under_gl() {
-    let test = "a_window_opens_under_vulkan_and_under_gl";
-    for backend in ["vulkan", "gl"] {
+fn a_window_opens_under_vulkan_under_gl_and_by_the_processor() {
+    let test = "a_window_opens_under_vulkan_under_gl_and_by_the_processor";
+    // The last has no adapter.
+    for (backend, renderer) in [("vulkan", "gpu"), ("gl", "gpu"), ("metal", "auto")] {
         let test = format!("{test} ({backend})");
         let variables = [("WGPU_BACKEND", backend)];
-        let Some(desk) = Desk::open_with(&test, "", &variables) else { continue };
+        let arguments = format!("--renderer {renderer}");
+        let Some(desk) = Desk::open_with(&test, &arguments, &variables) else { continue };
         desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
         desk.press("1");
         desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
@@ -70,11 +72,11 @@ fn a_signal_ends_the_program_while_nothing_reads_its_recording() {
 }
 
 #[test]
-fn without_an_adapter_the_program_ends_quickly_with_a_message() {
-    let test = "without_an_adapter_the_program_ends_quickly_with_a_message";
+fn without_the_requested_adapter_the_program_ends_quickly_with_a_message() {
+    let test = "without_the_requested_adapter_the_program_ends_quickly_with_a_message";
     let Some(display) = Display::open(test) else { return };
     let start = Instant::now();
-    let mut program = display.start("", &[("WGPU_BACKEND", "metal")]);
+    let mut program = display.start("--renderer gpu", &[("WGPU_BACKEND", "metal")]);
     let status = until("the end", || program.ended());
     let took = start.elapsed();
     let said = program.said();

@@ -1,10 +1,12 @@
 //! A copy of the window's panels that knows the position of each widget and the commands of the mouse on it.
 
+use std::num::NonZero;
+
 use egui::accesskit::{Action, Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect};
 use image::RgbaImage;
 use regatta::studio::{Command, Pace, Studio, run_loops};
-use regatta::view::{AdapterPreference, FrameOutput, FrameRenderer, Gpu, Offscreen, Readback};
+use regatta::view::{CpuExecutor, FrameRenderer, Textures};
 
 use crate::desk::Desk;
 
@@ -16,9 +18,9 @@ const ASIDE: Pos2 = Pos2::new(40.0, 300.0);
 /// A studio and its panels with the window's inputs.
 pub(crate) struct Twin {
     pub(crate) studio: Studio,
-    gpu: Gpu,
-    target: Offscreen,
     renderer: FrameRenderer,
+    executor: CpuExecutor,
+    textures: Textures,
     /// The accessible widgets of the last frame.
     nodes: Vec<Node>,
 }
@@ -27,32 +29,31 @@ impl Twin {
     pub(crate) fn new(mut studio: Studio) -> Self {
         // As in a window, which shows the memory for rewinding.
         studio.viewer.pace = Some(Pace::Unknown);
-        let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
-            .expect("the window has an adapter too");
-        let target = Offscreen::new(&gpu, SIZE_PX).unwrap();
-        let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+        let renderer = FrameRenderer::new(4096);
+        let executor = CpuExecutor::new(NonZero::<usize>::MIN);
         renderer.context().enable_accesskit();
-        Self { studio, gpu, target, renderer, nodes: Vec::new() }
+        Self { studio, renderer, executor, textures: Textures::default(), nodes: Vec::new() }
     }
 
     /// Shows a frame with this event, and applies its commands.
-    fn frame(&mut self, event: Option<Event>) -> FrameOutput {
+    fn frame(&mut self, event: Option<Event>) -> Vec<u8> {
         let events = event.into_iter().collect();
         let input = RawInput { events, focused: true, ..RawInput::default() };
-        let Self { studio, gpu, target, renderer, .. } = self;
-        let (commands, mut output) = renderer.draw(gpu, &target.view, SIZE_PX, 1.0, input, studio);
+        let Self { studio, renderer, executor, textures, .. } = self;
+        let (commands, mut output) = renderer.draw(SIZE_PX, 1.0, input, studio);
+        let mut rgba = Vec::new();
+        executor.execute(&output.drawing, &textures.update(&output.drawing), &mut rgba);
         let update = output.platform.accesskit_update.take().expect("it is enabled");
         self.nodes = update.nodes.into_iter().map(|(_, node)| node).collect();
         for command in commands {
             self.studio.apply(command);
         }
-        output
+        rgba
     }
 
     fn show(&mut self, events: impl IntoIterator<Item = Event>) {
         for event in events {
             drop(self.frame(Some(event)));
-            self.gpu.queue.submit([]);
         }
     }
 
@@ -184,9 +185,7 @@ impl Twin {
         self.move_aside(desk);
         self.studio.viewer.pass_time(i64::MAX);
         self.settle();
-        let drawing = self.frame(None).drawing;
-        let mut rgba = Vec::new();
-        Readback::default().read(&self.gpu, drawing, &self.target.texture, &mut rgba).unwrap();
+        let rgba = self.frame(None);
         let picture = RgbaImage::from_raw(SIZE_PX[0], SIZE_PX[1], rgba).unwrap();
         desk.shows(&picture, 1);
     }

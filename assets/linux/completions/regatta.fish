@@ -1,6 +1,6 @@
 # Print an optspec for argparse to handle cmd's options that are independent of any subcommand.
 function __fish_regatta_global_optspecs
-    string join \n scene= k= c= frequency= damping-ratio= mass= method= tick-hz= step= race loop= seconds= record= force theme= reduced-motion h/help V/version
+    string join \n scene= k= c= frequency= damping-ratio= mass= method= tick-hz= step= race loop= seconds= record= force theme= renderer= reduced-motion h/help V/version
 end
 
 function __fish_regatta_needs_command
@@ -113,6 +113,9 @@ complete -c regatta -n "__fish_regatta_needs_command" -l seconds -d 'Close after
 complete -c regatta -n "__fish_regatta_needs_command" -l record -d 'Write the run to FILE as a scene' -r -F
 complete -c regatta -n "__fish_regatta_needs_command" -l theme -d 'The theme: dark or light' -r -f -a "dark\t''
 light\t''"
+complete -c regatta -n "__fish_regatta_needs_command" -l renderer -d 'What draws: auto, gpu or cpu [default: auto]' -r -f -a "auto\t''
+gpu\t''
+cpu\t''"
 complete -c regatta -n "__fish_regatta_needs_command" -l race -d 'Race all methods of the scene at once'
 complete -c regatta -n "__fish_regatta_needs_command" -l force -d 'Replace the --record FILE if it exists'
 complete -c regatta -n "__fish_regatta_needs_command" -l reduced-motion -d 'Trails do not fade, and the camera zooms out in steps'
@@ -226,6 +229,9 @@ complete -c regatta -n "__fish_regatta_using_subcommand play" -l seconds -d 'Clo
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l record -d 'Write the run to FILE as a scene' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l theme -d 'The theme: dark or light' -r -f -a "dark\t''
 light\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l renderer -d 'What draws: auto, gpu or cpu [default: auto]' -r -f -a "auto\t''
+gpu\t''
+cpu\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l race -d 'Race all methods of the scene at once'
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l force -d 'Replace the --record FILE if it exists'
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l reduced-motion -d 'Trails do not fade, and the camera zooms out in steps'
@@ -338,6 +344,9 @@ cost\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l shape -d 'The shape of the starts of the instrument cloud' -r -f -a "cat\t''
 disc\t''
 ring\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l renderer -d 'What draws: auto, gpu or cpu [default: cpu]' -r -f -a "auto\t''
+gpu\t''
+cpu\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l mark-every -d 'Ticks between two states in the manifest' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l format -d 'The format: png, gif, y4m or sheet' -r -f -a "png\t'Numbered pictures and a manifest in a directory'
 gif\t'One GIF, each frame with its own palette'
@@ -351,7 +360,7 @@ complete -c regatta -n "__fish_regatta_using_subcommand verify" -l report -d 'Al
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l diff -d 'Draw the difference of each changed frame into DIR' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l max-channel -d 'The largest allowed difference of a channel, 0 to 255' -r
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l max-pixels -d 'The largest allowed percentage of pixels off by more than 1' -r
-complete -c regatta -n "__fish_regatta_using_subcommand verify" -l physics-only -d 'Judge only the physics; needs no graphics'
+complete -c regatta -n "__fish_regatta_using_subcommand verify" -l physics-only -d 'Judge only the physics'
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l bless -d 'Accept the present results'
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''

@@ -19,8 +19,9 @@ use crate::regular_file;
 use crate::studio::Studio;
 use crate::view::png;
 
-/// Limits on the difference if another driver draws the frames. They are a little above the differences seen so far.
-const OTHER_DRIVER: (u8, f64) = (2, 0.01);
+/// Limits for frames of a graphics device, or with letters by other instructions. They are a little above the
+/// differences seen so far.
+const OTHER_ADAPTER: (u8, f64) = (2, 0.01);
 
 /// Maximum number of bytes per pixel in a picture file, which has up to four channels of 16 bits.
 const BYTES_PER_PIXEL: usize = 8;
@@ -38,10 +39,9 @@ pub(super) struct Limits {
 }
 
 impl Limits {
-    /// Returns the limits that the options set, or else those of the driver. The driver that drew the frames must draw
-    /// the same frames again.
-    pub(super) fn of(same_driver: bool, max_channel: Option<u8>, max_pixels: Option<f64>) -> Self {
-        let (channel, pixels) = if same_driver { (0, 0.0) } else { OTHER_DRIVER };
+    /// Limits of the options, or else of the adapter. The adapter that drew the frames may not differ at all.
+    pub(super) fn of(same_adapter: bool, max_channel: Option<u8>, max_pixels: Option<f64>) -> Self {
+        let (channel, pixels) = if same_adapter { (0, 0.0) } else { OTHER_ADAPTER };
         Self {
             max_channel: max_channel.unwrap_or(channel),
             max_pixels_percent: max_pixels.unwrap_or(pixels),
@@ -113,7 +113,7 @@ pub(super) fn judge(
     Ok((Frames { are_exact, differences }, (studio, state_log)))
 }
 
-/// Returns the limits for these options and adapters. If the driver is not the one that drew the frames, reports it.
+/// The limits for these options and adapters. Reports an adapter other than the one that drew the frames.
 fn limits(args: &VerifyArgs, was: &Adapter, is: &Adapter) -> Limits {
     let limits = Limits::of(was == is, args.max_channel, args.max_pixels);
     if was != is {

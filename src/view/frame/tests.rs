@@ -3,9 +3,11 @@ use crate::scene::Scene;
 use crate::stage::{Fill, Picture, Shape};
 use crate::studio::StageCommand;
 use crate::view::chart::{self, LineStyle, Primitive, ScreenCurve};
-use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
-use crate::view::textures::texture;
-use crate::view::{AdapterPreference, Offscreen};
+use crate::view::testing::{EVERYWHERE, Painter, Pixels, gpu_or_skip, paint_on};
+use crate::view::{Gpu, GpuExecutor, Offscreen};
+
+/// Longest side of a texture.
+const SIDE_PX: u32 = 4096;
 
 fn red_everywhere() -> Picture {
     let corners = [[-1e3, -1e3], [1e3, -1e3], [1e3, 1e3], [-1e3, 1e3]];
@@ -21,20 +23,18 @@ fn show(ui: &mut egui::Ui, picture: &Picture) -> Option<Stage> {
     Some(Stage { rect: ui.available_rect_before_wrap(), picture: picture.clone() })
 }
 
-fn draw(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
-    let target = Offscreen::new(gpu, size_px).unwrap();
-    let mut renderer = FrameRenderer::new(gpu, Offscreen::FORMAT);
+fn draw(size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
+    let mut renderer = FrameRenderer::new(SIDE_PX);
     let input = egui::RawInput::default();
-    let layout = renderer.lay_out_with(gpu, size_px, scale, input, |ui| show(ui, picture));
-    let output = renderer.paint(gpu, &target.view, size_px, layout);
-    read(gpu, output.drawing, &target)
+    let layout = renderer.lay_out_with(size_px, scale, input, |ui| show(ui, picture));
+    let output = renderer.paint(size_px, layout);
+    Painter::new().paint(&output.drawing)
 }
 
 #[test]
 fn the_stage_fills_the_room_beside_the_panels() {
-    let Some(gpu) = gpu_or_skip("the_stage_fills_the_room_beside_the_panels") else { return };
     for scale in [1.0, 2.0] {
-        let pixels = draw(&gpu, [200, 100], scale, &red_everywhere());
+        let pixels = draw([200, 100], scale, &red_everywhere());
         let edge = (40.0 * scale) as u32;
         assert_eq!(pixels.at(edge / 2, 50), [0, 255, 0, 255]);
         assert_eq!(pixels.at(edge + 2, 50), [255, 0, 0, 255]);
@@ -44,16 +44,14 @@ fn the_stage_fills_the_room_beside_the_panels() {
 
 #[test]
 fn a_frame_of_one_pixel_is_drawn() {
-    let Some(gpu) = gpu_or_skip("a_frame_of_one_pixel_is_drawn") else { return };
     for scale in [0.5, 1.0, 3.0] {
-        let pixels = draw(&gpu, [1, 1], scale, &red_everywhere());
+        let pixels = draw([1, 1], scale, &red_everywhere());
         assert_eq!(pixels.at(0, 0)[3], 255);
     }
 }
 
 #[test]
 fn labels_are_written_on_the_stage() {
-    let Some(gpu) = gpu_or_skip("labels_are_written_on_the_stage") else { return };
     let label = |align| Label {
         at: [80.0, 50.0],
         align,
@@ -65,7 +63,7 @@ fn labels_are_written_on_the_stage() {
     };
     let lit = |align| {
         let picture = Picture { labels: vec![label(align)], ..Picture::default() };
-        let pixels = draw(&gpu, [200, 100], 1.0, &picture);
+        let pixels = draw([200, 100], 1.0, &picture);
         let bright = |x: u32| (0..100).any(|y| pixels.at(x, y)[0] > 200);
         let left = (40..120).filter(|&x| bright(x)).count();
         let right = (120..200).filter(|&x| bright(x)).count();
@@ -78,13 +76,10 @@ fn labels_are_written_on_the_stage() {
 
 #[test]
 fn a_curve_is_drawn_dashed_and_clipped() {
-    let test = "a_curve_is_drawn_dashed_and_clipped";
-    let Some(gpu) = gpu_or_skip(test) else { return };
-    let target = Offscreen::new(&gpu, [128, 64]).unwrap();
-    let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+    let mut renderer = FrameRenderer::new(SIDE_PX);
     let style = |dash| LineStyle { dash, ..LineStyle::solid(egui::Color32::RED, 4.0) };
     let input = egui::RawInput::default();
-    let layout = renderer.lay_out_with(&gpu, [128, 64], 1.0, input, |ui| {
+    let layout = renderer.lay_out_with([128, 64], 1.0, input, |ui| {
         let clip = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(100.0, 64.0));
         let painter = ui.painter().with_clip_rect(clip);
         for (y, dash) in [(20.0, [8.0, 6.0]), (40.0, [8.0, 0.0])] {
@@ -94,8 +89,8 @@ fn a_curve_is_drawn_dashed_and_clipped() {
         }
         None
     });
-    let output = renderer.paint(&gpu, &target.view, [128, 64], layout);
-    let pixels = read(&gpu, output.drawing, &target);
+    let drawing = renderer.paint([128, 64], layout).drawing;
+    let pixels = Painter::new().paint(&drawing);
     for x in 10..128 {
         let [dashed, solid] = [20, 40].map(|y| pixels.at(x, y)[0]);
         assert_eq!(solid > 250, x < 100, "{x}");
@@ -111,8 +106,7 @@ fn a_curve_is_drawn_dashed_and_clipped() {
 
 #[test]
 fn the_same_input_makes_the_same_frame() {
-    let Some(gpu) = gpu_or_skip("the_same_input_makes_the_same_frame") else { return };
-    let frame = || draw(&gpu, [120, 90], 1.5, &red_everywhere()).rows;
+    let frame = || draw([120, 90], 1.5, &red_everywhere()).rows;
     assert_eq!(frame(), frame());
 }
 
@@ -120,31 +114,31 @@ fn the_same_input_makes_the_same_frame() {
 fn a_lost_device_does_not_panic_and_a_new_one_draws() {
     let test = "a_lost_device_does_not_panic_and_a_new_one_draws";
     let Some(gpu) = gpu_or_skip(test) else { return };
+    let drawing = || {
+        let mut renderer = FrameRenderer::new(SIDE_PX);
+        let input = egui::RawInput::default();
+        let layout = renderer.lay_out_with([64, 64], 1.0, input, |ui| show(ui, &red_everywhere()));
+        renderer.paint([64, 64], layout).drawing
+    };
     let target = Offscreen::new(&gpu, [64, 64]).unwrap();
-    let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+    let mut executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
     gpu.device.destroy();
-    let picture = red_everywhere();
-    let input = egui::RawInput::default();
-    let layout = renderer.lay_out_with(&gpu, [64, 64], 1.0, input, |ui| show(ui, &picture));
-    let output = renderer.paint(&gpu, &target.view, [64, 64], layout);
+    assert!(executor.encode(&gpu, &drawing(), &target.view).is_none());
     assert!(gpu.is_lost());
-    assert!(output.drawing.is_none());
 
-    let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly)).unwrap();
-    assert_eq!(draw(&gpu, [64, 64], 1.0, &picture).at(60, 60), [255, 0, 0, 255]);
+    let gpu = pollster::block_on(Gpu::headless()).unwrap();
+    let mut executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
+    assert_eq!(paint_on(&gpu, &mut executor, &drawing()).at(60, 60), [255, 0, 0, 255]);
 }
 
 #[test]
 fn the_first_frame_of_any_size_is_laid_out_like_the_next() {
-    let Some(gpu) = gpu_or_skip("the_first_frame_of_any_size_is_laid_out_like_the_next") else {
-        return;
-    };
     let studio = Studio::new(Scene::built_in("spring").unwrap());
-    let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+    let mut renderer = FrameRenderer::new(SIDE_PX);
     for size_px in [[1280, 720], [1920, 1080], [3840, 2160], [800, 600]] {
         let [first, second] = [0, 1].map(|_| {
             let input = egui::RawInput::default();
-            let (_, mut layout) = renderer.lay_out(&gpu, size_px, 1.0, input, &studio);
+            let (_, mut layout) = renderer.lay_out(size_px, 1.0, input, &studio);
             layout.panels.textures_delta.clear();
             layout.stage.expect("a studio has a stage").rect
         });
@@ -153,24 +147,19 @@ fn the_first_frame_of_any_size_is_laid_out_like_the_next() {
     }
 }
 
-/// Two targets with a renderer each. The second target does not accept copies, so its renderer draws every frame in
-/// full.
-fn with_and_without_copies(gpu: &Gpu, size_px: [u32; 2]) -> [(FrameRenderer, Offscreen); 2] {
-    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
-    let texture = texture(gpu, "plain", size_px, Offscreen::FORMAT, usage);
-    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-    let plain = Offscreen { texture, view, size_px };
-    [Offscreen::new(gpu, size_px).unwrap(), plain]
-        .map(|target| (FrameRenderer::new(gpu, Offscreen::FORMAT), target))
+/// Paints the drawing with the painter of all earlier frames, and with a new executor. Both must show the same.
+fn paint_twice(painter: &mut Painter, drawing: &Drawing) -> Pixels {
+    let kept = painter.paint(drawing);
+    let mut fresh = Painter { textures: painter.textures.clone(), ..Painter::new() };
+    assert!(kept.rows == fresh.paint(drawing).rows);
+    kept
 }
 
 #[test]
-fn cached_panels_change_no_pixel() {
-    let Some(gpu) = gpu_or_skip("cached_panels_change_no_pixel") else { return };
+fn a_kept_backdrop_changes_no_pixel_of_a_frame() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.apply(StageCommand::ToggleRace);
-    let size_px = [640, 400];
-    let mut renderers = with_and_without_copies(&gpu, size_px);
+    let (mut renderer, mut painter) = (FrameRenderer::new(SIDE_PX), Painter::new());
     for n in 0..30 {
         match n {
             8 => _ = studio.apply(ViewCommand::ToggleTheme),
@@ -179,69 +168,32 @@ fn cached_panels_change_no_pixel() {
             _ => {}
         }
         studio.advance(if n % 3 == 0 { 0 } else { 40_000_000 });
-        let [kept, drawn] = renderers.each_mut().map(|(renderer, target)| {
-            let input = egui::RawInput { time: Some(0.1 * f64::from(n)), ..Default::default() };
-            if n % 7 == 5 {
-                // A frame that is painted and never shown.
-                let (_, layout) = renderer.lay_out(&gpu, size_px, 1.0, input.clone(), &studio);
-                _ = renderer.paint(&gpu, &target.view, size_px, layout);
-            }
-            let (_, output) = renderer.draw(&gpu, &target.view, size_px, 1.0, input, &studio);
-            read(&gpu, output.drawing, target)
-        });
-        assert!(kept.rows == drawn.rows, "frame {n}");
-    }
-}
-
-#[test]
-fn a_cached_tile_shows_no_trace_of_its_former_content() {
-    let Some(gpu) = gpu_or_skip("a_cached_tile_shows_no_trace_of_its_former_content") else {
-        return;
-    };
-    let size_px = [100, 70];
-    let mut renderers = with_and_without_copies(&gpu, size_px);
-    for n in 0..20 {
-        let [kept, drawn] = renderers.each_mut().map(|(renderer, target)| {
-            let input = egui::RawInput::default();
-            let layout = renderer.lay_out_with(&gpu, size_px, 1.0, input, |ui| {
-                let fill = egui::Color32::from_rgba_unmultiplied(90, 200, 40 * (n / 7), 120);
-                ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
-                None
-            });
-            let output = renderer.paint(&gpu, &target.view, size_px, layout);
-            read(&gpu, output.drawing, target)
-        });
-        assert!(kept.rows == drawn.rows, "frame {n}");
+        let input = egui::RawInput { time: Some(0.1 * f64::from(n)), ..Default::default() };
+        let (_, output) = renderer.draw([640, 400], 1.0, input, &studio);
+        paint_twice(&mut painter, &output.drawing);
     }
 }
 
 #[test]
 fn an_unchanged_quad_is_redrawn_when_its_texture_changes() {
-    let test = "an_unchanged_quad_is_redrawn_when_its_texture_changes";
-    let Some(gpu) = gpu_or_skip(test) else { return };
     let size_px = [100, 70];
-    let mut renderers = with_and_without_copies(&gpu, size_px);
-    let mut handles: [Option<egui::TextureHandle>; 2] = [None, None];
+    let (mut renderer, mut painter) = (FrameRenderer::new(SIDE_PX), Painter::new());
+    let mut handle: Option<egui::TextureHandle> = None;
     for n in 0..20 {
         let shade = egui::ColorImage::filled([4, 4], egui::Color32::from_gray(40 * (n / 7)));
-        let mut of = renderers.iter_mut().zip(&mut handles).map(|((renderer, target), handle)| {
-            let input = egui::RawInput::default();
-            let layout = renderer.lay_out_with(&gpu, size_px, 1.0, input, |ui| {
-                let options = egui::TextureOptions::NEAREST;
-                match handle {
-                    Some(known) if n % 7 == 0 => known.set_partial([0, 0], shade.clone(), options),
-                    Some(_) => {}
-                    None => *handle = Some(ui.ctx().load_texture("t", shade.clone(), options)),
-                }
-                let id = handle.as_ref().expect("it was loaded").id();
-                let uv = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-                ui.painter().image(id, ui.max_rect(), uv, egui::Color32::WHITE);
-                None
-            });
-            let output = renderer.paint(&gpu, &target.view, size_px, layout);
-            read(&gpu, output.drawing, target)
+        let layout = renderer.lay_out_with(size_px, 1.0, egui::RawInput::default(), |ui| {
+            let options = egui::TextureOptions::NEAREST;
+            match &mut handle {
+                Some(known) if n % 7 == 0 => known.set_partial([0, 0], shade.clone(), options),
+                Some(_) => {}
+                None => handle = Some(ui.ctx().load_texture("t", shade.clone(), options)),
+            }
+            let id = handle.as_ref().expect("it was loaded").id();
+            let uv = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+            ui.painter().image(id, ui.max_rect(), uv, egui::Color32::WHITE);
+            None
         });
-        let [kept, drawn] = [of.next(), of.next()].map(Option::unwrap);
-        assert!(kept.rows == drawn.rows && kept.at(50, 30)[0] == 40 * (n / 7), "frame {n}");
+        let drawn = paint_twice(&mut painter, &renderer.paint(size_px, layout).drawing);
+        assert_eq!(drawn.at(50, 30)[0], 40 * (n / 7), "frame {n}");
     }
 }

@@ -9,8 +9,7 @@ use std::{env, fs};
 use regatta::run::Session;
 use regatta::scene::Scene;
 
-use super::capture::drawn_or_skip;
-use super::stdout_of;
+use super::{run_in, stdout_of};
 use crate::printed::texts;
 
 /// How many blocks of each language a text has, and how they are held:
@@ -46,8 +45,8 @@ const BLOCKS: [(&str, &str, usize); 19] = [
 /// A log of Box2D: a spring of 1 Hz and a damping ratio of 0.05.
 const LOG: &str = include_str!("../../data/engines/box2d__spring_1hz_z005_60hz.csv");
 
-/// Makes the files of a reader's own that examples are about. Without a driver there is no `clip`.
-fn make_own_files(test: &str, folder: &Path) -> Vec<&'static str> {
+/// Makes the files of a reader's own that examples are about.
+fn make_own_files(folder: &Path) {
     fs::write(folder.join("spring.csv"), LOG).unwrap();
     let rk4 = include_str!("../../../assets/methods/rk4.step");
     let slipped = rk4.replace("let k2_x = v +", "let k2_x = v -");
@@ -57,13 +56,7 @@ fn make_own_files(test: &str, folder: &Path) -> Vec<&'static str> {
     fs::write(folder.join("run.toml"), session.recording(640).to_toml()).unwrap();
     // Smaller than by the manual's command, to be quick.
     let capture = "capture --scene spring --race --seconds 10 --size 64x36 --out clip";
-    let captured = drawn_or_skip(test, folder, capture).map(|output| output.status.code());
-    assert!(captured.is_none_or(|code| code == Some(0)));
-    if captured.is_some() {
-        vec!["clip", "run.toml", "spring.csv"]
-    } else {
-        vec!["run.toml", "spring.csv"]
-    }
+    assert_eq!(run_in(folder, capture).status.code(), Some(0));
 }
 
 /// The output of a shell command, data first, in a folder with `regatta` as the program.
@@ -82,9 +75,8 @@ fn said_by(command: &str, folder: &Path) -> String {
 
 #[test]
 fn every_example_with_an_answer_prints_that_answer() {
-    let test = "every_example_with_an_answer_prints_that_answer";
     let folder = tempfile::tempdir().unwrap();
-    let own = make_own_files(test, folder.path());
+    make_own_files(folder.path());
     let mut known: HashMap<String, String> = HashMap::new();
     let mut compared: Vec<(&str, usize)> = Vec::new();
     for text in texts() {
@@ -94,8 +86,7 @@ fn every_example_with_an_answer_prints_that_answer() {
                 let (command, printed) = example.split_once('\n').unwrap();
                 // Up to the indentation of the next command.
                 let printed = &printed[..printed.rfind('\n').map_or(0, |end| end + 1)];
-                let needs_clip = command.split(' ').any(|word| word == "clip");
-                if printed.trim().is_empty() || needs_clip && !own.contains(&"clip") {
+                if printed.trim().is_empty() {
                     continue;
                 }
                 assert!(printed.lines().any(|line| line.trim() != "…"), "{command}");
@@ -107,15 +98,8 @@ fn every_example_with_an_answer_prints_that_answer() {
         }
         compared.extend((count > 0).then_some((text.name, count)));
     }
-    let of_commands = if own.contains(&"clip") { 4 } else { 3 };
-    let expected = [
-        ("commands", of_commands),
-        ("logs", 1),
-        ("questions", 19),
-        ("code", 1),
-        ("step", 3),
-        ("README", 1),
-    ];
+    let expected =
+        [("commands", 4), ("logs", 1), ("questions", 19), ("code", 1), ("step", 3), ("README", 1)];
     assert_eq!(compared, expected);
 }
 

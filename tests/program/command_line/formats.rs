@@ -10,20 +10,20 @@ use image::{AnimationDecoder, Frame, RgbaImage};
 use regatta::manual::chapter;
 use tempfile::TempDir;
 
-use super::capture::{drawn_or_skip, names};
+use super::capture::names;
 use super::{regatta, run_in, stderr};
 
 const FRAMES: usize = 7;
 const RUN: &str = "capture --scene harbour --race --frames 7 --fps 12 --size 93x51 --scale 0.5";
 
 /// The frames as numbered pictures, in `clip`.
-fn clip_or_skip(test: &str) -> Option<(TempDir, Vec<RgbaImage>)> {
+fn clip() -> (TempDir, Vec<RgbaImage>) {
     let folder = tempfile::tempdir().unwrap();
-    let output = drawn_or_skip(test, folder.path(), &format!("{RUN} --out clip"))?;
+    let output = run_in(folder.path(), &format!("{RUN} --out clip"));
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let frame = |n| image::open(folder.path().join(format!("clip/frame-{n:06}.png"))).unwrap();
     let frames = (0..FRAMES).map(|n| frame(n).into_rgba8()).collect();
-    Some((folder, frames))
+    (folder, frames)
 }
 
 /// The run as one file.
@@ -53,7 +53,7 @@ fn asked_or_skip(test: &str, program: &str, arguments: &[&str], file: &Path) -> 
 #[test]
 fn a_third_party_decoder_reads_single_frames() {
     let test = "a_third_party_decoder_reads_single_frames";
-    let Some((folder, _)) = clip_or_skip(test) else { return };
+    let (folder, _) = clip();
     for n in 0..FRAMES {
         let path = folder.path().join(format!("clip/frame-{n:06}.png"));
         let Some(said) = asked_or_skip(test, "pngcheck", &[], &path) else { return };
@@ -64,7 +64,7 @@ fn a_third_party_decoder_reads_single_frames() {
 #[test]
 fn a_gif_keeps_its_timing_and_looks_alike() {
     let test = "a_gif_keeps_its_timing_and_looks_alike";
-    let Some((folder, frames)) = clip_or_skip(test) else { return };
+    let (folder, frames) = clip();
     written(folder.path(), "gif");
     let path = folder.path().join("run.gif");
     let decoder = GifDecoder::new(BufReader::new(File::open(&path).unwrap())).unwrap();
@@ -92,8 +92,7 @@ fn a_gif_keeps_its_timing_and_looks_alike() {
 
 #[test]
 fn y4m_has_a_header_and_three_planes_a_frame() {
-    let test = "y4m_has_a_header_and_three_planes_a_frame";
-    let Some((folder, frames)) = clip_or_skip(test) else { return };
+    let (folder, frames) = clip();
     let bytes = written(folder.path(), "y4m");
     let header = b"YUV4MPEG2 W93 H51 F12:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n";
     let mut rest = bytes.strip_prefix(header).expect("the header");
@@ -113,7 +112,7 @@ fn y4m_has_a_header_and_three_planes_a_frame() {
 #[test]
 fn ffmpeg_reads_every_film_with_the_drawn_frames() {
     let test = "ffmpeg_reads_every_film_with_the_drawn_frames";
-    let Some((folder, frames)) = clip_or_skip(test) else { return };
+    let (folder, frames) = clip();
     let drawn: Vec<u8> = frames.iter().flat_map(|frame| frame.as_raw().clone()).collect();
     // Chroma is rounded to a byte and luma to its range of 219; a GIF has 256 colours.
     for (format, codec, rate, most, mean) in
@@ -157,7 +156,7 @@ fn the_manuals_pipe_to_ffmpeg_makes_a_film() {
     let Some(_) = asked_or_skip(test, "ffmpeg", &[], Path::new("-version")) else { return };
     let smaller = "--frames 12 --size 160x90 --scale 0.5";
     let ours = ours.replace("--seconds 10", smaller).replace("regatta ", "");
-    let Some(stream) = drawn_or_skip(test, folder.path(), &ours) else { return };
+    let stream = run_in(folder.path(), &ours);
     assert_eq!(stream.status.code(), Some(0), "{}", stderr(&stream));
     let arguments: Vec<&str> = theirs.split(' ').skip(1).collect();
     let mut ffmpeg = Command::new("ffmpeg");
@@ -174,8 +173,7 @@ fn the_manuals_pipe_to_ffmpeg_makes_a_film() {
 
 #[test]
 fn standard_output_has_the_same_bytes_as_a_file() {
-    let test = "standard_output_has_the_same_bytes_as_a_file";
-    let Some((folder, _)) = clip_or_skip(test) else { return };
+    let (folder, _) = clip();
     for format in ["y4m", "gif"] {
         let output = run_in(folder.path(), &format!("{RUN} --format {format} --out -"));
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -185,10 +183,9 @@ fn standard_output_has_the_same_bytes_as_a_file() {
 
 #[test]
 fn a_sheet_has_time_across_and_lanes_down() {
-    let test = "a_sheet_has_time_across_and_lanes_down";
     let folder = tempfile::tempdir().unwrap();
     let sheet = "capture --scene spring --frames 3 --size 90x50 --out sheet.png";
-    let Some(output) = drawn_or_skip(test, folder.path(), sheet) else { return };
+    let output = run_in(folder.path(), sheet);
     let said = stderr(&output);
     assert_eq!(output.status.code(), Some(0), "{said}");
     let down = "down: explicit-euler, semi-implicit-euler, ";
@@ -209,8 +206,7 @@ fn a_sheet_has_time_across_and_lanes_down() {
 
 #[test]
 fn a_pipe_that_closes_ends_a_stream_quietly() {
-    let test = "a_pipe_that_closes_ends_a_stream_quietly";
-    let Some((folder, _)) = clip_or_skip(test) else { return };
+    let (folder, _) = clip();
     for format in ["y4m", "gif"] {
         let mut child = regatta()
             .current_dir(folder.path())
@@ -232,8 +228,7 @@ fn a_pipe_that_closes_ends_a_stream_quietly() {
 #[cfg(unix)]
 #[test]
 fn an_interrupted_stream_leaves_no_file() {
-    let test = "an_interrupted_stream_leaves_no_file";
-    let Some((folder, _)) = clip_or_skip(test) else { return };
+    let (folder, _) = clip();
     let run = RUN.replace("--frames 7", "--frames 100000");
     let child = regatta()
         .current_dir(folder.path())

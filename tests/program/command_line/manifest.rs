@@ -11,16 +11,15 @@ use regatta::sim::integrators::METHODS;
 use regatta::studio::{StageCommand, Studio};
 use serde_json::Value;
 
-use super::capture::drawn_or_skip;
 use super::{run_in, stderr};
 
 /// A small capture's manifest as text.
-fn manifest_or_skip(test: &str, arguments: &str) -> Option<String> {
+fn manifest(arguments: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let capture = format!("capture --size 32x18 --scale 0.5 --out clip {arguments}");
-    let output = drawn_or_skip(test, folder.path(), &capture)?;
+    let output = run_in(folder.path(), &capture);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    Some(fs::read_to_string(folder.path().join("clip/manifest.json")).unwrap())
+    fs::read_to_string(folder.path().join("clip/manifest.json")).unwrap()
 }
 
 fn keys(value: &Value, into: &mut BTreeSet<String>) {
@@ -36,8 +35,7 @@ fn keys(value: &Value, into: &mut BTreeSet<String>) {
 
 #[test]
 fn every_key_is_described_and_the_manifest_reads_back() {
-    let test = "every_key_is_described_and_the_manifest_reads_back";
-    let Some(text) = manifest_or_skip(test, "--race --frames 3") else { return };
+    let text = manifest("--race --frames 3");
     let source = include_str!("../../../src/commands/manifest.rs");
     let description: String = source.lines().take_while(|line| line.starts_with("//!")).collect();
     let mut found = BTreeSet::new();
@@ -53,23 +51,22 @@ fn every_key_is_described_and_the_manifest_reads_back() {
 }
 
 /// Captures this scene, with the output of `verify`.
-fn captured_or_skip(test: &str, scene: &str, arguments: &str) -> Option<(Manifest, Output)> {
+fn captured(scene: &str, arguments: &str) -> (Manifest, Output) {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("my.toml"), scene).unwrap();
     let capture =
         format!("capture --scene my.toml --size 32x18 --scale 0.5 --out clip {arguments}");
-    let output = drawn_or_skip(test, folder.path(), &capture)?;
+    let output = run_in(folder.path(), &capture);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = fs::read_to_string(folder.path().join("clip/manifest.json")).unwrap();
     let judged = run_in(folder.path(), "verify clip");
-    Some((serde_json::from_str(&text).unwrap(), judged))
+    (serde_json::from_str(&text).unwrap(), judged)
 }
 
 const SPRING: &str = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\n";
 
 #[test]
 fn settings_and_lanes_name_the_methods_that_flew() {
-    let test = "settings_and_lanes_name_the_methods_that_flew";
     for (listed, option, selected, flown) in [
         ("['explicit-euler']", "", Some("explicit-euler"), vec!["explicit-euler"]),
         ("['explicit-euler']", "--race", None, vec!["explicit-euler"]),
@@ -80,7 +77,7 @@ fn settings_and_lanes_name_the_methods_that_flew() {
     ] {
         let scene = format!("title = 'x'\ntick_hz = 10\nseconds = 1\nmethods = {listed}\n{SPRING}");
         let arguments = format!("--frames 2 {option}");
-        let Some((manifest, judged)) = captured_or_skip(test, &scene, &arguments) else { return };
+        let (manifest, judged) = captured(&scene, &arguments);
         assert_eq!(manifest.settings.selected.as_deref(), selected, "{listed} {option}");
         let lanes: Vec<_> = manifest.lanes.iter().map(|lane| lane.method.as_str()).collect();
         assert_eq!(lanes, flown, "{listed} {option}");
@@ -90,25 +87,21 @@ fn settings_and_lanes_name_the_methods_that_flew() {
 
 #[test]
 fn a_race_of_many_methods_names_none_of_them_as_selected() {
-    let test = "a_race_of_many_methods_names_none_of_them_as_selected";
     let methods = METHODS.iter().take(10).map(|method| format!("'{}'", method.id));
     let listed = methods.collect::<Vec<_>>().join(", ");
     let scene = format!("title = 'x'\ntick_hz = 10\nseconds = 1\nmethods = [{listed}]\n{SPRING}");
-    let Some((manifest, judged)) = captured_or_skip(test, &scene, "--race --frames 2") else {
-        return;
-    };
+    let (manifest, judged) = captured(&scene, "--race --frames 2");
     assert_eq!(manifest.settings.selected, None);
     assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
 }
 
 #[test]
 fn frames_show_their_moment_across_the_rates_that_a_script_sets() {
-    let test = "frames_show_their_moment_across_the_rates_that_a_script_sets";
     let scene = format!(
         "title = 'x'\ntick_hz = 1\nseconds = 9\n{SPRING}[[command]]\nat_s = 5\ntick_hz = 100\n"
     );
     let arguments = "--fps 2 --frames 14";
-    let Some((manifest, judged)) = captured_or_skip(test, &scene, arguments) else { return };
+    let (manifest, judged) = captured(&scene, arguments);
     let ticks: Vec<u64> = manifest.frames.iter().map(|frame| frame.tick).collect();
     assert_eq!(ticks, [0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 55, 105, 155]);
     assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
@@ -116,17 +109,15 @@ fn frames_show_their_moment_across_the_rates_that_a_script_sets() {
 
 #[test]
 fn a_run_of_any_values_can_be_judged() {
-    let test = "a_run_of_any_values_can_be_judged";
     let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\n\
                  [[spring]]\nmass_kg = 1e-300\nstiffness_n_per_m = 1e-300\n\
                  [[command]]\nat_s = 0.05\nkick = 1e12\n";
-    let Some((_, judged)) = captured_or_skip(test, scene, "--race --frames 9") else { return };
+    let (_, judged) = captured(scene, "--race --frames 9");
     assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
 }
 
 #[test]
 fn an_unbounded_kick_leaves_a_manifest_that_can_be_judged() {
-    let test = "an_unbounded_kick_leaves_a_manifest_that_can_be_judged";
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
                  [[spring]]\nname = 'light'\nmass_kg = 1e-300\nstiffness_n_per_m = 1\n\
@@ -134,7 +125,7 @@ fn an_unbounded_kick_leaves_a_manifest_that_can_be_judged() {
                  [[command]]\nat_s = 0\nkick = 1e14\n";
     fs::write(folder.path().join("light.toml"), scene).unwrap();
     let capture = "capture --scene light.toml --size 32x18 --scale 0.5 --frames 3 --out clip";
-    let Some(output) = drawn_or_skip(test, folder.path(), capture) else { return };
+    let output = run_in(folder.path(), capture);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = fs::read_to_string(folder.path().join("clip/manifest.json")).unwrap();
     let manifest: Manifest = serde_json::from_str(&text).unwrap();
@@ -152,9 +143,8 @@ fn an_unbounded_kick_leaves_a_manifest_that_can_be_judged() {
 
 #[test]
 fn frames_and_marks_match_the_run() {
-    let test = "frames_and_marks_match_the_run";
     let arguments = "--scene harbour --race --tick-hz 49 --frames 9 --fps 7 --mark-every 10";
-    let Some(text) = manifest_or_skip(test, arguments) else { return };
+    let text = manifest(arguments);
     let manifest: Manifest = serde_json::from_str(&text).unwrap();
     assert!(manifest.complete);
     // 49 Hz at 7 frames a second: 7 ticks to a frame.

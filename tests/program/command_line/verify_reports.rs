@@ -6,11 +6,11 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::regatta;
-use super::verify::{clip_or_skip, verify};
+use super::verify::{clip, verify};
 
 #[test]
 fn reports_are_machine_readable() {
-    let Some(folder) = clip_or_skip("reports_are_machine_readable") else { return };
+    let folder = clip();
     fs::remove_file(folder.path().join("clip/frame-000002.png")).unwrap();
     let report = |format: &str| {
         let (code, ..) = verify(folder.path(), &format!("--report {format} report"));
@@ -32,7 +32,7 @@ fn reports_are_machine_readable() {
 
 #[test]
 fn two_reports_are_two_files() {
-    let Some(folder) = clip_or_skip("two_reports_are_two_files") else { return };
+    let folder = clip();
     let reports = "--physics-only --report junit a.xml --report json b.json";
     let (code, _, stderr) = verify(folder.path(), reports);
     assert_eq!((code, &*stderr), (Some(0), ""));
@@ -43,9 +43,7 @@ fn two_reports_are_two_files() {
 
 #[test]
 fn an_unwritable_report_names_its_own_option() {
-    let Some(folder) = clip_or_skip("an_unwritable_report_names_its_own_option") else {
-        return;
-    };
+    let folder = clip();
     let (code, stdout, stderr) = verify(folder.path(), "--physics-only --report json no/x");
     assert_eq!((code, &*stdout), (Some(1), ""), "the place is looked at first: {stderr}");
     let (in_a_folder, findings, why) = verify(folder.path(), "--physics-only --report junit clip");
@@ -57,7 +55,7 @@ fn an_unwritable_report_names_its_own_option() {
 
 #[test]
 fn a_report_never_replaces_a_file_of_a_capture() {
-    let Some(folder) = clip_or_skip("a_report_never_replaces_a_file_of_a_capture") else { return };
+    let folder = clip();
     fs::create_dir(folder.path().join("other")).unwrap();
     for name in ["manifest.json", "frame-000002.png"] {
         let [from, to] = ["clip", "other"].map(|clip| folder.path().join(clip).join(name));
@@ -86,10 +84,7 @@ fn a_report_never_replaces_a_file_of_a_capture() {
 #[cfg(unix)]
 #[test]
 fn a_report_through_a_symbolic_link_is_written_to_its_target() {
-    let Some(folder) = clip_or_skip("a_report_through_a_symbolic_link_is_written_to_its_target")
-    else {
-        return;
-    };
+    let folder = clip();
     let [link, target] = ["link", "target"].map(|name| folder.path().join(name));
     fs::write(&target, "").unwrap();
     std::os::unix::fs::symlink("target", &link).unwrap();
@@ -102,9 +97,7 @@ fn a_report_through_a_symbolic_link_is_written_to_its_target() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_report_to_standard_output_is_appended() {
-    let Some(folder) = clip_or_skip("a_report_to_standard_output_is_appended") else {
-        return;
-    };
+    let folder = clip();
     let log = folder.path().join("log");
     let status = regatta()
         .current_dir(folder.path())

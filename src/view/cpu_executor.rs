@@ -1,0 +1,344 @@
+//! Draws a [`Drawing`] with the processor, by the rules of the shaders.
+//!
+//! It calculates with whole numbers, and with floats only by `+`, `-`, `*`, `/` and square roots, which round alike on
+//! every machine. So the same drawing has the same bytes everywhere, whatever the number of threads.
+
+mod spans;
+mod triangle;
+
+use std::collections::HashMap;
+use std::num::NonZero;
+use std::ops::Range;
+use std::sync::Arc;
+use std::thread;
+
+use egui::epaint::{Vertex, WHITE_UV};
+use egui::{Color32, ColorImage, ImageData, TextureId};
+
+use super::drawing::{Draw, DrawKind, Drawing, Mesh, SeaRect, StrokeVertex};
+use super::screen_transform::ScreenTransform;
+use spans::{Pixel, Ramp};
+use triangle::{Triangle, Window};
+
+/// No backdrop is kept for a larger frame, because it would take as much memory again.
+const MAX_BACKDROP_PIXELS: usize = 4096 * 4096;
+
+/// The textures of a renderer's drawings. A clone shares their pixels.
+#[derive(Clone, Default)]
+pub struct Textures(HashMap<TextureId, Arc<ColorImage>>);
+
+impl Textures {
+    /// Applies the changes of the next drawing. Returns the textures to draw it with.
+    pub fn update(&mut self, drawing: &Drawing) -> Self {
+        for (id, delta) in &drawing.textures.set {
+            let ImageData::Color(image) = &delta.image;
+            match (delta.pos, self.0.get_mut(id)) {
+                (None, _) => _ = self.0.insert(*id, Arc::clone(image)),
+                (Some(at), Some(whole)) => copy_into(Arc::make_mut(whole), image, at),
+                (Some(_), None) => {}
+            }
+        }
+        let present = self.clone();
+        for id in &drawing.textures.freed {
+            self.0.remove(id);
+        }
+        present
+    }
+}
+
+fn copy_into(whole: &mut ColorImage, part: &ColorImage, [left, top]: [usize; 2]) {
+    for (y, row) in part.pixels.chunks_exact(part.width().max(1)).enumerate() {
+        let first = (top + y) * whole.width() + left;
+        whole.pixels[first..first + row.len()].copy_from_slice(row);
+    }
+}
+
+/// Draws the drawings of one renderer.
+#[derive(Debug)]
+pub struct CpuExecutor {
+    threads: NonZero<usize>,
+    /// The id of the backdrop, if there is one, and its pixels.
+    backdrop_id: Option<u64>,
+    backdrop: Vec<u8>,
+}
+
+impl CpuExecutor {
+    /// Creates an executor that draws with this number of threads.
+    pub fn new(threads: NonZero<usize>) -> Self {
+        Self { threads, backdrop_id: None, backdrop: Vec::new() }
+    }
+
+    /// Gives it an empty buffer with room for its backdrop.
+    pub(super) fn with_room(self, backdrop: Vec<u8>) -> Self {
+        Self { backdrop, ..self }
+    }
+
+    /// Replaces `rows` by the pixels of the drawing: red, green, blue, alpha, top row first, no padding.
+    pub fn execute(&mut self, drawing: &Drawing, textures: &Textures, rows: &mut Vec<u8>) {
+        let [width, height] = drawing.size_px.map(|side| side as usize);
+        rows.resize(4 * width * height, 0);
+        let pixels: &mut [Pixel] = rows.as_chunks_mut().0;
+        let Some(backdrop) = drawing.backdrop.filter(|_| pixels.len() <= MAX_BACKDROP_PIXELS)
+        else {
+            return self.paint(drawing, textures, pixels, 0..usize::MAX, None);
+        };
+        let covered = 1 + backdrop.draws;
+        if self.backdrop_id.replace(backdrop.id) != Some(backdrop.id) {
+            self.paint(drawing, textures, pixels, 0..covered, None);
+            self.backdrop.clear();
+            self.backdrop.extend_from_slice(pixels.as_flattened());
+        }
+        let below = self.backdrop.as_chunks().0;
+        self.paint(drawing, textures, pixels, covered..usize::MAX, Some(below));
+    }
+
+    /// Paints parts of the drawing over `below` or black: part 0 is the sea, and part `n` is draw `n - 1`.
+    #[expect(clippy::disallowed_methods, reason = "any number of threads makes the same bytes")]
+    fn paint(
+        &self,
+        drawing: &Drawing,
+        textures: &Textures,
+        pixels: &mut [Pixel],
+        parts: Range<usize>,
+        below: Option<&[Pixel]>,
+    ) {
+        let [width, height] = drawing.size_px.map(|side| side as usize);
+        if pixels.is_empty() {
+            return;
+        }
+        let band_rows = height.div_ceil(self.threads.get());
+        let band_pixels = band_rows * width;
+        let paint = |n: usize, pixels: &mut [Pixel]| {
+            match below {
+                Some(below) => {
+                    let first = n * band_pixels;
+                    pixels.copy_from_slice(&below[first..first + pixels.len()]);
+                }
+                None => pixels.fill([0, 0, 0, 255]),
+            }
+            let top = (n * band_rows) as i32;
+            Band { top, width, pixels }.paint(drawing, textures, parts.clone());
+        };
+        let mut bands = pixels.chunks_mut(band_pixels).enumerate();
+        let Some((_, first)) = bands.next() else { return };
+        thread::scope(|threads| {
+            for (n, band) in bands {
+                let paint = &paint;
+                threads.spawn(move || paint(n, band));
+            }
+            paint(0, first);
+        });
+    }
+}
+
+/// Some rows of a frame.
+struct Band<'p> {
+    /// The first row.
+    top: i32,
+    width: usize,
+    pixels: &'p mut [Pixel],
+}
+
+impl Band<'_> {
+    fn paint(&mut self, drawing: &Drawing, textures: &Textures, parts: Range<usize>) {
+        if let Some(sea) = drawing.sea.filter(|_| parts.start == 0) {
+            self.sea(&sea);
+        }
+        let draws = drawing.draws.iter().take(parts.end - 1);
+        for draw in draws.skip(parts.start.max(1) - 1) {
+            let Some(window) = self.window(draw.scissor_px) else { continue };
+            let transform = &drawing.transforms[draw.place as usize];
+            let at = Placement { window, transform };
+            match draw.kind {
+                DrawKind::Stroke => {
+                    corners(&drawing.strokes, draw).for_each(|corners| self.stroke(at, corners));
+                }
+                DrawKind::OpaqueFill => {
+                    corners(&drawing.triangles, draw).for_each(|corners| self.fill(at, corners));
+                }
+                DrawKind::Textured(id) => {
+                    let Some(texture) = textures.0.get(&id) else { continue };
+                    corners(&drawing.triangles, draw)
+                        .for_each(|corners| self.textured(at, corners, texture));
+                }
+            }
+        }
+    }
+
+    /// The part of a scissor rectangle within this band, if any.
+    fn window(&self, [left, top, width, height]: [u32; 4]) -> Option<Window> {
+        let band_bottom = self.top + (self.pixels.len() / self.width) as i32;
+        let [left, top, width, height] = [left, top, width, height].map(|side| side as i32);
+        let window = Window {
+            left,
+            top: top.max(self.top),
+            right: (left + width).min(self.width as i32),
+            bottom: (top + height).min(band_bottom),
+        };
+        (window.left < window.right && window.top < window.bottom).then_some(window)
+    }
+
+    fn span(&mut self, y: i32, xs: Range<i32>) -> &mut [Pixel] {
+        let first = (y - self.top) as usize * self.width;
+        &mut self.pixels[first + xs.start as usize..first + xs.end as usize]
+    }
+
+    /// `water` in `shaders/sea.wgsl`.
+    fn sea(&mut self, &SeaRect { scissor_px, rect_px, colours }: &SeaRect) {
+        /// Reach of the light as a part of the sea's height.
+        const REACH: f32 = 1.25;
+        /// Lightening in its middle.
+        const LIGHT: f32 = 0.40;
+        let Some(window) = self.window(scissor_px) else { return };
+        let [left_px, top_px, right_px, bottom_px] = rect_px.map(|side| side as i32);
+        let columns = window.left.max(left_px)..window.right.min(right_px);
+        if columns.is_empty() {
+            return;
+        }
+        let unit = |colour: [u8; 4]| [0, 1, 2].map(|channel| f32::from(colour[channel]) / 255.0);
+        let [top_colour, bottom_colour] = colours.map(unit);
+        let light = top_colour.map(|channel| LIGHT * channel * (1.0 - channel));
+        let [left, top, right, bottom] = rect_px;
+        let height = bottom - top;
+        let middle = [left + (right - left) * 0.62, top + height * 0.22];
+        let reach = REACH * height.max(1.0);
+        for y in window.top.max(top_px)..window.bottom.min(bottom_px) {
+            let at = y as f32 + 0.5;
+            let part = (at - top) / height;
+            let colour = [0, 1, 2].map(|channel| {
+                top_colour[channel] + (bottom_colour[channel] - top_colour[channel]) * part
+            });
+            let from_light = [columns.start as f32 + 0.5 - middle[0], at - middle[1]];
+            let [start, y_part] = from_light.map(|px| px / reach);
+            let x = Ramp { start, step: 1.0 / reach };
+            spans::water(self.span(y, columns.clone()), colour, light, x, y_part);
+        }
+    }
+
+    /// `stroke` in `shaders/strokes.wgsl`.
+    fn stroke(&mut self, at: Placement<'_>, corners: [&StrokeVertex; 3]) {
+        let Some(triangle) = at.triangle(corners.map(|corner| corner.at)) else { return };
+        let colours = corners.map(|corner| corner.colour);
+        let is_covered = |corner: &StrokeVertex| {
+            let [half, across] = corner.across_px;
+            half >= 0.5 && across == 0.0 && corner.along_px[0] == 0.0
+        };
+        if corners.iter().all(|corner| is_covered(corner)) {
+            return self.blend(&triangle, colours);
+        }
+        let slopes = triangle.slopes();
+        let half = slopes.plane(corners.map(|corner| corner.across_px[0]));
+        let across = slopes.plane(corners.map(|corner| corner.across_px[1]));
+        let turns = slopes.plane(corners.map(|corner| corner.along_px[0] / corner.along_px[2]));
+        let [_, reach, period] = corners[0].along_px;
+        let line = |x, y| spans::Line {
+            half: half.ramp(x, y),
+            across: across.ramp(x, y),
+            turns: turns.ramp(x, y),
+            reach,
+            period,
+        };
+        match one_colour(colours) {
+            Some(colour) => triangle.rows(|y, xs| {
+                let line = line(xs.start, y);
+                spans::stroke(self.span(y, xs), &line, colour);
+            }),
+            None => {
+                let channels = channels(colours).map(|channel| slopes.plane(channel));
+                triangle.rows(|y, xs| {
+                    let line = line(xs.start, y);
+                    let colour = channels.map(|channel| channel.ramp(xs.start, y));
+                    spans::stroke_ramped(self.span(y, xs), &line, colour);
+                });
+            }
+        }
+    }
+
+    /// `fill` in `shaders/panels.wgsl`.
+    fn fill(&mut self, at: Placement<'_>, corners: [&Vertex; 3]) {
+        if let Some(triangle) = at.triangle(corners.map(|corner| corner.pos.into())) {
+            self.blend(&triangle, corners.map(|corner| corner.color));
+        }
+    }
+
+    /// `textured` in `shaders/panels.wgsl`.
+    fn textured(&mut self, at: Placement<'_>, corners: [&Vertex; 3], texture: &ColorImage) {
+        let is_plain = corners.iter().all(|corner| corner.uv == WHITE_UV);
+        if is_plain && texture.pixels.first() == Some(&Color32::WHITE) {
+            return self.fill(at, corners);
+        }
+        let Some(triangle) = at.triangle(corners.map(|corner| corner.pos.into())) else { return };
+        let [width, height] = texture.size.map(|side| side as f32);
+        let slopes = triangle.slopes();
+        let u = slopes.plane(corners.map(|corner| corner.uv.x * width));
+        let v = slopes.plane(corners.map(|corner| corner.uv.y * height));
+        let colours = channels(corners.map(|corner| corner.color));
+        let channels = colours.map(|channel| slopes.plane(channel));
+        triangle.rows(|y, xs| {
+            let x = xs.start;
+            let texels = [u, v].map(|plane| plane.ramp(x, y));
+            let colour = channels.map(|channel| channel.ramp(x, y));
+            spans::textured(self.span(y, xs), texture, texels, colour);
+        });
+    }
+
+    /// Blends a triangle of full cover.
+    fn blend(&mut self, triangle: &Triangle, colours: [Color32; 3]) {
+        match one_colour(colours) {
+            Some(colour) => triangle.rows(|y, xs| spans::blend(self.span(y, xs), colour)),
+            None => {
+                let slopes = triangle.slopes();
+                let channels = channels(colours).map(|channel| slopes.plane(channel));
+                triangle.rows(|y, xs| {
+                    let colour = channels.map(|channel| channel.ramp(xs.start, y));
+                    spans::blend_ramped(self.span(y, xs), colour);
+                });
+            }
+        }
+    }
+}
+
+/// Where the triangles of a draw may lie, and which pixels they may change.
+#[derive(Clone, Copy)]
+struct Placement<'d> {
+    window: Window,
+    transform: &'d ScreenTransform,
+}
+
+impl Placement<'_> {
+    /// The triangle with these corners in points, if it covers any row.
+    fn triangle(self, corners: [[f32; 2]; 3]) -> Option<Triangle> {
+        Triangle::new(corners.map(|corner| self.transform.px(corner)), self.window)
+    }
+}
+
+/// Corners of the triangles of a draw.
+fn corners<'m, V>(mesh: &'m Mesh<V>, draw: &Draw) -> impl Iterator<Item = [&'m V; 3]> {
+    let indices = &mesh.indices[draw.indices.start as usize..draw.indices.end as usize];
+    let triangles = indices.as_chunks::<3>().0;
+    triangles.iter().map(|corners| corners.map(|corner| &mesh.vertices[corner as usize]))
+}
+
+fn one_colour([a, b, c]: [Color32; 3]) -> Option<Pixel> {
+    (a == b && b == c).then(|| a.to_array())
+}
+
+/// Red, green, blue and alpha of the corners, from 0 to 255.
+fn channels(colours: [Color32; 3]) -> [[f32; 3]; 4] {
+    [0, 1, 2, 3].map(|channel| colours.map(|colour| f32::from(colour[channel])))
+}
+
+/// The vector instructions by which egui fills the outlines of letters on this machine.
+///
+/// Those that round once after a product and a sum give a pixel of a letter another level than those that round
+/// twice: one pixel in some frames. All else in a frame is the same on every machine.
+pub fn letter_instructions() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    if std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma") {
+        return "avx2";
+    }
+    if cfg!(target_arch = "aarch64") { "neon" } else { "none" }
+}
+
+#[cfg(test)]
+mod tests;

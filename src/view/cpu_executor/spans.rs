@@ -1,0 +1,177 @@
+//! Colours of neighbouring pixels in a row.
+//!
+//! A colour to draw is rounded to 8 bits a channel, and then blended in whole numbers, as graphics hardware does.
+
+use egui::ColorImage;
+
+/// Red, green, blue and alpha; colours are premultiplied.
+pub(super) type Pixel = [u8; 4];
+
+/// Pixels that are calculated together.
+const BLOCK: usize = 8;
+
+/// Values in a row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ramp {
+    /// In the first pixel.
+    pub(super) start: f32,
+    /// From a pixel to the next.
+    pub(super) step: f32,
+}
+
+impl Ramp {
+    fn at(self, pixel: f32) -> f32 {
+        self.start + self.step * pixel
+    }
+}
+
+/// The line of a stroke.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    /// Half its width.
+    pub(super) half: Ramp,
+    /// Distance from its middle.
+    pub(super) across: Ramp,
+    /// Distance along it from the middle of its first dash, in periods.
+    pub(super) turns: Ramp,
+    /// Distance from the middle of a dash to its round end, in pixels.
+    pub(super) reach: f32,
+    /// Distance between dashes, in pixels.
+    pub(super) period: f32,
+}
+
+impl Line {
+    /// The covered part of the pixels from `first` on.
+    fn cover(&self, first: usize) -> [f32; BLOCK] {
+        let first = first as f32;
+        let mut cover = [0.0; BLOCK];
+        for (n, cover) in cover.iter_mut().enumerate() {
+            let pixel = first + n as f32;
+            let [half, across] = [self.half, self.across].map(|ramp| ramp.at(pixel));
+            let turns = self.turns.at(pixel);
+            let turns = turns - round(turns);
+            let from_dash = max(turns, -turns) * self.period;
+            let beyond = max(from_dash - self.reach, 0.0);
+            let from_line = (beyond * beyond + across * across).sqrt();
+            *cover = min(max(half + 0.5 - from_line, 0.0), min(2.0 * half, 1.0));
+        }
+        cover
+    }
+}
+
+/// Strokes in one colour.
+pub(super) fn stroke(pixels: &mut [Pixel], line: &Line, colour: Pixel) {
+    let channels = colour.map(f32::from);
+    for (n, block) in pixels.chunks_mut(BLOCK).enumerate() {
+        let cover = line.cover(n * BLOCK);
+        for (pixel, cover) in block.iter_mut().zip(cover) {
+            if cover >= 1.0 {
+                *pixel = over(colour, *pixel);
+            } else if cover > 0.0 {
+                *pixel = over(channels.map(|channel| level(channel * cover)), *pixel);
+            }
+        }
+    }
+}
+
+/// Strokes in a varying colour, its channels from 0 to 255.
+pub(super) fn stroke_ramped(pixels: &mut [Pixel], line: &Line, colour: [Ramp; 4]) {
+    for (n, block) in pixels.chunks_mut(BLOCK).enumerate() {
+        let cover = line.cover(n * BLOCK);
+        for (x, (pixel, cover)) in block.iter_mut().zip(cover).enumerate() {
+            if cover > 0.0 {
+                let x = (n * BLOCK + x) as f32;
+                *pixel = over(colour.map(|channel| level(channel.at(x) * cover)), *pixel);
+            }
+        }
+    }
+}
+
+/// Blends one colour.
+pub(super) fn blend(pixels: &mut [Pixel], colour: Pixel) {
+    match colour {
+        [0, 0, 0, 0] => {}
+        [_, _, _, 255] => pixels.fill(colour),
+        _ => pixels.iter_mut().for_each(|pixel| *pixel = over(colour, *pixel)),
+    }
+}
+
+/// Blends a varying colour, its channels from 0 to 255.
+pub(super) fn blend_ramped(pixels: &mut [Pixel], colour: [Ramp; 4]) {
+    for (x, pixel) in pixels.iter_mut().enumerate() {
+        *pixel = over(colour.map(|channel| level(channel.at(x as f32))), *pixel);
+    }
+}
+
+/// Blends a varying colour times the nearest texel.
+pub(super) fn textured(
+    pixels: &mut [Pixel],
+    texture: &ColorImage,
+    [u, v]: [Ramp; 2],
+    colour: [Ramp; 4],
+) {
+    let [width, height] = texture.size;
+    for (x, pixel) in pixels.iter_mut().enumerate() {
+        let x = x as f32;
+        let [column, row] = [(u, width), (v, height)]
+            .map(|(ramp, side)| (ramp.at(x) as i32).clamp(0, side as i32 - 1) as usize);
+        let texel = texture.pixels[row * width + column].to_array();
+        if texel != [0; 4] {
+            let source = [0, 1, 2, 3]
+                .map(|channel| level(colour[channel].at(x) * (f32::from(texel[channel]) / 255.0)));
+            *pixel = over(source, *pixel);
+        }
+    }
+}
+
+/// Stores the colours of water. Channels are from 0 to 1, and places relative to the light in its reach.
+pub(super) fn water(pixels: &mut [Pixel], colour: [f32; 3], light: [f32; 3], x: Ramp, y: f32) {
+    /// Steps of two levels: equal neighbours make a file smaller and faster to write.
+    const LEVELS: f32 = 127.5;
+    for (n, pixel) in pixels.iter_mut().enumerate() {
+        let x = x.at(n as f32);
+        let near = max(1.0 - (x * x + y * y), 0.0);
+        let near = near * near;
+        let channel = |n: usize| {
+            let steps = round(min(colour[n] + light[n] * near, 1.0) * LEVELS);
+            min(2.0 * steps, 255.0) as u8
+        };
+        *pixel = [channel(0), channel(1), channel(2), 255];
+    }
+}
+
+/// A premultiplied colour over another.
+fn over(source: Pixel, below: Pixel) -> Pixel {
+    let through = u16::from(255 - source[3]);
+    let mut over = [0; 4];
+    for channel in 0..4 {
+        // The nearest whole number of 255ths, exactly.
+        let sum = u16::from(below[channel]) * through + 128;
+        let below = ((sum + (sum >> 8)) >> 8) as u8;
+        over[channel] = source[channel].saturating_add(below);
+    }
+    over
+}
+
+/// Adding and subtracting it rounds a number of moderate size to the nearest whole number, and ties to even.
+const ROUND: f32 = 12_582_912.0;
+
+fn round(number: f32) -> f32 {
+    (number + ROUND) - ROUND
+}
+
+/// The nearest level of a channel between 0 and 255.
+fn level(channel: f32) -> u8 {
+    let channel = min(max(channel, 0.0), 255.0);
+    // The low bits of this sum are the whole number.
+    (channel + ROUND).to_bits() as u8
+}
+
+// `f32::min` and `f32::max` also consider NaN, which takes longer.
+fn min(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+fn max(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}

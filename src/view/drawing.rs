@@ -1,0 +1,144 @@
+//! A frame as plain data: triangles in painting order. An executor turns it into pixels.
+
+use std::ops::Range;
+
+use bytemuck::{Pod, Zeroable};
+use egui::epaint::{ImageDelta, Vertex};
+use egui::{Color32, TextureId};
+
+use super::screen_transform::ScreenTransform;
+
+/// A frame, ready to be drawn.
+///
+/// Pass every drawing of a [`FrameRenderer`](super::FrameRenderer) to the same executor, in order: each contains only
+/// the changes of textures since the one before.
+#[derive(Clone, Default)]
+pub struct Drawing {
+    pub(super) size_px: [u32; 2],
+    pub(super) textures: TextureChanges,
+    /// Indexed by [`Place`].
+    pub(super) transforms: [ScreenTransform; 2],
+    /// Drawn first, on black.
+    pub(super) sea: Option<SeaRect>,
+    pub(super) backdrop: Option<Backdrop>,
+    pub(super) draws: Vec<Draw>,
+    pub(super) triangles: Mesh<Vertex>,
+    pub(super) strokes: Mesh<StrokeVertex>,
+}
+
+/// Changes of textures: new ones and parts of old ones before the draws, removed ones after them.
+#[derive(Clone, Default)]
+pub(super) struct TextureChanges {
+    pub(super) set: Vec<(TextureId, ImageDelta)>,
+    pub(super) freed: Vec<TextureId>,
+}
+
+/// The static bottom of a frame: the sea and the first draws. An executor may keep its pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Backdrop {
+    /// Equal in two drawings of a renderer only if the pixels are equal.
+    pub(super) id: u64,
+    /// Number of its draws.
+    pub(super) draws: usize,
+}
+
+/// Triangles of one kind with one scissor.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Draw {
+    /// Left, top, width and height on the target; not empty.
+    pub(super) scissor_px: [u32; 4],
+    pub(super) place: Place,
+    pub(super) kind: DrawKind,
+    /// Indices of the corners, three per triangle.
+    pub(super) indices: Range<u32>,
+}
+
+/// The part of the frame whose transform applies to the vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Stage,
+    Panels,
+}
+
+/// Work for a pixel of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum DrawKind {
+    /// Storing only: the triangle is opaque, in one colour, and large.
+    OpaqueFill,
+    /// Looking up a texel and blending it.
+    Textured(TextureId),
+    /// Computing the covered part of the pixel, and blending.
+    Stroke,
+}
+
+/// A picture's sea.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SeaRect {
+    /// Left, top, width and height on the target; not empty.
+    pub(super) scissor_px: [u32; 4],
+    /// Left, top, right and bottom, on whole pixels.
+    pub(super) rect_px: [f32; 4],
+    /// Colours at the top and at the bottom.
+    pub(super) colours: [[u8; 4]; 2],
+}
+
+/// A vertex in `shaders/strokes.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(super) struct StrokeVertex {
+    /// In points.
+    pub(super) at: [f32; 2],
+    /// Half the line's width here, and the distance from its middle.
+    pub(super) across_px: [f32; 2],
+    /// Distance along the line from the middle of its first dash; distance from the middle of a dash to its round
+    /// end; and distance between dashes.
+    pub(super) along_px: [f32; 3],
+    pub(super) colour: Color32,
+}
+
+/// Triangles with one type of vertex.
+#[derive(Clone, Debug)]
+pub(super) struct Mesh<V> {
+    pub(super) vertices: Vec<V>,
+    pub(super) indices: Vec<u32>,
+}
+
+impl<V> Default for Mesh<V> {
+    fn default() -> Self {
+        Self { vertices: Vec::new(), indices: Vec::new() }
+    }
+}
+
+impl<V: Copy> Mesh<V> {
+    /// Adds a mesh. Returns the range of its indices.
+    pub(super) fn append(&mut self, mesh: &Mesh<V>) -> Range<u32> {
+        let first_vertex = self.add_vertices(&mesh.vertices);
+        self.add_indices(first_vertex, mesh.indices.iter().copied())
+    }
+
+    /// Adds vertices. Returns the index of the first.
+    pub(super) fn add_vertices(&mut self, vertices: &[V]) -> u32 {
+        let first = self.vertices.len() as u32;
+        self.vertices.extend_from_slice(vertices);
+        first
+    }
+
+    /// Adds the corners of triangles, counted from `first_vertex`. Returns the range of their indices.
+    pub(super) fn add_indices(
+        &mut self,
+        first_vertex: u32,
+        indices: impl Iterator<Item = u32>,
+    ) -> Range<u32> {
+        let first = self.indices.len() as u32;
+        self.indices.extend(indices.map(|index| first_vertex + index));
+        first..self.indices.len() as u32
+    }
+}
+
+impl From<egui::TexturesDelta> for TextureChanges {
+    fn from(mut delta: egui::TexturesDelta) -> Self {
+        let set = delta.set.drain();
+        let set = set.flat_map(|(id, deltas)| deltas.into_iter().map(move |delta| (id, delta)));
+        Self { set: set.collect(), freed: delta.free.drain().collect() }
+    }
+}

@@ -1,0 +1,231 @@
+//! Shows drawings in a window: by a graphics device, or by the processor where there is only a software driver.
+
+use std::num::NonZero;
+use std::sync::Arc;
+use std::thread;
+
+use pollster::block_on;
+use softbuffer::{Context, Surface};
+use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
+use winit::window::Window;
+
+use super::WindowError;
+use crate::view::{
+    CpuExecutor, Drawing, Gpu, GpuError, GpuExecutor, RendererChoice, Screen, Textures,
+};
+
+/// Longest side of a texture for the processor, in pixels.
+const MAX_TEXTURE_SIDE_PX: u32 = 4096;
+
+/// Shows the drawings of one renderer.
+pub(super) enum Presenter {
+    Device(Box<Device>),
+    Processor(Box<Processor>),
+}
+
+/// The target of the next drawing.
+pub(super) struct Target {
+    pub(super) size_px: [u32; 2],
+    texture: Option<AcquiredTexture>,
+}
+
+struct AcquiredTexture {
+    texture: wgpu::SurfaceTexture,
+    /// Whether the surface must be configured again afterwards.
+    is_suboptimal: bool,
+}
+
+impl Presenter {
+    pub(super) fn new(
+        event_loop: &ActiveEventLoop,
+        window: &Arc<Window>,
+        choice: RendererChoice,
+    ) -> Result<Self, WindowError> {
+        let display = event_loop.owned_display_handle();
+        if choice == RendererChoice::Cpu {
+            return Ok(Self::Processor(Box::new(Processor::new(display, window)?)));
+        }
+        let on_device = |may_be_software: bool| {
+            let screen = block_on(Screen::new(Box::new(display.clone()), Arc::clone(window)))?;
+            let gpu = block_on(screen.gpu())?;
+            let is_wanted = may_be_software || !gpu.is_software();
+            Ok::<_, GpuError>(is_wanted.then(|| Self::Device(Box::new(Device::new(screen, gpu)))))
+        };
+        if choice == RendererChoice::Auto {
+            if let Ok(Some(device)) = on_device(false) {
+                return Ok(device);
+            }
+            match Processor::new(display.clone(), window) {
+                Ok(processor) => return Ok(Self::Processor(Box::new(processor))),
+                Err(error) => log::info!("{error}"),
+            }
+        }
+        Ok(on_device(true)?.expect("any device will do"))
+    }
+
+    /// Longest side of a texture in its drawings.
+    pub(super) fn max_texture_side_px(&self) -> u32 {
+        match self {
+            Self::Device(device) => device.gpu.max_texture_side_px,
+            Self::Processor(_) => MAX_TEXTURE_SIDE_PX,
+        }
+    }
+
+    /// Sets the size of the targets.
+    pub(super) fn resize(&mut self, size_px: [u32; 2]) {
+        match self {
+            Self::Device(device) => {
+                device.size_px = size_px;
+                device.configure();
+            }
+            Self::Processor(processor) => processor.size_px = size_px,
+        }
+    }
+
+    /// Replaces what the driver has lost. Returns true if the next drawing must come from a new renderer, because the
+    /// textures of the old one are gone.
+    pub(super) fn renew(&mut self, window: &Arc<Window>) -> Result<bool, WindowError> {
+        match self {
+            Self::Device(device) => device.renew(window),
+            Self::Processor(_) => Ok(false),
+        }
+    }
+
+    /// The target of the next drawing; `None` if nothing can be shown at the moment.
+    pub(super) fn acquire(&mut self) -> Option<Target> {
+        match self {
+            Self::Device(device) => device.acquire(),
+            Self::Processor(processor) => {
+                Some(Target { size_px: processor.size_px, texture: None })
+            }
+        }
+    }
+
+    /// Draws on the target and shows it.
+    pub(super) fn present(
+        &mut self,
+        target: Target,
+        drawing: &Drawing,
+        window: &Window,
+    ) -> Result<(), WindowError> {
+        match (self, target.texture) {
+            (Self::Device(device), Some(texture)) => device.present(texture, drawing, window),
+            (Self::Processor(processor), _) => return processor.present(drawing, window),
+            (Self::Device(_), None) => {}
+        }
+        Ok(())
+    }
+}
+
+/// A graphics device and a surface of the window.
+pub(super) struct Device {
+    gpu: Gpu,
+    executor: GpuExecutor,
+    /// `None` only if the surface could not be created again.
+    screen: Option<Screen>,
+    surface_is_lost: bool,
+    size_px: [u32; 2],
+}
+
+impl Device {
+    fn new(screen: Screen, gpu: Gpu) -> Self {
+        log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
+        let executor = GpuExecutor::new(&gpu, screen.format(&gpu));
+        Self { gpu, executor, screen: Some(screen), surface_is_lost: false, size_px: [0, 0] }
+    }
+
+    fn configure(&self) {
+        if let Some(screen) = &self.screen {
+            screen.configure(&self.gpu, self.size_px);
+        }
+    }
+
+    /// Creates a new surface, and a new device if the old one is lost or cannot present on it.
+    fn renew(&mut self, window: &Arc<Window>) -> Result<bool, WindowError> {
+        if !self.surface_is_lost && !self.gpu.is_lost() {
+            return Ok(false);
+        }
+        let mut is_new = false;
+        if let Some(screen) = self.screen.take() {
+            let screen = screen.renewed(Arc::clone(window))?;
+            if self.gpu.is_lost() || !self.gpu.adapter.is_surface_supported(screen.surface()) {
+                self.gpu = block_on(screen.gpu())?;
+                self.executor = GpuExecutor::new(&self.gpu, screen.format(&self.gpu));
+                is_new = true;
+            }
+            self.screen = Some(screen);
+        }
+        self.surface_is_lost = false;
+        self.configure();
+        Ok(is_new)
+    }
+
+    fn acquire(&mut self) -> Option<Target> {
+        use wgpu::CurrentSurfaceTexture::*;
+        let acquired = |texture: wgpu::SurfaceTexture, is_suboptimal| {
+            let size_px = [texture.texture.width(), texture.texture.height()];
+            Some(Target { size_px, texture: Some(AcquiredTexture { texture, is_suboptimal }) })
+        };
+        for _ in 0..2 {
+            match self.screen.as_ref()?.surface().get_current_texture() {
+                Success(texture) => return acquired(texture, false),
+                Suboptimal(texture) => return acquired(texture, true),
+                Timeout | Occluded => return None,
+                Outdated | Validation => self.configure(),
+                Lost => {
+                    log::info!("the surface was lost");
+                    // The next frame creates it again. If the window is gone too, an event reports that first.
+                    self.surface_is_lost = true;
+                    return None;
+                }
+            }
+        }
+        None
+    }
+
+    fn present(&mut self, target: AcquiredTexture, drawing: &Drawing, window: &Window) {
+        let AcquiredTexture { texture, is_suboptimal } = target;
+        let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        self.gpu.queue.submit(self.executor.encode(&self.gpu, drawing, &view));
+        window.pre_present_notify();
+        self.gpu.queue.present(texture);
+        if is_suboptimal {
+            self.configure();
+        }
+    }
+}
+
+/// Our own code and a buffer of the window system.
+pub(super) struct Processor {
+    surface: Surface<OwnedDisplayHandle, Arc<Window>>,
+    executor: CpuExecutor,
+    textures: Textures,
+    rows: Vec<u8>,
+    size_px: [u32; 2],
+}
+
+impl Processor {
+    fn new(display: OwnedDisplayHandle, window: &Arc<Window>) -> Result<Self, WindowError> {
+        let refused = |error: softbuffer::SoftBufferError| WindowError::Refused(error.to_string());
+        let context = Context::new(display).map_err(refused)?;
+        let surface = Surface::new(&context, Arc::clone(window)).map_err(refused)?;
+        log::info!("drawing with the processor");
+        let threads = thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
+        let (executor, textures) = (CpuExecutor::new(threads), Textures::default());
+        Ok(Self { surface, executor, textures, rows: Vec::new(), size_px: [0, 0] })
+    }
+
+    fn present(&mut self, drawing: &Drawing, window: &Window) -> Result<(), WindowError> {
+        let refused = |error: softbuffer::SoftBufferError| WindowError::Refused(error.to_string());
+        let rows = &mut self.rows;
+        self.executor.execute(drawing, &self.textures.update(drawing), rows);
+        let [Some(width), Some(height)] = self.size_px.map(NonZero::new) else { return Ok(()) };
+        self.surface.resize(width, height).map_err(refused)?;
+        let mut buffer = self.surface.buffer_mut().map_err(refused)?;
+        for (to, [red, green, blue, _]) in buffer.iter_mut().zip(rows.as_chunks::<4>().0) {
+            *to = u32::from_be_bytes([0, *red, *green, *blue]);
+        }
+        window.pre_present_notify();
+        buffer.present().map_err(refused)
+    }
+}
