@@ -29,9 +29,9 @@
 //! # A frame
 //!
 //! events → [`Command`](studio::Command)s → [`Studio::apply`](studio::Studio::apply) → [`Action`](scene::Action)s →
-//! [`Race`](run::Race) → [`PerformedAction`](run::race::PerformedAction) → [`Clock::advance`](sim::Clock::advance) → due
-//! [ticks](run::Run::tick) → [`compose`](stage::compose()) → `FrameRenderer::draw` → `CpuExecutor` or `GpuExecutor`. A
-//! [`FrameLoop`](studio::FrameLoop) does this in real time.
+//! [`Race`](run::Race) → [`PerformedAction`](run::race::PerformedAction) → [`Clock::advance`](sim::Clock::advance) →
+//! due [ticks](run::Run::tick) → [`compose`](stage::compose()) → `FrameRenderer::draw` → `CpuExecutor` or
+//! `GpuExecutor`. A [`FrameLoop`](studio::FrameLoop) does this in real time.
 //!
 //! # Invariants
 //!

@@ -56,8 +56,8 @@ fn run() -> ExitCode {
 }
 
 /// Restarts the program with an `XDG_RUNTIME_DIR` in which there is no Wayland, if the variable is unset and a driver
-/// draws without a window. Mesa looks for Wayland before it lists its adapters, and libwayland complains about the variable on
-/// standard error. A restart is the only safe way to set it before there are drivers and threads.
+/// draws without a window. Mesa looks for Wayland before it lists its adapters, and libwayland complains about the
+/// variable on standard error. A restart is the only safe way to set it before there are drivers and threads.
 #[cfg(target_os = "linux")]
 fn restart_without_wayland(cli: &Cli) {
     use std::os::unix::process::CommandExt;

@@ -60,8 +60,8 @@ pub(super) struct Pipeline<'a> {
 
 impl Pipeline<'_> {
     /// Draws the frames and passes each in order to `take` with the result of `encode`. Draws and encodes several
-    /// frames at once if there are processors for it. Returns the number of frames drawn. Once `interrupted` is set, draws no
-    /// further frame but still passes on those already drawn.
+    /// frames at once if there are processors for it. Returns the number of frames drawn. Once `interrupted` is set,
+    /// draws no further frame but still passes on those already drawn.
     pub(super) fn draw_all<T: Send>(
         self,
         interrupted: &AtomicBool,

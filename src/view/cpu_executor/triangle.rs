@@ -1,8 +1,8 @@
 //! The pixels of a triangle, and values that are linear over it.
 //!
 //! Corners lie on a grid of 1/256 pixel. A pixel belongs to the triangle that contains its middle. A middle on an
-//! edge belongs to the triangle below or on the right of the edge, so that triangles with a common edge share no
-//! pixel and leave none out.
+//! edge belongs to the triangle below or on the right of the edge. So triangles with a common edge share no pixel and
+//! leave none out.
 
 use std::ops::Range;
 
