@@ -65,9 +65,10 @@ mod tests {
         // Both springs balance at k / (k + K) of the distance.
         let (hand, own) = (64.0, 4.0 * std::f64::consts::PI * std::f64::consts::PI);
         let balance = 3.0 * hand / (hand + own);
-        assert!((at(&studio) - balance).abs() < 0.02, "{} for {balance}", at(&studio));
+        // A push per tick is within a tick's share of a steady pull.
+        assert!((at(&studio) - balance).abs() < 0.1, "{} for {balance}", at(&studio));
         let truth = studio.race().truth().bodies()[0].stepper.q()[0];
-        assert!((truth - balance).abs() < 0.02, "the truth is pulled too: {truth}");
+        assert!((truth - balance).abs() < 0.1, "the truth is pulled too: {truth}");
         let ticks = studio.race().tick();
         assert!(ticks > 590, "time runs: {ticks}");
         studio.apply(ViewCommand::LetGo);
