@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// What draws frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RendererChoice {
-    /// A graphics device, or the processor if there is none. A software driver is slower than our own code.
+    /// A graphics device, or the processor if there is none.
     #[default]
     Auto,
     /// A graphics device, a software one if need be.

@@ -1,4 +1,4 @@
-//! Shows drawings in a window: by a graphics device, or by the processor where there is only a software driver.
+//! Shows drawings in a window: by a graphics device, or by the processor if there is none.
 
 use std::num::NonZero;
 use std::sync::Arc;
@@ -45,22 +45,21 @@ impl Presenter {
         if choice == RendererChoice::Cpu {
             return Ok(Self::Processor(Box::new(Processor::new(display, window)?)));
         }
-        let on_device = |may_be_software: bool| {
+        // A software driver counts as a device: it waits for the display and for the compositor, which a buffer of
+        // ours does not.
+        let on_device = || {
             let screen = block_on(Screen::new(Box::new(display.clone()), Arc::clone(window)))?;
             let gpu = block_on(screen.gpu())?;
-            let is_wanted = may_be_software || !gpu.is_software();
-            Ok::<_, GpuError>(is_wanted.then(|| Self::Device(Box::new(Device::new(screen, gpu)))))
+            Ok::<_, GpuError>(Self::Device(Box::new(Device::new(screen, gpu))))
         };
-        if choice == RendererChoice::Auto {
-            if let Ok(Some(device)) = on_device(false) {
-                return Ok(device);
-            }
-            match Processor::new(display.clone(), window) {
-                Ok(processor) => return Ok(Self::Processor(Box::new(processor))),
-                Err(error) => log::info!("{error}"),
+        match on_device() {
+            Ok(device) => Ok(device),
+            Err(error) if choice == RendererChoice::Gpu => Err(error.into()),
+            Err(error) => {
+                log::info!("{error}");
+                Ok(Self::Processor(Box::new(Processor::new(display.clone(), window)?)))
             }
         }
-        Ok(on_device(true)?.expect("any device will do"))
     }
 
     /// Longest side of a texture in its drawings.

@@ -200,11 +200,13 @@ fn dragging_the_tick_rate_holds_time_and_is_undone_in_one_step() {
     // Half a handle is left at each end.
     let line = scale.shrink2(egui::vec2(0.0, 11.0));
     let y = |hz: f32| line.bottom() - line.height() * (hz / 5.0).ln() / 200_f32.ln();
-    let x = line.left() + 16.0;
+    let x = (line.left() + 16.0).round();
     let slowly = |hz: f32, then: &str| {
-        let aside = y(hz) + 9.0;
+        let at = y(hz).round();
+        let aside = at + 9.0;
         desk.xdotool(&format!("mousemove --window WINDOW {x} {aside} sleep 0.3"));
-        desk.xdotool(&format!("mousemove --window WINDOW {x} {} sleep 0.4 {then}", y(hz)));
+        let words = format!("mousemove --window WINDOW {x} {at} sleep 0.4 {then}");
+        desk.xdotool(words.trim_end());
     };
     until("a run", || (desk.screenshot().0 > 30).then_some(()));
     slowly(60.0, "mousedown 1");
