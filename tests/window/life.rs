@@ -89,7 +89,7 @@ fn without_the_requested_adapter_the_program_ends_quickly_with_a_message() {
 #[test]
 fn an_unmapped_window_runs_on_in_real_time() {
     let test = "an_unmapped_window_runs_on_in_real_time";
-    let Some(desk) = Desk::open(test, "--tick-hz 2 --seconds 3") else { return };
+    let Some(desk) = Desk::open(test, "--scene ship --tick-hz 2 --seconds 3") else { return };
     let start = Instant::now();
     desk.xdotool("windowunmap WINDOW");
     desk.ends();

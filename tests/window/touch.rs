@@ -193,7 +193,10 @@ fn the_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
 #[test]
 fn dragging_the_tick_rate_holds_time_and_is_undone_in_one_step() {
     let test = "dragging_the_tick_rate_holds_time_and_is_undone_in_one_step";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    // A first start has the stage alone.
+    let config = tempfile::tempdir().unwrap();
+    let variables = [("XDG_CONFIG_HOME", config.path().to_str().unwrap())];
+    let Some(desk) = Desk::open_with(test, "--scene spring", &variables) else { return };
     let mut twin = Twin::new(Studio::new(Scene::built_in("spring").unwrap()));
     twin.studio.viewer.preferences.display.measure = false;
     let scale = twin.slider("tick rate 60 Hz");
