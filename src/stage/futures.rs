@@ -51,10 +51,11 @@ pub(super) fn draw(
         if places.len() > 1 {
             picture.pen(clip).path(places.iter().copied(), width, colour);
         }
-        // A thread that leaves the stage ends at its edge.
-        if let Some(end) =
-            places.iter().position(|at| !clip.contains(*at)).or(places.len().checked_sub(1))
-        {
+        // A thread whose end is off the stage ends where it first leaves it.
+        let end = places.iter().rposition(|at| clip.contains(*at));
+        let end = end.filter(|end| end + 1 == places.len());
+        let left = places.iter().position(|at| !clip.contains(*at));
+        if let Some(end) = end.or(left) {
             // The order of the bounds suits a stage of no size too.
             let at = [0, 1].map(|axis| {
                 let at = places[end][axis].max(clip.min[axis] + MARGIN);

@@ -151,6 +151,14 @@ impl Grasp {
         held.handle = look.handles(&held.q)[*handle].at;
     }
 
+    /// Follows the camera of the cell, which may move with its body.
+    pub fn follow_camera(&mut self, cells: &[Cell]) {
+        let is_same = |cell: &&Cell| (cell.body, cell.lane) == (self.cell.body, self.cell.lane);
+        if let Some(cell) = cells.iter().find(is_same) {
+            self.cell.camera = cell.camera;
+        }
+    }
+
     /// The body on a spring to the hand.
     pub fn pulled(&self) -> PulledBody {
         let HeldBody { lane, body, hand, .. } = self.held;

@@ -156,7 +156,9 @@ impl Studio {
 
     /// Closes the foremost thing that is open. Returns whether anything was open.
     fn escape(&mut self) -> bool {
-        self.deck.let_go()
+        // A hand on the tick rate keeps it until the button goes up.
+        self.deck.tick_rate_is_held
+            || self.deck.let_go()
             || self.viewer.dialog.take().is_some()
             || take(&mut self.viewer.preferences.display.help)
             || self.close_guide()

@@ -72,7 +72,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
         StageCommand::TickRate(step) => {
             if let Some(hz) = step.next_rung(&TICK_LADDER, race.tick_hz()) {
                 act(deck, viewer, Action::TickHz(hz.into()));
-                viewer.futures_left_ns = FUTURES_NS;
+                (viewer.futures_left_ns, viewer.futures_are_new) = (FUTURES_NS, true);
             }
         }
         StageCommand::Speed(step) => {

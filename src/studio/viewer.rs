@@ -162,6 +162,8 @@ pub struct Viewer {
     pub(super) hz_at_press: Option<TickRate>,
     /// Remaining time for which the stage shows futures after a key has changed the tick rate, in nanoseconds.
     pub(super) futures_left_ns: i64,
+    /// Whether no frame has shown those futures yet.
+    pub(super) futures_are_new: bool,
     pub(super) dialog: Option<Dialog>,
     pub(super) hints: Hints,
     /// Hints for the run that the person left for the guide.
@@ -276,7 +278,10 @@ impl Viewer {
 
     /// Lets `ns` nanoseconds of real time pass, and removes a notice whose time is over.
     pub fn pass_time(&mut self, ns: i64) {
-        self.futures_left_ns = self.futures_left_ns.saturating_sub(ns).max(0);
+        // The time before a key is not that of its futures.
+        if !std::mem::take(&mut self.futures_are_new) {
+            self.futures_left_ns = self.futures_left_ns.saturating_sub(ns).max(0);
+        }
         if let Some(notice) = &mut self.notice {
             notice.pass_time(ns);
         }

@@ -78,7 +78,8 @@ fn lower(sign: char) -> char {
 /// and its command does not repeat.
 pub fn command_of(key: Key, is_repeated: bool, panels: &egui::Context) -> Option<Option<Command>> {
     // Escape closes a menu.
-    let closes_menu = key == Key::Escape && egui::Popup::is_any_open(panels);
+    let closes_menu = key == Key::Escape
+        && (egui::Popup::is_any_open(panels) || super::panels::has_faults(panels));
     let focus = Focus::of(panels.egui_wants_keyboard_input(), panels.text_edit_focused());
     if focus.takes_key(key) || closes_menu {
         return None;

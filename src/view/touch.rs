@@ -116,6 +116,13 @@ impl Touch {
                 _ => {}
             }
         }
+        if let Some(Press { on: PressTarget::Body { grasp, pulls: true, .. }, .. }) =
+            &mut self.press
+            && let Some(at) = hover
+        {
+            grasp.follow_camera(&picture.cells);
+            self.drag(&stage, time, at, commands);
+        }
         let hover = hover.filter(|at| over_stage(*at));
         if self.press.is_none()
             && let Some(at) = hover

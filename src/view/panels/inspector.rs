@@ -43,7 +43,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
                 commands.push(Command::Run(RunCommand::ToggleInspector));
             }
             let restoring = restore_commands(studio);
-            let is_edited = !restoring.is_empty() || NumberField::has_faults(ui);
+            let is_edited = !restoring.is_empty() || NumberField::has_faults(ui.ctx());
             let all = ui.add_enabled_ui(is_edited, |ui| {
                 named_button(ui, Button::new("↺ Restore all"), "restore every value of the scene")
             });

@@ -43,6 +43,11 @@ pub(super) use footer::spoken;
 pub(super) use inspector::is_sweep_active;
 pub(super) use instruments::{csv, svg};
 
+/// Whether a number has an error message, which Escape closes.
+pub(super) fn has_faults(context: &egui::Context) -> bool {
+    number_field::NumberField::has_faults(context)
+}
+
 /// Panels that a frame shows beside the stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Panels {

@@ -208,6 +208,9 @@ impl NumberField<'_> {
     /// the next field stays visible.
     fn show_fault(&self, ui: &Ui, field: Rect) {
         let Some(fault) = ui.data(|data| data.get_temp::<Fault>(self.id)) else { return };
+        if ui.input(|input| input.key_pressed(Key::Escape)) {
+            ui.data_mut(|data| data.remove::<Fault>(self.id));
+        }
         if !ui.is_rect_visible(field) {
             return;
         }
@@ -222,8 +225,8 @@ impl NumberField<'_> {
     }
 
     /// Whether any field has an error.
-    pub(super) fn has_faults(ui: &Ui) -> bool {
-        ui.data(|data| data.count::<Fault>()) > 0
+    pub(super) fn has_faults(context: &egui::Context) -> bool {
+        context.data(|data| data.count::<Fault>()) > 0
     }
 
     /// Clears the errors of all fields.
