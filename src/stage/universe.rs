@@ -115,7 +115,9 @@ pub(super) fn write_distance(
         None => {
             let since = moment.history(lane, index).since(moment.t - moment.paper_s);
             let furthest = since.map(|sample| sample.q.abs()).filter(|q| q.is_finite());
-            let width_m = 2.0 * furthest.fold(0.0, f64::max);
+            // The newest tick may be far beyond the moment that the stage shows.
+            let (left_m, right_m) = camera.span_m();
+            let width_m = (2.0 * furthest.fold(0.0, f64::max)).min(right_m - left_m);
             let known = LANDMARKS.iter().rev().find(|landmark| landmark.length_m <= width_m);
             let Some(Landmark { names: [one, many], length_m, .. }) = known else { return };
             let as_wide = match width_m / length_m {
