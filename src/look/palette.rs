@@ -340,6 +340,9 @@ pub fn mix(from: Rgba, to: Rgba, part: f32) -> Rgba {
     [mix(0) as u8, mix(1) as u8, mix(2) as u8, 255]
 }
 
+/// Opacity of the sign of a verdict at a former tick rate.
+pub(crate) const STALE: f32 = 0.35;
+
 /// Returns the same colour with its alpha scaled by `part`.
 pub(crate) fn fade([r, g, b, a]: Rgba, part: f32) -> Rgba {
     [r, g, b, (f32::from(a) * part.clamp(0.0, 1.0)) as u8]

@@ -6,7 +6,7 @@ use super::moment::{DrawContext, has_several_coordinates};
 use super::sketch::{Camera, rounded};
 use super::{Align, Label, Picture, Rect, breakpoints};
 use crate::look::Look;
-use crate::look::palette::{Palette, Rgba, fade};
+use crate::look::palette::{Palette, Rgba, STALE, fade};
 use crate::measure::{Outcome, Severity};
 use crate::run::race::{Entrant, Halt, LaneBody};
 use crate::scene::Mark;
@@ -14,8 +14,6 @@ use crate::sim::number::{round, significant};
 use crate::studio::Studio;
 use crate::studio::{shown_state, shown_truth, slowed_in_words};
 
-/// Opacity of the sign of a verdict at a former tick rate.
-const STALE: f32 = 0.35;
 /// Room of a scale bar at the right of a cell, in points.
 const BAR_MARGIN: f32 = 130.0;
 /// Height of a chip, in points.

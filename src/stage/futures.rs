@@ -52,15 +52,11 @@ pub(super) fn draw(
             picture.pen(clip).path(places.iter().copied(), width, colour);
         }
         // A thread whose end is off the stage ends where it first leaves it.
-        let end = places.iter().rposition(|at| clip.contains(*at));
-        let end = end.filter(|end| end + 1 == places.len());
-        let left = places.iter().position(|at| !clip.contains(*at));
-        if let Some(end) = end.or(left) {
+        let end = places.last().filter(|at| clip.contains(**at));
+        if let Some(end) = end.or(places.iter().find(|at| !clip.contains(**at))) {
             // The order of the bounds suits a stage of no size too.
-            let at = [0, 1].map(|axis| {
-                let at = places[end][axis].max(clip.min[axis] + MARGIN);
-                at.min(clip.max[axis] - MARGIN)
-            });
+            let at = [0, 1]
+                .map(|axis| end[axis].max(clip.min[axis] + MARGIN).min(clip.max[axis] - MARGIN));
             ends.push((at, *entry));
         }
         if entry.is_none() {

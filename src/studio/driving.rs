@@ -48,7 +48,7 @@ pub(super) fn advance(
         if deck.race().tick() >= last {
             break;
         }
-        pull(deck, viewer);
+        pull(deck);
         make_tick(deck, viewer, observer);
         if last == u64::MAX && deck.comes_to_rest(viewer.motion()) {
             due.ticks = made;
@@ -122,7 +122,7 @@ pub fn shown_truth(deck: &Deck, viewer: &Viewer, body: usize) -> (Vec<f64>, Vec<
 }
 
 /// Returns the speed at which a person can follow a lane that outgrows the stage, in thousandths of the set speed. At
-/// this speed a landmark passes each second.
+/// this speed no landmark passes in less than [`LANDMARK_S`].
 pub(super) fn slow_motion(deck: &Deck, viewer: &Viewer) -> u32 {
     if viewer.display().motion != Motion::Live || deck.mode() != Mode::Solo || !deck.time_runs() {
         return 1000;

@@ -4,7 +4,6 @@
 use glam::DVec2;
 
 use super::deck::{Deck, PulledBody};
-use super::viewer::Viewer;
 use crate::look::{Look, Pull};
 use crate::scene::Action;
 
@@ -12,12 +11,11 @@ use crate::scene::Action;
 const PULL_RAD_PER_S: f64 = 8.0;
 
 /// Pushes the body that the person pulls, before the next tick.
-pub(super) fn pull(deck: &mut Deck, viewer: &mut Viewer) {
+pub(super) fn pull(deck: &mut Deck) {
     let Some(action) = deck.pulled.as_ref().and_then(|pulled| push(deck, pulled)) else { return };
     // The notice of each push would hide all others.
     let (done, _) = deck.with_notices(|run, notices| run.act_within(action, notices));
     deck.edits += u64::from(done.is_some());
-    viewer.notice.take_if(|notice| notice.is_of_tick());
 }
 
 /// The impulse of the spring in the next tick. `None` for a halted body.

@@ -63,6 +63,10 @@ pub struct CpuExecutor {
 }
 
 impl CpuExecutor {
+    /// Longest side of a texture, in pixels. Letters are packed into textures of this width. Larger ones are slower to
+    /// look up.
+    pub const MAX_TEXTURE_SIDE_PX: u32 = 4096;
+
     /// Creates an executor that draws with this number of threads.
     pub fn new(threads: NonZero<usize>) -> Self {
         Self { threads, backdrop_id: None, backdrop: Vec::new() }

@@ -13,10 +13,6 @@ use crate::studio::Studio;
 /// Longest side of a frame that the processor draws, in pixels. Frames are far larger than this only by mistake.
 const MAX_SIDE_PX: u32 = 16_384;
 
-/// Longest side of a texture for the processor, in pixels. Letters are packed into textures of this width. Larger ones
-/// are slower to look up.
-const MAX_TEXTURE_SIDE_PX: u32 = 4096;
-
 /// Why a frame of the requested size cannot be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FrameSizeError {
@@ -150,7 +146,7 @@ impl OffscreenRenderer {
         FrameSizeError::check(size_px, MAX_SIDE_PX)?;
         let threads = thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         Ok(Self {
-            renderer: FrameRenderer::new(MAX_TEXTURE_SIDE_PX),
+            renderer: FrameRenderer::new(CpuExecutor::MAX_TEXTURE_SIDE_PX),
             size_px,
             scale,
             drawn_by: DrawnBy::Processor {

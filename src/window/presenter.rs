@@ -14,9 +14,6 @@ use crate::view::{
     CpuExecutor, Drawing, Gpu, GpuError, GpuExecutor, RendererChoice, Screen, Textures,
 };
 
-/// Longest side of a texture for the processor, in pixels.
-const MAX_TEXTURE_SIDE_PX: u32 = 4096;
-
 /// Shows the drawings of one renderer.
 pub(super) enum Presenter {
     Device(Box<Device>),
@@ -47,17 +44,12 @@ impl Presenter {
         }
         // A software driver counts as a device: it waits for the display and for the compositor, which a buffer of
         // ours does not.
-        let on_device = || {
-            let screen = block_on(Screen::new(Box::new(display.clone()), Arc::clone(window)))?;
-            let gpu = block_on(screen.gpu())?;
-            Ok::<_, GpuError>(Self::Device(Box::new(Device::new(screen, gpu))))
-        };
-        match on_device() {
-            Ok(device) => Ok(device),
+        match Device::open(display.clone(), window) {
+            Ok(device) => Ok(Self::Device(Box::new(device))),
             Err(error) if choice == RendererChoice::Gpu => Err(error.into()),
             Err(error) => {
                 log::info!("{error}");
-                Ok(Self::Processor(Box::new(Processor::new(display.clone(), window)?)))
+                Ok(Self::Processor(Box::new(Processor::new(display, window)?)))
             }
         }
     }
@@ -66,7 +58,7 @@ impl Presenter {
     pub(super) fn max_texture_side_px(&self) -> u32 {
         match self {
             Self::Device(device) => device.gpu.max_texture_side_px,
-            Self::Processor(_) => MAX_TEXTURE_SIDE_PX,
+            Self::Processor(_) => CpuExecutor::MAX_TEXTURE_SIDE_PX,
         }
     }
 
@@ -127,10 +119,12 @@ pub(super) struct Device {
 }
 
 impl Device {
-    fn new(screen: Screen, gpu: Gpu) -> Self {
+    fn open(display: OwnedDisplayHandle, window: &Arc<Window>) -> Result<Self, GpuError> {
+        let screen = block_on(Screen::new(Box::new(display), Arc::clone(window)))?;
+        let gpu = block_on(screen.gpu())?;
         log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
         let executor = GpuExecutor::new(&gpu, screen.format(&gpu));
-        Self { gpu, executor, screen: Some(screen), surface_is_lost: false, size_px: [0, 0] }
+        Ok(Self { gpu, executor, screen: Some(screen), surface_is_lost: false, size_px: [0, 0] })
     }
 
     fn configure(&self) {

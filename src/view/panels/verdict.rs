@@ -4,14 +4,13 @@ use egui::epaint::PathShape;
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
 use super::parts::{severity_tone, short};
+use crate::look::palette::STALE;
 use crate::measure::{Severity, Sign};
 use crate::view::theme::{TYPE, palette};
 
 /// Half the size of a sign, and width for the sign, in points.
 const HALF: f32 = 4.5;
 const ROOM: f32 = 17.0;
-/// Opacity of the sign of a verdict that is about a former tick rate.
-const STALE: f32 = 0.35;
 
 /// The verdict in a row.
 pub(super) struct VerdictText {
