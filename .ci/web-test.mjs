@@ -137,6 +137,36 @@ async function holdBitsAndWords() {
     await page.close();
 }
 
+/** That the processor draws the golden pictures here too. Letters alone are filled by vectors that round otherwise on the machine
+ * that kept them. */
+async function holdFrames() {
+    const page = await opened("#panels=off");
+    if (!(await page.evaluate(async () => (await regatta).golden_race !== undefined))) {
+        console.log("no frames by the processor: .ci/web web-dev makes a page that has them");
+        return page.close();
+    }
+    for (const scene of ["spring", "harbour", "pendulum", "orbit", "engines"]) {
+        const golden = readFileSync(`tests/golden/${scene}-race.png`).toString("base64");
+        const [pixels, off, worst] = await page.evaluate(async (scene, golden) => {
+            const image = new Image();
+            image.src = `data:image/png;base64,${golden}`;
+            await image.decode();
+            const canvas = document.createElement("canvas");
+            [canvas.width, canvas.height] = [image.width, image.height];
+            const context = canvas.getContext("2d");
+            context.drawImage(image, 0, 0);
+            const kept = context.getImageData(0, 0, image.width, image.height).data;
+            const drawn = (await regatta).golden_race(scene);
+            const differences = Array.from(kept, (level, at) => Math.abs(level - drawn[at]));
+            const changed = new Set(differences.flatMap((difference, at) => (difference > 0 ? [at >> 2] : [])));
+            return [drawn.length / 4, changed.size, differences.reduce((most, difference) => Math.max(most, difference), 0)];
+        }, scene, golden);
+        hold(`${scene}: ${off} of ${pixels} pixels are off, the worst by ${worst}`, pixels === 400 * 225 && off <= 9 && worst <= 2);
+        console.log(`${scene}: ${off} of ${pixels} pixels off the golden picture, the worst by ${worst}`);
+    }
+    await page.close();
+}
+
 /** That each page of questions computes the numbers of its text, below stages that move. */
 async function holdQuestions() {
     const index = await driven.open(`${server.address}questions/`);
@@ -244,6 +274,7 @@ try {
     await holdPolicy();
     await holdQuestions();
     await holdBitsAndWords();
+    await holdFrames();
     if (browser === "chrome") {
         const { holdDeeds } = await import("./web-deeds.mjs");
         await holdDeeds({ opened, hold, becomes, seconds, tick, driven, server });

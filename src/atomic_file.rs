@@ -23,6 +23,8 @@ const MAX_STEM: usize = 200;
 pub(crate) struct AtomicFile {
     part: NamedTempFile,
     path: PathBuf,
+    /// Whether Windows is to mark the final file as read-only.
+    is_read_only: bool,
 }
 
 /// Policy for an existing file of the same name.
@@ -47,7 +49,7 @@ impl AtomicFile {
         // Open it like any new file: only their owner may read the crate's own files.
         let create = |part: &Path| File::options().write(true).create_new(true).open(part);
         let part = builder.make_in(directory_of(path), create)?;
-        Ok(Self { part, path: path.to_owned() })
+        Ok(Self { part, path: path.to_owned(), is_read_only: false })
     }
 
     /// The final name of the file.
@@ -56,17 +58,28 @@ impl AtomicFile {
     }
 
     /// Copies the permissions of the file to be replaced.
-    pub(crate) fn set_permissions_of(&self, older: &Metadata) -> io::Result<()> {
+    pub(crate) fn set_permissions_of(&mut self, older: &Metadata) -> io::Result<()> {
+        if cfg!(windows) {
+            self.is_read_only = older.permissions().readonly();
+            return Ok(());
+        }
         self.part.as_file().set_permissions(older.permissions())
     }
 
     /// Syncs the file, gives it its final name, and returns that. Only [`sync_directory`] makes the name survive a
     /// loss of power.
     pub(crate) fn rename(self, if_exists: IfExists) -> io::Result<PathBuf> {
-        let Self { mut part, path } = self;
+        let Self { mut part, path, is_read_only } = self;
         part.as_file().sync_all()?;
         if if_exists == IfExists::Replace {
-            part.persist(&path).map_err(|failed| failed.error)?;
+            if is_read_only {
+                mark_read_only(&path, false)?;
+            }
+            let renamed = part.persist(&path);
+            if is_read_only {
+                mark_read_only(&path, true)?;
+            }
+            renamed.map_err(|failed| failed.error)?;
             return Ok(path);
         }
         for number in 1.. {
@@ -123,6 +136,19 @@ pub(crate) fn final_name(name: &str) -> Option<&str> {
 /// Whether these may be the random characters of a temporary name.
 pub(crate) fn is_random(characters: &str) -> bool {
     characters.len() == RANDOM_CHARS && characters.bytes().all(|b| b.is_ascii_alphanumeric())
+}
+
+/// Sets the mark of a file that Windows neither replaces nor removes. Other systems replace such a file.
+#[cfg(not(windows))]
+fn mark_read_only(_: &Path, _: bool) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(windows)]
+fn mark_read_only(path: &Path, is_read_only: bool) -> io::Result<()> {
+    let mut permissions = std::fs::metadata(path)?.permissions();
+    permissions.set_readonly(is_read_only);
+    std::fs::set_permissions(path, permissions)
 }
 
 /// Makes the names in a directory survive a loss of power, if the system offers a way.

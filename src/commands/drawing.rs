@@ -54,10 +54,8 @@ impl CaptureSettings {
     fn gpu(&self) -> Result<Option<Gpu>, Error> {
         let gpu = match self.renderer {
             RendererChoice::Cpu => return Ok(None),
-            RendererChoice::Gpu => Some(pollster::block_on(Gpu::headless())?),
-            RendererChoice::Auto => {
-                pollster::block_on(Gpu::headless()).ok().filter(|gpu| !gpu.is_software())
-            }
+            RendererChoice::Gpu => Some(pollster::block_on(Gpu::headless(self.renderer))?),
+            RendererChoice::Auto => pollster::block_on(Gpu::headless(self.renderer)).ok(),
         };
         if let Some(gpu) = &gpu {
             log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);

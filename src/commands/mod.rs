@@ -87,12 +87,12 @@ mod visible;
 pub use error::Error;
 #[cfg(feature = "window")]
 use play::PlayArgs;
-pub use terminal::{print_error, print_status, stderr_renderer};
+pub use terminal::{print_error, print_status};
 pub use visible::visible;
 
 /// The remedy for missing libraries of a window.
 pub const WINDOW_LIBRARIES: &str =
-    "on Debian and Ubuntu: apt install libx11-6 libxcursor1 libxi6 libxkbcommon-x11-0";
+    "on Debian and Ubuntu: apt install libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0";
 
 use crate::manual::{CHAPTERS, chapter};
 use crate::scene::{SCENES, clip as shortened, nearest};

@@ -83,7 +83,7 @@ pub(super) struct PlayArgs {
 
     /// What draws: auto, gpu or cpu [default: auto]
     ///
-    /// Auto takes a graphics device, or the processor if there is none.
+    /// Auto takes a graphics card, or the processor if there is none.
     #[arg(long, value_name = "WHAT", hide_possible_values = true, hide_short_help = true)]
     renderer: Option<RendererName>,
 

@@ -2,11 +2,12 @@
 
 #[cfg(feature = "view")]
 use std::ffi::OsString;
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 #[cfg(feature = "view")]
 use std::path::Path;
 
 use annotate_snippets::Renderer;
+use anstream::{AutoStream, ColorChoice};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::error::Error;
@@ -17,9 +18,14 @@ pub fn print_status(line: &str) {
     let _ = writeln!(io::stderr(), "{}", visible(line));
 }
 
-/// Writes the report of an error to standard error. It is in colour if the renderer is [styled](stderr_renderer).
+/// Writes the report of an error to standard error. It is in colour on a terminal, unless `NO_COLOR` is set or `TERM`
+/// is `dumb`.
 pub fn print_error(error: &Error) {
-    let _ = writeln!(io::stderr(), "{}", error.report(&stderr_renderer()));
+    let renderer = match AutoStream::choice(&io::stderr()) {
+        ColorChoice::Never => Renderer::plain(),
+        _ => Renderer::styled(),
+    };
+    let _ = writeln!(anstream::stderr(), "{}", error.report(&renderer));
 }
 
 /// Reports the entries of a folder that no command made and that are left alone.
@@ -28,18 +34,6 @@ pub(super) fn report_left_alone(folder: &Path, others: &[OsString]) {
     if !others.is_empty() {
         let others: Vec<_> = others.iter().map(|name| name.display().to_string()).collect();
         print_status(&format!("left alone in {}: {}", folder.display(), others.join(", ")));
-    }
-}
-
-/// Returns the renderer of messages for standard error. It uses colours on a terminal, unless `NO_COLOR` is set or
-/// `TERM` is `dumb`.
-pub fn stderr_renderer() -> Renderer {
-    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-    if io::stderr().is_terminal() && !is_set("NO_COLOR") && !is_dumb {
-        Renderer::styled()
-    } else {
-        Renderer::plain()
     }
 }
 

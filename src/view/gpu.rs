@@ -11,7 +11,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// What draws frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RendererChoice {
-    /// A graphics device, or the processor if there is none.
+    /// A graphics device, or the processor if there is none or only a driver that draws with the processor: our own
+    /// code takes less time.
     #[default]
     Auto,
     /// A graphics device, a software one if need be.
@@ -66,16 +67,17 @@ impl Gpu {
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
-    pub async fn headless() -> Result<Self, GpuError> {
+    pub async fn headless(choice: RendererChoice) -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-        Self::choose(&instance(descriptor), None).await
+        Self::choose(&instance(descriptor), None, choice).await
     }
 
-    /// Creates a device of the best ranked adapter. If there is a `surface`, the adapter must be able to present to
-    /// it.
+    /// Creates a device of the best ranked adapter that `choice` allows. If there is a `surface`, the adapter must be
+    /// able to present to it.
     pub(super) async fn choose(
         instance: &wgpu::Instance,
         surface: Option<&wgpu::Surface<'_>>,
+        choice: RendererChoice,
     ) -> Result<Self, GpuError> {
         let mut unfit = Vec::new();
         let mut candidates = Vec::new();
@@ -90,6 +92,8 @@ impl Gpu {
             let info = adapter.get_info();
             if surface.is_some_and(|surface| !adapter.is_surface_supported(surface)) {
                 unfit.push(format!("{} cannot present to this window", title(&info)));
+            } else if info.device_type == wgpu::DeviceType::Cpu && choice != RendererChoice::Gpu {
+                unfit.push(format!("{} draws with the processor", title(&info)));
             } else {
                 candidates.push((adapter, info));
             }
@@ -144,11 +148,6 @@ impl Gpu {
         });
         device.on_uncaptured_error(Arc::new(|error| log::error!("graphics: {error}")));
         Ok(Self { device, queue, adapter, info, max_texture_side_px, lost })
-    }
-
-    /// Whether the device is a driver that draws with the processor.
-    pub fn is_software(&self) -> bool {
-        self.info.device_type == wgpu::DeviceType::Cpu
     }
 
     /// Whether the device is permanently lost: driver reset, unplugged, destroyed. Recovery needs a new [`Gpu`], and
@@ -220,7 +219,7 @@ mod tests {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = wgpu::Backends::empty();
         let instance = wgpu::Instance::new(descriptor);
-        let chosen = pollster::block_on(Gpu::choose(&instance, None));
+        let chosen = pollster::block_on(Gpu::choose(&instance, None, RendererChoice::Auto));
         let error = chosen.unwrap_err().to_string();
         assert!(error.starts_with("no usable graphics adapter: "), "{error}");
         assert!(error.contains("gl offered none"), "{error}");

@@ -1,6 +1,6 @@
 //! The surface of a window or a canvas, and the instance that can make it again.
 
-use super::gpu::{Gpu, GpuError, instance};
+use super::gpu::{Gpu, GpuError, RendererChoice, instance};
 
 /// The surface for the frames of a window. The window decides on the frames and their times.
 #[derive(Debug)]
@@ -23,7 +23,7 @@ impl Screen {
         match instance.create_surface(window) {
             Ok(surface) => Ok(Self { instance, surface }),
             // Without a driver there is no surface either, but the missing driver is the cause to report.
-            Err(refusal) => match Gpu::choose(&instance, None).await {
+            Err(refusal) => match Gpu::choose(&instance, None, RendererChoice::Gpu).await {
                 Ok(_) => Err(refusal.into()),
                 Err(error) => Err(error),
             },
@@ -40,12 +40,12 @@ impl Screen {
         Ok(Self { instance, surface })
     }
 
-    /// The best device that can present here. Call it again after the loss of a device.
+    /// The best device that `choice` allows and that can present here. Call it again after the loss of a device.
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
-    pub async fn gpu(&self) -> Result<Gpu, GpuError> {
-        Gpu::choose(&self.instance, Some(&self.surface)).await
+    pub async fn gpu(&self, choice: RendererChoice) -> Result<Gpu, GpuError> {
+        Gpu::choose(&self.instance, Some(&self.surface), choice).await
     }
 
     /// The same screen with a new surface, for [`wgpu::CurrentSurfaceTexture::Lost`].

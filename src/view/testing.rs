@@ -8,7 +8,10 @@ use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2};
 
 use super::panels::RING;
 use super::stage::Stage;
-use super::{CpuExecutor, Drawing, Gpu, GpuExecutor, Offscreen, Readback, Textures, panels, theme};
+use super::{
+    CpuExecutor, Drawing, Gpu, GpuExecutor, Offscreen, Readback, RendererChoice, Textures, panels,
+    theme,
+};
 use crate::stage::{Picture, Rect};
 use crate::studio::{Command, Studio};
 use crate::view::backdrop::BackdropFinder;
@@ -16,7 +19,7 @@ use crate::view::stage::draw_stage;
 
 /// A graphics device. Without one, writes the name of the skipped test and the reason to stderr.
 pub(super) fn gpu_or_skip(test: &str) -> Option<Gpu> {
-    pollster::block_on(Gpu::headless())
+    pollster::block_on(Gpu::headless(RendererChoice::Gpu))
         // Not `eprintln!`, which the test runner hides when a test passes.
         .inspect_err(|error| drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")))
         .ok()

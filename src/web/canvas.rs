@@ -1,7 +1,9 @@
 //! The canvas of the page, and the renderer that draws on it.
 
 use regatta::studio::{Command, Studio};
-use regatta::view::{FrameOutput, FrameRenderer, Gpu, GpuExecutor, Screen, egui, wgpu};
+use regatta::view::{
+    FrameOutput, FrameRenderer, Gpu, GpuExecutor, RendererChoice, Screen, egui, wgpu,
+};
 use web_sys::HtmlCanvasElement;
 
 pub(crate) struct Canvas {
@@ -23,7 +25,7 @@ impl Canvas {
                 .to_owned()
         };
         let screen = Screen::of_canvas(target(element.clone())).map_err(|e| refused(&e))?;
-        let gpu = screen.gpu().await.map_err(|e| refused(&e))?;
+        let gpu = screen.gpu(RendererChoice::Gpu).await.map_err(|e| refused(&e))?;
         let renderer = FrameRenderer::new(gpu.max_texture_side_px);
         let executor = GpuExecutor::new(&gpu, screen.format(&gpu));
         Ok(Self { element, renderer, executor, screen, gpu, size_px: [0, 0] })

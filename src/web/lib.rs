@@ -17,6 +17,8 @@ mod hashes;
 mod keyboard;
 mod listening;
 mod pointer;
+#[cfg(feature = "processor")]
+mod processor;
 mod questions;
 mod work;
 
@@ -28,6 +30,8 @@ use canvas::Canvas;
 use driver::Driver;
 
 pub use hashes::{early_hashes, judged_words};
+#[cfg(feature = "processor")]
+pub use processor::golden_race;
 pub use questions::number;
 
 /// Shows the program on the page's canvas. Returns when the first frame has been drawn.

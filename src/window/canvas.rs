@@ -2,7 +2,7 @@
 
 use std::mem;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::Window;
@@ -18,6 +18,7 @@ pub(super) struct Canvas {
     pub(super) egui: egui_winit::State,
     pub(super) renderer: FrameRenderer,
     presenter: Presenter,
+    opened: Instant,
     /// The display's refresh rate in millihertz, if it is known.
     pub(super) refresh_mhz: Option<u32>,
     size_px: [u32; 2],
@@ -46,8 +47,15 @@ impl Canvas {
         let presenter = Presenter::new(event_loop, &window, choice)?;
         let renderer = FrameRenderer::new(presenter.max_texture_side_px());
         let egui = translator(&renderer, &window, presenter.max_texture_side_px());
-        let mut canvas =
-            Self { window, egui, renderer, presenter, refresh_mhz: None, size_px: [0, 0] };
+        let mut canvas = Self {
+            window,
+            egui,
+            renderer,
+            presenter,
+            opened: Instant::now(),
+            refresh_mhz: None,
+            size_px: [0, 0],
+        };
         // Screen readers find the window only if this comes before it is visible.
         #[cfg(feature = "accessibility")]
         canvas.egui.init_accesskit(event_loop, &canvas.window, proxy);
@@ -80,7 +88,10 @@ impl Canvas {
             self.renew_renderer();
         }
         let Some(target) = self.presenter.acquire() else { return Ok(FrameOutcome::Skipped) };
-        let input = self.egui.take_egui_input(&self.window);
+        // Not by `take_egui_input`, which asks the window for its size and panics if the display has destroyed it.
+        let input = self.egui.egui_input_mut();
+        input.time = Some(self.opened.elapsed().as_secs_f64());
+        let input = input.take();
         let scale = self.window.scale_factor() as f32;
         let (commands, output) = self.renderer.draw(target.size_px, scale, input, studio);
         clipboard.set_copied(&output.platform.commands);

@@ -1,4 +1,4 @@
-//! Shows drawings in a window: by a graphics device, or by the processor if there is none.
+//! Shows drawings in a window: by a graphics device, or by the processor if there is none but software.
 
 use std::num::NonZero;
 use std::sync::Arc;
@@ -42,9 +42,7 @@ impl Presenter {
         if choice == RendererChoice::Cpu {
             return Ok(Self::Processor(Box::new(Processor::new(display, window)?)));
         }
-        // A software driver counts as a device: it waits for the display and for the compositor, which a buffer of
-        // ours does not.
-        match Device::open(display.clone(), window) {
+        match Device::open(display.clone(), window, choice) {
             Ok(device) => Ok(Self::Device(Box::new(device))),
             Err(error) if choice == RendererChoice::Gpu => Err(error.into()),
             Err(error) => {
@@ -119,9 +117,13 @@ pub(super) struct Device {
 }
 
 impl Device {
-    fn open(display: OwnedDisplayHandle, window: &Arc<Window>) -> Result<Self, GpuError> {
+    fn open(
+        display: OwnedDisplayHandle,
+        window: &Arc<Window>,
+        choice: RendererChoice,
+    ) -> Result<Self, GpuError> {
         let screen = block_on(Screen::new(Box::new(display), Arc::clone(window)))?;
-        let gpu = block_on(screen.gpu())?;
+        let gpu = block_on(screen.gpu(choice))?;
         log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
         let executor = GpuExecutor::new(&gpu, screen.format(&gpu));
         Ok(Self { gpu, executor, screen: Some(screen), surface_is_lost: false, size_px: [0, 0] })
@@ -142,7 +144,8 @@ impl Device {
         if let Some(screen) = self.screen.take() {
             let screen = screen.renewed(Arc::clone(window))?;
             if self.gpu.is_lost() || !self.gpu.adapter.is_surface_supported(screen.surface()) {
-                self.gpu = block_on(screen.gpu())?;
+                // A driver of any kind is better than none in the midst of a run.
+                self.gpu = block_on(screen.gpu(RendererChoice::Gpu))?;
                 self.executor = GpuExecutor::new(&self.gpu, screen.format(&self.gpu));
                 is_new = true;
             }
@@ -216,7 +219,8 @@ impl Processor {
         self.surface.resize(width, height).map_err(refused)?;
         let mut buffer = self.surface.buffer_mut().map_err(refused)?;
         for (to, [red, green, blue, _]) in buffer.iter_mut().zip(rows.as_chunks::<4>().0) {
-            *to = u32::from_be_bytes([0, *red, *green, *blue]);
+            // Displays ignore the first byte, but a screenshot may take it for opacity.
+            *to = u32::from_be_bytes([255, *red, *green, *blue]);
         }
         window.pre_present_notify();
         buffer.present().map_err(refused)

@@ -15,7 +15,7 @@ const INSIDE: u32 = 8;
 const HATCH: ([u8; 4], u32) = ([138, 160, 112, 255], 4);
 
 /// The middle of the mass under RK4, in pixels, and how many of its pixels lie inside.
-fn body(sight: &RgbaImage) -> Option<([u32; 2], usize)> {
+pub(crate) fn body(sight: &RgbaImage) -> Option<([u32; 2], usize)> {
     let (colour, _) = Theme::Dark.style(method("rk4").unwrap());
     // The face of a block is a little darker than its method's colour.
     patch(sight, mix(colour, [0, 0, 0, 255], 0.12), INSIDE)

@@ -102,7 +102,7 @@ impl Destination<'_> {
     /// stays.
     pub(crate) fn begin(self) -> Result<Output, Error> {
         let begin = || {
-            let file = begin_file(&end_of_links(self.path)?)?;
+            let mut file = begin_file(&end_of_links(self.path)?)?;
             if let Ok(older) = fs::metadata(self.path) {
                 file.set_permissions_of(&older)?;
             }

@@ -1,8 +1,12 @@
 //! Colours of neighbouring pixels in a row.
 //!
 //! A colour to draw is rounded to 8 bits a channel, and then blended in whole numbers, as graphics hardware does.
+//!
+//! Each function is compiled for two sets of instructions. Neither joins a product and a sum in one rounding, so that
+//! both have the same bytes.
 
 use egui::ColorImage;
+use multiversion::multiversion;
 
 /// Red, green, blue and alpha; colours are premultiplied.
 pub(super) type Pixel = [u8; 4];
@@ -60,6 +64,7 @@ impl Line {
 }
 
 /// Strokes in one colour.
+#[multiversion(targets("x86_64+avx+avx2"))]
 pub(super) fn stroke(pixels: &mut [Pixel], line: &Line, colour: Pixel) {
     let channels = colour.map(f32::from);
     for (n, block) in pixels.chunks_mut(BLOCK).enumerate() {
@@ -75,6 +80,7 @@ pub(super) fn stroke(pixels: &mut [Pixel], line: &Line, colour: Pixel) {
 }
 
 /// Strokes in a varying colour, its channels from 0 to 255.
+#[multiversion(targets("x86_64+avx+avx2"))]
 pub(super) fn stroke_ramped(pixels: &mut [Pixel], line: &Line, colour: [Ramp; 4]) {
     for (n, block) in pixels.chunks_mut(BLOCK).enumerate() {
         let cover = line.cover(n * BLOCK);
@@ -88,6 +94,7 @@ pub(super) fn stroke_ramped(pixels: &mut [Pixel], line: &Line, colour: [Ramp; 4]
 }
 
 /// Blends one colour.
+#[multiversion(targets("x86_64+avx+avx2"))]
 pub(super) fn blend(pixels: &mut [Pixel], colour: Pixel) {
     match colour {
         [0, 0, 0, 0] => {}
@@ -97,6 +104,7 @@ pub(super) fn blend(pixels: &mut [Pixel], colour: Pixel) {
 }
 
 /// Blends a varying colour, its channels from 0 to 255.
+#[multiversion(targets("x86_64+avx+avx2"))]
 pub(super) fn blend_ramped(pixels: &mut [Pixel], colour: [Ramp; 4]) {
     for (x, pixel) in pixels.iter_mut().enumerate() {
         *pixel = over(colour.map(|channel| level(channel.at(x as f32))), *pixel);
@@ -104,6 +112,7 @@ pub(super) fn blend_ramped(pixels: &mut [Pixel], colour: [Ramp; 4]) {
 }
 
 /// Blends a varying colour times the nearest texel.
+#[multiversion(targets("x86_64+avx+avx2"))]
 pub(super) fn textured(
     pixels: &mut [Pixel],
     texture: &ColorImage,
@@ -125,6 +134,7 @@ pub(super) fn textured(
 }
 
 /// Stores the colours of water. Channels are from 0 to 1, and places relative to the light in its reach.
+#[multiversion(targets("x86_64+avx+avx2"))]
 pub(super) fn water(pixels: &mut [Pixel], colour: [f32; 3], light: [f32; 3], x: Ramp, y: f32) {
     /// Steps of two levels: equal neighbours make a file smaller and faster to write.
     const LEVELS: f32 = 127.5;

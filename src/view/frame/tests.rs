@@ -4,7 +4,7 @@ use crate::stage::{Fill, Picture, Shape};
 use crate::studio::StageCommand;
 use crate::view::chart::{self, LineStyle, Primitive, ScreenCurve};
 use crate::view::testing::{EVERYWHERE, Painter, Pixels, gpu_or_skip, paint_on};
-use crate::view::{Gpu, GpuExecutor, Offscreen};
+use crate::view::{Gpu, GpuExecutor, Offscreen, RendererChoice};
 
 /// Longest side of a texture.
 const SIDE_PX: u32 = 4096;
@@ -126,7 +126,7 @@ fn a_lost_device_does_not_panic_and_a_new_one_draws() {
     assert!(executor.encode(&gpu, &drawing(), &target.view).is_none());
     assert!(gpu.is_lost());
 
-    let gpu = pollster::block_on(Gpu::headless()).unwrap();
+    let gpu = pollster::block_on(Gpu::headless(RendererChoice::Gpu)).unwrap();
     let mut executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
     assert_eq!(paint_on(&gpu, &mut executor, &drawing()).at(60, 60), [255, 0, 0, 255]);
 }
