@@ -3,10 +3,15 @@
 //! Choosing a device is asynchronous because a browser needs that; desktop drivers block on it.
 //!
 //! This module enumerates and ranks adapters itself rather than requesting one from wgpu. The best adapter may refuse
-//! to make a device while the next one would.
+//! to make a device or our pipelines while the next one would.
 
+use std::error::Error;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::offscreen_renderer::Offscreen;
+use super::pipelines::Pipelines;
+use super::screen::format_of;
 
 /// What draws frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,7 +37,7 @@ pub enum GpuError {
         /// The fault of each adapter, or the backends without one.
         reasons: String,
     },
-    /// Adapters exist, but none of them made a device.
+    /// Adapters exist, but none of them made a device and our pipelines.
     #[error("no graphics device: {refusals}; update the driver, or try another WGPU_BACKEND")]
     DeviceRefused {
         /// Each adapter tried, with its refusal.
@@ -43,7 +48,7 @@ pub enum GpuError {
     NoSurface(#[from] wgpu::CreateSurfaceError),
 }
 
-/// A device, its queue, and the adapter they came from. A clone is the same device.
+/// A device that draws our frames, its queue, and the adapter they came from. A clone is the same device.
 #[derive(Clone, Debug)]
 pub struct Gpu {
     /// Creates textures, buffers and pipelines.
@@ -56,6 +61,7 @@ pub struct Gpu {
     pub info: wgpu::AdapterInfo,
     /// The longest side of a texture, in pixels.
     pub max_texture_side_px: u32,
+    pub(super) pipelines: Pipelines,
     lost: Arc<AtomicBool>,
 }
 
@@ -71,8 +77,8 @@ impl Gpu {
         Self::choose(&instance(descriptor), None).await
     }
 
-    /// Creates a device of the best ranked adapter. If there is a `surface`, the adapter must be able to present to
-    /// it.
+    /// Creates a device of the best ranked adapter that makes our pipelines. If there is a `surface`, the adapter must
+    /// be able to present to it.
     pub(super) async fn choose(
         instance: &wgpu::Instance,
         surface: Option<&wgpu::Surface<'_>>,
@@ -108,9 +114,14 @@ impl Gpu {
 
         let mut refusals = Vec::new();
         for (adapter, info) in candidates {
-            match Self::open(adapter, info.clone()).await {
+            let format = surface.map_or(Offscreen::FORMAT, |surface| format_of(surface, &adapter));
+            match Self::open(adapter, info.clone(), format).await {
                 Ok(gpu) => return Ok(gpu),
-                Err(refusal) => refusals.push(format!("{}: {refusal}", title(&info))),
+                Err(refusal) => {
+                    let refusal = format!("{}: {refusal}", title(&info));
+                    log::info!("passed over {refusal}");
+                    refusals.push(refusal);
+                }
             }
         }
         Err(GpuError::DeviceRefused { refusals: refusals.join(", ") })
@@ -119,7 +130,8 @@ impl Gpu {
     async fn open(
         adapter: wgpu::Adapter,
         info: wgpu::AdapterInfo,
-    ) -> Result<Self, wgpu::RequestDeviceError> {
+        format: wgpu::TextureFormat,
+    ) -> Result<Self, String> {
         // The lowest limits that wgpu offers, since quads and uniforms suffice, but textures and buffers as large as
         // the adapter allows.
         let limits = wgpu::Limits {
@@ -132,7 +144,8 @@ impl Gpu {
             required_limits: limits,
             ..Default::default()
         });
-        let (device, queue) = request.await?;
+        let (device, queue) = request.await.map_err(|error| error.to_string())?;
+        let pipelines = Pipelines::new(&device, format).await.map_err(|error| cause(&error))?;
 
         let lost = Arc::new(AtomicBool::new(false));
         device.set_device_lost_callback({
@@ -143,7 +156,7 @@ impl Gpu {
             }
         });
         device.on_uncaptured_error(Arc::new(|error| log::error!("graphics: {error}")));
-        Ok(Self { device, queue, adapter, info, max_texture_side_px, lost })
+        Ok(Self { device, queue, adapter, info, max_texture_side_px, pipelines, lost })
     }
 
     /// Whether the device is a driver that draws with the processor.
@@ -165,6 +178,14 @@ impl Gpu {
 pub(super) fn instance(mut descriptor: wgpu::InstanceDescriptor) -> wgpu::Instance {
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
     wgpu::Instance::new(descriptor)
+}
+
+/// The innermost error, on one line. The outer ones only name the call of wgpu that failed.
+fn cause(mut error: &dyn Error) -> String {
+    while let Some(inner) = error.source() {
+        error = inner;
+    }
+    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 fn title(info: &wgpu::AdapterInfo) -> String {
@@ -245,5 +266,15 @@ mod tests {
             mapped_at_creation: false,
         }));
         assert!(!gpu.is_lost());
+    }
+
+    #[test]
+    fn a_refused_pipeline_is_an_error_of_one_line() {
+        let Some(gpu) = gpu_or_skip("a_refused_pipeline_is_an_error_of_one_line") else { return };
+        let made = |format| pollster::block_on(Pipelines::new(&gpu.device, format));
+        assert!(made(wgpu::TextureFormat::Bgra8Unorm).is_ok());
+        // No device draws colours on depths.
+        let refusal = cause(&made(wgpu::TextureFormat::Depth32Float).unwrap_err());
+        assert!(refusal.contains("Depth32Float") && !refusal.contains('\n'), "{refusal}");
     }
 }

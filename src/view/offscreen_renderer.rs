@@ -163,7 +163,7 @@ impl OffscreenRenderer {
     pub fn on_gpu(gpu: Gpu, size_px: [u32; 2], scale: f32) -> Result<Self, FrameSizeError> {
         let canvas = Offscreen::new(&gpu, size_px)?;
         let renderer = FrameRenderer::new(gpu.max_texture_side_px);
-        let executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
+        let executor = GpuExecutor::new(&gpu);
         let device = OnDevice { gpu, executor, canvas, readback: Readback::default() };
         Ok(Self { renderer, size_px, scale, drawn_by: DrawnBy::Device(Box::new(device)) })
     }

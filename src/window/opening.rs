@@ -1,6 +1,6 @@
 //! Opens scene files, traces and methods that are dropped on the window or typed as paths, and completes paths.
 
-use std::path::{MAIN_SEPARATOR, Path, PathBuf};
+use std::path::{MAIN_SEPARATOR, Path, PathBuf, is_separator};
 use std::sync::Arc;
 
 use crate::loops::{FrameTrace, trace_file};
@@ -202,17 +202,18 @@ fn listed_path(studio: &Studio, path: &Path) -> PathBuf {
 
 /// Replaces a leading `~` in a path with the home directory.
 fn from_home(typed: &str) -> PathBuf {
-    let rest = typed.strip_prefix('~').filter(|rest| rest.starts_with(MAIN_SEPARATOR));
+    let rest = typed.strip_prefix('~').filter(|rest| rest.starts_with(is_separator));
     match (rest, std::env::home_dir()) {
-        (Some(rest), Some(home)) => home.join(rest.trim_start_matches(MAIN_SEPARATOR)),
+        (Some(rest), Some(home)) => home.join(rest.trim_start_matches(is_separator)),
         _ => typed.into(),
     }
 }
 
 /// Completes a path with the common beginning of all matching folders and TOML files.
 pub(super) fn complete_path(typed: &str) -> String {
-    let (folder, begun) = match typed.rfind(MAIN_SEPARATOR) {
-        Some(end) => typed.split_at(end + MAIN_SEPARATOR.len_utf8()),
+    // Windows has two separators, each of one byte like that of other systems.
+    let (folder, begun) = match typed.rfind(is_separator) {
+        Some(end) => typed.split_at(end + 1),
         None => ("", typed),
     };
     let listed = if folder.is_empty() { PathBuf::from(".") } else { from_home(folder) };

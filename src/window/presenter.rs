@@ -123,7 +123,7 @@ impl Device {
         let screen = block_on(Screen::new(Box::new(display), Arc::clone(window)))?;
         let gpu = block_on(screen.gpu())?;
         log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
-        let executor = GpuExecutor::new(&gpu, screen.format(&gpu));
+        let executor = GpuExecutor::new(&gpu);
         Ok(Self { gpu, executor, screen: Some(screen), surface_is_lost: false, size_px: [0, 0] })
     }
 
@@ -143,7 +143,7 @@ impl Device {
             let screen = screen.renewed(Arc::clone(window))?;
             if self.gpu.is_lost() || !self.gpu.adapter.is_surface_supported(screen.surface()) {
                 self.gpu = block_on(screen.gpu())?;
-                self.executor = GpuExecutor::new(&self.gpu, screen.format(&self.gpu));
+                self.executor = GpuExecutor::new(&self.gpu);
                 is_new = true;
             }
             self.screen = Some(screen);
