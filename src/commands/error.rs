@@ -52,7 +52,8 @@ impl PlaceOf {
             (io::ErrorKind::FileTooLarge, _) => {
                 "raise the limit of a file's size (ulimit -f)".into()
             }
-            (io::ErrorKind::NotFound, Self::Option(option)) => {
+            // Windows finds nothing below a file, where other systems find no directory.
+            (io::ErrorKind::NotFound | io::ErrorKind::NotADirectory, Self::Option(option)) => {
                 format!("give another {option}, in a directory that is there")
             }
             (_, Self::Option(option)) => format!("give another {option} that you may write to"),

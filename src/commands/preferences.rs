@@ -50,6 +50,7 @@ pub(super) fn save(preferences: &SavedPreferences) {
 /// Returns the studio's open scene in the form that it has in the file, which is a name or an absolute path.
 pub(super) fn scene_of(studio: &Studio) -> Option<PathBuf> {
     match studio.deck.scene_list().open_path() {
+        // Not the canonical path, which on Windows is a verbatim one (`\\?\C:\…`) that people do not type.
         Some(path) => std::path::absolute(path).ok(),
         None => Some(studio.deck.scene_name().into()),
     }

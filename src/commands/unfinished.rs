@@ -119,8 +119,8 @@ struct Note {
 
 impl Note {
     fn new(folder: &Path, recording: &Path) -> io::Result<Self> {
-        let text =
-            NOTES.text(&std::path::absolute(recording)?).ok_or(io::ErrorKind::InvalidFilename)?;
+        let recording = std::path::absolute(recording)?;
+        let text = NOTES.text(&recording).ok_or(io::ErrorKind::InvalidFilename)?;
         fs::create_dir_all(folder)?;
         let mut builder = tempfile::Builder::new();
         let [before, behind] = NOTES.name;

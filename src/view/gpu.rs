@@ -3,10 +3,13 @@
 //! Choosing a device is asynchronous because a browser needs that; desktop drivers block on it.
 //!
 //! This module enumerates and ranks adapters itself rather than requesting one from wgpu. The best adapter may refuse
-//! to make a device while the next one would.
+//! to make a device or our pipelines while the next one would.
 
+use std::error::Error;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::pipelines::Pipelines;
 
 /// What draws frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -33,7 +36,7 @@ pub enum GpuError {
         /// The fault of each adapter, or the backends without one.
         reasons: String,
     },
-    /// Adapters exist, but none of them made a device.
+    /// Adapters exist, but none of them made a device and our pipelines.
     #[error("no graphics device: {refusals}; update the driver, or try another WGPU_BACKEND")]
     DeviceRefused {
         /// Each adapter tried, with its refusal.
@@ -44,7 +47,10 @@ pub enum GpuError {
     NoSurface(#[from] wgpu::CreateSurfaceError),
 }
 
-/// A device, its queue, and the adapter they came from. A clone is the same device.
+/// Format of the textures of a device without a surface: gamma space, red first.
+pub(super) const OFFSCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// A device that draws our frames, its queue, and the adapter they came from. A clone is the same device.
 #[derive(Clone, Debug)]
 pub struct Gpu {
     /// Creates textures, buffers and pipelines.
@@ -57,6 +63,7 @@ pub struct Gpu {
     pub info: wgpu::AdapterInfo,
     /// The longest side of a texture, in pixels.
     pub max_texture_side_px: u32,
+    pub(super) pipelines: Pipelines,
     lost: Arc<AtomicBool>,
 }
 
@@ -72,8 +79,8 @@ impl Gpu {
         Self::choose(&instance(descriptor), None, choice).await
     }
 
-    /// Creates a device of the best ranked adapter that `choice` allows. If there is a `surface`, the adapter must be
-    /// able to present to it.
+    /// Creates a device of the best ranked adapter that `choice` allows and that makes our pipelines. If there is a
+    /// `surface`, the adapter must be able to present to it.
     pub(super) async fn choose(
         instance: &wgpu::Instance,
         surface: Option<&wgpu::Surface<'_>>,
@@ -112,9 +119,14 @@ impl Gpu {
 
         let mut refusals = Vec::new();
         for (adapter, info) in candidates {
-            match Self::open(adapter, info.clone()).await {
+            let format = surface.map_or(OFFSCREEN_FORMAT, |surface| format_of(surface, &adapter));
+            match Self::open(adapter, info.clone(), format).await {
                 Ok(gpu) => return Ok(gpu),
-                Err(refusal) => refusals.push(format!("{}: {refusal}", title(&info))),
+                Err(refusal) => {
+                    let refusal = format!("{}: {refusal}", title(&info));
+                    log::info!("passed over {refusal}");
+                    refusals.push(refusal);
+                }
             }
         }
         Err(GpuError::DeviceRefused { refusals: refusals.join(", ") })
@@ -123,7 +135,8 @@ impl Gpu {
     async fn open(
         adapter: wgpu::Adapter,
         info: wgpu::AdapterInfo,
-    ) -> Result<Self, wgpu::RequestDeviceError> {
+        format: wgpu::TextureFormat,
+    ) -> Result<Self, String> {
         // The lowest limits that wgpu offers, since quads and uniforms suffice, but textures and buffers as large as
         // the adapter allows.
         let limits = wgpu::Limits {
@@ -136,7 +149,8 @@ impl Gpu {
             required_limits: limits,
             ..Default::default()
         });
-        let (device, queue) = request.await?;
+        let (device, queue) = request.await.map_err(|error| error.to_string())?;
+        let pipelines = Pipelines::new(&device, format).await.map_err(|error| cause(&error))?;
 
         let lost = Arc::new(AtomicBool::new(false));
         device.set_device_lost_callback({
@@ -147,7 +161,7 @@ impl Gpu {
             }
         });
         device.on_uncaptured_error(Arc::new(|error| log::error!("graphics: {error}")));
-        Ok(Self { device, queue, adapter, info, max_texture_side_px, lost })
+        Ok(Self { device, queue, adapter, info, max_texture_side_px, pipelines, lost })
     }
 
     /// Whether the device is permanently lost: driver reset, unplugged, destroyed. Recovery needs a new [`Gpu`], and
@@ -164,6 +178,22 @@ impl Gpu {
 pub(super) fn instance(mut descriptor: wgpu::InstanceDescriptor) -> wgpu::Instance {
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
     wgpu::Instance::new(descriptor)
+}
+
+/// The innermost error, on one line. The outer ones only name the call of wgpu that failed.
+fn cause(mut error: &dyn Error) -> String {
+    while let Some(inner) = error.source() {
+        error = inner;
+    }
+    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The format of the surface's textures: one in gamma space if the surface has any.
+fn format_of(surface: &wgpu::Surface<'_>, adapter: &wgpu::Adapter) -> wgpu::TextureFormat {
+    let formats = surface.get_capabilities(adapter).formats;
+    let gamma = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
+    let found = gamma.into_iter().find(|format| formats.contains(format));
+    found.or(formats.first().copied()).unwrap_or(wgpu::TextureFormat::Bgra8Unorm)
 }
 
 fn title(info: &wgpu::AdapterInfo) -> String {
@@ -244,5 +274,15 @@ mod tests {
             mapped_at_creation: false,
         }));
         assert!(!gpu.is_lost());
+    }
+
+    #[test]
+    fn a_refused_pipeline_is_an_error_of_one_line() {
+        let Some(gpu) = gpu_or_skip("a_refused_pipeline_is_an_error_of_one_line") else { return };
+        let made = |format| pollster::block_on(Pipelines::new(&gpu.device, format));
+        assert!(made(wgpu::TextureFormat::Bgra8Unorm).is_ok());
+        // No device draws colours on depths.
+        let refusal = cause(&made(wgpu::TextureFormat::Depth32Float).unwrap_err());
+        assert!(refusal.contains("Depth32Float") && !refusal.contains('\n'), "{refusal}");
     }
 }

@@ -4,46 +4,19 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
-use egui::epaint::{ImageDelta, Vertex};
+use egui::epaint::ImageDelta;
 use egui::{ImageData, TextureId};
 
-use super::drawing::{Draw, DrawKind, Drawing, Mesh, Place, SeaRect, StrokeVertex};
+use super::drawing::{Draw, DrawKind, Drawing, Mesh, Place, SeaRect};
 use super::gpu::Gpu;
+use super::pipelines::{Pipelines, SeaVertex};
 use super::screen_transform::ScreenTransform;
-
-const PANELS: &str = concat!(
-    include_str!("../../shaders/screen_transform.wgsl"),
-    include_str!("../../shaders/panels.wgsl")
-);
-const STROKES: &str = concat!(
-    include_str!("../../shaders/screen_transform.wgsl"),
-    include_str!("../../shaders/strokes.wgsl")
-);
-const SEA: &str = concat!(
-    include_str!("../../shaders/screen_transform.wgsl"),
-    include_str!("../../shaders/sea.wgsl")
-);
-
-const PANEL_ATTRIBUTES: [wgpu::VertexAttribute; 3] =
-    wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4];
-const STROKE_ATTRIBUTES: [wgpu::VertexAttribute; 4] =
-    wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Float32x3, 3 => Unorm8x4];
-const SEA_ATTRIBUTES: [wgpu::VertexAttribute; 3] =
-    wgpu::vertex_attr_array![0 => Float32x4, 1 => Unorm8x4, 2 => Unorm8x4];
 
 /// Initial capacity of a buffer in bytes. It grows by doubling.
 const FIRST_CAPACITY: u64 = 1 << 16;
 
 /// No backdrop is kept for a larger target, because it would take as much memory again.
 const MAX_BACKDROP_PIXELS: u64 = 4096 * 4096;
-
-/// `Part` in `shaders/sea.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct SeaVertex {
-    rect_px: [f32; 4],
-    colours: [[u8; 4]; 2],
-}
 
 /// `ScreenTransform` in `shaders/screen_transform.wgsl`.
 #[repr(C)]
@@ -55,17 +28,12 @@ struct Uniform {
     padding: [f32; 3],
 }
 
-/// Draws the drawings of one renderer on targets of one format.
+/// Draws the drawings of one renderer on targets of the device's format.
 #[derive(Debug)]
 pub struct GpuExecutor {
-    format: wgpu::TextureFormat,
-    fill: wgpu::RenderPipeline,
-    textured: wgpu::RenderPipeline,
-    stroke: wgpu::RenderPipeline,
-    water: wgpu::RenderPipeline,
+    pipelines: Pipelines,
     /// Indexed by [`Place`].
     transforms: [(wgpu::Buffer, wgpu::BindGroup); 2],
-    atlas_layout: wgpu::BindGroupLayout,
     atlases: HashMap<TextureId, (wgpu::Texture, wgpu::BindGroup)>,
     triangles: MeshBuffer,
     strokes: MeshBuffer,
@@ -75,50 +43,12 @@ pub struct GpuExecutor {
 }
 
 impl GpuExecutor {
-    /// Creates an executor for targets of `format`, which must be in gamma space.
-    pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
-        let transform = bind_group_layout(
-            gpu,
-            wgpu::ShaderStages::VERTEX,
-            wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-        );
-        let atlas_layout = bind_group_layout(
-            gpu,
-            wgpu::ShaderStages::VERTEX_FRAGMENT,
-            wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            },
-        );
-        let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
-            gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("frame"),
-                bind_group_layouts: groups,
-                immediate_size: 0,
-            })
-        };
-        let plain = layout(&[Some(&transform)]);
-        let over_atlas = layout(&[Some(&transform), Some(&atlas_layout)]);
-        let over = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-        let panels = |name, blend| {
-            let names = [PANELS, name];
-            pipeline::<Vertex>(gpu, &over_atlas, format, names, &PANEL_ATTRIBUTES, blend)
-        };
-        let stroke = [STROKES, "stroke"];
-        let water = [SEA, "water"];
+    /// Creates an executor for targets of the device's format.
+    pub fn new(gpu: &Gpu) -> Self {
+        let pipelines = gpu.pipelines.clone();
         Self {
-            format,
-            fill: panels("fill", None),
-            textured: panels("textured", over),
-            stroke: pipeline::<StrokeVertex>(gpu, &plain, format, stroke, &STROKE_ATTRIBUTES, over),
-            water: pipeline::<SeaVertex>(gpu, &plain, format, water, &SEA_ATTRIBUTES, None),
-            transforms: [(); 2].map(|()| uniform(gpu, &transform)),
-            atlas_layout,
+            transforms: [(); 2].map(|()| uniform(gpu, &pipelines.transform_layout)),
+            pipelines,
             atlases: HashMap::new(),
             triangles: MeshBuffer::new(gpu),
             strokes: MeshBuffer::new(gpu),
@@ -160,7 +90,8 @@ impl GpuExecutor {
         drawing: &Drawing,
         target: &wgpu::Texture,
     ) -> usize {
-        let Some(backdrop) = drawing.backdrop.filter(|_| accepts_copies(target, self.format))
+        let Some(backdrop) =
+            drawing.backdrop.filter(|_| accepts_copies(target, self.pipelines.format))
         else {
             return 0;
         };
@@ -172,7 +103,7 @@ impl GpuExecutor {
             other => {
                 let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
                 let texture = other.map(|(_, texture)| texture).unwrap_or_else(|| {
-                    new_texture(gpu, "backdrop", drawing.size_px, self.format, usage)
+                    new_texture(gpu, "backdrop", drawing.size_px, self.pipelines.format, usage)
                 });
                 let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
                 // Submitted at once: later frames need the backdrop, even if the caller never submits this frame.
@@ -208,7 +139,7 @@ impl GpuExecutor {
         if let Some(sea) = drawing.sea.filter(|_| parts.start == 0) {
             let [left, top, width, height] = sea.scissor_px;
             pass.set_scissor_rect(left, top, width, height);
-            pass.set_pipeline(&self.water);
+            pass.set_pipeline(&self.pipelines.water);
             pass.set_bind_group(0, &self.transforms[Place::Stage as usize].1, &[]);
             self.sea.bind(pass);
             pass.draw_indexed(0..6, 0, 0..1);
@@ -220,10 +151,12 @@ impl GpuExecutor {
                 let (pipeline, mesh, atlas) = match kind {
                     // The fill looks nothing up, but its pipeline has an atlas.
                     DrawKind::OpaqueFill => {
-                        (&self.fill, &self.triangles, Some(TextureId::default()))
+                        (&self.pipelines.fill, &self.triangles, Some(TextureId::default()))
                     }
-                    DrawKind::Textured(id) => (&self.textured, &self.triangles, Some(*id)),
-                    DrawKind::Stroke => (&self.stroke, &self.strokes, None),
+                    DrawKind::Textured(id) => {
+                        (&self.pipelines.textured, &self.triangles, Some(*id))
+                    }
+                    DrawKind::Stroke => (&self.pipelines.stroke, &self.strokes, None),
                 };
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, &self.transforms[*place as usize].1, &[]);
@@ -252,7 +185,7 @@ impl GpuExecutor {
             let texture = new_texture(gpu, "panels", [width, height], format, usage);
             let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
             let view = wgpu::BindingResource::TextureView(&view);
-            let group = bind_group(gpu, &self.atlas_layout, view);
+            let group = bind_group(gpu, &self.pipelines.atlas_layout, view);
             self.atlases.insert(id, (texture, group));
         }
         let Some((texture, _)) = self.atlases.get(&id) else { return };
@@ -335,18 +268,6 @@ fn uniform(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> (wgpu::Buffer, wgpu::Bi
     (buffer, group)
 }
 
-/// A layout with one binding.
-fn bind_group_layout(
-    gpu: &Gpu,
-    visibility: wgpu::ShaderStages,
-    ty: wgpu::BindingType,
-) -> wgpu::BindGroupLayout {
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("frame"),
-        entries: &[wgpu::BindGroupLayoutEntry { binding: 0, visibility, ty, count: None }],
-    })
-}
-
 fn bind_group(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
@@ -356,51 +277,6 @@ fn bind_group(
         label: Some("frame"),
         layout,
         entries: &[wgpu::BindGroupEntry { binding: 0, resource }],
-    })
-}
-
-/// A pipeline of triangles with vertices `V`. `names` are a shader and its fragment function, which returns
-/// premultiplied colours.
-fn pipeline<V>(
-    gpu: &Gpu,
-    layout: &wgpu::PipelineLayout,
-    format: wgpu::TextureFormat,
-    [shader, fragment]: [&str; 2],
-    attributes: &[wgpu::VertexAttribute],
-    blend: Option<wgpu::BlendState>,
-) -> wgpu::RenderPipeline {
-    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(fragment),
-        source: wgpu::ShaderSource::Wgsl(shader.into()),
-    });
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(fragment),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<V>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes,
-            })],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some(fragment),
-            compilation_options: Default::default(),
-            targets: &[Some(wgpu::ColorTargetState {
-                format,
-                blend,
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
-        }),
-        multiview_mask: None,
-        cache: None,
     })
 }
 

@@ -19,6 +19,7 @@ mod lines;
 mod meshes;
 mod offscreen_renderer;
 mod panels;
+mod pipelines;
 pub mod png;
 mod readback;
 mod screen;

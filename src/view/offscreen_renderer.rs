@@ -3,6 +3,7 @@
 use std::num::NonZero;
 use std::thread;
 
+use super::gpu::OFFSCREEN_FORMAT;
 use super::gpu_executor::new_texture;
 use super::{
     CpuExecutor, Drawing, Figure, FrameRenderer, Gpu, GpuExecutor, Panels, Readback, ReadbackError,
@@ -75,7 +76,7 @@ pub struct Offscreen {
 
 impl Offscreen {
     /// Format of every such texture: gamma space, red first.
-    pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+    pub const FORMAT: wgpu::TextureFormat = OFFSCREEN_FORMAT;
 
     /// Creates a texture of `size_px` with undefined contents.
     ///
@@ -163,7 +164,7 @@ impl OffscreenRenderer {
     pub fn on_gpu(gpu: Gpu, size_px: [u32; 2], scale: f32) -> Result<Self, FrameSizeError> {
         let canvas = Offscreen::new(&gpu, size_px)?;
         let renderer = FrameRenderer::new(gpu.max_texture_side_px);
-        let executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
+        let executor = GpuExecutor::new(&gpu);
         let device = OnDevice { gpu, executor, canvas, readback: Readback::default() };
         Ok(Self { renderer, size_px, scale, drawn_by: DrawnBy::Device(Box::new(device)) })
     }

@@ -68,14 +68,6 @@ impl Screen {
         &self.surface
     }
 
-    /// The format that [`Self::configure`] gives the surface's textures: one in gamma space if the surface has any.
-    pub fn format(&self, gpu: &Gpu) -> wgpu::TextureFormat {
-        let formats = self.surface.get_capabilities(&gpu.adapter).formats;
-        let gamma = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
-        let found = gamma.into_iter().find(|format| formats.contains(format));
-        found.or(formats.first().copied()).unwrap_or(wgpu::TextureFormat::Bgra8Unorm)
-    }
-
     /// Sets the size of the surface's textures to `size_px`, limited to at least one pixel and to the adapter's
     /// maximum. Presenting waits for the display's refresh.
     pub fn configure(&self, gpu: &Gpu, size_px: [u32; 2]) {
@@ -85,7 +77,7 @@ impl Screen {
             usage: self.surface.get_capabilities(&gpu.adapter).usages
                 & wgpu::TextureUsages::COPY_DST
                 | wgpu::TextureUsages::RENDER_ATTACHMENT,
-            format: self.format(gpu),
+            format: gpu.pipelines.format,
             color_space: wgpu::SurfaceColorSpace::Auto,
             width,
             height,

@@ -27,7 +27,7 @@ impl Canvas {
         let screen = Screen::of_canvas(target(element.clone())).map_err(|e| refused(&e))?;
         let gpu = screen.gpu(RendererChoice::Gpu).await.map_err(|e| refused(&e))?;
         let renderer = FrameRenderer::new(gpu.max_texture_side_px);
-        let executor = GpuExecutor::new(&gpu, screen.format(&gpu));
+        let executor = GpuExecutor::new(&gpu);
         Ok(Self { element, renderer, executor, screen, gpu, size_px: [0, 0] })
     }
 

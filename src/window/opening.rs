@@ -211,6 +211,7 @@ fn from_home(typed: &str) -> PathBuf {
 
 /// Completes a path with the common beginning of all matching folders and TOML files.
 pub(super) fn complete_path(typed: &str) -> String {
+    // Windows has two separators, each of one byte like that of other systems.
     let (folder, begun) = match typed.rfind(is_separator) {
         Some(end) => typed.split_at(end + 1),
         None => ("", typed),

@@ -125,7 +125,7 @@ impl Device {
         let screen = block_on(Screen::new(Box::new(display), Arc::clone(window)))?;
         let gpu = block_on(screen.gpu(choice))?;
         log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
-        let executor = GpuExecutor::new(&gpu, screen.format(&gpu));
+        let executor = GpuExecutor::new(&gpu);
         Ok(Self { gpu, executor, screen: Some(screen), surface_is_lost: false, size_px: [0, 0] })
     }
 
@@ -146,7 +146,7 @@ impl Device {
             if self.gpu.is_lost() || !self.gpu.adapter.is_surface_supported(screen.surface()) {
                 // A driver of any kind is better than none in the midst of a run.
                 self.gpu = block_on(screen.gpu(RendererChoice::Gpu))?;
-                self.executor = GpuExecutor::new(&self.gpu, screen.format(&self.gpu));
+                self.executor = GpuExecutor::new(&self.gpu);
                 is_new = true;
             }
             self.screen = Some(screen);

@@ -26,17 +26,17 @@ impl FigureFolder {
     pub(super) fn inspect(path: &Path) -> Result<Self, Error> {
         let fail = Error::of_file("read", path, "--out");
         let mut folder = Self { path: path.to_owned(), old: Vec::new(), others: Vec::new() };
-        let entries = match fs::read_dir(path) {
-            Ok(entries) => entries,
+        // Systems differ in the error of listing a file, so that its kind is asked for first.
+        let no_directory = match fs::metadata(path) {
+            Ok(entry) => !entry.is_dir(),
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(folder),
-            Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
-                return Err(Error::mistake(format!(
-                    "{} is not a directory; give another --out",
-                    brief(path)
-                )));
-            }
-            Err(error) => return Err(fail(error)),
+            Err(error) => error.kind() == io::ErrorKind::NotADirectory,
         };
+        if no_directory {
+            let path = brief(path);
+            return Err(Error::mistake(format!("{path} is not a directory; give another --out")));
+        }
+        let entries = fs::read_dir(path).map_err(&fail)?;
         for entry in entries {
             let entry = entry.map_err(&fail)?;
             let is_file = !entry.file_type().map_err(&fail)?.is_dir();

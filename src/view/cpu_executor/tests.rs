@@ -221,7 +221,7 @@ fn processor_and_device_draw_every_scene_almost_alike() {
     let Some(gpu) = gpu_or_skip(test) else { return };
     let size_px = [640, 360];
     for scene in SCENES {
-        let mut on_device = GpuExecutor::new(&gpu, Offscreen::FORMAT);
+        let mut on_device = GpuExecutor::new(&gpu);
         let mut painter = Painter::new();
         for drawing in race(scene.name, size_px, 0.7, 4) {
             let [one, other] = [painter.paint(&drawing), paint_on(&gpu, &mut on_device, &drawing)];

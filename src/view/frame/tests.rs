@@ -121,13 +121,13 @@ fn a_lost_device_does_not_panic_and_a_new_one_draws() {
         renderer.paint([64, 64], layout).drawing
     };
     let target = Offscreen::new(&gpu, [64, 64]).unwrap();
-    let mut executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
+    let mut executor = GpuExecutor::new(&gpu);
     gpu.device.destroy();
     assert!(executor.encode(&gpu, &drawing(), &target.view).is_none());
     assert!(gpu.is_lost());
 
     let gpu = pollster::block_on(Gpu::headless(RendererChoice::Gpu)).unwrap();
-    let mut executor = GpuExecutor::new(&gpu, Offscreen::FORMAT);
+    let mut executor = GpuExecutor::new(&gpu);
     assert_eq!(paint_on(&gpu, &mut executor, &drawing()).at(60, 60), [255, 0, 0, 255]);
 }
 
