@@ -6,7 +6,7 @@ use crate::scene::{SCENES, Scene};
 use crate::studio::{StageCommand, Studio};
 use crate::view::drawing::{Mesh, Place};
 use crate::view::testing::{Painter, Pixels, gpu_or_skip, paint_on};
-use crate::view::{FrameRenderer, GpuExecutor, Offscreen};
+use crate::view::{FrameRenderer, GpuExecutor};
 
 fn one_place(size_px: [u32; 2]) -> ScreenTransform {
     let [width, height] = size_px.map(|side| side as f32);
