@@ -9,9 +9,7 @@ use std::error::Error;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::offscreen_renderer::Offscreen;
 use super::pipelines::Pipelines;
-use super::screen::format_of;
 
 /// What draws frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -66,6 +64,9 @@ pub struct Gpu {
 }
 
 impl Gpu {
+    /// Format of the targets of a device without a surface: gamma space, red first.
+    pub(super) const OFFSCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
     /// Creates a device that draws into textures only. It needs no display.
     ///
     /// `WGPU_BACKEND` (`vulkan`, `gl`, …) restricts the search.
@@ -114,7 +115,8 @@ impl Gpu {
 
         let mut refusals = Vec::new();
         for (adapter, info) in candidates {
-            let format = surface.map_or(Offscreen::FORMAT, |surface| format_of(surface, &adapter));
+            let format =
+                surface.map_or(Gpu::OFFSCREEN_FORMAT, |surface| format_of(surface, &adapter));
             match Self::open(adapter, info.clone(), format).await {
                 Ok(gpu) => return Ok(gpu),
                 Err(refusal) => {
@@ -186,6 +188,14 @@ fn cause(mut error: &dyn Error) -> String {
         error = inner;
     }
     error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The format of the surface's textures: one in gamma space if the surface has any.
+fn format_of(surface: &wgpu::Surface<'_>, adapter: &wgpu::Adapter) -> wgpu::TextureFormat {
+    let formats = surface.get_capabilities(adapter).formats;
+    let gamma = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
+    let found = gamma.into_iter().find(|format| formats.contains(format));
+    found.or(formats.first().copied()).unwrap_or(wgpu::TextureFormat::Bgra8Unorm)
 }
 
 fn title(info: &wgpu::AdapterInfo) -> String {

@@ -75,7 +75,7 @@ pub struct Offscreen {
 
 impl Offscreen {
     /// Format of every such texture: gamma space, red first.
-    pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+    pub const FORMAT: wgpu::TextureFormat = Gpu::OFFSCREEN_FORMAT;
 
     /// Creates a texture of `size_px` with undefined contents.
     ///

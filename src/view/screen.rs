@@ -89,14 +89,3 @@ impl Screen {
         self.surface.configure(&gpu.device, &configuration);
     }
 }
-
-/// The format of the surface's textures: one in gamma space if the surface has any.
-pub(super) fn format_of(
-    surface: &wgpu::Surface<'_>,
-    adapter: &wgpu::Adapter,
-) -> wgpu::TextureFormat {
-    let formats = surface.get_capabilities(adapter).formats;
-    let gamma = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
-    let found = gamma.into_iter().find(|format| formats.contains(format));
-    found.or(formats.first().copied()).unwrap_or(wgpu::TextureFormat::Bgra8Unorm)
-}
